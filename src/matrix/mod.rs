@@ -1,0 +1,1 @@
+//! Polynomial matrices and the Faddeev-LeVerrier recursion.

@@ -1,0 +1,16 @@
+//! Polynomials: dense univariate [`Poly`] over any [`Domain`], their greatest common divisors,
+//! resultants and subresultants.
+//!
+//! [`UniPoly`] is a univariate polynomial over the integers; nesting gives polynomials whose
+//! coefficients are polynomials in a parameter.
+
+mod arithmetic;
+mod dense;
+mod division;
+mod domain;
+mod gcd;
+mod subresultant;
+
+pub use dense::{Poly, UniPoly};
+pub use domain::Domain;
+pub use subresultant::{discriminant, resultant, resultant_formal, subresultant_chain};

@@ -1,0 +1,144 @@
+//! Resultants and subresultants without fractions.
+
+use super::{Domain, Poly};
+use crate::limits::{Budget, Exhausted};
+
+/// The resultant of two polynomials of the degrees they have, by the subresultant sequence
+/// ([BrownTraub1971]; Cohen, A Course in Computational Algebraic Number Theory, 3.3.7).
+///
+/// Zero when either is zero; a constant `c` and a polynomial of degree `n` give `c^n`.
+/// `O(n m)` operations on coefficients that are themselves minors of the Sylvester matrix.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn resultant<R: Domain>(a: &Poly<R>, b: &Poly<R>, budget: &Budget) -> Result<R, Exhausted> {
+    let (Some(n), Some(m)) = (a.degree(), b.degree()) else { return Ok(R::zero()) };
+    let mut negative = false;
+    let (mut a, mut b) = if n >= m {
+        (a.clone(), b.clone())
+    } else {
+        negative = n % 2 == 1 && m % 2 == 1;
+        (b.clone(), a.clone())
+    };
+    let mut g = R::one();
+    let mut h = R::one();
+    while b.coeffs().len() > 1 {
+        budget.check()?;
+        let (n, m) = (a.coeffs().len() - 1, b.coeffs().len() - 1);
+        let delta = (n - m) as u64;
+        if n % 2 == 1 && m % 2 == 1 {
+            negative = !negative;
+        }
+        let r = a.pseudo_rem(&b);
+        if r.is_zero() {
+            return Ok(R::zero());
+        }
+        let divisor = g.times(&h.power(delta));
+        a = b;
+        b = r.div_exact_scalar(&divisor).expect("the subresultant theorem");
+        g = a.leading().expect("not zero").clone();
+        h = raise(&g, &h, delta);
+    }
+    let n = (a.coeffs().len() - 1) as u64;
+    let last = b.coeffs()[0].clone();
+    let value = if n == 0 { R::one() } else { raise(&last, &h, n) };
+    Ok(if negative { value.negated() } else { value })
+}
+
+/// `g^delta / h^(delta - 1)`, which is `h` for `delta = 0`.
+fn raise<R: Domain>(g: &R, h: &R, delta: u64) -> R {
+    match delta {
+        0 => h.clone(),
+        1 => g.clone(),
+        _ => g.power(delta).div_exact(&h.power(delta - 1)).expect("the subresultant theorem"),
+    }
+}
+
+/// The resultant of two polynomials read with the formal degrees `n` and `m`: the determinant of
+/// the Sylvester matrix of size `n + m`, in which leading coefficients may be zero.
+///
+/// It is the value that specialises: setting a parameter in the coefficients and taking this
+/// determinant commute. Zero when both leading coefficients are zero (unless `n + m = 0`, when it is 1).
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+///
+/// # Panics
+/// When a formal degree is below the degree.
+pub fn resultant_formal<R: Domain>(
+    a: &Poly<R>,
+    n: usize,
+    b: &Poly<R>,
+    m: usize,
+    budget: &Budget,
+) -> Result<R, Exhausted> {
+    assert!(a.coeffs().len() <= n + 1 && b.coeffs().len() <= m + 1, "the formal degree is below the degree");
+    if n + m == 0 {
+        return Ok(R::one());
+    }
+    let (Some(deg_a), Some(deg_b)) = (a.degree(), b.degree()) else {
+        // A zero polynomial fills rows with zeros, unless the other's formal degree leaves it none.
+        return Ok(match (m, n) {
+            (0, _) if a.is_zero() => b.coeff(0).power(n as u64),
+            (_, 0) if b.is_zero() => a.coeff(0).power(m as u64),
+            _ => R::zero(),
+        });
+    };
+    if deg_a == n && deg_b == m {
+        return resultant(a, b, budget);
+    }
+    if deg_a < n && deg_b < m {
+        return Ok(R::zero());
+    }
+    if deg_a < n {
+        // Expanding along the first columns: each missing degree of `a` contributes (-1)^m lc(b).
+        let factor = b.leading().expect("not zero").power((n - deg_a) as u64);
+        let value = factor.times(&resultant(a, b, budget)?);
+        return Ok(if m % 2 == 1 && (n - deg_a) % 2 == 1 { value.negated() } else { value });
+    }
+    let factor = a.leading().expect("not zero").power((m - deg_b) as u64);
+    Ok(factor.times(&resultant(a, b, budget)?))
+}
+
+/// The discriminant `(-1)^(n(n-1)/2) Res(p, p') / lc(p)`; 1 for degree 1, zero below.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn discriminant<R: Domain>(p: &Poly<R>, budget: &Budget) -> Result<R, Exhausted> {
+    let Some(n) = p.degree().filter(|&n| n > 0) else { return Ok(R::zero()) };
+    let r = resultant(p, &p.derivative(), budget)?;
+    let value = r.div_exact(p.leading().expect("not zero")).expect("the leading coefficient divides");
+    Ok(if n * (n - 1) / 2 % 2 == 1 { value.negated() } else { value })
+}
+
+/// The polynomial remainder sequence of subresultants of two non-zero polynomials with
+/// `deg a >= deg b`: `a`, `b`, and then the subresultants up to sign, the last one being similar
+/// to the greatest common divisor ([BrownTraub1971]).
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+///
+/// # Panics
+/// When `b` is zero or `deg a < deg b`.
+pub fn subresultant_chain<R: Domain>(a: &Poly<R>, b: &Poly<R>, budget: &Budget) -> Result<Vec<Poly<R>>, Exhausted> {
+    assert!(!b.is_zero() && a.degree() >= b.degree(), "the first polynomial has the higher degree");
+    let mut chain = vec![a.clone(), b.clone()];
+    let mut g = R::one();
+    let mut h = R::one();
+    loop {
+        budget.check()?;
+        let (a, b) = (&chain[chain.len() - 2], &chain[chain.len() - 1]);
+        if b.is_constant() {
+            return Ok(chain);
+        }
+        let delta = (a.coeffs().len() - b.coeffs().len()) as u64;
+        let r = a.pseudo_rem(b);
+        if r.is_zero() {
+            return Ok(chain);
+        }
+        let divisor = g.times(&h.power(delta));
+        g = b.leading().expect("not zero").clone();
+        h = raise(&g, &h, delta);
+        chain.push(r.div_exact_scalar(&divisor).expect("the subresultant theorem"));
+    }
+}

@@ -1,0 +1,1 @@
+//! From a polynomial to an answer about stability.
