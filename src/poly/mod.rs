@@ -4,11 +4,13 @@
 //! [`UniPoly`] is a univariate polynomial over the integers; nesting gives polynomials whose
 //! coefficients are polynomials in a parameter.
 
+pub mod algebraic;
 mod arithmetic;
 mod dense;
 mod division;
 mod domain;
 mod gcd;
+pub mod real_roots;
 mod subresultant;
 
 pub use dense::{Poly, UniPoly};
