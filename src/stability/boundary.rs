@@ -3,15 +3,15 @@
 use super::{Cause, HalfSizePair, ParametricPolynomial, Region};
 use crate::limits::{Budget, Exhausted};
 use crate::number::Integer;
-use crate::poly::{Domain, UniPoly};
+use crate::poly::{Domain, SquareFree, UniPoly};
 
-/// One boundary: a square-free primitive polynomial in the parameter and what happens at its zeros.
+/// One boundary: a square-free polynomial in the parameter and what happens at its zeros.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
     /// What happens at the zeros; for `complex pair` it may also be a mirror pair off the boundary.
     pub cause: Cause,
     /// The polynomial.
-    pub polynomial: UniPoly,
+    pub polynomial: SquareFree,
 }
 
 /// The boundaries of a loop with one parameter, or `None` when the loop is stable nowhere because
@@ -56,11 +56,8 @@ pub fn boundary_polynomials(
     let mut boundaries: Vec<Boundary> = Vec::new();
     for (cause, polynomial) in found {
         budget.check()?;
-        if polynomial.is_zero() {
-            return Ok(None);
-        }
-        let polynomial = polynomial.square_free_part();
-        if !polynomial.is_constant() && !boundaries.iter().any(|b| b.cause == cause && b.polynomial == polynomial) {
+        let Some(polynomial) = SquareFree::part_of(&polynomial) else { return Ok(None) };
+        if polynomial.degree() > 0 && !boundaries.iter().any(|b| b.cause == cause && b.polynomial == polynomial) {
             boundaries.push(Boundary { cause, polynomial });
         }
     }

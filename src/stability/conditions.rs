@@ -1,11 +1,11 @@
 //! The classical conditions on the parameter, each solved to its own exact solution set: Jury's in
 //! discrete time, Routh's in continuous time.
 
-use super::interval_set::{cells, merge_points};
+use super::interval_set::{cells, merge_points, zeros_in};
 use super::{IntervalSet, JuryTable, ParametricPolynomial, Range, Region, RouthTable, jury_table, routh_table};
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
-use crate::poly::{Domain, Poly, UniPoly, isolate_real_roots_in};
+use crate::poly::{Domain, Poly, UniPoly};
 
 /// A strict inequality between polynomials in the parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,7 +100,7 @@ pub fn classical_test(
     let mut conditions = Vec::with_capacity(inequalities.len());
     let mut poles = Vec::new();
     for pole in p.poles().iter().chain([p.denominator()]) {
-        poles.push(isolate_real_roots_in(pole, range.lower.as_ref(), range.upper.as_ref(), budget)?);
+        poles.push(zeros_in(pole, range, budget)?);
     }
     let poles = merge_points(poles);
     // A polynomial without conditions (order 0) is stable where it is not zero.
@@ -141,8 +141,7 @@ pub fn solve(inequality: &Inequality, range: &Range, budget: &Budget) -> Result<
             if difference.is_zero() || sum.is_zero() {
                 return Ok(IntervalSet::default());
             }
-            let zeros = |f: &UniPoly| isolate_real_roots_in(f, range.lower.as_ref(), range.upper.as_ref(), budget);
-            let points = merge_points(vec![zeros(&difference)?, zeros(&sum)?]);
+            let points = merge_points(vec![zeros_in(&difference, range, budget)?, zeros_in(&sum, range, budget)?]);
             IntervalSet::from_cells(range, &points, budget, |x| difference.sign_at(x) == sum.sign_at(x))
         }
     }
@@ -152,7 +151,7 @@ fn solve_positive(f: &UniPoly, range: &Range, budget: &Budget) -> Result<Interva
     if f.is_zero() {
         return Ok(IntervalSet::default());
     }
-    let points = isolate_real_roots_in(f, range.lower.as_ref(), range.upper.as_ref(), budget)?;
+    let points = zeros_in(f, range, budget)?;
     IntervalSet::from_cells(range, &points, budget, |x| f.sign_at(x).is_gt())
 }
 

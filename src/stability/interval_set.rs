@@ -2,7 +2,7 @@
 
 use crate::limits::{Budget, Exhausted};
 use crate::number::Rational;
-use crate::poly::{RealAlgebraic, rational_between};
+use crate::poly::{RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in, rational_between};
 use std::cmp::Ordering;
 
 /// An open interval with rational ends, either of which may be infinite (`None`).
@@ -132,9 +132,9 @@ impl AlgebraicInterval {
     /// A rational number inside.
     pub fn sample(&self) -> Rational {
         match (&self.lower, &self.upper) {
-            (Some(l), Some(u)) => rational_between(l, u),
-            (Some(l), None) => Rational::from(l.upper().floor()) + Rational::ONE,
-            (None, Some(u)) => Rational::from(u.lower().ceil()) - Rational::ONE,
+            (Some(l), Some(u)) => rational_between(l, u).expect("the ends differ"),
+            (Some(l), None) => Rational::from(l.floor()) + Rational::ONE,
+            (None, Some(u)) => Rational::from(u.floor()) - Rational::ONE,
             (None, None) => Rational::ZERO,
         }
     }
@@ -152,6 +152,12 @@ pub(super) fn cells(range: &Range, points: &[RealAlgebraic]) -> Vec<AlgebraicInt
     ends.windows(2).map(|w| AlgebraicInterval { lower: w[0].clone(), upper: w[1].clone() }).collect()
 }
 
+/// The distinct zeros of a polynomial inside a range, ascending; none for the zero polynomial.
+pub(super) fn zeros_in(f: &UniPoly, range: &Range, budget: &Budget) -> Result<Vec<RealAlgebraic>, Exhausted> {
+    let Some(f) = SquareFree::part_of(f) else { return Ok(Vec::new()) };
+    isolate_real_roots_in(&f, range.lower.as_ref(), range.upper.as_ref(), budget)
+}
+
 /// All points of several ascending lists, ascending, each once.
 pub(super) fn merge_points(lists: Vec<Vec<RealAlgebraic>>) -> Vec<RealAlgebraic> {
     let mut all: Vec<RealAlgebraic> = lists.into_iter().flatten().collect();
@@ -164,7 +170,13 @@ fn greater_lower<'a>(a: &'a Option<RealAlgebraic>, b: &'a Option<RealAlgebraic>)
     match (a, b) {
         (None, _) => b,
         (_, None) => a,
-        (Some(x), Some(y)) => if x.compare(y) == Ordering::Less { b } else { a },
+        (Some(x), Some(y)) => {
+            if x.compare(y) == Ordering::Less {
+                b
+            } else {
+                a
+            }
+        }
     }
 }
 
@@ -172,6 +184,12 @@ fn lesser_upper<'a>(a: &'a Option<RealAlgebraic>, b: &'a Option<RealAlgebraic>) 
     match (a, b) {
         (None, _) => b,
         (_, None) => a,
-        (Some(x), Some(y)) => if x.compare(y) == Ordering::Greater { b } else { a },
+        (Some(x), Some(y)) => {
+            if x.compare(y) == Ordering::Greater {
+                b
+            } else {
+                a
+            }
+        }
     }
 }

@@ -1,9 +1,10 @@
 //! Where on the boundary a complex pair sits at a limit of stability.
 
-use super::{HalfSizePair, ParametricPolynomial, Region};
+use super::interval_set::zeros_in;
+use super::{HalfSizePair, ParametricPolynomial, Range, Region};
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Enclosure, Integer, Rational, Sign};
-use crate::poly::{Domain, Poly, RealAlgebraic, UniPoly, isolate_real_roots_in, subresultant_chain};
+use crate::poly::{Domain, Poly, RealAlgebraic, UniPoly, subresultant_chain};
 use std::cmp::Ordering;
 
 /// A pair of complex conjugate roots on the boundary, located by the half-size variable
@@ -45,11 +46,11 @@ pub(super) fn complex_pair_at(
         let Some(n) = special.degree().filter(|&n| n > 0) else { return Ok(None) };
         let pair = HalfSizePair::new(&special, n, region);
         let common = pair.a.gcd(&pair.b);
-        let (lower, upper) = match region {
-            Region::UnitDisc => (Some(Rational::from(-2)), Rational::from(2)),
-            Region::LeftHalfPlane => (None, Rational::ZERO),
+        let range = match region {
+            Region::UnitDisc => Range::between(Some(Rational::from(-2)), Some(Rational::from(2))),
+            Region::LeftHalfPlane => Range::between(None, Some(Rational::ZERO)),
         };
-        let roots = isolate_real_roots_in(&common, lower.as_ref(), Some(&upper), budget)?;
+        let roots = zeros_in(&common, &range, budget)?;
         return Ok(roots.into_iter().last().map(|x| ComplexPair { region, x: HalfSizeRoot::Number(x) }));
     }
     let pair = HalfSizePair::new(p.polynomial(), p.formal_degree(), region);
@@ -160,20 +161,28 @@ impl ComplexPair {
         let mut width_bits = bits + 4;
         loop {
             x = x.refined(&Rational::dyadic(&Integer::ONE, width_bits));
-            if x.exact().is_some() || self.is_fine(x.lower(), x.upper(), bits) {
-                return (x.lower().clone(), x.upper().clone());
+            let (lo, hi) = x.enclosure();
+            if lo == hi || self.is_fine(&lo, &hi, bits) {
+                return (lo, hi);
             }
             width_bits *= 2;
         }
     }
 
     /// `-c0/c1` at the parameter value.
-    fn refine_quotient(&self, c0: &UniPoly, c1: &UniPoly, parameter: &RealAlgebraic, bits: u64) -> (Rational, Rational) {
+    fn refine_quotient(
+        &self,
+        c0: &UniPoly,
+        c1: &UniPoly,
+        parameter: &RealAlgebraic,
+        bits: u64,
+    ) -> (Rational, Rational) {
         let mut working = 2 * bits + 64;
         let mut parameter = parameter.clone();
         loop {
-            parameter = parameter.refined_to_bits(working);
-            let at = Enclosure::new(parameter.lower().clone(), parameter.upper().clone());
+            parameter = parameter.refined(&Rational::dyadic(&Integer::ONE, working));
+            let (lo, hi) = parameter.enclosure();
+            let at = Enclosure::new(lo, hi);
             let evaluate = |c: &UniPoly| {
                 let mut acc = Enclosure::from_rational(Rational::ZERO);
                 for a in c.coeffs().iter().rev() {

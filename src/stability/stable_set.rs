@@ -8,7 +8,7 @@ use super::{
 };
 use crate::limits::{Budget, Exhausted};
 use crate::number::Rational;
-use crate::poly::{Domain, RealAlgebraic, isolate_real_roots_in};
+use crate::poly::{RealAlgebraic, isolate_real_roots_in};
 
 /// One end of a stable interval.
 #[derive(Clone, Debug)]
@@ -141,11 +141,11 @@ impl EndExaminer<'_> {
                 Cause::ComplexPair => false,
                 _ => true,
             };
-            if counts && vanishes(&boundary.polynomial) {
+            if counts && vanishes(boundary.polynomial.poly()) {
                 causes.insert(boundary.cause);
             }
         }
-        let critical = |b: &Boundary| b.cause == Cause::ComplexPair && vanishes(&b.polynomial);
+        let critical = |b: &Boundary| b.cause == Cause::ComplexPair && vanishes(b.polynomial.poly());
         let pair = if has_roots && self.boundaries.iter().any(critical) {
             complex_pair_at(self.p, value, self.region, self.budget)?
         } else {
