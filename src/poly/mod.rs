@@ -2,7 +2,8 @@
 //! resultants and subresultants.
 //!
 //! [`UniPoly`] is a univariate polynomial over the integers; nesting gives polynomials whose
-//! coefficients are polynomials in a parameter.
+//! coefficients are polynomials in a parameter. [`MultiPoly`] is sparse in any number of variables,
+//! [`RationalFunction`] a quotient of two.
 
 pub mod algebraic;
 mod arithmetic;
@@ -10,9 +11,15 @@ mod dense;
 mod division;
 mod domain;
 mod gcd;
+pub mod multivariate;
+mod rational_function;
 pub mod real_roots;
 mod subresultant;
 
+pub use algebraic::{RealAlgebraic, rational_between, simplest_between};
 pub use dense::{Poly, UniPoly};
 pub use domain::Domain;
+pub use multivariate::{Monomial, MultiPoly};
+pub use rational_function::{DisplayRationalFunction, RationalFunction};
+pub use real_roots::{SquareFree, isolate_real_roots, isolate_real_roots_in};
 pub use subresultant::{discriminant, resultant, resultant_formal, subresultant_chain};
