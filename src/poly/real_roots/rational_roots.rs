@@ -138,14 +138,15 @@ impl Lift {
             .rev()
             .fold(0, |acc, c| (acc * residue + c.mod_u64(prime)) % prime);
         let mut x = Integer::from(residue);
-        // The inverse of the derivative at x, modulo the previous modulus.
+        // The inverse of the derivative at the previous x; right for the present one modulo the
+        // modulus before the last, so that one step of Newton's makes it good enough.
         let mut inverse = Integer::from(power(slope, prime - 2, prime));
         for k in 0.. {
             let level = self.level(k);
             let m = &level.modulus;
             let (value, slope) = value_and_slope(&level.coeffs, &x, m);
-            x = reduce(&(&x - &(&value * &inverse)), m);
             inverse = reduce(&(&inverse * &(Integer::from(2) - &slope * &inverse)), m);
+            x = reduce(&(&x - &(&value * &inverse)), m);
             let done = *m > enough;
             // Small roots show early: what is found is verified, so that an early try is safe.
             let mut y = reduce(&(&lead * &x), m);
