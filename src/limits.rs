@@ -4,8 +4,8 @@
 //! [`Exhausted`], which names the budget that ran out.
 
 use std::fmt;
-use std::sync::{Arc, Mutex, PoisonError};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Receives the name of the step that begins and, where known, its share done (0 to 1).

@@ -103,7 +103,7 @@ pub(super) const DEFAULT_DIGITS: u32 = 12;
 #[derive(Args, Debug, Default)]
 pub(super) struct RunOptions {
     /// Gives up after this time, with exit status 3
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = seconds)]
     pub timeout: Option<Duration>,
     /// No warnings, no progress
     #[arg(short, long, conflicts_with = "verbose")]

@@ -164,7 +164,13 @@ fn greater_lower<'a>(a: &'a Option<RealAlgebraic>, b: &'a Option<RealAlgebraic>)
     match (a, b) {
         (None, _) => b,
         (_, None) => a,
-        (Some(x), Some(y)) => if x.compare(y) == Ordering::Less { b } else { a },
+        (Some(x), Some(y)) => {
+            if x.compare(y) == Ordering::Less {
+                b
+            } else {
+                a
+            }
+        }
     }
 }
 
@@ -172,6 +178,12 @@ fn lesser_upper<'a>(a: &'a Option<RealAlgebraic>, b: &'a Option<RealAlgebraic>) 
     match (a, b) {
         (None, _) => b,
         (_, None) => a,
-        (Some(x), Some(y)) => if x.compare(y) == Ordering::Greater { b } else { a },
+        (Some(x), Some(y)) => {
+            if x.compare(y) == Ordering::Greater {
+                b
+            } else {
+                a
+            }
+        }
     }
 }

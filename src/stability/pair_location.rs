@@ -168,7 +168,13 @@ impl ComplexPair {
     }
 
     /// `-c0/c1` at the parameter value.
-    fn refine_quotient(&self, c0: &UniPoly, c1: &UniPoly, parameter: &RealAlgebraic, bits: u64) -> (Rational, Rational) {
+    fn refine_quotient(
+        &self,
+        c0: &UniPoly,
+        c1: &UniPoly,
+        parameter: &RealAlgebraic,
+        bits: u64,
+    ) -> (Rational, Rational) {
         let mut working = 2 * bits + 64;
         let mut parameter = parameter.clone();
         loop {

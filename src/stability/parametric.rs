@@ -1,6 +1,6 @@
 //! A characteristic polynomial with one parameter left, ready to be decided.
 
-use super::{RootCount, count_roots, Region};
+use super::{Region, RootCount, count_roots};
 use crate::number::{Integer, Rational};
 use crate::poly::{Domain, Poly, UniPoly};
 
@@ -49,11 +49,8 @@ impl ParametricPolynomial {
             assert!(!den.is_zero(), "a denominator is zero");
             let g = numerator.gcd(den);
             let divide = |p: &UniPoly| p.div_exact(&g).expect("a gcd divides");
-            let (mut num, mut den) = if numerator.is_zero() {
-                (UniPoly::zero(), UniPoly::one())
-            } else {
-                (divide(numerator), divide(den))
-            };
+            let (mut num, mut den) =
+                if numerator.is_zero() { (UniPoly::zero(), UniPoly::one()) } else { (divide(numerator), divide(den)) };
             if den.needs_negation() {
                 (num, den) = (num.negated(), den.negated());
             }
@@ -61,7 +58,8 @@ impl ParametricPolynomial {
             denominator = denominator.times(&den.div_exact(&common).expect("a gcd divides"));
             reduced.push((num, den));
         }
-        let cleared = |(num, den): &(UniPoly, UniPoly)| num.times(&denominator.div_exact(den).expect("a common multiple"));
+        let cleared =
+            |(num, den): &(UniPoly, UniPoly)| num.times(&denominator.div_exact(den).expect("a common multiple"));
         let full = Poly::new(reduced.iter().map(cleared).collect());
         assert!(full.coeffs().len() <= formal_degree + 1, "the formal degree is below the degree");
         let content = full.content();

@@ -1,6 +1,6 @@
 //! Generators for property tests: polynomials and parametric loops whose verdict is known by construction.
 
-use super::{RootCount, Region};
+use super::{Region, RootCount};
 use crate::number::{Integer, Rational};
 use crate::poly::{Domain, Poly, UniPoly};
 use proptest::collection::vec;
@@ -140,7 +140,7 @@ impl ChosenLoop {
 
 /// A loop of up to `factors` moving factors.
 pub fn chosen_loop(region: Region, factors: usize) -> impl Strategy<Value = ChosenLoop> {
-    let moving = (chosen_factor(), -3i64..=3, -3i64..=3)
-        .prop_map(|(factor, alpha, beta)| MovingFactor { factor, alpha, beta });
+    let moving =
+        (chosen_factor(), -3i64..=3, -3i64..=3).prop_map(|(factor, alpha, beta)| MovingFactor { factor, alpha, beta });
     vec(moving, 0..=factors).prop_map(move |factors| ChosenLoop { region, factors })
 }
