@@ -1,1 +1,18 @@
-//! Polynomial matrices and the Faddeev-LeVerrier recursion.
+//! Polynomial matrices and their characteristic polynomials.
+//!
+//! [`PolyMatrix`] is dense over any [`Domain`](crate::poly::Domain); [`RationalMatrix`] has
+//! rational functions as entries and is brought to a common denominator.
+//! [`faddeev_leverrier`] computes the characteristic polynomial and the adjugate;
+//! [`CharacteristicPolynomial`] is the plain value that is handed on.
+
+mod characteristic;
+mod determinant;
+mod faddeev_leverrier;
+mod polynomial;
+mod rational;
+
+pub use characteristic::CharacteristicPolynomial;
+pub use determinant::{determinant_bareiss, determinant_leibniz};
+pub use faddeev_leverrier::{FaddeevLeVerrier, characteristic_over_denominator, faddeev_leverrier};
+pub use polynomial::PolyMatrix;
+pub use rational::{Cleared, RationalMatrix};
