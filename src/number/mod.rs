@@ -4,10 +4,21 @@
 //! [`Integer`] and [`Rational`]. Conversions from and to `num-bigint` and `num-rational` stand at
 //! this edge.
 
+mod convert;
+mod decimal;
+mod enclosure;
 mod integer;
+mod parse;
 mod rational;
 
+pub use convert::DivisionByZero;
+pub use decimal::{enclosed_decimal, to_decimal, to_scientific};
+pub use enclosure::{Enclosure, to_decimal_refining};
 pub use integer::Integer;
+pub use parse::{
+    MAX_DECIMAL_EXPONENT, MAX_LITERAL_LENGTH, ParseNumberError, ParseNumberErrorKind, parse_decimal_literal,
+    parse_number, scan_decimal_literal,
+};
 pub use rational::Rational;
 
 /// The sign of a number: `Less` for negative, `Equal` for zero, `Greater` for positive.
