@@ -1,9 +1,8 @@
 //! Expression text to tokens.
 
-use super::literal;
 use super::text::Text;
 use crate::error::{Diagnostic, Span};
-use crate::number::Rational;
+use crate::number::{Rational, parse_decimal_literal, scan_decimal_literal};
 
 /// A token and its place in the source text.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,7 +94,7 @@ pub(super) fn lex(text: &Text) -> Result<Vec<Token>, Diagnostic> {
 /// The number literal at `at`.
 fn number(text: &Text, at: usize) -> Result<(TokenKind, usize), Diagnostic> {
     let rest = &text.as_str()[at..];
-    let length = literal::scan(rest);
+    let length = scan_decimal_literal(rest);
     let after = rest[length..].chars().next();
     if length == 0 || after.is_some_and(|c| c == '.' || continues_name(c)) {
         let run = rest.find(|c| !(c == '.' || continues_name(c))).unwrap_or(rest.len());
@@ -108,10 +107,11 @@ fn number(text: &Text, at: usize) -> Result<(TokenKind, usize), Diagnostic> {
             error.help("numbers look like 12, 0.046, 46e-3 or 1_000")
         });
     }
-    match literal::value(&rest[..length]) {
-        Some(value) => Ok((TokenKind::Number(value), length)),
-        None => Err(Diagnostic::error("E-number", "the power of ten is too large")
-            .at(text.source_span(at, at + length), "has more than a million digits")),
+    match parse_decimal_literal(&rest[..length]) {
+        Ok(value) => Ok((TokenKind::Number(value), length)),
+        Err(error) => Err(Diagnostic::error("E-number", error.to_string())
+            .at(text.source_span(at, at + length), "not accepted")
+            .help("write a shorter number")),
     }
 }
 
