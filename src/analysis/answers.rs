@@ -1,6 +1,7 @@
 //! Verdicts at a point and exact stable sets.
 
-use super::question::{Settings, in_region, one_parameter, parametric, region_of};
+use super::prepare::prepare;
+use super::question::{Settings, in_region, nominal, one_parameter, parametric, region_of};
 use super::{Failure, OneParameter};
 use crate::error::Diagnostic;
 use crate::limits::{Budget, Exhausted};
@@ -128,7 +129,7 @@ pub struct PointVerdict {
 pub fn verdict(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<PointVerdict, Failure> {
     let region = region_of(lp, settings)?;
     let question = Question { keep: Vec::new(), set: settings.set.clone() };
-    let answer = lp.characteristic_polynomial(&question, budget)?;
+    let answer = prepare(lp, &question, budget)?;
     let at = match answer.polynomial {
         None => AtPoint::Undefined,
         Some(d) => parametric(&in_region(d, settings)).at(&Rational::ZERO, region),
@@ -180,7 +181,7 @@ pub fn analyze(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<Analys
         .map(|p| p.name.as_str())
         .filter(|name| !settings.set.contains_key(*name))
         .collect();
-    let without_value: Vec<&str> = free.iter().copied().filter(|name| lp.nominal(name).is_none()).collect();
+    let without_value: Vec<&str> = free.iter().copied().filter(|name| nominal(lp, name).is_none()).collect();
     let verdict = if without_value.is_empty() { Some(verdict(lp, settings, budget)?) } else { None };
     let mut answers = Vec::new();
     for name in free {

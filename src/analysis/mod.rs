@@ -6,6 +6,7 @@
 
 mod answers;
 mod frequency;
+mod prepare;
 mod question;
 mod region;
 mod table;

@@ -1,6 +1,7 @@
 //! From a loop and a question to a polynomial in one parameter.
 
 use super::Failure;
+use super::prepare::prepare;
 use super::region::{scaled_by_radius, shifted_by_decay};
 use crate::error::Diagnostic;
 use crate::limits::Budget;
@@ -129,7 +130,7 @@ pub fn one_parameter(
     budget.step("characteristic polynomial");
     let keep = if relative { Vec::new() } else { vec![parameter.to_string()] };
     let question = Question { keep, set: settings.set.clone() };
-    let answer = lp.characteristic_polynomial(&question, budget)?;
+    let answer = prepare(lp, &question, budget)?;
     let polynomial = answer.polynomial.map(|d| {
         if !relative {
             return in_region(d, settings);
@@ -163,7 +164,7 @@ pub fn one_parameter(
         time: lp.time(),
         parameter: parameter.to_string(),
         unit: lp.parameter(parameter).and_then(|p| p.unit.clone()),
-        nominal: lp.nominal(parameter),
+        nominal: nominal(lp, parameter),
         set: answer.values,
         domain,
         region,
@@ -173,6 +174,11 @@ pub fn one_parameter(
         sample_time,
         warnings: answer.warnings,
     })
+}
+
+/// The nominal value of a parameter, or of a constant given as a number.
+pub(super) fn nominal(lp: &Loop, name: &str) -> Option<Rational> {
+    lp.free(name).ok()?.nominal
 }
 
 /// The polynomial of one kept parameter (or none) in the form that is decided.

@@ -1,5 +1,6 @@
 //! The classical table: numeric at a point, or in one parameter with its conditions solved.
 
+use super::prepare::prepare;
 use super::question::{Settings, in_region, one_parameter, region_of};
 use super::{Decision, Failure, OneParameter};
 use crate::error::Diagnostic;
@@ -78,7 +79,7 @@ pub struct NumericTable {
 pub fn numeric_table(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<Option<NumericTable>, Failure> {
     let region = region_of(lp, settings)?;
     let question = Question { keep: Vec::new(), set: settings.set.clone() };
-    let answer = lp.characteristic_polynomial(&question, budget)?;
+    let answer = prepare(lp, &question, budget)?;
     let Some(d) = answer.polynomial else { return Ok(None) };
     let d = in_region(d, settings);
     let Some(coefficients) = d.at(&[]) else { return Ok(None) };
