@@ -14,6 +14,8 @@ mod gcd;
 pub mod multivariate;
 mod rational_function;
 pub mod real_roots;
+#[cfg(feature = "strategies")]
+pub mod strategies;
 mod subresultant;
 
 pub use algebraic::{RealAlgebraic, rational_between, simplest_between};
