@@ -3,7 +3,7 @@
 use super::real_roots::{Bracket, SquareFree, coprime_modulo_some_prime, linear};
 use super::{Domain, UniPoly};
 use crate::limits::{Budget, Exhausted};
-use crate::number::{Integer, Rational, Sign};
+use crate::number::{Integer, Rational, Sign, enclosed_decimal};
 use std::cmp::Ordering;
 use std::sync::Arc;
 
@@ -203,9 +203,7 @@ impl RealAlgebraic {
     /// About twice as many bits of the enclosure.
     fn narrow_further(&mut self) {
         if let Place::Within(b) = &mut self.place {
-            let width = &b.hi - &b.lo;
-            let now = b.bits as i64 - width.bit_length() as i64;
-            b.refine(&self.poly, now.max(8).saturating_mul(2));
+            b.refine_further(&self.poly);
         }
     }
 
@@ -224,15 +222,31 @@ impl RealAlgebraic {
                 return Sign::Equal;
             }
         }
-        let mut x = self.clone();
+        let mut x = bracket.clone();
+        loop {
+            if let Some(sign) = sign_on(q, &x) {
+                return sign;
+            }
+            x.refine_further(&self.poly);
+        }
+    }
+
+    /// Rounded to so many significant digits, correctly: ties to even for rational numbers, and an
+    /// irrational one is refined until both ends of its enclosure round alike (it is no tie).
+    ///
+    /// ```
+    /// use jurist::limits::Budget;
+    /// use jurist::poly::{SquareFree, UniPoly, isolate_real_roots};
+    /// let p = SquareFree::new(UniPoly::from_i64(&[-2, 0, 1])).unwrap();
+    /// let roots = isolate_real_roots(&p, &Budget::unlimited()).unwrap();
+    /// assert_eq!(roots[1].decimal(12), "1.41421356237");
+    /// ```
+    pub fn decimal(&self, digits: usize) -> String {
+        let mut x = self.refined_to_digits(digits);
         loop {
             let (lo, hi) = x.enclosure();
-            let (least, greatest) = range(q, &lo, &hi);
-            if least.sign().is_gt() {
-                return Sign::Greater;
-            }
-            if greatest.sign().is_lt() {
-                return Sign::Less;
+            if let Some(text) = enclosed_decimal(&lo, &hi, digits) {
+                return text;
             }
             x.narrow_further();
         }
@@ -348,18 +362,26 @@ fn order_of_disjoint(a: &Bracket, b: &Bracket) -> Option<Ordering> {
     }
 }
 
-/// An interval that holds the values of `q` on `[lo, hi]`, by Horner's rule.
-fn range(q: &UniPoly, lo: &Rational, hi: &Rational) -> (Rational, Rational) {
-    let mut acc = (Rational::ZERO, Rational::ZERO);
+/// The sign of `q` on all of a bracket, if interval arithmetic shows it: Horner's rule in fixed
+/// point, rounded outwards.
+fn sign_on(q: &UniPoly, bracket: &Bracket) -> Option<Sign> {
+    let bits = bracket.bits;
+    let scale = 2 * bits + 64;
+    let (lo, hi) = (&bracket.lo, &bracket.hi);
+    let (mut least, mut greatest) = (Integer::ZERO, Integer::ZERO);
     for c in q.coeffs().iter().rev() {
-        let products = [&acc.0 * lo, &acc.0 * hi, &acc.1 * lo, &acc.1 * hi];
-        let c = Rational::from(c);
-        let [w, x, y, z] = products;
-        let least = w.clone().min(x.clone()).min(y.clone()).min(z.clone());
-        let greatest = w.max(x).max(y).max(z);
-        acc = (least + &c, greatest + &c);
+        let products = [&least * lo, &least * hi, &greatest * lo, &greatest * hi];
+        let floor = products.iter().min().expect("four products") >> bits;
+        let below = products.iter().max().expect("four products") >> bits;
+        let c = c << scale;
+        least = floor + &c;
+        greatest = below + Integer::ONE + c;
     }
-    acc
+    match (least.sign(), greatest.sign()) {
+        (Sign::Greater, _) => Some(Sign::Greater),
+        (_, Sign::Less) => Some(Sign::Less),
+        _ => None,
+    }
 }
 
 impl PartialEq for RealAlgebraic {

@@ -15,6 +15,8 @@ pub mod kernel;
 pub mod multivariate;
 mod rational_function;
 pub mod real_roots;
+#[cfg(feature = "strategies")]
+pub mod strategies;
 mod subresultant;
 
 pub use algebraic::{RealAlgebraic, rational_between, simplest_between};

@@ -108,6 +108,13 @@ impl Bracket {
         }
     }
 
+    /// About twice as many bits behind the point.
+    pub fn refine_further(&mut self, p: &UniPoly) {
+        let width = &self.hi - &self.lo;
+        let now = self.bits as i64 - width.bit_length() as i64;
+        self.refine(p, now.max(8).saturating_mul(2));
+    }
+
     /// One halving.
     pub fn halve(&mut self, p: &UniPoly) {
         let middle = &self.lo + &self.hi;

@@ -2,9 +2,10 @@
 
 use super::bounds::positive_root_bound_bits;
 use super::bracket::{Bracket, eval_dyadic};
+use super::deflated;
 use super::descartes::{Cell, cells_by_bisection};
 use super::rational_roots::rational_roots;
-use super::square_free::SquareFree;
+use super::square_free::{SquareFree, deflation};
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational, Sign};
 use crate::poly::UniPoly;
@@ -64,14 +65,19 @@ pub fn isolate_real_roots_descartes(
     let (rational, rest) = rational_roots(p, budget)?;
     let mut roots: Vec<RealAlgebraic> = rational.into_iter().filter(inside).map(RealAlgebraic::from_rational).collect();
     let poly = rest.shared();
-    for negative in [true, false] {
+    let mut brackets = if deflation(poly.coeffs()) > 1 {
+        deflated::brackets(&poly, lo, hi, budget)?
+    } else {
         let window = |x: &Rational, y: &Rational| lo.is_none_or(|lo| lo < y) && hi.is_none_or(|hi| x < hi);
-        for bracket in brackets_of_half(&poly, negative, &window, budget)? {
-            let root = RealAlgebraic::from_bracket(Arc::clone(&poly), bracket);
-            let above = lo.is_none_or(|lo| root.compare_rational(lo).is_gt());
-            if above && hi.is_none_or(|hi| root.compare_rational(hi).is_lt()) {
-                roots.push(root);
-            }
+        let mut brackets = brackets_of_half(&poly, true, &window, budget)?;
+        brackets.append(&mut brackets_of_half(&poly, false, &window, budget)?);
+        brackets
+    };
+    for bracket in brackets.drain(..) {
+        let root = RealAlgebraic::from_bracket(Arc::clone(&poly), bracket);
+        let above = lo.is_none_or(|lo| root.compare_rational(lo).is_gt());
+        if above && hi.is_none_or(|hi| root.compare_rational(hi).is_lt()) {
+            roots.push(root);
         }
     }
     budget.check()?;

@@ -5,6 +5,7 @@
 
 mod bounds;
 mod bracket;
+mod deflated;
 mod descartes;
 mod isolate;
 mod modular;
