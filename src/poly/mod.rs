@@ -11,6 +11,7 @@ mod dense;
 mod division;
 mod domain;
 mod gcd;
+pub mod kernel;
 pub mod multivariate;
 mod rational_function;
 pub mod real_roots;

@@ -13,6 +13,7 @@ mod interval_set;
 mod jury;
 mod pair_location;
 mod parametric;
+pub mod plane;
 mod root_count;
 mod routh;
 mod stable_set;

@@ -183,13 +183,7 @@ impl ComplexPair {
             parameter = parameter.refined(&Rational::dyadic(&Integer::ONE, working));
             let (lo, hi) = parameter.enclosure();
             let at = Enclosure::new(lo, hi);
-            let evaluate = |c: &UniPoly| {
-                let mut acc = Enclosure::from_rational(Rational::ZERO);
-                for a in c.coeffs().iter().rev() {
-                    acc = acc.mul(&at, working).add(&Enclosure::from_rational(Rational::from(a)), working);
-                }
-                acc
-            };
+            let evaluate = |c: &UniPoly| c.eval_enclosure(&at, working);
             if let Some(x) = evaluate(c0).neg().div(&evaluate(c1), working)
                 && self.is_fine(x.lower(), x.upper(), bits)
             {

@@ -1,0 +1,321 @@
+//! `[[block]]` entries.
+
+use super::definition::{Block, Diagram, Discretization, Dynamics, Method, Name, Pwm, Time};
+use super::names::{did_you_mean, shorten};
+use super::read::{Reader, count};
+use super::toml::{Entry, Kind, Table, Value};
+use super::transfer::MAX_ORDER;
+use crate::error::{Diagnostic, Span};
+
+const DYNAMICS: [&str; 9] = ["transfer", "num", "den", "gain", "delay", "A", "B", "C", "D"];
+
+/// The diagram of `[loop]` and its blocks.
+pub(super) fn diagram(table: &Table, blocks: &Entry, time: Time, reader: &mut Reader) -> Option<Diagram> {
+    let inputs = table.get("inputs").map(|v| reader.names(v, "an external signal")).unwrap_or_default();
+    let outputs = table.get("outputs").map(|v| reader.outputs(v)).unwrap_or_default();
+    for key in ["states", "E"] {
+        if let Some(entry) = table.entry(key) {
+            let error = Diagnostic::error("E-unknown-key", format!("'{key}' does not go with [[block]]"));
+            reader.report(error.at(entry.key_span, "blocks have their own states"));
+        }
+    }
+    let Kind::Array(items) = &blocks.value.kind else {
+        let error = Diagnostic::error("E-type", "a block is an entry of an array of tables");
+        reader.report(error.at(blocks.key_span, "not an array of tables").help("write [[block]] with two brackets"));
+        return None;
+    };
+    let before = reader.diagnostics.len();
+    let blocks: Vec<Block> = items.iter().filter_map(|item| block(item, time, reader)).collect();
+    (reader.diagnostics.len() == before || blocks.len() == items.len()).then_some(Diagram { inputs, outputs, blocks })
+}
+
+fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
+    let Kind::Table(table) = &value.kind else {
+        reader.wrong_type(value, "a block", "a table");
+        return None;
+    };
+    let mut known = vec!["name", "input", "output", "discretize", "pwm"];
+    known.extend(DYNAMICS);
+    reader.unknown_keys(table, &known, "a block");
+    let name = reader.plain_string(table, "name").unwrap_or_else(|| "block".into());
+    let missing = |key: &str, reader: &mut Reader| {
+        let error = Diagnostic::error("E-missing", format!("the block '{}' has no '{key}'", shorten(&name)));
+        reader.report(error.at(value.span, "this block"));
+    };
+    let span = table.get("name").map_or(value.span, |v| v.span);
+    let inputs = match table.get("input") {
+        Some(v) => Some(reader.expressions(v, "an input")),
+        None => {
+            missing("input", reader);
+            None
+        }
+    };
+    let outputs = match table.get("output") {
+        Some(v) => Some(reader.names(v, "a signal")),
+        None => {
+            missing("output", reader);
+            None
+        }
+    };
+    let discretization = table.entry("discretize").and_then(|entry| discretize(entry, reader));
+    let continuous = table.entry("discretize").is_some();
+    if let Some(entry) = table.entry("discretize")
+        && time == Time::Continuous
+    {
+        let error = Diagnostic::error("E-discretize", "a continuous loop has nothing to discretise");
+        reader.report(error.at(entry.key_span, "time = \"continuous\"").help("leave 'discretize' out"));
+    }
+    let before = reader.diagnostics.len();
+    let dynamics = dynamics(table, value, &name, time, continuous, reader);
+    let pwm = table.entry("pwm").and_then(|entry| pwm(entry, reader));
+    let (inputs, outputs, dynamics) = (inputs?, outputs?, dynamics?);
+    if reader.diagnostics.len() > before {
+        return None;
+    }
+    let block = Block { name, span, inputs, outputs, dynamics, discretization, pwm };
+    let in_span = table.get("input").map_or(value.span, |v| v.span);
+    let out_span = table.get("output").map_or(value.span, |v| v.span);
+    sizes(&block, in_span, out_span, reader).then_some(block)
+}
+
+fn dynamics(
+    table: &Table,
+    value: &Value,
+    name: &str,
+    time: Time,
+    continuous: bool,
+    reader: &mut Reader,
+) -> Option<Dynamics> {
+    let given: Vec<&Entry> = table.iter().filter(|e| DYNAMICS.contains(&e.key.as_str())).collect();
+    let kind = |key: &str| match key {
+        "num" | "den" => "num/den",
+        "A" | "B" | "C" | "D" => "A, B, C, D",
+        "transfer" => "transfer",
+        "gain" => "gain",
+        _ => "delay",
+    };
+    let Some(first) = given.first() else {
+        let error = Diagnostic::error("E-missing", format!("the block '{}' does not say what it does", shorten(name)));
+        reader.report(
+            error
+                .at(value.span, "this block")
+                .help("give 'transfer', 'num' and 'den', 'gain', 'delay', or 'A', 'B', 'C', 'D'"),
+        );
+        return None;
+    };
+    if let Some(second) = given.iter().find(|e| kind(&e.key) != kind(&first.key)) {
+        let message = format!(
+            "the block '{}' is given twice: by {} and by {}",
+            shorten(name),
+            kind(&first.key),
+            kind(&second.key)
+        );
+        let error = Diagnostic::error("E-two-forms", message).at(second.key_span, "given here again");
+        reader.report(error.also(first.key_span, "first given here").help("keep one of them"));
+        return None;
+    }
+    let need = |key: &str, reader: &mut Reader| {
+        if table.get(key).is_none() {
+            let message = format!("the block '{}' has no '{key}'", shorten(name));
+            reader.report(
+                Diagnostic::error("E-missing", message).at(first.key_span, format!("this needs '{key}' as well")),
+            );
+        }
+    };
+    match kind(&first.key) {
+        "transfer" => reader.expression(&first.value, "'transfer'").map(Dynamics::Transfer),
+        "gain" => reader.expression(&first.value, "'gain'").map(Dynamics::Gain),
+        "delay" => {
+            let number = reader.number(&first.value, "'delay'")?;
+            if time == Time::Continuous || continuous {
+                let error =
+                    Diagnostic::error("E-value", "a delay is a number of samples; continuous delays are not rational");
+                reader.report(
+                    error
+                        .at(first.value.span, "not in a continuous block")
+                        .help("use a Padé approximation as a 'transfer'"),
+                );
+                return None;
+            }
+            let samples = number.numerator().to_i64().and_then(|n| usize::try_from(n).ok());
+            match samples.filter(|&n| number.is_integer() && n <= MAX_ORDER) {
+                Some(samples) => Some(Dynamics::Delay(samples)),
+                None => {
+                    let message = format!("a delay is a whole number of samples from 0 to {MAX_ORDER}");
+                    let error = Diagnostic::error("E-value", message).at(first.value.span, "not a number of samples");
+                    reader.report(error.help("fractions of a sample are not rational in z"));
+                    None
+                }
+            }
+        }
+        "num/den" => {
+            need("num", reader);
+            need("den", reader);
+            let numerator = reader.expressions(table.get("num")?, "a coefficient");
+            let denominator = reader.expressions(table.get("den")?, "a coefficient");
+            for (list, key) in [(&numerator, "num"), (&denominator, "den")] {
+                if list.is_empty() {
+                    let error = Diagnostic::error("E-value", format!("'{key}' has no coefficients"));
+                    reader.report(error.at(table.get(key).map_or(value.span, |v| v.span), "empty"));
+                }
+            }
+            Some(Dynamics::Ratio { numerator, denominator })
+        }
+        _ => {
+            let mut matrix = |key: &str| table.get(key).and_then(|v| reader.matrix(v, &format!("the matrix {key}")));
+            let (a, b, c, d) = (matrix("A"), matrix("B"), matrix("C"), matrix("D"));
+            if table.get("A").is_none() && table.get("B").is_none() && table.get("C").is_none() {
+                return d.map(Dynamics::Static);
+            }
+            need("A", reader);
+            need("B", reader);
+            Some(Dynamics::StateSpace { a: a?, b: b?, c, d })
+        }
+    }
+}
+
+/// Whether the numbers of inputs and outputs fit the dynamics.
+fn sizes(block: &Block, in_span: Span, out_span: Span, reader: &mut Reader) -> bool {
+    let before = reader.diagnostics.len();
+    let (inputs, outputs) = (block.inputs.len(), block.outputs.len());
+    let (in_text, out_text) = (count(inputs, "input", "inputs"), count(outputs, "output", "outputs"));
+    match &block.dynamics {
+        Dynamics::StateSpace { a, b, c, d } => {
+            let n = a.size().0;
+            let order = (a.span, format!("A has {}", count(n, "row", "rows")));
+            reader.size(a, "A", n, n, (a.span, "A must be square"));
+            reader.size(b, "B", n, b.size().1, (order.0, &order.1));
+            reader.size(b, "B", n, inputs, (in_span, &in_text));
+            match c {
+                Some(c) => {
+                    reader.size(
+                        c,
+                        "C",
+                        outputs,
+                        n,
+                        if c.size().0 == outputs { (order.0, &order.1) } else { (out_span, &out_text) },
+                    );
+                }
+                None if outputs != n => {
+                    let message = format!("without 'C' the outputs are the {}", count(n, "state", "states"));
+                    let error = Diagnostic::error("E-size", message).at(out_span, out_text.clone());
+                    reader.report(error.also(order.0, order.1.clone()));
+                }
+                None => {}
+            }
+            if let Some(d) = d {
+                let because = if d.size().0 == outputs { (in_span, &in_text) } else { (out_span, &out_text) };
+                reader.size(d, "D", outputs, inputs, (because.0, because.1));
+            }
+        }
+        Dynamics::Static(d) => {
+            let because = if d.size().0 == outputs { (in_span, &in_text) } else { (out_span, &out_text) };
+            reader.size(d, "D", outputs, inputs, (because.0, because.1));
+        }
+        _ => {
+            for (n, span, what) in [(inputs, in_span, "input"), (outputs, out_span, "output")] {
+                if n != 1 {
+                    let message = format!("the block '{}' has one {what}, but {n} are given", shorten(&block.name));
+                    let error = Diagnostic::error("E-size", message).at(span, format!("must be one {what}"));
+                    reader.report(error.help("blocks with several signals are given by A, B, C, D"));
+                }
+            }
+        }
+    }
+    // The same mistake in B is found twice when it concerns rows and columns.
+    let mut seen = Vec::new();
+    let mut position = 0;
+    reader.diagnostics.retain(|d| {
+        position += 1;
+        let key = (d.code, d.message.clone(), d.primary.clone());
+        position <= before
+            || (!seen.contains(&key) && {
+                seen.push(key);
+                true
+            })
+    });
+    reader.diagnostics.len() == before
+}
+
+fn discretize(entry: &Entry, reader: &mut Reader) -> Option<Discretization> {
+    let table = reader.table(entry)?;
+    let wrong = |message: &str, span: Span, label: &str, help: &str| {
+        Diagnostic::error("E-discretize", message).at(span, label).help(help)
+    };
+    for prewarp in table.iter().filter(|e| e.key.to_lowercase().contains("warp")) {
+        reader.report(wrong(
+            "prewarping by a frequency makes the factor c of the bilinear map irrational",
+            prewarp.key_span,
+            "not rational",
+            "give c itself as a number: s = c (z-1)/(z+1), c = w/tan(w*T/2) to as many digits as you mean",
+        ));
+        return None;
+    }
+    reader.unknown_keys(table, &["method", "T", "c"], "'discretize'");
+    let Some(method) = table.get("method") else {
+        let help = "give method = \"forward\", \"backward\" or \"tustin\"";
+        reader.report(wrong("'discretize' has no 'method'", entry.key_span, "by which rule?", help));
+        return None;
+    };
+    let text = reader.string(method, "'method'")?;
+    let methods = ["forward", "backward", "tustin"];
+    let rule = match text.as_str() {
+        "forward" => Method::Forward,
+        "backward" => Method::Backward,
+        "tustin" => Method::Tustin,
+        "zoh" | "zero-order hold" | "zero-order-hold" => {
+            reader.report(wrong(
+                "zero-order hold is not rational in the sample time, so it cannot be exact here",
+                method.span,
+                "contains exponentials of the sample time",
+                "use \"forward\", \"backward\" or \"tustin\", or give the discrete block for one sample time",
+            ));
+            return None;
+        }
+        other => {
+            let message = format!("unknown method '{}'", shorten(other));
+            let help = did_you_mean(other, methods).unwrap_or_else(|| "known: 'forward', 'backward', 'tustin'".into());
+            reader.report(wrong(&message, method.span, "not known", &help));
+            return None;
+        }
+    };
+    let sample_time = table.get("T").and_then(|v| reader.expression(v, "'T'"));
+    let factor = table.get("c").and_then(|v| reader.expression(v, "'c'"));
+    if let Some(c) = table.entry("c")
+        && rule != Method::Tustin
+    {
+        reader.report(wrong("'c' belongs to the method 'tustin'", c.key_span, "has no meaning here", "leave it out"));
+        return None;
+    }
+    if table.get("T").is_none() && table.get("c").is_none() {
+        reader.report(wrong(
+            "'discretize' has no sample time",
+            entry.key_span,
+            "how long is a step?",
+            "give T = \"..\"",
+        ));
+        return None;
+    }
+    Some(Discretization { method: rule, sample_time, factor, span: entry.key_span })
+}
+
+fn pwm(entry: &Entry, reader: &mut Reader) -> Option<Pwm> {
+    let table = reader.table(entry)?;
+    reader.unknown_keys(table, &["amplitude", "carrier", "period"], "'pwm'");
+    let mut part = |key: &str| {
+        let Some(value) = table.get(key) else {
+            reader.report(
+                Diagnostic::error("E-missing", format!("'pwm' has no '{key}'")).at(entry.key_span, "incomplete"),
+            );
+            return None;
+        };
+        reader.expression(value, &format!("'{key}'"))
+    };
+    let (amplitude, carrier, period) = (part("amplitude"), part("carrier"), part("period"));
+    Some(Pwm { amplitude: amplitude?, carrier: carrier?, period: period? })
+}
+
+/// Signals driven by blocks, in order.
+pub(super) fn driven(diagram: &Diagram) -> impl Iterator<Item = (&Name, &Block)> {
+    diagram.blocks.iter().flat_map(|b| b.outputs.iter().map(move |o| (o, b)))
+}
