@@ -6,8 +6,11 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod analysis;
 pub mod cli;
 pub mod error;
+#[cfg(feature = "strategies")]
+pub mod fuzzing;
 pub mod limits;
 pub mod matrix;
 pub mod model;

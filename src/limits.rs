@@ -4,8 +4,8 @@
 //! [`Exhausted`], which names the budget that ran out.
 
 use std::fmt;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Receives the name of the step that begins and, where known, its share done (0 to 1).
@@ -29,6 +29,7 @@ pub struct Budget {
     deadline: Option<(Instant, Duration)>,
     cancelled: Option<Arc<AtomicBool>>,
     progress: Option<Arc<dyn Progress>>,
+    reached: Arc<Mutex<String>>,
 }
 
 impl Budget {
@@ -71,8 +72,14 @@ impl Budget {
         Ok(())
     }
 
-    /// Tells the listener, if there is one, that a step begins.
+    /// The name of the last step that began: what an exhausted budget had reached.
+    pub fn reached(&self) -> String {
+        self.reached.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Notes that a step begins and tells the listener, if there is one.
     pub fn step(&self, name: &str) {
+        name.clone_into(&mut self.reached.lock().unwrap_or_else(PoisonError::into_inner));
         if let Some(progress) = &self.progress {
             progress.step(name);
         }

@@ -1,6 +1,68 @@
-//! The command line.
+//! The command line: arguments, files, standard output, exit statuses.
+//!
+//! One file per command in `commands`; each returns a [`Status`] or the reason why there is no answer.
+
+mod arguments;
+mod command_line;
+mod commands;
+mod output;
+mod progress;
+mod status;
+
+use arguments::Arguments;
+use clap::Parser;
+use command_line::CommandLine;
+use commands::Context;
+use status::{Failure, Status};
+use std::process::ExitCode;
 
 /// Runs the program on the process's arguments.
-pub fn main() -> std::process::ExitCode {
-    std::process::ExitCode::SUCCESS
+pub fn main() -> ExitCode {
+    quiet_panics();
+    let line = CommandLine::new(std::env::args_os());
+    // A panic is a defect of this program; even then there is a message and no backtrace.
+    let status = std::panic::catch_unwind(|| run(&line));
+    ExitCode::from(status.unwrap_or(101))
+}
+
+fn run(line: &CommandLine) -> u8 {
+    let arguments = match Arguments::try_parse_from(line.arguments()) {
+        Ok(arguments) => arguments,
+        Err(answer) if !answer.use_stderr() => {
+            // Help and version; a reader that stops reading is no error.
+            let _ = answer.print();
+            return Status::Holds as u8;
+        }
+        Err(error) => {
+            show(&line.usage_error(&error));
+            return Status::BadInput as u8;
+        }
+    };
+    let context = Context::new(line, arguments.run_options());
+    let outcome = commands::run(&arguments, &context);
+    context.reporter.finish();
+    match outcome {
+        Ok(status) => status as u8,
+        Err(Failure::Refused(error)) => {
+            show(&error);
+            Status::BadInput as u8
+        }
+        Err(Failure::Undecided(exhausted)) => {
+            output::note(&format!("undecided: {exhausted}; reached: {}", context.reporter.reached()));
+            Status::Undecided as u8
+        }
+    }
+}
+
+fn show(error: &crate::error::Error) {
+    output::note(&error.to_string());
+}
+
+/// Replaces Rust's message and backtrace by one line in the style of the other errors.
+fn quiet_panics() {
+    std::panic::set_hook(Box::new(|info| {
+        let what = info.payload_as_str().unwrap_or("no message");
+        let place = info.location().map(|l| format!(" ({}:{})", l.file(), l.line())).unwrap_or_default();
+        output::note(&format!("error[E-internal]: this is a defect of jurist, please report it: {what}{place}"));
+    }));
 }

@@ -10,6 +10,8 @@ mod determinant;
 mod faddeev_leverrier;
 mod polynomial;
 mod rational;
+#[cfg(feature = "strategies")]
+pub mod strategies;
 
 pub use characteristic::CharacteristicPolynomial;
 pub use determinant::{determinant_bareiss, determinant_leibniz};

@@ -1,8 +1,8 @@
 //! Integers of any size.
 
 use malachite_base::num::arithmetic::traits::{
-    Abs, AddMulAssign, DivExact, DivMod, DivisibleBy, FloorSqrt, Gcd, Lcm, Mod, Parity, Pow, Sign as _, SubMulAssign,
-    UnsignedAbs,
+    Abs, AddMulAssign, DivExact, DivMod, DivisibleBy, FloorRoot, FloorSqrt, Gcd, Lcm, Mod, Parity, Pow, Sign as _,
+    SubMulAssign, UnsignedAbs,
 };
 use malachite_base::num::conversion::traits::RoundingFrom;
 use malachite_base::num::logic::traits::SignificantBits;
@@ -113,6 +113,15 @@ impl Integer {
     /// When this is negative.
     pub fn sqrt_floor(&self) -> Integer {
         Integer((&self.0).floor_sqrt())
+    }
+
+    /// The greatest integer whose power with this positive exponent is at most this.
+    ///
+    /// # Panics
+    /// When this is negative or the exponent is 0.
+    pub fn root_floor(&self, exponent: u64) -> Integer {
+        assert!(!self.is_negative(), "the root of a negative number");
+        Integer((&self.0).floor_root(exponent))
     }
 
     /// `self += a * b` without an intermediate copy.

@@ -1,7 +1,7 @@
 //! The dense univariate polynomial.
 
 use super::Domain;
-use crate::number::{Integer, Rational, Sign};
+use crate::number::{Enclosure, Integer, Rational, Sign};
 use std::fmt;
 
 /// A univariate polynomial over `R`: coefficients from the constant term up, no zero at the top.
@@ -174,6 +174,15 @@ impl UniPoly {
     pub fn eval_rational(&self, x: &Rational) -> Rational {
         let Some(n) = self.degree() else { return Rational::ZERO };
         Rational::new(self.eval_homogeneous(&x.numerator(), &x.denominator()), x.denominator().pow(n as u64))
+    }
+
+    /// An enclosure of the values on an enclosure, by Horner's rule with `bits` significant bits.
+    pub fn eval_enclosure(&self, x: &Enclosure, bits: u64) -> Enclosure {
+        let mut acc = Enclosure::from_rational(Rational::ZERO);
+        for c in self.coeffs.iter().rev() {
+            acc = acc.mul(x, bits).add(&Enclosure::from_rational(Rational::from(c)), bits);
+        }
+        acc
     }
 
     /// The sign of the value at a rational number.

@@ -1,5 +1,6 @@
 //! What polynomial algorithms ask of their coefficients.
 
+use super::kernel::kronecker::{KRONECKER_MIN_LENGTH, convolve_kronecker, convolve_schoolbook};
 use crate::number::{Integer, Rational};
 use std::cmp::Ordering;
 use std::fmt::Debug;
@@ -128,6 +129,9 @@ impl Domain for Integer {
     }
     fn power(&self, exponent: u64) -> Self {
         self.pow(exponent)
+    }
+    fn convolve(a: &[Self], b: &[Self]) -> Vec<Self> {
+        if a.len().min(b.len()) < KRONECKER_MIN_LENGTH { convolve_schoolbook(a, b) } else { convolve_kronecker(a, b) }
     }
 }
 

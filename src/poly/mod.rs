@@ -5,17 +5,24 @@
 //! coefficients are polynomials in a parameter. [`MultiPoly`] is sparse in any number of variables,
 //! [`RationalFunction`] a quotient of two.
 
+pub mod algebraic;
 mod arithmetic;
 mod dense;
 mod division;
 mod domain;
 mod gcd;
+pub mod kernel;
 pub mod multivariate;
 mod rational_function;
+pub mod real_roots;
+#[cfg(feature = "strategies")]
+pub mod strategies;
 mod subresultant;
 
+pub use algebraic::{RealAlgebraic, rational_between, simplest_between};
 pub use dense::{Poly, UniPoly};
 pub use domain::Domain;
 pub use multivariate::{Monomial, MultiPoly};
 pub use rational_function::{DisplayRationalFunction, RationalFunction};
+pub use real_roots::{SquareFree, isolate_real_roots, isolate_real_roots_in};
 pub use subresultant::{discriminant, resultant, resultant_formal, subresultant_chain};

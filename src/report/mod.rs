@@ -1,1 +1,3 @@
-//! Results as text, JSON and LaTeX.
+//! Results as text, JSON, LaTeX and code. Nothing is decided here.
+
+pub mod notation;

@@ -5,15 +5,32 @@
 //! polynomials of half the degree on an interval of the real line ([`HalfSizePair`]), which gives
 //! the exact count of roots ([`count_roots`]) and the boundary in parameter space.
 
+mod boundary;
+mod cause;
+mod conditions;
 mod half_size;
+mod interval_set;
 mod jury;
+mod pair_location;
+mod parametric;
+pub mod plane;
 mod root_count;
 mod routh;
+mod stable_set;
+#[cfg(feature = "strategies")]
+pub mod strategies;
 
+pub use boundary::{Boundary, boundary_polynomials};
+pub use cause::{Cause, Causes};
+pub use conditions::{ClassicalTest, Condition, Inequality, ScaledPoly, Table, classical_test, row_name, solve};
 pub use half_size::HalfSizePair;
-pub use jury::{JuryRow, JuryTable, is_schur_jury, jury_table};
+pub use interval_set::{AlgebraicInterval, IntervalSet, Range};
+pub use jury::{JuryRow, JuryTable, UNDIVIDED_ORDER, is_schur_jury, jury_table, jury_table_with};
+pub use pair_location::ComplexPair;
+pub use parametric::{AtPoint, ParametricPolynomial};
 pub use root_count::{RootCount, count_roots, count_roots_cauchy_index, is_stable};
 pub use routh::{RouthTable, is_hurwitz_routh, routh_table};
+pub use stable_set::{End, StableInterval, StableSet, stable_set};
 
 /// Where the roots of the characteristic polynomial of a stable loop lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

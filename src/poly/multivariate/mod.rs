@@ -6,6 +6,8 @@ mod display;
 mod division;
 mod gcd;
 mod monomial;
+#[cfg(feature = "strategies")]
+pub mod strategies;
 mod substitute;
 
 use super::Domain;

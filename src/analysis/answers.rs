@@ -1,0 +1,197 @@
+//! Verdicts at a point and exact stable sets.
+
+use super::prepare::prepare;
+use super::question::{Settings, in_region, nominal, one_parameter, parametric, region_of};
+use super::{Failure, OneParameter};
+use crate::error::Diagnostic;
+use crate::limits::{Budget, Exhausted};
+use crate::model::{Loop, Question, Time};
+use crate::number::Rational;
+use crate::stability::{AtPoint, RootCount, StableSet, stable_set};
+
+/// An exact answer, or the budget that ran out before it and what had been reached.
+#[derive(Clone, Debug)]
+pub enum Decision<T> {
+    /// The answer.
+    Decided(T),
+    /// None within the budget.
+    Undecided {
+        /// Which budget.
+        budget: String,
+        /// The last step begun.
+        reached: String,
+    },
+}
+
+impl<T> Decision<T> {
+    /// The answer, if there is one.
+    pub fn decided(&self) -> Option<&T> {
+        match self {
+            Decision::Decided(value) => Some(value),
+            Decision::Undecided { .. } => None,
+        }
+    }
+
+    pub(super) fn from_result(result: Result<T, Exhausted>, budget: &Budget) -> Self {
+        match result {
+            Ok(value) => Decision::Decided(value),
+            Err(exhausted) => Decision::Undecided { budget: exhausted.budget, reached: budget.reached() },
+        }
+    }
+}
+
+/// For which values of one parameter the loop is stable.
+#[derive(Clone, Debug)]
+pub struct Intervals {
+    /// The question.
+    pub question: OneParameter,
+    /// The exact stable set.
+    pub stable: Decision<StableSet>,
+}
+
+/// The exact stable set of one parameter, all others at their set or nominal values.
+///
+/// ```
+/// use jurist::analysis::{Settings, intervals};
+/// use jurist::limits::Budget;
+/// use jurist::model::Loop;
+/// let answer = intervals(&Loop::drive(), &Settings::default(), "K_pwm", &Budget::unlimited()).unwrap();
+/// let set = answer.stable.decided().unwrap();
+/// let lower = set.intervals()[0].lower.as_ref().unwrap();
+/// assert_eq!(lower.value.decimal(10), "0.03810053335");
+/// ```
+///
+/// # Errors
+/// [`Failure`] when the question is refused or the budget ends before there is a polynomial.
+pub fn intervals(lp: &Loop, settings: &Settings, parameter: &str, budget: &Budget) -> Result<Intervals, Failure> {
+    let question = one_parameter(lp, settings, parameter, budget)?;
+    let stable = match &question.polynomial {
+        None => Decision::Decided(StableSet::default()),
+        Some(p) => Decision::from_result(stable_set(p, &question.domain, question.region, budget), budget),
+    };
+    Ok(Intervals { question, stable })
+}
+
+/// The verdict on a loop whose parameters all have values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Verdict {
+    /// All roots strictly inside.
+    Stable,
+    /// None outside, at least one on the boundary.
+    Marginal,
+    /// At least one root outside or at infinity.
+    Unstable,
+    /// An expression of the model divides by zero.
+    Undefined,
+}
+
+impl Verdict {
+    /// The name used in all output.
+    pub fn name(self) -> &'static str {
+        match self {
+            Verdict::Stable => "stable",
+            Verdict::Marginal => "marginal",
+            Verdict::Unstable => "unstable",
+            Verdict::Undefined => "undefined",
+        }
+    }
+}
+
+/// The verdict at one point, with the exact root count.
+#[derive(Clone, Debug)]
+pub struct PointVerdict {
+    /// The loop's title.
+    pub title: Option<String>,
+    /// Discrete or continuous time.
+    pub time: Time,
+    /// The values of all parameters.
+    pub set: Vec<(String, Rational)>,
+    /// The radius asked for, if any.
+    pub radius: Option<Rational>,
+    /// The decay rate asked for, if any.
+    pub decay: Option<Rational>,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The degree of the polynomial in all parameters.
+    pub degree: usize,
+    /// Finite roots by place; `None` at an undefined point.
+    pub count: Option<RootCount>,
+    /// Roots that have left through infinity.
+    pub infinite: usize,
+    /// Remarks on the question.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// The verdict with every parameter at its set or nominal value.
+///
+/// # Errors
+/// [`Failure`] when the question is refused or the budget runs out.
+pub fn verdict(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<PointVerdict, Failure> {
+    let region = region_of(lp, settings)?;
+    let question = Question { keep: Vec::new(), set: settings.set.clone() };
+    let answer = prepare(lp, &question, budget)?;
+    let at = match answer.polynomial {
+        None => AtPoint::Undefined,
+        Some(d) => parametric(&in_region(d, settings)).at(&Rational::ZERO, region),
+    };
+    let degree = answer.formal_degree;
+    let (verdict, count, infinite) = match at {
+        AtPoint::Undefined => (Verdict::Undefined, None, 0),
+        AtPoint::Zero => (Verdict::Unstable, Some(RootCount::default()), degree),
+        AtPoint::Defined { count, infinite } => {
+            let verdict = match (count.outside + infinite, count.on) {
+                (0, 0) => Verdict::Stable,
+                (0, _) => Verdict::Marginal,
+                _ => Verdict::Unstable,
+            };
+            (verdict, Some(count), infinite)
+        }
+    };
+    Ok(PointVerdict {
+        title: lp.title().map(str::to_string),
+        time: lp.time(),
+        set: answer.values,
+        radius: settings.radius.clone(),
+        decay: settings.decay.clone(),
+        verdict,
+        degree,
+        count,
+        infinite,
+        warnings: answer.warnings,
+    })
+}
+
+/// The verdict at the nominal point and the stable set of each parameter, the others nominal.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    /// At the set or nominal values; `None` when one of them is missing.
+    pub verdict: Option<PointVerdict>,
+    /// One for each parameter that is not set and whose companions all have values.
+    pub intervals: Vec<Intervals>,
+}
+
+/// Everything that can be said about a loop one parameter at a time.
+///
+/// # Errors
+/// [`Failure`] when a question is refused or the budget ends before there is a polynomial.
+pub fn analyze(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<Analysis, Failure> {
+    let free: Vec<&str> = lp
+        .parameters()
+        .iter()
+        .map(|p| p.name.as_str())
+        .filter(|name| !settings.set.contains_key(*name))
+        .collect();
+    let without_value: Vec<&str> = free.iter().copied().filter(|name| nominal(lp, name).is_none()).collect();
+    let verdict = if without_value.is_empty() { Some(verdict(lp, settings, budget)?) } else { None };
+    let mut answers = Vec::new();
+    for name in free {
+        if without_value.iter().all(|missing| *missing == name) {
+            answers.push(intervals(lp, settings, name, budget)?);
+        }
+    }
+    if verdict.is_none() && answers.is_empty() {
+        // Two parameters without values: the question of the first names what is missing.
+        intervals(lp, settings, without_value[0], budget)?;
+    }
+    Ok(Analysis { verdict, intervals: answers })
+}

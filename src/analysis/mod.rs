@@ -1,0 +1,58 @@
+//! The questions asked of a loop, and their answers as plain values.
+//!
+//! A [`Loop`](crate::model::Loop) says what the system is, [`stability`](crate::stability) decides polynomials;
+//! this room brings the two together: which parameters are kept, what the others are set to, which
+//! region counts as stable.
+
+mod answers;
+mod frequency;
+mod prepare;
+mod question;
+mod region;
+mod table;
+
+pub use answers::{Analysis, Decision, Intervals, PointVerdict, Verdict, analyze, intervals, verdict};
+pub use frequency::{Frequency, frequency};
+pub use question::{DECAY, OneParameter, RADIUS, Settings, one_parameter};
+pub use table::{NumericTable, TableAnswer, numeric_table, parametric_table};
+
+use crate::error::Error;
+use crate::limits::Exhausted;
+
+/// Why a question has no answer.
+#[derive(Debug)]
+pub enum Failure {
+    /// The question or the model was refused.
+    Refused(Error),
+    /// A budget ran out.
+    Undecided(Exhausted),
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Failure::Refused(error)
+    }
+}
+
+impl From<crate::error::Diagnostic> for Failure {
+    fn from(diagnostic: crate::error::Diagnostic) -> Self {
+        Failure::Refused(diagnostic.into())
+    }
+}
+
+impl From<Exhausted> for Failure {
+    fn from(exhausted: Exhausted) -> Self {
+        Failure::Undecided(exhausted)
+    }
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Failure::Refused(error) => error.fmt(f),
+            Failure::Undecided(exhausted) => exhausted.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Failure {}

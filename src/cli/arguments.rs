@@ -1,0 +1,146 @@
+//! What the command line looks like: commands and options.
+
+use super::commands;
+use clap::{Args, Parser, Subcommand};
+use std::ffi::OsString;
+use std::time::Duration;
+
+/// The whole command line.
+#[derive(Parser, Debug)]
+#[command(
+    name = "jurist",
+    version,
+    about = "For which parameter values is this control loop stable? Exactly.",
+    long_about = "For which parameter values is this control loop stable? Exactly.\n\n\
+        Every number of a model is exact, and every limit is an algebraic number that is printed to any number of \
+        digits. Without a command: the main job on the built-in drive, a chopper-fed DC motor with cascaded \
+        controllers.",
+    after_help = "MODEL is a TOML file, '-' is standard input; left out, it is the built-in drive.\n\n\
+        Exit status: 0 answered, or it holds; 1 answered, and it does not hold (verdict); 2 bad usage or bad \
+        model;\n3 undecided within the given budget; 4 certificate rejected.",
+    args_conflicts_with_subcommands = true,
+    disable_help_subcommand = true,
+    infer_long_args = false
+)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    #[command(flatten)]
+    pub main_job: commands::main_job::Options,
+}
+
+/// The commands. Each has its file in `commands`.
+#[derive(Subcommand, Debug)]
+pub(super) enum Command {
+    /// Verdict at the nominal point, and the stable set of each parameter
+    Analyze(commands::analyze::Options),
+    /// The exact stable set of one parameter
+    Intervals(commands::intervals::Options),
+    /// One point: stable, marginal, unstable or undefined, with the exact number of roots
+    Verdict(commands::verdict::Options),
+    /// The characteristic polynomial, symbolic in the kept parameters
+    Charpoly(commands::charpoly::Options),
+    /// The Jury table (Routh table in continuous time) and its conditions
+    Jury(commands::jury::Options),
+    /// What an error code means
+    Explain(commands::explain::Options),
+    /// A completion script for a shell
+    Completions(commands::completions::Options),
+}
+
+/// The model and what is changed about it.
+#[derive(Args, Debug, Default)]
+pub(super) struct ModelOptions {
+    /// A model file, '-' for standard input; left out: the built-in drive
+    #[arg(value_name = "MODEL")]
+    pub model: Option<OsString>,
+    /// Gives a parameter or constant another value, exactly: 545, 1e-4, 1/3 [repeatable]
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// Replaces a parameter's open domain; either side may be left out [repeatable]
+    #[arg(long, value_name = "NAME=LO..HI")]
+    pub domain: Vec<String>,
+}
+
+/// The region that the roots are asked to lie in.
+#[derive(Args, Debug, Default)]
+pub(super) struct RegionOptions {
+    /// Asks for all |z| < R instead of |z| < 1 (discrete time)
+    #[arg(long, value_name = "R", allow_negative_numbers = true, conflicts_with = "decay")]
+    pub radius: Option<String>,
+    /// Asks for all Re s < -S instead of Re s < 0 (continuous time)
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub decay: Option<String>,
+}
+
+/// How the answer is written.
+#[derive(Args, Debug)]
+pub(super) struct OutputOptions {
+    /// Significant digits of decimal numbers [default: 12]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub digits: Option<u32>,
+    /// Writes JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Writes to a file; its ending chooses the format
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<OsString>,
+    #[command(flatten)]
+    pub run: RunOptions,
+}
+
+impl OutputOptions {
+    /// The digits asked for, or the default.
+    pub fn digits(&self) -> u32 {
+        self.digits.unwrap_or(DEFAULT_DIGITS)
+    }
+}
+
+/// Significant digits where `--digits` is not given.
+pub(super) const DEFAULT_DIGITS: u32 = 12;
+
+/// How long to work and how much to say meanwhile.
+#[derive(Args, Debug, Default)]
+pub(super) struct RunOptions {
+    /// Gives up after this time, with exit status 3
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = seconds)]
+    pub timeout: Option<Duration>,
+    /// No warnings, no progress
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Tells on standard error what is being done
+    #[arg(short, long)]
+    pub verbose: bool,
+}
+
+/// A duration that is not negative, in decimal notation.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds: f64 = text.parse().map_err(|_| "a number of seconds is expected, such as 10 or 0.5".to_owned())?;
+    if seconds.is_nan() || seconds < 0.0 {
+        return Err("a time is not negative".to_owned());
+    }
+    // Longer than the clock can count is as good as for ever.
+    Ok(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_definitions_are_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn times() {
+        assert_eq!(seconds("0"), Ok(Duration::ZERO));
+        assert_eq!(seconds("0.5"), Ok(Duration::from_millis(500)));
+        assert_eq!(seconds("1e300"), Ok(Duration::MAX));
+        assert_eq!(seconds("inf"), Ok(Duration::MAX));
+        assert!(seconds("-1").is_err());
+        assert!(seconds("nan").is_err());
+        assert!(seconds("").is_err());
+    }
+}

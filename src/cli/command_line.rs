@@ -1,0 +1,222 @@
+//! The command line as a text that errors point into.
+
+use crate::error::{Diagnostic, Error, Source, Span};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use std::ffi::OsString;
+use std::sync::Arc;
+
+/// The arguments, and one line of text that shows them as a shell would take them.
+#[derive(Debug)]
+pub(super) struct CommandLine {
+    arguments: Vec<OsString>,
+    shown: Vec<Shown>,
+    source: Arc<Source>,
+}
+
+/// Where an argument stands in the text.
+#[derive(Debug)]
+struct Shown {
+    value: String,
+    /// Where the value begins and ends, quotes excluded.
+    span: Span,
+    /// Whether the value stands there byte by byte.
+    verbatim: bool,
+}
+
+/// Longer arguments are cut in the text.
+const SHOWN_BYTES: usize = 4096;
+
+impl CommandLine {
+    /// Of a list of arguments, the program's name first.
+    pub fn new(arguments: impl IntoIterator<Item = OsString>) -> Self {
+        let arguments: Vec<OsString> = arguments.into_iter().collect();
+        let mut text = String::from("jurist");
+        let mut shown = Vec::new();
+        for argument in arguments.iter().skip(1) {
+            text.push(' ');
+            let value = argument.to_string_lossy().into_owned();
+            let mut end = value.len().min(SHOWN_BYTES);
+            while !value.is_char_boundary(end) {
+                end -= 1;
+            }
+            let printed = &value[..end];
+            let plain = |c: char| c.is_alphanumeric() || "-_=./:,+@%^".contains(c);
+            let quoted = printed.is_empty() || !printed.chars().all(plain);
+            let readable = !printed.contains(['\'', '\n', '\r', '\t']);
+            if quoted {
+                text.push('\'');
+            }
+            let start = text.len();
+            if readable {
+                text.push_str(printed);
+            } else {
+                text.extend(printed.chars().map(|c| if c.is_control() { ' ' } else { c }));
+            }
+            // The replacements above keep the length: ' ' stands for one-byte controls only.
+            let span = Span::new(start, text.len());
+            if quoted {
+                text.push('\'');
+            }
+            let verbatim = span.end - span.start == printed.len();
+            shown.push(Shown { value, span, verbatim });
+        }
+        CommandLine { arguments, shown, source: Source::new("<command line>", text) }
+    }
+
+    /// The arguments as they came, the program's name first.
+    pub fn arguments(&self) -> &[OsString] {
+        &self.arguments
+    }
+
+    /// The text that spans refer to.
+    pub fn source(&self) -> &Arc<Source> {
+        &self.source
+    }
+
+    /// Where the value of an option stands: `--name value`, `--name=value`, `-nvalue`, ...
+    pub fn option_value(&self, option: &str, value: &str) -> Place {
+        for (i, shown) in self.shown.iter().enumerate() {
+            if shown.value == value && i > 0 && self.shown[i - 1].value == option {
+                return shown.part(0, value.len());
+            }
+            let attached = shown.value.strip_prefix(option).map(|rest| rest.strip_prefix('=').unwrap_or(rest));
+            if attached == Some(value) && !value.is_empty() {
+                return shown.part(shown.value.len() - value.len(), shown.value.len());
+            }
+        }
+        Place { span: Span::new(0, self.source.text.len()), verbatim: false }
+    }
+
+    /// Where an argument stands, whatever it means.
+    pub fn argument(&self, value: &str) -> Option<Span> {
+        self.shown.iter().find(|s| s.value == value).map(|s| s.span)
+    }
+
+    /// clap's remark on the arguments as a diagnostic of this program.
+    pub fn usage_error(&self, error: &clap::Error) -> Error {
+        let rendered = error.render().to_string();
+        let mut paragraphs = rendered.split("\n\n").map(str::trim_end);
+        let message = paragraphs.next().unwrap_or("the command line is not understood");
+        let message = message.strip_prefix("error: ").unwrap_or(message);
+        let mut help = Vec::new();
+        for paragraph in paragraphs {
+            for line in paragraph.lines() {
+                let line = line.trim();
+                if let Some(tip) = line.strip_prefix("tip: ") {
+                    help.push(tip.to_owned());
+                } else if let Some(usage) = line.strip_prefix("Usage: ") {
+                    help.push(format!("usage: {usage}"));
+                } else if line.starts_with("[possible values") {
+                    help.push(line.trim_matches(['[', ']']).to_owned());
+                }
+            }
+        }
+        if help.is_empty() || error.kind() == ErrorKind::MissingRequiredArgument {
+            help.push("'jurist --help' lists the commands, 'jurist COMMAND --help' its options".to_owned());
+        }
+        let mut lines = message.lines();
+        let mut message = lines.next().unwrap_or_default().trim_end_matches(':').to_owned();
+        for line in lines {
+            let line = line.trim();
+            if let Some(values) = line.strip_prefix("[possible values: ").and_then(|l| l.strip_suffix(']')) {
+                help.insert(0, format!("possible values: {values}"));
+            } else if error.kind() == ErrorKind::MissingRequiredArgument {
+                message.push_str(if message.ends_with("provided") { ": " } else { ", " });
+                message.push_str(line);
+            } else if !line.is_empty() {
+                message.push(' ');
+                message.push_str(line);
+            }
+        }
+        let mut diagnostic = Diagnostic::error("E-usage", message).help(help.join("\n"));
+        if let Some(span) = self.place_of(error) {
+            diagnostic = diagnostic.at(span, "");
+        }
+        Error::new(Some(Arc::clone(&self.source)), vec![diagnostic])
+    }
+
+    fn place_of(&self, error: &clap::Error) -> Option<Span> {
+        let text = |kind| match error.get(kind) {
+            Some(ContextValue::String(s)) => Some(s.as_str()),
+            _ => None,
+        };
+        let value = text(ContextKind::InvalidValue).filter(|v| !v.is_empty());
+        let argument = text(ContextKind::InvalidArg);
+        let subcommand = text(ContextKind::InvalidSubcommand);
+        if let (Some(argument), Some(value)) = (argument, value) {
+            let option = argument.split([' ', '=']).next().unwrap_or(argument);
+            let place = self.option_value(option, value);
+            if place.verbatim {
+                return Some(place.span);
+            }
+        }
+        value.or(subcommand).or(argument).and_then(|v| {
+            let option = v.split([' ', '=']).next().unwrap_or(v);
+            self.argument(v).or_else(|| self.argument(option))
+        })
+    }
+}
+
+/// Where a value stands in the command line's text.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// The whole value.
+    pub span: Span,
+    /// Whether parts of the value have places of their own.
+    pub verbatim: bool,
+}
+
+impl Place {
+    /// The place of the bytes `start..end` of the value.
+    pub fn part(self, start: usize, end: usize) -> Span {
+        if !self.verbatim {
+            return self.span;
+        }
+        let clip = |offset: usize| (self.span.start + offset).min(self.span.end);
+        Span::new(clip(start), clip(end))
+    }
+}
+
+impl Shown {
+    fn part(&self, start: usize, end: usize) -> Place {
+        if !self.verbatim {
+            return Place { span: self.span, verbatim: false };
+        }
+        let clip = |offset: usize| (self.span.start + offset).min(self.span.end);
+        Place { span: Span::new(clip(start), clip(end)), verbatim: true }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(arguments: &[&str]) -> CommandLine {
+        CommandLine::new(std::iter::once("jurist").chain(arguments.iter().copied()).map(OsString::from))
+    }
+
+    fn text_at(line: &CommandLine, span: Span) -> &str {
+        &line.source().text[span.start..span.end]
+    }
+
+    #[test]
+    fn values_are_found_in_every_notation() {
+        for arguments in [&["--set", "K=1 "][..], &["--set=K=1 "], &["-sK=1 "], &["x", "-s", "K=1 "]] {
+            let line = line(arguments);
+            let option = if arguments.concat().contains("--set") { "--set" } else { "-s" };
+            let place = line.option_value(option, "K=1 ");
+            assert!(place.verbatim);
+            assert_eq!(text_at(&line, place.span), "K=1 ");
+            assert_eq!(text_at(&line, place.part(2, 3)), "1");
+        }
+    }
+
+    #[test]
+    fn strange_arguments_are_shown_on_one_line() {
+        let long = "x".repeat(100_000);
+        let line = line(&["a\nb'c", "", &long, "é\u{9f}"]);
+        assert_eq!(line.source().text.lines().count(), 1);
+        assert!(line.source().text.len() < 10_000);
+        assert_eq!(line.argument(""), Some(Span::new(15, 15)));
+    }
+}

@@ -1,0 +1,23 @@
+//! `jurist completions`: completion scripts.
+
+use crate::cli::arguments::Arguments;
+use crate::cli::output::write_answer;
+use crate::cli::status::{Outcome, Status};
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+
+/// Options of `jurist completions`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    /// The shell
+    #[arg(value_name = "SHELL", value_enum)]
+    pub shell: Shell,
+}
+
+/// Prints the script.
+pub(in crate::cli) fn run(options: &Options) -> Outcome {
+    let mut script = Vec::new();
+    clap_complete::generate(options.shell, &mut Arguments::command(), "jurist", &mut script);
+    write_answer(&String::from_utf8_lossy(&script), None)?;
+    Ok(Status::Holds)
+}

@@ -1,0 +1,51 @@
+//! `jurist explain`: what an error code means.
+
+use crate::cli::output::write_answer;
+use crate::cli::status::{Failure, Outcome, Status};
+use crate::error::{CODES, Diagnostic};
+use clap::Args;
+
+/// Options of `jurist explain`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    /// The code in the brackets of an error, such as E-unknown-name; left out: a list of all codes
+    #[arg(value_name = "CODE")]
+    pub code: Option<String>,
+}
+
+/// Prints the explanation of one code, or the list of all.
+pub(in crate::cli) fn run(options: &Options) -> Outcome {
+    let Some(code) = &options.code else {
+        let width = CODES.iter().map(|(c, _)| c.len()).max().unwrap_or(0);
+        let first = |text: &'static str| text.lines().find(|l| !l.trim().is_empty()).unwrap_or_default();
+        let lines: Vec<String> = CODES.iter().map(|(code, text)| format!("{code:width$}  {}", first(text))).collect();
+        write_answer(&lines.join("\n"), None)?;
+        return Ok(Status::Holds);
+    };
+    let wanted = code.trim().trim_start_matches("error").trim_matches(['[', ']']);
+    let same = |known: &str| {
+        known.eq_ignore_ascii_case(wanted)
+            || known.split_once('-').is_some_and(|(_, name)| name.eq_ignore_ascii_case(wanted))
+    };
+    match CODES.iter().find(|(known, _)| same(known)) {
+        Some((known, text)) => {
+            write_answer(&format!("{known}\n\n{}", text.trim()), None)?;
+            Ok(Status::Holds)
+        }
+        None => Err(unknown(wanted)),
+    }
+}
+
+fn unknown(wanted: &str) -> Failure {
+    let shown: String = wanted.chars().take(60).collect();
+    let diagnostic = Diagnostic::error("E-unknown-code", format!("there is no error code '{shown}'"));
+    let near = CODES.iter().map(|(c, _)| *c).max_by(|a, b| {
+        let likeness_for_display = |c: &str| strsim::jaro_winkler(c, &shown);
+        likeness_for_display(a).total_cmp(&likeness_for_display(b))
+    });
+    let help = match near {
+        Some(near) if strsim::jaro_winkler(near, &shown) > 0.8 => format!("did you mean '{near}'?"),
+        _ => "'jurist explain' lists all codes".to_owned(),
+    };
+    Failure::from(diagnostic.help(help))
+}

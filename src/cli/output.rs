@@ -1,0 +1,62 @@
+//! Where answers and remarks go: standard output or a file, and standard error.
+
+use super::status::Failure;
+use crate::error::Diagnostic;
+use std::ffi::{OsStr, OsString};
+use std::io::{ErrorKind, Write};
+use std::path::Path;
+
+/// Writes an answer to the file, or to standard output if there is none.
+///
+/// A reader that stops reading (`| head -1`) is no error.
+pub(super) fn write_answer(answer: &str, file: Option<&OsString>) -> Result<(), Failure> {
+    let mut answer = answer.to_owned();
+    if !answer.ends_with('\n') {
+        answer.push('\n');
+    }
+    match file {
+        Some(path) if path != OsStr::new("-") => {
+            std::fs::write(Path::new(path), answer).map_err(|e| write_error(&path.to_string_lossy(), &e))
+        }
+        _ => {
+            let mut stdout = std::io::stdout().lock();
+            match stdout.write_all(answer.as_bytes()).and_then(|()| stdout.flush()) {
+                Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(write_error("standard output", &e)),
+                _ => Ok(()),
+            }
+        }
+    }
+}
+
+fn write_error(what: &str, error: &std::io::Error) -> Failure {
+    Failure::from(Diagnostic::error("E-write", format!("cannot write {what}: {}", plain(error))))
+}
+
+/// The system's message without its number.
+pub(super) fn plain(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    match text.find(" (os error") {
+        Some(end) => text[..end].to_lowercase(),
+        None => text,
+    }
+}
+
+/// Writes a line to standard error; nobody may be listening.
+pub(super) fn note(line: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{line}");
+}
+
+/// The format a file's ending asks for, in lower case; `None` without an ending.
+pub(super) fn ending(file: &OsStr) -> Option<String> {
+    Path::new(file).extension().map(|e| e.to_string_lossy().to_lowercase())
+}
+
+/// Refuses a file ending that the command cannot write.
+pub(super) fn unknown_ending(file: &OsStr, known: &[&str]) -> Diagnostic {
+    let endings: Vec<String> = known.iter().map(|e| format!(".{e}")).collect();
+    let message = match ending(file) {
+        Some(e) => format!("this command does not write '.{e}' files"),
+        None => "the file name's ending has to say the format".to_owned(),
+    };
+    Diagnostic::error("E-output-format", message).help(format!("it writes {}", endings.join(", ")))
+}

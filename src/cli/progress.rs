@@ -1,0 +1,96 @@
+//! What is being done: remembered for an undecided answer, shown on a terminal.
+
+use crate::cli::arguments::RunOptions;
+use crate::limits::{Budget, Progress};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+/// Steps shorter than this are not shown.
+const PATIENCE: Duration = Duration::from_millis(400);
+
+/// Listens to the library's steps.
+pub(super) struct Reporter {
+    state: Mutex<State>,
+    bar: Option<ProgressBar>,
+    verbose: bool,
+    begun: Instant,
+}
+
+#[derive(Default)]
+struct State {
+    step: String,
+    done: u64,
+    total: u64,
+}
+
+impl Reporter {
+    /// A listener that draws only if standard error is a terminal.
+    pub fn new(options: &RunOptions) -> Arc<Self> {
+        let drawn = !options.quiet && !options.verbose && std::io::stderr().is_terminal();
+        let bar = drawn.then(|| {
+            let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {wide_bar} {pos}/{len} {elapsed}") {
+                bar.set_style(style);
+            }
+            bar
+        });
+        Arc::new(Reporter { state: Mutex::default(), bar, verbose: options.verbose, begun: Instant::now() })
+    }
+
+    /// The budget that the options grant, telling this listener how far it is.
+    pub fn budget(self: &Arc<Self>, options: &RunOptions) -> Budget {
+        let budget = options.timeout.map_or_else(Budget::unlimited, Budget::with_timeout);
+        budget.reporting_to(Arc::clone(self) as Arc<dyn Progress>)
+    }
+
+    /// How far the work came.
+    pub fn reached(&self) -> String {
+        let Ok(state) = self.state.lock() else { return String::new() };
+        match (state.step.as_str(), state.total) {
+            ("", _) => "nothing was begun".to_owned(),
+            (step, 0) => step.to_owned(),
+            (step, total) => format!("{step} ({} of {total})", state.done),
+        }
+    }
+
+    /// Takes the progress bar off the terminal.
+    pub fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+
+    fn draw(&self, state: &State) {
+        let Some(bar) = &self.bar else { return };
+        if self.begun.elapsed() < PATIENCE {
+            return;
+        }
+        if bar.is_hidden() {
+            bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        bar.set_message(state.step.clone());
+        bar.set_length(state.total);
+        bar.set_position(state.done);
+    }
+}
+
+impl Progress for Reporter {
+    fn step(&self, name: &str) {
+        if let Ok(mut state) = self.state.lock() {
+            *state = State { step: name.to_owned(), ..State::default() };
+            self.draw(&state);
+        }
+        if self.verbose {
+            super::output::note(&format!("{:8.3} s  {name}", self.begun.elapsed().as_secs_f64()));
+        }
+    }
+
+    fn advance(&self, done: u64, total: u64) {
+        if let Ok(mut state) = self.state.lock() {
+            (state.done, state.total) = (done, total);
+            self.draw(&state);
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! Fast ways for polynomials over the integers, hooked into [`Domain`](super::Domain).
+
+pub mod kronecker;

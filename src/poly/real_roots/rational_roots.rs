@@ -1,0 +1,188 @@
+//! Rational roots, exactly: roots modulo a small prime, lifted until only one fraction fits.
+
+use super::bounds::root_bound_bits;
+use super::modular::{power, residues};
+use super::square_free::SquareFree;
+use crate::limits::{Budget, Exhausted};
+use crate::number::{Integer, Rational};
+use crate::poly::UniPoly;
+
+/// How many primes may be looked at in the hope of one with fewer roots; each costs one pass over
+/// the coefficients.
+const PRIMES_TRIED: usize = 8;
+
+/// All rational roots, ascending, and the polynomial without their linear factors.
+///
+/// A rational root is a root modulo every prime that does not divide the leading coefficient `c`;
+/// lifted by Newton's iteration (Hensel) to a modulus above `2 |c| B`, with `B` a bound of the
+/// roots, it determines the integer `c` times the root. Every candidate is verified by division
+/// [Loos1983].
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn rational_roots(p: &SquareFree, budget: &Budget) -> Result<(Vec<Rational>, SquareFree), Exhausted> {
+    let mut roots = Vec::new();
+    let mut rest = p.poly().clone();
+    if rest.coeffs().first().is_some_and(Integer::is_zero) {
+        roots.push(Rational::ZERO);
+        rest = UniPoly::new(rest.into_coeffs().split_off(1));
+    }
+    if rest.coeffs().len() > 2 {
+        let (prime, residues) = choose_prime(&rest, budget)?;
+        let mut lift = Lift::new(rest.clone(), prime);
+        for r in residues {
+            budget.check()?;
+            if let Some((root, quotient)) = lift.rational_root(r, &rest) {
+                roots.push(root);
+                rest = quotient;
+            }
+        }
+    }
+    if let [c0, c1] = rest.coeffs() {
+        roots.push(Rational::new(-c0, c1.clone()));
+        rest = UniPoly::from_i64(&[1]);
+    }
+    roots.sort();
+    Ok((roots, SquareFree::known(rest)))
+}
+
+/// The primitive linear polynomial with a given root.
+pub(crate) fn linear(root: &Rational) -> UniPoly {
+    UniPoly::new(vec![-root.numerator(), root.denominator()])
+}
+
+/// A prime not dividing the leading coefficient modulo which all roots are simple, and those
+/// roots: the best of a few.
+fn choose_prime(p: &UniPoly, budget: &Budget) -> Result<(u64, Vec<u64>), Exhausted> {
+    let derivative = p.derivative();
+    let mut best: Option<(u64, Vec<u64>)> = None;
+    let mut good = 0;
+    let mut prime = (p.coeffs().len() as u64).max(40);
+    // A square-free polynomial has simple roots modulo all primes but the divisors of its
+    // discriminant, so that the search ends.
+    loop {
+        prime = next_prime(prime);
+        budget.check()?;
+        let f = residues(p, prime);
+        if f.len() < p.coeffs().len() {
+            continue;
+        }
+        let value = |f: &[u64], x: u64| f.iter().rev().fold(0, |acc, &c| (acc * x + c) % prime);
+        let roots: Vec<u64> = (0..prime).filter(|&x| value(&f, x) == 0).collect();
+        let df = residues(&derivative, prime);
+        if roots.iter().any(|&x| value(&df, x) == 0) {
+            continue;
+        }
+        good += 1;
+        if best.as_ref().is_none_or(|(_, b)| roots.len() < b.len()) {
+            best = Some((prime, roots));
+        }
+        if let Some(found) = best.take_if(|(_, roots)| roots.is_empty() || good == PRIMES_TRIED) {
+            return Ok(found);
+        }
+    }
+}
+
+/// The least prime above `n`, which is small.
+fn next_prime(mut n: u64) -> u64 {
+    loop {
+        n += 1;
+        if n > 2 && n % 2 == 1 && (3..).step_by(2).take_while(|d| d * d <= n).all(|d| n % d != 0) {
+            return n;
+        }
+    }
+}
+
+/// The state of the lifting: the polynomial modulo the prime squared again and again.
+struct Lift {
+    original: UniPoly,
+    prime: u64,
+    /// Above `2 |c| B`.
+    enough: Integer,
+    levels: Vec<Level>,
+}
+
+struct Level {
+    modulus: Integer,
+    coeffs: Vec<Integer>,
+}
+
+impl Lift {
+    fn new(original: UniPoly, prime: u64) -> Lift {
+        let lead = original.leading().expect("not zero").abs();
+        let bound = root_bound_bits(&original).max(0).unsigned_abs();
+        Lift { enough: &lead << (bound + 1), original, prime, levels: Vec::new() }
+    }
+
+    fn level(&mut self, k: usize) -> &Level {
+        while self.levels.len() <= k {
+            let modulus = match self.levels.last() {
+                Some(last) => &last.modulus * &last.modulus,
+                None => Integer::from(self.prime) * Integer::from(self.prime),
+            };
+            let coeffs = self.original.coeffs().iter().map(|c| reduce(c, &modulus)).collect();
+            self.levels.push(Level { modulus, coeffs });
+        }
+        &self.levels[k]
+    }
+
+    /// The rational root of `rest`, if there is one, that is `residue` modulo the prime.
+    fn rational_root(&mut self, residue: u64, rest: &UniPoly) -> Option<(Rational, UniPoly)> {
+        let lead = self.original.leading().expect("not zero").clone();
+        let (enough, prime) = (self.enough.clone(), self.prime);
+        let slope = self
+            .original
+            .derivative()
+            .coeffs()
+            .iter()
+            .rev()
+            .fold(0, |acc, c| (acc * residue + c.mod_u64(prime)) % prime);
+        let mut x = Integer::from(residue);
+        // The inverse of the derivative at the previous x; right for the present one modulo the
+        // modulus before the last, so that one step of Newton's makes it good enough.
+        let mut inverse = Integer::from(power(slope, prime - 2, prime));
+        for k in 0.. {
+            let level = self.level(k);
+            let m = &level.modulus;
+            let (value, slope) = value_and_slope(&level.coeffs, &x, m);
+            inverse = reduce(&(&inverse * &(Integer::from(2) - &slope * &inverse)), m);
+            x = reduce(&(&x - &(&value * &inverse)), m);
+            let done = *m > enough;
+            // Small roots show early: what is found is verified, so that an early try is safe.
+            let mut y = reduce(&(&lead * &x), m);
+            if &(&y << 1) > m {
+                y = y - m;
+            }
+            let root = Rational::new(y, lead.clone());
+            if let Some(quotient) = divide_out(rest, &root) {
+                return Some((root, quotient));
+            }
+            if done {
+                return None;
+            }
+        }
+        None
+    }
+}
+
+fn reduce(a: &Integer, m: &Integer) -> Integer {
+    a.div_mod_floor(m).1
+}
+
+/// The value and the derivative of a polynomial at `x`, modulo `m`.
+fn value_and_slope(coeffs: &[Integer], x: &Integer, m: &Integer) -> (Integer, Integer) {
+    let mut value = Integer::ZERO;
+    let mut slope = Integer::ZERO;
+    for c in coeffs.iter().rev() {
+        slope = reduce(&(&(&slope * x) + &value), m);
+        value = reduce(&(&(&value * x) + c), m);
+    }
+    (value, slope)
+}
+
+/// The quotient by the linear factor of `root`, if it is a root.
+fn divide_out(p: &UniPoly, root: &Rational) -> Option<UniPoly> {
+    let (constant, lead) = (p.coeffs().first()?, p.leading()?);
+    let plausible = lead.divisible_by(&root.denominator()) && constant.divisible_by(&root.numerator());
+    if plausible { p.div_exact_poly(&linear(root)) } else { None }
+}

@@ -1,0 +1,78 @@
+//! Why stability ends at a parameter value.
+
+use std::fmt;
+
+/// One reason. The order is the order in which several are named.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Cause {
+    /// A root at `z = 1`.
+    RootAtOne,
+    /// A root at `z = -1`.
+    RootAtMinusOne,
+    /// A pair of complex conjugate roots on the boundary.
+    ComplexPair,
+    /// A root at `s = 0`.
+    RootAtZero,
+    /// The leading coefficient vanishes: a root leaves through infinity.
+    DegreeLost,
+    /// The loop is undefined there: an expression divides by zero.
+    Pole,
+    /// The parameter's domain ends there.
+    Domain,
+}
+
+impl Cause {
+    /// The name used in all output.
+    pub fn name(self) -> &'static str {
+        match self {
+            Cause::RootAtOne => "z=1",
+            Cause::RootAtMinusOne => "z=-1",
+            Cause::ComplexPair => "complex pair",
+            Cause::RootAtZero => "s=0",
+            Cause::DegreeLost => "infinity",
+            Cause::Pole => "pole",
+            Cause::Domain => "domain",
+        }
+    }
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// All reasons that hold at once, e.g. `z=1+domain`.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
+pub struct Causes(Vec<Cause>);
+
+impl Causes {
+    /// Adds a reason, once.
+    pub fn insert(&mut self, cause: Cause) {
+        if let Err(place) = self.0.binary_search(&cause) {
+            self.0.insert(place, cause);
+        }
+    }
+
+    /// Whether the reason holds.
+    pub fn contains(&self, cause: Cause) -> bool {
+        self.0.contains(&cause)
+    }
+
+    /// The reasons in their fixed order.
+    pub fn iter(&self) -> impl Iterator<Item = Cause> {
+        self.0.iter().copied()
+    }
+}
+
+impl fmt::Display for Causes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, cause) in self.0.iter().enumerate() {
+            if i > 0 {
+                f.write_str("+")?;
+            }
+            f.write_str(cause.name())?;
+        }
+        Ok(())
+    }
+}
