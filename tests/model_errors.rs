@@ -78,17 +78,63 @@ fn three_typos_in_one_run() {
     let text = "time = 'discrete'\n[constants]\ng = '1/(L_b*12)'\nL_a = 46e-3\n[parameters]\nK_pwm = { nominal = 110, mim = 0 }\n\
         [loop]\ncharacteristic = 'z^2 + K_pmw*z + g*L_a'\n";
     let error = Loop::from_toml(&Source::new("drive.toml", text)).unwrap_err();
-    insta::assert_snapshot!(render_error(&error, false), @"");
+    insta::assert_snapshot!(render_error(&error, false), @r"
+    error[E-unknown-name]: unknown name 'L_b'
+     --> drive.toml:3:9
+      |
+    3 | g = '1/(L_b*12)'
+      |         ^^^ not defined
+      |
+      = help: did you mean 'L_a'?
+
+    error[E-unknown-key]: unknown key 'mim' in a parameter
+     --> drive.toml:6:26
+      |
+    6 | K_pwm = { nominal = 110, mim = 0 }
+      |                          ^^^ not known here
+      |
+      = help: did you mean 'min'?
+
+    error[E-unknown-name]: unknown name 'K_pmw'
+     --> drive.toml:8:25
+      |
+    8 | characteristic = 'z^2 + K_pmw*z + g*L_a'
+      |                         ^^^^^ not defined
+      |
+      = help: did you mean 'K_pwm'?
+    ");
 }
 
 #[test]
 fn second_places() {
     let twice = format!("{HEAD}K = 3\n[loop]\ncharacteristic = 'z - K'\n");
     let error = Loop::from_toml(&Source::new("m.toml", twice)).unwrap_err();
-    insta::assert_snapshot!(render_error(&error, false), @"");
+    insta::assert_snapshot!(render_error(&error, false), @r"
+    error[E-duplicate-key]: 'K' is defined twice
+     --> m.toml:4:1
+      |
+    3 | K = { nominal = 1 }
+      | - first defined here
+    4 | K = 3
+      | ^ defined again here
+      |
+      = help: keep one of the two
+    ");
     let cycle = "time = 'discrete'\n[constants]\na = 'b + 1'\nb = '2*c'\nc = 'a'\n[loop]\ncharacteristic = 'z - a'\n";
     let error = Loop::from_toml(&Source::new("m.toml", cycle)).unwrap_err();
-    insta::assert_snapshot!(render_error(&error, false), @"");
+    insta::assert_snapshot!(render_error(&error, false), @r"
+    error[E-cycle]: constants are defined by each other: a -> b -> c -> a
+     --> m.toml:3:1
+      |
+    3 | a = 'b + 1'
+      | ^ depends on itself
+    4 | b = '2*c'
+      | - by way of this
+    5 | c = 'a'
+      | - by way of this
+      |
+      = help: give one of them a value of its own
+    ");
 }
 
 #[test]
@@ -113,7 +159,7 @@ fn structure() {
         ("[constants]\nradius = 1\n[loop]\ncharacteristic = 'z - K'\n", "E-reserved-name@5:1"),
         ("[constants]\nK = 1\n[loop]\ncharacteristic = 'z - K'\n", "E-duplicate-name@3:1"),
         ("[constants]\n'2x' = 1\n[loop]\ncharacteristic = 'z - K'\n", "E-name@5:1"),
-        ("[loop]\ncharacteristic = 'z - K\n", "E-toml@5:18"),
+        ("[loop]\ncharacteristic = 'z - K\n", "E-toml@5:25"),
         ("[loop]\nmatrix = [['K']]\n[simulation]\ninputs = { r = 1 }\n", "E-unknown-name@7:12"),
     ] {
         let found = after_head(text);
@@ -174,7 +220,7 @@ fn huge_and_broken_texts() {
     assert!(after_head(&format!("[loop]\nmatrix = {open}", open = "[".repeat(megabyte)))[0].starts_with("E-"));
     assert_eq!(characteristic(&format!("z{}", "+K".repeat(megabyte / 4))), [""; 0]);
     assert_eq!(characteristic(&"x".repeat(megabyte)), ["E-unknown-name@5:19"]);
-    assert_eq!(characteristic("z + ((((((K+1)^1000)^1000)^1000)^1000)^1000)"), ["E-too-large@5:24"]);
+    assert_eq!(characteristic("z + ((((((K+1)^1000)^1000)^1000)^1000)^1000)"), ["E-too-large@5:27"]);
     let chain: String = (1..20_000).map(|i| format!("c{i} = 'c{} + 1'\n", i - 1)).collect();
     let text = format!("{HEAD}[constants]\nc0 = 'K'\n{chain}[loop]\ncharacteristic = 'z - c19999'\n");
     assert_eq!(errors(&text), [""; 0]);
@@ -191,7 +237,21 @@ fn warnings_come_with_the_loop() {
     let (_, warnings) = Loop::from_toml(&source).unwrap();
     let codes: Vec<&str> = warnings.iter().map(|w| w.code).collect();
     assert_eq!(codes, ["W-unused", "W-outside-domain"]);
-    insta::assert_snapshot!(render(&warnings, Some(&source), false), @"");
+    insta::assert_snapshot!(render(&warnings, Some(&source), false), @r"
+    warning[W-unused]: the constant 'c' is not used
+     --> m.toml:3:1
+      |
+    3 | c = 1
+      | ^ not used
+
+    warning[W-outside-domain]: the nominal value of 'K' is outside its domain
+     --> m.toml:5:17
+      |
+    5 | K = { nominal = 3, min = 0, max = 2 }
+      |                 ^                 - which ends here
+      |                 |
+      |                 not in the open domain
+    ");
 }
 
 #[test]

@@ -106,7 +106,8 @@ fn render_one(diagnostic: &Diagnostic, source: Option<&Source>, color: bool) -> 
             }
             for line in &lines {
                 let annotations = line.annotations(line.prefix);
-                group = group.element(Snippet::source(line.text.clone()).line_start(line.number).annotations(annotations));
+                group =
+                    group.element(Snippet::source(line.text.clone()).line_start(line.number).annotations(annotations));
             }
         }
     }
