@@ -4,6 +4,10 @@
 //! terminal is decided elsewhere (the command line draws them with carets); `Display` gives one
 //! line each.
 
+mod codes;
+
+pub use codes::CODES;
+
 use std::fmt;
 use std::sync::Arc;
 
@@ -196,6 +200,3 @@ impl fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
-
-/// Every code with its explanation, as `jurist explain` prints it.
-pub const CODES: &[(&str, &str)] = &[];

@@ -10,7 +10,7 @@ use crate::poly::{Domain, MultiPoly, RationalFunction};
 use std::collections::{HashMap, HashSet};
 
 /// Polynomials whose coefficients could grow beyond this many bits are not computed.
-const MAX_BITS: u64 = 1 << 24;
+const MAX_BITS: u64 = 1 << 23;
 
 /// What every name of a model stands for, and what has been divided by so far.
 pub(super) struct Scope<'a> {

@@ -138,6 +138,10 @@ impl Meaning for InVariable<'_, '_> {
             return Err(too_large(span));
         }
         self.scope.budget.check()?;
+        if degree == 0 && !base.numerator.is_zero() {
+            // A power of numbers and parameters has its own limits.
+            return self.scope.power(base.numerator.leading(), exponent, span).map(Fraction::constant);
+        }
         let base = if exponent < 0 { self.divided(Fraction::constant(1.into()), &base, span)? } else { base };
         let raise = |p: &ZPoly| p.power(exponent.unsigned_abs()).ok_or_else(|| too_large(span));
         Ok(Fraction { numerator: raise(&base.numerator)?, denominator: raise(&base.denominator)? })
