@@ -3,6 +3,7 @@
 //! One file per command in `commands`; each returns a [`Status`] or the reason why there is no answer.
 
 mod arguments;
+mod assignments;
 mod command_line;
 mod commands;
 mod output;
