@@ -42,6 +42,12 @@ pub(super) fn json_number(decimal: Option<&str>) -> Value {
     nearest.and_then(serde_json::Number::from_f64).map_or(Value::Null, Value::Number)
 }
 
+/// Bits that make an enclosure about as narrow as so many digits and two more ask for.
+pub(super) fn bits_for(digits: usize) -> u64 {
+    // log2(10) < 10/3
+    (digits as u64 + 2) * 10 / 3 + 8
+}
+
 /// Digits beyond which a JSON number, read as binary floating point, gains nothing.
 pub(super) const JSON_NUMBER_DIGITS: usize = 17;
 

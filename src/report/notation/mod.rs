@@ -14,6 +14,7 @@ use crate::number::Rational;
 use crate::poly::RationalFunction;
 
 pub(super) use terms::Coefficient;
+pub(super) use text::coefficient_text;
 
 /// How polynomials are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
