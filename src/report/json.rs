@@ -127,3 +127,8 @@ pub(super) fn relative(out: &mut Map<String, Value>, radius: Option<&Rational>, 
 pub(super) fn undecided(budget: &str, reached: &str) -> Value {
     json!({ "budget": budget, "reached": reached })
 }
+
+/// A document without an answer, because a budget ran out before the question was reduced to algebra.
+pub fn undecided_document(schema: &str, key: &str, budget: &str, reached: &str) -> Value {
+    json!({ "schema": schema, key: null, "undecided": undecided(budget, reached) })
+}
