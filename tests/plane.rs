@@ -55,7 +55,8 @@ fn the_triangle_of_second_order() {
         for j in -8..=8 {
             let (x, y) = (Rational::from(i) / Rational::from(5), Rational::from(j) / Rational::from(6));
             let expected = y.abs() < Rational::ONE && x.abs() < Rational::ONE + &y;
-            let stable = matches!(p.at(&x, &y, Region::UnitDisc), AtPoint::Defined { count, infinite: 0 } if count.inside == 2);
+            let stable =
+                matches!(p.at(&x, &y, Region::UnitDisc), AtPoint::Defined { count, infinite: 0 } if count.inside == 2);
             assert_eq!(stable, expected);
         }
     }

@@ -175,12 +175,8 @@ pub struct Analysis {
 /// # Errors
 /// [`Failure`] when a question is refused or the budget ends before there is a polynomial.
 pub fn analyze(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<Analysis, Failure> {
-    let free: Vec<&str> = lp
-        .parameters()
-        .iter()
-        .map(|p| p.name.as_str())
-        .filter(|name| !settings.set.contains_key(*name))
-        .collect();
+    let free: Vec<&str> =
+        lp.parameters().iter().map(|p| p.name.as_str()).filter(|name| !settings.set.contains_key(*name)).collect();
     let without_value: Vec<&str> = free.iter().copied().filter(|name| nominal(lp, name).is_none()).collect();
     let verdict = if without_value.is_empty() { Some(verdict(lp, settings, budget)?) } else { None };
     let mut answers = Vec::new();

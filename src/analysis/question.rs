@@ -66,18 +66,16 @@ pub struct OneParameter {
 pub(super) fn region_of(lp: &Loop, settings: &Settings) -> Result<Region, Failure> {
     let positive = |value: &Option<Rational>| value.as_ref().is_none_or(|v| v.sign().is_gt());
     match lp.time() {
-        Time::Discrete if settings.decay.is_some() => Err(Diagnostic::error(
-            "E-region",
-            "a decay rate applies to continuous time, and this loop is discrete",
-        )
-        .help("ask for '--radius R': all roots in |z| < R")
-        .into()),
-        Time::Continuous if settings.radius.is_some() => Err(Diagnostic::error(
-            "E-region",
-            "a radius applies to discrete time, and this loop is continuous",
-        )
-        .help("ask for '--decay S': all roots in Re s < -S")
-        .into()),
+        Time::Discrete if settings.decay.is_some() => {
+            Err(Diagnostic::error("E-region", "a decay rate applies to continuous time, and this loop is discrete")
+                .help("ask for '--radius R': all roots in |z| < R")
+                .into())
+        }
+        Time::Continuous if settings.radius.is_some() => {
+            Err(Diagnostic::error("E-region", "a radius applies to discrete time, and this loop is continuous")
+                .help("ask for '--decay S': all roots in Re s < -S")
+                .into())
+        }
         _ if !positive(&settings.radius) => Err(Diagnostic::error("E-region", "the radius has to be positive").into()),
         Time::Discrete => Ok(Region::UnitDisc),
         Time::Continuous => Ok(Region::LeftHalfPlane),
@@ -145,9 +143,7 @@ pub fn one_parameter(
     let domain = match settings.domain.get(parameter) {
         Some(range) => range.clone(),
         None if relative => Range::between(Some(Rational::ZERO), None),
-        None => lp
-            .parameter(parameter)
-            .map_or_else(Range::all, |p| Range::between(p.min.clone(), p.max.clone())),
+        None => lp.parameter(parameter).map_or_else(Range::all, |p| Range::between(p.min.clone(), p.max.clone())),
     };
     if domain.is_empty() {
         return Err(Diagnostic::error("E-empty-domain", format!("the domain of '{parameter}' is empty"))

@@ -6,6 +6,7 @@ mod arguments;
 mod assignments;
 mod command_line;
 mod commands;
+mod input;
 mod output;
 mod progress;
 mod status;

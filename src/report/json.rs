@@ -59,17 +59,13 @@ fn plain_end(value: Option<&RealAlgebraic>, digits: usize) -> Value {
 
 /// A union of open intervals.
 pub(super) fn interval_set(set: &IntervalSet, digits: usize) -> Value {
-    let interval = |i: &crate::stability::AlgebraicInterval| {
-        json!({ "lower": plain_end(i.lower.as_ref(), digits), "upper": plain_end(i.upper.as_ref(), digits) })
-    };
+    let interval = |i: &crate::stability::AlgebraicInterval| json!({ "lower": plain_end(i.lower.as_ref(), digits), "upper": plain_end(i.upper.as_ref(), digits) });
     set.intervals().iter().map(interval).collect::<Vec<_>>().into()
 }
 
 /// A stable set: each end with its cause, frequency and margin.
 pub(super) fn stable_set(set: &StableSet, question: &OneParameter, digits: usize) -> Value {
-    let interval = |i: &crate::stability::StableInterval| {
-        json!({ "lower": end(i.lower.as_ref(), question, digits), "upper": end(i.upper.as_ref(), question, digits) })
-    };
+    let interval = |i: &crate::stability::StableInterval| json!({ "lower": end(i.lower.as_ref(), question, digits), "upper": end(i.upper.as_ref(), question, digits) });
     set.intervals().iter().map(interval).collect::<Vec<_>>().into()
 }
 

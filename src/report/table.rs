@@ -1,9 +1,9 @@
 //! The classical table: Jury's in discrete time, Routh's in continuous time.
 
 use super::intervals::{domain_text, set_lines};
+use super::json;
 use super::layout::{Columns, named_values, wrapped};
 use super::notation::{Coefficient, coefficient_text};
-use super::json;
 use crate::analysis::{Decision, OneParameter, PointTable, TableAnswer};
 use crate::model::Time;
 use crate::number::Rational;
@@ -278,7 +278,8 @@ fn scheme(test: &ClassicalTest) -> String {
     }
     let mut out = format!("\n{columns}");
     if !divided.is_empty() {
-        let text = format!("above order {UNDIVIDED_ORDER} rows are divided by their known factors: {}", divided.join(", "));
+        let text =
+            format!("above order {UNDIVIDED_ORDER} rows are divided by their known factors: {}", divided.join(", "));
         out.push_str(&format!("  {}\n", wrapped(&text, WIDTH - 2, "    ")));
     }
     out
