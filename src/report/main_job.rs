@@ -9,7 +9,7 @@ use crate::matrix::CharacteristicPolynomial;
 use crate::model::Loop;
 use crate::number::{Rational, enclosed_decimal, to_decimal};
 use crate::poly::{RationalFunction, RealAlgebraic};
-use crate::stability::{ClassicalTest, End, StableInterval};
+use crate::stability::{AlgebraicInterval, ClassicalTest, End, IntervalSet, StableInterval};
 use serde_json::{Map, Value, json};
 
 /// Characters per line.
@@ -74,11 +74,11 @@ pub fn main_job_text(job: &MainJob, digits: usize) -> String {
     out.push_str(&equation_text(&job.equation_23, digits, true));
     out.push_str(&format!("\nEq. 37  {}\n", title(&job.equation_37, &job.period.question.set)));
     out.push_str(&equation_text(&job.equation_37, digits, false));
-    out.push_str("\nJury's conditions, each solved exactly\n");
+    out.push_str("\nJury's conditions, each solved exactly ('jurist jury --param NAME' shows all)\n");
     out.push_str(&conditions_text(job, digits));
     out.push_str("\nLimits of stability\n");
     out.push_str(&limits_text(job, digits.max(LIMIT_DIGITS)));
-    out.push_str(&format!("\n{}\n", wrapped(&rounding_text(job, digits), WIDTH, "")));
+    out.push_str(&format!("\n{}\n", wrapped(&rounding_text(job, digits), WIDTH, "").replace('\u{a0}', " ")));
     out
 }
 
@@ -101,8 +101,9 @@ fn model_text(job: &MainJob) -> String {
     out.push_str(&columns.to_string());
     let constants =
         model.constants().iter().filter_map(|c| Some(format!("{} = {}", c.name, short(c.number.as_ref()?))));
-    let constants = constants.collect::<Vec<_>>().join(", ");
-    out.push_str(&format!("  {}\n", wrapped(&constants, WIDTH, "  ")));
+    // A value stays on its name's line.
+    let constants = constants.map(|c| c.replace(' ', "\u{a0}")).collect::<Vec<_>>().join(", ");
+    out.push_str(&format!("  {}\n", wrapped(&constants, WIDTH - 2, "  ").replace('\u{a0}', " ")));
     out
 }
 
@@ -158,18 +159,26 @@ fn powers_of_parameter(c: &RationalFunction) -> Vec<Rational> {
     out
 }
 
-/// The conditions of both tests side by side: they have the same names.
+/// The conditions of both tests side by side: they have the same names. Of each solution set the piece
+/// around the nominal value is shown.
 fn conditions_text(job: &MainJob, digits: usize) -> String {
     let (Some(a), Some(b)) = (test(&job.amplitude), test(&job.period)) else { return String::new() };
-    let join = |answer: &TableAnswer, set: &crate::stability::IntervalSet| {
-        let lines = set_lines(&answer.question.parameter, set, digits.min(9));
-        if lines.is_empty() { "nowhere".to_owned() } else { lines.join(" or ") }
+    let piece = |answer: &TableAnswer, set: &IntervalSet| {
+        let question = &answer.question;
+        let lines = set_lines(&question.parameter, set, digits.min(9));
+        let around = |i: &AlgebraicInterval| question.nominal.as_ref().is_some_and(|n| i.contains(n));
+        let shown = set.intervals().iter().position(around).unwrap_or(0);
+        match (lines.get(shown), lines.len()) {
+            (None, _) => "nowhere".to_owned(),
+            (Some(line), 1) => line.clone(),
+            (Some(line), n) => format!("{line} (and {} more)", n - 1),
+        }
     };
     let mut columns = Columns::new("  ");
     for (x, y) in a.conditions.iter().zip(&b.conditions) {
-        columns.row([x.name.clone(), join(&job.amplitude, &x.solution), join(&job.period, &y.solution)]);
+        columns.row([x.name.clone(), piece(&job.amplitude, &x.solution), piece(&job.period, &y.solution)]);
     }
-    let all = [join(&job.amplitude, &a.intersection), join(&job.period, &b.intersection)];
+    let all = [piece(&job.amplitude, &a.intersection), piece(&job.period, &b.intersection)];
     columns.row(std::iter::once("all together".to_owned()).chain(all));
     columns.to_string()
 }
@@ -263,7 +272,7 @@ fn rounding_text(job: &MainJob, digits: usize) -> String {
     ) else {
         return String::new();
     };
-    let at_one = |p: &CharacteristicPolynomial, digits| {
+    let at_one = |p: &CharacteristicPolynomial| {
         let names = [name.clone()];
         super::notation::coefficient_text(&Coefficient::new(&value_at_one(p), 1), &names, Some(digits))
     };
@@ -280,11 +289,11 @@ fn rounding_text(job: &MainJob, digits: usize) -> String {
          Q(1) = {}, positive for every {name} > 0, so what ends stability below is not a root at z = 1 but the {} of the \
          table above, at a {name} {factor} times smaller.",
         PAPER[0].2,
-        at_one(&job.printed_equation, digits),
+        at_one(&job.printed_equation).replace(' ', "\u{a0}"),
         to_decimal(&zero, digits),
         end(&printed.lower),
         end(&printed.upper),
-        at_one(&job.equation_23, digits),
+        at_one(&job.equation_23),
         limit.causes,
     )
 }

@@ -211,13 +211,18 @@ fn heading(question: &OneParameter) -> String {
 }
 
 /// The conditions with their solutions, and what they have in common.
-pub(super) fn conditions_text(test: &ClassicalTest, name: &str, digits: usize) -> String {
+fn conditions_text(test: &ClassicalTest, name: &str, digits: usize) -> String {
     let mut columns = Columns::new("  ");
     let sets = test.conditions.iter().map(|c| (c.name.as_str(), &c.solution));
     for (label, set) in sets.chain([("all together", &test.intersection)]) {
-        let lines = set_lines(name, set, digits);
-        let text = if lines.is_empty() { "nowhere".to_owned() } else { lines.join(" or ") };
-        columns.row([label.to_owned(), text]);
+        let mut lines = set_lines(name, set, digits);
+        if lines.is_empty() {
+            lines.push("nowhere".to_owned());
+        }
+        for (i, line) in lines.into_iter().enumerate() {
+            let (label, or) = if i == 0 { (label, "") } else { ("", "or") };
+            columns.row([label.to_owned(), or.to_owned(), line]);
+        }
     }
     columns.to_string()
 }
@@ -299,7 +304,7 @@ fn entries_text(test: &ClassicalTest, name: Option<&str>, digits: usize) -> Stri
 }
 
 /// A polynomial in the parameter with rounded coefficients.
-pub(super) fn entry_text(p: &ScaledPoly, name: Option<&str>, digits: usize) -> String {
+fn entry_text(p: &ScaledPoly, name: Option<&str>, digits: usize) -> String {
     let list = coefficients(p);
     let terms = list.into_iter().enumerate().rev().filter(|(_, c)| !c.is_zero());
     let numerator = terms.map(|(k, c)| (vec![k as u32], c)).collect();
