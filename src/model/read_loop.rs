@@ -233,7 +233,9 @@ fn read_form(root: &Table, time: Time, reader: &mut Reader) -> Option<Form> {
     let table = reader.table(entry)?;
     let mut known = FORM_KEYS.to_vec();
     known.extend(["states", "inputs", "E", "outputs"]);
+    let before = reader.diagnostics.len();
     reader.unknown_keys(table, &known, "[loop]");
+    let misspelt = reader.diagnostics.len() > before;
     let given: Vec<&Entry> = table.iter().filter(|e| FORM_KEYS.contains(&e.key.as_str())).collect();
     let feedback = |e: &&&Entry| matches!(e.key.as_str(), "A" | "B" | "C" | "K");
     let mut forms: Vec<(&str, Span)> =
@@ -245,6 +247,8 @@ fn read_form(root: &Table, time: Time, reader: &mut Reader) -> Option<Form> {
         forms.push(("[[block]]", block.key_span));
     }
     match forms.as_slice() {
+        // What is missing is probably there under the wrong name.
+        [] if misspelt => None,
         [] => {
             let error = Diagnostic::error("E-missing", "[loop] does not say what the loop is");
             let error = error.at(entry.key_span, "empty");

@@ -1,6 +1,7 @@
 //! Results as text, JSON, LaTeX and code. Nothing is decided here.
 
 mod analysis;
+pub mod diagnostics;
 mod intervals;
 pub mod json;
 mod layout;
