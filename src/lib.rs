@@ -9,6 +9,8 @@
 pub mod analysis;
 pub mod cli;
 pub mod error;
+#[cfg(feature = "strategies")]
+pub mod fuzzing;
 pub mod limits;
 pub mod matrix;
 pub mod model;
