@@ -1,5 +1,11 @@
-//! What the fuzz targets call: functions of bytes that panic when the library is wrong.
+//! Harness functions shared by the fuzz targets and the tests that replay their corpora.
+//!
+//! Each takes arbitrary bytes and panics exactly if a promise of the crate is broken.
 
-pub mod isolation;
+mod isolation;
+mod number;
+mod stability;
 
 pub use isolation::isolation_against_sturm;
+pub use number::number_parser;
+pub use stability::{interval_answer, jury_against_count};

@@ -10,6 +10,8 @@ mod enclosure;
 mod integer;
 mod parse;
 mod rational;
+#[cfg(feature = "strategies")]
+pub mod strategies;
 
 pub use convert::DivisionByZero;
 pub use decimal::{enclosed_decimal, to_decimal, to_scientific};

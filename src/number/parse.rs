@@ -190,6 +190,22 @@ impl std::str::FromStr for Rational {
     }
 }
 
+impl std::str::FromStr for Integer {
+    type Err = ParseNumberError;
+    /// An optional sign and digits, nothing else.
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Integer::from_decimal(text).ok_or_else(|| {
+            let start = usize::from(text.starts_with(['+', '-']));
+            let (kind, offset) = match text[start..].bytes().position(|b| !b.is_ascii_digit()) {
+                Some(i) => (ParseNumberErrorKind::UnexpectedCharacter, start + i),
+                None if text.is_empty() => (ParseNumberErrorKind::Empty, 0),
+                None => (ParseNumberErrorKind::MissingDigits, start),
+            };
+            ParseNumberError { kind, offset }
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -237,6 +253,16 @@ mod tests {
             ("inf", K::UnexpectedCharacter, 0),
         ] {
             assert_eq!(parse_number(text), Err(ParseNumberError { kind, offset }), "{text}");
+        }
+    }
+
+    #[test]
+    fn integers_from_text() {
+        use ParseNumberErrorKind as K;
+        assert_eq!("-12".parse(), Ok(Integer::from(-12)));
+        for (text, kind, offset) in [("", K::Empty, 0), ("+", K::MissingDigits, 1), ("12.5", K::UnexpectedCharacter, 2)]
+        {
+            assert_eq!(text.parse::<Integer>(), Err(ParseNumberError { kind, offset }));
         }
     }
 }
