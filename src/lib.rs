@@ -17,4 +17,5 @@ pub mod model;
 pub mod number;
 pub mod poly;
 pub mod report;
+pub mod simulate;
 pub mod stability;

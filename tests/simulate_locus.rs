@@ -1,0 +1,91 @@
+//! The root locus: continuity of branches, the cluster at z = 1, crossings, gaps.
+
+mod common;
+
+use common::{drive_polynomial, q};
+use jurist::limits::Budget;
+use jurist::number::Rational;
+use jurist::poly::UniPoly;
+use jurist::simulate::{LocusOptions, ParameterScale, RootLocus, trace_root_locus};
+use nalgebra::Complex;
+
+fn drive_locus(through: Vec<Rational>) -> RootLocus {
+    let t = q(1, 10_000);
+    let options = LocusOptions {
+        lower: q(1, 1000),
+        upper: q(1000, 1),
+        scale: ParameterScale::Logarithmic,
+        focus: Complex::new(1.0, 0.0),
+        through,
+        reach: 2.0,
+    };
+    trace_root_locus(|k| Some(drive_polynomial(k, &t)), &options, &Budget::unlimited()).unwrap()
+}
+
+#[test]
+fn branches_are_continuous_and_pass_through_the_crossings() {
+    let (lower, upper) = (q(381_005_333_483, 10_000_000_000_000), q(550_941_166_686_675, 1_000_000_000_000));
+    let locus = drive_locus(vec![lower.clone(), upper.clone()]);
+    assert_eq!(locus.pieces.len(), 1);
+    let branches = locus.branches();
+    assert_eq!(branches.len(), 6);
+    for branch in &branches {
+        for pair in branch.points.windows(2) {
+            assert!(pair[0].0 < pair[1].0);
+            let ((_, a), (_, b)) = (pair[0], pair[1]);
+            let near = (a - 1.0).norm().min((b - 1.0).norm());
+            assert!((a - b).norm() <= (0.1 * near).max(1e-4), "{a} {b}");
+        }
+    }
+    for (value, frequency) in [(lower, 0.505696), (upper, 1664.0)] {
+        let sample = locus.samples().find(|s| s.parameter == value).unwrap();
+        let on = |z: &&Complex<f64>| (z.norm() - 1.0).abs() < 1e-12 && z.im > 0.0;
+        let z = sample.roots.iter().find(on).unwrap();
+        let found = z.arg() / std::f64::consts::TAU * 10_000.0;
+        assert!((found / frequency - 1.0).abs() < 1e-3, "{found}");
+    }
+}
+
+#[test]
+fn inside_the_certified_limits_every_drawn_root_is_inside_the_circle() {
+    for sample in drive_locus(vec![]).samples() {
+        let k = sample.parameter.to_f64_approximate();
+        let largest = sample.roots.iter().map(|z| z.norm()).fold(0.0, f64::max);
+        let stable = k > 0.0381005333482991 && k < 550.941166686674;
+        assert_eq!(largest < 1.0, stable, "K = {k}: {largest}");
+    }
+}
+
+#[test]
+fn a_degree_that_is_lost_makes_a_gap_and_not_a_jump() {
+    // (k - 1) z^2 + z + 1: a root passes through infinity at k = 1.
+    let of = |k: &Rational| {
+        let p = jurist::poly::Poly::new(vec![q(1, 1), q(1, 1), k - &q(1, 1)]);
+        Some(UniPoly::from_rational_poly(&p).1)
+    };
+    let options = LocusOptions {
+        lower: q(0, 1),
+        upper: q(2, 1),
+        scale: ParameterScale::Linear,
+        focus: Complex::new(1.0, 0.0),
+        through: vec![],
+        reach: 3.0,
+    };
+    let locus = trace_root_locus(of, &options, &Budget::unlimited()).unwrap();
+    assert_eq!(locus.pieces.len(), 2);
+    assert!(locus.to_csv("k").starts_with("k,re_1,im_1,re_2,im_2\n"));
+}
+
+#[test]
+fn a_budget_ends_the_tracing() {
+    let options = LocusOptions {
+        lower: q(0, 1),
+        upper: q(2, 1),
+        scale: ParameterScale::Linear,
+        focus: Complex::new(1.0, 0.0),
+        through: vec![],
+        reach: 3.0,
+    };
+    let none = Budget::with_timeout(std::time::Duration::ZERO);
+    assert!(trace_root_locus(|k| Some(drive_polynomial(k, &q(1, 100))), &options, &none).is_err());
+}
