@@ -14,7 +14,7 @@ mod table;
 pub use answers::{Analysis, Decision, Intervals, PointVerdict, Verdict, analyze, intervals, verdict};
 pub use frequency::{Frequency, frequency};
 pub use question::{DECAY, OneParameter, RADIUS, Settings, one_parameter};
-pub use table::{NumericTable, TableAnswer, numeric_table, parametric_table};
+pub use table::{PointTable, TableAnswer, parametric_table, point_table};
 
 use crate::error::Error;
 use crate::limits::Exhausted;

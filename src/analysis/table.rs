@@ -1,16 +1,13 @@
 //! The classical table: numeric at a point, or in one parameter with its conditions solved.
 
 use super::prepare::prepare;
-use super::question::{Settings, in_region, one_parameter, region_of};
+use super::question::{Settings, in_region, one_parameter, parametric, region_of};
 use super::{Decision, Failure, OneParameter};
 use crate::error::Diagnostic;
 use crate::limits::Budget;
 use crate::model::{Loop, Question, Time};
 use crate::number::Rational;
-use crate::poly::Poly;
-use crate::stability::{
-    ClassicalTest, JuryTable, Region, RouthTable, StableSet, classical_test, jury_table, routh_table, stable_set,
-};
+use crate::stability::{ClassicalTest, Range, StableSet, classical_test, stable_set};
 
 /// The table of a loop with one parameter, its conditions, and the check against the boundary way.
 #[derive(Clone, Debug)]
@@ -57,40 +54,55 @@ pub fn parametric_table(
 
 /// The table at a point.
 #[derive(Clone, Debug)]
-pub struct NumericTable {
+pub struct PointTable {
     /// The loop's title.
     pub title: Option<String>,
     /// Discrete or continuous time.
     pub time: Time,
     /// The values of all parameters.
     pub set: Vec<(String, Rational)>,
-    /// The coefficients from the constant term up.
-    pub coefficients: Vec<Rational>,
-    /// The table in discrete time.
-    pub jury: Option<JuryTable<Rational>>,
-    /// The table in continuous time.
-    pub routh: Option<RouthTable<Rational>>,
+    /// The radius asked for, if any.
+    pub radius: Option<Rational>,
+    /// The decay rate asked for, if any.
+    pub decay: Option<Rational>,
+    /// The table with constant entries: each condition holds everywhere or nowhere. `None` where the
+    /// loop is undefined.
+    pub test: Option<ClassicalTest>,
+    /// Remarks on the question.
+    pub warnings: Vec<Diagnostic>,
 }
 
-/// The table with every parameter at its set or nominal value; `None` where the loop is undefined.
+impl PointTable {
+    /// Whether all conditions hold: the loop is defined and stable.
+    pub fn holds(&self) -> bool {
+        self.test.as_ref().is_some_and(|test| !test.intersection.intervals().is_empty())
+    }
+}
+
+/// The table with every parameter at its set or nominal value.
 ///
 /// # Errors
 /// [`Failure`] when the question is refused or the budget runs out.
-pub fn numeric_table(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<Option<NumericTable>, Failure> {
+pub fn point_table(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<PointTable, Failure> {
     let region = region_of(lp, settings)?;
     let question = Question { keep: Vec::new(), set: settings.set.clone() };
     let answer = prepare(lp, &question, budget)?;
-    let Some(d) = answer.polynomial else { return Ok(None) };
-    let d = in_region(d, settings);
-    let Some(coefficients) = d.at(&[]) else { return Ok(None) };
-    let n = d.formal_degree;
-    let polynomial = Poly::new(coefficients.clone());
-    Ok(Some(NumericTable {
+    let test = match answer.polynomial {
+        None => None,
+        Some(d) => {
+            let p = parametric(&in_region(d, settings));
+            // A coefficient or a pole of a point is a number.
+            let undefined = p.is_undefined_at(&Rational::ZERO);
+            if undefined { None } else { Some(classical_test(&p, &Range::all(), region, budget)?) }
+        }
+    };
+    Ok(PointTable {
         title: lp.title().map(str::to_string),
         time: lp.time(),
         set: answer.values,
-        coefficients,
-        jury: (region == Region::UnitDisc).then(|| jury_table(&polynomial, n)),
-        routh: (region == Region::LeftHalfPlane).then(|| routh_table(&polynomial, n)),
-    }))
+        radius: settings.radius.clone(),
+        decay: settings.decay.clone(),
+        test,
+        warnings: answer.warnings,
+    })
 }

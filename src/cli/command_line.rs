@@ -217,6 +217,6 @@ mod tests {
         let line = line(&["a\nb'c", "", &long, "é\u{9f}"]);
         assert_eq!(line.source().text.lines().count(), 1);
         assert!(line.source().text.len() < 10_000);
-        assert_eq!(line.argument(""), Some(Span::new(15, 15)));
+        assert_eq!(line.argument(""), Some(Span::new(16, 16)));
     }
 }

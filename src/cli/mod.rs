@@ -3,12 +3,15 @@
 //! One file per command in `commands`; each returns a [`Status`] or the reason why there is no answer.
 
 mod arguments;
+mod assignments;
 mod command_line;
 mod commands;
+mod input;
 mod output;
 mod progress;
 mod status;
 
+use crate::report::diagnostics::render_error;
 use arguments::Arguments;
 use clap::Parser;
 use command_line::CommandLine;
@@ -54,8 +57,9 @@ fn run(line: &CommandLine) -> u8 {
     }
 }
 
+/// Draws an error or warnings on standard error, in colour if it is a terminal that wants it.
 fn show(error: &crate::error::Error) {
-    output::note(&error.to_string());
+    output::note(render_error(error, output::colored_errors()).trim_end());
 }
 
 /// Replaces Rust's message and backtrace by one line in the style of the other errors.

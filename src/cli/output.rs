@@ -3,7 +3,7 @@
 use super::status::Failure;
 use crate::error::Diagnostic;
 use std::ffi::{OsStr, OsString};
-use std::io::{ErrorKind, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
 
 /// Writes an answer to the file, or to standard output if there is none.
@@ -59,4 +59,10 @@ pub(super) fn unknown_ending(file: &OsStr, known: &[&str]) -> Diagnostic {
         None => "the file name's ending has to say the format".to_owned(),
     };
     Diagnostic::error("E-output-format", message).help(format!("it writes {}", endings.join(", ")))
+}
+
+/// Whether errors are drawn in colour: on a terminal, unless `NO_COLOR` is set or the terminal is dumb.
+pub(super) fn colored_errors() -> bool {
+    let set = |name: &str| std::env::var_os(name).is_some_and(|v| !v.is_empty());
+    std::io::stderr().is_terminal() && !set("NO_COLOR") && std::env::var_os("TERM").is_none_or(|t| t != "dumb")
 }

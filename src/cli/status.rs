@@ -1,7 +1,6 @@
-//! Exit statuses, and why a command ends without an answer.
+//! Exit statuses.
 
-use crate::error::{Diagnostic, Error};
-use crate::limits::Exhausted;
+pub(super) use crate::analysis::Failure;
 
 /// What the program tells its caller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,33 +13,6 @@ pub(super) enum Status {
     BadInput = 2,
     /// Undecided within the budget.
     Undecided = 3,
-}
-
-/// Why a command ends without an answer.
-#[derive(Debug)]
-pub(super) enum Failure {
-    /// The input was refused.
-    Refused(Error),
-    /// A budget ran out.
-    Undecided(Exhausted),
-}
-
-impl From<Error> for Failure {
-    fn from(error: Error) -> Self {
-        Failure::Refused(error)
-    }
-}
-
-impl From<Diagnostic> for Failure {
-    fn from(diagnostic: Diagnostic) -> Self {
-        Failure::Refused(Error::from(diagnostic))
-    }
-}
-
-impl From<Exhausted> for Failure {
-    fn from(exhausted: Exhausted) -> Self {
-        Failure::Undecided(exhausted)
-    }
 }
 
 /// How a command ends.

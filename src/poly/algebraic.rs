@@ -266,6 +266,17 @@ impl RealAlgebraic {
         }
     }
 
+    /// A rational number below this one: the greatest such integer.
+    pub fn rational_below(&self) -> Rational {
+        let floor = Rational::from(self.floor());
+        if self.compare_rational(&floor).is_eq() { floor - Rational::ONE } else { floor }
+    }
+
+    /// A rational number above this one: the least such integer.
+    pub fn rational_above(&self) -> Rational {
+        Rational::from(self.floor()) + Rational::ONE
+    }
+
     /// The number with the opposite sign.
     pub fn negated(&self) -> RealAlgebraic {
         let place = match &self.place {

@@ -1,4 +1,19 @@
 //! Results as text, JSON, LaTeX and code. Nothing is decided here.
 
+mod analysis;
 pub mod diagnostics;
+mod intervals;
+pub mod json;
+mod layout;
+mod main_job;
+pub mod margins;
 pub mod notation;
+mod real;
+mod table;
+mod verdict;
+
+pub use analysis::{analysis_json, analysis_text};
+pub use intervals::{intervals_json, intervals_text};
+pub use main_job::{MainJob, main_job_json, main_job_text};
+pub use table::{point_table_json, point_table_text, table_json, table_text};
+pub use verdict::{verdict_json, verdict_text};

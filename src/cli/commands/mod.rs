@@ -9,11 +9,16 @@ pub(super) mod jury;
 pub(super) mod main_job;
 pub(super) mod verdict;
 
-use super::arguments::{Arguments, Command, RunOptions};
+use super::arguments::{Arguments, Command, OutputOptions, RunOptions};
 use super::command_line::CommandLine;
+use super::output::{ending, unknown_ending, write_answer};
 use super::progress::Reporter;
-use super::status::Outcome;
+use super::show;
+use super::status::{Failure, Outcome, Status};
+use crate::error::{Diagnostic, Error, Source};
 use crate::limits::Budget;
+use crate::report::json;
+use serde_json::Value;
 use std::sync::Arc;
 
 /// What every command is given besides its options.
@@ -33,6 +38,58 @@ impl<'a> Context<'a> {
         let reporter = Reporter::new(options);
         let budget = reporter.budget(options);
         Context { line, reporter, budget, quiet: options.quiet }
+    }
+
+    /// Shows warnings, unless they are not wanted.
+    pub fn warn(&self, source: Option<&Arc<Source>>, warnings: &[Diagnostic]) {
+        if !self.quiet && !warnings.is_empty() {
+            show(&Error::new(source.cloned(), warnings.to_vec()));
+        }
+    }
+
+    /// Writes an answer in the form that the options ask for.
+    pub fn answer(
+        &self,
+        options: &OutputOptions,
+        text: impl FnOnce() -> String,
+        document: impl FnOnce() -> Value,
+    ) -> Result<(), Failure> {
+        self.reporter.finish();
+        let answer = if self.wants_json(options)? { json::to_text(&document()) } else { text() };
+        write_answer(&answer, options.output.as_ref())
+    }
+
+    /// Whether JSON is asked for, by the option or by the file's ending.
+    fn wants_json(&self, options: &OutputOptions) -> Result<bool, Failure> {
+        let Some(file) = options.output.as_ref().filter(|_| !options.json) else { return Ok(options.json) };
+        match ending(file).as_deref() {
+            Some("json") => Ok(true),
+            Some("txt") | None => Ok(false),
+            Some(_) => Err(unknown_ending(file, &["txt", "json"]).into()),
+        }
+    }
+
+    /// Refuses a file ending before any work is done.
+    pub fn check_output(&self, options: &OutputOptions) -> Result<(), Failure> {
+        self.wants_json(options).map(|_| ())
+    }
+
+    /// Writes the document of an answer that the budget did not allow; its `key` is `null`.
+    pub fn undecided(&self, options: &OutputOptions, schema: &str, key: &str, failure: Failure) -> Outcome {
+        if let Failure::Undecided(exhausted) = &failure
+            && self.wants_json(options)?
+        {
+            let document = json::undecided_document(schema, key, &exhausted.budget, &self.reporter.reached());
+            write_answer(&json::to_text(&document), options.output.as_ref())?;
+        }
+        Err(failure)
+    }
+
+    /// Says on standard error that there is no answer.
+    pub fn say_undecided(&self, budget: &str, reached: &str) -> Status {
+        self.reporter.finish();
+        super::output::note(&format!("undecided: the budget ran out: {budget}; reached: {reached}"));
+        Status::Undecided
     }
 }
 

@@ -1,8 +1,11 @@
 //! `jurist verdict`: one point.
 
 use super::Context;
+use crate::analysis::{Verdict, verdict};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
+use crate::cli::input::{load, settings};
 use crate::cli::status::{Outcome, Status};
+use crate::report::{verdict_json, verdict_text};
 use clap::Args;
 
 /// Options of `jurist verdict`.
@@ -16,7 +19,16 @@ pub(in crate::cli) struct Options {
     pub output: OutputOptions,
 }
 
-/// Answers on standard output or in a file.
-pub(in crate::cli) fn run(_options: &Options, _context: &Context) -> Outcome {
-    Ok(Status::Holds)
+/// Answers on standard output or in a file; the status is 1 for anything but stable.
+pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+    context.check_output(&options.output)?;
+    let model = load(options.model.model.as_ref(), context)?;
+    let settings = settings(context, &model, &options.model, &options.region)?;
+    let answer = match verdict(&model, &settings, &context.budget) {
+        Ok(answer) => answer,
+        Err(failure) => return context.undecided(&options.output, "jurist/verdict/1", "verdict", failure),
+    };
+    context.warn(None, &answer.warnings);
+    context.answer(&options.output, || verdict_text(&answer), || verdict_json(&answer))?;
+    Ok(if answer.verdict == Verdict::Stable { Status::Holds } else { Status::DoesNotHold })
 }

@@ -132,7 +132,7 @@ fn secant(at_lo: &Integer, at_hi: &Integer, m: u64, cells: &Integer) -> Integer 
     let drop = a.bit_length().max(b.bit_length()).saturating_sub(m + 64);
     let (a, b) = (&a >> drop, &b >> drop);
     let sum = &a + &b;
-    let guess = (&(&(&a << (m + 1)) + &sum)).div_mod_floor(&(&sum << 1)).0;
+    let guess = (&(&a << (m + 1)) + &sum).div_mod_floor(&(&sum << 1)).0;
     let last = cells - &Integer::ONE;
     guess.max(Integer::ONE).min(last)
 }

@@ -41,7 +41,7 @@ pub(super) fn cells_by_bisection(
         visit(right, at + Integer::ONE, depth, wanted, &mut found, &mut pending, budget)?;
         stack.append(&mut pending);
     }
-    found.sort_by(|a, b| compare_cells(a, b));
+    found.sort_by(compare_cells);
     Ok(found)
 }
 

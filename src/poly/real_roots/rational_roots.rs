@@ -87,7 +87,7 @@ fn choose_prime(p: &UniPoly, budget: &Budget) -> Result<(u64, Vec<u64>), Exhaust
 fn next_prime(mut n: u64) -> u64 {
     loop {
         n += 1;
-        if n > 2 && n % 2 == 1 && (3..).step_by(2).take_while(|d| d * d <= n).all(|d| n % d != 0) {
+        if n > 2 && n % 2 == 1 && (3..).step_by(2).take_while(|d| d * d <= n).all(|d| !n.is_multiple_of(d)) {
             return n;
         }
     }
@@ -151,7 +151,7 @@ impl Lift {
             // Small roots show early: what is found is verified, so that an early try is safe.
             let mut y = reduce(&(&lead * &x), m);
             if &(&y << 1) > m {
-                y = y - m;
+                y -= m;
             }
             let root = Rational::new(y, lead.clone());
             if let Some(quotient) = divide_out(rest, &root) {

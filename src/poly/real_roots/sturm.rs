@@ -35,7 +35,7 @@ pub fn sturm_sequence(p: &UniPoly, budget: &Budget) -> Result<Vec<UniPoly>, Exha
         let rem = previous.pseudo_rem(&next);
         // prem = lc^(d+1) rem: keep the sign of -rem.
         let d = previous.coeffs().len() - next.coeffs().len();
-        let flipped = next.needs_negation() && d % 2 == 0;
+        let flipped = next.needs_negation() && d.is_multiple_of(2);
         sequence.push(next);
         next = positive_primitive(&if flipped { rem } else { rem.negated() });
     }

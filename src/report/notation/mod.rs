@@ -6,6 +6,7 @@ mod json;
 mod latex;
 mod matlab;
 mod python;
+mod root_locus;
 mod rust;
 mod terms;
 mod text;
@@ -13,7 +14,9 @@ mod text;
 use crate::number::Rational;
 use crate::poly::RationalFunction;
 
+pub use root_locus::root_locus_form;
 pub(super) use terms::Coefficient;
+pub(super) use text::coefficient_text;
 
 /// How polynomials are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +46,14 @@ pub struct NamedPolynomial {
     pub letter: String,
     /// The coefficients from the constant term up.
     pub coefficients: Vec<RationalFunction>,
+}
+
+impl NamedPolynomial {
+    /// A polynomial with its name and the letter of its coefficients, which are given from the constant
+    /// term up.
+    pub fn new(name: &str, letter: &str, coefficients: Vec<RationalFunction>) -> Self {
+        NamedPolynomial { name: name.to_owned(), letter: letter.to_owned(), coefficients }
+    }
 }
 
 /// What a set of polynomials says.

@@ -1,0 +1,224 @@
+//! `NAME=VALUE` and `NAME=LO..HI` on the command line.
+
+use super::command_line::{CommandLine, Place};
+use crate::error::{Diagnostic, Error, Span};
+use crate::number::{ParseNumberErrorKind, Rational, parse_number};
+use std::sync::Arc;
+
+/// A name with its value.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Assignment {
+    pub name: String,
+    pub value: Rational,
+    /// Where the name stands in the command line's text.
+    pub name_span: Span,
+}
+
+/// A name with its open domain.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct DomainChange {
+    pub name: String,
+    pub lower: Option<Rational>,
+    pub upper: Option<Rational>,
+    /// Where the name stands in the command line's text.
+    pub name_span: Span,
+}
+
+/// Reads all values of an option such as `--set`; every mistake is reported.
+pub(super) fn assignments(line: &CommandLine, option: &str, values: &[String]) -> Result<Vec<Assignment>, Error> {
+    let mut out: Vec<Assignment> = Vec::new();
+    let mut wrong = Vec::new();
+    for text in values {
+        let place = line.option_value(option, text);
+        let read = split_name(text, place, option, "VALUE").and_then(|(name, value)| {
+            let value = number(text, value, place)?;
+            Ok(Assignment { name: name.to_owned(), value, name_span: place.part(0, text.find('=').unwrap_or(0)) })
+        });
+        match read {
+            Err(d) => wrong.push(d),
+            Ok(new) => match out.iter().find(|old| old.name == new.name) {
+                Some(old) if old.value != new.value => wrong.push(
+                    Diagnostic::error("E-set-twice", format!("'{}' is set to two values", new.name))
+                        .at(new.name_span, "a second value")
+                        .also(old.name_span, "the first value"),
+                ),
+                Some(_) => {}
+                None => out.push(new),
+            },
+        }
+    }
+    refuse(line, wrong).map(|()| out)
+}
+
+/// Reads all values of `--domain`; every mistake is reported.
+pub(super) fn domains(line: &CommandLine, values: &[String]) -> Result<Vec<DomainChange>, Error> {
+    let mut out: Vec<DomainChange> = Vec::new();
+    let mut wrong = Vec::new();
+    for text in values {
+        let place = line.option_value("--domain", text);
+        match domain(text, place) {
+            Err(d) => wrong.push(d),
+            Ok(new) => match out.iter().find(|old| old.name == new.name) {
+                Some(old) => wrong.push(
+                    Diagnostic::error("E-set-twice", format!("'{}' is given two domains", new.name))
+                        .at(new.name_span, "a second domain")
+                        .also(old.name_span, "the first domain"),
+                ),
+                None => out.push(new),
+            },
+        }
+    }
+    refuse(line, wrong).map(|()| out)
+}
+
+/// Reads a plain number, such as that of `--radius`.
+pub(super) fn plain_number(line: &CommandLine, option: &str, text: &str) -> Result<Rational, Error> {
+    let place = line.option_value(option, text);
+    number(text, 0, place).map_err(|d| in_line(line, vec![d]))
+}
+
+/// An error about the command line.
+pub(super) fn in_line(line: &CommandLine, diagnostics: Vec<Diagnostic>) -> Error {
+    Error::new(Some(Arc::clone(line.source())), diagnostics)
+}
+
+fn refuse(line: &CommandLine, wrong: Vec<Diagnostic>) -> Result<(), Error> {
+    if wrong.is_empty() { Ok(()) } else { Err(in_line(line, wrong)) }
+}
+
+/// The name, and where the value begins.
+fn split_name<'t>(text: &'t str, place: Place, option: &str, value: &str) -> Result<(&'t str, usize), Diagnostic> {
+    let malformed = |span, label: &str| {
+        Diagnostic::error("E-option-value", format!("{option} expects NAME={value}"))
+            .at(span, label)
+            .help(format!("for example {option} {}", if value == "VALUE" { "K=1/3" } else { "K=0..10" }))
+    };
+    let Some(equals) = text.find('=') else { return Err(malformed(place.span, "there is no '='")) };
+    let name = text[..equals].trim();
+    if name.is_empty() {
+        return Err(malformed(place.part(0, equals), "the name is missing"));
+    }
+    Ok((name, equals + 1))
+}
+
+/// The number that begins at `start` of an option's value.
+fn number(text: &str, start: usize, place: Place) -> Result<Rational, Diagnostic> {
+    number_between(text, start, text.len(), place)
+}
+
+fn number_between(text: &str, start: usize, end: usize, place: Place) -> Result<Rational, Diagnostic> {
+    let value = &text[start..end];
+    parse_number(value).map_err(|e| {
+        let whole = place.part(start, end);
+        let (span, label) = match e.kind {
+            ParseNumberErrorKind::Empty => (whole, "a number is missing".to_owned()),
+            ParseNumberErrorKind::UnexpectedCharacter => {
+                let at = e.offset.min(value.len());
+                let width = value[at..].chars().next().map_or(0, char::len_utf8);
+                (place.part(start + at, start + at + width), "not part of a number".to_owned())
+            }
+            _ => (whole, e.to_string()),
+        };
+        let diagnostic = Diagnostic::error("E-number", "this is not a number").at(span, label);
+        match e.kind {
+            ParseNumberErrorKind::Empty | ParseNumberErrorKind::UnexpectedCharacter => {
+                diagnostic.help("numbers look like 12, 0.046, 46e-3 or 1/3")
+            }
+            _ => diagnostic,
+        }
+    })
+}
+
+fn domain(text: &str, place: Place) -> Result<DomainChange, Diagnostic> {
+    let (name, start) = split_name(text, place, "--domain", "LO..HI")?;
+    let Some(dots) = text[start..].find("..").map(|i| start + i) else {
+        return Err(Diagnostic::error("E-option-value", "--domain expects NAME=LO..HI")
+            .at(place.part(start, text.len()), "there is no '..'")
+            .help("for example --domain K=0..10, --domain K=0.. or --domain K=..10"));
+    };
+    let side = |from: usize, to: usize| -> Result<Option<Rational>, Diagnostic> {
+        if text[from..to].trim().is_empty() { Ok(None) } else { number_between(text, from, to, place).map(Some) }
+    };
+    let (lower, upper) = (side(start, dots)?, side(dots + 2, text.len())?);
+    if let (Some(l), Some(u)) = (&lower, &upper)
+        && l >= u
+    {
+        let message = if l == u { "the domain is empty: it is open" } else { "the domain is empty" };
+        return Err(Diagnostic::error("E-empty-domain", message)
+            .at(place.part(start, text.len()), "the lower end is not below the upper end"));
+    }
+    let name_span = place.part(0, text.find('=').unwrap_or(0));
+    Ok(DomainChange { name: name.to_owned(), lower, upper, name_span })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::ffi::OsString;
+
+    fn line(arguments: &[&str]) -> CommandLine {
+        CommandLine::new(std::iter::once("jurist").chain(arguments.iter().copied()).map(OsString::from))
+    }
+
+    fn set(values: &[&str]) -> Result<Vec<Assignment>, Error> {
+        let arguments: Vec<&str> = values.iter().flat_map(|v| ["--set", v]).collect();
+        assignments(&line(&arguments), "--set", &values.iter().map(|v| (*v).to_owned()).collect::<Vec<_>>())
+    }
+
+    fn domain_of(value: &str) -> Result<DomainChange, Error> {
+        domains(&line(&["--domain", value]), &[value.to_owned()]).map(|mut d| d.remove(0))
+    }
+
+    /// The text under the first caret.
+    fn marked(error: &Error) -> String {
+        let source = error.source_text().unwrap();
+        let span = error.diagnostics()[0].primary.as_ref().unwrap().span;
+        source.text[span.start..span.end].to_owned()
+    }
+
+    #[test]
+    fn values_are_exact() {
+        let read = set(&["K=1e-4", "T=1/3", "L=-0.5", "T=2/6"]).unwrap();
+        let shown: Vec<String> = read.iter().map(|a| format!("{}={}", a.name, a.value)).collect();
+        assert_eq!(shown, ["K=1/10000", "T=1/3", "L=-1/2"]);
+    }
+
+    #[test]
+    fn mistakes_are_marked() {
+        for (value, code, mark) in [
+            ("K", "E-option-value", "K"),
+            ("=1", "E-option-value", ""),
+            ("K=", "E-number", ""),
+            ("K=1.x", "E-number", "x"),
+            ("K=1/0", "E-number", "1/0"),
+            ("K=1e999999999", "E-number", "1e999999999"),
+            ("K=ü", "E-number", "ü"),
+        ] {
+            let error = set(&[value]).unwrap_err();
+            assert_eq!((error.code(), marked(&error).as_str()), (code, mark), "{value}");
+        }
+        assert_eq!(set(&["K=1", "K=2", "x"]).unwrap_err().diagnostics().len(), 2);
+    }
+
+    #[test]
+    fn domains_are_open_on_either_side() {
+        let shown = |value| {
+            let d = domain_of(value).unwrap();
+            (d.lower.map(|v| v.to_string()), d.upper.map(|v| v.to_string()))
+        };
+        assert_eq!(shown("K=0..1/2"), (Some("0".into()), Some("1/2".into())));
+        assert_eq!(shown("K=.."), (None, None));
+        assert_eq!(shown("K=-1.."), (Some("-1".into()), None));
+        assert_eq!(shown("K=...5"), (None, Some("1/2".into())));
+        for (value, code, mark) in [
+            ("K=1", "E-option-value", "1"),
+            ("K=2..1", "E-empty-domain", "2..1"),
+            ("K=1..1", "E-empty-domain", "1..1"),
+            ("K=a..1", "E-number", "a"),
+            ("K=1..b", "E-number", "b"),
+        ] {
+            let error = domain_of(value).unwrap_err();
+            assert_eq!((error.code(), marked(&error).as_str()), (code, mark), "{value}");
+        }
+    }
+}

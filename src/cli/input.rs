@@ -1,0 +1,102 @@
+//! The model and the settings that a command is given.
+
+use super::arguments::{ModelOptions, RegionOptions};
+use super::assignments::{assignments, domains, in_line, plain_number};
+use super::commands::Context;
+use super::output::plain;
+use crate::analysis::{DECAY, Failure, RADIUS, Settings};
+use crate::error::{Diagnostic, Error, Span};
+use crate::model::Loop;
+use crate::stability::Range;
+use std::ffi::OsString;
+use std::fs::File;
+use std::io::Read;
+
+/// Longer model files are refused.
+const MAX_MODEL_BYTES: u64 = 64 << 20;
+
+/// Reads the model and shows its warnings.
+pub(super) fn load(model: Option<&OsString>, context: &Context) -> Result<Loop, Failure> {
+    let Some(path) = model else { return Ok(Loop::drive()) };
+    let (name, bytes) = if path == "-" {
+        ("<stdin>".to_owned(), read_all(std::io::stdin().lock()))
+    } else {
+        (path.to_string_lossy().into_owned(), File::open(path).and_then(read_all))
+    };
+    let bytes = bytes.map_err(|e| unreadable(context, path, &name, &e))?;
+    if bytes.len() as u64 > MAX_MODEL_BYTES {
+        let message = format!("{name} is longer than {} megabytes", MAX_MODEL_BYTES >> 20);
+        return Err(Diagnostic::error("E-read", message).into());
+    }
+    let (model, warnings) = Loop::from_bytes(&name, &bytes)?;
+    context.warn(Some(model.source()), &warnings);
+    Ok(model)
+}
+
+fn read_all(from: impl Read) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    from.take(MAX_MODEL_BYTES + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn unreadable(context: &Context, path: &OsString, name: &str, error: &std::io::Error) -> Failure {
+    let diagnostic = Diagnostic::error("E-read", format!("cannot read {name}: {}", plain(error)));
+    let diagnostic = match context.line.argument(&path.to_string_lossy()) {
+        Some(span) => diagnostic.at(span, "no model can be read from here"),
+        None => diagnostic,
+    };
+    let help = "MODEL is a TOML file, '-' for standard input; left out, it is the built-in drive";
+    in_line(context.line, vec![diagnostic.help(help)]).into()
+}
+
+/// The values, domains and regions on the command line, with names that the model knows.
+pub(super) fn settings(
+    context: &Context,
+    model: &Loop,
+    options: &ModelOptions,
+    region: &RegionOptions,
+) -> Result<Settings, Failure> {
+    let mut settings = Settings::default();
+    let mut wrong = Vec::new();
+    for assignment in assignments(context.line, "--set", &options.set)? {
+        check_name(model, &assignment.name, assignment.name_span, &mut wrong)?;
+        settings.set.insert(assignment.name, assignment.value);
+    }
+    for change in domains(context.line, &options.domain)? {
+        if change.name != RADIUS && change.name != DECAY {
+            check_name(model, &change.name, change.name_span, &mut wrong)?;
+        }
+        settings.domain.insert(change.name, Range::between(change.lower, change.upper));
+    }
+    if !wrong.is_empty() {
+        return Err(in_line(context.line, wrong).into());
+    }
+    let number = |option: &str, text: &Option<String>| {
+        text.as_ref().map(|text| plain_number(context.line, option, text)).transpose()
+    };
+    settings.radius = number("--radius", &region.radius)?;
+    settings.decay = number("--decay", &region.decay)?;
+    Ok(settings)
+}
+
+/// Refuses names that cannot vary; the caret points into the command line.
+pub(super) fn known_names(context: &Context, model: &Loop, option: &str, names: &[String]) -> Result<(), Failure> {
+    let mut wrong = Vec::new();
+    for name in names {
+        check_name(model, name, context.line.option_value(option, name).span, &mut wrong)?;
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(in_line(context.line, wrong).into()) }
+}
+
+/// An unknown name is added to what is wrong with the command line; a name that the model fixes is an
+/// error about the model.
+fn check_name(model: &Loop, name: &str, span: Span, wrong: &mut Vec<Diagnostic>) -> Result<(), Error> {
+    let Err(error) = model.free(name) else { return Ok(()) };
+    match error.diagnostics() {
+        [diagnostic] if diagnostic.primary.is_none() => {
+            wrong.push(diagnostic.clone().at(span, "not in the model"));
+            Ok(())
+        }
+        _ => Err(error),
+    }
+}

@@ -1,0 +1,102 @@
+//! Aligned columns and short numbers in text for people.
+
+use crate::number::{Rational, parse_number, to_decimal};
+use std::fmt;
+
+/// Digits up to which a number is written as a decimal rather than as a fraction.
+const SHORT_DIGITS: usize = 15;
+
+/// The number as a short decimal if it is one, else as a fraction.
+pub(super) fn short(value: &Rational) -> String {
+    let decimal = to_decimal(value, SHORT_DIGITS);
+    if parse_number(&decimal).as_ref() == Ok(value) { decimal } else { value.to_string() }
+}
+
+/// `K = 110, T = 0.0001`.
+pub(super) fn named_values(values: &[(String, Rational)]) -> String {
+    let list: Vec<String> = values.iter().map(|(name, value)| format!("{name} = {}", short(value))).collect();
+    list.join(", ")
+}
+
+/// Rows of cells that are printed in columns, left-aligned.
+#[derive(Clone, Debug)]
+pub(super) struct Columns {
+    indent: String,
+    rows: Vec<Vec<String>>,
+}
+
+impl Columns {
+    pub fn new(indent: &str) -> Self {
+        Columns { indent: indent.to_owned(), rows: Vec::new() }
+    }
+
+    pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+        self.rows.push(cells.into_iter().collect());
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+}
+
+impl fmt::Display for Columns {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let count = self.rows.iter().map(Vec::len).max().unwrap_or(0);
+        let width = |k: usize| self.rows.iter().filter_map(|r| r.get(k)).map(|c| c.chars().count()).max().unwrap_or(0);
+        let widths: Vec<usize> = (0..count).map(width).collect();
+        for row in &self.rows {
+            let mut line = self.indent.clone();
+            for (cell, width) in row.iter().zip(&widths) {
+                if *width > 0 {
+                    line.push_str(&format!("{cell:<width$}   "));
+                }
+            }
+            writeln!(f, "{}", line.trim_end())?;
+        }
+        Ok(())
+    }
+}
+
+/// The text in lines of at most `width` characters, broken at blanks; later lines begin with `indent`.
+pub(super) fn wrapped(text: &str, width: usize, indent: &str) -> String {
+    let mut out = String::new();
+    let mut column = 0;
+    for word in text.split(' ') {
+        let length = word.chars().count();
+        if column > 0 && column + 1 + length > width {
+            out.push('\n');
+            out.push_str(indent);
+            column = indent.chars().count();
+        } else if column > 0 {
+            out.push(' ');
+            column += 1;
+        }
+        out.push_str(word);
+        column += length;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_aligned() {
+        let mut columns = Columns::new("  ");
+        columns.row(["a", "", "x"].map(String::from));
+        columns.row(["long", "", "y"].map(String::from));
+        assert_eq!(columns.to_string(), "  a      x\n  long   y\n");
+    }
+
+    #[test]
+    fn short_numbers() {
+        assert_eq!(short(&parse_number("1e-4").unwrap()), "0.0001");
+        assert_eq!(short(&parse_number("1/3").unwrap()), "1/3");
+    }
+
+    #[test]
+    fn wrapping() {
+        assert_eq!(wrapped("aa bb cc dd", 5, " "), "aa bb\n cc\n dd");
+    }
+}
