@@ -16,7 +16,7 @@ fn damaged_examples() {
             for _ in 0..1 + next() % 3 {
                 let at = next() % damaged.len();
                 match next() % 3 {
-                    0 => damaged[at] = b"()[]{}\"'=^*/-+.,z0 \n#\\\xff"[next() % 24],
+                    0 => damaged[at] = b"()[]{}\"'=^*/-+.,z0 \n#\\\xff"[next() % 23],
                     1 => drop(damaged.remove(at)),
                     _ => damaged.truncate(at.max(1)),
                 }
