@@ -167,10 +167,24 @@ Remedy: multiply by the denominators: "z - 1 + K", or use [[block]]."#,
 Remedy: write it like 12, 0.046, 46e-3 or 1_000."#,
     ),
     (
+        "E-option-value",
+        r#"The value of an option cannot be read.
+
+    --set K=abc
+
+Remedy: write it as the message says, for example --set K=3/2 or --domain K=0..10."#,
+    ),
+    (
         "E-output-format",
         r#"The ending of the output file names no format that the command can write.
 
 Remedy: use one of the endings the message lists."#,
+    ),
+    (
+        "E-read",
+        r#"The model file could not be read.
+
+Remedy: check the path and its permissions; - stands for standard input."#,
     ),
     (
         "E-region",
@@ -190,6 +204,14 @@ the region of stability.
     z = 1
 
 Remedy: choose another name."#,
+    ),
+    (
+        "E-set-twice",
+        r#"The same name is set twice on the command line.
+
+    --set K=1 --set K=2
+
+Remedy: leave out one of the two."#,
     ),
     (
         "E-size",

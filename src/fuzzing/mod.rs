@@ -3,9 +3,11 @@
 //! Each takes arbitrary bytes and panics exactly if a promise of the crate is broken.
 
 mod isolation;
+mod model;
 mod number;
 mod stability;
 
 pub use isolation::isolation_against_sturm;
+pub use model::model_parser;
 pub use number::number_parser;
 pub use stability::{interval_answer, jury_against_count};
