@@ -47,8 +47,6 @@ pub fn eigenvalues(matrix: &nalgebra::DMatrix<f64>) -> Option<Vec<nalgebra::Comp
     }
     let schur = nalgebra::linalg::Schur::try_new(matrix.clone(), f64::EPSILON, 10_000)?;
     let mut values: Vec<_> = schur.complex_eigenvalues().iter().copied().collect();
-    values.sort_by(|a, b| {
-        b.norm().total_cmp(&a.norm()).then(b.re.total_cmp(&a.re)).then(b.im.total_cmp(&a.im))
-    });
+    values.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(b.re.total_cmp(&a.re)).then(b.im.total_cmp(&a.im)));
     Some(values)
 }

@@ -71,12 +71,7 @@ impl SwitchedModel {
 /// let limit = growth_limit(1.0, 3.0, 1e-6, |k| Some(k / 2.0)).unwrap();
 /// assert!((limit - 2.0).abs() < 1e-6);
 /// ```
-pub fn growth_limit(
-    stable: f64,
-    unstable: f64,
-    width: f64,
-    mut growth: impl FnMut(f64) -> Option<f64>,
-) -> Option<f64> {
+pub fn growth_limit(stable: f64, unstable: f64, width: f64, mut growth: impl FnMut(f64) -> Option<f64>) -> Option<f64> {
     if growth(stable)? >= 1.0 || growth(unstable)? <= 1.0 {
         return None;
     }
