@@ -118,6 +118,15 @@ Remedy: add what the message names."#,
 Remedy: use letters, digits and underscores, and begin with a letter or an underscore."#,
     ),
     (
+        "E-no-root-locus",
+        r#"A root locus in a parameter needs the characteristic polynomial in the form den + NAME num, and this
+parameter enters with a higher power.
+
+    jurist charpoly --root-locus-form T
+
+Remedy: take a parameter that enters linearly, such as a gain."#,
+    ),
+    (
         "E-no-states",
         r#"A model given by its characteristic polynomial has no states, inputs or outputs, so it has no
 responses and no transfer functions.
@@ -168,11 +177,11 @@ Remedy: write it like 12, 0.046, 46e-3 or 1_000."#,
     ),
     (
         "E-option-value",
-        r#"The value of an option cannot be read.
+        r#"An option's value is not of the form that the option takes.
 
-    --set K=abc
+    --set K=1/3    --domain K=0..10    --domain K=0..    --domain K=..10
 
-Remedy: write it as the message says, for example --set K=3/2 or --domain K=0..10."#,
+Remedy: write the name, an equals sign, and a number or a range; a range has two dots."#,
     ),
     (
         "E-output-format",
@@ -182,9 +191,11 @@ Remedy: use one of the endings the message lists."#,
     ),
     (
         "E-read",
-        r#"The model file could not be read.
+        r#"A file cannot be read: it is not there, is no file, is closed to you, or is longer than a model may be.
 
-Remedy: check the path and its permissions; - stands for standard input."#,
+    jurist analyze mode.toml
+
+Remedy: correct the path; '-' is standard input, and no MODEL at all is the built-in drive."#,
     ),
     (
         "E-region",
@@ -207,11 +218,11 @@ Remedy: choose another name."#,
     ),
     (
         "E-set-twice",
-        r#"The same name is set twice on the command line.
+        r#"The command line gives one name two values or two domains.
 
     --set K=1 --set K=2
 
-Remedy: leave out one of the two."#,
+Remedy: keep one of the two."#,
     ),
     (
         "E-size",
