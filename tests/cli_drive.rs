@@ -2,8 +2,8 @@
 
 mod program;
 
-use program::{json, jurist, jurist_with_input};
 use jurist::number::{Rational, parse_number};
+use program::{json, jurist, jurist_with_input};
 use serde_json::Value;
 
 const LOWER: &str = "0.0381005333482991622339946374985";

@@ -118,6 +118,15 @@ Remedy: add what the message names."#,
 Remedy: use letters, digits and underscores, and begin with a letter or an underscore."#,
     ),
     (
+        "E-no-root-locus",
+        r#"A root locus in a parameter needs the characteristic polynomial in the form den + NAME num, and this
+parameter enters with a higher power.
+
+    jurist charpoly --root-locus-form T
+
+Remedy: take a parameter that enters linearly, such as a gain."#,
+    ),
+    (
         "E-no-states",
         r#"A model given by its characteristic polynomial has no states, inputs or outputs, so it has no
 responses and no transfer functions.

@@ -164,7 +164,7 @@ fn root_locus(
     let Some((num, den)) = split else {
         let span = context.line.option_value("--root-locus-form", name).span;
         let message = format!("'{name}' does not enter the characteristic polynomial linearly");
-        let diagnostic = Diagnostic::error("E-not-linear", message)
+        let diagnostic = Diagnostic::error("E-no-root-locus", message)
             .at(span, "1 + NAME num/den has NAME to the first power only")
             .help("a root locus needs a parameter that multiplies one polynomial in z or s");
         return Err(in_line(context.line, vec![diagnostic]).into());
