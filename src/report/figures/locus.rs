@@ -2,8 +2,13 @@
 
 use super::panel::{Corner, Curve, Mark, Panel, Shape, Text, side_by_side};
 use super::{COLOURS, Figure};
+use crate::analysis::{Decision, Intervals, frequency};
+use crate::limits::{Budget, Exhausted};
 use crate::model::Time;
-use crate::simulate::{Crossing, RootLocus};
+use crate::number::{Rational, to_decimal};
+use crate::simulate::{Crossing, LocusOptions, ParameterScale, RootLocus, trace_root_locus};
+use crate::stability::{Cause, End};
+use nalgebra::Complex;
 
 /// What a locus figure shows.
 #[derive(Clone, Debug)]
@@ -22,6 +27,119 @@ pub struct LocusFigure<'a> {
     pub crossings: &'a [Crossing],
     /// Half the width of the magnified panel; `None` for what shows the crossings near the focus.
     pub magnified: Option<f64>,
+}
+
+/// A locus with its picture.
+#[derive(Debug)]
+pub struct DrawnLocus {
+    /// The roots.
+    pub locus: RootLocus,
+    /// The certified crossings that lie in the range.
+    pub crossings: Vec<Crossing>,
+    /// The picture.
+    pub figure: Figure,
+}
+
+/// Bits to which the ends of the stable set are known for a picture.
+const PICTURE_BITS: u64 = 60;
+
+/// The locus of the parameter of a decided question over a range, with all certified ends in it.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn locus_of(
+    answer: &Intervals,
+    range: &(Rational, Rational),
+    scale: Option<ParameterScale>,
+    budget: &Budget,
+) -> Result<DrawnLocus, Exhausted> {
+    let question = &answer.question;
+    let discrete = question.time == Time::Discrete;
+    let focus = Complex::new(if discrete { 1.0 } else { 0.0 }, 0.0);
+    let (mut through, mut crossings, mut stable) = (Vec::new(), Vec::new(), Vec::new());
+    if let Decision::Decided(set) = &answer.stable {
+        for interval in set.intervals() {
+            let mut ends = [range.0.to_f64_approximate(), range.1.to_f64_approximate()];
+            for (end, slot) in [(&interval.lower, 0), (&interval.upper, 1)] {
+                let Some(end) = end else { continue };
+                let (lo, hi) = end.value.refined_to_digits(15).enclosure();
+                let value = lo.midpoint(&hi);
+                ends[slot] = value.to_f64_approximate();
+                if value < range.0 || value > range.1 {
+                    continue;
+                }
+                crossings.extend(crossing(end, &value, answer));
+                through.push(value);
+            }
+            stable.push((ends[0], ends[1]));
+        }
+    }
+    let wide = {
+        let (a, b) = (range.0.to_f64_approximate(), range.1.to_f64_approximate());
+        a > 0.0 && b / a > 100.0
+    };
+    let scale = scale.unwrap_or(if wide { ParameterScale::Logarithmic } else { ParameterScale::Linear });
+    let polynomial = question.polynomial.as_ref();
+    let of = |value: &Rational| {
+        let p = polynomial?;
+        (!p.is_undefined_at(value)).then(|| p.specialised(value))
+    };
+    // How far a continuous locus reaches is seen at its ends.
+    let mut reach = 2.0f64;
+    if !discrete {
+        let ends = [&range.0, &range.1].into_iter().chain(&through).filter_map(of);
+        let far = ends.flat_map(|p| crate::simulate::roots(&p)).map(|r| r.value.norm()).fold(0.0, f64::max);
+        reach = if far > 0.0 { far } else { 1.0 };
+    }
+    let options = LocusOptions { lower: range.0.clone(), upper: range.1.clone(), scale, focus, through, reach };
+    let locus = trace_root_locus(of, &options, budget)?;
+    let unit = question.unit.as_deref().map(|u| format!(" {u}")).unwrap_or_default();
+    let title = format!(
+        "Root locus, {} from {} to {}{unit}",
+        question.parameter,
+        to_decimal(&range.0, 4),
+        to_decimal(&range.1, 4)
+    );
+    let figure = locus_figure(&LocusFigure {
+        time: question.time,
+        title: &title,
+        parameter: &question.parameter,
+        locus: &locus,
+        stable: &stable,
+        crossings: &crossings,
+        magnified: None,
+    });
+    Ok(DrawnLocus { locus, crossings, figure })
+}
+
+/// Where on the boundary the roots are at an end, and its label; nothing for ends without a root
+/// there (degree lost, undefined, end of the domain).
+fn crossing(end: &End, value: &Rational, answer: &Intervals) -> Option<Crossing> {
+    let question = &answer.question;
+    let rate = frequency(end, question, PICTURE_BITS);
+    let mut at = Vec::new();
+    let approximate =
+        |e: &crate::number::Enclosure| e.lower().midpoint(e.upper()).to_f64_approximate();
+    if let Some(rate) = &rate {
+        if let Some(angle) = &rate.angle {
+            at.push(Complex::from_polar(1.0, approximate(angle)));
+        } else if let Some(w) = &rate.radians_per_second {
+            at.push(Complex::new(0.0, approximate(w)));
+        }
+    }
+    for (cause, z) in [(Cause::RootAtOne, 1.0), (Cause::RootAtMinusOne, -1.0), (Cause::RootAtZero, 0.0)] {
+        if end.causes.contains(cause) {
+            at.push(Complex::new(z, 0.0));
+        }
+    }
+    let hertz = rate.and_then(|r| r.hertz).map(|h| {
+        let f = h.lower().midpoint(h.upper());
+        let digits = if f < Rational::from(1000) { 3 } else { 4 };
+        format!(" ({} Hz)", to_decimal(&f, digits))
+    });
+    let digits = if value.abs() < Rational::from(1) { 3 } else { 5 };
+    let label = format!("{} = {}{}", question.parameter, to_decimal(value, digits), hertz.unwrap_or_default());
+    (!at.is_empty()).then(|| Crossing { parameter: value.to_f64_approximate(), at, label })
 }
 
 /// Colour where the answer says stable, and where it does not.
@@ -74,7 +192,7 @@ fn frame(figure: &LocusFigure<'_>, centre: (f64, f64), half: f64, title: String)
         x: (centre.0 - half, centre.0 + half),
         y: (centre.1 - half, centre.1 + half),
         equal: true,
-        legend: Some(Corner::BottomLeft),
+        legend: (half > 0.5 || !discrete).then_some(Corner::BottomLeft),
         ..Panel::default()
     };
     let boundary = if discrete {
@@ -82,7 +200,8 @@ fn frame(figure: &LocusFigure<'_>, centre: (f64, f64), half: f64, title: String)
         let fine = |k: i32| f64::from(k) / 2000.0 * half.min(3.0);
         let mut angles: Vec<f64> = (0..=720).map(|k| f64::from(k).to_radians() / 2.0).collect();
         angles.extend((-2000..=2000).map(fine));
-        angles.extend((-2000..=2000).map(|k| std::f64::consts::TAU + fine(k)));
+        angles.retain(|a| *a < std::f64::consts::TAU - 0.01);
+        angles.push(std::f64::consts::TAU);
         angles.sort_by(f64::total_cmp);
         angles.into_iter().map(|a| (a.cos(), a.sin())).collect()
     } else {
@@ -91,9 +210,9 @@ fn frame(figure: &LocusFigure<'_>, centre: (f64, f64), half: f64, title: String)
     panel.curves.push(Curve {
         points: boundary,
         label: Some(if discrete { "unit circle" } else { "imaginary axis" }.into()),
-        colour: "#555555".into(),
+        colour: "#777777".into(),
         width: 1.0,
-        dashed: true,
+        dashed: false,
     });
     let is_stable = |value: f64| figure.stable.iter().any(|(a, b)| value >= *a && value <= *b);
     let mut labels = (Some("stable (certified)".to_string()), Some("not stable".to_string()));

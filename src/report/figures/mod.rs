@@ -12,9 +12,9 @@ mod responses;
 mod sketch;
 
 pub use diagrams::{chopper, current_controller, drive_blocks, pwm_signal, speed_controller, tracker};
-pub use locus::{LocusFigure, locus_figure};
+pub use locus::{DrawnLocus, LocusFigure, locus_figure, locus_of};
 pub use panel::{Corner, Curve, Mark, Panel, Shape, Text, side_by_side, stacked};
-pub use responses::{ResponseCurve, response_panel, thinned};
+pub use responses::{ResponseCurve, response_panel, response_panels, thinned};
 
 use kuva::backend::svg::SvgBackend;
 use kuva::render::render::Scene;

@@ -47,6 +47,17 @@ pub fn response_panel(title: &str, y_label: &str, curves: &[ResponseCurve<'_>]) 
     }
 }
 
+/// One panel for each of these signals of a run, the title over the first.
+pub fn response_panels(title: &str, trace: &Trace, signals: &[String]) -> Vec<Panel> {
+    let panel = |(k, name): (usize, &String)| {
+        let unit = trace.signal(name).map(|s| s.unit.clone()).filter(|u| !u.is_empty());
+        let label = unit.map_or_else(|| name.clone(), |u| format!("{name} / {u}"));
+        let curve = ResponseCurve { trace, signal: name, label: "" };
+        response_panel(if k == 0 { title } else { "" }, &label, &[curve])
+    };
+    signals.iter().enumerate().map(panel).collect()
+}
+
 /// Smallest and largest value, widened by a share of their distance.
 fn extent(values: impl Iterator<Item = f64>, margin: f64) -> (f64, f64) {
     let (low, high) = values
