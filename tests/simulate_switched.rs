@@ -76,9 +76,8 @@ fn limits_of_the_linearised_circuit() {
 
 #[test]
 fn perturbed_runs_have_their_limit_where_the_eigenvalues_say() {
-    let growth = |k: f64, t: f64, pulse| {
-        switched_drive(k, t, pulse).perturbed_growth(&inputs(), 2_000, 4_000).map(|g| g.factor)
-    };
+    let growth =
+        |k: f64, t: f64, pulse| switched_drive(k, t, pulse).perturbed_growth(&inputs(), 2_000, 4_000).map(|g| g.factor);
     for (pulse, k_pwm, f) in [(Pulse::Beginning, 551.741, 2003.12), (Pulse::End, 551.012, 2005.92)] {
         let k = growth_limit(k_pwm - 0.2, k_pwm + 0.2, 0.02, |k| growth(k, 1e-4, pulse)).unwrap();
         assert!(four_digits(k, k_pwm), "{pulse:?}: {k}");

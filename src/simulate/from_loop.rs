@@ -5,9 +5,7 @@ use super::switched::{Controller, Plant, Pulse, Pwm, SwitchedModel, SwitchedStat
 use crate::error::{Error, Span};
 use crate::limits::Budget;
 use crate::matrix::RationalMatrix;
-use crate::model::{
-    Block, ClosedLoop, Diagram, Discretization, Form, Loop, ModelError, Name, Output, Question, Time,
-};
+use crate::model::{Block, ClosedLoop, Diagram, Discretization, Form, Loop, ModelError, Name, Output, Question, Time};
 use crate::number::Rational;
 use nalgebra::DMatrix;
 
@@ -194,8 +192,7 @@ impl SwitchedModel {
                 plant_states[j].clone_from(name);
             }
         }
-        let plant =
-            Plant { matrix: a, source: e.columns(r, m).into_owned(), input: e.columns(0, r).into_owned() };
+        let plant = Plant { matrix: a, source: e.columns(r, m).into_owned(), input: e.columns(0, r).into_owned() };
         let inputs = diagram.inputs.iter().map(|n| n.name.clone()).collect();
         let period = period.to_f64_approximate();
         Ok(SwitchedModel::new(period, plant, sources, controller, [plant_states, sampled.states, inputs])?)
@@ -222,7 +219,10 @@ impl<'m> Parts<'m> {
         for block in &diagram.blocks {
             if block.pwm.is_some() {
                 if block.inputs.len() != 1 || block.outputs.len() != 1 {
-                    return Err(simulation_error(format!("the modulator '{}' needs one input and one output", block.name)));
+                    return Err(simulation_error(format!(
+                        "the modulator '{}' needs one input and one output",
+                        block.name
+                    )));
                 }
                 parts.sources.push(block);
             } else if block.discretization.is_some() {
@@ -242,7 +242,11 @@ impl<'m> Parts<'m> {
     fn plant(&self, diagram: &Diagram) -> Diagram {
         let blocks = self.continuous.iter().map(|b| Block { discretization: None::<Discretization>, ..(*b).clone() });
         let inputs = diagram.inputs.iter().cloned().chain(outputs_of(&self.sources)).chain(outputs_of(&self.sampled));
-        Diagram { inputs: inputs.collect(), outputs: as_outputs(outputs_of(&self.continuous)), blocks: blocks.collect() }
+        Diagram {
+            inputs: inputs.collect(),
+            outputs: as_outputs(outputs_of(&self.continuous)),
+            blocks: blocks.collect(),
+        }
     }
 
     /// The sampled blocks, open: external inputs, pulses, continuous signals go in, what the

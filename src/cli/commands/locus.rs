@@ -97,7 +97,13 @@ fn default_range(answer: &Intervals) -> Result<(Rational, Rational), Failure> {
     };
     let one = Rational::from(1);
     let third = Rational::new(1.into(), 3.into());
-    let width = if low < high { &high - &low } else if high.is_zero() { one } else { high.abs() };
+    let width = if low < high {
+        &high - &low
+    } else if high.is_zero() {
+        one
+    } else {
+        high.abs()
+    };
     let (mut from, mut to) = (&low - &(&width * &third), &high + &(&width * &third));
     let domain = &answer.question.domain;
     let inside = |edge: &Rational, direction: i64| edge + &width * Rational::new(direction.into(), 1000.into());

@@ -134,7 +134,12 @@ pub fn pwm_signal() -> Figure {
         s.line(&[(x, base), (x + period, top), (x + period, base)], "#222222", 1.4, None);
         let (e, off) = (base - level(k) * (base - top), x + level(k) * period);
         s.line(&[(x, e), (x + period, e)], super::COLOURS[1], 2.0, None);
-        s.line(&[(x, 300.0), (x, 220.0), (off, 220.0), (off, 300.0), (x + period, 300.0)], super::COLOURS[0], 2.0, None);
+        s.line(
+            &[(x, 300.0), (x, 220.0), (off, 220.0), (off, 300.0), (x + period, 300.0)],
+            super::COLOURS[0],
+            2.0,
+            None,
+        );
         s.line(&[(off, e), (off, 300.0)], "#999999", 0.8, Some("3,3"));
         let tick = if k == 0 { "nT".to_string() } else { format!("(n+{k})T") };
         s.label((x, 318.0), &tick);

@@ -118,8 +118,7 @@ fn crossing(end: &End, value: &Rational, answer: &Intervals) -> Option<Crossing>
     let question = &answer.question;
     let rate = frequency(end, question, PICTURE_BITS);
     let mut at = Vec::new();
-    let approximate =
-        |e: &crate::number::Enclosure| e.lower().midpoint(e.upper()).to_f64_approximate();
+    let approximate = |e: &crate::number::Enclosure| e.lower().midpoint(e.upper()).to_f64_approximate();
     if let Some(rate) = &rate {
         if let Some(angle) = &rate.angle {
             at.push(Complex::from_polar(1.0, approximate(angle)));
@@ -262,10 +261,7 @@ fn frame(figure: &LocusFigure<'_>, centre: (f64, f64), half: f64, title: String)
 
 /// The branch cut where it passes from certified stable to not, each part with its first point
 /// shared so that no gap is seen.
-fn runs(
-    points: &[(f64, nalgebra::Complex<f64>)],
-    is_stable: impl Fn(f64) -> bool,
-) -> Vec<(bool, Vec<(f64, f64)>)> {
+fn runs(points: &[(f64, nalgebra::Complex<f64>)], is_stable: impl Fn(f64) -> bool) -> Vec<(bool, Vec<(f64, f64)>)> {
     let mut out: Vec<(bool, Vec<(f64, f64)>)> = Vec::new();
     for pair in points.windows(2) {
         let inside = is_stable(f64::midpoint(pair[0].0, pair[1].0));

@@ -114,7 +114,9 @@ fn tick_format(range: (f64, f64), step: f64) -> TickFormat {
     let largest = range.0.abs().max(range.1.abs());
     let decimals = (-step.log10() + 1e-9).ceil().max(0.0) as usize;
     if largest >= 1e6 || (largest < 1e-3 && largest > 0.0) {
-        return TickFormat::Custom(Arc::new(|v| if v == 0.0 { "0".into() } else { format!("{v:.1e}").replace(".0e", "e").replace('-', "\u{2212}") }));
+        return TickFormat::Custom(Arc::new(|v| {
+            if v == 0.0 { "0".into() } else { format!("{v:.1e}").replace(".0e", "e").replace('-', "\u{2212}") }
+        }));
     }
     TickFormat::Custom(Arc::new(move |v| {
         let text = format!("{v:.decimals$}");
@@ -190,7 +192,8 @@ impl Panel {
         if self.legend.is_some() && self.curves.iter().any(|c| c.label.is_some()) {
             layout.show_legend = true;
             let curves = self.curves.iter().filter_map(|c| c.label.as_ref());
-            let widest = curves.chain(self.marks.iter().filter_map(|m| m.label.as_ref())).map(|l| l.chars().count()).max();
+            let widest =
+                curves.chain(self.marks.iter().filter_map(|m| m.label.as_ref())).map(|l| l.chars().count()).max();
             layout = layout.with_legend_width(52.0 + 7.2 * widest.unwrap_or(0) as f64);
         }
         for text in &self.texts {

@@ -1,7 +1,7 @@
 //! Time responses.
 
-use super::panel::{Corner, Curve, Panel};
 use super::COLOURS;
+use super::panel::{Corner, Curve, Panel};
 use crate::simulate::Trace;
 
 /// Longest list of points a curve keeps; more would only make the file larger.
@@ -60,9 +60,8 @@ pub fn response_panels(title: &str, trace: &Trace, signals: &[String]) -> Vec<Pa
 
 /// Smallest and largest value, widened by a share of their distance.
 fn extent(values: impl Iterator<Item = f64>, margin: f64) -> (f64, f64) {
-    let (low, high) = values
-        .filter(|v| v.is_finite())
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+    let (low, high) =
+        values.filter(|v| v.is_finite()).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
     if low > high {
         return (0.0, 1.0);
     }
