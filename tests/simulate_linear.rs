@@ -78,7 +78,7 @@ fn growth_of_runs_equals_the_dominant_eigenvalue() {
     for (k, t) in cases {
         let model = sampled_drive(k.to_f64_approximate(), t.to_f64_approximate());
         let expected = dominant(&k, &t);
-        let observed = model.observed_growth(40_000, 20_000).unwrap();
+        let observed = model.observed_growth(100_000, 400_000).unwrap();
         // Three digits of the growth rate itself, which is the small distance from 1.
         let (rate, seen) = (expected.ln(), observed.ln());
         assert!((rate - seen).abs() < 5e-4 * rate.abs(), "K = {k}, T = {t}: {rate:e} {seen:e}");

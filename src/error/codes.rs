@@ -225,6 +225,16 @@ Remedy: choose another name."#,
 Remedy: keep one of the two."#,
     ),
     (
+        "E-simulation",
+        r#"The model or the options do not fit a simulation: an input or state that does not exist, a
+duration that is not positive, or a switched simulation of a model without its parts.
+
+    jurist simulate --switched model.toml
+
+Remedy: a switched simulation needs a model made of blocks, of which one has a 'pwm' entry and one a
+'discretize' entry; inputs and states go by the names that the model gives them."#,
+    ),
+    (
         "E-size",
         r#"The sizes of matrices or of lists of signals do not fit together.
 

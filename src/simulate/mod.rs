@@ -14,6 +14,7 @@ mod assignment;
 mod exact;
 mod exponential;
 mod fixed;
+mod from_loop;
 mod root_locus;
 mod roots;
 mod sampled;
@@ -22,6 +23,7 @@ mod trace;
 
 pub use exact::exact_response;
 pub use exponential::{Exponential, StateIntegral};
+pub use from_loop::excitation;
 pub use root_locus::{Branch, Crossing, LocusOptions, LocusSample, ParameterScale, RootLocus, trace_root_locus};
 pub use roots::{ApproximateRoot, roots};
 pub use sampled::{Excitation, SampledModel, Step};
