@@ -46,7 +46,7 @@ impl Figure {
 
     /// The figure as an SVG document that scales with the page.
     pub fn svg(&self) -> String {
-        let svg = SvgBackend::new().render_scene(&self.scene);
+        let svg = renumbered(&SvgBackend::new().render_scene(&self.scene), "kuva-clip-");
         let (w, h) = self.size();
         let view = format!("<svg viewBox=\"0 0 {w:.0} {h:.0}\" ");
         if svg.contains("viewBox") { svg } else { svg.replacen("<svg ", &view, 1) }
@@ -64,4 +64,22 @@ impl Figure {
     pub fn terminal(&self, columns: usize, rows: usize) -> String {
         TerminalBackend::new(columns, rows).render_scene(&self.scene)
     }
+}
+
+/// The text with the numbers behind `prefix` counted from 0 in the order in which they appear: the
+/// plotting library counts them through the whole process, and equal data shall give equal bytes.
+fn renumbered(text: &str, prefix: &str) -> String {
+    let mut parts = text.split(prefix);
+    let mut out = parts.next().unwrap_or_default().to_string();
+    let mut seen: Vec<&str> = Vec::new();
+    for part in parts {
+        let digits = part.len() - part.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+        let (number, rest) = part.split_at(digits);
+        let place = seen.iter().position(|s| *s == number).unwrap_or_else(|| {
+            seen.push(number);
+            seen.len() - 1
+        });
+        out.push_str(&format!("{prefix}{place}{rest}"));
+    }
+    out
 }
