@@ -7,6 +7,8 @@
 #![deny(missing_docs)]
 
 pub mod analysis;
+#[doc = include_str!("bibliography.md")]
+pub mod bibliography {}
 pub mod cli;
 pub mod error;
 #[cfg(feature = "strategies")]

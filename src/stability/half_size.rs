@@ -19,8 +19,8 @@ use crate::poly::{Domain, Poly, resultant_formal};
 /// Common roots of `A` and `B` correspond to pairs of roots of `D` that are mirror images of each
 /// other in the boundary: `z_i z_j = 1`, or `s_i + s_j = 0`. The resultant for the formal degrees is,
 /// up to a constant, the critical constraint of Jury and Pavlidis
-/// `d_n^(n-1) prod_(i<j) (1 - z_i z_j)` ([JuryPavlidis1963], [Bistritz2006]), or Orlando's
-/// `d_n^(n-1) prod_(i<j) (s_i + s_j)` ([Orlando1911]).
+/// `d_n^(n-1) prod_(i<j) (1 - z_i z_j)` ([JuryPavlidis1963](crate::bibliography#jurypavlidis1963), [Bistritz2006](crate::bibliography#bistritz2006)), or Orlando's
+/// `d_n^(n-1) prod_(i<j) (s_i + s_j)` ([Orlando1911](crate::bibliography#orlando1911)).
 #[derive(Clone, Debug, PartialEq)]
 pub struct HalfSizePair<R: Domain> {
     /// The first polynomial.

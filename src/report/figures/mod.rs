@@ -23,7 +23,7 @@ use kuva::{RasterBackend, TerminalBackend};
 /// Fonts in order of preference; the first is also the one that PNGs are drawn with.
 const FONTS: &str = "DejaVu Sans, Verdana, Arial, Helvetica, sans-serif";
 
-/// Colours that stay apart for every kind of colour vision [Wong2011], darkest first.
+/// Colours that stay apart for every kind of colour vision [Wong2011](crate::bibliography#wong2011), darkest first.
 pub const COLOURS: [&str; 6] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00"];
 
 /// A drawn figure.
