@@ -2,11 +2,11 @@
 
 mod whole_loops;
 
-use whole_loops::{assert_stable, example, number, set, stable_set_of};
 use jurist::analysis::{DECAY, Intervals, Settings, frequency, intervals};
 use jurist::limits::Budget;
 use jurist::number::Rational;
 use jurist::stability::End;
+use whole_loops::{assert_stable, example, number, set, stable_set_of};
 
 fn nominal() -> Settings {
     Settings::default()

@@ -2,12 +2,12 @@
 
 mod whole_loops;
 
-use whole_loops::{assert_changes_sign, assert_stable, discrete, example, load, number, set, stable_set_of};
 use jurist::analysis::{RADIUS, Settings, Verdict, frequency, intervals, verdict};
 use jurist::limits::Budget;
 use jurist::number::Rational;
 use jurist::report::margins::margin;
 use jurist::stability::Cause;
+use whole_loops::{assert_changes_sign, assert_stable, discrete, example, load, number, set, stable_set_of};
 
 fn nominal() -> Settings {
     Settings::default()

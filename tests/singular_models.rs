@@ -2,10 +2,10 @@
 
 mod whole_loops;
 
-use whole_loops::{assert_stable, continuous, discrete, load, number, set, stable_set_of};
 use jurist::analysis::{PointVerdict, Settings, Verdict, verdict};
 use jurist::limits::Budget;
 use jurist::model::Loop;
+use whole_loops::{assert_stable, continuous, discrete, load, number, set, stable_set_of};
 
 fn nominal() -> Settings {
     Settings::default()
