@@ -149,7 +149,8 @@ fn names() -> Vec<String> {
 
 /// Entries in two variables, many zero, some with poles.
 fn rational_matrix(max: usize) -> impl Strategy<Value = RationalMatrix> {
-    let fraction = |p: MultiPoly, q: MultiPoly| RationalFunction::new(p, if q.is_zero() { MultiPoly::one() } else { q });
+    let fraction =
+        |p: MultiPoly, q: MultiPoly| RationalFunction::new(p, if q.is_zero() { MultiPoly::one() } else { q });
     let entry = prop_oneof![
         4 => Just(RationalFunction::zero()),
         3 => integer().prop_map(RationalFunction::from),
@@ -159,7 +160,8 @@ fn rational_matrix(max: usize) -> impl Strategy<Value = RationalMatrix> {
         }),
     ];
     (0..=max).prop_flat_map(move |n| {
-        prop::collection::vec(entry.clone(), n * n).prop_map(move |e| RationalMatrix::from_fn(n, n, |i, j| e[i * n + j].clone()))
+        prop::collection::vec(entry.clone(), n * n)
+            .prop_map(move |e| RationalMatrix::from_fn(n, n, |i, j| e[i * n + j].clone()))
     })
 }
 
@@ -225,9 +227,13 @@ fn a_spent_budget_is_reported() {
 /// Large enough to be distributed over threads: the same for any number of them.
 #[test]
 fn threads_do_not_matter() {
-    let coefficient = |k: usize| MultiPoly::from_terms((0..3u32).flat_map(|i| {
-        (0..3u32).map(move |j| (vec![i, j], Integer::from((k * 37 + (i * 11 + j * 5) as usize * 101 % 17) as i64 % 23 - 11)))
-    }));
+    let coefficient = |k: usize| {
+        MultiPoly::from_terms((0..3u32).flat_map(|i| {
+            (0..3u32).map(move |j| {
+                (vec![i, j], Integer::from((k * 37 + (i * 11 + j * 5) as usize * 101 % 17) as i64 % 23 - 11))
+            })
+        }))
+    };
     let a: Poly<MultiPoly> = Poly::new((0..9).map(coefficient).collect());
     let b: Poly<MultiPoly> = Poly::new((20..28).map(coefficient).collect());
     let run = |threads: usize| {

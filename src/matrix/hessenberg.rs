@@ -175,7 +175,8 @@ mod tests {
         let mut state = 9u64;
         for f in [PrimeField::new(11).unwrap(), PrimeField::new(13).unwrap(), largest_primes(1)[0]] {
             for n in 0..8usize {
-                let grid = Grid::new(&f, n + 1);
+                let mut grid = Grid::new(&f, n + 1);
+                grid.prepare_interpolation(f.inverse(grid.factorial()));
                 let count = 30;
                 let mut next = |limit: u64| {
                     state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);

@@ -1,7 +1,7 @@
 //! The characteristic polynomial of a matrix of rational functions by evaluation modulo primes.
 
 use super::RationalMatrix;
-use super::hessenberg::{determinants_by_elimination, invert_and_scale_rows, reduce_to_hessenberg, from_hessenberg};
+use super::hessenberg::{determinants_by_elimination, from_hessenberg, invert_and_scale_rows, reduce_to_hessenberg};
 use super::rational::least_common_multiple;
 use crate::limits::{Budget, Exhausted};
 use crate::number::Integer;
@@ -9,7 +9,6 @@ use crate::poly::kernel::chinese::{Chinese, Limbs};
 use crate::poly::kernel::grid::Grid;
 use crate::poly::kernel::modular::PrimeField;
 use crate::poly::{Domain, Monomial, MultiPoly, Poly};
-use rayon::prelude::*;
 
 /// The greatest number of points of a grid; beyond, the recursion of Faddeev and LeVerrier is used.
 const MAX_POINTS: usize = 1 << 16;
@@ -72,8 +71,7 @@ impl Rows {
             }
             denominators.push(denominator);
         }
-        let mut rows =
-            Rows { n, entries, denominators, variables: Vec::new(), terms: Vec::new(), lengths: Vec::new() };
+        let mut rows = Rows { n, entries, denominators, variables: Vec::new(), terms: Vec::new(), lengths: Vec::new() };
         rows.bound_degrees()?;
         Some(rows)
     }
@@ -152,11 +150,7 @@ impl Rows {
             Ok(self.image(f, limbs.residues(f)))
         };
         let products = (points * chinese.fields().len()).saturating_mul(self.n.pow(3));
-        let images: Vec<Vec<u64>> = if products < PARALLEL_MIN_PRODUCTS {
-            chinese.fields().iter().map(image).collect::<Result<_, _>>()?
-        } else {
-            chinese.fields().par_iter().map(image).collect::<Result<_, _>>()?
-        };
+        let images: Vec<Vec<u64>> = chinese.images(products >= PARALLEL_MIN_PRODUCTS, image)?;
         budget.check()?;
         let stride = self.n + 1;
         let mut exponents = vec![0u32; self.variables.last().map_or(0, |last| last + 1)];
@@ -185,7 +179,7 @@ impl Rows {
         let (n, count) = (self.n, self.entries.len());
         let width = count + n;
         let longest = self.lengths.iter().copied().max().unwrap_or(1).max(n + 1);
-        let grid = Grid::new(f, longest);
+        let mut grid = Grid::new(f, longest);
         // Rows whose denominator is a number other than zero here are divided at once.
         let mut numbers = vec![0; n];
         for (i, q) in self.denominators.iter().enumerate().filter(|(_, q)| q.is_constant()) {
@@ -193,9 +187,13 @@ impl Rows {
             numbers[i] = data[count + i];
         }
         let mut inverses = numbers.clone();
+        inverses.push(grid.factorial());
         f.invert_all(&mut inverses);
+        grid.prepare_interpolation(inverses[n]);
         for block in data.chunks_exact_mut(width) {
-            for (x, (i, _, _)) in block.iter_mut().zip(&self.entries).filter(|(x, (i, _, _))| **x != 0 && numbers[*i] != 0) {
+            for (x, (i, _, _)) in
+                block.iter_mut().zip(&self.entries).filter(|(x, (i, _, _))| **x != 0 && numbers[*i] != 0)
+            {
                 *x = f.mul(*x, inverses[*i]);
             }
         }
@@ -234,7 +232,8 @@ impl Rows {
         let mut factors = vec![scale; points];
         for &point in &regular {
             let diagonal = &diagonals[point * n..(point + 1) * n];
-            factors[point] = diagonal.iter().fold(scale, |product, &q| if q == f.one() { product } else { f.mul(product, q) });
+            factors[point] =
+                diagonal.iter().fold(scale, |product, &q| if q == f.one() { product } else { f.mul(product, q) });
         }
         invert_and_scale_rows(f, &mut matrices, &mut diagonals, n, &regular);
         reduce_to_hessenberg(f, &mut matrices, n, &regular);

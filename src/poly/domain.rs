@@ -1,8 +1,8 @@
 //! What polynomial algorithms ask of their coefficients.
 
 use super::Poly;
-use super::kernel::multimodular_resultant as resultants;
 use super::kernel::kronecker::{KRONECKER_MIN_LENGTH, convolve_kronecker, convolve_schoolbook};
+use super::kernel::multimodular_resultant as resultants;
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
 use std::cmp::Ordering;

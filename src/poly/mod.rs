@@ -26,5 +26,6 @@ pub use multivariate::{Monomial, MultiPoly};
 pub use rational_function::{DisplayRationalFunction, RationalFunction};
 pub use real_roots::{SquareFree, isolate_real_roots, isolate_real_roots_in};
 pub use subresultant::{
-    discriminant, resultant, resultant_formal, resultant_formal_subresultant, resultant_subresultant, subresultant_chain,
+    discriminant, resultant, resultant_formal, resultant_formal_subresultant, resultant_subresultant,
+    subresultant_chain,
 };

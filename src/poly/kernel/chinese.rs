@@ -2,6 +2,8 @@
 
 use super::modular::{PrimeField, largest_primes, primes_for_bits};
 use crate::number::Integer;
+use rayon::prelude::*;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Signed integers as limbs, laid out to be reduced modulo many primes.
 pub struct Limbs {
@@ -45,9 +47,10 @@ impl Limbs {
             let value = match limbs {
                 [] => 0,
                 &[limb] => f.residue(limb),
-                _ => limbs.iter().zip(&places).fold(0, |sum, (&limb, &place)| {
-                    f.add(sum, f.reduce(u128::from(limb) * u128::from(place)))
-                }),
+                _ => limbs
+                    .iter()
+                    .zip(&places)
+                    .fold(0, |sum, (&limb, &place)| f.add(sum, f.reduce(u128::from(limb) * u128::from(place)))),
             };
             if negative { f.negated(value) } else { value }
         };
@@ -57,6 +60,14 @@ impl Limbs {
 
 /// Primes whose product determines every integer of a known size, and what is needed to find it.
 pub struct Chinese {
+    tables: Arc<Tables>,
+    count: usize,
+    /// Half the product of the primes, rounded down.
+    half: Vec<u64>,
+}
+
+/// What belongs to a sequence of primes; any beginning of it can be used.
+struct Tables {
     fields: Vec<PrimeField>,
     /// For each prime the products of the earlier ones modulo it: 1, p_0, p_0 p_1, ...
     places: Vec<Vec<u64>>,
@@ -64,19 +75,13 @@ pub struct Chinese {
     inverses: Vec<u64>,
     /// The products of the earlier primes as limbs; the last is that of all.
     products: Vec<Vec<u64>>,
-    /// Half the product of all primes, rounded down.
-    half: Vec<u64>,
 }
 
-impl Chinese {
-    /// For integers of magnitude below `2^bits`.
-    pub fn for_bits(bits: u64) -> Chinese {
-        // One bit for the sign.
-        Chinese::new(largest_primes(primes_for_bits(bits + 1)))
-    }
+/// The tables of up to this many primes are kept for the life of the process: about 300 kB.
+const KEPT_PRIMES: usize = 128;
 
-    /// For distinct primes.
-    pub fn new(fields: Vec<PrimeField>) -> Chinese {
+impl Tables {
+    fn new(fields: Vec<PrimeField>) -> Tables {
         let mut places = Vec::with_capacity(fields.len());
         let mut inverses = Vec::with_capacity(fields.len());
         let mut products = vec![vec![1u64]];
@@ -88,25 +93,74 @@ impl Chinese {
                 place = f.mul(place, f.residue(earlier.prime()));
             }
             places.push(row);
-            inverses.push(place);
+            inverses.push(f.inverse(place));
             let mut product = products[k].clone();
             multiply_by_word(&mut product, f.prime());
             products.push(product);
         }
-        for (f, x) in fields.iter().zip(&mut inverses) {
-            *x = f.inverse(*x);
+        Tables { fields, places, inverses, products }
+    }
+
+    /// For at least `count` of the largest primes.
+    fn of_largest(count: usize) -> Arc<Tables> {
+        static KEPT: Mutex<Option<Arc<Tables>>> = Mutex::new(None);
+        if count > KEPT_PRIMES {
+            return Arc::new(Tables::new(largest_primes(count)));
         }
-        let mut half = products.last().expect("there is the empty product").clone();
+        let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*kept {
+            Some(tables) if tables.fields.len() >= count => Arc::clone(tables),
+            _ => {
+                let enough = count.next_power_of_two().max(8);
+                Arc::clone(kept.insert(Arc::new(Tables::new(largest_primes(enough)))))
+            }
+        }
+    }
+}
+
+impl Chinese {
+    /// For integers of magnitude below `2^bits`.
+    pub fn for_bits(bits: u64) -> Chinese {
+        // One bit for the sign.
+        let count = primes_for_bits(bits + 1);
+        Chinese::beginning(Tables::of_largest(count), count)
+    }
+
+    /// For distinct primes.
+    pub fn new(fields: Vec<PrimeField>) -> Chinese {
+        let count = fields.len();
+        Chinese::beginning(Arc::new(Tables::new(fields)), count)
+    }
+
+    fn beginning(tables: Arc<Tables>, count: usize) -> Chinese {
+        let mut half = tables.products[count].clone();
         let mut carry = 0;
         for limb in half.iter_mut().rev() {
             (*limb, carry) = ((*limb >> 1) | (carry << 63), *limb & 1);
         }
-        Chinese { fields, places, inverses, products, half }
+        Chinese { tables, count, half }
     }
 
     /// The primes.
     pub fn fields(&self) -> &[PrimeField] {
-        &self.fields
+        &self.tables.fields[..self.count]
+    }
+
+    /// The images under `f` for each prime in their order, on several threads if `parallel`.
+    ///
+    /// # Errors
+    /// The first error in the order of the primes or, on several threads, any of them.
+    pub fn images<T: Send, E: Send>(
+        &self,
+        parallel: bool,
+        f: impl Fn(&PrimeField) -> Result<T, E> + Sync,
+    ) -> Result<Vec<T>, E> {
+        // With one thread there is nobody to hand work to.
+        if parallel && self.count > 1 && rayon::current_num_threads() > 1 {
+            self.fields().par_iter().map(f).collect()
+        } else {
+            self.fields().iter().map(f).collect()
+        }
     }
 
     /// The integer of magnitude below half the product of the primes with the given residues, which
@@ -115,17 +169,18 @@ impl Chinese {
     /// # Panics
     /// When there are not as many residues as primes.
     pub fn integer(&self, residues: impl IntoIterator<Item = u64>) -> Integer {
-        let mut digits = Vec::with_capacity(self.fields.len());
-        for (((f, row), &inverse), x) in self.fields.iter().zip(&self.places).zip(&self.inverses).zip(residues) {
+        let Tables { places, inverses, products, .. } = &*self.tables;
+        let mut digits = Vec::with_capacity(self.count);
+        for (((f, row), &inverse), x) in self.fields().iter().zip(places).zip(inverses).zip(residues) {
             // The digits are plain integers, the places forms: the sum is a plain residue.
             let known = f.dot(&digits, row);
             digits.push(f.mul(f.sub(f.integer(x), known), inverse));
         }
-        assert_eq!(digits.len(), self.fields.len(), "a residue for each prime");
+        assert_eq!(digits.len(), self.count, "a residue for each prime");
         let used = digits.iter().rposition(|&d| d != 0).map_or(0, |last| last + 1);
-        let product = self.products.last().expect("there is the empty product");
+        let product = &products[self.count];
         let mut value = vec![0u64; product.len()];
-        for (&digit, place) in digits[..used].iter().zip(&self.products) {
+        for (&digit, place) in digits[..used].iter().zip(products) {
             add_product(&mut value, place, digit);
         }
         if value.iter().rev().le(self.half.iter().rev()) {
@@ -180,8 +235,7 @@ mod tests {
             let values = [Integer::ZERO, Integer::ONE, top.clone(), &top >> 1, &(&top >> (bits / 2)) << (bits / 2)];
             let chinese = Chinese::for_bits(bits);
             for value in values.iter().filter(|v| v.bit_length() <= bits).flat_map(|v| [v.clone(), -v]) {
-                let residues: Vec<u64> =
-                    chinese.fields().iter().map(|f| Limbs::new([&value]).residues(f)[0]).collect();
+                let residues: Vec<u64> = chinese.fields().iter().map(|f| Limbs::new([&value]).residues(f)[0]).collect();
                 for (f, &r) in chinese.fields().iter().zip(&residues) {
                     assert_eq!(f.integer(r), value.mod_u64(f.prime()));
                 }

@@ -14,7 +14,7 @@ pub struct Grid<'a> {
 }
 
 impl<'a> Grid<'a> {
-    /// For axes of at most `longest` points.
+    /// For axes of at most `longest` points; interpolation needs [`Grid::prepare_interpolation`] first.
     ///
     /// # Panics
     /// When the prime is not above the number of points.
@@ -22,21 +22,27 @@ impl<'a> Grid<'a> {
         assert!((longest as u64) < field.prime(), "the points are distinct modulo the prime");
         let mut points = Vec::with_capacity(longest);
         let mut point = 0;
-        let mut factorial = field.one();
-        for k in 0..longest {
+        for _ in 0..longest {
             points.push(point);
-            if k > 0 {
-                factorial = field.mul(factorial, point);
-            }
             point = field.add(point, field.one());
         }
-        let mut inverse_factorials = vec![0; longest];
-        let mut inverse = if longest > 1 { field.inverse(factorial) } else { field.one() };
-        for k in (0..longest).rev() {
-            inverse_factorials[k] = inverse;
-            inverse = field.mul(inverse, points[k]);
+        Grid { field, points, inverse_factorials: Vec::new() }
+    }
+
+    /// The factorial of the last point, whose inverse [`Grid::prepare_interpolation`] takes: so the
+    /// caller can invert it together with other elements.
+    pub fn factorial(&self) -> u64 {
+        self.points.iter().skip(2).fold(self.field.one(), |product, &point| self.field.mul(product, point))
+    }
+
+    /// Makes the tables of interpolation from the inverse of [`Grid::factorial`].
+    pub fn prepare_interpolation(&mut self, inverse_factorial: u64) {
+        let mut inverse = inverse_factorial;
+        self.inverse_factorials = vec![inverse; self.points.len()];
+        for (k, &point) in self.points.iter().enumerate().rev() {
+            self.inverse_factorials[k] = inverse;
+            inverse = self.field.mul(inverse, point);
         }
-        Grid { field, points, inverse_factorials }
     }
 
     /// The points 0, 1, 2, ... in the form of the field.
@@ -155,9 +161,11 @@ mod tests {
     #[test]
     fn values_and_coefficients() {
         let f = largest_primes(1)[0];
-        let grid = Grid::new(&f, 12);
+        let mut grid = Grid::new(&f, 12);
+        grid.prepare_interpolation(f.inverse(grid.factorial()));
         for (outer, terms, inner) in [(1, 1, 1), (1, 5, 1), (2, 2, 3), (3, 4, 2), (1, 12, 1), (2, 7, 1)] {
-            let data: Vec<u64> = (0..outer * terms * inner).map(|k| f.residue((k * k * 977 + 31 * k + 5) as u64)).collect();
+            let data: Vec<u64> =
+                (0..outer * terms * inner).map(|k| f.residue((k * k * 977 + 31 * k + 5) as u64)).collect();
             for count in [1, 2, terms, 12] {
                 let values = grid.evaluate(&data, terms, inner, count);
                 for o in 0..outer {
@@ -186,7 +194,8 @@ mod tests {
     #[test]
     fn a_small_prime_suffices_for_few_points() {
         let f = PrimeField::new(7).unwrap();
-        let grid = Grid::new(&f, 6);
+        let mut grid = Grid::new(&f, 6);
+        grid.prepare_interpolation(f.inverse(grid.factorial()));
         let data: Vec<u64> = [3, 1, 4, 1, 5, 2].map(|c| f.residue(c)).to_vec();
         let mut values = grid.evaluate(&data, 6, 1, 6);
         grid.interpolate(&mut values, 6, 1);

@@ -139,9 +139,22 @@ impl PrimeField {
         result
     }
 
-    /// `1 / x`; 0 for 0.
+    /// `1 / x`; 0 for 0. By Euclid's algorithm, about half the time of a power.
     pub fn inverse(&self, x: u64) -> u64 {
-        self.power(x, self.prime - 2)
+        // x times `factor` is `small` modulo p in every step, for magnitudes at most p.
+        let (mut large, mut small) = (self.prime, x);
+        let (mut before, mut factor) = (0i64, 1i64);
+        while small > 1 {
+            let quotient = large / small;
+            (large, small) = (small, large - quotient * small);
+            (before, factor) = (factor, before - quotient as i64 * factor);
+        }
+        if small == 0 {
+            return 0;
+        }
+        // The plain inverse of the form is a^-1 2^-64; two products with 2^128 give a^-1 2^64.
+        let plain = if factor < 0 { self.prime.wrapping_add_signed(factor) } else { factor as u64 };
+        self.mul(self.mul(plain, self.square), self.square)
     }
 
     /// Replaces non-zero elements by their inverses, zero by zero, with one inversion and three
@@ -178,11 +191,23 @@ pub fn is_prime(n: u64) -> bool {
             return n == p;
         }
     }
-    let product = |x: u64, y: u64| (u128::from(x) * u128::from(y) % u128::from(n)) as u64;
+    if n < PrimeField::LIMIT {
+        // The arithmetic of Montgomery asks only for an odd modulus.
+        let f = PrimeField::of_odd(n);
+        let bases = BASES.map(|p| f.residue(p));
+        return passes_miller_rabin(n, &bases, f.one, |x, y| f.mul(x, y));
+    }
+    passes_miller_rabin(n, &BASES, 1, |x, y| (u128::from(x) * u128::from(y) % u128::from(n)) as u64)
+}
+
+/// Whether no base proves that an odd number is composite; `one` and the bases are in the form
+/// that `product` multiplies.
+fn passes_miller_rabin(n: u64, bases: &[u64], one: u64, product: impl Fn(u64, u64) -> u64) -> bool {
+    let minus_one = n - one;
     let twos = (n - 1).trailing_zeros();
     let odd = (n - 1) >> twos;
     let witnesses_composite = |base: u64| {
-        let (mut x, mut square, mut e) = (1, base, odd);
+        let (mut x, mut square, mut e) = (one, base, odd);
         while e > 0 {
             if e & 1 == 1 {
                 x = product(x, square);
@@ -190,18 +215,18 @@ pub fn is_prime(n: u64) -> bool {
             square = product(square, square);
             e >>= 1;
         }
-        if x == 1 || x == n - 1 {
+        if x == one || x == minus_one {
             return false;
         }
         for _ in 1..twos {
             x = product(x, x);
-            if x == n - 1 {
+            if x == minus_one {
                 return false;
             }
         }
         true
     };
-    !BASES.into_iter().any(witnesses_composite)
+    !bases.iter().any(|&base| witnesses_composite(base))
 }
 
 /// The fields of the `count` greatest primes below 2^62, in descending order. They are found once
@@ -279,11 +304,15 @@ mod tests {
                 let (ab, cd) = (u128::from(a) * u128::from(b), u128::from(c) * u128::from(d));
                 assert_eq!(f.integer(f.mul(x, y)), wide(ab));
                 assert_eq!(f.integer(f.mul_add_mul(x, y, z, w)), wide(ab + cd));
-                assert_eq!(f.integer(f.dot(&[x, z, x, z, x, z], &[y, w, y, w, y, w])), wide(3 * ((ab + cd) % u128::from(p))));
+                assert_eq!(
+                    f.integer(f.dot(&[x, z, x, z, x, z], &[y, w, y, w, y, w])),
+                    wide(3 * ((ab + cd) % u128::from(p)))
+                );
                 assert_eq!(f.integer(f.add(x, y)), wide(u128::from(a) + u128::from(b)));
                 assert_eq!(f.add(f.sub(x, y), y), x);
                 assert_eq!(f.add(f.negated(x), x), 0);
                 assert_eq!(f.mul(x, f.inverse(x)), if x == 0 { 0 } else { f.one() });
+                assert_eq!(f.inverse(x), f.power(x, p - 2));
                 let mut all = [x, y, 0, z];
                 f.invert_all(&mut all);
                 assert_eq!(all, [f.inverse(x), f.inverse(y), 0, f.inverse(z)]);

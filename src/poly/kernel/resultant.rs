@@ -5,7 +5,6 @@ use super::grid::Grid;
 use super::modular::PrimeField;
 use crate::limits::{Budget, Exhausted};
 use crate::number::Integer;
-use rayon::prelude::*;
 
 /// Primes are distributed over the threads when there are at least this many products of residues
 /// to compute in all: about 4 ms of work, against some 0.1 ms to wake the other threads.
@@ -85,12 +84,8 @@ impl DensePair<'_> {
             budget.check()?;
             Ok(self.image(f, limbs.residues(f), &lengths))
         };
-        let images: Vec<Vec<u64>> =
-            if size * chinese.fields().len() * (self.degrees.0 * self.degrees.1).max(1) < PARALLEL_MIN_PRODUCTS {
-                chinese.fields().iter().map(image).collect::<Result<_, _>>()?
-            } else {
-                chinese.fields().par_iter().map(image).collect::<Result<_, _>>()?
-            };
+        let products = size * chinese.fields().len() * (self.degrees.0 * self.degrees.1).max(1);
+        let images: Vec<Vec<u64>> = chinese.images(products >= PARALLEL_MIN_PRODUCTS, image)?;
         budget.check()?;
         Ok((0..size).map(|k| chinese.integer(images.iter().map(|image| image[k]))).collect())
     }
@@ -98,7 +93,7 @@ impl DensePair<'_> {
     /// The resultant modulo one prime.
     fn image(&self, f: &PrimeField, residues: Vec<u64>, lengths: &[usize]) -> Vec<u64> {
         let rows = self.degrees.0 + self.degrees.1 + 2;
-        let grid = Grid::new(f, lengths.iter().copied().max().unwrap_or(1));
+        let mut grid = Grid::new(f, lengths.iter().copied().max().unwrap_or(1));
         let mut data = residues;
         let mut inner = rows;
         for (&terms, &length) in self.terms.iter().zip(lengths).rev() {
@@ -106,7 +101,7 @@ impl DensePair<'_> {
             inner *= length;
         }
         let mut values = Vec::with_capacity(data.len() / rows);
-        let mut divisors = Vec::with_capacity(data.len() / rows);
+        let mut divisors = Vec::with_capacity(data.len() / rows + 1);
         let mut scratch = Scratch::default();
         for pair in data.chunks_exact(rows) {
             let (a, b) = pair.split_at(self.degrees.0 + 1);
@@ -114,7 +109,9 @@ impl DensePair<'_> {
             values.push(value);
             divisors.push(divisor);
         }
+        divisors.push(grid.factorial());
         f.invert_all(&mut divisors);
+        grid.prepare_interpolation(divisors[values.len()]);
         for (v, &d) in values.iter_mut().zip(&divisors) {
             *v = f.mul(*v, d);
         }
@@ -302,7 +299,12 @@ mod tests {
                 .unwrap();
                 let expected = expected.mod_u64(f.prime());
                 let (a_image, b_image) = (image(&a), image(&b));
-                assert_eq!(f.integer(resultant_modulo(&f, &a_image, &b_image)), expected, "{a:?} {b:?} mod {}", f.prime());
+                assert_eq!(
+                    f.integer(resultant_modulo(&f, &a_image, &b_image)),
+                    expected,
+                    "{a:?} {b:?} mod {}",
+                    f.prime()
+                );
                 assert_eq!(f.integer(resultant_euclid(&f, &a_image, &b_image)), expected, "{a:?} {b:?}");
             }
         }

@@ -1,8 +1,8 @@
 //! Sums, products, powers and the operators.
 
 use super::{Monomial, MultiPoly};
-use crate::number::Integer;
 use crate::limits::Budget;
+use crate::number::Integer;
 use crate::poly::domain::Fast;
 use crate::poly::{Domain, Poly};
 use std::cmp::Ordering;
