@@ -153,11 +153,11 @@ impl Chinese {
     pub fn images<T: Send, E: Send>(
         &self,
         parallel: bool,
-        f: impl Fn(&PrimeField) -> Result<T, E> + Sync,
+        f: impl Fn(&PrimeField) -> Result<T, E> + Send + Sync,
     ) -> Result<Vec<T>, E> {
         // With one thread there is nobody to hand work to.
         if parallel && self.count > 1 && rayon::current_num_threads() > 1 {
-            self.fields().par_iter().map(f).collect()
+            self.fields().par_iter().map(&f).collect()
         } else {
             self.fields().iter().map(f).collect()
         }
