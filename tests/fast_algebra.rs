@@ -195,7 +195,7 @@ fn denominators_that_vanish_modulo_the_primes() {
         m.characteristic_polynomial_faddeev_leverrier(names(), &unlimited())
     );
     // Leading coefficients divisible by them.
-    let a = Poly::new([7, 3, -2, 5].map(|c| Integer::from(c)).into_iter().chain([product.clone()]).collect());
+    let a = Poly::new([7, 3, -2, 5].map(Integer::from).into_iter().chain([product.clone()]).collect());
     let b = Poly::new(vec![Integer::from(4), Integer::from(-9), Integer::from(11), -product.clone()]);
     let expected = resultant_subresultant(&a, &b, &unlimited()).unwrap();
     assert_eq!(resultant_multimodular_integers(&a, 4, &b, 3, &unlimited()).unwrap(), expected);

@@ -27,8 +27,9 @@ fn determinant(mut m: Matrix) -> Rational {
         product = &product * &m[i][i];
         for r in i + 1..m.len() {
             let factor = &m[r][i] / &m[i][i];
-            for c in i..m.len() {
-                m[r][c] = &m[r][c] - &factor * &m[i][c];
+            let (above, below) = m.split_at_mut(r);
+            for (entry, pivot) in below[0].iter_mut().zip(&above[i]).skip(i) {
+                *entry = &*entry - &(&factor * pivot);
             }
         }
     }

@@ -51,7 +51,7 @@ fn equations_7_and_10_are_the_transfer_functions_of_8_9_and_11_12() {
     let [kp, ki, k, t] = [0, 1, 2, 3].map(RationalFunction::variable);
     let half_ki_t = (&ki * &t).checked_div(&2.into()).unwrap();
     // K_p/z + K_i/z T/2 (z + 1)/(z - 1) over the denominator z (z - 1).
-    let numerator = vec![&half_ki_t - &kp, &half_ki_t + &kp];
+    let numerator = [&half_ki_t - &kp, &half_ki_t + &kp];
     let denominator = [0.into(), -&RationalFunction::one(), RationalFunction::one()];
     for (input, factor) in [("reference", RationalFunction::one()), ("measured", -&k)] {
         let tf = lp.transfer_function(input, "out", &question, &Budget::unlimited()).unwrap();

@@ -23,7 +23,7 @@ const PARALLEL_MIN_PRODUCTS: usize = 1 << 21;
 /// With row `i` brought to the denominator `q_i`, `P = det(z Q - N)` for `Q = diag(q_i)`. Its degrees are at most
 /// the sums over the rows (or columns) of the greatest degrees, its coefficients at most the product of the
 /// Euclidean lengths of the rows (or columns), every entry replaced by the sum of the magnitudes of its
-/// coefficients ([Hadamard1893] on the torus of parameters of modulus 1). `Q^-1 N` is reduced to the form of
+/// coefficients ([Hadamard1893](crate::bibliography#hadamard1893) on the torus of parameters of modulus 1). `Q^-1 N` is reduced to the form of
 /// Hessenberg at each point of a grid modulo each prime, `O(n^3)` products of residues, and where `Q` is
 /// singular there, determinants are interpolated in `z`: no point and no prime is unlucky.
 ///
@@ -120,7 +120,7 @@ impl Rows {
                 for norm in (0..n).map(|j| &norms[index(i, j)]).filter(|norm| !norm.is_zero()) {
                     square.add_mul_assign(norm, norm);
                 }
-                product = product * square;
+                product *= square;
             }
             product.bit_length().div_ceil(2)
         };

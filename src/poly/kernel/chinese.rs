@@ -164,7 +164,7 @@ impl Chinese {
     }
 
     /// The integer of magnitude below half the product of the primes with the given residues, which
-    /// are in the form of the field of each prime ([Garner1959]).
+    /// are in the form of the field of each prime ([Garner1959](crate::bibliography#garner1959)).
     ///
     /// # Panics
     /// When there are not as many residues as primes.

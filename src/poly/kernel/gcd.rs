@@ -2,13 +2,12 @@
 
 use super::chinese::{Chinese, Limbs};
 use super::modular::{PrimeField, largest_primes};
-use crate::number::Integer;
 use crate::poly::{Domain, Poly, UniPoly};
 
 /// The subresultant sequence is used up to this degree of the smaller polynomial.
 pub const MODULAR_MIN_DEGREE: usize = 3;
 
-/// A greatest common divisor of two non-zero primitive polynomials, up to sign ([Brown1971]).
+/// A greatest common divisor of two non-zero primitive polynomials, up to sign ([Brown1971](crate::bibliography#brown1971)).
 ///
 /// The degree of the divisor modulo a prime that does not divide both leading coefficients is never too small,
 /// so a common divisor over the integers of that degree is a greatest one: the result is

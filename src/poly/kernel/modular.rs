@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// The integers modulo an odd prime `p < 2^62`.
 ///
-/// Residues are held in the form of Montgomery, `x 2^64 mod p`, in `0..p` ([Montgomery1985]); all
+/// Residues are held in the form of Montgomery, `x 2^64 mod p`, in `0..p` ([Montgomery1985](crate::bibliography#montgomery1985)); all
 /// methods take and return that form unless they say otherwise. The two spare bits of the word let
 /// up to four products be added up before they are reduced.
 ///
@@ -180,14 +180,14 @@ impl PrimeField {
 }
 
 /// Whether `n` is prime, by the test of Miller and Rabin for the first twelve primes as bases: a
-/// proof for every `n < 2^64` ([SorensonWebster2015]).
+/// proof for every `n < 2^64` ([SorensonWebster2015](crate::bibliography#sorensonwebster2015)).
 pub fn is_prime(n: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
     if n < 2 {
         return false;
     }
     for p in BASES {
-        if n % p == 0 {
+        if n.is_multiple_of(p) {
             return n == p;
         }
     }

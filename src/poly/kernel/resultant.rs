@@ -48,7 +48,7 @@ impl DensePair<'_> {
     /// `e` such that every coefficient of the resultant is below `2^e` in magnitude.
     ///
     /// Where all variables have modulus 1 the determinant of Sylvester is at most the product of the
-    /// Euclidean lengths of its rows ([Hadamard1893]), with the sum of the magnitudes of its coefficients
+    /// Euclidean lengths of its rows ([Hadamard1893](crate::bibliography#hadamard1893)), with the sum of the magnitudes of its coefficients
     /// in place of each entry; and by Cauchy's formula no coefficient exceeds the greatest value there.
     pub fn height_bits(&self) -> u64 {
         let rows = self.degrees.0 + self.degrees.1 + 2;
@@ -144,10 +144,13 @@ pub fn resultant_modulo(f: &PrimeField, a: &[u64], b: &[u64]) -> u64 {
 /// The formal resultant as a quotient, so that many divisors can be inverted at once.
 fn resultant_fraction(f: &PrimeField, a: &[u64], b: &[u64], scratch: &mut Scratch) -> (u64, u64) {
     let (n, m) = (a.len() - 1, b.len() - 1);
-    if (n == m || n == m + 1) && m > 0 && a[n] != 0 && b[m] != 0 {
-        if let Some(fraction) = resultant_regular(f, a, b, scratch) {
-            return fraction;
-        }
+    if (n == m || n == m + 1)
+        && m > 0
+        && a[n] != 0
+        && b[m] != 0
+        && let Some(fraction) = resultant_regular(f, a, b, scratch)
+    {
+        return fraction;
     }
     (resultant_euclid(f, a, b), f.one())
 }
