@@ -149,6 +149,16 @@ impl Integer {
         self.0.unsigned_abs_ref().to_limbs_asc()
     }
 
+    /// The magnitude's 64-bit limbs in place, least significant first.
+    pub fn as_limbs(&self) -> &[u64] {
+        self.0.unsigned_abs_ref().as_limbs_asc()
+    }
+
+    /// The integer with these 64-bit limbs in two's complement, least significant first.
+    pub fn from_twos_complement(limbs: &[u64]) -> Integer {
+        Integer(Inner::from_twos_complement_limbs_asc(limbs))
+    }
+
     /// The non-negative integer with these 64-bit limbs, least significant first.
     pub fn from_limbs(limbs: Vec<u64>) -> Integer {
         Integer(Inner::from(Natural::from_owned_limbs_asc(limbs)))

@@ -42,7 +42,7 @@ impl Bracket {
     }
 
     /// How many halvings lead to a width of at most `2^-target`.
-    fn bits_missing(&self, target: i64) -> u64 {
+    pub fn bits_missing(&self, target: i64) -> u64 {
         let width = &self.hi - &self.lo;
         // width <= 2^ceil(log2 width).
         let exact = width.trailing_zeros() == Some(width.bit_length() - 1);
@@ -126,7 +126,7 @@ impl Bracket {
 }
 
 /// The grid point, from 1 to `cells - 1`, nearest to where the chord crosses zero.
-fn secant(at_lo: &Integer, at_hi: &Integer, m: u64, cells: &Integer) -> Integer {
+pub(super) fn secant(at_lo: &Integer, at_hi: &Integer, m: u64, cells: &Integer) -> Integer {
     let (a, b) = (at_lo.abs(), at_hi.abs());
     // Leading bits are enough for a guess.
     let drop = a.bit_length().max(b.bit_length()).saturating_sub(m + 64);
