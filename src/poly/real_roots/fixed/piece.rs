@@ -5,7 +5,7 @@ use super::evaluate::Evaluator;
 use super::limbs::{max_bits, write_shifted};
 use super::triangle::{HEADROOM, fitting_width};
 use crate::limits::{Budget, Exhausted};
-use crate::number::Integer;
+use crate::number::{Integer, Sign};
 use crate::poly::UniPoly;
 use std::rc::Rc;
 
@@ -26,6 +26,12 @@ impl Cell {
     /// The upper end, times `2^bits`.
     pub fn hi(&self) -> Integer {
         &self.lo + &(&Integer::ONE << self.log_width)
+    }
+
+    /// The order of the lower ends.
+    pub fn compare(&self, other: &Cell) -> Sign {
+        let bits = self.bits.max(other.bits);
+        (&self.lo << (bits - self.bits)).cmp(&(&other.lo << (bits - other.bits)))
     }
 
     /// Both halves.

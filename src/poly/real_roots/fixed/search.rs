@@ -67,6 +67,7 @@ pub fn search(piece: &mut Piece, most: usize, budget: &Budget) -> Result<Vec<Fou
         budget.check()?;
         step(piece, node, &mut stack, &mut found, budget)?;
     }
+    found.sort_by(|a, b| a.cell.compare(&b.cell));
     Ok(found)
 }
 
@@ -133,7 +134,6 @@ fn halve(piece: &mut Piece, node: Node, stack: &mut Vec<Node>, found: &mut Vec<F
     let halves = [(upper, right, (middle, ends.1)), (lower, left, (ends.0, middle))];
     let counts: Vec<Variations> =
         halves.iter().map(|(_, flat, ends)| variations(flat, limbs, error, ends.0, ends.1)).collect();
-    // The upper half first: the lower one is then settled before it.
     for (k, (cell, flat, ends)) in halves.into_iter().enumerate() {
         let variations = counts[k];
         if variations.most == 0 {
