@@ -1,7 +1,7 @@
 //! Rational roots, exactly: roots modulo a small prime, lifted until only one fraction fits.
 
 use super::bounds::root_bound_bits;
-use super::modular::{power, residues};
+use super::modular::{power, residues, without_rational_roots};
 use super::square_free::SquareFree;
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
@@ -27,7 +27,7 @@ pub fn rational_roots(p: &SquareFree, budget: &Budget) -> Result<(Vec<Rational>,
         roots.push(Rational::ZERO);
         rest = UniPoly::new(rest.into_coeffs().split_off(1));
     }
-    if rest.coeffs().len() > 2 {
+    if rest.coeffs().len() > 2 && !without_rational_roots(&rest) {
         let (prime, residues) = choose_prime(&rest, budget)?;
         let mut lift = Lift::new(rest.clone(), prime);
         for r in residues {

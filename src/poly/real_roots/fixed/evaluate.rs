@@ -1,6 +1,6 @@
 //! Values of a polynomial on the unit interval in fixed point, with a bound of the error.
 
-use super::limbs::{add_assign, is_negative, negate, within, write_shifted};
+use super::limbs::{add, add_assign, is_negative, within, write_shifted};
 use crate::number::Integer;
 use std::collections::BTreeMap;
 
@@ -78,16 +78,15 @@ impl Evaluator {
         // Trailing zeros cost time.
         let zeros = x.iter().take_while(|&&l| l == 0).count().min(x.len() - 1);
         let x = &x[zeros..];
-        let value = match limbs {
-            2 => horner::<2>(table, x),
-            3 => horner::<3>(table, x),
-            4 => horner::<4>(table, x),
-            5 => horner::<5>(table, x),
-            6 => horner::<6>(table, x),
-            7 => horner::<7>(table, x),
-            8 => horner::<8>(table, x),
-            _ => horner_any(table, limbs, x),
-        };
+        macro_rules! by_width {
+            ($($l:literal),*) => {
+                match limbs {
+                    $($l => horner::<$l>(table, x),)*
+                    _ => horner_any(table, limbs, x),
+                }
+            };
+        }
+        let value = by_width!(2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 20, 24, 32);
         // A step adds a unit for the coefficient, a unit for the argument, and x.len() + 1 for the product.
         Value { limbs: value, error: (n as u64 + 1) * (x.len() as u64 + 3) }
     }
@@ -95,62 +94,73 @@ impl Evaluator {
 
 fn horner<const L: usize>(table: &[u64], x: &[u64]) -> Vec<u64> {
     let mut acc = [0u64; L];
-    let mut scratch = vec![0u64; L + x.len()];
     for c in table.as_chunks::<L>().0.iter().rev() {
-        product_high(&mut acc, x, &mut scratch);
-        add_assign(&mut acc, c);
+        acc = add(&product_high(&acc, x), c);
     }
     acc.to_vec()
+}
+
+/// `a x / 2^(64 x.len())`, rounded down, for a signed `a` not shorter than `x`, a fraction of 1.
+#[inline(always)]
+fn product_high<const L: usize>(a: &[u64; L], x: &[u64]) -> [u64; L] {
+    let mut t = [0u64; L];
+    for &y in x {
+        // t = (t + a y) / 2^64 for unsigned a.
+        let mut carry = 0;
+        for i in 0..L {
+            let v = u128::from(a[i]) * u128::from(y) + u128::from(t[i]) + u128::from(carry);
+            if i > 0 {
+                t[i - 1] = v as u64;
+            }
+            carry = (v >> 64) as u64;
+        }
+        t[L - 1] = carry;
+    }
+    if is_negative(a) {
+        // a is its unsigned value less 2^(64 L).
+        subtract(&mut t[L - x.len()..], x);
+    }
+    t
 }
 
 fn horner_any(table: &[u64], limbs: usize, x: &[u64]) -> Vec<u64> {
     let mut acc = vec![0u64; limbs];
     let mut scratch = vec![0u64; limbs + x.len()];
     for c in table.chunks_exact(limbs).rev() {
-        product_high(&mut acc, x, &mut scratch);
+        product_high_any(&mut acc, x, &mut scratch);
         add_assign(&mut acc, c);
     }
     acc
 }
 
-/// `acc = acc x / 2^(64 x.len())` for a signed `acc` not shorter than `x`, which is a fraction of 1;
-/// less than `x.len() + 1` units wrong.
-#[inline(always)]
-fn product_high(acc: &mut [u64], x: &[u64], scratch: &mut [u64]) {
+/// The same for any width, less than two units below.
+fn product_high_any(acc: &mut [u64], x: &[u64], scratch: &mut [u64]) {
     let (n, m) = (acc.len(), x.len());
-    let negative = is_negative(acc);
-    if negative {
-        negate(acc);
-    }
-    if m == 1 {
+    scratch.fill(0);
+    for (j, &y) in x.iter().enumerate() {
+        // Products two limbs below the last that stays hardly matter.
+        let skip = m.saturating_sub(j + 2).min(n);
         let mut carry = 0;
-        for a in acc.iter_mut() {
-            let t = u128::from(*a) * u128::from(x[0]) + u128::from(carry);
-            (*a, carry) = (carry_low(t), (t >> 64) as u64);
+        for (&a, place) in acc[skip..].iter().zip(&mut scratch[skip + j..]) {
+            let t = u128::from(a) * u128::from(y) + u128::from(*place) + u128::from(carry);
+            (*place, carry) = (t as u64, (t >> 64) as u64);
         }
-        // The lowest limb is the fraction that goes.
-        acc.copy_within(1.., 0);
-        acc[n - 1] = carry;
-    } else {
-        scratch.fill(0);
-        for (j, &y) in x.iter().enumerate() {
-            // Products below the limb before the last dropped one hardly matter.
-            let skip = (m - 1).saturating_sub(j + 1).min(n);
-            let mut carry = 0;
-            for i in skip..n {
-                let t = u128::from(acc[i]) * u128::from(y) + u128::from(scratch[i + j]) + u128::from(carry);
-                (scratch[i + j], carry) = (carry_low(t), (t >> 64) as u64);
-            }
-            scratch[j + n] = carry;
-        }
-        acc.copy_from_slice(&scratch[m..m + n]);
+        scratch[j + n] = carry;
     }
-    if negative {
-        negate(acc);
+    if is_negative(acc) {
+        subtract(&mut scratch[n..], x);
     }
+    acc.copy_from_slice(&scratch[m..m + n]);
 }
 
+/// `a -= b`, of one length.
 #[inline(always)]
-fn carry_low(t: u128) -> u64 {
-    t as u64
+fn subtract(a: &mut [u64], b: &[u64]) {
+    let mut borrow = false;
+    for (x, y) in a.iter_mut().zip(b) {
+        let (difference, first) = x.overflowing_sub(*y);
+        let (difference, second) = difference.overflowing_sub(u64::from(borrow));
+        *x = difference;
+        borrow = first | second;
+    }
 }

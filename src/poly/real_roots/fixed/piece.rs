@@ -2,8 +2,8 @@
 //! for.
 
 use super::evaluate::Evaluator;
-use super::limbs::{max_bits, write_shifted};
-use super::triangle::{HEADROOM, fitting_width};
+use super::limbs::{max_bits, rescale, write_shifted};
+use super::triangle::{HEADROOM, fitting_width, sum_differences, summing_width};
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Sign};
 use crate::poly::UniPoly;
@@ -117,7 +117,7 @@ impl Piece {
     ) -> Result<Bernstein, Exhausted> {
         let n = self.degree() as u64;
         let top = self.top_bits();
-        // Units lost: at most (2 n + 5) 2^n, see `fractions` and `summed`.
+        // Units lost: at most (2 n + 5) 2^n, see `differences_at`.
         let lost = n + u64::from(u64::BITS - (2 * n + 5).leading_zeros());
         let mut fraction = precision as i64 + lost as i64 + 4 - hint.unwrap_or(top);
         loop {
@@ -127,11 +127,19 @@ impl Piece {
             } else {
                 self.differences_at(cell, fraction, top)
             };
-            let exact = summed(g);
-            let height = exact.iter().map(Integer::bit_length).max().unwrap_or(0);
+            // Sums of at most 2^n terms, a sign and a bit for the units lost.
+            let room = g.iter().map(Integer::bit_length).max().unwrap_or(0) + n + 2;
+            let limbs = summing_width(room.div_ceil(64) as usize);
+            let mut exact = vec![0; g.len() * limbs];
+            for (c, place) in g.iter().zip(exact.chunks_exact_mut(limbs)) {
+                write_shifted(c, 0, place);
+            }
+            // Errors grow by 2^n at most.
+            sum_differences(&mut exact, limbs);
+            let height = max_bits(&exact, limbs);
             let certain = height.saturating_sub(lost);
             if certain + 8 >= precision {
-                return Ok(stored(&exact, height, lost, fraction, precision));
+                return Ok(stored(&exact, limbs, height, lost, fraction, precision));
             }
             fraction += (precision - certain) as i64 + if height == 0 { fraction.abs() } else { 0 };
         }
@@ -197,30 +205,13 @@ fn divided(c: &Integer, by: &Integer) -> Integer {
     if by.is_one() { c.clone() } else { c.div_mod_floor(by).0 }
 }
 
-/// The numbers whose forward differences at the first are given: errors grow by `2^n` at most.
-fn summed(mut g: Vec<Integer>) -> Vec<Integer> {
-    let n = g.len() - 1;
-    let mut out = Vec::with_capacity(n + 1);
-    for stage in 0..=n {
-        out.push(g[0].clone());
-        for i in 0..n - stage {
-            let (low, high) = g.split_at_mut(i + 1);
-            low[i] += &high[0];
-        }
-    }
-    out
-}
-
 /// The numbers cut down to the bits that are certain and asked for.
-fn stored(exact: &[Integer], height: u64, lost: u64, fraction: i64, precision: u64) -> Bernstein {
+fn stored(exact: &[u64], width: usize, height: u64, lost: u64, fraction: i64, precision: u64) -> Bernstein {
     let wanted = (height - lost.min(height)).min(precision) + 6;
     let limbs = fitting_width((wanted + HEADROOM).div_ceil(64) as usize);
-    // The unit of the store: 2^drop units of the numbers; at most half a unit is lost already.
+    // The unit of the store: 2^drop units of the numbers.
     let drop = (height as i64 - wanted as i64).max(0);
-    let mut flat = vec![0; exact.len() * limbs];
-    for (c, place) in exact.iter().zip(flat.chunks_exact_mut(limbs)) {
-        write_shifted(c, -drop, place);
-    }
+    let flat = rescale(exact, width, limbs, drop);
     let error = if drop as u64 >= lost { 2 } else { 1 + (1 << (lost - drop as u64)) };
     let height = max_bits(&flat, limbs);
     Bernstein { flat, limbs, error, height, scale: drop - fraction }

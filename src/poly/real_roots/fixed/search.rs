@@ -10,17 +10,20 @@ use crate::number::Integer;
 
 /// Bits kept of the coefficients of a cell with `v` sign variations: `BITS_BASE + BITS_PER_VARIATION v`.
 /// More cost time in every triangle, fewer mean that cells are computed anew more often.
-const BITS_BASE: u64 = 60;
+const BITS_BASE: u64 = 84;
 const BITS_PER_VARIATION: u64 = 3;
 
 /// A cell with fewer certain bits of its largest coefficient is computed anew.
 const LEAST_PRECISION: u64 = 12;
 
 /// A Newton step is tried when the variations have not changed for so many halvings.
-const HALVINGS_BEFORE_NEWTON: u32 = 3;
+const HALVINGS_BEFORE_NEWTON: u32 = 10;
 
 /// The first Newton step shrinks a cell by `2^FIRST_ZOOM`.
-const FIRST_ZOOM: u64 = 8;
+const FIRST_ZOOM: u64 = 16;
+
+/// The unit interval is first computed for so many sign variations.
+const FEW_VARIATIONS: usize = 20;
 
 struct Node {
     cell: Cell,
@@ -58,9 +61,17 @@ pub fn search(piece: &mut Piece, most: usize, budget: &Budget) -> Result<Vec<Fou
     let mut stack = Vec::new();
     let cell = Cell::unit();
     let ends = (piece.positive_at(&Integer::ZERO, 0), piece.positive_at(&Integer::ONE, 0));
-    let precision = bits_for(most);
-    let bernstein = piece.bernstein(&cell, precision, None, budget)?;
-    let variations = counted(&bernstein, ends);
+    // Most polynomials have fewer variations here than along the whole axis.
+    let mut precision = bits_for(most).min(bits_for(FEW_VARIATIONS));
+    let mut bernstein = piece.bernstein(&cell, precision, None, budget)?;
+    let mut variations = counted(&bernstein, ends);
+    let wanted = bits_for(variations.most.min(most));
+    if variations.most > FEW_VARIATIONS && wanted > precision {
+        let hint = bernstein.height as i64 + bernstein.scale;
+        precision = wanted;
+        bernstein = piece.bernstein(&cell, precision, Some(hint), budget)?;
+        variations = counted(&bernstein, ends);
+    }
     let node = Node { cell, bernstein, variations, ends, unchanged: 0, zoom: FIRST_ZOOM, bought: (precision, 0) };
     place(node, &mut stack, &mut found);
     while let Some(node) = stack.pop() {

@@ -105,6 +105,49 @@ fn split_any(work: &mut [u64], limbs: usize, left: &mut [u64], right: &mut [u64]
     }
 }
 
+/// Replaces the forward differences at the first of some numbers by the numbers: `n^2 / 2` additions.
+pub fn sum_differences(flat: &mut [u64], limbs: usize) {
+    macro_rules! by_width {
+        ($($l:literal),*) => {
+            match limbs {
+                $($l => sum_fixed::<$l>(flat.as_chunks_mut().0),)*
+                _ => {
+                    let n = flat.len() / limbs;
+                    for start in (1..n).rev() {
+                        for i in start..n {
+                            let (low, high) = flat.split_at_mut(i * limbs);
+                            add_assign(&mut high[..limbs], &low[(i - 1) * limbs..]);
+                        }
+                    }
+                }
+            }
+        };
+    }
+    by_width!(2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20, 24, 28, 32);
+}
+
+/// The width of at least `limbs` limbs that [`sum_differences`] is fastest at.
+pub fn summing_width(limbs: usize) -> usize {
+    match limbs {
+        0..=2 => 2,
+        9 | 11 | 13 | 15 | 17 | 19 => limbs + 1,
+        21..=32 => limbs.next_multiple_of(4),
+        _ => limbs,
+    }
+}
+
+/// Pascal's triangle as a product of running sums from the last place, the last but one, and so on:
+/// `C(j, i)` is the sum of `C(m - 1, i - 1)` over `m` up to `j`.
+fn sum_fixed<const L: usize>(c: &mut [[u64; L]]) {
+    for start in (1..c.len()).rev() {
+        let mut sum = c[start - 1];
+        for x in &mut c[start..] {
+            sum = add(&sum, x);
+            *x = sum;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::limbs::{rescale, write_shifted};
@@ -124,6 +167,23 @@ mod tests {
             }
         }
         (left, right)
+    }
+
+    #[test]
+    fn differences_sum_to_binomials() {
+        // Differences 1, 1, 1, ... belong to powers of two, and 0, ..., 0, -1 to one number.
+        for limbs in [2, 3, 16, 33] {
+            let mut flat = vec![0; 40 * limbs];
+            flat.chunks_exact_mut(limbs).for_each(|c| c[0] = 1);
+            sum_differences(&mut flat, limbs);
+            for (j, c) in flat.chunks_exact(limbs).enumerate() {
+                assert_eq!(Integer::from_twos_complement(c), &Integer::ONE << j as u64);
+            }
+            let mut flat = vec![0; 7 * limbs];
+            flat[6 * limbs..].fill(u64::MAX);
+            sum_differences(&mut flat, limbs);
+            assert!(flat[..6 * limbs].iter().all(|&x| x == 0) && flat[6 * limbs..].iter().all(|&x| x == u64::MAX));
+        }
     }
 
     #[test]
