@@ -1,8 +1,12 @@
 //! An irrational root between two dyadic numbers, and its refinement.
 
+use super::fixed::refine_bracket;
 use crate::number::{Integer, Rational, Sign};
 use crate::poly::UniPoly;
 use std::cmp::Ordering;
+
+/// From so many bits to gain on, refinement works in fixed point.
+const FIXED_POINT_MIN_BITS: u64 = 16;
 
 /// The only root of a polynomial between `lo / 2^bits` and `hi / 2^bits`; neither end is a root,
 /// the root is irrational and the signs at the ends are opposite.
@@ -50,10 +54,20 @@ impl Bracket {
         u64::try_from(log - self.bits as i64 + target).unwrap_or(0)
     }
 
-    /// Narrows the bracket to a width of at most `2^-target`: quadratic interval refinement
-    /// [Abbott2014]. The secant predicts a cell of a grid of `2^m` cells, the signs at its ends
-    /// certify it; `m` doubles on success and halves on failure.
+    /// Narrows the bracket to a width of at most `2^-target`: in fixed point, or exactly when little is
+    /// missing or the bracket holds or touches zero.
     pub fn refine(&mut self, p: &UniPoly, target: i64) {
+        let beside_zero = self.lo.sign() == Sign::Greater || self.hi.is_negative();
+        if beside_zero && self.bits_missing(target) >= FIXED_POINT_MIN_BITS {
+            refine_bracket(p, self, target);
+        } else {
+            self.refine_exact(p, target);
+        }
+    }
+
+    /// The reference: quadratic interval refinement [Abbott2014] in exact integers. The secant predicts a cell of a grid of `2^m` cells, the signs at its ends
+    /// certify it; `m` doubles on success and halves on failure.
+    pub fn refine_exact(&mut self, p: &UniPoly, target: i64) {
         if self.narrow_enough(target) {
             return;
         }

@@ -142,7 +142,8 @@ fn separate(half: &mut Half, brackets: &mut [Bracket], budget: &Budget) -> Resul
             for x in [a, b] {
                 let width = &x.hi - &x.lo;
                 let now = x.bits as i64 - width.bit_length() as i64;
-                half.narrow(x, now + now.abs().max(8));
+                let more = now.abs().max(8);
+                half.narrow(x, now + more, more as u64 / 2);
             }
         }
     }

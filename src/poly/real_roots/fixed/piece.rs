@@ -3,7 +3,7 @@
 
 use super::evaluate::Evaluator;
 use super::limbs::{max_bits, rescale, write_shifted};
-use super::triangle::{HEADROOM, fitting_width, sum_differences, summing_width};
+use super::triangle::{HEADROOM, fitting_width, shift_by_one, sum_differences, summing_width};
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Sign};
 use crate::poly::UniPoly;
@@ -173,23 +173,26 @@ impl Piece {
             s.push(shifted(&(a * &power), fraction + self.scale * i as i64 - guard as i64));
             power = &(&power * &cell.lo) >> cell.bits;
         }
-        for i in 0..n {
-            for j in (i..n).rev() {
-                let (low, high) = s.split_at_mut(j + 1);
-                low[j] += &high[0];
-            }
+        // Sums of at most 2^n terms.
+        let room = s.iter().map(Integer::bit_length).max().unwrap_or(0) + n as u64 + 2;
+        let limbs = summing_width(room.div_ceil(64) as usize);
+        let mut flat = vec![0; s.len() * limbs];
+        for (c, place) in s.iter().rev().zip(flat.chunks_exact_mut(limbs)) {
+            write_shifted(c, 0, place);
         }
-        let height = s.iter().map(Integer::bit_length).max().unwrap_or(0);
+        shift_by_one(&mut flat, limbs);
+        let height = max_bits(&flat, limbs);
         let guard = height + u64::from(usize::BITS - n.leading_zeros()) + 1;
         let one = &Integer::ONE << guard;
         let mut power = one;
         let mut out = Vec::with_capacity(n + 1);
-        for (k, s) in s.iter().enumerate() {
+        for (k, s) in flat.chunks_exact(limbs).rev().enumerate() {
             if power.is_zero() {
                 out.push(Integer::ZERO);
                 continue;
             }
-            out.push(divided(&(&(s * &power) >> guard), &self.binomials[k]));
+            let s = Integer::from_twos_complement(s);
+            out.push(divided(&(&(&s * &power) >> guard), &self.binomials[k]));
             power = (&power << cell.log_width).div_mod_floor(&cell.lo).0;
         }
         out

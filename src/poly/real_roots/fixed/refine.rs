@@ -42,7 +42,7 @@ impl Half {
     pub fn refine(&mut self, b: &mut Bracket, relative: u64) {
         self.to_binade(b);
         let exponent = b.lo.bit_length() as i64 - 1 - b.bits as i64;
-        self.narrow(b, relative as i64 - exponent);
+        self.narrow(b, relative as i64 - exponent, 2);
     }
 
     /// Moves the ends until they are less than a factor of 4 apart and positive.
@@ -76,8 +76,9 @@ impl Half {
     }
 
     /// Narrows a bracket of positive ends to a width of at most `2^-target` [Abbott2014]: the secant
-    /// predicts one of `2^m` parts, signs at its ends certify it, `m` doubles on success.
-    pub fn narrow(&mut self, b: &mut Bracket, target: i64) {
+    /// predicts one of `2^m` parts, signs at its ends certify it, `m` doubles on success. The caller
+    /// guesses the first `m`.
+    pub fn narrow(&mut self, b: &mut Bracket, target: i64, first: u64) {
         if b.bits_missing(target) == 0 {
             return;
         }
@@ -86,7 +87,7 @@ impl Half {
         let mut qir = Qir { evaluator, k, limbs: 2 };
         let mut at_lo = qir.rough(&b.lo, b.bits);
         let mut at_hi = qir.rough(&b.hi, b.bits);
-        let mut m = 2u64;
+        let mut m = first;
         loop {
             let missing = b.bits_missing(target);
             if missing == 0 {
@@ -196,9 +197,9 @@ pub fn refine_bracket(p: &UniPoly, b: &mut Bracket, target: i64) {
     debug_assert!(b.lo.sign() == Sign::Greater || b.hi.sign() == Sign::Less, "zero is not in the bracket");
     if b.lo.is_negative() {
         let mut mirrored = Bracket { lo: -&b.hi, hi: -&b.lo, bits: b.bits, rising: !b.rising };
-        Half::new(p.negated_argument()).narrow(&mut mirrored, target);
+        Half::new(p.negated_argument()).narrow(&mut mirrored, target, 2);
         *b = Bracket { lo: -mirrored.hi, hi: -mirrored.lo, bits: mirrored.bits, rising: b.rising };
     } else {
-        Half::new(p.clone()).narrow(b, target);
+        Half::new(p.clone()).narrow(b, target, 2);
     }
 }

@@ -224,7 +224,7 @@ fn cluster(b: &Bernstein, v: usize, bits: u64) -> Option<Integer> {
     let from_left = distance(at(0), at(1))?;
     let from_right = distance(at(n), at(n - 1))?;
     let disagreement = (&(&from_left + &from_right) - &one).abs();
-    if from_left.is_negative() || from_right.is_negative() || &disagreement << 2 > one {
+    if from_left.is_negative() || from_right.is_negative() || &disagreement << 6 > one {
         return None;
     }
     Some(if from_left < from_right { from_left } else { one - from_right })

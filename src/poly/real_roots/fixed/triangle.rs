@@ -3,6 +3,8 @@
 
 use super::limbs::{add, add_assign, shift_right, shift_right_assign};
 
+use std::ops::Range;
+
 /// Bits that must be free above every coefficient (the sign's included) before [`split`].
 pub const HEADROOM: u64 = 34;
 
@@ -107,14 +109,29 @@ fn split_any(work: &mut [u64], limbs: usize, left: &mut [u64], right: &mut [u64]
 
 /// Replaces the forward differences at the first of some numbers by the numbers: `n^2 / 2` additions.
 pub fn sum_differences(flat: &mut [u64], limbs: usize) {
+    let n = flat.len() / limbs;
+    // Pascal's triangle as a product of running sums from the last place, the last but one, ...:
+    // C(j, i) is the sum of C(m - 1, i - 1) over m up to j.
+    running_sums(flat, limbs, (1..n).rev().map(|start| start - 1..n));
+}
+
+/// The coefficients of `p(x + 1)` from those of `p`, both from the leading one down (Horner's rule).
+pub fn shift_by_one(flat: &mut [u64], limbs: usize) {
+    let n = flat.len() / limbs;
+    running_sums(flat, limbs, (2..=n).rev().map(|end| 0..end));
+}
+
+fn running_sums(flat: &mut [u64], limbs: usize, ranges: impl Iterator<Item = Range<usize>>) {
     macro_rules! by_width {
         ($($l:literal),*) => {
             match limbs {
-                $($l => sum_fixed::<$l>(flat.as_chunks_mut().0),)*
+                $($l => {
+                    let c = flat.as_chunks_mut::<$l>().0;
+                    ranges.for_each(|range| running_sum(&mut c[range]));
+                })*
                 _ => {
-                    let n = flat.len() / limbs;
-                    for start in (1..n).rev() {
-                        for i in start..n {
+                    for range in ranges {
+                        for i in range.skip(1) {
                             let (low, high) = flat.split_at_mut(i * limbs);
                             add_assign(&mut high[..limbs], &low[(i - 1) * limbs..]);
                         }
@@ -126,6 +143,15 @@ pub fn sum_differences(flat: &mut [u64], limbs: usize) {
     by_width!(2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20, 24, 28, 32);
 }
 
+fn running_sum<const L: usize>(c: &mut [[u64; L]]) {
+    let Some((first, rest)) = c.split_first_mut() else { return };
+    let mut sum = *first;
+    for x in rest {
+        sum = add(&sum, x);
+        *x = sum;
+    }
+}
+
 /// The width of at least `limbs` limbs that [`sum_differences`] is fastest at.
 pub fn summing_width(limbs: usize) -> usize {
     match limbs {
@@ -133,18 +159,6 @@ pub fn summing_width(limbs: usize) -> usize {
         9 | 11 | 13 | 15 | 17 | 19 => limbs + 1,
         21..=32 => limbs.next_multiple_of(4),
         _ => limbs,
-    }
-}
-
-/// Pascal's triangle as a product of running sums from the last place, the last but one, and so on:
-/// `C(j, i)` is the sum of `C(m - 1, i - 1)` over `m` up to `j`.
-fn sum_fixed<const L: usize>(c: &mut [[u64; L]]) {
-    for start in (1..c.len()).rev() {
-        let mut sum = c[start - 1];
-        for x in &mut c[start..] {
-            sum = add(&sum, x);
-            *x = sum;
-        }
     }
 }
 
