@@ -37,9 +37,7 @@ fn chebyshev(n: i64) -> UniPoly {
 }
 
 fn hermite(n: i64) -> UniPoly {
-    recurrence(linear(0, 2), n, |k, now, before| {
-        &(&linear(0, 2) * now) - &before.scaled(&Integer::from(2 * k))
-    })
+    recurrence(linear(0, 2), n, |k, now, before| &(&linear(0, 2) * now) - &before.scaled(&Integer::from(2 * k)))
 }
 
 /// `n!` times the Laguerre polynomial.
@@ -51,10 +49,8 @@ fn laguerre(n: i64) -> UniPoly {
 
 /// `n!` times the Legendre polynomial: a multiple of PARI's, made primitive like it.
 fn legendre(n: i64) -> UniPoly {
-    recurrence(x(), n, |k, now, before| {
-        &(&linear(0, 2 * k + 1) * now) - &before.scaled(&Integer::from(k * k))
-    })
-    .primitive_part()
+    recurrence(x(), n, |k, now, before| &(&linear(0, 2 * k + 1) * now) - &before.scaled(&Integer::from(k * k)))
+        .primitive_part()
 }
 
 fn wilkinson(n: i64) -> UniPoly {

@@ -82,7 +82,10 @@ fn clusters() {
     assert_eq!(same_as_reference(&mignotte(24, -1003), 128), 4);
     assert_eq!(fast(&mignotte(60, 1_000_003), 128).len(), 4);
     // Four roots together, and complex ones beside the axis.
-    let near = |a: i64, e: i64| &(&UniPoly::from_i64(&[-1, a]) * &UniPoly::from_i64(&[-1, a])).scaled(&z("1000000000000000000000000000000")) + &UniPoly::from_i64(&[e]);
+    let near = |a: i64, e: i64| {
+        &(&UniPoly::from_i64(&[-1, a]) * &UniPoly::from_i64(&[-1, a])).scaled(&z("1000000000000000000000000000000"))
+            + &UniPoly::from_i64(&[e])
+    };
     let p = product(&[near(7, -3), near(7, -5), near(7, 2), near(-11, 1), near(3, -7)]);
     assert_eq!(same_as_reference(&p, 40), 6);
 }

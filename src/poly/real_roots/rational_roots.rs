@@ -67,6 +67,10 @@ pub fn rational_roots(p: &SquareFree, budget: &Budget) -> Result<(Vec<Rational>,
 /// (determined modulo the square of the prime) and very likely a root, as it is one modulo a larger
 /// prime; and the other residues.
 fn small_roots(p: &UniPoly, prime: u64, candidates: Vec<u64>) -> (Vec<Rational>, Vec<u64>) {
+    if prime >= 1 << 16 {
+        // Products of residues would not fit.
+        return (Vec::new(), candidates);
+    }
     let modulus = prime * prime;
     let big = LARGE_PRIME;
     let lead = p.leading().expect("not zero");

@@ -54,7 +54,7 @@ fn positive_brackets(
         let row = Rc::clone(binomials.get_or_insert_with(|| Rc::new(binomial_row(n))));
         // Twos to the power of the mean logarithm of the roots: half of them are in the unit interval.
         let lengths = (half.poly.coeffs()[0].bit_length() as i64, half.poly.coeffs()[n].bit_length() as i64);
-        let scale = (lengths.0 - lengths.1).div_euclid(n as i64);
+        let scale = (2 * (lengths.0 - lengths.1) + n as i64).div_euclid(2 * n as i64);
         let mut direct = Piece::new(oriented(&half.poly, false), scale, Rc::clone(&row));
         for found in search(&mut direct, most, budget)? {
             out.push(direct_bracket(&found, scale));

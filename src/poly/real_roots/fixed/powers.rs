@@ -31,7 +31,7 @@ fn roots_of_positive(q: &UniPoly, h: usize, relative: u64, budget: &Budget) -> R
     let mut more = 4 + u64::from(usize::BITS - h.leading_zeros());
     loop {
         let ys = positive_roots(q, relative + more, budget)?;
-        let roots: Vec<Bracket> = ys.iter().map(|y| root_of(y, h as u64, relative)).collect();
+        let roots: Vec<Bracket> = ys.iter().map(|y| root_of(y, h as u64, relative + more)).collect();
         let apart = |a: &Bracket, b: &Bracket| {
             let bits = a.bits.max(b.bits);
             (&a.hi << (bits - a.bits)) < (&b.lo << (bits - b.bits))
@@ -70,7 +70,7 @@ fn positive_roots(q: &UniPoly, relative: u64, budget: &Budget) -> Result<Vec<Bra
     Ok(out)
 }
 
-/// The `h`-th root of a bracket, rounded outwards by no more than the width allows.
+/// The `h`-th root of a bracket, rounded outwards by less than `2^-relative` of the root.
 fn root_of(y: &Bracket, h: u64, relative: u64) -> Bracket {
     // x has its first bit at the exponent of y divided by h.
     let exponent = (y.lo.bit_length() as i64 - 1 - y.bits as i64).div_euclid(h as i64);

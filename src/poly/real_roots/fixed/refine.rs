@@ -1,7 +1,7 @@
 //! Narrow brackets by quadratic interval refinement with values in fixed point.
 
-use super::super::bracket::{Bracket, secant};
 use super::super::bounds::positive_root_bound_bits;
+use super::super::bracket::{Bracket, secant};
 use super::evaluate::{Evaluator, Value};
 use crate::number::{Integer, Sign};
 use crate::poly::UniPoly;
@@ -50,9 +50,7 @@ impl Half {
         if b.lo.is_zero() {
             let poly = &self.poly;
             let n = poly.coeffs().len() - 1;
-            let least = *self.least.get_or_insert_with(|| {
-                -positive_root_bound_bits(&poly.reversed(n)).unwrap_or(0)
-            });
+            let least = *self.least.get_or_insert_with(|| -positive_root_bound_bits(&poly.reversed(n)).unwrap_or(0));
             // The bound of the reciprocals is strict.
             align(b, least);
             b.lo = &Integer::ONE << (least + b.bits as i64) as u64;

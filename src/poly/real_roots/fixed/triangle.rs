@@ -227,7 +227,10 @@ mod tests {
                 for (flat, exact) in [(halves.0, left), (halves.1, right)] {
                     let wide = rescale(&flat, limbs, limbs + 2, -(n as i64));
                     for (got, want) in wide.chunks_exact(limbs + 2).zip(exact) {
-                        assert!((Integer::from_twos_complement(got) - want).abs() <= bound, "{limbs} limbs, degree {n}");
+                        assert!(
+                            (Integer::from_twos_complement(got) - want).abs() <= bound,
+                            "{limbs} limbs, degree {n}"
+                        );
                     }
                 }
             }

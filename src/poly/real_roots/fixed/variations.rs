@@ -45,7 +45,13 @@ mod tests {
             let signs: Vec<i32> = known
                 .iter()
                 .map(|k| match k {
-                    Some(positive) => if *positive { 1 } else { -1 },
+                    Some(positive) => {
+                        if *positive {
+                            1
+                        } else {
+                            -1
+                        }
+                    }
                     None => {
                         let s = (choice % 3) as i32 - 1;
                         choice /= 3;
