@@ -5,7 +5,7 @@ use jurist::number::{Integer, Rational, Sign};
 use jurist::poly::algebraic::{RealAlgebraic, rational_between, simplest_between};
 use jurist::poly::real_roots::{
     Bound, SquareFree, budan_fourier_bound, count_roots_sturm, descartes_sign_variations, isolate_real_roots,
-    isolate_real_roots_in, rational_roots, root_bound_bits,
+    isolate_real_roots_in, root_bound_bits,
 };
 use jurist::poly::{Domain, UniPoly};
 use std::time::Duration;
