@@ -5,6 +5,8 @@
 //! line each.
 
 mod codes;
+#[doc = include_str!("error/codes.md")]
+pub mod code_list {}
 
 pub use codes::CODES;
 

@@ -37,3 +37,29 @@ fn the_table_is_complete() {
         assert!(text.lines().count() <= 10 && text.len() > 30, "{code}");
     }
 }
+
+/// The page of the docs has every code with the explanation that the program prints.
+#[test]
+fn the_page_of_codes_is_the_table() {
+    let page = include_str!("../src/error/codes.md");
+    let mut expected = String::from("Every code that a diagnostic can carry, as `jurist explain CODE` prints it.\n");
+    for (code, text) in CODES {
+        expected += &format!("\n### {code}\n\n");
+        let mut in_model = false;
+        for line in text.lines() {
+            let model = line.starts_with("    ");
+            match (in_model, model) {
+                (false, true) => expected += "```text\n",
+                (true, false) => expected += "```\n",
+                _ => {}
+            }
+            in_model = model;
+            expected += if model { &line[4..] } else { line };
+            expected += "\n";
+        }
+        if in_model {
+            expected += "```\n";
+        }
+    }
+    assert_eq!(page.trim_end(), expected.trim_end());
+}

@@ -102,7 +102,7 @@ Remedy: name it once."#,
     ),
     (
         "E-missing",
-        r#"Something the model needs is not there, such as `time`, [loop], or one of A, B, C, K.
+        r#"Something the model needs is not there, such as `time`, `[loop]`, or one of A, B, C, K.
 
     [loop]
     A = [[1]]
@@ -165,7 +165,7 @@ Remedy: use sums of signals times constants and parameters."#,
 
     characteristic = "1 + K/(z - 1)"
 
-Remedy: multiply by the denominators: "z - 1 + K", or use [[block]]."#,
+Remedy: multiply by the denominators: "z - 1 + K", or use `[[block]]`."#,
     ),
     (
         "E-number",
@@ -257,13 +257,13 @@ Remedy: expressions are made of names, numbers, + - * / ^ and parentheses; multi
 
     title = "not closed
 
-Remedy: correct the place the message points at; see https://toml.io."#,
+Remedy: correct the place the message points at; see <https://toml.io>."#,
     ),
     (
         "E-too-deep",
         r#"Parentheses, signs, powers, arrays or keys are nested too deeply.
 
-Remedy: give parts of an expression a name in [constants]."#,
+Remedy: give parts of an expression a name in `[constants]`."#,
     ),
     (
         "E-too-large",
@@ -329,7 +329,7 @@ Remedy: correct the spelling; the message suggests the nearest key."#,
 
     characteristic = "z - K_pmw"
 
-Remedy: correct the spelling, or define the name in [constants] or [parameters]."#,
+Remedy: correct the spelling, or define the name in `[constants]` or `[parameters]`."#,
     ),
     (
         "E-unknown-parameter",
@@ -345,7 +345,7 @@ Remedy: name a parameter, or a constant that is given as a number."#,
 
     jurist charpoly --transfer omga i_a
 
-Remedy: use the names under inputs and outputs in [loop]."#,
+Remedy: use the names under inputs and outputs in `[loop]`."#,
     ),
     (
         "E-usage",
