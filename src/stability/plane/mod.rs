@@ -3,6 +3,7 @@
 mod curves;
 mod decompose;
 mod glue;
+mod query;
 mod sturm_at;
 
 pub use curves::{Curve, PlanePolynomial, boundary_curves};
