@@ -64,7 +64,8 @@ pub fn map(lp: &Loop, settings: &Settings, names: [&str; 2], budget: &Budget) ->
     let region = region_of(lp, settings)?;
     let axes = [axis(lp, settings, names[0])?, axis(lp, settings, names[1])?];
     budget.step("characteristic polynomial");
-    let answer = prepare(lp, &Question { keep: names.map(str::to_string).to_vec(), set: settings.set.clone() }, budget)?;
+    let answer =
+        prepare(lp, &Question { keep: names.map(str::to_string).to_vec(), set: settings.set.clone() }, budget)?;
     let polynomial = answer.polynomial.map(|d| PlanePolynomial::new(&in_region(d, settings)));
     let map = match &polynomial {
         None => Decision::Decided(StabilityMap {

@@ -2,6 +2,7 @@
 
 mod curves;
 mod decompose;
+mod elimination;
 mod glue;
 mod query;
 mod sturm_at;
