@@ -42,6 +42,8 @@ pub(super) enum Command {
     Charpoly(commands::charpoly::Options),
     /// The Jury table (Routh table in continuous time) and its conditions
     Jury(commands::jury::Options),
+    /// The stable region in two parameters, every cell decided exactly
+    Map(commands::map::Options),
     /// Root locus of one parameter, with the exact crossings on it
     Locus(commands::locus::Options),
     /// Time response, of the sampled loop or of the switched circuit

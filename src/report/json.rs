@@ -49,7 +49,7 @@ pub(super) fn polynomial(p: &UniPoly) -> Value {
 }
 
 /// The end of a solution set, of which only the place is known.
-fn plain_end(value: Option<&RealAlgebraic>, digits: usize) -> Value {
+pub(super) fn plain_end(value: Option<&RealAlgebraic>, digits: usize) -> Value {
     value.map_or(Value::Null, |value| {
         let mut out = number(value, digits);
         out.insert("closed".into(), false.into());

@@ -8,6 +8,7 @@ pub(super) mod intervals;
 pub(super) mod jury;
 pub(super) mod locus;
 pub(super) mod main_job;
+pub(super) mod map;
 pub(super) mod simulate;
 pub(super) mod verdict;
 
@@ -106,6 +107,7 @@ impl Arguments {
             Some(Command::Verdict(options)) => &options.output.run,
             Some(Command::Charpoly(options)) => &options.output.run,
             Some(Command::Jury(options)) => &options.output.run,
+            Some(Command::Map(options)) => &options.output.run,
             Some(Command::Locus(options)) => &options.run,
             Some(Command::Simulate(options)) => &options.run,
             Some(Command::Explain(_) | Command::Completions(_)) => NONE,
@@ -122,6 +124,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Verdict(options)) => verdict::run(options, context),
         Some(Command::Charpoly(options)) => charpoly::run(options, context),
         Some(Command::Jury(options)) => jury::run(options, context),
+        Some(Command::Map(options)) => map::run(options, context),
         Some(Command::Locus(options)) => locus::run(options, context),
         Some(Command::Simulate(options)) => simulate::run(options, context),
         Some(Command::Explain(options)) => explain::run(options),

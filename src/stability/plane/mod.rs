@@ -2,7 +2,9 @@
 
 mod curves;
 mod decompose;
+mod elimination;
 mod glue;
+mod query;
 mod sturm_at;
 
 pub use curves::{Curve, PlanePolynomial, boundary_curves};

@@ -1,0 +1,41 @@
+//! Looking things up in a finished decomposition.
+
+use super::decompose::{StabilityMap, branches_at, locate};
+use crate::limits::{Budget, Exhausted};
+use crate::number::Rational;
+use crate::poly::RealAlgebraic;
+use crate::stability::interval_set::cells;
+use crate::stability::{IntervalSet, Range};
+
+impl StabilityMap {
+    /// The numbers of the strip and the cell that hold a point of the domain; `None` outside, on a
+    /// boundary curve, on a wall between strips, and where there are no strips.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn locate(
+        &self,
+        x: &Rational,
+        y: &Rational,
+        y_domain: &Range,
+        budget: &Budget,
+    ) -> Result<Option<(usize, usize)>, Exhausted> {
+        if !y_domain.contains(y) {
+            return Ok(None);
+        }
+        locate(&self.curves, &self.strips, x, y, y_domain, budget)
+    }
+
+    /// The open intervals of `y` that are stable at a rational `x`, cut at every boundary curve; `None`
+    /// outside the domain and on a wall between strips.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn slice(&self, x: &Rational, y_domain: &Range, budget: &Budget) -> Result<Option<IntervalSet>, Exhausted> {
+        let Some(strip) = self.strips.iter().find(|s| s.x.contains(x)) else { return Ok(None) };
+        let values: Vec<RealAlgebraic> =
+            branches_at(&self.curves, x, y_domain, budget)?.into_iter().map(|b| b.0).collect();
+        let intervals = cells(y_domain, &values).into_iter().zip(&strip.cells).filter(|(_, cell)| cell.stable);
+        Ok(Some(intervals.map(|(interval, _)| interval).collect()))
+    }
+}
