@@ -8,6 +8,7 @@ pub(super) mod intervals;
 pub(super) mod jury;
 pub(super) mod locus;
 pub(super) mod main_job;
+pub(super) mod paper;
 pub(super) mod simulate;
 pub(super) mod verdict;
 
@@ -108,6 +109,7 @@ impl Arguments {
             Some(Command::Jury(options)) => &options.output.run,
             Some(Command::Locus(options)) => &options.run,
             Some(Command::Simulate(options)) => &options.run,
+            Some(Command::Paper(options)) => &options.run,
             Some(Command::Explain(_) | Command::Completions(_)) => NONE,
         }
     }
@@ -124,6 +126,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Jury(options)) => jury::run(options, context),
         Some(Command::Locus(options)) => locus::run(options, context),
         Some(Command::Simulate(options)) => simulate::run(options, context),
+        Some(Command::Paper(options)) => paper::run(options, context),
         Some(Command::Explain(options)) => explain::run(options),
         Some(Command::Completions(options)) => completions::run(options),
     }
