@@ -130,9 +130,7 @@ fn tick_format(range: (f64, f64), step: f64) -> TickFormat {
     let largest = range.0.abs().max(range.1.abs());
     let decimals = (-step.log10() + 1e-9).ceil().max(0.0) as usize;
     if largest >= 1e6 || (largest < 1e-3 && largest > 0.0) {
-        return TickFormat::Custom(Arc::new(|v| {
-            if v == 0.0 { "0".into() } else { power_of_ten(v) }
-        }));
+        return TickFormat::Custom(Arc::new(|v| if v == 0.0 { "0".into() } else { power_of_ten(v) }));
     }
     TickFormat::Custom(Arc::new(move |v| {
         let text = format!("{v:.decimals$}");

@@ -1,10 +1,10 @@
 //! The tables of the report: errata, limits by several ways, sensitivity.
 
+use super::coefficient;
 use super::errata::{Comparison, Match, compare_all};
 use super::html::Table;
 use super::printed::{EQUATION_23, EQUATION_37, LIST_AFTER_36, Printed};
 use super::runs::at;
-use super::coefficient;
 use crate::analysis::{Failure, Intervals, Settings, intervals};
 use crate::error::Source;
 use crate::limits::Budget;
@@ -20,10 +20,8 @@ use nalgebra::DVector;
 const CONSTANTS: [&str; 8] = ["J", "B_v", "R_a", "L_a", "K_pi", "K_ii", "K_ps", "K_is"];
 
 /// Eqs. 5 and 13 as the text has them: place, printed entry, the entry as it has to be.
-const ENTRIES: [(&str, &str, &str); 2] = [
-    ("Eq. 5, entry (1,1)", "(L_a - R_a)/L_a", "(L_a - R_a*T)/L_a"),
-    ("Eq. 13, entry (2,1)", "-K_a*T/J", "K_a*T/J"),
-];
+const ENTRIES: [(&str, &str, &str); 2] =
+    [("Eq. 5, entry (1,1)", "(L_a - R_a)/L_a", "(L_a - R_a*T)/L_a"), ("Eq. 13, entry (2,1)", "-K_a*T/J", "K_a*T/J")];
 
 /// The polynomial with one parameter kept.
 pub(super) fn polynomial(model: &Loop, name: &str, budget: &Budget) -> Result<CharacteristicPolynomial, Failure> {
@@ -39,7 +37,8 @@ fn right(printed: &[Printed], p: &CharacteristicPolynomial) -> usize {
 /// Everything printed that is not what it should be, found by comparison.
 pub(super) fn errata(model: &Loop, budget: &Budget) -> Result<Table, Failure> {
     let (eq_23, eq_37) = (polynomial(model, "K_pwm", budget)?, polynomial(model, "T", budget)?);
-    let mut table = Table::new("Errata, found by comparison with the exact values", &["where", "printed", "exact", "what"]);
+    let mut table =
+        Table::new("Errata, found by comparison with the exact values", &["where", "printed", "exact", "what"]);
     let total = EQUATION_23.len();
     for (place, printed, entry) in ENTRIES {
         let text = model.source().text.replacen(&format!("\"{entry}\""), &format!("\"{printed}\""), 1);
@@ -51,7 +50,9 @@ pub(super) fn errata(model: &Loop, budget: &Budget) -> Result<Table, Failure> {
         );
         table.rows.push(vec![place.into(), printed.into(), entry.into(), what]);
     }
-    for (list, p, name) in [(EQUATION_23, &eq_23, "K_pwm"), (LIST_AFTER_36, &eq_23, "K_pwm"), (EQUATION_37, &eq_37, "T")] {
+    for (list, p, name) in
+        [(EQUATION_23, &eq_23, "K_pwm"), (LIST_AFTER_36, &eq_23, "K_pwm"), (EQUATION_37, &eq_37, "T")]
+    {
         let all = compare_all(list, |z, k| coefficient(p, z, k));
         table.rows.extend(all.iter().filter(|c| c.outcome != Match::Rounded).map(|c| erratum(c, name)));
     }
@@ -124,16 +125,16 @@ pub(super) fn limits(model: &Loop, blocks: &Loop, printed: [&Loop; 2], budget: &
     let growth = |k: f64, t: f64| {
         let question = at(&rational(k)?, &rational(t)?);
         let mut m = SampledModel::from_loop(model, &question, 1.0, budget).ok()?;
-        // Seen every 64 samples: the same run, and the slow mode has time to show itself.
-        for _ in 0..6 {
+        // Seen every 1024 samples: the same run, and the slow mode has time to show itself.
+        for _ in 0..10 {
             m.transition = &m.transition * &m.transition;
         }
         m.observed_growth(600, 3000)
     };
     let show = |x: Option<f64>, digits: usize| x.map_or_else(|| "none found".into(), |x| format!("{x:.digits$}"));
     let lower = growth_limit(0.06, 0.02, 2e-5, |k| growth(k, 1e-4));
-    let upper = growth_limit(545.0, 555.0, 0.01, |k| growth(k, 1e-4));
-    let f = growth_limit(2020.0, 2010.0, 0.01, |f| growth(110.0, 1.0 / f));
+    let upper = growth_limit(545.0, 555.0, 0.002, |k| growth(k, 1e-4));
+    let f = growth_limit(2020.0, 2010.0, 0.002, |f| growth(110.0, 1.0 / f));
     row(["simulation of the linear model, bisected", &show(lower, 4), &show(upper, 2), &show(f, 2), "drawn"]);
     let inputs = DVector::from_vec(vec![80.0, 0.0]);
     for (pulse, word) in [(Pulse::Beginning, "beginning"), (Pulse::End, "end")] {
@@ -143,7 +144,7 @@ pub(super) fn limits(model: &Loop, blocks: &Loop, printed: [&Loop; 2], budget: &
             circuit.small_signal_eigenvalues(&inputs)?.first().map(|z| z.norm())
         };
         let upper = growth_limit(545.0, 560.0, 1e-3, |k| largest(k, 1e-4));
-        let f = growth_limit(2020.0, 1990.0, 1e-2, |f| largest(110.0, 1.0 / f));
+        let f = growth_limit(2020.0, 1990.0, 1e-3, |f| largest(110.0, 1.0 / f));
         let way = format!("circuit around its steady state, pulse at the period's {word}");
         row([&way, "", &show(upper, 2), &show(f, 2), "drawn"]);
     }
@@ -157,7 +158,8 @@ fn rational(x: f64) -> Option<Rational> {
 
 /// How the limits move when a constant changes by a tenth, each limit exact.
 pub(super) fn sensitivity(model: &Loop, budget: &Budget) -> Result<Table, Failure> {
-    let head = ["constant", "value", "K_pwm, lower", "change", "K_pwm, upper", "change", "f, lower limit / Hz", "change"];
+    let head =
+        ["constant", "value", "K_pwm, lower", "change", "K_pwm, upper", "change", "f, lower limit / Hz", "change"];
     let mut table = Table::new("The limits when one constant is 10 % smaller or larger", &head);
     let limits = |settings: &Settings| -> Result<[Option<RealAlgebraic>; 3], Failure> {
         let (k, t) = (intervals(model, settings, "K_pwm", budget)?, intervals(model, settings, "T", budget)?);
@@ -199,9 +201,6 @@ fn change(x: Option<&RealAlgebraic>, base: Option<&RealAlgebraic>, reciprocal: b
     let ratio = if reciprocal { b.checked_div(&a)? } else { a.checked_div(&b)? };
     let percent = (&ratio - &Rational::ONE) * Rational::from(100);
     let sign = if percent.sign().is_gt() { "+" } else { "" };
-    (!percent.is_zero()).then(|| {
-        // Three decimals are enough: the enclosures are far narrower.
-        let thousandths = (&percent * &Rational::from(1000)).floor();
-        format!("{sign}{} %", to_decimal(&Rational::new(thousandths, 1000.into()), 6))
-    })
+    // The enclosures are far narrower than three digits ask for.
+    (!percent.is_zero()).then(|| format!("{sign}{} %", to_decimal(&percent, 3)))
 }

@@ -15,11 +15,7 @@ pub struct Table {
 
 impl Table {
     pub(super) fn new(caption: &str, head: &[&str]) -> Table {
-        Table {
-            caption: caption.to_owned(),
-            head: head.iter().map(|h| (*h).to_owned()).collect(),
-            rows: Vec::new(),
-        }
+        Table { caption: caption.to_owned(), head: head.iter().map(|h| (*h).to_owned()).collect(), rows: Vec::new() }
     }
 
     pub(super) fn html(&self) -> String {
@@ -125,7 +121,10 @@ fn name(word: &str) -> String {
         Some((base, index)) if !base.is_empty() && !index.is_empty() => {
             format!("<i>{}</i><sub>{}</sub>", greek(base), escaped(index))
         }
-        _ if word.chars().count() == 1 || word == "omega" => format!("<i>{}</i>", greek(word)),
+        // The article, second and volt are no variables.
+        _ if word == "omega" || word.chars().count() == 1 && !["a", "s", "V"].contains(&word) => {
+            format!("<i>{}</i>", greek(word))
+        }
         _ => escaped(word),
     }
 }
@@ -152,7 +151,8 @@ pub(super) fn matrix(name: &str, rows: &[Vec<String>]) -> String {
 
 /// The whole page: sections with anchors, headings and contents.
 pub(super) fn page(title: &str, sections: &[(&str, &str, String)]) -> String {
-    let contents: String = sections.iter().map(|(id, head, _)| format!("<li><a href=\"#{id}\">{head}</a></li>")).collect();
+    let contents: String =
+        sections.iter().map(|(id, head, _)| format!("<li><a href=\"#{id}\">{head}</a></li>")).collect();
     let body: String = sections
         .iter()
         .map(|(id, head, html)| format!("<section id=\"{id}\">\n<h2>{head}</h2>\n{html}</section>\n"))

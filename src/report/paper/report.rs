@@ -116,10 +116,13 @@ fn drive_section(
         html.push_str(&figure(&ripple.figure, "The current of the switched circuit in steady state, with its ripple"));
         figures.push(ripple);
     }
-    let mut table = Table::new("Nominal values", &["name", "value", "unit, meaning"]);
+    let mut table = Table::new("Nominal values", &["name", "value", "meaning, unit"]);
     for c in model.constants() {
         let value = c.number.as_ref().map(|n| to_decimal(n, 8)).unwrap_or_default();
-        table.rows.push(vec![c.name.clone(), value, String::new()]);
+        // The model's text says what a constant is in a comment on its line.
+        let line = model.source().text.get(c.span.start..).and_then(|rest| rest.lines().next()).unwrap_or_default();
+        let meaning = line.split_once('#').map_or("", |(_, words)| words.trim());
+        table.rows.push(vec![c.name.clone(), value, meaning.to_owned()]);
     }
     for p in model.parameters() {
         let value = p.nominal.as_ref().map(|n| to_decimal(n, 8)).unwrap_or_default();
@@ -147,7 +150,9 @@ fn model_section(model: &Loop) -> String {
          Two entries of the paper's text are repaired; see the errata.",
     );
     if let Form::OutputFeedback { a, b, c, k, ports } = model.form() {
-        for (name, m) in [("A", Some(a)), ("B", Some(b)), ("C", Some(c)), ("K", Some(k)), ("E", ports.input_matrix.as_ref())] {
+        for (name, m) in
+            [("A", Some(a)), ("B", Some(b)), ("C", Some(c)), ("K", Some(k)), ("E", ports.input_matrix.as_ref())]
+        {
             html.push_str(&m.map(|m| matrix(name, &entries(model, m))).unwrap_or_default());
         }
     }

@@ -133,8 +133,14 @@ fn one_case(
     {
         let end = window(&trace, signal, settled);
         let shown = trace.between(0.0, end);
-        let mut panels = vec![(format!("fig-{number:02}-linear"), format!("Fig. {number}: linear model"), &shown, label.to_owned())];
-        panels.push((format!("fig-{number:02}-from-rest"), "circuit, from rest".to_owned(), &rest.trace, label.to_owned()));
+        let mut panels =
+            vec![(format!("fig-{number:02}-linear"), format!("Fig. {number}: linear model"), &shown, label.to_owned())];
+        panels.push((
+            format!("fig-{number:02}-from-rest"),
+            "circuit, from rest".to_owned(),
+            &rest.trace,
+            label.to_owned(),
+        ));
         if let Some(run) = &disturbed {
             let label = format!("deviation of {label}");
             panels.push((format!("fig-{number:02}-disturbed"), "circuit, disturbed".to_owned(), &run.trace, label));
