@@ -48,6 +48,8 @@ pub(super) enum Command {
     Locus(commands::locus::Options),
     /// Time response, of the sampled loop or of the switched circuit
     Simulate(commands::simulate::Options),
+    /// The built-in drive's paper once more, as one HTML report with figures
+    Paper(commands::paper::Options),
     /// What an error code means
     Explain(commands::explain::Options),
     /// A completion script for a shell

@@ -51,7 +51,9 @@ pub(super) fn deliver(
         if !std::io::stdout().is_terminal() {
             return print(&(picture.csv)());
         }
-        return print(&picture.figure.terminal(terminal_columns(), 40));
+        let drawing = picture.figure.terminal(terminal_columns(), 40);
+        let plain = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
+        return print(&if plain { without_colours(&drawing) } else { drawing });
     };
     let path = Path::new(file);
     match kind {
@@ -63,6 +65,18 @@ pub(super) fn deliver(
         write(&path.with_extension("csv"), (picture.csv)().as_bytes())?;
     }
     Ok(())
+}
+
+/// The text without the escape sequences `ESC [ ... letter` that give colours.
+fn without_colours(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut parts = text.split("\u{1b}[");
+    out.push_str(parts.next().unwrap_or_default());
+    for part in parts {
+        let end = part.find(|c: char| c.is_ascii_alphabetic()).map_or(part.len(), |k| k + 1);
+        out.push_str(&part[end..]);
+    }
+    out
 }
 
 /// Columns of the terminal as the shell tells them, else 100.
@@ -82,4 +96,14 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         let message = format!("cannot write {}: {}", path.display(), super::output::plain(&e));
         Diagnostic::error("E-write", message).into()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_colours;
+
+    #[test]
+    fn colours_are_taken_away() {
+        assert_eq!(without_colours("a\u{1b}[38;2;1;2;3mb\u{1b}[0m c"), "ab c");
+    }
 }

@@ -8,7 +8,11 @@ pub(super) mod intervals;
 pub(super) mod jury;
 pub(super) mod locus;
 pub(super) mod main_job;
+<<<<<<< HEAD
 pub(super) mod map;
+=======
+pub(super) mod paper;
+>>>>>>> papercmd
 pub(super) mod simulate;
 pub(super) mod verdict;
 
@@ -110,6 +114,7 @@ impl Arguments {
             Some(Command::Map(options)) => &options.output.run,
             Some(Command::Locus(options)) => &options.run,
             Some(Command::Simulate(options)) => &options.run,
+            Some(Command::Paper(options)) => &options.run,
             Some(Command::Explain(_) | Command::Completions(_)) => NONE,
         }
     }
@@ -127,6 +132,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Map(options)) => map::run(options, context),
         Some(Command::Locus(options)) => locus::run(options, context),
         Some(Command::Simulate(options)) => simulate::run(options, context),
+        Some(Command::Paper(options)) => paper::run(options, context),
         Some(Command::Explain(options)) => explain::run(options),
         Some(Command::Completions(options)) => completions::run(options),
     }

@@ -109,14 +109,28 @@ pub(super) fn tick_step(range: (f64, f64), count: f64) -> f64 {
     factor * decade
 }
 
+/// `5e33` as people write it: 5·10³³.
+fn power_of_ten(v: f64) -> String {
+    let text = format!("{v:.1e}").replace(".0e", "e").replace('-', "\u{2212}");
+    let Some((mantissa, exponent)) = text.split_once('e') else { return text };
+    let raised = |c: char| match c.to_digit(10) {
+        Some(d) => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][d as usize],
+        None => '⁻',
+    };
+    let exponent: String = exponent.chars().map(raised).collect();
+    match mantissa {
+        "1" => format!("10{exponent}"),
+        "\u{2212}1" => format!("\u{2212}10{exponent}"),
+        _ => format!("{mantissa}·10{exponent}"),
+    }
+}
+
 /// Numbers at ticks: as many decimals as the step needs, powers of ten where they would be long.
 fn tick_format(range: (f64, f64), step: f64) -> TickFormat {
     let largest = range.0.abs().max(range.1.abs());
     let decimals = (-step.log10() + 1e-9).ceil().max(0.0) as usize;
     if largest >= 1e6 || (largest < 1e-3 && largest > 0.0) {
-        return TickFormat::Custom(Arc::new(|v| {
-            if v == 0.0 { "0".into() } else { format!("{v:.1e}").replace(".0e", "e").replace('-', "\u{2212}") }
-        }));
+        return TickFormat::Custom(Arc::new(|v| if v == 0.0 { "0".into() } else { power_of_ten(v) }));
     }
     TickFormat::Custom(Arc::new(move |v| {
         let text = format!("{v:.decimals$}");
@@ -247,4 +261,16 @@ fn composed(cells: impl Iterator<Item = (f64, f64, Scene)>, width: f64, height: 
         whole.add(Primitive::GroupEnd);
     }
     Figure::new(whole)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::power_of_ten;
+
+    #[test]
+    fn large_numbers_are_powers_of_ten() {
+        assert_eq!(power_of_ten(5e33), "5·10³³");
+        assert_eq!(power_of_ten(-1e-4), "\u{2212}10⁻⁴");
+        assert_eq!(power_of_ten(2.5e6), "2.5·10⁶");
+    }
 }

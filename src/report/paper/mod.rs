@@ -1,10 +1,16 @@
 //! The paper once more: what it prints against what is exactly true.
 
 mod errata;
+mod facts;
+mod html;
 mod printed;
+mod report;
+mod runs;
 
 pub use errata::{Comparison, Match, compare, compare_all};
+pub use html::Table;
 pub use printed::{EQUATION_23, EQUATION_37, LIST_AFTER_36, Printed};
+pub use report::{NamedFigure, PaperReport, paper_report};
 
 use crate::matrix::CharacteristicPolynomial;
 use crate::number::Rational;

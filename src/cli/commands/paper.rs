@@ -1,0 +1,47 @@
+//! `jurist paper`: the built-in drive's paper once more, as one HTML report.
+
+use super::Context;
+use crate::cli::arguments::RunOptions;
+use crate::cli::output::{note, plain};
+use crate::cli::picture::write;
+use crate::cli::status::{Outcome, Status};
+use crate::error::Diagnostic;
+use crate::report::paper::paper_report;
+use clap::Args;
+use std::ffi::OsString;
+use std::path::Path;
+
+/// Options of `jurist paper`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    /// The folder to write into; it is made if it does not exist
+    #[arg(short, long, value_name = "DIR", default_value = "paper-report")]
+    pub output: OsString,
+    /// Also writes the tables as LaTeX
+    #[arg(long)]
+    pub latex: bool,
+    #[command(flatten)]
+    pub run: RunOptions,
+}
+
+/// Writes `report.html` and the figures as SVG files.
+pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+    let folder = Path::new(&options.output);
+    std::fs::create_dir_all(folder).map_err(|e| {
+        Diagnostic::error("E-write", format!("cannot make the folder {}: {}", folder.display(), plain(&e)))
+    })?;
+    let report = paper_report(&context.budget)?;
+    context.budget.step("writing");
+    write(&folder.join("report.html"), report.html.as_bytes())?;
+    for figure in &report.figures {
+        write(&folder.join(format!("{}.svg", figure.name)), figure.figure.svg().as_bytes())?;
+    }
+    if options.latex {
+        write(&folder.join("tables.tex"), report.latex.as_bytes())?;
+    }
+    context.reporter.finish();
+    if !context.quiet {
+        note(&format!("wrote {}", folder.join("report.html").display()));
+    }
+    Ok(Status::Holds)
+}

@@ -1,0 +1,93 @@
+//! The report on the paper: complete, self-contained, its errata those that are known.
+
+use jurist::limits::Budget;
+use jurist::report::paper::{PaperReport, paper_report};
+use std::sync::OnceLock;
+
+fn report() -> &'static PaperReport {
+    static REPORT: OnceLock<PaperReport> = OnceLock::new();
+    REPORT.get_or_init(|| paper_report(&Budget::unlimited()).expect("nothing limits it"))
+}
+
+#[test]
+fn every_section_is_there() {
+    let html = &report().html;
+    let sections =
+        ["drive", "model", "equations", "errata", "jury", "locus", "responses", "limits", "sensitivity", "proved"];
+    for id in sections {
+        assert!(html.contains(&format!("<section id=\"{id}\">")), "{id}");
+        assert!(html.contains(&format!("href=\"#{id}\"")), "{id}");
+    }
+    for tag in ["section", "table", "figure", "svg", "div", "details", "ul"] {
+        let count = |text: &str| html.matches(text).count();
+        let opened = count(&format!("<{tag} ")) + count(&format!("<{tag}>"));
+        assert_eq!(opened, count(&format!("</{tag}>")), "{tag}");
+    }
+}
+
+#[test]
+fn nothing_is_fetched_from_outside() {
+    let html = &report().html;
+    // Names of XML vocabularies are no addresses.
+    let bare = html.replace("http://www.w3.org/2000/svg", "").replace("http://www.w3.org/1999/xlink", "");
+    for trace in ["http:", "https:", "src=", "<script", "<link", "@import", "url(http"] {
+        assert!(!bare.contains(trace), "{trace}");
+    }
+    assert!(html.contains("name=\"viewport\"") && html.contains("@media print"));
+}
+
+#[test]
+fn the_errata_are_those_known() {
+    let rows = &report().errata.rows;
+    let found: Vec<(&str, &str)> = rows.iter().map(|r| (r[0].as_str(), r[1].as_str())).collect();
+    assert_eq!(
+        found,
+        [
+            ("Eq. 5, entry (1,1)", "(L_a - R_a)/L_a"),
+            ("Eq. 13, entry (2,1)", "-K_a*T/J"),
+            ("list after Eq. 36, a_1, K_pwm", "1.80919241724e-3"),
+            ("Eq. 37, a_0, T^4", "736568.879"),
+            ("Eq. 37, a_1, T^2", "26420.0562"),
+            ("Eq. 37, a_1, T^3", "-4285.49167"),
+            ("Eq. 37, a_2, T", "5956.43571"),
+            ("Eq. 37, a_2, T^4", "736568.879"),
+            ("Eq. 37, a_3, T^3", "4285.49167"),
+            ("Eq. 37, a_4, T", "1927.27816"),
+        ]
+    );
+    assert!(rows[0][3].ends_with("of the 9 numbers of Eq. 23, the exact entry 9"), "{}", rows[0][3]);
+    assert!(!rows[1][3].contains("gives 9 of"), "{}", rows[1][3]);
+    assert!(rows[6][2].starts_with("5956.43571"), "{}", rows[6][2]);
+}
+
+#[test]
+fn all_figures_are_drawn() {
+    let names: Vec<&str> = report().figures.iter().map(|f| f.name.as_str()).collect();
+    for k in 1..=6 {
+        assert!(names.contains(&format!("fig-{k:02}").as_str()));
+    }
+    for k in 7..=14 {
+        for kind in ["linear", "from-rest", "disturbed"] {
+            assert!(names.contains(&format!("fig-{k:02}-{kind}").as_str()), "{k} {kind}");
+        }
+    }
+    for figure in &report().figures {
+        assert!(!figure.figure.svg().contains("NaN"), "{}", figure.name);
+    }
+    assert_eq!(report().html.matches("<figure>").count(), names.len());
+}
+
+#[test]
+fn limits_are_in_the_tables() {
+    let html = &report().html;
+    for limit in ["0.03810053334829916", "550.9411666866746", "2012.316402232909", "2.985319690", "551.74", "2003.1"] {
+        assert!(html.contains(limit), "{limit}");
+    }
+    for crossing in ["0.0381 (0.506", "550.94 (1664"] {
+        assert!(html.contains(crossing), "{crossing}");
+    }
+    for (name, limit) in [("J", "0.0837"), ("K_is", "5.5")] {
+        assert!(html.contains(limit), "{name}");
+    }
+    assert!(report().latex.matches("\\begin{tabular}").count() == 3);
+}
