@@ -8,11 +8,8 @@ pub(super) mod intervals;
 pub(super) mod jury;
 pub(super) mod locus;
 pub(super) mod main_job;
-<<<<<<< HEAD
 pub(super) mod map;
-=======
 pub(super) mod paper;
->>>>>>> papercmd
 pub(super) mod simulate;
 pub(super) mod verdict;
 
