@@ -7,6 +7,7 @@
 #![deny(missing_docs)]
 
 pub mod analysis;
+pub mod certificate;
 pub mod cli;
 pub mod error;
 #[cfg(feature = "strategies")]
