@@ -42,6 +42,8 @@ pub(super) enum Command {
     Charpoly(commands::charpoly::Options),
     /// The Jury table (Routh table in continuous time) and its conditions
     Jury(commands::jury::Options),
+    /// Re-checks a certificate against a model, with code that shares nothing with the engine
+    Verify(commands::verify::Options),
     /// What an error code means
     Explain(commands::explain::Options),
     /// A completion script for a shell

@@ -2,10 +2,12 @@
 //!
 //! Each takes arbitrary bytes and panics exactly if a promise of the crate is broken.
 
+mod certificate;
 mod isolation;
 mod number;
 mod stability;
 
+pub use certificate::certificate_check;
 pub use isolation::isolation_against_sturm;
 pub use number::number_parser;
 pub use stability::{interval_answer, jury_against_count};

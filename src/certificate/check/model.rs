@@ -97,7 +97,12 @@ pub(super) fn read(text: &str, kept: Option<&str>, values: &[(String, Q)], clock
     }
     scope.parameters = parameters;
     let evaluated = evaluate(&root, variable, &mut scope)?;
-    specialise(evaluated, discrete, &numbers, clock)
+    let mut found = specialise(evaluated, discrete, &numbers, clock)?;
+    if found.poles.iter().any(Uni::is_zero) {
+        // Undefined everywhere: there is no polynomial.
+        found.coefficients.clear();
+    }
+    Ok(found)
 }
 
 fn evaluate(root: &Toml, variable: &str, scope: &mut Scope<'_>) -> Result<Evaluated, String> {

@@ -8,6 +8,7 @@ pub(super) mod intervals;
 pub(super) mod jury;
 pub(super) mod main_job;
 pub(super) mod verdict;
+pub(super) mod verify;
 
 use super::arguments::{Arguments, Command, OutputOptions, RunOptions};
 use super::command_line::CommandLine;
@@ -104,6 +105,7 @@ impl Arguments {
             Some(Command::Verdict(options)) => &options.output.run,
             Some(Command::Charpoly(options)) => &options.output.run,
             Some(Command::Jury(options)) => &options.output.run,
+            Some(Command::Verify(options)) => &options.run,
             Some(Command::Explain(_) | Command::Completions(_)) => NONE,
         }
     }
@@ -118,6 +120,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Verdict(options)) => verdict::run(options, context),
         Some(Command::Charpoly(options)) => charpoly::run(options, context),
         Some(Command::Jury(options)) => jury::run(options, context),
+        Some(Command::Verify(options)) => verify::run(options, context),
         Some(Command::Explain(options)) => explain::run(options),
         Some(Command::Completions(options)) => completions::run(options),
     }
