@@ -159,7 +159,7 @@ fn structure() {
         ("[constants]\nradius = 1\n[loop]\ncharacteristic = 'z - K'\n", "E-reserved-name@5:1"),
         ("[constants]\nK = 1\n[loop]\ncharacteristic = 'z - K'\n", "E-duplicate-name@3:1"),
         ("[constants]\n'2x' = 1\n[loop]\ncharacteristic = 'z - K'\n", "E-name@5:1"),
-        ("[loop]\ncharacteristic = 'z - K\n", "E-toml@5:25"),
+        ("[loop]\ncharacteristic = 'z - K\n", "E-toml@5:24"),
         ("[loop]\nmatrix = [['K']]\n[simulation]\ninputs = { r = 1 }\n", "E-unknown-name@7:12"),
     ] {
         let found = after_head(text);

@@ -17,6 +17,7 @@ const FLOORS: &[&[&str]] = &[
     &["simulate", "certificate"],
     &["report"],
     &["cli"],
+    &["fuzzing"],
 ];
 
 /// The longest file that is still read at one go.

@@ -42,6 +42,10 @@ pub(super) enum Command {
     Charpoly(commands::charpoly::Options),
     /// The Jury table (Routh table in continuous time) and its conditions
     Jury(commands::jury::Options),
+    /// Root locus of one parameter, with the exact crossings on it
+    Locus(commands::locus::Options),
+    /// Time response, of the sampled loop or of the switched circuit
+    Simulate(commands::simulate::Options),
     /// Re-checks a certificate against a model, with code that shares nothing with the engine
     Verify(commands::verify::Options),
     /// What an error code means

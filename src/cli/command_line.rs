@@ -128,7 +128,7 @@ impl CommandLine {
                 message.push_str(line);
             }
         }
-        let mut diagnostic = Diagnostic::error("E-usage", message).help(help.join("\n"));
+        let mut diagnostic = Diagnostic::error("E-usage", message).help(help.join("; "));
         if let Some(span) = self.place_of(error) {
             diagnostic = diagnostic.at(span, "");
         }

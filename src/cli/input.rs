@@ -71,6 +71,12 @@ pub(super) fn settings(
     if !wrong.is_empty() {
         return Err(in_line(context.line, wrong).into());
     }
+    for (name, range) in &settings.domain {
+        if let Some(value) = settings.set.get(name).filter(|v| !range.contains(v)) {
+            let message = format!("{name} = {value} is outside the domain given by --domain");
+            context.warn(None, &[Diagnostic::warning("W-outside-domain", message)]);
+        }
+    }
     let number = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| plain_number(context.line, option, text)).transpose()
     };

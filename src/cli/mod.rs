@@ -8,6 +8,7 @@ mod command_line;
 mod commands;
 mod input;
 mod output;
+mod picture;
 mod progress;
 mod status;
 

@@ -118,6 +118,15 @@ Remedy: add what the message names."#,
 Remedy: use letters, digits and underscores, and begin with a letter or an underscore."#,
     ),
     (
+        "E-no-root-locus",
+        r#"A root locus in a parameter needs the characteristic polynomial in the form den + NAME num, and this
+parameter enters with a higher power.
+
+    jurist charpoly --root-locus-form T
+
+Remedy: take a parameter that enters linearly, such as a gain."#,
+    ),
+    (
         "E-no-states",
         r#"A model given by its characteristic polynomial has no states, inputs or outputs, so it has no
 responses and no transfer functions.
@@ -167,10 +176,26 @@ Remedy: multiply by the denominators: "z - 1 + K", or use [[block]]."#,
 Remedy: write it like 12, 0.046, 46e-3 or 1_000."#,
     ),
     (
+        "E-option-value",
+        r#"An option's value is not of the form that the option takes.
+
+    --set K=1/3    --domain K=0..10    --domain K=0..    --domain K=..10
+
+Remedy: write the name, an equals sign, and a number or a range; a range has two dots."#,
+    ),
+    (
         "E-output-format",
         r#"The ending of the output file names no format that the command can write.
 
 Remedy: use one of the endings the message lists."#,
+    ),
+    (
+        "E-read",
+        r#"A file cannot be read: it is not there, is no file, is closed to you, or is longer than a model may be.
+
+    jurist analyze mode.toml
+
+Remedy: correct the path; '-' is standard input, and no MODEL at all is the built-in drive."#,
     ),
     (
         "E-region",
@@ -190,6 +215,24 @@ the region of stability.
     z = 1
 
 Remedy: choose another name."#,
+    ),
+    (
+        "E-set-twice",
+        r#"The command line gives one name two values or two domains.
+
+    --set K=1 --set K=2
+
+Remedy: keep one of the two."#,
+    ),
+    (
+        "E-simulation",
+        r#"The model or the options do not fit a simulation: an input or state that does not exist, a
+duration that is not positive, or a switched simulation of a model without its parts.
+
+    jurist simulate --switched model.toml
+
+Remedy: a switched simulation needs a model made of blocks, of which one has a 'pwm' entry and one a
+'discretize' entry; inputs and states go by the names that the model gives them."#,
     ),
     (
         "E-size",

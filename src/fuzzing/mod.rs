@@ -4,10 +4,12 @@
 
 mod certificate;
 mod isolation;
+mod model;
 mod number;
 mod stability;
 
 pub use certificate::certificate_check;
 pub use isolation::isolation_against_sturm;
+pub use model::model_parser;
 pub use number::number_parser;
 pub use stability::{interval_answer, jury_against_count};

@@ -18,6 +18,7 @@ mod lexer;
 mod linear;
 mod names;
 mod parser;
+mod parts;
 mod question;
 mod read;
 mod read_block;

@@ -242,7 +242,7 @@ fn discretize(entry: &Entry, reader: &mut Reader) -> Option<Discretization> {
     let wrong = |message: &str, span: Span, label: &str, help: &str| {
         Diagnostic::error("E-discretize", message).at(span, label).help(help)
     };
-    for prewarp in table.iter().filter(|e| e.key.to_lowercase().contains("warp")) {
+    if let Some(prewarp) = table.iter().find(|e| e.key.to_lowercase().contains("warp")) {
         reader.report(wrong(
             "prewarping by a frequency makes the factor c of the bilinear map irrational",
             prewarp.key_span,

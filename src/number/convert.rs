@@ -45,6 +45,19 @@ impl From<&Rational> for Ratio<BigInt> {
     }
 }
 
+impl TryFrom<Ratio<BigInt>> for Rational {
+    type Error = DivisionByZero;
+    fn try_from(value: Ratio<BigInt>) -> Result<Self, DivisionByZero> {
+        Rational::try_from(&value)
+    }
+}
+
+impl From<Rational> for Ratio<BigInt> {
+    fn from(value: Rational) -> Self {
+        Ratio::from(&value)
+    }
+}
+
 /// A ratio made by `Ratio::new_raw` with a zero denominator is not a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DivisionByZero;
@@ -56,3 +69,15 @@ impl std::fmt::Display for DivisionByZero {
 }
 
 impl std::error::Error for DivisionByZero {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn raw_ratios() {
+        let raw = |n: i32, d: i32| Ratio::new_raw(BigInt::from(n), BigInt::from(d));
+        assert_eq!(Rational::try_from(raw(1, 0)), Err(DivisionByZero));
+        assert_eq!(Rational::try_from(raw(6, -4)).map(|v| v.to_string()), Ok("-3/2".into()));
+    }
+}

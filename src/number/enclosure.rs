@@ -164,18 +164,23 @@ fn unscaled(n: &Integer, s: i64) -> Rational {
     if s >= 0 { Rational::dyadic(n, s as u64) } else { Rational::from(n << s.unsigned_abs()) }
 }
 
-/// The shift that leaves `bits` significant bits, give or take one.
-fn shift_for(r: &Rational, bits: u64) -> i64 {
-    bits as i64 - (r.numerator().bit_length() as i64 - r.denominator().bit_length() as i64)
+/// `floor(log2 |r|)` of a number that is not zero.
+///
+/// The bit lengths alone tell it but for one, and differently for 4/3 and 3/2: with them the rounding
+/// grid would depend on the quotient, and a smaller number could be rounded to a larger one.
+fn binary_exponent(r: &Rational) -> i64 {
+    let (n, d) = (r.numerator().abs(), r.denominator());
+    let e = n.bit_length() as i64 - d.bit_length() as i64;
+    let reaches = if e >= 0 { n >= &d << e.unsigned_abs() } else { &n << e.unsigned_abs() >= d };
+    if reaches { e } else { e - 1 }
 }
 
+/// The largest number of `bits` significant bits (at least one) that is not above `r`; monotone.
 fn round_down(r: &Rational, bits: u64) -> Rational {
-    let is_short_dyadic = r.denominator().trailing_zeros() == Some(r.denominator().bit_length() - 1)
-        && r.numerator().bit_length() <= bits;
-    if r.is_zero() || is_short_dyadic {
-        return r.clone();
+    if r.is_zero() {
+        return Rational::ZERO;
     }
-    let s = shift_for(r, bits);
+    let s = bits.max(1) as i64 - 1 - binary_exponent(r);
     unscaled(&scaled_floor(r, s), s)
 }
 
@@ -183,9 +188,9 @@ fn round_up(r: &Rational, bits: u64) -> Rational {
     -round_down(&-r, bits)
 }
 
-/// The shift `k` of the square root's last bit: the root has about `bits` significant bits.
+/// The shift `k` of the square root's last bit: the root has `bits + 1` significant bits.
 fn sqrt_shift(r: &Rational, bits: u64) -> i64 {
-    bits as i64 - (r.numerator().bit_length() as i64 - r.denominator().bit_length() as i64).div_euclid(2)
+    bits as i64 - binary_exponent(r).div_euclid(2)
 }
 
 fn sqrt_down(r: &Rational, bits: u64) -> Rational {

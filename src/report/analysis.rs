@@ -29,12 +29,11 @@ pub fn analysis_text(answer: &Analysis, digits: usize) -> String {
     }
     for intervals in &answer.intervals {
         let question = &intervals.question;
-        let nominal = question.nominal.as_ref().map(|n| format!(", nominal {}", short(n))).unwrap_or_default();
+        let nominal = question.nominal.as_ref().map(|n| format!("{} = {} varied", question.parameter, short(n)));
+        let nominal = nominal.unwrap_or_else(|| format!("{} varied", question.parameter));
         let others = if question.set.is_empty() { String::new() } else { format!(", {}", named_values(&question.set)) };
-        out.push_str(&format!("\n{}{nominal}{others}\n", question.parameter));
-        for line in answer_lines(intervals, digits).lines() {
-            out.push_str(&format!("  {line}\n"));
-        }
+        out.push_str(&format!("\n{nominal}{others}\n"));
+        out.push_str(&answer_lines(intervals, digits));
     }
     out
 }

@@ -46,7 +46,6 @@ fn heading(question: &OneParameter) -> String {
 pub(super) fn answer_lines(answer: &Intervals, digits: usize) -> String {
     let question = &answer.question;
     let name = &question.parameter;
-    let unit = question.unit.as_deref().map(|u| format!(" ({u})")).unwrap_or_default();
     let goal = match (&question.radius, &question.decay) {
         (Some(r), _) => format!("all |z| < {}", short(r)),
         (_, Some(s)) => format!("all Re s < {}", short(&-s)),
@@ -54,17 +53,23 @@ pub(super) fn answer_lines(answer: &Intervals, digits: usize) -> String {
         _ if name == crate::analysis::DECAY => "all Re s < -decay".to_owned(),
         _ => "stable".to_owned(),
     };
+    let mut asked = name.clone();
+    if let Some(unit) = &question.unit {
+        asked.push_str(&format!(" in {unit}"));
+    }
     let domain = domain_text(name, &question.domain);
-    let asked = if domain == "all" { String::new() } else { format!(" (asked: {domain})") };
+    if domain != "all" {
+        asked.push_str(&format!(", domain {domain}"));
+    }
     match &answer.stable {
         Decision::Undecided { budget, reached } => {
-            format!("{name}: undecided, the budget ran out: {budget}; reached: {reached}\n")
+            format!("{asked}: undecided, the budget ran out: {budget}; reached: {reached}\n")
         }
-        Decision::Decided(set) if set.is_empty() => format!("{goal} for no {name}{unit}{asked}\n"),
+        Decision::Decided(set) if set.is_empty() => format!("{asked}: {goal} nowhere\n"),
         Decision::Decided(set) => {
-            let mut out = format!("{goal} for{asked}\n");
+            let mut out = format!("{asked}: {goal} for\n");
             for interval in set_lines(name, &set.to_interval_set(), digits) {
-                out.push_str(&format!("    {interval}{unit}\n"));
+                out.push_str(&format!("    {interval}\n"));
             }
             out.push_str(&end_lines(set, question, digits));
             out
@@ -108,7 +113,7 @@ fn end_lines(set: &StableSet, question: &OneParameter, digits: usize) -> String 
             columns.row(end_cells(end, question, digits));
         }
     }
-    if columns.is_empty() { String::new() } else { format!("  ends\n{columns}") }
+    if columns.is_empty() { String::new() } else { format!("ends\n{columns}") }
 }
 
 fn end_cells(end: &End, question: &OneParameter, digits: usize) -> Vec<String> {

@@ -2,6 +2,7 @@
 
 mod analysis;
 pub mod diagnostics;
+pub mod figures;
 mod intervals;
 pub mod json;
 mod layout;

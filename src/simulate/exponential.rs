@@ -94,7 +94,8 @@ impl Exponential {
         let mut bordered = DMatrix::zeros(2 * n, 2 * n);
         bordered.view_mut((0, 0), (n, n)).copy_from(&self.matrix);
         bordered.view_mut((n, 0), (n, n)).fill_with_identity();
-        let pad = |v: &DVector<f64>| DVector::from_iterator(2 * n, v.iter().copied().chain(std::iter::repeat_n(0.0, n)));
+        let pad =
+            |v: &DVector<f64>| DVector::from_iterator(2 * n, v.iter().copied().chain(std::iter::repeat_n(0.0, n)));
         let end = Exponential::new(bordered).advance(&pad(x), &pad(b), t);
         StateIntegral { state: end.rows(0, n).into_owned(), integral: end.rows(n, n).into_owned() }
     }

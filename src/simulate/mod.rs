@@ -14,6 +14,7 @@ mod assignment;
 mod exact;
 mod exponential;
 mod fixed;
+mod from_loop;
 mod root_locus;
 mod roots;
 mod sampled;
@@ -22,6 +23,7 @@ mod trace;
 
 pub use exact::exact_response;
 pub use exponential::{Exponential, StateIntegral};
+pub use from_loop::excitation;
 pub use root_locus::{Branch, Crossing, LocusOptions, LocusSample, ParameterScale, RootLocus, trace_root_locus};
 pub use roots::{ApproximateRoot, roots};
 pub use sampled::{Excitation, SampledModel, Step};
@@ -47,8 +49,6 @@ pub fn eigenvalues(matrix: &nalgebra::DMatrix<f64>) -> Option<Vec<nalgebra::Comp
     }
     let schur = nalgebra::linalg::Schur::try_new(matrix.clone(), f64::EPSILON, 10_000)?;
     let mut values: Vec<_> = schur.complex_eigenvalues().iter().copied().collect();
-    values.sort_by(|a, b| {
-        b.norm().total_cmp(&a.norm()).then(b.re.total_cmp(&a.re)).then(b.im.total_cmp(&a.im))
-    });
+    values.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(b.re.total_cmp(&a.re)).then(b.im.total_cmp(&a.im)));
     Some(values)
 }

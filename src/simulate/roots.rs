@@ -215,9 +215,8 @@ mod tests {
     fn a_tight_cluster_is_resolved() {
         // (10^10 z - 10^10 - k) for k = -1, 0, 1, 2: four roots within 3e-10.
         let scale = 10_000_000_000i64;
-        let p = [-1, 0, 1, 2]
-            .iter()
-            .fold(UniPoly::from_i64(&[1]), |p, k| &p * &UniPoly::from_i64(&[-(scale + k), scale]));
+        let p =
+            [-1, 0, 1, 2].iter().fold(UniPoly::from_i64(&[1]), |p, k| &p * &UniPoly::from_i64(&[-(scale + k), scale]));
         let found = roots(&p);
         for (root, k) in found.iter().zip([-1.0, 0.0, 1.0, 2.0]) {
             assert!(((root.value.re - 1.0) * 1e10 - k).abs() < 1e-4, "{root:?}");

@@ -2,10 +2,12 @@
 //! discrete time, Routh's in continuous time.
 
 use super::interval_set::{cells, merge_points, zeros_in};
-use super::{IntervalSet, JuryTable, ParametricPolynomial, Range, Region, RouthTable, jury_table, routh_table};
+use super::{
+    IntervalSet, JuryTable, ParametricPolynomial, Range, Region, RouthTable, jury_table, jury_table_with, routh_table,
+};
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
-use crate::poly::{Domain, Poly, UniPoly};
+use crate::poly::{Domain, Poly, RealAlgebraic, UniPoly};
 
 /// A strict inequality between polynomials in the parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,9 +112,19 @@ pub fn classical_test(
         cells(range, &[]).into_iter().collect()
     };
     intersection = intersection.intersection(&cells(range, &poles).into_iter().collect());
+    // The textbook's rows have factors that earlier rows solve at a fraction of the degree.
+    let divided = matches!(&table, Table::Jury(table) if !table.is_divided()).then(|| jury_table_with(&base, n, true));
     for (i, (name, inequality)) in inequalities.into_iter().enumerate() {
         budget.step(&format!("condition {}", i + 1));
-        let solution = solve(&inequality, range, budget)?;
+        let row = i.checked_sub(VALUE_CONDITIONS).and_then(|row| Some((divided.as_ref()?, row)));
+        let known = match row {
+            Some((table, row)) => solve_divided_row(table, row, range, budget)?,
+            None => None,
+        };
+        let solution = match known {
+            Some(solution) => solution,
+            None => solve(&inequality, range, budget)?,
+        };
         intersection = intersection.intersection(&solution);
         conditions.push(Condition { name, inequality, solution });
     }
@@ -133,18 +145,53 @@ pub fn solve(inequality: &Inequality, range: &Range, budget: &Budget) -> Result<
     match inequality {
         Inequality::Positive(f) => solve_positive(&f.polynomial, range, budget),
         Inequality::Dominates { left, right } => {
-            // |l| > |r| is (l - r)(l + r) > 0; the rational scales are brought together first.
+            // The rational scales are brought together first.
             let ratio = &right.scale / &left.scale;
             let l = left.polynomial.scaled(&ratio.denominator());
             let r = right.polynomial.scaled(&ratio.numerator());
-            let (difference, sum) = (l.minus(&r), l.plus(&r));
-            if difference.is_zero() || sum.is_zero() {
-                return Ok(IntervalSet::default());
-            }
-            let points = merge_points(vec![zeros_in(&difference, range, budget)?, zeros_in(&sum, range, budget)?]);
-            IntervalSet::from_cells(range, &points, budget, |x| difference.sign_at(x) == sum.sign_at(x))
+            solve_dominates(&l, &r, Vec::new(), range, budget)
         }
     }
+}
+
+/// Where `|l| > |r|`, which is `(l - r)(l + r) > 0`, except at the given points.
+fn solve_dominates(
+    l: &UniPoly,
+    r: &UniPoly,
+    mut except: Vec<Vec<RealAlgebraic>>,
+    range: &Range,
+    budget: &Budget,
+) -> Result<IntervalSet, Exhausted> {
+    let (difference, sum) = (l.minus(r), l.plus(r));
+    if difference.is_zero() || sum.is_zero() {
+        return Ok(IntervalSet::default());
+    }
+    except.push(zeros_in(&difference, range, budget)?);
+    except.push(zeros_in(&sum, range, budget)?);
+    let points = merge_points(except);
+    IntervalSet::from_cells(range, &points, budget, |x| difference.sign_at(x) == sum.sign_at(x))
+}
+
+/// The condition of a row that the textbook leaves undivided, solved on the table with division; `None`
+/// for the first three rows, where nothing is divided, and where a divisor is identically zero.
+///
+/// With `R_i` the textbook's row and `D_i` the divided one, `R_i = f_i D_i` with `f_2 = 1` and
+/// `f_(i+1) = f_i^2 D_(i-1),0`. So the condition on `R_i` is that on `D_i`, except where an entry
+/// `D_k,0` with `1 <= k <= i - 2` is zero: there both sides vanish.
+fn solve_divided_row(
+    table: &JuryTable<UniPoly>,
+    row: usize,
+    range: &Range,
+    budget: &Budget,
+) -> Result<Option<IntervalSet>, Exhausted> {
+    let rows = table.rows.get(3..=row).unwrap_or_default();
+    let Some((last, _)) = rows.split_last().filter(|_| rows.iter().all(|r| r.divisor.is_some())) else {
+        return Ok(None);
+    };
+    let factors = table.rows[1..=row - 2].iter().map(|r| zeros_in(&r.entries[0], range, budget));
+    let factors = factors.collect::<Result<Vec<_>, _>>()?;
+    let (left, right) = (&last.entries[0], &last.entries[last.entries.len() - 1]);
+    solve_dominates(left, right, factors, range, budget).map(Some)
 }
 
 fn solve_positive(f: &UniPoly, range: &Range, budget: &Budget) -> Result<IntervalSet, Exhausted> {
@@ -154,6 +201,9 @@ fn solve_positive(f: &UniPoly, range: &Range, budget: &Budget) -> Result<Interva
     let points = zeros_in(f, range, budget)?;
     IntervalSet::from_cells(range, &points, budget, |x| f.sign_at(x).is_gt())
 }
+
+/// Jury's conditions on `Q(1)` and `Q(-1)` come before those on the rows.
+const VALUE_CONDITIONS: usize = 2;
 
 type Inequalities = (Table, Vec<Rational>, Vec<(String, Inequality)>);
 
@@ -239,4 +289,34 @@ fn routh_inequalities(base: &Poly<UniPoly>, n: usize, scale: Rational) -> Inequa
         list.push((name, Inequality::Positive(ScaledPoly { scale: s, polynomial: f })));
     }
     (Table::Routh(table), scales, list)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Coefficients `c + d K` from a fixed sequence of small numbers.
+    fn example(order: usize, seed: &mut u64) -> ParametricPolynomial {
+        let mut next = || {
+            *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (*seed >> 33) as i64 % 19 - 9
+        };
+        let mut coefficients: Vec<UniPoly> = (0..order).map(|_| UniPoly::from_i64(&[next(), next()])).collect();
+        coefficients.push(UniPoly::from_i64(&[20 + next()]));
+        ParametricPolynomial::from_integral(&Poly::new(coefficients), order)
+    }
+
+    #[test]
+    fn rows_solved_by_division_have_the_textbooks_solutions() {
+        let mut seed = 1;
+        let range = Range::between(Some(Rational::from(-3)), None);
+        for order in [2, 3, 4, 5, 5, 6, 6, 6] {
+            let p = example(order, &mut seed);
+            let test = classical_test(&p, &range, Region::UnitDisc, &Budget::unlimited()).unwrap();
+            for condition in &test.conditions {
+                let textbook = solve(&condition.inequality, &range, &Budget::unlimited()).unwrap();
+                assert!(textbook.same_as(&condition.solution), "order {order}: {}", condition.name);
+            }
+        }
+    }
 }

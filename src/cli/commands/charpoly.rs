@@ -135,7 +135,7 @@ fn report(
     };
     if let Some([input, output]) = options.transfer.as_deref() {
         let transfer = model.transfer_function(input, output, question, &context.budget);
-        let transfer = transfer.map_err(|e| refused(context, e))?;
+        let transfer = transfer.map_err(|e| unknown_signal(context, e, [input, output]))?;
         report.relation = Relation::Transfer { input: input.clone(), output: output.clone() };
         report.polynomials = vec![
             NamedPolynomial::new("num", "b", transfer.numerator),
@@ -164,12 +164,26 @@ fn root_locus(
     let Some((num, den)) = split else {
         let span = context.line.option_value("--root-locus-form", name).span;
         let message = format!("'{name}' does not enter the characteristic polynomial linearly");
-        let diagnostic = Diagnostic::error("E-not-linear", message)
+        let diagnostic = Diagnostic::error("E-no-root-locus", message)
             .at(span, "1 + NAME num/den has NAME to the first power only")
             .help("a root locus needs a parameter that multiplies one polynomial in z or s");
         return Err(in_line(context.line, vec![diagnostic]).into());
     };
     Ok((NamedPolynomial::new("num", "b", num), NamedPolynomial::new("den", "a", den)))
+}
+
+/// A signal's name that the loop does not know is marked on the command line.
+fn unknown_signal(context: &Context, error: ModelError, names: [&String; 2]) -> Failure {
+    if let ModelError::Input(error) = &error
+        && let [diagnostic] = error.diagnostics()
+        && diagnostic.primary.is_none()
+    {
+        let quoted = |name: &&String| diagnostic.message.contains(&format!("'{name}'"));
+        if let Some(span) = names.into_iter().find(quoted).and_then(|name| context.line.argument(name)) {
+            return in_line(context.line, vec![diagnostic.clone().at(span, "not in the model")]).into();
+        }
+    }
+    refused(context, error)
 }
 
 /// A model that gives no polynomial.

@@ -6,7 +6,9 @@ pub(super) mod completions;
 pub(super) mod explain;
 pub(super) mod intervals;
 pub(super) mod jury;
+pub(super) mod locus;
 pub(super) mod main_job;
+pub(super) mod simulate;
 pub(super) mod verdict;
 pub(super) mod verify;
 
@@ -105,6 +107,8 @@ impl Arguments {
             Some(Command::Verdict(options)) => &options.output.run,
             Some(Command::Charpoly(options)) => &options.output.run,
             Some(Command::Jury(options)) => &options.output.run,
+            Some(Command::Locus(options)) => &options.run,
+            Some(Command::Simulate(options)) => &options.run,
             Some(Command::Verify(options)) => &options.run,
             Some(Command::Explain(_) | Command::Completions(_)) => NONE,
         }
@@ -120,6 +124,8 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Verdict(options)) => verdict::run(options, context),
         Some(Command::Charpoly(options)) => charpoly::run(options, context),
         Some(Command::Jury(options)) => jury::run(options, context),
+        Some(Command::Locus(options)) => locus::run(options, context),
+        Some(Command::Simulate(options)) => simulate::run(options, context),
         Some(Command::Verify(options)) => verify::run(options, context),
         Some(Command::Explain(options)) => explain::run(options),
         Some(Command::Completions(options)) => completions::run(options),

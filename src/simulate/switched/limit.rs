@@ -18,8 +18,8 @@ pub struct Growth {
 }
 
 impl SwitchedModel {
-    /// Runs the circuit from a slightly disturbed periodic steady state, and measures the growth of
-    /// the deviation over the last `measured` periods, `settling` periods before that.
+    /// Runs the circuit from a periodic steady state that a short extra pulse of the sources has
+    /// disturbed slightly, and measures the growth of the plant's deviation over the last `measured` periods, `settling` periods before that.
     ///
     /// Every period is a run of the circuit itself, not of its linearisation; the deviation is only
     /// scaled back to its first size every 64 periods, so that the run stays near the steady state.
@@ -27,10 +27,17 @@ impl SwitchedModel {
     pub fn perturbed_growth(&self, inputs: &DVector<f64>, settling: usize, measured: usize) -> Option<Growth> {
         let operating = self.periodic_steady_state(inputs)?;
         let base = operating.state.stacked();
-        let scale = base.map(|v| v.abs().max(1e-3));
-        let size = |d: &DVector<f64>| d.component_div(&scale).norm();
         let n = self.plant_states.len();
-        let mut deviation = DVector::from_fn(base.len(), |i, _| scale[i] * if i % 2 == 0 { 1.0 } else { -0.5 });
+        let scale = base.rows(0, n).norm().max(1.0);
+        let size = |d: &DVector<f64>| d.rows(0, n).norm() / scale;
+        // The disturbance of a short extra pulse of every source.
+        let pulse = self.sources.iter().enumerate().map(|(k, s)| self.plant.source.column(k) * s.amplitude);
+        let kick = pulse.fold(DVector::zeros(n), |sum, v| sum + v);
+        let mut deviation = DVector::zeros(base.len());
+        deviation.rows_mut(0, n).copy_from(&kick);
+        if size(&deviation) == 0.0 {
+            deviation.fill(1.0);
+        }
         let (mut log, mut sum, mut moment, mut points) = (0.0, 0.0, 0.0, 0usize);
         let total = measured.max(BLOCK);
         let middle = (total as f64 + 1.0) / 2.0;
@@ -71,12 +78,7 @@ impl SwitchedModel {
 /// let limit = growth_limit(1.0, 3.0, 1e-6, |k| Some(k / 2.0)).unwrap();
 /// assert!((limit - 2.0).abs() < 1e-6);
 /// ```
-pub fn growth_limit(
-    stable: f64,
-    unstable: f64,
-    width: f64,
-    mut growth: impl FnMut(f64) -> Option<f64>,
-) -> Option<f64> {
+pub fn growth_limit(stable: f64, unstable: f64, width: f64, mut growth: impl FnMut(f64) -> Option<f64>) -> Option<f64> {
     if growth(stable)? >= 1.0 || growth(unstable)? <= 1.0 {
         return None;
     }

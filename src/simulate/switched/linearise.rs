@@ -57,7 +57,7 @@ impl SwitchedModel {
             if residual.is_nan() {
                 return None;
             }
-            if residual == 0.0 || (residual < 1e-11 && residual >= best) {
+            if residual < f64::EPSILON || (residual < 1e-11 && residual >= best) {
                 let output = self.controller_output(&state, inputs);
                 let unclamped = self.sources.iter().zip(output.iter()).all(|(s, e)| *e >= 0.0 && *e <= s.carrier);
                 return unclamped.then(|| Operating { duty: self.duty(&state, inputs), state, residual });

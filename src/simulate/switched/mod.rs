@@ -6,10 +6,10 @@
 //! the plant is linear, so its state there is a matrix exponential; the instants themselves are
 //! computed, not met by a grid.
 
+mod limit;
 mod linearise;
 mod period;
 mod run;
-mod limit;
 
 pub use limit::{Growth, growth_limit};
 pub use run::{Record, SwitchedRun};

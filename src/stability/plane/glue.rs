@@ -1,8 +1,8 @@
 //! Which stable cells of neighbouring strips are parts of one region.
 
-use super::curves::{Curve, X};
+use super::curves::Curve;
 use super::decompose::{Strip, at_y, branches_at, in_y};
-use super::sturm_at::count_distinct_roots_at;
+use super::sturm_at::SturmAt;
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
 use crate::poly::{Domain, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
@@ -13,9 +13,9 @@ use std::collections::BTreeSet;
 /// The stable cells grouped into connected regions, each group ascending.
 ///
 /// Two cells on either side of a wall are parts of one region when a horizontal segment leads from one
-/// to the other without meeting a curve: that is proved by root counts. The segments found are all there
-/// are when their number, over all cells, is one more than that of the distinct roots of the
-/// curves on the wall itself, counted by Sturm's theorem over the wall's algebraic number.
+/// to the other without meeting a curve: that is proved by root counts. Where a few trials do not connect
+/// all that might be connected, one height is taken in every piece of the wall, found by Sturm's theorem
+/// over the wall's algebraic number.
 pub(super) fn glue_stable_cells(
     curves: &[Curve],
     strips: &[Strip],
@@ -29,17 +29,32 @@ pub(super) fn glue_stable_cells(
         .flat_map(|(s, strip)| strip.cells.iter().enumerate().filter(|c| c.1.stable).map(move |(c, _)| (s, c)))
         .collect();
     let mut parent: Vec<usize> = (0..stable.len()).collect();
+    let polynomials: Vec<Poly<UniPoly>> = curves.iter().map(|c| in_y(&c.polynomial)).collect();
     let index = |cell: (usize, usize)| stable.binary_search(&cell).ok();
     for (s, pair) in strips.windows(2).enumerate() {
-        if !pair.iter().all(|strip| strip.cells.iter().any(|c| c.stable)) {
-            continue;
-        }
         let wall = pair[0].x.upper.as_ref().expect("a wall between strips is finite");
-        let mut search = Wall::new(curves, pair, wall, y_domain);
-        for (left, right) in search.links(budget)? {
+        let open = |parent: &[usize]| {
+            let side = |strip: usize| stable.iter().enumerate().filter(move |c| c.1.0 == strip).map(|c| c.0);
+            side(s).any(|a| side(s + 1).any(|b| root(parent, a) != root(parent, b)))
+        };
+        let join = |parent: &mut Vec<usize>, (left, right): (usize, usize)| {
             if let (Some(a), Some(b)) = (index((s, left)), index((s + 1, right))) {
-                let (a, b) = (root(&parent, a), root(&parent, b));
+                let (a, b) = (root(parent, a), root(parent, b));
                 parent[a.max(b)] = a.min(b);
+            }
+        };
+        let search = Wall { curves, polynomials: &polynomials, strips: pair, value: wall, y_domain };
+        for bits in [8, 16, 32] {
+            if !open(&parent) {
+                break;
+            }
+            for link in search.nearby_links(bits, budget)? {
+                join(&mut parent, link);
+            }
+        }
+        if open(&parent) {
+            for link in search.all_links(budget)? {
+                join(&mut parent, link);
             }
         }
     }
@@ -66,88 +81,83 @@ fn root(parent: &[usize], mut i: usize) -> usize {
 /// The wall between two strips.
 struct Wall<'a> {
     curves: &'a [Curve],
-    polynomials: Vec<Poly<UniPoly>>,
+    polynomials: &'a [Poly<UniPoly>],
     strips: &'a [Strip],
     value: &'a RealAlgebraic,
     y_domain: &'a Range,
 }
 
-impl<'a> Wall<'a> {
-    fn new(curves: &'a [Curve], strips: &'a [Strip], value: &'a RealAlgebraic, y_domain: &'a Range) -> Self {
-        let polynomials = curves.iter().map(|c| in_y(&c.polynomial)).collect();
-        Wall { curves, polynomials, strips, value, y_domain }
-    }
-
-    /// All pairs of a cell on the left and a cell on the right that touch along a piece of the wall.
-    fn links(&mut self, budget: &Budget) -> Result<BTreeSet<(usize, usize)>, Exhausted> {
-        let product = self.polynomials.iter().fold(Poly::one(), |p, f| p.times(f));
-        let (lower, upper) = (self.y_domain.lower.as_ref(), self.y_domain.upper.as_ref());
-        // A curve that contains the whole wall separates the strips.
-        let Some(roots) = count_distinct_roots_at(&product, self.value, lower, upper, budget)? else {
-            return Ok(BTreeSet::new());
-        };
+impl Wall<'_> {
+    /// Links found by trying one height in each gap between the branches close to the wall.
+    fn nearby_links(&self, bits: u64, budget: &Budget) -> Result<BTreeSet<(usize, usize)>, Exhausted> {
+        let (left, right) = self.either_side(bits);
+        let sides = [self.branches(&left, budget)?, self.branches(&right, budget)?];
+        let mut merged: Vec<RealAlgebraic> = sides.iter().flatten().cloned().collect();
+        merged.sort_by(|a, b| a.compare(b));
+        merged.dedup_by(|a, b| a.compare(b).is_eq());
         let mut links = BTreeSet::new();
-        let mut bits = 8u64;
-        // One link for each piece of the wall, each found in the end because every piece has length.
-        while links.len() < roots + 1 {
-            budget.check()?;
-            let (left, right) = self.either_side(bits);
-            self.search(&left, &right, &mut links, budget)?;
-            bits *= 2;
+        for gap in cells(self.y_domain, &merged) {
+            let y = gap.sample();
+            let link = (cell_of(&sides[0], &y), cell_of(&sides[1], &y));
+            let stable = |side: usize, cell: usize| self.strips[side].cells.get(cell).is_some_and(|c| c.stable);
+            if stable(0, link.0)
+                && stable(1, link.1)
+                && !links.contains(&link)
+                && self.is_clear(&left, &right, &y, budget)?
+            {
+                links.insert(link);
+            }
         }
         Ok(links)
     }
 
-    /// Rationals close to the wall in the strip on either side.
-    fn either_side(&self, bits: u64) -> (Rational, Rational) {
-        let width = Rational::dyadic(&Integer::ONE, bits);
-        let (lo, hi) = self.value.refined(&width).enclosure();
-        let (mut left, mut right) = (&lo - &width, &hi + &width);
-        let mut step = width;
-        while !self.strips[0].x.contains(&left) {
-            step = step * Rational::new(Integer::ONE, Integer::from(2));
-            left = &self.value.refined(&step).enclosure().0 - &step;
-        }
-        while !self.strips[1].x.contains(&right) {
-            step = step * Rational::new(Integer::ONE, Integer::from(2));
-            right = &self.value.refined(&step).enclosure().1 + &step;
-        }
-        (left, right)
-    }
-
-    fn search(
-        &self,
-        left: &Rational,
-        right: &Rational,
-        links: &mut BTreeSet<(usize, usize)>,
-        budget: &Budget,
-    ) -> Result<(), Exhausted> {
-        let values = |x: &Rational| -> Result<Vec<RealAlgebraic>, Exhausted> {
-            Ok(branches_at(self.curves, x, self.y_domain, budget)?.into_iter().map(|b| b.0).collect())
-        };
-        let sides = [values(left)?, values(right)?];
-        let cell_of =
-            |side: &[RealAlgebraic], y: &Rational| side.iter().take_while(|v| v.compare_rational(y).is_lt()).count();
-        // Every piece of the wall lies, close by, within a cell of the merged order of both sides.
-        let mut merged: Vec<RealAlgebraic> = sides.iter().flatten().cloned().collect();
-        merged.sort_by(|a, b| a.compare(b));
-        merged.dedup_by(|a, b| a.compare(b).is_eq());
-        for gap in cells(self.y_domain, &merged) {
-            let y = gap.sample();
-            let link = (cell_of(&sides[0], &y), cell_of(&sides[1], &y));
-            if !links.contains(&link) && self.is_clear(left, right, &y, budget)? {
-                links.insert(link);
+    /// All pairs of a cell on the left and a cell on the right that touch along a piece of the wall:
+    /// one height in each piece between the distinct roots of the curves on the wall, and a segment
+    /// at that height short enough to meet no curve.
+    fn all_links(&self, budget: &Budget) -> Result<BTreeSet<(usize, usize)>, Exhausted> {
+        let product = self.polynomials.iter().fold(Poly::one(), |p, f| p.times(f));
+        let mut links = BTreeSet::new();
+        let (lower, upper) = (self.y_domain.lower.as_ref(), self.y_domain.upper.as_ref());
+        // A curve that contains the whole wall separates the strips.
+        let Some(sturm) = SturmAt::new(&product, self.value, lower, upper, budget)? else { return Ok(links) };
+        for y in sturm.points_between_roots(budget)? {
+            let mut bits = 8u64;
+            loop {
+                budget.check()?;
+                let (left, right) = self.either_side(bits);
+                if self.is_clear(&left, &right, &y, budget)? {
+                    let cell = |x: &Rational| Ok(cell_of(&self.branches(x, budget)?, &y));
+                    links.insert((cell(&left)?, cell(&right)?));
+                    break;
+                }
+                bits *= 2;
             }
         }
-        Ok(())
+        Ok(links)
+    }
+
+    fn branches(&self, x: &Rational, budget: &Budget) -> Result<Vec<RealAlgebraic>, Exhausted> {
+        Ok(branches_at(self.curves, x, self.y_domain, budget)?.into_iter().map(|b| b.0).collect())
+    }
+
+    /// Rationals close to the wall in the strip on either side.
+    fn either_side(&self, bits: u64) -> (Rational, Rational) {
+        let half = Rational::dyadic(&Integer::ONE, 1);
+        let mut step = Rational::dyadic(&Integer::ONE, bits);
+        loop {
+            let (lo, hi) = self.value.refined(&step).enclosure();
+            let (left, right) = (&lo - &step, &hi + &step);
+            if self.strips[0].x.contains(&left) && self.strips[1].x.contains(&right) {
+                return (left, right);
+            }
+            step = step * &half;
+        }
     }
 
     /// Whether no curve meets the horizontal segment.
     fn is_clear(&self, left: &Rational, right: &Rational, y: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
-        for (f, curve) in self.polynomials.iter().zip(self.curves) {
-            let restricted = at_y(f, y);
-            let Some(restricted) = SquareFree::part_of(&restricted) else { return Ok(false) };
-            debug_assert!(curve.polynomial.degree_in(X) as usize + 1 >= restricted.poly().coeffs().len());
+        for f in self.polynomials {
+            let Some(restricted) = SquareFree::part_of(&at_y(f, y)) else { return Ok(false) };
             let touches = |x: &Rational| restricted.poly().sign_at(x).is_eq();
             if touches(left)
                 || touches(right)
@@ -158,4 +168,9 @@ impl<'a> Wall<'a> {
         }
         Ok(true)
     }
+}
+
+/// The number of the cell that holds a height: how many branches are below.
+fn cell_of(branches: &[RealAlgebraic], y: &Rational) -> usize {
+    branches.iter().take_while(|v| v.compare_rational(y).is_lt()).count()
 }

@@ -5,61 +5,154 @@ use crate::number::{Integer, Rational, Sign};
 use crate::poly::{Domain, Poly, RealAlgebraic, UniPoly};
 use std::cmp::Ordering;
 
-/// How many distinct real roots `f(c, y)` has in an open interval of `y` with rational or infinite ends,
-/// for an algebraic number `c`; `None` when `f(c, y)` vanishes identically.
+/// The signed remainder sequence of `f(c, y)` and its derivative, for an algebraic number `c` and over an
+/// interval of `y` whose finite ends are no roots: their linear factors are divided out first.
 ///
-/// A signed remainder sequence whose coefficients are reduced modulo the polynomial of `c`; a
-/// coefficient is zero when its exact sign at `c` is.
-///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-pub(super) fn count_distinct_roots_at(
-    f: &Poly<UniPoly>,
-    c: &RealAlgebraic,
-    lower: Option<&Rational>,
-    upper: Option<&Rational>,
-    budget: &Budget,
-) -> Result<Option<usize>, Exhausted> {
-    let mut first = reduced(f, c);
-    for end in [lower, upper].into_iter().flatten() {
-        // A root at an end is not inside; the quotient by its linear factor has the other roots.
-        while !first.is_constant() && sign_at(&first, c, end).is_eq() {
-            first = reduced(&without_root(&first, end), c);
+/// Coefficients are reduced modulo the polynomial of `c`; one is zero when its exact sign at `c` is.
+pub(super) struct SturmAt<'a> {
+    sequence: Vec<Poly<UniPoly>>,
+    c: &'a RealAlgebraic,
+    lower: Option<&'a Rational>,
+    upper: Option<&'a Rational>,
+}
+
+impl<'a> SturmAt<'a> {
+    /// The sequence; `None` when `f(c, y)` vanishes identically.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn new(
+        f: &Poly<UniPoly>,
+        c: &'a RealAlgebraic,
+        lower: Option<&'a Rational>,
+        upper: Option<&'a Rational>,
+        budget: &Budget,
+    ) -> Result<Option<Self>, Exhausted> {
+        let mut first = reduced(f, c);
+        if first.is_zero() {
+            return Ok(None);
         }
-    }
-    if first.is_zero() {
-        return Ok(None);
-    }
-    let mut sequence = vec![first.clone()];
-    let mut next = reduced(&first.derivative(), c);
-    while !next.is_zero() {
-        budget.check()?;
-        let previous = &sequence[sequence.len() - 1];
-        let exponent = (previous.coeffs().len() + 1).saturating_sub(next.coeffs().len());
-        let lead = c.sign_of(next.leading().expect("not zero"));
-        let mut r = reduced(&previous.pseudo_rem(&next), c);
-        if !(exponent % 2 == 1 && lead.is_lt()) {
-            r = r.negated();
+        for end in [lower, upper].into_iter().flatten() {
+            while !first.is_constant() && sign_at(&first, c, end).is_eq() {
+                first = reduced(&without_root(&first, end), c);
+            }
         }
-        sequence.push(next);
-        next = r;
+        let mut next = reduced(&first.derivative(), c);
+        let mut sequence = vec![first];
+        while !next.is_zero() {
+            budget.check()?;
+            let previous = &sequence[sequence.len() - 1];
+            let exponent = (previous.coeffs().len() + 1).saturating_sub(next.coeffs().len());
+            let lead = c.sign_of(next.leading().expect("not zero"));
+            let mut r = reduced(&previous.pseudo_rem(&next), c);
+            if !(exponent % 2 == 1 && lead.is_lt()) {
+                r = r.negated();
+            }
+            sequence.push(next);
+            next = r;
+        }
+        Ok(Some(SturmAt { sequence, c, lower, upper }))
     }
-    let variations = |sign: &dyn Fn(&Poly<UniPoly>) -> Sign| {
+
+    fn is_root(&self, y: &Rational) -> bool {
+        sign_at(&self.sequence[0], self.c, y).is_eq()
+    }
+
+    /// The number of distinct real roots between two numbers that are no roots.
+    fn count(&self, low: &Rational, high: &Rational) -> usize {
+        self.variations(|p| sign_at(p, self.c, low)) - self.variations(|p| sign_at(p, self.c, high))
+    }
+
+    /// The number of distinct real roots.
+    fn count_all(&self) -> usize {
+        let lead = |p: &Poly<UniPoly>| p.leading().map_or(Ordering::Equal, |l| self.c.sign_of(l));
+        let at_minus_infinity = |p: &Poly<UniPoly>| {
+            let sign = lead(p);
+            if p.coeffs().len() % 2 == 0 { sign.reverse() } else { sign }
+        };
+        self.variations(at_minus_infinity) - self.variations(lead)
+    }
+
+    fn variations(&self, sign: impl Fn(&Poly<UniPoly>) -> Sign) -> usize {
         let mut last = Ordering::Equal;
         let mut count = 0;
-        for s in sequence.iter().map(sign).filter(|s| s.is_ne()) {
+        for s in self.sequence.iter().map(sign).filter(|s| s.is_ne()) {
             count += usize::from(last.is_ne() && s != last);
             last = s;
         }
         count
-    };
-    let at_infinity = |p: &Poly<UniPoly>, negative: bool| {
-        let sign = p.leading().map_or(Ordering::Equal, |l| c.sign_of(l));
-        if negative && p.coeffs().len() % 2 == 0 { sign.reverse() } else { sign }
-    };
-    let low = variations(&|p| lower.map_or_else(|| at_infinity(p, true), |x| sign_at(p, c, x)));
-    let high = variations(&|p| upper.map_or_else(|| at_infinity(p, false), |x| sign_at(p, c, x)));
-    Ok(Some(low - high))
+    }
+
+    /// One rational in each open piece that the distinct roots cut the interval into, ascending.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn points_between_roots(&self, budget: &Budget) -> Result<Vec<Rational>, Exhausted> {
+        let mut far = Rational::ONE;
+        let two = Rational::from(2);
+        loop {
+            budget.check()?;
+            let within = |end: Option<&Rational>| end.is_none_or(|e| e.abs() < far);
+            let minus = -&far;
+            let free = !self.is_root(&far) && !self.is_root(&minus);
+            if within(self.lower) && within(self.upper) && free && self.count(&minus, &far) == self.count_all() {
+                break;
+            }
+            far = far * &two;
+        }
+        let low = match self.lower {
+            None => -&far,
+            Some(end) => self.close_to(end, &far, budget)?,
+        };
+        let high = match self.upper {
+            None => far,
+            Some(end) => self.close_to(end, &-far, budget)?,
+        };
+        let mut points = vec![low.clone()];
+        if low < high {
+            self.split(&low, &high, self.count(&low, &high), &mut points, budget)?;
+        }
+        Ok(points)
+    }
+
+    /// A point from a finite end towards another, inside the interval, with no root in between.
+    fn close_to(&self, end: &Rational, towards: &Rational, budget: &Budget) -> Result<Rational, Exhausted> {
+        let inside = |y: &Rational| self.lower.is_none_or(|l| l < y) && self.upper.is_none_or(|u| y < u);
+        let mut point = end.midpoint(towards);
+        loop {
+            budget.check()?;
+            let (a, b) = if *end < point { (end, &point) } else { (&point, end) };
+            if inside(&point) && !self.is_root(&point) && self.count(a, b) == 0 {
+                return Ok(point);
+            }
+            point = end.midpoint(&point);
+        }
+    }
+
+    /// Adds points so that there is one root between neighbours, up to and including `high`.
+    fn split(
+        &self,
+        low: &Rational,
+        high: &Rational,
+        roots: usize,
+        points: &mut Vec<Rational>,
+        budget: &Budget,
+    ) -> Result<(), Exhausted> {
+        budget.check()?;
+        if roots <= 1 {
+            if roots == 1 {
+                points.push(high.clone());
+            }
+            return Ok(());
+        }
+        let mut middle = low.midpoint(high);
+        while self.is_root(&middle) {
+            middle = low.midpoint(&middle);
+        }
+        let left = self.count(low, &middle);
+        self.split(low, &middle, left, points, budget)?;
+        self.split(&middle, high, roots - left, points, budget)
+    }
 }
 
 /// The sign of `p(c, y)` at a rational `y`.

@@ -1,0 +1,117 @@
+//! `jurist locus`: root locus with the exact crossings on it.
+
+use super::Context;
+use crate::analysis::{Decision, Intervals, intervals};
+use crate::cli::arguments::{ModelOptions, RunOptions};
+use crate::cli::assignments::in_line;
+use crate::cli::input::{known_names, load, settings};
+use crate::cli::output::write_answer;
+use crate::cli::picture::{Picture, deliver, wanted};
+use crate::cli::status::{Failure, Outcome, Status};
+use crate::error::Diagnostic;
+use crate::number::{Rational, parse_number};
+use crate::report::figures::locus_of;
+use crate::simulate::ParameterScale;
+use clap::Args;
+use std::ffi::OsString;
+use std::slice::from_ref;
+
+/// Options of `jurist locus`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    #[command(flatten)]
+    pub model: ModelOptions,
+    /// The parameter that moves
+    #[arg(long, value_name = "NAME")]
+    pub param: String,
+    /// From where to where [default: around the stable set and nominal]
+    #[arg(long, value_name = "LO..HI", allow_hyphen_values = true)]
+    pub range: Option<String>,
+    /// Lets the parameter run evenly in its logarithm [default: over ranges of more than two decades]
+    #[arg(long)]
+    pub log: bool,
+    /// Writes the picture to a file: .svg, .png, or the data: .csv
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<OsString>,
+    /// Also writes the data, beside the picture
+    #[arg(long)]
+    pub csv: bool,
+    #[command(flatten)]
+    pub run: RunOptions,
+}
+
+/// Draws to a file or on the terminal.
+pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+    let kind = wanted(options.output.as_ref())?;
+    let model = load(options.model.model.as_ref(), context)?;
+    let settings = settings(context, &model, &options.model, &Default::default())?;
+    known_names(context, &model, "--param", from_ref(&options.param))?;
+    let answer = intervals(&model, &settings, &options.param, &context.budget)?;
+    context.warn(None, &answer.question.warnings);
+    if let Decision::Undecided { budget, reached } = &answer.stable {
+        return Ok(context.say_undecided(budget, reached));
+    }
+    let range = match &options.range {
+        Some(text) => range_of(text, context)?,
+        None => default_range(&answer)?,
+    };
+    let scale = if options.log { Some(ParameterScale::Logarithmic) } else { None };
+    let picture = locus_of(&answer, &range, scale, &context.budget)?;
+    context.reporter.finish();
+    for crossing in &picture.crossings {
+        crate::cli::output::note(&format!("crossing: {}", crossing.label));
+    }
+    let table = || picture.locus.to_csv(&options.param);
+    let out = Picture { figure: &picture.figure, csv: &table, csv_beside: options.csv };
+    deliver(&out, kind, options.output.as_ref(), |text| write_answer(text, None))?;
+    Ok(Status::Holds)
+}
+
+fn range_of(text: &str, context: &Context) -> Result<(Rational, Rational), Failure> {
+    let wrong = |what: &str| {
+        let place = context.line.option_value("--range", text).span;
+        let error = Diagnostic::error("E-option-value", "--range expects LO..HI with LO below HI");
+        Failure::from(in_line(context.line, vec![error.at(place, what).help("for example --range 0.001..1000")]))
+    };
+    let Some((lo, hi)) = text.split_once("..") else { return Err(wrong("there is no '..'")) };
+    let number = |part: &str| parse_number(part.trim()).map_err(|_| wrong("not two numbers"));
+    let (lo, hi) = (number(lo)?, number(hi)?);
+    if lo < hi { Ok((lo, hi)) } else { Err(wrong("nothing lies between")) }
+}
+
+/// Around every end of the stable set and the nominal value, a third more on both sides, within the
+/// domain.
+fn default_range(answer: &Intervals) -> Result<(Rational, Rational), Failure> {
+    let mut values: Vec<Rational> = answer.question.nominal.iter().cloned().collect();
+    if let Decision::Decided(set) = &answer.stable {
+        for end in set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
+            let (lo, hi) = end.value.refined_to_digits(4).enclosure();
+            values.extend([lo, hi]);
+        }
+    }
+    values.sort();
+    let (Some(low), Some(high)) = (values.first().cloned(), values.last().cloned()) else {
+        return Err(Diagnostic::error("E-usage", "the parameter's range is unknown")
+            .help("give it with --range LO..HI")
+            .into());
+    };
+    let one = Rational::from(1);
+    let third = Rational::new(1.into(), 3.into());
+    let width = if low < high {
+        &high - &low
+    } else if high.is_zero() {
+        one
+    } else {
+        high.abs()
+    };
+    let (mut from, mut to) = (&low - &(&width * &third), &high + &(&width * &third));
+    let domain = &answer.question.domain;
+    let inside = |edge: &Rational, direction: i64| edge + &width * Rational::new(direction.into(), 1000.into());
+    if let Some(lower) = domain.lower.as_ref().filter(|l| from <= **l) {
+        from = inside(lower, 1);
+    }
+    if let Some(upper) = domain.upper.as_ref().filter(|u| to >= **u) {
+        to = inside(upper, -1);
+    }
+    Ok((from, to))
+}

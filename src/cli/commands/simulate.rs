@@ -1,0 +1,232 @@
+//! `jurist simulate`: time responses of the sampled loop, or of the switched circuit.
+
+use super::Context;
+use crate::cli::arguments::{ModelOptions, RunOptions};
+use crate::cli::assignments::{in_line, plain_number};
+use crate::cli::input::{load, settings};
+use crate::cli::output::{note, write_answer};
+use crate::cli::picture::{Picture, deliver, wanted};
+use crate::cli::status::{Failure, Outcome, Status};
+use crate::error::{Diagnostic, Source};
+use crate::model::{Loop, Question};
+use crate::number::parse_number;
+use crate::report::figures::{response_panels, stacked};
+use crate::simulate::{Excitation, Pulse, Record, SampledModel, SwitchedModel, Trace, excitation};
+use clap::{Args, ValueEnum};
+use std::ffi::OsString;
+
+/// The built-in drive as blocks, which is what a switched simulation reads.
+const DRIVE_BLOCKS: &str = include_str!("../../../examples/drive-blocks.toml");
+
+/// Longer runs are refused: they would fill the memory.
+const MOST_SAMPLES: f64 = 2e7;
+
+/// Samples of a continuous loop over the duration.
+const CONTINUOUS_SAMPLES: f64 = 2000.0;
+
+/// Where in its period a pulse lies.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub(in crate::cli) enum PulsePlace {
+    /// On from the period's beginning
+    #[default]
+    Beginning,
+    /// On until the period's end
+    End,
+    /// Around the middle of the period
+    Centre,
+}
+
+/// Options of `jurist simulate`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    #[command(flatten)]
+    pub model: ModelOptions,
+    /// Gives an input a value, from a time on if one is named [repeatable]
+    #[arg(long, value_name = "NAME=VALUE[@SECONDS]")]
+    pub input: Vec<String>,
+    /// Gives a state its value at the beginning [repeatable]
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub initial: Vec<String>,
+    /// How long to simulate, in seconds (in samples without a sample time)
+    #[arg(long, value_name = "SECONDS")]
+    pub duration: Option<String>,
+    /// Simulates the switching circuit, for every block with a 'pwm' entry
+    #[arg(long)]
+    pub switched: bool,
+    /// Where the pulse lies in its period
+    #[arg(long, value_enum, default_value_t, requires = "switched")]
+    pub pulse: PulsePlace,
+    /// Starts in the periodic steady state instead of the initial state
+    #[arg(long, requires = "switched", conflicts_with = "initial")]
+    pub steady: bool,
+    /// Writes the picture to a file: .svg, .png, or the data: .csv
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<OsString>,
+    /// Also writes the data, beside the picture
+    #[arg(long)]
+    pub csv: bool,
+    #[command(flatten)]
+    pub run: RunOptions,
+}
+
+/// Inputs, initial values and the duration, from the model and the command line.
+struct Course {
+    /// Name, time, value.
+    inputs: Vec<(String, f64, f64)>,
+    initial: Vec<(String, f64)>,
+    duration: f64,
+}
+
+/// Draws to a file or on the terminal.
+pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+    let kind = wanted(options.output.as_ref())?;
+    let model = match (&options.model.model, options.switched) {
+        (None, true) => Loop::from_toml(&Source::new("<built-in drive>", DRIVE_BLOCKS))?.0,
+        (path, _) => load(path.as_ref(), context)?,
+    };
+    let settings = settings(context, &model, &options.model, &Default::default())?;
+    let question = Question { keep: Vec::new(), set: settings.set.clone() };
+    let course = Course::of(options, &model, context)?;
+    context.budget.step("simulating");
+    let trace = if options.switched {
+        switched(options, &model, &question, &course, context)?
+    } else {
+        sampled(&model, &question, &course, context)?
+    };
+    context.reporter.finish();
+    let shown: Vec<String> = if options.switched {
+        trace.signals.iter().map(|s| s.name.clone()).filter(|n| !n.ends_with(".duty")).collect()
+    } else {
+        let outputs: Vec<String> = model.outputs().iter().map(|o| o.name.name.clone()).collect();
+        if outputs.is_empty() { trace.signals.iter().map(|s| s.name.clone()).collect() } else { outputs }
+    };
+    let kind_of_run = if options.switched { "switched circuit" } else { "sampled linear model" };
+    let title = format!("{}, {kind_of_run}", model.title().unwrap_or("the loop"));
+    let figure = stacked(&response_panels(&title, &trace, &shown), 760.0, 240.0);
+    let table = || trace.to_csv();
+    let out = Picture { figure: &figure, csv: &table, csv_beside: options.csv };
+    deliver(&out, kind, options.output.as_ref(), |text| write_answer(text, None))?;
+    Ok(Status::Holds)
+}
+
+impl Course {
+    fn of(options: &Options, model: &Loop, context: &Context) -> Result<Course, Failure> {
+        let defaults = model.simulation();
+        let duration = match &options.duration {
+            Some(text) => plain_number(context.line, "--duration", text)?,
+            None => defaults.duration.clone().unwrap_or_else(|| 1.into()),
+        };
+        let duration = duration.to_f64_approximate();
+        if !(duration.is_finite() && duration > 0.0) {
+            return Err(Diagnostic::error("E-simulation", "the duration has to be positive").into());
+        }
+        let mut inputs: Vec<(String, f64, f64)> =
+            defaults.inputs.iter().map(|(n, v)| (n.name.clone(), 0.0, v.to_f64_approximate())).collect();
+        for text in &options.input {
+            inputs.push(input_step(text, context)?);
+        }
+        let mut initial: Vec<(String, f64)> =
+            defaults.initial.iter().map(|(n, v)| (n.name.clone(), v.to_f64_approximate())).collect();
+        for text in &options.initial {
+            let (name, value, _) = parsed("--initial", text, context)?;
+            initial.push((name, value));
+        }
+        Ok(Course { inputs, initial, duration })
+    }
+
+    /// Inputs as steps at samples `period` apart.
+    fn steps(&self, period: f64) -> Vec<(String, usize, f64)> {
+        let sample = |t: f64| (t / period - 1e-9).ceil().max(0.0) as usize;
+        self.inputs.iter().map(|(name, t, v)| (name.clone(), sample(*t), *v)).collect()
+    }
+
+    fn samples(&self, period: f64) -> Result<usize, Failure> {
+        let count = (self.duration / period).round().max(1.0);
+        if count > MOST_SAMPLES {
+            let message = format!("{count:e} samples are too many for a simulation");
+            return Err(Diagnostic::error("E-simulation", message).help("shorten it with --duration").into());
+        }
+        Ok(count as usize)
+    }
+}
+
+fn input_step(text: &str, context: &Context) -> Result<(String, f64, f64), Failure> {
+    let (name, value, time) = parsed("--input", text, context)?;
+    Ok((name, time, value))
+}
+
+/// Name, value, time of `NAME=VALUE[@TIME]`.
+fn parsed(option: &str, text: &str, context: &Context) -> Result<(String, f64, f64), Failure> {
+    let wrong = |what: &str| {
+        let place = context.line.option_value(option, text).span;
+        let error = Diagnostic::error("E-option-value", format!("{option} expects NAME=VALUE"));
+        Failure::from(in_line(context.line, vec![error.at(place, what).help("for example T_L=5@1 after one second")]))
+    };
+    let (name, rest) = text.split_once('=').ok_or_else(|| wrong("there is no '='"))?;
+    let (value, time) = rest.split_once('@').unwrap_or((rest, "0"));
+    let number = |part: &str| parse_number(part.trim()).map(|v| v.to_f64_approximate());
+    match (number(value), number(time)) {
+        (Ok(value), Ok(time)) if value.is_finite() && time >= 0.0 => Ok((name.trim().to_owned(), value, time)),
+        _ => Err(wrong("not a number")),
+    }
+}
+
+fn sampled(model: &Loop, question: &Question, course: &Course, context: &Context) -> Result<Trace, Failure> {
+    let step = course.duration / CONTINUOUS_SAMPLES;
+    let system = SampledModel::from_loop(model, question, step, &context.budget)?;
+    let at = |name: &str| system.state_named(name);
+    let steps = course.steps(system.sample_time);
+    let drive = excitation(at, system.states.len(), &system.inputs, &course.initial, &steps)?;
+    let samples = course.samples(system.sample_time)?;
+    let trace = system.simulate(&drive, samples);
+    if trace.time.len() <= samples {
+        let last = trace.time.last().copied().unwrap_or(0.0);
+        note(&format!("the response leaves the range of floating point after t = {last} s"));
+    }
+    Ok(trace)
+}
+
+fn switched(
+    options: &Options,
+    model: &Loop,
+    question: &Question,
+    course: &Course,
+    context: &Context,
+) -> Result<Trace, Failure> {
+    let pulse = match options.pulse {
+        PulsePlace::Beginning => Pulse::Beginning,
+        PulsePlace::End => Pulse::End,
+        PulsePlace::Centre => Pulse::Centre,
+    };
+    let system = SwitchedModel::from_loop(model, question, pulse, &context.budget)?;
+    let at = |name: &str| system.state_named(name);
+    let steps = course.steps(system.period());
+    let initial: &[(String, f64)] = if options.steady { &[] } else { &course.initial };
+    let drive: Excitation = excitation(at, system.plant_states().len(), system.inputs(), initial, &steps)?;
+    let periods = course.samples(system.period())?;
+    let inputs = drive.inputs_at(0, system.inputs().len());
+    let operating = system.periodic_steady_state(&inputs);
+    match &operating {
+        Some(operating) => {
+            let duty: Vec<String> = operating.duty.iter().map(|d| format!("{d:.6}")).collect();
+            let largest = system.small_signal_eigenvalues(&inputs).and_then(|v| v.first().map(|z| z.norm()));
+            let largest = largest.map_or_else(String::new, |m| format!(", largest multiplier {m:.6} per period"));
+            note(&format!("periodic steady state (floating point): on {} of the period{largest}", duty.join(", ")));
+        }
+        None => note("no periodic steady state without clamping (floating point)"),
+    }
+    let start = match (options.steady, operating) {
+        (true, Some(operating)) => operating.state,
+        (true, None) => {
+            return Err(Diagnostic::error("E-simulation", "there is no periodic steady state to start from").into());
+        }
+        (false, _) => system.start(&drive),
+    };
+    // The ripple in full for as long as its file stays small.
+    let record = if periods <= 2000 { Record::Waveform(3) } else { Record::Waveform(0) };
+    let run = system.simulate(&start, &drive, periods, record);
+    if run.clamped > 0 {
+        note(&format!("a modulator was at its limit in {} of {periods} periods", run.clamped));
+    }
+    Ok(run.trace)
+}

@@ -1,0 +1,117 @@
+//! Time responses.
+
+use super::COLOURS;
+use super::panel::{Corner, Curve, Panel};
+use crate::simulate::Trace;
+
+/// Longest list of points a curve keeps; more would only make the file larger.
+const MOST_POINTS: usize = 2400;
+
+/// One signal of a run to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct ResponseCurve<'a> {
+    /// The run.
+    pub trace: &'a Trace,
+    /// The signal's name in it.
+    pub signal: &'a str,
+    /// Entry in the legend; empty for none.
+    pub label: &'a str,
+}
+
+/// A panel with signals over time; the axes fit the data.
+pub fn response_panel(title: &str, y_label: &str, curves: &[ResponseCurve<'_>]) -> Panel {
+    let drawn: Vec<Curve> = curves
+        .iter()
+        .enumerate()
+        .map(|(k, c)| Curve {
+            points: thinned(&c.trace.points(c.signal)),
+            label: (!c.label.is_empty()).then(|| c.label.to_string()),
+            colour: COLOURS[k % COLOURS.len()].into(),
+            width: if k == 0 { 1.3 } else { 1.1 },
+            dashed: false,
+        })
+        .collect();
+    let all = || drawn.iter().flat_map(|c| c.points.iter());
+    let x = extent(all().map(|p| p.0), 0.0);
+    let y = extent(all().map(|p| p.1), 0.06);
+    let legend = drawn.iter().any(|c| c.label.is_some()).then_some(Corner::BottomRight);
+    Panel {
+        title: title.into(),
+        x_label: "time / s".into(),
+        y_label: y_label.into(),
+        x,
+        y,
+        curves: drawn,
+        legend,
+        ..Panel::default()
+    }
+}
+
+/// One panel for each of these signals of a run, the title over the first.
+pub fn response_panels(title: &str, trace: &Trace, signals: &[String]) -> Vec<Panel> {
+    let panel = |(k, name): (usize, &String)| {
+        let unit = trace.signal(name).map(|s| s.unit.clone()).filter(|u| !u.is_empty());
+        let label = unit.map_or_else(|| name.clone(), |u| format!("{name} / {u}"));
+        let curve = ResponseCurve { trace, signal: name, label: "" };
+        response_panel(if k == 0 { title } else { "" }, &label, &[curve])
+    };
+    signals.iter().enumerate().map(panel).collect()
+}
+
+/// Smallest and largest value, widened by a share of their distance.
+fn extent(values: impl Iterator<Item = f64>, margin: f64) -> (f64, f64) {
+    let (low, high) =
+        values.filter(|v| v.is_finite()).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+    if low > high {
+        return (0.0, 1.0);
+    }
+    let width = high - low;
+    if width <= 1e-9 * high.abs().max(low.abs()) {
+        let room = if high == 0.0 { 1.0 } else { 0.1 * high.abs() };
+        return (low - room, high + room);
+    }
+    (low - margin * width, high + margin * width)
+}
+
+/// A long list of points cut to what a picture can show: of each short stretch its first, lowest,
+/// highest and last point, so that no peak is lost.
+pub fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    if points.len() <= MOST_POINTS {
+        return points.to_vec();
+    }
+    let stretch = points.len().div_ceil(MOST_POINTS / 4);
+    let mut kept = Vec::with_capacity(MOST_POINTS + 4);
+    for part in points.chunks(stretch) {
+        let by_value = |a: &usize, b: &usize| part[*a].1.total_cmp(&part[*b].1);
+        let lowest = (0..part.len()).min_by(by_value).unwrap_or(0);
+        let highest = (0..part.len()).max_by(by_value).unwrap_or(0);
+        let mut chosen = vec![0, lowest, highest, part.len() - 1];
+        chosen.sort_unstable();
+        chosen.dedup();
+        kept.extend(chosen.into_iter().map(|k| part[k]));
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thinning_keeps_ends_and_peaks() {
+        let mut points: Vec<(f64, f64)> = (0..100_000).map(|k| (k as f64, (k as f64 * 0.01).sin())).collect();
+        points[54_321].1 = 7.0;
+        let kept = thinned(&points);
+        assert!(kept.len() <= MOST_POINTS + 4);
+        assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[99_999]));
+        assert!(kept.contains(&(54_321.0, 7.0)));
+        assert!(kept.windows(2).all(|w| w[0].0 < w[1].0));
+    }
+
+    #[test]
+    fn an_empty_or_constant_signal_still_has_axes() {
+        assert_eq!(extent(std::iter::empty(), 0.1), (0.0, 1.0));
+        assert_eq!(extent([0.0, 0.0].into_iter(), 0.1), (-1.0, 1.0));
+        assert_eq!(extent([f64::NAN, 80.0].into_iter(), 0.1), (72.0, 88.0));
+    }
+}
