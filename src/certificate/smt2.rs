@@ -3,7 +3,7 @@
 use crate::analysis::OneParameter;
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
-use crate::poly::{RealAlgebraic, UniPoly};
+use crate::poly::{Domain, RealAlgebraic, UniPoly};
 use crate::stability::{Inequality, ScaledPoly, StableSet, classical_test};
 use std::fmt::Write;
 
@@ -32,7 +32,7 @@ pub fn intervals_smt2(question: &OneParameter, set: &StableSet, budget: &Budget)
             }
             let test = classical_test(p, &question.domain, question.region, budget)?;
             if p.formal_degree() == 0 {
-                let c = p.polynomial().coeffs().first().cloned().unwrap_or_default();
+                let c = p.polynomial().coeffs().first().cloned().unwrap_or_else(UniPoly::zero);
                 conditions.push(format!("(distinct (* {} {}) 0.0)", horner(&c), horner(p.content())));
             }
             for condition in &test.conditions {
