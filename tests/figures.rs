@@ -98,7 +98,7 @@ fn the_block_model_gives_the_circuit_and_the_matrix_model_the_sampled_loop() {
     assert!(SwitchedModel::from_loop(&Loop::drive(), &question, Pulse::End, &budget).is_err());
     let sampled = SampledModel::from_loop(&Loop::drive(), &question, 1.0, &budget).unwrap();
     let fixture = common::sampled_drive(110.0, 1e-4);
-    assert!((sampled.transition - fixture.transition).norm() < 1e-15);
+    assert!((&sampled.transition - &fixture.transition).norm() < 1e-15);
     assert_eq!(sampled.sample_time, 1e-4);
     let run = fixture.simulate(&Excitation::default(), 3);
     assert_eq!(run.peak("omega"), 0.0);

@@ -1,6 +1,5 @@
 //! Expressions against exact evaluation at points, and back through their printed text.
 
-use jurist::error::Source;
 use jurist::limits::Budget;
 use jurist::model::{BlockBuilder, Expression, Loop, ParameterBuilder, Question, Time};
 use jurist::number::Rational;

@@ -37,7 +37,7 @@ fn unit_in_last_place(v: &Rational, digits: i64) -> Rational {
         power = power.checked_div(&ten).unwrap();
     }
     while &power * &ten <= v.abs() {
-        power = power * &ten;
+        power *= &ten;
     }
     power * ten.pow(1 - digits).unwrap()
 }

@@ -1,6 +1,6 @@
 //! The command line: arguments, files, standard output, exit statuses.
 //!
-//! One file per command in `commands`; each returns a [`Status`] or the reason why there is no answer.
+//! One file per command in `commands`; each returns a status or the reason why there is no answer.
 
 mod arguments;
 mod assignments;

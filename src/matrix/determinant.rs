@@ -4,7 +4,7 @@ use super::PolyMatrix;
 use crate::limits::{Budget, Exhausted};
 use crate::poly::Domain;
 
-/// The determinant by elimination without fractions ([Bareiss1968]); 1 for size 0.
+/// The determinant by elimination without fractions ([Bareiss1968](crate::bibliography#bareiss1968)); 1 for size 0.
 ///
 /// `O(n^3)` products and exact divisions of minors.
 ///

@@ -28,7 +28,7 @@ impl<R: Domain> FaddeevLeVerrier<R> {
 
 /// The characteristic polynomial and the adjugate by the recursion
 /// `N_0 = I`, `c_(n-k) = -trace(M N_(k-1)) / k`, `N_k = M N_(k-1) + c_(n-k) I`
-/// ([Faddeev1949], [Souriau1948]).
+/// ([Faddeev1949](crate::bibliography#faddeev1949), [Souriau1948](crate::bibliography#souriau1948)).
 ///
 /// The only divisions are the exact ones by `1, ..., n`. `n` products of matrices, `O(n^4)`
 /// products of entries.

@@ -13,6 +13,7 @@ mod check;
 mod closed_loop;
 mod definition;
 mod evaluate;
+pub mod examples;
 mod expression;
 mod lexer;
 mod linear;

@@ -297,7 +297,7 @@ fn ln_point(x: &Rational, bits: u64) -> Enclosure {
             k += 1;
         }
         while bound(&m, 2).is_le() {
-            m = m * Rational::from(2);
+            m *= Rational::from(2);
             k -= 1;
         }
     }

@@ -313,7 +313,7 @@ pub fn rational_between(a: &RealAlgebraic, b: &RealAlgebraic) -> Option<Rational
 
 /// The rational with the smallest denominator strictly between two rationals (of those, the one
 /// of smallest magnitude): a walk down the Stern-Brocot tree by continued fractions
-/// [GrahamKnuthPatashnik1994]. `None` unless `lo < hi`.
+/// [GrahamKnuthPatashnik1994](crate::bibliography#grahamknuthpatashnik1994). `None` unless `lo < hi`.
 ///
 /// ```
 /// use jurist::number::Rational;

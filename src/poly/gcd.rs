@@ -37,7 +37,7 @@ impl<R: Domain> Poly<R> {
     }
 
     /// The square-free decomposition `p = c f_1 f_2^2 f_3^3 ...`: the pairs `(f_i, i)` with `f_i`
-    /// of positive degree, primitive, square-free and pairwise coprime (Yun's algorithm [Yun1976]).
+    /// of positive degree, primitive, square-free and pairwise coprime (Yun's algorithm [Yun1976](crate::bibliography#yun1976)).
     /// Empty for a constant.
     pub fn square_free_decomposition(&self) -> Vec<(Poly<R>, usize)> {
         let mut out = Vec::new();
@@ -84,7 +84,7 @@ pub(super) fn gcd<R: Domain>(a: &Poly<R>, b: &Poly<R>) -> Poly<R> {
 }
 
 /// The last non-zero subresultant of two primitive polynomials, made primitive: the reference
-/// algorithm (Brown and Traub [BrownTraub1971]).
+/// algorithm (Brown and Traub [BrownTraub1971](crate::bibliography#browntraub1971)).
 pub(super) fn primitive_gcd_subresultant<R: Domain>(a: &Poly<R>, b: &Poly<R>) -> Poly<R> {
     let (mut a, mut b) = if a.degree() >= b.degree() { (a.clone(), b.clone()) } else { (b.clone(), a.clone()) };
     let mut g = R::one();

@@ -4,7 +4,7 @@ use super::{Domain, Poly};
 use crate::limits::{Budget, Exhausted};
 
 /// The resultant of two polynomials of the degrees they have, by the subresultant sequence
-/// ([BrownTraub1971]; Cohen, A Course in Computational Algebraic Number Theory, 3.3.7).
+/// ([BrownTraub1971](crate::bibliography#browntraub1971); Cohen, A Course in Computational Algebraic Number Theory, 3.3.7).
 ///
 /// Zero when either is zero; a constant `c` and a polynomial of degree `n` give `c^n`.
 /// `O(n m)` operations on coefficients that are themselves minors of the Sylvester matrix.
@@ -113,7 +113,7 @@ pub fn discriminant<R: Domain>(p: &Poly<R>, budget: &Budget) -> Result<R, Exhaus
 
 /// The polynomial remainder sequence of subresultants of two non-zero polynomials with
 /// `deg a >= deg b`: `a`, `b`, and then the subresultants up to sign, the last one being similar
-/// to the greatest common divisor ([BrownTraub1971]).
+/// to the greatest common divisor ([BrownTraub1971](crate::bibliography#browntraub1971)).
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out.

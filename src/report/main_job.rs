@@ -109,7 +109,7 @@ fn model_text(job: &MainJob) -> String {
 
 /// The coefficients by powers of the parameter, exact and rounded: side by side or below each other.
 fn equation_text(p: &CharacteristicPolynomial, digits: usize, beside: bool) -> String {
-    let rows: Vec<Vec<Rational>> = p.coefficients.iter().map(|c| powers_of_parameter(c)).collect();
+    let rows: Vec<Vec<Rational>> = p.coefficients.iter().map(powers_of_parameter).collect();
     let width = rows.iter().map(Vec::len).max().unwrap_or(1);
     let name = p.variables.first().map_or("", String::as_str);
     let heads = (0..width).map(|k| match k {

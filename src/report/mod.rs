@@ -9,6 +9,7 @@ mod layout;
 mod main_job;
 pub mod margins;
 pub mod notation;
+pub mod paper;
 mod real;
 mod table;
 mod verdict;

@@ -1,7 +1,7 @@
 //! The cheapest way to pair the rows of a square cost matrix with its columns.
 
 /// For each row its column, so that the sum of the costs is least: the Hungarian method with
-/// potentials, [Kuhn1955], O(n^3). Costs must be finite.
+/// potentials, [Kuhn1955](crate::bibliography#kuhn1955), O(n^3). Costs must be finite.
 pub(super) fn cheapest_assignment(cost: &[Vec<f64>]) -> Vec<usize> {
     let n = cost.len();
     // Rows and columns count from 1; column 0 stands for the row that is being placed.

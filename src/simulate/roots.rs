@@ -27,7 +27,7 @@ pub struct ApproximateRoot {
 /// All complex roots of `p`, by real and then imaginary part; none for a constant.
 ///
 /// Multiplicities are exact (square-free decomposition); the simple roots of each factor come from
-/// Aberth's iteration [Aberth1973], started at the radii of the Newton polygon [Bini1996], in fixed
+/// Aberth's iteration [Aberth1973](crate::bibliography#aberth1973), started at the radii of the Newton polygon [Bini1996](crate::bibliography#bini1996), in fixed
 /// point with as many bits as it takes, so that a cluster such as four roots within 1e-3 of z = 1
 /// is resolved. Real roots have imaginary part exactly 0. O(d^2) products per sweep.
 ///

@@ -241,7 +241,7 @@ fn jury_inequalities(base: &Poly<UniPoly>, n: usize, scale: Rational) -> Inequal
         };
         value_condition("Q(1)", value(1));
         let at_minus_one = value(-1);
-        let alternating = if n % 2 == 0 { at_minus_one } else { at_minus_one.negated() };
+        let alternating = if n.is_multiple_of(2) { at_minus_one } else { at_minus_one.negated() };
         value_condition(&format!("(-1)^{n}*Q(-1)"), alternating);
         for (i, ((first, last), s)) in table.end_entries().zip(&scales).enumerate() {
             let (row, m) = (row_name(i), n - i);

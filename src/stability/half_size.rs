@@ -19,8 +19,8 @@ use crate::poly::{Domain, Poly, resultant_formal};
 /// Common roots of `A` and `B` correspond to pairs of roots of `D` that are mirror images of each
 /// other in the boundary: `z_i z_j = 1`, or `s_i + s_j = 0`. The resultant for the formal degrees is,
 /// up to a constant, the critical constraint of Jury and Pavlidis
-/// `d_n^(n-1) prod_(i<j) (1 - z_i z_j)` ([JuryPavlidis1963], [Bistritz2006]), or Orlando's
-/// `d_n^(n-1) prod_(i<j) (s_i + s_j)` ([Orlando1911]).
+/// `d_n^(n-1) prod_(i<j) (1 - z_i z_j)` ([JuryPavlidis1963](crate::bibliography#jurypavlidis1963), [Bistritz2006](crate::bibliography#bistritz2006)), or Orlando's
+/// `d_n^(n-1) prod_(i<j) (s_i + s_j)` ([Orlando1911](crate::bibliography#orlando1911)).
 #[derive(Clone, Debug, PartialEq)]
 pub struct HalfSizePair<R: Domain> {
     /// The first polynomial.
@@ -44,7 +44,7 @@ impl<R: Domain> HalfSizePair<R> {
         assert!(n > 0 && d.coeffs().len() <= n + 1, "the formal degree is positive and not below the degree");
         let k = n / 2;
         let degree_a = k;
-        let degree_b = if n % 2 == 0 { k - 1 } else { k };
+        let degree_b = if n.is_multiple_of(2) { k - 1 } else { k };
         let (a, b) = match region {
             Region::LeftHalfPlane => split_even_odd(d),
             Region::UnitDisc => unit_disc_pair(d, n),
@@ -74,7 +74,7 @@ fn unit_disc_pair<R: Domain>(d: &Poly<R>, n: usize) -> (Poly<R>, Poly<R>) {
     let c = |i: usize| d.coeff(i);
     let sum: Vec<R> = (0..=n).map(|i| c(i).plus(&c(n - i))).collect();
     let difference: Vec<R> = (0..=n).map(|i| c(i).minus(&c(n - i))).collect();
-    if n % 2 == 0 {
+    if n.is_multiple_of(2) {
         let b = divide_by_binomial(difference, 2, true);
         (in_x(&sum, k), if k == 0 { Poly::zero() } else { in_x(&b, k - 1) })
     } else {
@@ -147,10 +147,10 @@ mod tests {
             for (i, &(p, q)) in roots[..n].iter().enumerate() {
                 d = &d * &UniPoly::from_i64(&[-p, q]);
                 for &(r, s) in &roots[..i] {
-                    expected = expected * Integer::from(q * s - p * r);
+                    expected *= Integer::from(q * s - p * r);
                 }
             }
-            expected = expected * Integer::from(1i64 << ((n - 1) / 2));
+            expected *= Integer::from(1i64 << ((n - 1) / 2));
             let got = HalfSizePair::new(&d, n, Region::UnitDisc).critical_constraint(&Budget::unlimited()).unwrap();
             assert_eq!(got.abs(), expected.abs(), "n = {n}");
         }

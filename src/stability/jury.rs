@@ -20,7 +20,7 @@ pub struct JuryRow<R> {
 /// The odd rows of the Jury table; each even row is the one above it reversed.
 ///
 /// The first row holds the coefficients `a_0 .. a_n`; the next `b_k = a_0 a_k - a_n a_(n-k)`,
-/// `k = 0 .. n-1`, and so on down to a row of three entries ([JuryBlanchard1961]; the form of
+/// `k = 0 .. n-1`, and so on down to a row of three entries ([JuryBlanchard1961](crate::bibliography#juryblanchard1961); the form of
 /// Phillips and Nagle, Digital Control System Analysis and Design, 1984).
 #[derive(Clone, Debug, PartialEq)]
 pub struct JuryTable<R> {

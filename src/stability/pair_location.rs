@@ -203,7 +203,7 @@ impl ComplexPair {
             Region::LeftHalfPlane => {
                 let mut lo = Rational::from(-1);
                 while above(&lo) < degree {
-                    lo = lo * Rational::from(2);
+                    lo *= Rational::from(2);
                 }
                 (lo, Rational::ZERO)
             }

@@ -129,7 +129,7 @@ impl ParametricPolynomial {
             let Some(d) = c.degree() else { return Integer::ZERO };
             let mut acc = Integer::ZERO;
             for (k, a) in c.coeffs().iter().enumerate().rev() {
-                acc = acc * &p;
+                acc *= &p;
                 acc.add_mul_assign(a, &q_powers[d - k]);
             }
             if d == height { acc } else { acc * &q_powers[height - d] }

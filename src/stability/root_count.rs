@@ -128,7 +128,7 @@ impl End {
             End::Finite(x) => p.eval(&Integer::from(x)).sign(),
             End::MinusInfinity => {
                 let sign = p.leading().map_or(Ordering::Equal, Integer::sign);
-                if p.coeffs().len() % 2 == 0 { sign.reverse() } else { sign }
+                if p.coeffs().len().is_multiple_of(2) { sign.reverse() } else { sign }
             }
         }
     }

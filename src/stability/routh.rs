@@ -20,7 +20,7 @@ impl<R: Domain> RouthTable<R> {
 
 /// The table of `p` read with formal degree `n`: `n + 1` rows, with
 /// `r_k,j = (r_(k-1),0 r_(k-2),j+1 - r_(k-2),0 r_(k-1),j+1) / r_(k-3),0`, the division (from the
-/// fourth recursion on) being exact (Bareiss's identity; [Bistritz2013]).
+/// fourth recursion on) being exact (Bareiss's identity; [Bistritz2013](crate::bibliography#bistritz2013)).
 ///
 /// A row whose first entry is (identically) zero ends the table, because the next would divide by it.
 /// `O(n^2)` operations.

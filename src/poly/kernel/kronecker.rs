@@ -1,4 +1,4 @@
-//! Products of polynomials as products of integers ([Kronecker1882]).
+//! Products of polynomials as products of integers ([Kronecker1882](crate::bibliography#kronecker1882)).
 
 use crate::number::Integer;
 

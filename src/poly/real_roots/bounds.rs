@@ -7,7 +7,7 @@ use crate::poly::UniPoly;
 ///
 /// With `c` the leading coefficient, every positive
 /// root is below `2 max (|c_{n-i}| / |c|)^{1/i}` over the coefficients of the other sign
-/// [Kioustelidis1986]; bit lengths stand for the logarithms, rounded up.
+/// [Kioustelidis1986](crate::bibliography#kioustelidis1986); bit lengths stand for the logarithms, rounded up.
 pub fn positive_root_bound_bits(p: &UniPoly) -> Option<i64> {
     let n = p.degree().filter(|&n| n > 0)?;
     let lead = &p.coeffs()[n];

@@ -51,7 +51,7 @@ impl Bracket {
     }
 
     /// Narrows the bracket to a width of at most `2^-target`: quadratic interval refinement
-    /// [Abbott2014]. The secant predicts a cell of a grid of `2^m` cells, the signs at its ends
+    /// [Abbott2014](crate::bibliography#abbott2014). The secant predicts a cell of a grid of `2^m` cells, the signs at its ends
     /// certify it; `m` doubles on success and halves on failure.
     pub fn refine(&mut self, p: &UniPoly, target: i64) {
         if self.narrow_enough(target) {

@@ -21,7 +21,7 @@ struct Node {
 /// Cells with exactly one root each, ascending, of the roots in `(0, 1)` of a square-free
 /// polynomial without rational roots; `wanted` may refuse cells that need no search.
 ///
-/// [CollinsAkritas1976]: a cell without sign variation (after the map of `(0, 1)` to the positive
+/// [CollinsAkritas1976](crate::bibliography#collinsakritas1976): a cell without sign variation (after the map of `(0, 1)` to the positive
 /// axis) holds no root, with one exactly one; others are halved. Since no end can be a root, the
 /// cells' ends have opposite signs.
 pub(super) fn cells_by_bisection(

@@ -47,7 +47,7 @@ pub fn isolate_real_roots_in(
     isolate_real_roots_descartes(p, lo, hi, budget)
 }
 
-/// The reference algorithm: linear factors first, then [CollinsAkritas1976] bisection with exact
+/// The reference algorithm: linear factors first, then [CollinsAkritas1976](crate::bibliography#collinsakritas1976) bisection with exact
 /// integers on the positive and the negative half, each scaled to the unit interval by a power of
 /// two.
 ///

@@ -16,7 +16,7 @@ const PRIMES_TRIED: usize = 8;
 /// A rational root is a root modulo every prime that does not divide the leading coefficient `c`;
 /// lifted by Newton's iteration (Hensel) to a modulus above `2 |c| B`, with `B` a bound of the
 /// roots, it determines the integer `c` times the root. Every candidate is verified by division
-/// [Loos1983].
+/// [Loos1983](crate::bibliography#loos1983).
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out.

@@ -19,7 +19,7 @@ pub enum Bound<'a> {
 /// The Sturm sequence `p, p', -rem(p, p'), ...`, each member divided by its positive content.
 ///
 /// Empty for zero, one member for a constant. `O(n^2)` operations on growing integers, removed
-/// content keeps them near the size of subresultants [BasuPollackRoy2006].
+/// content keeps them near the size of subresultants [BasuPollackRoy2006](crate::bibliography#basupollackroy2006).
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
@@ -50,7 +50,7 @@ fn positive_primitive(p: &UniPoly) -> UniPoly {
     p.div_exact_scalar(&p.content()).expect("the content divides every coefficient")
 }
 
-/// The number of distinct real roots of `p` in an interval (Sturm's theorem [Sturm1829]); a
+/// The number of distinct real roots of `p` in an interval (Sturm's theorem [Sturm1829](crate::bibliography#sturm1829)); a
 /// multiple root counts once, also at an end. Zero for a constant, for the zero polynomial (none
 /// of whose roots is isolated) and for an empty interval.
 ///

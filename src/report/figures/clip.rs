@@ -12,7 +12,7 @@ impl Window {
         p.0 >= self.x.0 && p.0 <= self.x.1 && p.1 >= self.y.0 && p.1 <= self.y.1
     }
 
-    /// The part of a segment inside the window, by the method of Liang and Barsky [LiangBarsky1984].
+    /// The part of a segment inside the window, by the method of Liang and Barsky [LiangBarsky1984](crate::bibliography#liangbarsky1984).
     fn cut(&self, a: (f64, f64), b: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
         let (dx, dy) = (b.0 - a.0, b.1 - a.1);
         let (mut from, mut to) = (0.0f64, 1.0f64);

@@ -23,7 +23,7 @@ use kuva::{RasterBackend, TerminalBackend};
 /// Fonts in order of preference; the first is also the one that PNGs are drawn with.
 const FONTS: &str = "DejaVu Sans, Verdana, Arial, Helvetica, sans-serif";
 
-/// Colours that stay apart for every kind of colour vision [Wong2011], darkest first.
+/// Colours that stay apart for every kind of colour vision [Wong2011](crate::bibliography#wong2011), darkest first.
 pub const COLOURS: [&str; 6] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00"];
 
 /// A drawn figure.
@@ -46,7 +46,7 @@ impl Figure {
 
     /// The figure as an SVG document that scales with the page.
     pub fn svg(&self) -> String {
-        let svg = SvgBackend::new().render_scene(&self.scene);
+        let svg = renumbered(&SvgBackend::new().render_scene(&self.scene), "kuva-clip-");
         let (w, h) = self.size();
         let view = format!("<svg viewBox=\"0 0 {w:.0} {h:.0}\" ");
         if svg.contains("viewBox") { svg } else { svg.replacen("<svg ", &view, 1) }
@@ -64,4 +64,22 @@ impl Figure {
     pub fn terminal(&self, columns: usize, rows: usize) -> String {
         TerminalBackend::new(columns, rows).render_scene(&self.scene)
     }
+}
+
+/// The text with the numbers behind `prefix` counted from 0 in the order in which they appear: the
+/// plotting library counts them through the whole process, and equal data shall give equal bytes.
+fn renumbered(text: &str, prefix: &str) -> String {
+    let mut parts = text.split(prefix);
+    let mut out = parts.next().unwrap_or_default().to_string();
+    let mut seen: Vec<&str> = Vec::new();
+    for part in parts {
+        let digits = part.len() - part.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+        let (number, rest) = part.split_at(digits);
+        let place = seen.iter().position(|s| *s == number).unwrap_or_else(|| {
+            seen.push(number);
+            seen.len() - 1
+        });
+        out.push_str(&format!("{prefix}{place}{rest}"));
+    }
+    out
 }

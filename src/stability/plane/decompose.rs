@@ -78,7 +78,7 @@ pub struct StabilityMap {
 /// The critical values of `x` are the real zeros of leading coefficients, discriminants and resultants
 /// with respect to `y` of the boundary curves, and of the curves on the domain's edges: between them
 /// the branches do not meet, vanish or leave, so one sample decides a cell (the open part of Collins's
-/// decomposition, [Collins1975], [McCallum1998]). Extreme values in `y` come from the same
+/// decomposition, [Collins1975](crate::bibliography#collins1975), [McCallum1998](crate::bibliography#mccallum1998)). Extreme values in `y` come from the same
 /// decomposition with the parameters exchanged.
 ///
 /// # Errors

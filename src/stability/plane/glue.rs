@@ -60,13 +60,13 @@ pub(super) fn glue_stable_cells(
     }
     let mut groups: Vec<Vec<(usize, usize)>> = Vec::new();
     let mut number = vec![usize::MAX; stable.len()];
-    for i in 0..stable.len() {
+    for (i, &cell) in stable.iter().enumerate() {
         let r = root(&parent, i);
         if number[r] == usize::MAX {
             number[r] = groups.len();
             groups.push(Vec::new());
         }
-        groups[number[r]].push(stable[i]);
+        groups[number[r]].push(cell);
     }
     Ok(groups)
 }
@@ -150,7 +150,7 @@ impl Wall<'_> {
             if self.strips[0].x.contains(&left) && self.strips[1].x.contains(&right) {
                 return (left, right);
             }
-            step = step * &half;
+            step *= &half;
         }
     }
 

@@ -68,7 +68,7 @@ impl<'a> SturmAt<'a> {
         let lead = |p: &Poly<UniPoly>| p.leading().map_or(Ordering::Equal, |l| self.c.sign_of(l));
         let at_minus_infinity = |p: &Poly<UniPoly>| {
             let sign = lead(p);
-            if p.coeffs().len() % 2 == 0 { sign.reverse() } else { sign }
+            if p.coeffs().len().is_multiple_of(2) { sign.reverse() } else { sign }
         };
         self.variations(at_minus_infinity) - self.variations(lead)
     }
@@ -98,7 +98,7 @@ impl<'a> SturmAt<'a> {
             if within(self.lower) && within(self.upper) && free && self.count(&minus, &far) == self.count_all() {
                 break;
             }
-            far = far * &two;
+            far *= &two;
         }
         let low = match self.lower {
             None => -&far,

@@ -1,0 +1,20 @@
+//! The paper once more: what it prints against what is exactly true.
+
+mod errata;
+mod printed;
+
+pub use errata::{Comparison, Match, compare, compare_all};
+pub use printed::{EQUATION_23, EQUATION_37, LIST_AFTER_36, Printed};
+
+use crate::matrix::CharacteristicPolynomial;
+use crate::number::Rational;
+use crate::report::notation::Coefficient;
+
+/// The coefficient of `z^power_of_z` times `parameter^power_of_parameter` of a polynomial in one
+/// parameter, whose denominators are numbers; 0 where there is none.
+pub fn coefficient(p: &CharacteristicPolynomial, power_of_z: usize, power_of_parameter: usize) -> Rational {
+    let Some(c) = p.coefficients.get(power_of_z) else { return Rational::ZERO };
+    let wanted = |e: &[u32]| e.first().map_or(0, |e| *e as usize) == power_of_parameter;
+    let terms = Coefficient::new(c, 1).numerator;
+    terms.into_iter().find(|(e, _)| wanted(e)).map_or(Rational::ZERO, |(_, value)| value)
+}
