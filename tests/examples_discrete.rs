@@ -34,7 +34,7 @@ fn every_example_is_on_the_page_of_examples() {
     let page = include_str!("../src/model/examples.md");
     for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/examples")).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
-        assert!(page.contains(&name), "{name} is not on the page");
+        assert!(!name.ends_with(".toml") || page.contains(&name), "{name} is not on the page");
     }
 }
 

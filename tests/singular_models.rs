@@ -5,6 +5,7 @@ mod whole_loops;
 use jurist::analysis::{PointVerdict, Settings, Verdict, verdict};
 use jurist::limits::Budget;
 use jurist::model::Loop;
+use jurist::stability::Range;
 use whole_loops::{assert_stable, continuous, discrete, load, number, set, stable_set_of};
 
 fn nominal() -> Settings {
@@ -411,4 +412,25 @@ fn roots_exactly_at_the_ends_of_the_domain() {
     assert_discrete("z - 3 + k^2", &format!("min = 0, max = '{above}'"), &[(&root("z=1"), &exact(above))]);
     assert_continuous("s + k^2 - 2", &format!("min = '{below}'"), &[(&root("s=0"), "inf")]);
     assert_continuous("s + k^2 - 2", &format!("min = '{above}'"), &[(&exact(above), "inf")]);
+}
+
+/// Both roots of z^2 - z + 1/4 are 1/2; no root is nearer to 0 than by a negative radius.
+#[test]
+fn negative_radii_are_never_the_answer() {
+    let lp = discrete("z^2 - z + k", "nominal = 0.25");
+    let mut settings = Settings::default();
+    settings.domain.insert("radius".into(), Range::between(Some(number("-1")), Some(number("2"))));
+    let answer = jurist::analysis::intervals(&lp, &settings, "radius", &Budget::unlimited()).unwrap();
+    let set = answer.stable.decided().unwrap();
+    assert_eq!(set.intervals().len(), 1);
+    assert_eq!(set.intervals()[0].lower.as_ref().unwrap().value.decimal(5), "0.5");
+}
+
+/// All roots of z^2 are 0: every positive radius holds them, and only the question's domain ends there.
+#[test]
+fn radius_zero_is_the_end_of_the_domain_only() {
+    let lp = load("time = 'discrete'\n[loop]\ncharacteristic = 'z^2'");
+    let answer = jurist::analysis::intervals(&lp, &Settings::default(), "radius", &Budget::unlimited()).unwrap();
+    let set = answer.stable.decided().unwrap();
+    assert_eq!(set.intervals()[0].lower.as_ref().unwrap().causes.to_string(), "domain");
 }

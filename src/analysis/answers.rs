@@ -2,12 +2,12 @@
 
 use super::prepare::prepare;
 use super::question::{Settings, in_region, nominal, one_parameter, parametric, region_of};
-use super::{Failure, OneParameter};
+use super::{Failure, OneParameter, RADIUS};
 use crate::error::Diagnostic;
 use crate::limits::{Budget, Exhausted};
 use crate::model::{Loop, Question, Time};
 use crate::number::Rational;
-use crate::stability::{AtPoint, RootCount, StableSet, stable_set};
+use crate::stability::{AtPoint, Cause, RootCount, StableSet, stable_set};
 
 /// An exact answer, or the budget that ran out before it and what had been reached.
 #[derive(Clone, Debug)]
@@ -67,9 +67,22 @@ pub fn intervals(lp: &Loop, settings: &Settings, parameter: &str, budget: &Budge
     let question = one_parameter(lp, settings, parameter, budget)?;
     let stable = match &question.polynomial {
         None => Decision::Decided(StableSet::default()),
-        Some(p) => Decision::from_result(stable_set(p, &question.domain, question.region, budget), budget),
+        Some(p) => {
+            let set = stable_set(p, &question.domain, question.region, budget);
+            Decision::from_result(set.map(|set| own_causes(set, &question)), budget)
+        }
     };
     Ok(Intervals { question, stable })
+}
+
+/// `D(r z)` is a constant at `r = 0`: that is of the substitution's making, no root of the loop is lost.
+fn own_causes(mut set: StableSet, question: &OneParameter) -> StableSet {
+    if question.parameter == RADIUS && question.time == Time::Discrete {
+        for end in set.ends_mut().filter(|end| end.value.sign().is_eq()) {
+            end.causes.remove(Cause::DegreeLost);
+        }
+    }
+    set
 }
 
 /// The verdict on a loop whose parameters all have values.

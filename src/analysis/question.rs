@@ -141,6 +141,10 @@ pub fn one_parameter(
         }
     });
     let domain = match settings.domain.get(parameter) {
+        // No root is nearer to 0 than by a negative radius.
+        Some(range) if parameter == RADIUS && relative => {
+            Range { lower: range.lower.clone().max(Some(Rational::ZERO)), upper: range.upper.clone() }
+        }
         Some(range) => range.clone(),
         None if relative => Range::between(Some(Rational::ZERO), None),
         None => lp.parameter(parameter).map_or_else(Range::all, |p| Range::between(p.min.clone(), p.max.clone())),

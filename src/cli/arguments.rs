@@ -72,10 +72,10 @@ pub(super) struct ModelOptions {
 #[derive(Args, Debug, Default)]
 pub(super) struct RegionOptions {
     /// Asks for all |z| < R instead of |z| < 1 (discrete time)
-    #[arg(long, value_name = "R", allow_negative_numbers = true, conflicts_with = "decay")]
+    #[arg(long, value_name = "R", allow_hyphen_values = true, conflicts_with = "decay")]
     pub radius: Option<String>,
     /// Asks for all Re s < -S instead of Re s < 0 (continuous time)
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub decay: Option<String>,
 }
 

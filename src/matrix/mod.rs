@@ -8,6 +8,8 @@
 mod characteristic;
 mod determinant;
 mod faddeev_leverrier;
+mod hessenberg;
+mod multimodular;
 mod polynomial;
 mod rational;
 #[cfg(feature = "strategies")]
@@ -16,5 +18,6 @@ pub mod strategies;
 pub use characteristic::CharacteristicPolynomial;
 pub use determinant::{determinant_bareiss, determinant_leibniz};
 pub use faddeev_leverrier::{FaddeevLeVerrier, characteristic_over_denominator, faddeev_leverrier};
+pub use multimodular::characteristic_polynomial_multimodular;
 pub use polynomial::PolyMatrix;
 pub use rational::{Cleared, RationalMatrix};

@@ -1,6 +1,8 @@
 //! Matrices of rational functions.
 
-use super::{CharacteristicPolynomial, FaddeevLeVerrier, PolyMatrix, faddeev_leverrier};
+use super::{
+    CharacteristicPolynomial, FaddeevLeVerrier, PolyMatrix, characteristic_polynomial_multimodular, faddeev_leverrier,
+};
 use crate::limits::{Budget, Exhausted};
 use crate::poly::{Domain, MultiPoly, RationalFunction};
 use std::ops::{Add, Index, IndexMut, Mul, Sub};
@@ -129,12 +131,42 @@ impl RationalMatrix {
     pub fn poles(&self) -> Vec<MultiPoly> {
         let mut poles: Vec<MultiPoly> = Vec::new();
         for entry in &self.entries {
+            if entry.denominator().is_constant() {
+                continue;
+            }
             let pole = entry.denominator().primitive_over_integers();
             if !pole.is_constant() && !poles.contains(&pole) {
                 poles.push(pole);
             }
         }
         poles
+    }
+
+    /// `det(zI - M)` with coefficients in lowest terms, monic. The poles are those of the entries;
+    /// `variables` are the names of variables 0, 1, ... By [`characteristic_polynomial_multimodular`] where the grid of
+    /// parameters is not too large, else by the recursion of Faddeev and LeVerrier.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    ///
+    /// # Panics
+    /// When the matrix is not square.
+    pub fn characteristic_polynomial(
+        &self,
+        variables: Vec<String>,
+        budget: &Budget,
+    ) -> Result<CharacteristicPolynomial, Exhausted> {
+        let Some(answer) = characteristic_polynomial_multimodular(self, budget) else {
+            return self.characteristic_polynomial_faddeev_leverrier(variables, budget);
+        };
+        let (numerator, denominator) = answer?;
+        let n = self.rows;
+        let mut coefficients = Vec::with_capacity(n + 1);
+        for c in numerator.into_coeffs() {
+            budget.check()?;
+            coefficients.push(RationalFunction::new(c, denominator.clone()).expect("a denominator is not zero"));
+        }
+        Ok(CharacteristicPolynomial { variables, coefficients, formal_degree: n, poles: self.poles(), monic: true })
     }
 
     /// `det(zI - M)` with coefficients in lowest terms, monic, by the recursion of Faddeev and
@@ -146,7 +178,7 @@ impl RationalMatrix {
     ///
     /// # Panics
     /// When the matrix is not square.
-    pub fn characteristic_polynomial(
+    pub fn characteristic_polynomial_faddeev_leverrier(
         &self,
         variables: Vec<String>,
         budget: &Budget,
@@ -177,6 +209,9 @@ impl RationalMatrix {
 pub(super) fn least_common_multiple(a: &MultiPoly, b: &MultiPoly) -> MultiPoly {
     if b.is_one() || a == b {
         return a.clone();
+    }
+    if let (Some(a), Some(b)) = (a.as_constant(), b.as_constant()) {
+        return MultiPoly::constant(a.lcm(&b));
     }
     let g = a.gcd(b);
     let product = a.times(&b.div_exact(&g).expect("the gcd divides"));

@@ -122,8 +122,13 @@ impl Meaning for InVariable<'_, '_> {
     fn product(&mut self, a: Fraction, b: Fraction, span: Span) -> Result<Fraction, Failure> {
         self.scope.budget.check()?;
         let too_large = || too_large(span);
-        let numerator = a.numerator.product(&b.numerator).ok_or_else(too_large)?;
-        let denominator = a.denominator.product(&b.denominator).ok_or_else(too_large)?;
+        let budget = self.scope.budget;
+        let product = |a: &ZPoly, b: &ZPoly| match a.product_within(b, budget) {
+            Some(product) => Ok(product),
+            None => budget.check().map_err(Failure::from).and(Err(too_large())),
+        };
+        let numerator = product(&a.numerator, &b.numerator)?;
+        let denominator = product(&a.denominator, &b.denominator)?;
         self.limited(Fraction { numerator, denominator }, span)
     }
 
@@ -143,7 +148,11 @@ impl Meaning for InVariable<'_, '_> {
             return self.scope.power(base.numerator.leading(), exponent, span).map(Fraction::constant);
         }
         let base = if exponent < 0 { self.divided(Fraction::constant(1.into()), &base, span)? } else { base };
-        let raise = |p: &ZPoly| p.power(exponent.unsigned_abs()).ok_or_else(|| too_large(span));
+        let budget = self.scope.budget;
+        let raise = |p: &ZPoly| match p.power(exponent.unsigned_abs(), budget) {
+            Some(power) => Ok(power),
+            None => budget.check().map_err(Failure::from).and(Err(too_large(span))),
+        };
         Ok(Fraction { numerator: raise(&base.numerator)?, denominator: raise(&base.denominator)? })
     }
 }

@@ -2,6 +2,7 @@
 
 use super::expression::Sign;
 use super::scalar::{checked_product, checked_sum};
+use crate::limits::Budget;
 use crate::poly::RationalFunction;
 
 /// Coefficients from the constant term up, no zero at the top.
@@ -72,6 +73,11 @@ impl ZPoly {
     }
 
     pub fn product(&self, other: &Self) -> Option<Self> {
+        self.product_within(other, &Budget::unlimited())
+    }
+
+    /// The product; `None` also when the budget runs out.
+    pub fn product_within(&self, other: &Self, budget: &Budget) -> Option<Self> {
         if self.is_one() || other.is_zero() {
             return Some(other.clone());
         }
@@ -81,23 +87,25 @@ impl ZPoly {
         let mut out = vec![RationalFunction::zero(); self.0.len() + other.0.len() - 1];
         for (i, a) in self.0.iter().enumerate().filter(|(_, a)| !a.is_zero()) {
             for (j, b) in other.0.iter().enumerate().filter(|(_, b)| !b.is_zero()) {
+                budget.check().ok()?;
                 out[i + j] = checked_sum(&out[i + j], Sign::Plus, &checked_product(a, b)?)?;
             }
         }
         Some(ZPoly::new(out))
     }
 
-    pub fn power(&self, exponent: u64) -> Option<Self> {
+    /// The power; `None` also when the budget runs out.
+    pub fn power(&self, exponent: u64, budget: &Budget) -> Option<Self> {
         let mut result = ZPoly::one();
         let mut base = self.clone();
         let mut e = exponent;
         while e > 0 {
             if e & 1 == 1 {
-                result = result.product(&base)?;
+                result = result.product_within(&base, budget)?;
             }
             e >>= 1;
             if e > 0 {
-                base = base.product(&base)?;
+                base = base.product_within(&base, budget)?;
             }
         }
         Some(result)

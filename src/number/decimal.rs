@@ -12,6 +12,8 @@ struct Rounded {
     exponent: i64,
     /// Whether rounding changed nothing.
     exact: bool,
+    /// Whether the number itself, before rounding, is of a magnitude that is written plainly.
+    plain: bool,
 }
 
 /// `floor(log10(v))` for a positive rational, found from the bit lengths and then made exact.
@@ -35,10 +37,11 @@ fn round(value: &Rational, digits: usize) -> Rounded {
     let digits = digits.max(1);
     let negative = value.is_negative();
     if value.is_zero() {
-        return Rounded { negative, digits: "0".into(), exponent: 0, exact: true };
+        return Rounded { negative, digits: "0".into(), exponent: 0, exact: true, plain: true };
     }
     let magnitude = value.abs();
     let mut exponent = decimal_exponent(&magnitude);
+    let plain = (-6..15).contains(&exponent);
     let scaled = magnitude * power_of_ten(digits as i64 - 1 - exponent);
     let floor = scaled.floor();
     let twice_rest = (&scaled - Rational::from(&floor)) * Rational::from(2);
@@ -52,7 +55,7 @@ fn round(value: &Rational, digits: usize) -> Rounded {
         text.pop();
         exponent += 1;
     }
-    Rounded { negative, digits: text, exponent, exact: twice_rest.is_zero() }
+    Rounded { negative, digits: text, exponent, exact: twice_rest.is_zero(), plain }
 }
 
 impl Rounded {
@@ -61,9 +64,8 @@ impl Rounded {
         self.digits.truncate(kept);
     }
 
-    /// Plain notation for exponents from -6 to 14, else scientific.
     fn print(&self) -> String {
-        if (-6..15).contains(&self.exponent) { self.plain() } else { self.scientific() }
+        if self.plain { self.plain() } else { self.scientific() }
     }
 
     fn plain(&self) -> String {
@@ -113,10 +115,13 @@ pub fn to_scientific(value: &Rational, digits: usize) -> String {
 }
 
 /// The decimal that every number of `[lo, hi]` rounds to, if there is one. With different ends the
-/// number is not known exactly, so all digits are printed.
+/// number is not known exactly, so all digits are printed; a number that is known exactly has no trailing
+/// zeros, whether it was rounded or not.
 pub fn enclosed_decimal(lo: &Rational, hi: &Rational, digits: usize) -> Option<String> {
     if lo == hi {
-        return Some(to_decimal(lo, digits));
+        let mut rounded = round(lo, digits);
+        rounded.drop_trailing_zeros();
+        return Some(rounded.print());
     }
     let (low, high) = (round(lo, digits).print(), round(hi, digits).print());
     (low == high).then_some(low)
@@ -139,10 +144,10 @@ mod tests {
             ("2/3", 3, "0.667"),
             ("1e-6", 12, "0.000001"),
             ("0.99999e-6", 12, "9.9999e-7"),
-            ("0.9999999e-6", 3, "0.00000100"),
+            ("0.9999999e-6", 3, "1.00e-6"),
             ("999999999999999", 20, "999999999999999"),
             ("1e15", 12, "1e15"),
-            ("999999999999999.9", 3, "1.00e15"),
+            ("999999999999999.9", 3, "1000000000000000"),
             ("9.995", 3, "10.0"),
             ("0.125", 2, "0.12"),
             ("0.375", 2, "0.38"),
@@ -163,5 +168,6 @@ mod tests {
         assert_eq!(enclosed_decimal(&n("0.1999999"), &n("0.2000001"), 3), Some("0.200".into()));
         assert_eq!(enclosed_decimal(&n("0.12499"), &n("0.12501"), 2), None);
         assert_eq!(enclosed_decimal(&n("0.25"), &n("0.25"), 9), Some("0.25".into()));
+        assert_eq!(enclosed_decimal(&n("0.10000001"), &n("0.10000001"), 3), Some("0.1".into()));
     }
 }

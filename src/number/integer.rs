@@ -1,7 +1,7 @@
 //! Integers of any size.
 
 use malachite_base::num::arithmetic::traits::{
-    Abs, AddMulAssign, DivExact, DivMod, DivisibleBy, FloorRoot, FloorSqrt, Gcd, Lcm, Mod, Parity, Pow, Sign as _,
+    Abs, AddMulAssign, DivExact, DivMod, DivisibleBy, FloorRoot, FloorSqrt, Gcd, Lcm, Parity, Pow, Sign as _,
     SubMulAssign, UnsignedAbs,
 };
 use malachite_base::num::conversion::traits::RoundingFrom;
@@ -139,14 +139,25 @@ impl Integer {
     /// # Panics
     /// When `modulus` is zero.
     pub fn mod_u64(&self, modulus: u64) -> u64 {
-        let residue = Mod::mod_op(self.0.unsigned_abs_ref(), &Natural::from(modulus));
-        let residue = u64::try_from(&residue).expect("a residue is below its modulus");
+        let modulus_wide = u128::from(modulus);
+        let step = |r: u64, limb: &u64| ((u128::from(r) << 64 | u128::from(*limb)) % modulus_wide) as u64;
+        let residue = self.as_limbs().iter().rev().fold(0, step);
         if self.is_negative() && residue != 0 { modulus - residue } else { residue }
     }
 
     /// The magnitude's 64-bit limbs, least significant first; empty for 0.
     pub fn limbs(&self) -> Vec<u64> {
         self.0.unsigned_abs_ref().to_limbs_asc()
+    }
+
+    /// The magnitude's 64-bit limbs in place, least significant first.
+    pub fn as_limbs(&self) -> &[u64] {
+        self.0.unsigned_abs_ref().as_limbs_asc()
+    }
+
+    /// The integer with these 64-bit limbs in two's complement, least significant first.
+    pub fn from_twos_complement(limbs: &[u64]) -> Integer {
+        Integer(Inner::from_twos_complement_limbs_asc(limbs))
     }
 
     /// The non-negative integer with these 64-bit limbs, least significant first.

@@ -201,7 +201,7 @@ impl RealAlgebraic {
     }
 
     /// About twice as many bits of the enclosure.
-    fn narrow_further(&mut self) {
+    pub(super) fn narrow_further(&mut self) {
         if let Place::Within(b) = &mut self.place {
             b.refine_further(&self.poly);
         }

@@ -1,6 +1,8 @@
 //! Sums, products and the operators; polynomials over a domain form a domain.
 
+use super::domain::Fast;
 use super::{Domain, Poly};
+use crate::limits::Budget;
 use crate::number::Integer;
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -55,6 +57,9 @@ impl<R: Domain> Domain for Poly<R> {
     }
     fn needs_negation(&self) -> bool {
         self.leading().is_some_and(R::needs_negation)
+    }
+    fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize, budget: &Budget) -> Option<Fast<Self>> {
+        R::resultant_over_polynomials_fast(a, n, b, m, budget)
     }
 }
 

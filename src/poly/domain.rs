@@ -1,6 +1,9 @@
 //! What polynomial algorithms ask of their coefficients.
 
+use super::Poly;
 use super::kernel::kronecker::{KRONECKER_MIN_LENGTH, convolve_kronecker, convolve_schoolbook};
+use super::kernel::multimodular_resultant as resultants;
+use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
 use std::cmp::Ordering;
 use std::fmt::Debug;
@@ -79,10 +82,32 @@ pub trait Domain: Clone + PartialEq + Debug + Send + Sync + 'static {
     /// A greatest common divisor of two non-zero primitive polynomials, up to a unit.
     ///
     /// A hook for domains that know a faster way than the subresultant sequence.
-    fn primitive_gcd(a: &super::Poly<Self>, b: &super::Poly<Self>) -> super::Poly<Self> {
+    fn primitive_gcd(a: &Poly<Self>, b: &Poly<Self>) -> Poly<Self> {
         super::gcd::primitive_gcd_subresultant(a, b)
     }
+
+    /// The resultant of two polynomials for formal degrees that are not below the degrees, or `None`
+    /// where the subresultant sequence is expected to be the fastest.
+    fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize, budget: &Budget) -> Option<Fast<Self>> {
+        let _ = (a, n, b, m, budget);
+        None
+    }
+
+    /// [`Domain::resultant_fast`] for polynomials over this domain as coefficients.
+    fn resultant_over_polynomials_fast(
+        a: &Poly<Poly<Self>>,
+        n: usize,
+        b: &Poly<Poly<Self>>,
+        m: usize,
+        budget: &Budget,
+    ) -> Option<Fast<Poly<Self>>> {
+        let _ = (a, n, b, m, budget);
+        None
+    }
 }
+
+/// What a fast way returns: the value, unless the budget runs out.
+pub type Fast<R> = Result<R, Exhausted>;
 
 impl Domain for Integer {
     fn zero() -> Self {
@@ -132,6 +157,21 @@ impl Domain for Integer {
     }
     fn convolve(a: &[Self], b: &[Self]) -> Vec<Self> {
         if a.len().min(b.len()) < KRONECKER_MIN_LENGTH { convolve_schoolbook(a, b) } else { convolve_kronecker(a, b) }
+    }
+    fn primitive_gcd(a: &Poly<Self>, b: &Poly<Self>) -> Poly<Self> {
+        super::kernel::gcd::primitive_gcd(a, b)
+    }
+    fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize, budget: &Budget) -> Option<Fast<Self>> {
+        resultants::over_integers(a, n, b, m, budget)
+    }
+    fn resultant_over_polynomials_fast(
+        a: &Poly<Poly<Self>>,
+        n: usize,
+        b: &Poly<Poly<Self>>,
+        m: usize,
+        budget: &Budget,
+    ) -> Option<Fast<Poly<Self>>> {
+        resultants::over_univariate(a, n, b, m, budget)
     }
 }
 

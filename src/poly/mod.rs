@@ -25,4 +25,7 @@ pub use domain::Domain;
 pub use multivariate::{Monomial, MultiPoly};
 pub use rational_function::{DisplayRationalFunction, RationalFunction};
 pub use real_roots::{SquareFree, isolate_real_roots, isolate_real_roots_in};
-pub use subresultant::{discriminant, resultant, resultant_formal, subresultant_chain};
+pub use subresultant::{
+    discriminant, resultant, resultant_formal, resultant_formal_subresultant, resultant_subresultant,
+    subresultant_chain,
+};

@@ -153,6 +153,15 @@ impl RationalFunction {
     /// Sets variable `i` to `x`; `None` when the denominator vanishes identically there.
     pub fn substitute(&self, i: usize, x: &Rational) -> Option<Self> {
         let (numerator, p) = self.numerator.substitute(i, x);
+        if let Some(denominator) = self.denominator.as_constant() {
+            if numerator.is_zero() {
+                return Some(RationalFunction::zero());
+            }
+            let denominator = denominator * p;
+            let g = numerator.integer_content().gcd(&denominator);
+            let numerator = numerator.div_exact_integer(&g).expect("the content divides");
+            return Some(RationalFunction { numerator, denominator: denominator.div_exact(&g).into() });
+        }
         let (denominator, q) = self.denominator.substitute(i, x);
         RationalFunction::new(numerator.scaled_by(&q), denominator.scaled_by(&p))
     }
@@ -168,7 +177,17 @@ impl RationalFunction {
     /// The same function with variable `i` called `new_index(i)`; `None` when the denominator
     /// vanishes because two variables became one.
     pub fn map_variables(&self, new_index: impl Fn(usize) -> usize) -> Option<Self> {
-        RationalFunction::new(self.numerator.map_variables(&new_index), self.denominator.map_variables(&new_index))
+        let (numerator, denominator) =
+            (self.numerator.map_variables(&new_index), self.denominator.map_variables(&new_index));
+        // Lowest terms stay lowest terms when different variables remain different.
+        let mut images: Vec<usize> = self.variables().into_iter().map(&new_index).collect();
+        let count = images.len();
+        images.sort_unstable();
+        images.dedup();
+        if images.len() == count {
+            return Some(RationalFunction::normalised(numerator, denominator));
+        }
+        RationalFunction::new(numerator, denominator)
     }
 
     /// Text such as `(3*K^2 - 1)/(2*T)`. Variables beyond the names are written `x_i`.

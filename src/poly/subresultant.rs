@@ -3,6 +3,21 @@
 use super::{Domain, Poly};
 use crate::limits::{Budget, Exhausted};
 
+/// The resultant of two polynomials of the degrees they have.
+///
+/// Zero when either is zero; a constant `c` and a polynomial of degree `n` give `c^n`. Chooses between
+/// [`resultant_subresultant`] and the faster way that the domain may have ([`Domain::resultant_fast`]).
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn resultant<R: Domain>(a: &Poly<R>, b: &Poly<R>, budget: &Budget) -> Result<R, Exhausted> {
+    let (Some(n), Some(m)) = (a.degree(), b.degree()) else { return Ok(R::zero()) };
+    match R::resultant_fast(a, n, b, m, budget) {
+        Some(value) => value,
+        None => resultant_subresultant(a, b, budget),
+    }
+}
+
 /// The resultant of two polynomials of the degrees they have, by the subresultant sequence
 /// ([BrownTraub1971](crate::bibliography#browntraub1971); Cohen, A Course in Computational Algebraic Number Theory, 3.3.7).
 ///
@@ -11,7 +26,7 @@ use crate::limits::{Budget, Exhausted};
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
-pub fn resultant<R: Domain>(a: &Poly<R>, b: &Poly<R>, budget: &Budget) -> Result<R, Exhausted> {
+pub fn resultant_subresultant<R: Domain>(a: &Poly<R>, b: &Poly<R>, budget: &Budget) -> Result<R, Exhausted> {
     let (Some(n), Some(m)) = (a.degree(), b.degree()) else { return Ok(R::zero()) };
     let mut negative = false;
     let (mut a, mut b) = if n >= m {
@@ -73,6 +88,27 @@ pub fn resultant_formal<R: Domain>(
     budget: &Budget,
 ) -> Result<R, Exhausted> {
     assert!(a.coeffs().len() <= n + 1 && b.coeffs().len() <= m + 1, "the formal degree is below the degree");
+    match R::resultant_fast(a, n, b, m, budget) {
+        Some(value) => value,
+        None => resultant_formal_subresultant(a, n, b, m, budget),
+    }
+}
+
+/// [`resultant_formal`] by the subresultant sequence: the reference.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+///
+/// # Panics
+/// When a formal degree is below the degree.
+pub fn resultant_formal_subresultant<R: Domain>(
+    a: &Poly<R>,
+    n: usize,
+    b: &Poly<R>,
+    m: usize,
+    budget: &Budget,
+) -> Result<R, Exhausted> {
+    assert!(a.coeffs().len() <= n + 1 && b.coeffs().len() <= m + 1, "the formal degree is below the degree");
     if n + m == 0 {
         return Ok(R::one());
     }
@@ -85,7 +121,7 @@ pub fn resultant_formal<R: Domain>(
         });
     };
     if deg_a == n && deg_b == m {
-        return resultant(a, b, budget);
+        return resultant_subresultant(a, b, budget);
     }
     if deg_a < n && deg_b < m {
         return Ok(R::zero());
@@ -93,11 +129,11 @@ pub fn resultant_formal<R: Domain>(
     if deg_a < n {
         // Expanding along the first columns: each missing degree of `a` contributes (-1)^m lc(b).
         let factor = b.leading().expect("not zero").power((n - deg_a) as u64);
-        let value = factor.times(&resultant(a, b, budget)?);
+        let value = factor.times(&resultant_subresultant(a, b, budget)?);
         return Ok(if m % 2 == 1 && (n - deg_a) % 2 == 1 { value.negated() } else { value });
     }
     let factor = a.leading().expect("not zero").power((m - deg_b) as u64);
-    Ok(factor.times(&resultant(a, b, budget)?))
+    Ok(factor.times(&resultant_subresultant(a, b, budget)?))
 }
 
 /// The discriminant `(-1)^(n(n-1)/2) Res(p, p') / lc(p)`; 1 for degree 1, zero below.

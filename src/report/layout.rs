@@ -48,7 +48,9 @@ impl fmt::Display for Columns {
             let mut line = self.indent.clone();
             for (cell, width) in row.iter().zip(&widths) {
                 if *width > 0 {
-                    line.push_str(&format!("{cell:<width$}   "));
+                    // Not by a format's width, which has an upper limit.
+                    line.push_str(cell);
+                    line.extend(std::iter::repeat_n(' ', width - cell.chars().count() + 3));
                 }
             }
             writeln!(f, "{}", line.trim_end())?;

@@ -13,6 +13,9 @@ pub struct Margin {
     pub decibels: Option<String>,
 }
 
+/// Decibels are a number in JSON, so more digits than a double has would be lost.
+const DECIBEL_DIGITS: usize = 17;
+
 /// The margin of an end; `None` where nominal is 0 or absent, or the end lies beyond 0, where no
 /// positive factor leads.
 pub fn margin(end: &RealAlgebraic, nominal: Option<&Rational>, digits: usize) -> Option<Margin> {
@@ -27,9 +30,10 @@ pub fn margin(end: &RealAlgebraic, nominal: Option<&Rational>, digits: usize) ->
         Some(exact) => (exact / nominal).to_string(),
         None => irrational_factor(end, nominal, digits),
     };
-    let decibels = real::enclosed(digits, |bits| {
+    let decibels = real::enclosed(digits.min(DECIBEL_DIGITS), |bits| {
         let narrow = end.refined_to_digits(bits as usize / 3 + 4);
-        let ratio = ratio(&narrow, nominal);
+        // Long rationals would make the logarithm slow; rounding outwards keeps it certain.
+        let ratio = ratio(&narrow, nominal).rounded(2 * bits + 64);
         let twenty = Enclosure::from_rational(Rational::from(20));
         let ten = Enclosure::from_rational(Rational::from(10)).ln(bits)?;
         ratio.ln(bits)?.mul(&twenty, bits).div(&ten, bits)

@@ -54,6 +54,11 @@ impl Causes {
         }
     }
 
+    /// Takes a reason back.
+    pub fn remove(&mut self, cause: Cause) {
+        self.0.retain(|c| *c != cause);
+    }
+
     /// Whether the reason holds.
     pub fn contains(&self, cause: Cause) -> bool {
         self.0.contains(&cause)

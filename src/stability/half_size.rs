@@ -71,40 +71,46 @@ fn split_even_odd<R: Domain>(d: &Poly<R>) -> (Poly<R>, Poly<R>) {
 
 fn unit_disc_pair<R: Domain>(d: &Poly<R>, n: usize) -> (Poly<R>, Poly<R>) {
     let k = n / 2;
-    let c = |i: usize| d.coeff(i);
-    let sum: Vec<R> = (0..=n).map(|i| c(i).plus(&c(n - i))).collect();
-    let difference: Vec<R> = (0..=n).map(|i| c(i).minus(&c(n - i))).collect();
+    let zero = R::zero();
+    let c = |i: usize| d.coeffs().get(i).unwrap_or(&zero);
+    // Symmetric polynomials are given by their upper half: the coefficients from the middle one up.
+    let sum = |i: usize| c(i).plus(c(n - i));
+    let difference = |i: usize| c(i).minus(c(n - i));
+    let upper = k + 1..=n;
     if n.is_multiple_of(2) {
-        let b = divide_by_binomial(difference, 2, true);
-        (in_x(&sum, k), if k == 0 { Poly::zero() } else { in_x(&b, k - 1) })
+        let mut a: Vec<R> = vec![sum(k)];
+        a.extend(upper.clone().map(sum));
+        (in_x(a), in_x(divide_by_binomial(upper.map(difference).collect(), 2, true)))
     } else {
-        (in_x(&divide_by_binomial(sum, 1, false), k), in_x(&divide_by_binomial(difference, 1, true), k))
+        let a = divide_by_binomial(upper.clone().map(sum).collect(), 1, false);
+        (in_x(a), in_x(divide_by_binomial(upper.map(difference).collect(), 1, true)))
     }
 }
 
-/// The quotient by `z^step - 1` (`minus`) or `z^step + 1`, known to be exact.
+/// The upper half of the quotient by `z^step - 1` (`minus`) or `z^step + 1`, known to be exact, from the
+/// upper part of the dividend.
 fn divide_by_binomial<R: Domain>(mut p: Vec<R>, step: usize, minus: bool) -> Vec<R> {
     for i in (step..p.len()).rev() {
-        let q = p[i].clone();
-        p[i - step] = if minus { p[i - step].plus(&q) } else { p[i - step].minus(&q) };
+        p[i - step] = if minus { p[i - step].plus(&p[i]) } else { p[i - step].minus(&p[i]) };
     }
-    p.drain(..step);
     p
 }
 
-/// A symmetric polynomial `S` of formal degree `2m` as a polynomial in `x = z + 1/z`: `z^-m S`,
-/// through `V_j(x) = z^j + z^-j`, `V_(j+1) = x V_j - V_(j-1)`.
-fn in_x<R: Domain>(s: &[R], m: usize) -> Poly<R> {
-    // Clenshaw's recurrence on the coefficients of V_m, ..., V_1, then the constant.
-    let mut b1: Poly<R> = Poly::zero();
-    let mut b2: Poly<R> = Poly::zero();
-    for j in (1..=m).rev() {
-        let b = b1.shifted_up(1).minus(&b2).plus(&Poly::constant(s[m + j].clone()));
-        b2 = b1;
-        b1 = b;
+/// A symmetric polynomial of even formal degree `2m` as a polynomial in `x = z + 1/z`, from its
+/// coefficients `c_m, ..., c_2m`: the sum of `c_m` and all `c_(m+j) V_j` with `V_j(x) = z^j + z^-j`.
+fn in_x<R: Domain>(mut c: Vec<R>) -> Poly<R> {
+    let last = c.len();
+    // V_j = S_j - S_(j-2), where x S_j = S_(j+1) + S_(j-1), S_0 = 1, S_1 = x.
+    for j in 2..last {
+        c[j - 2] = c[j - 2].minus(&c[j]);
     }
-    // V_0 = 2 counts once: c_m + x b1 - 2 b2.
-    b1.shifted_up(1).minus(&b2).minus(&b2).plus(&Poly::constant(s[m].clone()))
+    // The constant is split off and x taken out of the rest, again and again.
+    for low in 2..last {
+        for j in (low..last).rev() {
+            c[j - 2] = c[j - 2].minus(&c[j]);
+        }
+    }
+    Poly::new(c)
 }
 
 #[cfg(test)]
@@ -129,7 +135,7 @@ mod tests {
             let n = coeffs.len() - 1;
             let pair = HalfSizePair::new(&d, n, Region::UnitDisc);
             let product = &d * &d.reversed(n);
-            let left = in_x(product.coeffs(), n).scaled(&Integer::from(4));
+            let left = in_x(product.coeffs()[n..].to_vec()).scaled(&Integer::from(4));
             let (p, q): (&[i64], &[i64]) = if n % 2 == 0 { (&[1], &[4, 0, -1]) } else { (&[2, 1], &[2, -1]) };
             let right =
                 &(&UniPoly::from_i64(p) * &(&pair.a * &pair.a)) + &(&UniPoly::from_i64(q) * &(&pair.b * &pair.b));

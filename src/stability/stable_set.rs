@@ -45,6 +45,11 @@ impl StableSet {
         &self.intervals
     }
 
+    /// Every end, to take back a cause that belongs to the question's form and not to the loop.
+    pub(crate) fn ends_mut(&mut self) -> impl Iterator<Item = &mut End> {
+        self.intervals.iter_mut().flat_map(|i| [&mut i.lower, &mut i.upper]).flatten()
+    }
+
     /// Whether no value is stable.
     pub fn is_empty(&self) -> bool {
         self.intervals.is_empty()

@@ -1,8 +1,10 @@
 //! Sums, products, powers and the operators.
 
 use super::{Monomial, MultiPoly};
+use crate::limits::Budget;
 use crate::number::Integer;
-use crate::poly::Domain;
+use crate::poly::domain::Fast;
+use crate::poly::{Domain, Poly};
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -238,6 +240,9 @@ impl Domain for MultiPoly {
     }
     fn gcd(&self, other: &Self) -> Self {
         super::gcd::gcd(self, other)
+    }
+    fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize, budget: &Budget) -> Option<Fast<Self>> {
+        crate::poly::kernel::multimodular_resultant::over_multivariate(a, n, b, m, budget)
     }
     /// Whether the leading coefficient is negative.
     fn needs_negation(&self) -> bool {

@@ -88,7 +88,7 @@ impl MultiPoly {
     }
 
     /// From terms that are known to descend and to have no zero coefficient.
-    fn from_descending(terms: Vec<(Monomial, Integer)>) -> Self {
+    pub(crate) fn from_descending(terms: Vec<(Monomial, Integer)>) -> Self {
         debug_assert!(terms.windows(2).all(|w| w[0].0 > w[1].0) && terms.iter().all(|(_, c)| !c.is_zero()));
         MultiPoly { terms }
     }

@@ -1,8 +1,12 @@
 //! An irrational root between two dyadic numbers, and its refinement.
 
+use super::fixed::refine_bracket;
 use crate::number::{Integer, Rational, Sign};
 use crate::poly::UniPoly;
 use std::cmp::Ordering;
+
+/// From so many bits to gain on, refinement works in fixed point.
+const FIXED_POINT_MIN_BITS: u64 = 16;
 
 /// The only root of a polynomial between `lo / 2^bits` and `hi / 2^bits`; neither end is a root,
 /// the root is irrational and the signs at the ends are opposite.
@@ -42,7 +46,7 @@ impl Bracket {
     }
 
     /// How many halvings lead to a width of at most `2^-target`.
-    fn bits_missing(&self, target: i64) -> u64 {
+    pub fn bits_missing(&self, target: i64) -> u64 {
         let width = &self.hi - &self.lo;
         // width <= 2^ceil(log2 width).
         let exact = width.trailing_zeros() == Some(width.bit_length() - 1);
@@ -50,10 +54,20 @@ impl Bracket {
         u64::try_from(log - self.bits as i64 + target).unwrap_or(0)
     }
 
-    /// Narrows the bracket to a width of at most `2^-target`: quadratic interval refinement
-    /// [Abbott2014](crate::bibliography#abbott2014). The secant predicts a cell of a grid of `2^m` cells, the signs at its ends
-    /// certify it; `m` doubles on success and halves on failure.
+    /// Narrows the bracket to a width of at most `2^-target`: in fixed point, or exactly when little is
+    /// missing or the bracket holds or touches zero.
     pub fn refine(&mut self, p: &UniPoly, target: i64) {
+        let beside_zero = self.lo.sign() == Sign::Greater || self.hi.is_negative();
+        if beside_zero && self.bits_missing(target) >= FIXED_POINT_MIN_BITS {
+            refine_bracket(p, self, target);
+        } else {
+            self.refine_exact(p, target);
+        }
+    }
+
+    /// The reference: quadratic interval refinement [Abbott2014](crate::bibliography#abbott2014) in exact integers. The secant predicts a cell of a grid of `2^m` cells, the signs at its ends
+    /// certify it; `m` doubles on success and halves on failure.
+    pub fn refine_exact(&mut self, p: &UniPoly, target: i64) {
         if self.narrow_enough(target) {
             return;
         }
@@ -126,7 +140,7 @@ impl Bracket {
 }
 
 /// The grid point, from 1 to `cells - 1`, nearest to where the chord crosses zero.
-fn secant(at_lo: &Integer, at_hi: &Integer, m: u64, cells: &Integer) -> Integer {
+pub(super) fn secant(at_lo: &Integer, at_hi: &Integer, m: u64, cells: &Integer) -> Integer {
     let (a, b) = (at_lo.abs(), at_hi.abs());
     // Leading bits are enough for a guess.
     let drop = a.bit_length().max(b.bit_length()).saturating_sub(m + 64);

@@ -4,6 +4,7 @@ use super::bounds::positive_root_bound_bits;
 use super::bracket::{Bracket, eval_dyadic};
 use super::deflated;
 use super::descartes::{Cell, cells_by_bisection};
+use super::fixed::isolate_real_roots_fixed;
 use super::rational_roots::rational_roots;
 use super::square_free::{SquareFree, deflation};
 use crate::limits::{Budget, Exhausted};
@@ -11,6 +12,9 @@ use crate::number::{Integer, Rational, Sign};
 use crate::poly::UniPoly;
 use crate::poly::algebraic::RealAlgebraic;
 use std::sync::Arc;
+
+/// How narrow [`isolate_real_roots`] makes enclosures: a few bits more save comparisons later.
+const CHOSEN_RELATIVE_BITS: u64 = 8;
 
 /// All distinct real roots, ascending, with pairwise disjoint enclosures; rational roots exactly.
 ///
@@ -30,7 +34,7 @@ use std::sync::Arc;
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
 pub fn isolate_real_roots(p: &SquareFree, budget: &Budget) -> Result<Vec<RealAlgebraic>, Exhausted> {
-    isolate_real_roots_descartes(p, None, None, budget)
+    isolate_real_roots_fixed(p, CHOSEN_RELATIVE_BITS, budget)
 }
 
 /// The roots in the open interval from `lo` to `hi`, `None` meaning without end; an end that is a
@@ -44,7 +48,11 @@ pub fn isolate_real_roots_in(
     hi: Option<&Rational>,
     budget: &Budget,
 ) -> Result<Vec<RealAlgebraic>, Exhausted> {
-    isolate_real_roots_descartes(p, lo, hi, budget)
+    let mut roots = isolate_real_roots(p, budget)?;
+    roots.retain(|x| {
+        lo.is_none_or(|lo| x.compare_rational(lo).is_gt()) && hi.is_none_or(|hi| x.compare_rational(hi).is_lt())
+    });
+    Ok(roots)
 }
 
 /// The reference algorithm: linear factors first, then [CollinsAkritas1976](crate::bibliography#collinsakritas1976) bisection with exact
@@ -146,8 +154,8 @@ pub(super) fn separated(mut roots: Vec<RealAlgebraic>) -> Vec<RealAlgebraic> {
         let (left, right) = roots.split_at_mut(i);
         let (left, right) = (&mut left[i - 1], &mut right[0]);
         while left.enclosure().1 >= right.enclosure().0 {
-            left.halve();
-            right.halve();
+            left.narrow_further();
+            right.narrow_further();
         }
     }
     roots

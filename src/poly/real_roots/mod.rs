@@ -7,6 +7,7 @@ mod bounds;
 mod bracket;
 mod deflated;
 mod descartes;
+mod fixed;
 mod isolate;
 mod modular;
 mod rational_roots;
@@ -15,6 +16,7 @@ mod square_free;
 mod sturm;
 
 pub use bounds::{negative_root_bound_bits, positive_root_bound_bits, root_bound_bits};
+pub use fixed::isolate_real_roots_fixed;
 pub use isolate::{isolate_real_roots, isolate_real_roots_descartes, isolate_real_roots_in};
 pub use rational_roots::rational_roots;
 pub use sign_variations::{budan_fourier_bound, descartes_sign_variations, sign_variations};

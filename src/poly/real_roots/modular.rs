@@ -73,3 +73,30 @@ pub(crate) fn coprime_modulo_some_prime(a: &UniPoly, b: &UniPoly) -> bool {
         (ra.len() == a.coeffs().len() || rb.len() == b.coeffs().len()) && coprime(ra, rb, prime)
     })
 }
+
+/// Primes for [`without_rational_roots`].
+const SMALL_PRIMES: [u64; 12] = [13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59];
+
+/// Whether some small prime proves that a polynomial has no rational root: it does not divide the
+/// leading coefficient, and the polynomial has no root modulo it. `false` says nothing.
+pub(super) fn without_rational_roots(p: &UniPoly) -> bool {
+    let product: u64 = SMALL_PRIMES.iter().product();
+    let residues: Vec<u64> = p.coeffs().iter().map(|c| c.mod_u64(product)).collect();
+    let Some(&lead) = residues.last() else { return false };
+    let mut folded = [0u32; 64];
+    SMALL_PRIMES.iter().any(|&prime| {
+        if lead.is_multiple_of(prime) || residues[0].is_multiple_of(prime) {
+            return false;
+        }
+        // x^(q - 1) = 1 for x other than 0.
+        let period = prime as usize - 1;
+        folded[..period].fill(0);
+        for chunk in residues.chunks(period) {
+            for (sum, r) in folded.iter_mut().zip(chunk) {
+                *sum = (*sum + (r % prime) as u32) % prime as u32;
+            }
+        }
+        let (folded, q) = (&folded[..period], prime as u32);
+        (1..q).all(|x| folded.iter().rev().fold(0, |acc, &c| (acc * x + c) % q) != 0)
+    })
+}

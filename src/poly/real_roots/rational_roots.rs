@@ -1,7 +1,7 @@
 //! Rational roots, exactly: roots modulo a small prime, lifted until only one fraction fits.
 
 use super::bounds::root_bound_bits;
-use super::modular::{power, residues};
+use super::modular::{power, residues, without_rational_roots};
 use super::square_free::SquareFree;
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
@@ -10,6 +10,9 @@ use crate::poly::UniPoly;
 /// How many primes may be looked at in the hope of one with fewer roots; each costs one pass over
 /// the coefficients.
 const PRIMES_TRIED: usize = 8;
+
+/// A prime just below 2^31: products of residues and sums of two fit `u64`.
+const LARGE_PRIME: u64 = 2_147_483_647;
 
 /// All rational roots, ascending, and the polynomial without their linear factors.
 ///
@@ -27,10 +30,24 @@ pub fn rational_roots(p: &SquareFree, budget: &Budget) -> Result<(Vec<Rational>,
         roots.push(Rational::ZERO);
         rest = UniPoly::new(rest.into_coeffs().split_off(1));
     }
-    if rest.coeffs().len() > 2 {
+    if rest.coeffs().len() > 2 && !without_rational_roots(&rest) {
         let (prime, residues) = choose_prime(&rest, budget)?;
+        let (small, residues) = small_roots(&rest, prime, residues);
+        let product = product_of_linear(&small);
+        let residues = match rest.div_exact_poly(&product) {
+            Some(quotient) => {
+                rest = quotient;
+                roots.extend(small);
+                residues
+            }
+            // A residue has misled: one by one.
+            None => choose_prime(&rest, budget)?.1,
+        };
         let mut lift = Lift::new(rest.clone(), prime);
         for r in residues {
+            if rest.coeffs().len() <= 2 {
+                break;
+            }
             budget.check()?;
             if let Some((root, quotient)) = lift.rational_root(r, &rest) {
                 roots.push(root);
@@ -44,6 +61,57 @@ pub fn rational_roots(p: &SquareFree, budget: &Budget) -> Result<(Vec<Rational>,
     }
     roots.sort();
     Ok((roots, SquareFree::known(rest)))
+}
+
+/// Of the simple roots modulo a small prime those that lift to a rational number which is small
+/// (determined modulo the square of the prime) and very likely a root, as it is one modulo a larger
+/// prime; and the other residues.
+fn small_roots(p: &UniPoly, prime: u64, candidates: Vec<u64>) -> (Vec<Rational>, Vec<u64>) {
+    if prime >= 1 << 16 {
+        // Products of residues would not fit.
+        return (Vec::new(), candidates);
+    }
+    let modulus = prime * prime;
+    let big = LARGE_PRIME;
+    let lead = p.leading().expect("not zero");
+    let (at_lift, at_big) = (residues(p, modulus), residues(p, big));
+    if at_big.len() < p.coeffs().len() {
+        return (Vec::new(), candidates);
+    }
+    let lead_lift = lead.mod_u64(modulus);
+    let inverse_big = power(lead.mod_u64(big), big - 2, big);
+    let (mut roots, mut others) = (Vec::new(), Vec::new());
+    for r in candidates {
+        // p(r) = 0 and p'(r) != 0 modulo the prime: one step of Newton's.
+        let (mut value, mut slope) = (0, 0);
+        for &c in at_lift.iter().rev() {
+            slope = (slope * r + value) % modulus;
+            value = (value * r + c) % modulus;
+        }
+        let inverse = power(slope % prime, prime - 2, prime);
+        let x = (r + modulus - value * inverse % modulus) % modulus;
+        let y = x * lead_lift % modulus;
+        let y = if 2 * y > modulus { y as i64 - modulus as i64 } else { y as i64 };
+        let x = (y.rem_euclid(big as i64) as u64) * inverse_big % big;
+        if at_big.iter().rev().fold(0, |acc, &c| (acc * x + c) % big) == 0 {
+            roots.push(Rational::new(Integer::from(y), lead.clone()));
+        } else {
+            others.push(r);
+        }
+    }
+    (roots, others)
+}
+
+/// The product of the linear polynomials with given roots, halves first.
+fn product_of_linear(roots: &[Rational]) -> UniPoly {
+    match roots {
+        [] => UniPoly::from_i64(&[1]),
+        [x] => linear(x),
+        _ => {
+            let (a, b) = roots.split_at(roots.len() / 2);
+            &product_of_linear(a) * &product_of_linear(b)
+        }
+    }
 }
 
 /// The primitive linear polynomial with a given root.
@@ -77,7 +145,10 @@ fn choose_prime(p: &UniPoly, budget: &Budget) -> Result<(u64, Vec<u64>), Exhaust
         if best.as_ref().is_none_or(|(_, b)| roots.len() < b.len()) {
             best = Some((prime, roots));
         }
-        if let Some(found) = best.take_if(|(_, roots)| roots.is_empty() || good == PRIMES_TRIED) {
+        if let Some(found) = best.take_if(|(_, roots)| {
+            // Many roots modulo a prime are most likely rational ones.
+            roots.is_empty() || good == PRIMES_TRIED || 2 * roots.len() >= p.coeffs().len()
+        }) {
             return Ok(found);
         }
     }

@@ -1,0 +1,44 @@
+//! Isolation in fixed point beside the exact reference.
+
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use jurist::limits::Budget;
+use jurist::number::Integer;
+use jurist::poly::real_roots::{isolate_real_roots_descartes, isolate_real_roots_fixed};
+use jurist::poly::{Domain, SquareFree, UniPoly};
+use std::hint::black_box;
+
+fn chebyshev(n: usize) -> UniPoly {
+    let (mut before, mut now) = (UniPoly::one(), UniPoly::x());
+    for _ in 1..n {
+        let after = &(&UniPoly::from_i64(&[0, 2]) * &now) - &before;
+        before = std::mem::replace(&mut now, after);
+    }
+    now
+}
+
+fn mignotte(n: usize) -> UniPoly {
+    let linear = UniPoly::from_i64(&[-1, 1_000_003]);
+    &UniPoly::monomial(Integer::ONE, n) - &(&linear * &linear).scaled(&Integer::from(2))
+}
+
+fn isolation(c: &mut Criterion) {
+    let budget = Budget::unlimited();
+    let families = [("chebyshev 12", chebyshev(12)), ("chebyshev 50", chebyshev(50)), ("mignotte 20", mignotte(20))];
+    let mut group = c.benchmark_group("isolation");
+    for (name, p) in families {
+        let p = SquareFree::part_of(&p).expect("not zero");
+        group.bench_with_input(BenchmarkId::new("fixed, 128 bits", name), &p, |b, p| {
+            b.iter(|| isolate_real_roots_fixed(black_box(p), 128, &budget))
+        });
+        group.bench_with_input(BenchmarkId::new("fixed, 40 bits", name), &p, |b, p| {
+            b.iter(|| isolate_real_roots_fixed(black_box(p), 40, &budget))
+        });
+        group.bench_with_input(BenchmarkId::new("exact, isolation alone", name), &p, |b, p| {
+            b.iter(|| isolate_real_roots_descartes(black_box(p), None, None, &budget))
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, isolation);
+criterion_main!(benches);

@@ -1,0 +1,257 @@
+//! The characteristic polynomial of a matrix of rational functions by evaluation modulo primes.
+
+use super::RationalMatrix;
+use super::hessenberg::{determinants_by_elimination, from_hessenberg, invert_and_scale_rows, reduce_to_hessenberg};
+use super::rational::least_common_multiple;
+use crate::limits::{Budget, Exhausted};
+use crate::number::Integer;
+use crate::poly::kernel::chinese::{Chinese, Limbs};
+use crate::poly::kernel::grid::Grid;
+use crate::poly::kernel::modular::PrimeField;
+use crate::poly::{Domain, Monomial, MultiPoly, Poly};
+
+/// The greatest number of points of a grid; beyond, the recursion of Faddeev and LeVerrier is used.
+const MAX_POINTS: usize = 1 << 16;
+
+/// Primes are distributed over the threads when points times cubed order times primes reach
+/// this: some milliseconds of work.
+const PARALLEL_MIN_PRODUCTS: usize = 1 << 21;
+
+/// `(P, d)` with `det(zI - M) = P / d`, where `d` is the product of the least common denominators of the
+/// rows; `None` when the parameters would need too large a grid.
+///
+/// With row `i` brought to the denominator `q_i`, `P = det(z Q - N)` for `Q = diag(q_i)`. Its degrees are at most
+/// the sums over the rows (or columns) of the greatest degrees, its coefficients at most the product of the
+/// Euclidean lengths of the rows (or columns), every entry replaced by the sum of the magnitudes of its
+/// coefficients ([Hadamard1893](crate::bibliography#hadamard1893) on the torus of parameters of modulus 1). `Q^-1 N` is reduced to the form of
+/// Hessenberg at each point of a grid modulo each prime, `O(n^3)` products of residues, and where `Q` is
+/// singular there, determinants are interpolated in `z`: no point and no prime is unlucky.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+///
+/// # Panics
+/// When the matrix is not square.
+pub fn characteristic_polynomial_multimodular(
+    m: &RationalMatrix,
+    budget: &Budget,
+) -> Option<Result<(Poly<MultiPoly>, MultiPoly), Exhausted>> {
+    assert!(m.is_square(), "the characteristic polynomial of a square matrix");
+    let rows = Rows::new(m)?;
+    Some(rows.characteristic(budget))
+}
+
+/// A matrix `Q^-1 N` in rows, only entries that are not zero.
+struct Rows {
+    n: usize,
+    /// Row, column and numerator.
+    entries: Vec<(usize, usize, MultiPoly)>,
+    denominators: Vec<MultiPoly>,
+    /// The variables that occur, the exponents of each in the entries (one more than the degree), and
+    /// in the result.
+    variables: Vec<usize>,
+    terms: Vec<usize>,
+    lengths: Vec<usize>,
+}
+
+impl Rows {
+    fn new(m: &RationalMatrix) -> Option<Rows> {
+        let n = m.rows();
+        let mut entries = Vec::new();
+        let mut denominators = Vec::with_capacity(n);
+        for i in 0..n {
+            let row = (0..n).map(|j| &m[(i, j)]).filter(|e| !e.is_zero());
+            let denominator = row.fold(MultiPoly::one(), |q, e| least_common_multiple(&q, e.denominator()));
+            for j in 0..n {
+                let entry = &m[(i, j)];
+                if !entry.is_zero() {
+                    let factor = denominator.div_exact(entry.denominator()).expect("a common multiple");
+                    entries.push((i, j, entry.numerator().times(&factor)));
+                }
+            }
+            denominators.push(denominator);
+        }
+        let mut rows = Rows { n, entries, denominators, variables: Vec::new(), terms: Vec::new(), lengths: Vec::new() };
+        rows.bound_degrees()?;
+        Some(rows)
+    }
+
+    fn bound_degrees(&mut self) -> Option<()> {
+        let all = || self.entries.iter().map(|(_, _, p)| p).chain(&self.denominators);
+        let count = all().map(|p| p.degrees().len()).max().unwrap_or(0);
+        let mut points = 1usize;
+        let (mut variables, mut terms, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
+        for v in 0..count {
+            let degree = |p: &MultiPoly| p.degree_in(v) as usize;
+            let mut by_row: Vec<usize> = self.denominators.iter().map(degree).collect();
+            let mut by_column = by_row.clone();
+            for (i, j, p) in &self.entries {
+                by_row[*i] = by_row[*i].max(degree(p));
+                by_column[*j] = by_column[*j].max(degree(p));
+            }
+            let greatest = by_row.iter().copied().max().unwrap_or(0);
+            if greatest > 0 {
+                let length = by_row.iter().sum::<usize>().min(by_column.iter().sum()) + 1;
+                points = points.checked_mul(length).filter(|&p| p <= MAX_POINTS)?;
+                variables.push(v);
+                terms.push(greatest + 1);
+                lengths.push(length);
+            }
+        }
+        (self.variables, self.terms, self.lengths) = (variables, terms, lengths);
+        Some(())
+    }
+
+    /// `e` such that every coefficient of `det(z Q - N)` is below `2^e` in magnitude.
+    fn height_bits(&self) -> u64 {
+        let norm = |p: &MultiPoly| p.terms().iter().fold(Integer::ZERO, |sum, (_, c)| sum + c.abs());
+        let n = self.n;
+        let mut norms = vec![Integer::ZERO; n * n];
+        for (i, j, p) in &self.entries {
+            norms[i * n + j] = norm(p);
+        }
+        for (i, q) in self.denominators.iter().enumerate() {
+            norms[i * n + i] += norm(q);
+        }
+        let bits = |index: &dyn Fn(usize, usize) -> usize| {
+            let mut product = Integer::ONE;
+            for i in 0..n {
+                let mut square = Integer::ZERO;
+                for norm in (0..n).map(|j| &norms[index(i, j)]).filter(|norm| !norm.is_zero()) {
+                    square.add_mul_assign(norm, norm);
+                }
+                product *= square;
+            }
+            product.bit_length().div_ceil(2)
+        };
+        bits(&|i, j| i * n + j).min(bits(&|i, j| j * n + i))
+    }
+
+    fn characteristic(&self, budget: &Budget) -> Result<(Poly<MultiPoly>, MultiPoly), Exhausted> {
+        if self.n == 0 {
+            return Ok((Poly::one(), MultiPoly::one()));
+        }
+        let width = self.entries.len() + self.n;
+        static ZERO: Integer = Integer::ZERO;
+        let mut coefficients = vec![&ZERO; self.terms.iter().product::<usize>() * width];
+        let polynomials = self.entries.iter().map(|(_, _, p)| p).chain(&self.denominators);
+        for (k, p) in polynomials.enumerate() {
+            for (monomial, c) in p.terms() {
+                let variables = self.variables.iter().zip(&self.terms);
+                let place = variables.fold(0, |place, (&v, &terms)| place * terms + monomial.exponent(v) as usize);
+                coefficients[place * width + k] = c;
+            }
+        }
+        let limbs = Limbs::new(coefficients);
+        let chinese = Chinese::for_bits(self.height_bits());
+        let points: usize = self.lengths.iter().product();
+        let image = |f: &PrimeField| {
+            budget.check()?;
+            Ok(self.image(f, limbs.residues(f)))
+        };
+        let products = (points * chinese.fields().len()).saturating_mul(self.n.pow(3));
+        let images: Vec<Vec<u64>> = chinese.images(products >= PARALLEL_MIN_PRODUCTS, image)?;
+        budget.check()?;
+        let stride = self.n + 1;
+        let mut exponents = vec![0u32; self.variables.last().map_or(0, |last| last + 1)];
+        let mut terms: Vec<Vec<(Monomial, Integer)>> = vec![Vec::new(); stride];
+        for place in (0..points).rev() {
+            let mut rest = place;
+            for (&v, &length) in self.variables.iter().zip(&self.lengths).rev() {
+                exponents[v] = u32::try_from(rest % length).expect("degrees stay below 2^32");
+                rest /= length;
+            }
+            for (k, terms) in terms.iter_mut().enumerate() {
+                let at = place * stride + k;
+                if images.iter().all(|image| image[at] == 0) {
+                    continue;
+                }
+                terms.push((Monomial::new(&exponents), chinese.integer(images.iter().map(|image| image[at]))));
+            }
+        }
+        let characteristic = Poly::new(terms.into_iter().map(MultiPoly::from_descending).collect());
+        let denominator = self.denominators.iter().fold(MultiPoly::one(), |d, q| d.times(q));
+        Ok((characteristic, denominator))
+    }
+
+    /// The coefficients modulo one prime: `lengths` by `n + 1` powers of `z`.
+    fn image(&self, f: &PrimeField, mut data: Vec<u64>) -> Vec<u64> {
+        let (n, count) = (self.n, self.entries.len());
+        let width = count + n;
+        let longest = self.lengths.iter().copied().max().unwrap_or(1).max(n + 1);
+        let mut grid = Grid::new(f, longest);
+        // Rows whose denominator is a number other than zero here are divided at once.
+        let mut numbers = vec![0; n];
+        for (i, q) in self.denominators.iter().enumerate().filter(|(_, q)| q.is_constant()) {
+            debug_assert!(!q.is_zero());
+            numbers[i] = data[count + i];
+        }
+        let mut inverses = numbers.clone();
+        inverses.push(grid.factorial());
+        f.invert_all(&mut inverses);
+        grid.prepare_interpolation(inverses[n]);
+        for block in data.chunks_exact_mut(width) {
+            for (x, (i, _, _)) in
+                block.iter_mut().zip(&self.entries).filter(|(x, (i, _, _))| **x != 0 && numbers[*i] != 0)
+            {
+                *x = f.mul(*x, inverses[*i]);
+            }
+        }
+        for i in (0..n).filter(|&i| numbers[i] != 0) {
+            data[count + i] = f.one();
+        }
+        let scale = numbers.iter().filter(|&&x| x != 0).fold(f.one(), |product, &x| f.mul(product, x));
+        let mut inner = width;
+        for (&terms, &length) in self.terms.iter().zip(&self.lengths).rev() {
+            data = grid.evaluate(&data, terms, inner, length);
+            inner *= length;
+        }
+        let points = data.len() / width;
+        let mut matrices = vec![0; points * n * n];
+        for (values, matrix) in data.chunks_exact(width).zip(matrices.chunks_exact_mut((n * n).max(1))) {
+            for (&x, (i, j, _)) in values.iter().zip(&self.entries) {
+                matrix[i * n + j] = x;
+            }
+        }
+        let mut diagonals: Vec<u64> =
+            data.chunks_exact(width).flat_map(|values| values[count..].iter().copied()).collect();
+        let mut out = vec![0; points * (n + 1)];
+        // Where a denominator vanishes the determinants are interpolated.
+        let mut regular = Vec::with_capacity(points);
+        for point in 0..points {
+            let diagonal = &diagonals[point * n..(point + 1) * n];
+            if diagonal.contains(&0) {
+                let matrix = &matrices[point * n * n..(point + 1) * n * n];
+                let values = &mut out[point * (n + 1)..(point + 1) * (n + 1)];
+                determinants_by_elimination(f, matrix, diagonal, &grid.points()[..=n], values);
+                grid.interpolate(values, n + 1, 1);
+            } else {
+                regular.push(point);
+            }
+        }
+        let mut factors = vec![scale; points];
+        for &point in &regular {
+            let diagonal = &diagonals[point * n..(point + 1) * n];
+            factors[point] =
+                diagonal.iter().fold(scale, |product, &q| if q == f.one() { product } else { f.mul(product, q) });
+        }
+        invert_and_scale_rows(f, &mut matrices, &mut diagonals, n, &regular);
+        reduce_to_hessenberg(f, &mut matrices, n, &regular);
+        let mut room = Vec::new();
+        for &point in &regular {
+            let matrix = &matrices[point * n * n..(point + 1) * n * n];
+            from_hessenberg(f, matrix, n, &mut room, &mut out[point * (n + 1)..(point + 1) * (n + 1)]);
+        }
+        for (values, &factor) in out.chunks_exact_mut(n + 1).zip(&factors) {
+            for v in values {
+                *v = f.mul(*v, factor);
+            }
+        }
+        let mut inner = n + 1;
+        for &length in self.lengths.iter().rev() {
+            grid.interpolate(&mut out, length, inner);
+            inner *= length;
+        }
+        out
+    }
+}

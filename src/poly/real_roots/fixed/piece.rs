@@ -1,0 +1,230 @@
+//! A polynomial on the unit interval and its Bernstein coefficients on parts of it, as exact as asked
+//! for.
+
+use super::evaluate::Evaluator;
+use super::limbs::{max_bits, rescale, write_shifted};
+use super::triangle::{HEADROOM, fitting_width, shift_by_one, sum_differences, summing_width};
+use crate::limits::{Budget, Exhausted};
+use crate::number::{Integer, Sign};
+use crate::poly::UniPoly;
+use std::rc::Rc;
+
+/// The interval `[lo, lo + 2^log_width] / 2^bits` inside the unit interval.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    pub lo: Integer,
+    pub log_width: u64,
+    pub bits: u64,
+}
+
+impl Cell {
+    /// The unit interval.
+    pub fn unit() -> Cell {
+        Cell { lo: Integer::ZERO, log_width: 0, bits: 0 }
+    }
+
+    /// The upper end, times `2^bits`.
+    pub fn hi(&self) -> Integer {
+        &self.lo + &(&Integer::ONE << self.log_width)
+    }
+
+    /// The order of the lower ends.
+    pub fn compare(&self, other: &Cell) -> Sign {
+        let bits = self.bits.max(other.bits);
+        (&self.lo << (bits - self.bits)).cmp(&(&other.lo << (bits - other.bits)))
+    }
+
+    /// Both halves.
+    pub fn halves(&self) -> (Cell, Cell) {
+        let (lo, log_width, bits) = match self.log_width.checked_sub(1) {
+            Some(log_width) => (self.lo.clone(), log_width, self.bits),
+            None => (&self.lo << 1, 0, self.bits + 1),
+        };
+        let middle = &lo + &(&Integer::ONE << log_width);
+        (Cell { lo, log_width, bits }, Cell { lo: middle, log_width, bits })
+    }
+
+    /// The part from `j / 2^k` to `(j + 2) / 2^k` of this interval.
+    pub fn zoomed(&self, j: &Integer, k: u64) -> Cell {
+        let lo = &(&self.lo << k) + &(j << self.log_width);
+        Cell { lo, log_width: self.log_width + 1, bits: self.bits + k }
+    }
+}
+
+/// Bernstein coefficients `2^scale` times those stored, each up to `error` units of the last place.
+#[derive(Clone, Debug)]
+pub struct Bernstein {
+    pub flat: Vec<u64>,
+    pub limbs: usize,
+    pub error: u64,
+    /// Bits of the largest coefficient stored.
+    pub height: u64,
+    pub scale: i64,
+}
+
+impl Bernstein {
+    /// How many bits of the largest coefficient are certain.
+    pub fn precision(&self) -> u64 {
+        self.height.saturating_sub(u64::from(64 - self.error.leading_zeros()))
+    }
+}
+
+/// `p(2^scale t)` for `t` from 0 to 1, `p` without rational roots.
+pub struct Piece {
+    pub coeffs: Vec<Integer>,
+    pub scale: i64,
+    binomials: Rc<Vec<Integer>>,
+    evaluator: Evaluator,
+}
+
+/// The binomial coefficients of one row of Pascal's triangle.
+pub fn binomial_row(n: usize) -> Vec<Integer> {
+    let mut row = Vec::with_capacity(n + 1);
+    let mut c = Integer::ONE;
+    for k in 0..=n {
+        row.push(c.clone());
+        c = (&c * &Integer::from(n - k)).div_exact(&Integer::from(k + 1));
+    }
+    row
+}
+
+impl Piece {
+    pub fn new(coeffs: Vec<Integer>, scale: i64, binomials: Rc<Vec<Integer>>) -> Piece {
+        let evaluator = Evaluator::new(&coeffs, scale);
+        Piece { coeffs, scale, binomials, evaluator }
+    }
+
+    pub fn degree(&self) -> usize {
+        self.coeffs.len() - 1
+    }
+
+    /// Whether the polynomial is positive at `numerator / 2^bits`.
+    pub fn positive_at(&mut self, numerator: &Integer, bits: u64) -> bool {
+        if numerator.is_zero() {
+            return !self.coeffs[0].is_negative();
+        }
+        self.evaluator.positive_at(numerator, bits)
+    }
+
+    /// The Bernstein coefficients on a cell with `precision` certain bits of the largest, computed from
+    /// the polynomial itself; `hint` is a guess at the binary logarithm of the largest.
+    pub fn bernstein(
+        &self,
+        cell: &Cell,
+        precision: u64,
+        hint: Option<i64>,
+        budget: &Budget,
+    ) -> Result<Bernstein, Exhausted> {
+        let n = self.degree() as u64;
+        let top = self.top_bits();
+        // Units lost: at most (2 n + 5) 2^n, see `differences_at`.
+        let lost = n + u64::from(u64::BITS - (2 * n + 5).leading_zeros());
+        let mut fraction = precision as i64 + lost as i64 + 4 - hint.unwrap_or(top);
+        loop {
+            budget.check()?;
+            let g = if cell.lo.is_zero() {
+                self.differences_at_zero(cell.bits - cell.log_width, fraction)
+            } else {
+                self.differences_at(cell, fraction, top)
+            };
+            // Sums of at most 2^n terms, a sign and a bit for the units lost.
+            let room = g.iter().map(Integer::bit_length).max().unwrap_or(0) + n + 2;
+            let limbs = summing_width(room.div_ceil(64) as usize);
+            let mut exact = vec![0; g.len() * limbs];
+            for (c, place) in g.iter().zip(exact.chunks_exact_mut(limbs)) {
+                write_shifted(c, 0, place);
+            }
+            // Errors grow by 2^n at most.
+            sum_differences(&mut exact, limbs);
+            let height = max_bits(&exact, limbs);
+            let certain = height.saturating_sub(lost);
+            if certain + 8 >= precision {
+                return Ok(stored(&exact, limbs, height, lost, fraction, precision));
+            }
+            fraction += (precision - certain) as i64 + if height == 0 { fraction.abs() } else { 0 };
+        }
+    }
+
+    /// A bound of the logarithm of the coefficients of `p(2^scale t)`.
+    fn top_bits(&self) -> i64 {
+        let bits = |(i, c): (usize, &Integer)| c.bit_length() as i64 + self.scale * i as i64;
+        self.coeffs.iter().enumerate().filter(|(_, c)| !c.is_zero()).map(bits).max().unwrap_or(0)
+    }
+
+    /// `2^fraction` times the forward differences of the Bernstein coefficients on `[0, 2^-depth]`,
+    /// each less than 2 units wrong.
+    fn differences_at_zero(&self, depth: u64, fraction: i64) -> Vec<Integer> {
+        let per_power = self.scale - depth as i64;
+        let terms = self.coeffs.iter().zip(self.binomials.iter()).enumerate();
+        terms.map(|(i, (c, b))| divided(&shifted(c, fraction + per_power * i as i64), b)).collect()
+    }
+
+    /// The same on a cell away from 0, up to `2 (n + 1) + 3` units wrong.
+    ///
+    /// With the cell `[c, c + w]`, `w <= c`: `p(c (1 + s))` has the coefficients `a_i c^i` shifted by one,
+    /// by additions alone; then `s = (w / c) t`.
+    fn differences_at(&self, cell: &Cell, fraction: i64, top: i64) -> Vec<Integer> {
+        let n = self.coeffs.len() - 1;
+        // The powers of c are within n units of 2^-guard, so that terms are within two units.
+        let guard = (fraction + top).max(0) as u64 + u64::from(usize::BITS - n.leading_zeros()) + 1;
+        let mut power = &Integer::ONE << guard;
+        let mut s = Vec::with_capacity(n + 1);
+        for (i, a) in self.coeffs.iter().enumerate() {
+            s.push(shifted(&(a * &power), fraction + self.scale * i as i64 - guard as i64));
+            power = &(&power * &cell.lo) >> cell.bits;
+        }
+        // Sums of at most 2^n terms.
+        let room = s.iter().map(Integer::bit_length).max().unwrap_or(0) + n as u64 + 2;
+        let limbs = summing_width(room.div_ceil(64) as usize);
+        let mut flat = vec![0; s.len() * limbs];
+        for (c, place) in s.iter().rev().zip(flat.chunks_exact_mut(limbs)) {
+            write_shifted(c, 0, place);
+        }
+        shift_by_one(&mut flat, limbs);
+        let height = max_bits(&flat, limbs);
+        let guard = height + u64::from(usize::BITS - n.leading_zeros()) + 1;
+        let one = &Integer::ONE << guard;
+        let mut power = one;
+        let mut out = Vec::with_capacity(n + 1);
+        for (k, s) in flat.chunks_exact(limbs).rev().enumerate() {
+            if power.is_zero() {
+                out.push(Integer::ZERO);
+                continue;
+            }
+            let s = Integer::from_twos_complement(s);
+            out.push(divided(&(&(&s * &power) >> guard), &self.binomials[k]));
+            power = (&power << cell.log_width).div_mod_floor(&cell.lo).0;
+        }
+        out
+    }
+}
+
+/// `floor(c 2^by)`.
+fn shifted(c: &Integer, by: i64) -> Integer {
+    if by >= 0 { c << by as u64 } else { c >> by.unsigned_abs() }
+}
+
+fn divided(c: &Integer, by: &Integer) -> Integer {
+    if by.is_one() { c.clone() } else { c.div_mod_floor(by).0 }
+}
+
+/// The numbers cut down to the bits that are certain and asked for.
+fn stored(exact: &[u64], width: usize, height: u64, lost: u64, fraction: i64, precision: u64) -> Bernstein {
+    let wanted = (height - lost.min(height)).min(precision) + 6;
+    let limbs = fitting_width((wanted + HEADROOM).div_ceil(64) as usize);
+    // The unit of the store: 2^drop units of the numbers.
+    let drop = (height as i64 - wanted as i64).max(0);
+    let flat = rescale(exact, width, limbs, drop);
+    let error = if drop as u64 >= lost { 2 } else { 1 + (1 << (lost - drop as u64)) };
+    let height = max_bits(&flat, limbs);
+    Bernstein { flat, limbs, error, height, scale: drop - fraction }
+}
+
+/// The polynomial's coefficients from the constant term up, or those of `x^n p(1/x)`.
+pub fn oriented(p: &UniPoly, reversed: bool) -> Vec<Integer> {
+    let mut coeffs = p.coeffs().to_vec();
+    if reversed {
+        coeffs.reverse();
+    }
+    coeffs
+}
