@@ -56,6 +56,7 @@
 pub mod analysis;
 #[doc = include_str!("bibliography.md")]
 pub mod bibliography {}
+pub mod certificate;
 pub mod cli;
 pub mod error;
 #[cfg(feature = "strategies")]

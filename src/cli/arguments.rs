@@ -50,6 +50,8 @@ pub(super) enum Command {
     Simulate(commands::simulate::Options),
     /// The built-in drive's paper once more, as one HTML report with figures
     Paper(commands::paper::Options),
+    /// Re-checks a certificate against a model, with code that shares nothing with the engine
+    Verify(commands::verify::Options),
     /// What an error code means
     Explain(commands::explain::Options),
     /// A completion script for a shell

@@ -106,3 +106,19 @@ fn check_name(model: &Loop, name: &str, span: Span, wrong: &mut Vec<Diagnostic>)
         _ => Err(error),
     }
 }
+
+/// A text file, or standard input for `-`. The inner error says why its content is not a text.
+pub(super) fn read_text(context: &Context, path: &OsString, most: u64) -> Result<Result<String, String>, Failure> {
+    let name = path.to_string_lossy().into_owned();
+    let mut bytes = Vec::new();
+    let read = if path == "-" {
+        std::io::stdin().lock().take(most + 1).read_to_end(&mut bytes)
+    } else {
+        File::open(path).and_then(|file| file.take(most + 1).read_to_end(&mut bytes))
+    };
+    read.map_err(|e| unreadable(context, path, &name, &e))?;
+    if bytes.len() as u64 > most {
+        return Ok(Err(format!("{name} is longer than {most} bytes")));
+    }
+    Ok(String::from_utf8(bytes).map_err(|_| format!("{name} is not UTF-8")))
+}

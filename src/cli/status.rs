@@ -13,6 +13,8 @@ pub(super) enum Status {
     BadInput = 2,
     /// Undecided within the budget.
     Undecided = 3,
+    /// A certificate was rejected.
+    Rejected = 4,
 }
 
 /// How a command ends.

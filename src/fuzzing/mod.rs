@@ -2,11 +2,13 @@
 //!
 //! Each takes arbitrary bytes and panics exactly if a promise of the crate is broken.
 
+mod certificate;
 mod isolation;
 mod model;
 mod number;
 mod stability;
 
+pub use certificate::certificate_check;
 pub use isolation::isolation_against_sturm;
 pub use model::model_parser;
 pub use number::number_parser;

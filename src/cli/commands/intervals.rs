@@ -2,11 +2,15 @@
 
 use super::Context;
 use crate::analysis::{DECAY, Decision, RADIUS, intervals};
+use crate::certificate::emit::intervals_certificate;
+use crate::certificate::smt2::intervals_smt2;
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::input::{known_names, load, settings};
+use crate::cli::output::write_answer;
 use crate::cli::status::{Outcome, Status};
 use crate::report::{intervals_json, intervals_text};
 use clap::Args;
+use std::ffi::OsString;
 use std::slice::from_ref;
 
 /// Options of `jurist intervals`.
@@ -19,6 +23,12 @@ pub(in crate::cli) struct Options {
     pub param: String,
     #[command(flatten)]
     pub region: RegionOptions,
+    /// Writes a certificate that 'jurist verify' re-checks
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<OsString>,
+    /// Writes the statement as SMT-LIB 2; a solver answers 'unsat' if it is true
+    #[arg(long, value_name = "FILE")]
+    pub smt2: Option<OsString>,
     #[command(flatten)]
     pub output: OutputOptions,
 }
@@ -36,6 +46,15 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         Err(failure) => return context.undecided(&options.output, "jurist/intervals/1", "stable", failure),
     };
     context.warn(None, &answer.question.warnings);
+    if let Decision::Decided(set) = &answer.stable {
+        if let Some(file) = &options.certificate {
+            let certificate = intervals_certificate(&model.source().text, &answer.question, &context.budget)?;
+            write_answer(&certificate, Some(file))?;
+        }
+        if let Some(file) = &options.smt2 {
+            write_answer(&intervals_smt2(&answer.question, set, &context.budget)?, Some(file))?;
+        }
+    }
     let digits = options.output.digits() as usize;
     context.answer(&options.output, || intervals_text(&answer, digits), || intervals_json(&answer, digits))?;
     Ok(match &answer.stable {

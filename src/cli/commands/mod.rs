@@ -12,6 +12,7 @@ pub(super) mod map;
 pub(super) mod paper;
 pub(super) mod simulate;
 pub(super) mod verdict;
+pub(super) mod verify;
 
 use super::arguments::{Arguments, Command, OutputOptions, RunOptions};
 use super::command_line::CommandLine;
@@ -112,6 +113,7 @@ impl Arguments {
             Some(Command::Locus(options)) => &options.run,
             Some(Command::Simulate(options)) => &options.run,
             Some(Command::Paper(options)) => &options.run,
+            Some(Command::Verify(options)) => &options.run,
             Some(Command::Explain(_) | Command::Completions(_)) => NONE,
         }
     }
@@ -130,6 +132,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Locus(options)) => locus::run(options, context),
         Some(Command::Simulate(options)) => simulate::run(options, context),
         Some(Command::Paper(options)) => paper::run(options, context),
+        Some(Command::Verify(options)) => verify::run(options, context),
         Some(Command::Explain(options)) => explain::run(options),
         Some(Command::Completions(options)) => completions::run(options),
     }

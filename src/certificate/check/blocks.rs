@@ -1,0 +1,338 @@
+//! Block diagrams as one polynomial system matrix.
+//!
+//! The unknowns are the states of all state-space blocks and all driven signals. A block `num/den` gives the row
+//! `den y - num u = 0`, a state-space block the rows `z x - A x - B u = 0` and `y - C x - D u = 0`, with `u`
+//! written out in signals. The determinant is, up to a factor without `z`, the product of all
+//! denominators times `det(I - G L)`: every mode counts, nothing cancels [Rosenbrock1970](crate::bibliography#rosenbrock1970).
+
+#![expect(clippy::needless_range_loop, reason = "matrix indices, as in the formulas")]
+
+use super::expression::{Names, Scope};
+use super::model::{matrix, sized};
+use super::multivariate::{Fraction, Multi};
+use super::number::{Q, Z};
+use super::toml::Toml;
+use num_traits::{One, ToPrimitive, Zero};
+use std::collections::{BTreeMap, HashMap};
+
+/// Delays of more samples are refused.
+const MAX_DELAY: usize = 2000;
+
+/// `s = top/bottom` with `top`, `bottom` in the variable; both are without denominators.
+struct Substitution {
+    top: Multi,
+    bottom: Multi,
+}
+
+type Row = BTreeMap<usize, Fraction>;
+
+struct Diagram<'s, 'c> {
+    scope: &'s mut Scope<'c>,
+    rows: Vec<Row>,
+    /// The number of unknowns so far: driven signals first, then states.
+    unknowns: usize,
+    degree: usize,
+}
+
+/// The system matrix and the degree its determinant has when the connection is well posed.
+pub(super) fn system_matrix(
+    table: &Toml,
+    blocks: &Toml,
+    variable: &str,
+    scope: &mut Scope<'_>,
+) -> Result<(Vec<Vec<Multi>>, usize), String> {
+    let blocks = blocks.list()?;
+    let external = table.get("inputs").map(Toml::one_or_more).unwrap_or_default();
+    let mut signals: HashMap<String, usize> = HashMap::new();
+    let driven = blocks.iter().flat_map(|b| b.get("output").map(Toml::one_or_more).unwrap_or_default());
+    let mut count = 0;
+    for name in driven {
+        signals.insert(name.text()?.to_owned(), count);
+        count += 1;
+    }
+    // External signals are zero: their numbers lie beyond all unknowns.
+    for (i, name) in external.iter().enumerate() {
+        signals.insert(name.text()?.to_owned(), usize::MAX - i);
+    }
+    if signals.len() != count + external.len() {
+        return Err("a signal is driven twice".into());
+    }
+    if let Some(name) = signals.keys().find(|n| scope.constants.contains_key(*n) || scope.parameters.contains_key(*n)) {
+        return Err(format!("'{}' is a signal and also something else", super::number::shorten(name)));
+    }
+    let mut diagram = Diagram { scope, rows: Vec::new(), unknowns: count, degree: 0 };
+    let mut first_output = 0;
+    for block in blocks {
+        let outputs = block.get("output").map(Toml::one_or_more).unwrap_or_default().len();
+        diagram.block(block, first_output..first_output + outputs, &signals, variable)?;
+        first_output += outputs;
+    }
+    for output in table.get("outputs").map(Toml::one_or_more).unwrap_or_default() {
+        let names = Names { signals: Some(&signals), ..Names::default() };
+        diagram.scope.linear(&output.expression()?, names)?;
+    }
+    diagram.matrix()
+}
+
+impl Diagram<'_, '_> {
+    fn block(
+        &mut self,
+        block: &Toml,
+        outputs: std::ops::Range<usize>,
+        signals: &HashMap<String, usize>,
+        variable: &str,
+    ) -> Result<(), String> {
+        let mut inputs: Vec<Row> = Vec::new();
+        for text in block.get("input").map(Toml::one_or_more).unwrap_or_default() {
+            let names = Names { signals: Some(signals), ..Names::default() };
+            let value = self.scope.linear(&text.expression()?, names)?;
+            if !value.constant.numerator.is_zero() {
+                return Err("an input of a block has a constant term".into());
+            }
+            inputs.push(value.signals);
+        }
+        let substitution = match block.get("discretize") {
+            Some(_) if variable == "s" => return Err("a continuous loop has nothing to discretise".into()),
+            Some(table) => Some(self.substitution(table)?),
+            None => None,
+        };
+        let inner = if substitution.is_some() { "s" } else { variable };
+        if let Some(pwm) = block.get("pwm") {
+            for key in ["amplitude", "carrier", "period"] {
+                if let Some(value) = pwm.get(key) {
+                    self.scope.scalar(&value.expression()?)?;
+                }
+            }
+        }
+        let given = |key: &str| block.get(key).is_some();
+        let kinds = ["transfer", "gain", "delay"].into_iter().filter(|k| given(k)).count()
+            + usize::from(given("num") || given("den"))
+            + usize::from(["A", "B", "C", "D"].into_iter().any(given));
+        if kinds != 1 {
+            return Err("a block does not say exactly once what it does".into());
+        }
+        if ["A", "B", "C", "D"].into_iter().any(given) {
+            return self.state_space(block, &inputs, outputs, substitution);
+        }
+        if inputs.len() != 1 || outputs.len() != 1 {
+            return Err("a block with one transfer function has one input and one output".into());
+        }
+        let one = Multi::one();
+        let (num, den) = if let Some(text) = block.get("transfer") {
+            let names = Names { variable: Some(inner), ..Names::default() };
+            let f = self.scope.linear(&text.expression()?, names)?.constant;
+            let den = f.whole_denominator(self.scope.clock)?;
+            (f.numerator, den)
+        } else if let Some(text) = block.get("gain") {
+            let f = self.scope.scalar(&text.expression()?)?;
+            let den = f.whole_denominator(self.scope.clock)?;
+            (f.numerator, den)
+        } else if let Some(samples) = block.get("delay") {
+            let value = self.scope.scalar(&samples.expression()?)?;
+            let number = value.numerator.0.values().next().cloned().unwrap_or_default();
+            let constant = value.numerator.is_constant() && value.scalar == one && value.denominator == one;
+            let samples = number.to_usize().filter(|&k| k <= MAX_DELAY && constant);
+            let Some(samples) = samples.filter(|_| inner == "z") else {
+                return Err("a delay is not a number of samples".into());
+            };
+            (one, Multi::variable(0).power(samples as u32, self.scope.clock)?)
+        } else {
+            let num = self.coefficients(block.get("num").ok_or("a block has no 'num'")?)?;
+            let den = self.coefficients(block.get("den").ok_or("a block has no 'den'")?)?;
+            // Both over the scalar denominators of both.
+            let clock = self.scope.clock;
+            (num.numerator.times(&den.scalar, clock)?, den.numerator.times(&num.scalar, clock)?)
+        };
+        if den.is_zero() || num.degree(0) > den.degree(0) {
+            return Err("a transfer function is improper".into());
+        }
+        let (num, den, order) = self.substituted(&num, &den, substitution)?;
+        self.degree += order;
+        let mut row: Row = BTreeMap::new();
+        let whole = |m: Multi| Fraction { numerator: m, denominator: Multi::one(), scalar: Multi::one() };
+        row.insert(outputs.start, whole(den));
+        let minus = whole(num).negated();
+        self.feed(&mut row, &minus, &inputs[0])?;
+        self.rows.push(row);
+        Ok(())
+    }
+
+    /// Adds `factor` times a linear expression to a row.
+    fn feed(&mut self, row: &mut Row, factor: &Fraction, input: &Row) -> Result<(), String> {
+        for (&signal, c) in input {
+            // A signal that stands in an equation over a denominator in z never occurs: scalars only.
+            let term = factor.times(c, self.scope.clock)?;
+            self.add(row, signal, term)?;
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, row: &mut Row, unknown: usize, term: Fraction) -> Result<(), String> {
+        let sum = match row.remove(&unknown) {
+            Some(old) => old.plus(&term, self.scope.clock)?,
+            None => term,
+        };
+        row.insert(unknown, sum);
+        Ok(())
+    }
+
+    /// A list of coefficients, highest power first, as a polynomial in the variable.
+    fn coefficients(&mut self, list: &Toml) -> Result<Fraction, String> {
+        let mut sum = Fraction::number(&Q::zero());
+        let z = Fraction::variable(0);
+        for c in list.one_or_more() {
+            let c = self.scope.scalar(&c.expression()?)?;
+            sum = sum.times(&z, self.scope.clock)?.plus(&c, self.scope.clock)?;
+        }
+        Ok(sum)
+    }
+
+    fn substitution(&mut self, table: &Toml) -> Result<Substitution, String> {
+        let clock = self.scope.clock;
+        let mut get = |key: &str| table.get(key).map(|t| self.scope.scalar(&t.expression()?)).transpose();
+        let (time, factor) = (get("T")?, get("c")?);
+        let whole = |f: &Fraction| Ok::<_, String>((f.numerator.clone(), f.whole_denominator(clock)?));
+        let z = Multi::variable(0);
+        let (minus, plus) = (z.minus(&Multi::one()), z.plus(&Multi::one()));
+        let method = table.get("method").ok_or("'discretize' has no method")?.text()?;
+        match (method, &time, &factor) {
+            ("forward" | "backward", Some(time), None) => {
+                let (n, d) = whole(time)?;
+                let bottom = if method == "forward" { n } else { n.times(&z, clock)? };
+                Ok(Substitution { top: minus.times(&d, clock)?, bottom })
+            }
+            ("tustin", _, Some(c)) => {
+                let (n, d) = whole(c)?;
+                Ok(Substitution { top: minus.times(&n, clock)?, bottom: plus.times(&d, clock)? })
+            }
+            ("tustin", Some(time), None) => {
+                // c = 2/T divides by T.
+                if time.numerator.is_zero() {
+                    return Err("division by a sample time that is zero".into());
+                }
+                self.scope.divisors.push(time.numerator.clone());
+                let (n, d) = whole(time)?;
+                let top = minus.times(&d.scaled(&Z::from(2)), clock)?;
+                Ok(Substitution { top, bottom: plus.times(&n, clock)? })
+            }
+            _ => Err("'discretize' is not complete".into()),
+        }
+    }
+
+    /// Numerator and denominator after `s = top/bottom`, times `bottom^order`, and the order.
+    fn substituted(
+        &self,
+        num: &Multi,
+        den: &Multi,
+        substitution: Option<Substitution>,
+    ) -> Result<(Multi, Multi, usize), String> {
+        let order = den.degree(0);
+        let Some(Substitution { top, bottom }) = substitution else { return Ok((num.clone(), den.clone(), order)) };
+        let clock = self.scope.clock;
+        let replace = |p: &Multi| -> Result<Multi, String> {
+            let mut sum = Multi::default();
+            for (k, c) in p.coefficients(0).iter().enumerate() {
+                let power = top.power(k as u32, clock)?.times(&bottom.power((order - k) as u32, clock)?, clock)?;
+                sum = sum.plus(&c.times(&power, clock)?);
+            }
+            Ok(sum)
+        };
+        Ok((replace(num)?, replace(den)?, order))
+    }
+
+    fn state_space(
+        &mut self,
+        block: &Toml,
+        inputs: &[Row],
+        outputs: std::ops::Range<usize>,
+        substitution: Option<Substitution>,
+    ) -> Result<(), String> {
+        let clock = self.scope.clock;
+        let mut get = |key: &str| block.get(key).map(|m| matrix(m, self.scope)).transpose();
+        let (a, b, c, d) = (get("A")?, get("B")?, get("C")?, get("D")?);
+        let (a, b, c) = match (a, b) {
+            (Some(a), Some(b)) => (a, b, c),
+            (None, None) if c.is_none() => (Vec::new(), Vec::new(), Some(vec![Vec::new(); outputs.len()])),
+            _ => return Err("a state-space block needs A and B".into()),
+        };
+        let n = a.len();
+        sized(&a, n, n)?;
+        sized(&b, n, inputs.len())?;
+        let unit = |i: usize, j: usize| Fraction::number(&if i == j { Q::one() } else { Q::zero() });
+        let c = match c {
+            Some(c) => c,
+            None => (0..n).map(|i| (0..n).map(|j| unit(i, j)).collect()).collect(),
+        };
+        sized(&c, outputs.len(), n)?;
+        if let Some(d) = &d {
+            sized(d, outputs.len(), inputs.len())?;
+        }
+        let (top, bottom) = match substitution {
+            Some(s) => (s.top, s.bottom),
+            None => (Multi::variable(0), Multi::one()),
+        };
+        let whole = |m: Multi| Fraction { numerator: m, denominator: Multi::one(), scalar: Multi::one() };
+        let minus_bottom = whole(bottom).negated();
+        let first = self.unknowns;
+        self.unknowns += n;
+        self.degree += n;
+        for i in 0..n {
+            // top x - bottom (A x + B u) = 0
+            let mut row = Row::new();
+            row.insert(first + i, whole(top.clone()));
+            for j in 0..n {
+                self.add(&mut row, first + j, a[i][j].times(&minus_bottom, clock)?)?;
+            }
+            for (j, input) in inputs.iter().enumerate() {
+                let factor = b[i][j].times(&minus_bottom, clock)?;
+                self.feed(&mut row, &factor, input)?;
+            }
+            self.rows.push(row);
+        }
+        for (i, output) in outputs.enumerate() {
+            // y - C x - D u = 0
+            let mut row = Row::new();
+            row.insert(output, Fraction::number(&Q::one()));
+            for j in 0..n {
+                self.add(&mut row, first + j, c[i][j].clone().negated())?;
+            }
+            for (j, input) in inputs.iter().enumerate() {
+                if let Some(d) = &d {
+                    let factor = d[i][j].clone().negated();
+                    self.feed(&mut row, &factor, input)?;
+                }
+            }
+            self.rows.push(row);
+        }
+        Ok(())
+    }
+
+    /// The rows, each cleared of its scalar denominators, which are divisors noted already.
+    fn matrix(self) -> Result<(Vec<Vec<Multi>>, usize), String> {
+        let clock = self.scope.clock;
+        let n = self.unknowns;
+        let mut out = Vec::with_capacity(n);
+        for row in &self.rows {
+            let row: Vec<(usize, &Fraction)> = row.iter().filter(|(k, _)| **k < n).map(|(k, f)| (*k, f)).collect();
+            let mut common = Multi::one();
+            for (_, f) in row.iter().filter(|(_, f)| !f.numerator.is_zero()) {
+                if f.denominator != Multi::one() {
+                    return Err("internal: a coefficient of a signal contains the variable".into());
+                }
+                let g = common.gcd(&f.scalar, clock)?;
+                let rest = f.scalar.divided(&g, clock)?.ok_or("internal: a gcd does not divide")?;
+                common = common.times(&rest, clock)?;
+            }
+            let mut entries = vec![Multi::default(); n];
+            for (k, f) in row.into_iter().filter(|(_, f)| !f.numerator.is_zero()) {
+                let factor = common.divided(&f.scalar, clock)?.ok_or("internal: a common multiple is none")?;
+                entries[k] = f.numerator.times(&factor, clock)?;
+            }
+            out.push(entries);
+        }
+        if out.len() != n {
+            return Err("the diagram has not as many equations as signals".into());
+        }
+        Ok((out, self.degree))
+    }
+}

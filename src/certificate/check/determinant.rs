@@ -1,0 +1,148 @@
+//! Determinants of polynomial matrices by evaluation and interpolation.
+
+use super::number::{Clock, Q, Z};
+use super::univariate::Uni;
+use num_traits::{One, Zero};
+
+/// A polynomial in variable 0, coefficients from the constant term up, each a polynomial in the parameter.
+#[derive(Clone, Debug)]
+pub(super) struct Entry(pub Vec<Uni>);
+
+impl Entry {
+    fn degree(&self) -> Option<usize> {
+        self.0.iter().rposition(|c| !c.is_zero())
+    }
+
+    fn parameter_degree(&self) -> Option<usize> {
+        self.0.iter().filter(|c| !c.is_zero()).map(Uni::degree).max()
+    }
+}
+
+/// The determinant of a square matrix, coefficients of variable 0 from the constant term up.
+///
+/// Degrees are bounded by the sums over rows, or columns, of the largest degrees; that many values at small
+/// integers determine the polynomial.
+pub(super) fn determinant(m: &[Vec<Entry>], clock: &Clock) -> Result<Vec<Uni>, String> {
+    let (Some(z_bound), Some(p_bound)) = (bound(m, Entry::degree), bound(m, Entry::parameter_degree)) else {
+        return Ok(Vec::new());
+    };
+    if (z_bound + 1).saturating_mul(p_bound + 1) > 4_000_000 {
+        return Err("the model is too large for the check".into());
+    }
+    let mut by_power: Vec<Vec<Z>> = vec![Vec::new(); z_bound + 1];
+    for p in points(p_bound + 1) {
+        let at_p: Vec<Vec<Vec<Z>>> =
+            m.iter().map(|row| row.iter().map(|e| e.0.iter().map(|c| value(&c.0, &p)).collect()).collect()).collect();
+        let mut values = Vec::with_capacity(z_bound + 1);
+        for z in points(z_bound + 1) {
+            let numbers = at_p.iter().map(|row| row.iter().map(|c| value(c, &z)).collect()).collect();
+            values.push(bareiss(numbers, clock)?);
+        }
+        for (k, c) in interpolated(&values, clock)?.into_iter().enumerate() {
+            by_power[k].push(c);
+        }
+    }
+    let mut out = Vec::with_capacity(z_bound + 1);
+    for values in &by_power {
+        out.push(Uni::new(interpolated(values, clock)?));
+    }
+    while out.last().is_some_and(Uni::is_zero) {
+        out.pop();
+    }
+    Ok(out)
+}
+
+/// The smaller of the row bound and the column bound; `None` when a row or a column is zero.
+fn bound(m: &[Vec<Entry>], degree: impl Fn(&Entry) -> Option<usize>) -> Option<usize> {
+    let rows: Option<usize> = m.iter().map(|row| row.iter().filter_map(&degree).max()).sum();
+    let columns: Option<usize> = (0..m.len()).map(|j| m.iter().filter_map(|row| degree(&row[j])).max()).sum();
+    Some(rows?.min(columns?))
+}
+
+/// `0, 1, -1, 2, -2, ...`
+fn points(n: usize) -> impl Iterator<Item = Z> {
+    (0..n).map(|i| if i % 2 == 1 { Z::from(i / 2 + 1) } else { -Z::from(i / 2) })
+}
+
+fn value(coefficients: &[Z], at: &Z) -> Z {
+    coefficients.iter().rev().fold(Z::zero(), |sum, c| sum * at + c)
+}
+
+/// Fraction-free elimination: every division is exact.
+fn bareiss(mut m: Vec<Vec<Z>>, clock: &Clock) -> Result<Z, String> {
+    let n = m.len();
+    let mut previous = Z::one();
+    let mut negative = false;
+    for k in 0..n {
+        clock.tick()?;
+        let Some(pivot) = (k..n).find(|&i| !m[i][k].is_zero()) else { return Ok(Z::zero()) };
+        if pivot != k {
+            m.swap(pivot, k);
+            negative = !negative;
+        }
+        let (top, below) = m.split_at_mut(k + 1);
+        let pivot_row = &top[k];
+        for row in below {
+            for j in k + 1..n {
+                let cross = &pivot_row[k] * &row[j] - &row[k] * &pivot_row[j];
+                row[j] = cross / &previous;
+            }
+            row[k] = Z::zero();
+        }
+        previous = m[k][k].clone();
+    }
+    Ok(if negative { -previous } else { previous })
+}
+
+/// The coefficients of the polynomial with these values at [`points`], by Newton's divided differences.
+fn interpolated(values: &[Z], clock: &Clock) -> Result<Vec<Z>, String> {
+    let at: Vec<Z> = points(values.len()).collect();
+    let mut differences: Vec<Q> = values.iter().cloned().map(Q::from).collect();
+    for k in 1..differences.len() {
+        clock.tick()?;
+        for i in (k..differences.len()).rev() {
+            differences[i] = (&differences[i] - &differences[i - 1]) / Q::from(&at[i] - &at[i - k]);
+        }
+    }
+    let mut out: Vec<Q> = Vec::new();
+    for (difference, point) in differences.iter().zip(&at).rev() {
+        clock.tick()?;
+        // out <- out (x - point) + difference
+        let mut next = vec![Q::zero(); out.len() + 1];
+        for (i, c) in out.iter().enumerate() {
+            next[i + 1] += c;
+            next[i] -= c * Q::from(point.clone());
+        }
+        next[0] += difference;
+        out = next;
+    }
+    out.into_iter()
+        .map(|c| {
+            if c.is_integer() { Ok(c.to_integer()) } else { Err("internal: a determinant is not integral".to_owned()) }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn determinant_of_a_known_product() {
+        // diag(z - p, z^2 + p^3 + 1) with a row added to the other
+        let clock = Clock::new(Duration::from_secs(5));
+        let uni = |c: &[i64]| Uni::new(c.iter().map(|&c| Z::from(c)).collect());
+        let a = vec![uni(&[0, -1]), uni(&[1])];
+        let b = vec![uni(&[1, 0, 0, 1]), uni(&[]), uni(&[1])];
+        let m = vec![vec![Entry(a.clone()), Entry(b.clone())], vec![Entry(vec![]), Entry(b.clone())]];
+        let d = determinant(&m, &clock).unwrap();
+        let expected = [uni(&[0, -1, 0, 0, -1]), uni(&[1, 0, 0, 1]), uni(&[0, -1]), uni(&[1])];
+        assert_eq!(d, expected);
+        let swapped = vec![m[1].clone(), m[0].clone()];
+        let d = determinant(&swapped, &clock).unwrap();
+        assert_eq!(d, expected.map(|c| c.scaled(&Z::from(-1))));
+        assert!(determinant(&[vec![Entry(vec![])]], &clock).unwrap().is_empty());
+        assert_eq!(determinant(&[], &clock).unwrap(), [uni(&[1])]);
+    }
+}

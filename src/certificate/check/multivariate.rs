@@ -1,0 +1,354 @@
+//! Polynomials in the loop's variable and all parameters, and their quotients.
+
+use super::number::{Clock, Q, Z};
+use super::univariate::gcd;
+use num_traits::{One, Signed, Zero};
+use std::collections::BTreeMap;
+
+/// More terms than this are refused.
+const MAX_TERMS: usize = 50_000;
+
+/// Exponents beyond this are refused.
+pub(super) const MAX_EXPONENT: u32 = 4000;
+
+/// Integer coefficients by exponents; variable 0 is `z` or `s`, the parameters follow.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub(super) struct Multi(pub BTreeMap<Vec<u32>, Z>);
+
+impl Multi {
+    pub fn constant(value: Z) -> Self {
+        Multi::default().with(Vec::new(), value)
+    }
+
+    pub fn one() -> Self {
+        Multi::constant(Z::one())
+    }
+
+    pub fn variable(index: usize) -> Self {
+        let mut exponents = vec![0; index + 1];
+        exponents[index] = 1;
+        Multi::default().with(exponents, Z::one())
+    }
+
+    fn with(mut self, exponents: Vec<u32>, value: Z) -> Self {
+        self.add(exponents, value);
+        self
+    }
+
+    /// Adds a term. Exponent lists have no zeros at the end, so that each monomial has one key.
+    fn add(&mut self, mut exponents: Vec<u32>, value: Z) {
+        while exponents.last() == Some(&0) {
+            exponents.pop();
+        }
+        let sum = self.0.remove(&exponents).unwrap_or_default() + value;
+        if !sum.is_zero() {
+            self.0.insert(exponents, sum);
+        }
+    }
+
+    pub fn is_zero(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub fn is_constant(&self) -> bool {
+        self.0.keys().all(Vec::is_empty)
+    }
+
+    /// The degree in a variable, 0 for zero.
+    pub fn degree(&self, variable: usize) -> usize {
+        self.0.keys().map(|e| e.get(variable).copied().unwrap_or(0) as usize).max().unwrap_or(0)
+    }
+
+    pub fn plus(&self, other: &Multi) -> Multi {
+        let mut sum = self.clone();
+        for (e, c) in &other.0 {
+            sum.add(e.clone(), c.clone());
+        }
+        sum
+    }
+
+    pub fn minus(&self, other: &Multi) -> Multi {
+        self.plus(&other.scaled(&-Z::one()))
+    }
+
+    pub fn scaled(&self, factor: &Z) -> Multi {
+        if factor.is_zero() {
+            return Multi::default();
+        }
+        Multi(self.0.iter().map(|(e, c)| (e.clone(), c * factor)).collect())
+    }
+
+    pub fn times(&self, other: &Multi, clock: &Clock) -> Result<Multi, String> {
+        let mut out = Multi::default();
+        for (e, c) in &self.0 {
+            clock.tick()?;
+            for (f, d) in &other.0 {
+                let n = e.len().max(f.len());
+                let at = |list: &[u32], i: usize| list.get(i).copied().unwrap_or(0);
+                let sum: Vec<u32> = (0..n).map(|i| at(e, i) + at(f, i)).collect();
+                if sum.iter().any(|&e| e > MAX_EXPONENT) {
+                    return Err("an expression of the model has too high a degree".into());
+                }
+                out.add(sum, c * d);
+            }
+            if out.0.len() > MAX_TERMS {
+                return Err("an expression of the model has too many terms".into());
+            }
+        }
+        Ok(out)
+    }
+
+    pub fn power(&self, exponent: u32, clock: &Clock) -> Result<Multi, String> {
+        let mut result = Multi::one();
+        for _ in 0..exponent {
+            result = result.times(self, clock)?;
+        }
+        Ok(result)
+    }
+
+    /// Coefficients of the powers of a variable, from the constant term up.
+    pub fn coefficients(&self, variable: usize) -> Vec<Multi> {
+        let mut out = vec![Multi::default(); if self.is_zero() { 0 } else { self.degree(variable) + 1 }];
+        for (e, c) in &self.0 {
+            let mut rest = e.clone();
+            let k = match rest.get_mut(variable) {
+                Some(e) => std::mem::take(e) as usize,
+                None => 0,
+            };
+            out[k].add(rest, c.clone());
+        }
+        out
+    }
+
+    /// `variable^k` times the polynomial.
+    fn raised(&self, variable: usize, k: usize) -> Multi {
+        let mut out = Multi::default();
+        for (e, c) in &self.0 {
+            let mut e = e.clone();
+            if e.len() <= variable {
+                e.resize(variable + 1, 0);
+            }
+            e[variable] += k as u32;
+            out.add(e, c.clone());
+        }
+        out
+    }
+
+    /// The quotient, if the division is exact over the integers.
+    pub fn divided(&self, divisor: &Multi, clock: &Clock) -> Result<Option<Multi>, String> {
+        // The largest key is the leading term of a lexicographic order: shorter lists count as padded with 0.
+        let Some((lead_e, lead_c)) = divisor.0.last_key_value() else { return Ok(None) };
+        let (mut rest, mut quotient) = (self.clone(), Multi::default());
+        while let Some((e, c)) = rest.0.last_key_value() {
+            clock.tick()?;
+            let fits = e.len() >= lead_e.len() && e.iter().zip(lead_e).all(|(a, b)| a >= b);
+            let factor = c / lead_c;
+            if !fits || &factor * lead_c != *c {
+                return Ok(None);
+            }
+            let difference = e.iter().enumerate().map(|(i, a)| a - lead_e.get(i).copied().unwrap_or(0)).collect();
+            let term = Multi::default().with(difference, factor);
+            rest = rest.minus(&term.times(divisor, clock)?);
+            quotient = quotient.plus(&term);
+        }
+        Ok(Some(quotient))
+    }
+
+    /// A greatest common divisor over the integers, by primitive remainders in the first variable.
+    pub fn gcd(&self, other: &Multi, clock: &Clock) -> Result<Multi, String> {
+        clock.tick()?;
+        if self.is_zero() || other.is_zero() {
+            return Ok(self.plus(other));
+        }
+        let first = |m: &Multi| m.0.keys().filter_map(|e| e.iter().position(|&e| e > 0)).min();
+        let variable = match (first(self), first(other)) {
+            (None, None) => {
+                let all = self.0.values().chain(other.0.values());
+                return Ok(Multi::constant(all.fold(Z::zero(), |g, c| gcd(&g, c))));
+            }
+            (a, b) => a.unwrap_or(usize::MAX).min(b.unwrap_or(usize::MAX)),
+        };
+        let (content_a, mut a) = self.split_content(variable, clock)?;
+        let (content_b, mut b) = other.split_content(variable, clock)?;
+        if a.degree(variable) < b.degree(variable) {
+            std::mem::swap(&mut a, &mut b);
+        }
+        while !b.is_zero() {
+            if b.degree(variable) == 0 {
+                a = Multi::one();
+                break;
+            }
+            let rest = a.pseudo_remainder(&b, variable, clock)?;
+            a = std::mem::replace(&mut b, rest.split_content(variable, clock)?.1);
+        }
+        content_a.gcd(&content_b, clock)?.times(&a, clock)
+    }
+
+    /// The greatest common divisor of the coefficients of a variable, and the rest.
+    pub fn split_content(&self, variable: usize, clock: &Clock) -> Result<(Multi, Multi), String> {
+        let mut content = Multi::default();
+        for c in self.coefficients(variable) {
+            content = content.gcd(&c, clock)?;
+        }
+        if self.is_zero() {
+            return Ok((Multi::one(), Multi::default()));
+        }
+        let rest = self.divided(&content, clock)?.ok_or("internal: a content does not divide")?;
+        Ok((content, rest))
+    }
+
+    fn pseudo_remainder(&self, divisor: &Multi, variable: usize, clock: &Clock) -> Result<Multi, String> {
+        let n = divisor.degree(variable);
+        let lead = divisor.coefficients(variable).pop().unwrap_or_default();
+        let mut rest = self.clone();
+        while !rest.is_zero() && rest.degree(variable) >= n {
+            let shift = rest.degree(variable) - n;
+            let top = rest.coefficients(variable).pop().unwrap_or_default();
+            let subtract = divisor.times(&top, clock)?.raised(variable, shift);
+            rest = rest.times(&lead, clock)?.minus(&subtract);
+        }
+        Ok(rest)
+    }
+
+    /// The polynomial with every parameter but `kept` replaced by its value: rational coefficients by powers
+    /// of variable 0, and in each by powers of the kept parameter.
+    pub fn specialised(&self, kept: usize, values: &[Q]) -> Vec<Vec<Q>> {
+        let mut out: Vec<Vec<Q>> = vec![vec![Q::zero(); self.degree(kept) + 1]; self.degree(0) + 1];
+        for (e, c) in &self.0 {
+            let mut term = Q::from(c.clone());
+            for (i, &k) in e.iter().enumerate().filter(|(i, _)| *i != 0 && *i != kept) {
+                term *= super::number::power(&values[i], k as usize);
+            }
+            let at = |i: usize| e.get(i).copied().unwrap_or(0) as usize;
+            out[at(0)][at(kept)] += term;
+        }
+        out
+    }
+}
+
+/// `numerator / (denominator scalar)`: the denominator contains variable 0 or is 1, the scalar does not
+/// contain it. Nothing but integers is ever cancelled.
+#[derive(Clone, Debug)]
+pub(super) struct Fraction {
+    pub numerator: Multi,
+    pub denominator: Multi,
+    pub scalar: Multi,
+}
+
+impl Fraction {
+    pub fn number(value: &Q) -> Self {
+        Fraction {
+            numerator: Multi::constant(value.numer().clone()),
+            denominator: Multi::one(),
+            scalar: Multi::constant(value.denom().clone()),
+        }
+    }
+
+    pub fn variable(index: usize) -> Self {
+        Fraction { numerator: Multi::variable(index), denominator: Multi::one(), scalar: Multi::one() }
+    }
+
+    /// Without common integer factors.
+    fn reduced(mut self) -> Self {
+        let all = self.numerator.0.values().chain(self.scalar.0.values());
+        let mut g = all.fold(Z::zero(), |g, c| gcd(&g, c));
+        if self.scalar.0.last_key_value().is_some_and(|(_, c)| c.is_negative()) {
+            g = -g;
+        }
+        if !g.is_zero() && !g.is_one() {
+            for c in self.numerator.0.values_mut().chain(self.scalar.0.values_mut()) {
+                *c = &*c / &g;
+            }
+        }
+        self
+    }
+
+    pub fn negated(self) -> Self {
+        Fraction { numerator: self.numerator.scaled(&-Z::one()), ..self }
+    }
+
+    /// The sum over the least common denominator.
+    pub fn plus(&self, other: &Fraction, clock: &Clock) -> Result<Fraction, String> {
+        let (d, e) = (&self.denominator, &other.denominator);
+        let (d_rest, e_rest) = if d == e {
+            (Multi::one(), Multi::one())
+        } else if d.degree(0) == 0 || e.degree(0) == 0 {
+            (d.clone(), e.clone())
+        } else {
+            let g = d.gcd(e, clock)?.split_content(0, clock)?.1;
+            let rest = |m: &Multi| m.divided(&g, clock)?.ok_or_else(|| "internal: a gcd does not divide".to_owned());
+            (rest(d)?, rest(e)?)
+        };
+        let (left_scalar, right_scalar) = if self.scalar == other.scalar {
+            (Multi::one(), Multi::one())
+        } else if self.scalar.is_constant() && other.scalar.is_constant() {
+            let g = self.scalar.gcd(&other.scalar, clock)?;
+            let rest = |m: &Multi| m.divided(&g, clock)?.ok_or_else(|| "internal: a gcd does not divide".to_owned());
+            (rest(&other.scalar)?, rest(&self.scalar)?)
+        } else {
+            (other.scalar.clone(), self.scalar.clone())
+        };
+        let left = self.numerator.times(&e_rest, clock)?.times(&left_scalar, clock)?;
+        let right = other.numerator.times(&d_rest, clock)?.times(&right_scalar, clock)?;
+        Ok(Fraction {
+            numerator: left.plus(&right),
+            denominator: d.times(&e_rest, clock)?,
+            scalar: self.scalar.times(&left_scalar, clock)?,
+        }
+        .reduced())
+    }
+
+    pub fn times(&self, other: &Fraction, clock: &Clock) -> Result<Fraction, String> {
+        Ok(Fraction {
+            numerator: self.numerator.times(&other.numerator, clock)?,
+            denominator: self.denominator.times(&other.denominator, clock)?,
+            scalar: self.scalar.times(&other.scalar, clock)?,
+        }
+        .reduced())
+    }
+
+    /// `1/self`; the numerator must not be zero.
+    pub fn inverse(&self, clock: &Clock) -> Result<Fraction, String> {
+        let top = self.denominator.times(&self.scalar, clock)?;
+        let bottom = self.numerator.clone();
+        Ok(if bottom.degree(0) == 0 {
+            Fraction { numerator: top, denominator: Multi::one(), scalar: bottom }
+        } else {
+            Fraction { numerator: top, denominator: bottom, scalar: Multi::one() }
+        }
+        .reduced())
+    }
+
+    pub fn power(&self, exponent: u32, clock: &Clock) -> Result<Fraction, String> {
+        Ok(Fraction {
+            numerator: self.numerator.power(exponent, clock)?,
+            denominator: self.denominator.power(exponent, clock)?,
+            scalar: self.scalar.power(exponent, clock)?,
+        })
+    }
+
+    /// Denominator and scalar together.
+    pub fn whole_denominator(&self, clock: &Clock) -> Result<Multi, String> {
+        self.denominator.times(&self.scalar, clock)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn gcd_of_products() {
+        let clock = &Clock::new(Duration::from_secs(10));
+        let (x, y, z) = (Multi::variable(0), Multi::variable(1), Multi::variable(3));
+        let f = x.times(&y, clock).unwrap().plus(&z);
+        let g = x.minus(&y).plus(&Multi::constant(Z::from(3)));
+        let h = y.times(&z, clock).unwrap().scaled(&Z::from(6)).plus(&x);
+        let (a, b) = (f.times(&g, clock).unwrap(), f.times(&h, clock).unwrap());
+        let common = a.gcd(&b, clock).unwrap();
+        assert!(common == f || common == f.scaled(&Z::from(-1)), "{common:?}");
+        assert_eq!(a.divided(&g, clock).unwrap(), Some(f));
+        assert_eq!(a.divided(&h, clock).unwrap(), None);
+    }
+}

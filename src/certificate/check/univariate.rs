@@ -1,0 +1,311 @@
+//! Polynomials in one variable over the integers, and what the check asks of them.
+
+use super::number::{Clock, Q, Z};
+use num_bigint::Sign;
+use num_rational::Ratio;
+use num_traits::{One, Signed, Zero};
+
+/// Coefficients from the constant term up, without zeros at the top.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub(super) struct Uni(pub Vec<Z>);
+
+impl Uni {
+    pub fn new(mut coefficients: Vec<Z>) -> Self {
+        while coefficients.last().is_some_and(Zero::is_zero) {
+            coefficients.pop();
+        }
+        Uni(coefficients)
+    }
+
+    pub fn constant(value: Z) -> Self {
+        Uni::new(vec![value])
+    }
+
+    pub fn is_zero(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The degree, 0 for zero.
+    pub fn degree(&self) -> usize {
+        self.0.len().saturating_sub(1)
+    }
+
+    pub fn leading(&self) -> Z {
+        self.0.last().cloned().unwrap_or_default()
+    }
+
+    pub fn at(&self, k: usize) -> Z {
+        self.0.get(k).cloned().unwrap_or_default()
+    }
+
+    pub fn plus(&self, other: &Uni) -> Uni {
+        let n = self.0.len().max(other.0.len());
+        Uni::new((0..n).map(|k| self.at(k) + other.at(k)).collect())
+    }
+
+    pub fn minus(&self, other: &Uni) -> Uni {
+        self.plus(&other.scaled(&-Z::one()))
+    }
+
+    pub fn scaled(&self, factor: &Z) -> Uni {
+        Uni::new(self.0.iter().map(|c| c * factor).collect())
+    }
+
+    pub fn times(&self, other: &Uni) -> Uni {
+        if self.is_zero() || other.is_zero() {
+            return Uni::default();
+        }
+        let mut out = vec![Z::zero(); self.0.len() + other.0.len() - 1];
+        for (i, a) in self.0.iter().enumerate().filter(|(_, a)| !a.is_zero()) {
+            for (j, b) in other.0.iter().enumerate() {
+                out[i + j] += a * b;
+            }
+        }
+        Uni::new(out)
+    }
+
+    /// `p^k` times the polynomial.
+    pub fn shifted_up(&self, k: usize) -> Uni {
+        if self.is_zero() {
+            return Uni::default();
+        }
+        Uni(std::iter::repeat_n(Z::zero(), k).chain(self.0.iter().cloned()).collect())
+    }
+
+    /// The greatest common divisor of the coefficients.
+    pub fn content(&self) -> Z {
+        gcd_of(self.0.iter())
+    }
+
+    /// Divided by the content; the sign stays.
+    pub fn primitive(&self) -> Uni {
+        let content = self.content();
+        if content.is_zero() || content.is_one() {
+            return self.clone();
+        }
+        Uni(self.0.iter().map(|c| c / &content).collect())
+    }
+
+    /// The sign of the value at a rational number.
+    pub fn sign_at(&self, value: &Q) -> Sign {
+        let (p, q) = (value.numer(), value.denom());
+        let mut result = Z::zero();
+        let mut q_power = Z::one();
+        for c in self.0.iter().rev() {
+            result = result * p + c * &q_power;
+            q_power *= q;
+        }
+        result.sign()
+    }
+
+    pub fn vanishes_at(&self, value: &Q) -> bool {
+        self.sign_at(value) == Sign::NoSign
+    }
+
+    /// The value at a rational number.
+    pub fn value_at(&self, value: &Q) -> Q {
+        self.0.iter().rev().fold(Q::zero(), |sum, c| sum * value + Ratio::from(c.clone()))
+    }
+
+    /// The quotient over the rationals, made primitive, if the division leaves no remainder.
+    pub fn divided(&self, divisor: &Uni, clock: &Clock) -> Result<Option<Uni>, String> {
+        if divisor.is_zero() || self.0.len() < divisor.0.len() {
+            return Ok(None);
+        }
+        // Gauss: a quotient of primitive polynomials is primitive over the integers.
+        let (mut rest, divisor) = (self.primitive().0, divisor.primitive());
+        let lead = divisor.leading();
+        let n = divisor.degree();
+        let mut quotient = vec![Z::zero(); rest.len() - n];
+        for k in (0..quotient.len()).rev() {
+            clock.tick()?;
+            let q = &rest[k + n] / &lead;
+            if &q * &lead != rest[k + n] {
+                return Ok(None);
+            }
+            if !q.is_zero() {
+                for (j, c) in divisor.0.iter().enumerate() {
+                    rest[k + j] -= c * &q;
+                }
+            }
+            quotient[k] = q;
+        }
+        Ok(rest.iter().all(Zero::is_zero).then(|| Uni::new(quotient)))
+    }
+
+    /// The primitive greatest common divisor over the rationals, with a positive leading coefficient.
+    pub fn gcd(&self, other: &Uni, clock: &Clock) -> Result<Uni, String> {
+        let (mut a, mut b) = (self.primitive(), other.primitive());
+        if a.degree() < b.degree() {
+            std::mem::swap(&mut a, &mut b);
+        }
+        while !b.is_zero() {
+            if b.degree() == 0 {
+                return Ok(Uni(vec![Z::one()]));
+            }
+            let rest = a.pseudo_remainder(&b, clock)?.primitive();
+            a = std::mem::replace(&mut b, rest);
+        }
+        Ok(if a.leading().is_negative() { a.scaled(&-Z::one()) } else { a })
+    }
+
+    /// A multiple of the remainder by a non-zero integer; the multiple is positive.
+    pub fn pseudo_remainder(&self, divisor: &Uni, clock: &Clock) -> Result<Uni, String> {
+        let mut rest = self.clone();
+        let lead = divisor.leading();
+        let size = lead.abs();
+        while !rest.is_zero() && rest.0.len() >= divisor.0.len() {
+            clock.tick()?;
+            let shift = rest.0.len() - divisor.0.len();
+            let mut top = rest.leading();
+            if lead.is_negative() {
+                top = -top;
+            }
+            rest = rest.scaled(&size).minus(&divisor.scaled(&top).shifted_up(shift));
+        }
+        Ok(rest)
+    }
+
+    pub fn derivative(&self) -> Uni {
+        Uni::new(self.0.iter().enumerate().skip(1).map(|(k, c)| c * Z::from(k)).collect())
+    }
+
+    /// The number of sign changes between successive coefficients that are not zero.
+    fn variations(coefficients: &[Z]) -> usize {
+        let mut last = Sign::NoSign;
+        let mut count = 0;
+        for sign in coefficients.iter().map(Z::sign).filter(|s| *s != Sign::NoSign) {
+            count += usize::from(last != Sign::NoSign && last != sign);
+            last = sign;
+        }
+        count
+    }
+
+    /// Descartes' bound for the open interval `(a, b)`, where `None` is an infinite end: at least the
+    /// number of roots in it with multiplicity, and equal to it when it is 0 or 1. `None` when both
+    /// ends are infinite and the polynomial is not constant.
+    pub fn descartes(&self, a: Option<&Q>, b: Option<&Q>, clock: &Clock) -> Result<Option<usize>, String> {
+        if self.degree() == 0 {
+            return Ok(Some(0));
+        }
+        let count = match (a, b) {
+            (None, None) => return Ok(None),
+            // y > 0 in f(a + y)
+            (Some(a), None) => Self::variations(&self.along(a, &Q::one(), clock)?),
+            // y > 0 in f(b - y)
+            (None, Some(b)) => Self::variations(&self.along(b, &-Q::one(), clock)?),
+            // y > 0 in (1 + y)^d f(a + (b - a)/(1 + y))
+            (Some(a), Some(b)) => {
+                let mut c = self.along(a, &(b - a), clock)?;
+                c.reverse();
+                shift(&mut c, &Z::one(), clock)?;
+                Self::variations(&c)
+            }
+        };
+        Ok(Some(count))
+    }
+
+    /// Coefficients of a positive multiple of `f(a + w t)` in `t`, zeros at the top included.
+    fn along(&self, a: &Q, w: &Q, clock: &Clock) -> Result<Vec<Z>, String> {
+        // With a = A/D and w = W/D: D^d f((A + W t)/D) = sum f_k D^(d-k) (A + W t)^k.
+        let d = a.denom() * w.denom();
+        let big_a = a.numer() * w.denom();
+        let big_w = w.numer() * a.denom();
+        let mut c = self.0.clone();
+        let mut scale = Z::one();
+        for coefficient in c.iter_mut().rev() {
+            *coefficient *= &scale;
+            scale *= &d;
+        }
+        shift(&mut c, &big_a, clock)?;
+        let mut scale = Z::one();
+        for coefficient in &mut c {
+            *coefficient *= &scale;
+            scale *= &big_w;
+        }
+        Ok(c)
+    }
+}
+
+/// `f(t + a)` by repeated synthetic division.
+fn shift(c: &mut [Z], a: &Z, clock: &Clock) -> Result<(), String> {
+    if a.is_zero() {
+        return Ok(());
+    }
+    let n = c.len();
+    for i in 0..n {
+        clock.tick()?;
+        for j in (i..n - 1).rev() {
+            let step = if a.is_one() { c[j + 1].clone() } else { &c[j + 1] * a };
+            c[j] += step;
+        }
+    }
+    Ok(())
+}
+
+/// The greatest common divisor, 0 of none.
+pub(super) fn gcd_of<'a>(values: impl Iterator<Item = &'a Z>) -> Z {
+    let mut g = Z::zero();
+    for v in values {
+        g = gcd(&g, v);
+        if g.is_one() {
+            break;
+        }
+    }
+    g
+}
+
+/// Euclid's algorithm.
+pub(super) fn gcd(a: &Z, b: &Z) -> Z {
+    // Reducing a fraction is the greatest common divisor of num-integer, at the price of a division.
+    if a.is_zero() || b.is_zero() {
+        return (a + b).abs();
+    }
+    let reduced = Q::new(a.abs(), b.abs());
+    a.abs() / reduced.numer()
+}
+
+/// The least positive integer that clears all denominators.
+pub(super) fn common_denominator<'a>(values: impl Iterator<Item = &'a Q>) -> Z {
+    values.fold(Z::one(), |l, v| &l / gcd(&l, v.denom()) * v.denom())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    fn uni(c: &[i64]) -> Uni {
+        Uni::new(c.iter().map(|&c| Z::from(c)).collect())
+    }
+
+    fn q(n: i64, d: i64) -> Q {
+        Q::new(n.into(), d.into())
+    }
+
+    #[test]
+    fn descartes_counts_roots_in_open_intervals() {
+        let clock = Clock::new(Duration::from_secs(10));
+        let f = uni(&[-6, 11, -6, 1]); // 1, 2, 3
+        let count = |a: Option<Q>, b: Option<Q>| f.descartes(a.as_ref(), b.as_ref(), &clock).unwrap();
+        assert_eq!(count(Some(q(1, 2)), Some(q(3, 2))), Some(1));
+        assert_eq!(count(Some(q(1, 1)), Some(q(2, 1))), Some(0));
+        assert_eq!(count(Some(q(1, 1)), Some(q(3, 1))), Some(1));
+        assert_eq!(count(Some(q(3, 1)), None), Some(0));
+        assert_eq!(count(Some(q(5, 2)), None), Some(1));
+        assert_eq!(count(None, Some(q(1, 1))), Some(0));
+        assert_eq!(count(None, Some(q(4, 3))), Some(1));
+        assert_eq!(count(None, None), None);
+        assert_eq!(uni(&[7]).descartes(None, None, &clock).unwrap(), Some(0));
+    }
+
+    #[test]
+    fn division_and_gcd() {
+        let clock = Clock::new(Duration::from_secs(10));
+        let (f, g) = (uni(&[-2, 2]), uni(&[1, 3, 2]));
+        assert_eq!(f.times(&g).divided(&g, &clock).unwrap(), Some(uni(&[-1, 1])));
+        assert_eq!(uni(&[1, 1]).divided(&uni(&[2, 1]), &clock).unwrap(), None);
+        assert_eq!(f.times(&g).gcd(&g.times(&uni(&[5, 1])), &clock).unwrap(), g);
+        assert_eq!(f.gcd(&Uni::default(), &clock).unwrap(), uni(&[-1, 1]));
+    }
+}

@@ -1,0 +1,46 @@
+//! `jurist verify`: re-checks a certificate.
+
+use super::Context;
+use crate::certificate::check::{Limits, check};
+use crate::certificate::format::MAX_TEXT;
+use crate::cli::arguments::RunOptions;
+use crate::cli::input::read_text;
+use crate::cli::output::{note, write_answer};
+use crate::cli::status::{Outcome, Status};
+use clap::Args;
+use std::ffi::OsString;
+
+/// Options of `jurist verify`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    /// The model that the statement is about, '-' for standard input
+    #[arg(value_name = "MODEL")]
+    pub model: OsString,
+    /// The certificate
+    #[arg(value_name = "CERTIFICATE")]
+    pub certificate: OsString,
+    #[command(flatten)]
+    pub run: RunOptions,
+}
+
+/// Prints the proved statement; the status is 4 for a certificate that proves nothing.
+pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+    let model = read_text(context, &options.model, MAX_TEXT as u64)?;
+    let certificate = read_text(context, &options.certificate, MAX_TEXT as u64)?;
+    let limits = options.run.timeout.map_or_else(Limits::default, |timeout| Limits { timeout });
+    let result = match (&model, &certificate) {
+        (Ok(model), Ok(certificate)) => check(model, certificate, &limits).map_err(|rejection| rejection.to_string()),
+        (Err(reason), _) | (_, Err(reason)) => Err(format!("the certificate is rejected: {reason}")),
+    };
+    context.reporter.finish();
+    match result {
+        Ok(proved) => {
+            write_answer(&format!("proved: {}", proved.statement), None)?;
+            Ok(Status::Holds)
+        }
+        Err(reason) => {
+            note(&reason);
+            Ok(Status::Rejected)
+        }
+    }
+}
