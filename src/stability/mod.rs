@@ -28,7 +28,7 @@ pub use interval_set::{AlgebraicInterval, IntervalSet, Range};
 pub use jury::{JuryRow, JuryTable, UNDIVIDED_ORDER, is_schur_jury, jury_table, jury_table_with};
 pub use pair_location::ComplexPair;
 pub use parametric::{AtPoint, ParametricPolynomial};
-pub use root_count::{RootCount, count_roots, count_roots_cauchy_index, is_stable};
+pub use root_count::{RootCount, count_roots, count_roots_cauchy_index, count_roots_within, is_stable};
 pub use routh::{RouthTable, is_hurwitz_routh, routh_table};
 pub use stable_set::{End, StableInterval, StableSet, stable_set};
 

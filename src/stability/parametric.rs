@@ -1,6 +1,7 @@
 //! A characteristic polynomial with one parameter left, ready to be decided.
 
-use super::{Region, RootCount, count_roots};
+use super::{Region, RootCount, count_roots_within};
+use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
 use crate::poly::{Domain, Poly, UniPoly};
 
@@ -147,15 +148,23 @@ impl ParametricPolynomial {
 
     /// The exact root count at a value of the parameter.
     pub fn at(&self, value: &Rational, region: Region) -> AtPoint {
+        self.at_within(value, region, &Budget::unlimited()).expect("the budget is unlimited")
+    }
+
+    /// [`ParametricPolynomial::at`] within a budget.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn at_within(&self, value: &Rational, region: Region, budget: &Budget) -> Result<AtPoint, Exhausted> {
         if self.is_undefined_at(value) {
-            return AtPoint::Undefined;
+            return Ok(AtPoint::Undefined);
         }
         let special = self.specialised(value);
         if special.is_zero() || self.content.sign_at(value).is_eq() {
-            return AtPoint::Zero;
+            return Ok(AtPoint::Zero);
         }
-        let count = count_roots(&special, region);
-        AtPoint::Defined { count, infinite: self.formal_degree - count.total() }
+        let count = count_roots_within(&special, region, budget)?;
+        Ok(AtPoint::Defined { count, infinite: self.formal_degree - count.total() })
     }
 
     /// Whether the loop is stable at a value of the parameter: defined, of full degree, all roots

@@ -1,6 +1,7 @@
 //! How many roots of a polynomial lie inside, on and outside the boundary: exactly, in all cases.
 
 use super::{HalfSizePair, Region};
+use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Sign};
 use crate::poly::{Domain, Poly, UniPoly};
 use std::cmp::Ordering;
@@ -63,6 +64,17 @@ pub fn is_stable(p: &UniPoly, region: Region) -> bool {
 /// # Panics
 /// When `p` is zero.
 pub fn count_roots_cauchy_index(p: &UniPoly, region: Region) -> RootCount {
+    count_roots_within(p, region, &Budget::unlimited()).expect("the budget is unlimited")
+}
+
+/// [`count_roots_cauchy_index`] within a budget.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+///
+/// # Panics
+/// When `p` is zero.
+pub fn count_roots_within(p: &UniPoly, region: Region, budget: &Budget) -> Result<RootCount, Exhausted> {
     assert!(!p.is_zero(), "the zero polynomial has no root count");
     let mut count = RootCount::default();
     let mut d = p.clone();
@@ -83,7 +95,7 @@ pub fn count_roots_cauchy_index(p: &UniPoly, region: Region) -> RootCount {
     }
     let n = d.coeffs().len() - 1;
     if n == 0 {
-        return count;
+        return Ok(count);
     }
     let padded = n % 2 == 1;
     if padded {
@@ -98,21 +110,21 @@ pub fn count_roots_cauchy_index(p: &UniPoly, region: Region) -> RootCount {
         Region::UnitDisc => [End::Finite(-2), End::Finite(2)],
         Region::LeftHalfPlane => [End::MinusInfinity, End::Finite(0)],
     };
-    let sequence = signed_remainder_sequence(pair.a, pair.b);
+    let sequence = signed_remainder_sequence(pair.a, pair.b, budget)?;
     // The signs are taken before the division by the gcd, which has no root at the ends: it changes
     // all signs of the sequence at an end together, so the variations stay.
     let variations = ends.map(|end| sign_variations(sequence.iter().map(|s| end.sign(s))));
     let index = variations[0] as i64 - variations[1] as i64;
     let gcd = sequence.last().expect("the sequence is not empty");
     let mirrored = gcd.coeffs().len() - 1;
-    let on_boundary = roots_with_multiplicity(gcd, ends);
+    let on_boundary = roots_with_multiplicity(gcd, ends, budget)?;
     let regular = even - 2 * mirrored;
     // inside - outside = 2 index, inside + outside = regular.
     let inside = (regular as i64 + 2 * index) / 2;
     count.inside += inside as usize + (mirrored - on_boundary) - usize::from(padded);
     count.outside += regular - inside as usize + (mirrored - on_boundary);
     count.on += 2 * on_boundary;
-    count
+    Ok(count)
 }
 
 /// An end of the interval that the boundary's upper half is mapped to.
@@ -135,7 +147,7 @@ impl End {
 }
 
 /// `S_0 = a`, `S_1 = b`, `S_(i+1) = -rem(S_(i-1), S_i)` up to positive factors, without the final zero.
-fn signed_remainder_sequence(a: UniPoly, b: UniPoly) -> Vec<UniPoly> {
+fn signed_remainder_sequence(a: UniPoly, b: UniPoly, budget: &Budget) -> Result<Vec<UniPoly>, Exhausted> {
     let positive = |p: UniPoly| {
         let content = p.content();
         if content.is_one() || p.is_zero() { p } else { p.div_exact_scalar(&content).expect("the content divides") }
@@ -143,6 +155,7 @@ fn signed_remainder_sequence(a: UniPoly, b: UniPoly) -> Vec<UniPoly> {
     let mut sequence = vec![positive(a)];
     let mut next = positive(b);
     while !next.is_zero() {
+        budget.check()?;
         let previous = &sequence[sequence.len() - 1];
         let exponent = (previous.coeffs().len() + 1).saturating_sub(next.coeffs().len());
         let flips = exponent % 2 == 1 && next.needs_negation();
@@ -154,7 +167,7 @@ fn signed_remainder_sequence(a: UniPoly, b: UniPoly) -> Vec<UniPoly> {
         sequence.push(next);
         next = positive(r);
     }
-    sequence
+    Ok(sequence)
 }
 
 fn sign_variations(signs: impl Iterator<Item = Sign>) -> usize {
@@ -170,15 +183,15 @@ fn sign_variations(signs: impl Iterator<Item = Sign>) -> usize {
 }
 
 /// Real roots of `g` between the ends, with multiplicity, by Sturm's theorem on its square-free factors.
-fn roots_with_multiplicity(g: &UniPoly, ends: [End; 2]) -> usize {
+fn roots_with_multiplicity(g: &UniPoly, ends: [End; 2], budget: &Budget) -> Result<usize, Exhausted> {
     let mut roots = 0;
     for (factor, multiplicity) in g.square_free_decomposition() {
         let derivative = factor.derivative();
-        let sequence = signed_remainder_sequence(factor, derivative);
+        let sequence = signed_remainder_sequence(factor, derivative, budget)?;
         let [low, high] = ends.map(|end| sign_variations(sequence.iter().map(|s| end.sign(s))));
         roots += multiplicity * (low - high);
     }
-    roots
+    Ok(roots)
 }
 
 #[cfg(test)]

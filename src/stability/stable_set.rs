@@ -3,8 +3,8 @@
 use super::interval_set::{cells, merge_points};
 use super::pair_location::complex_pair_at;
 use super::{
-    AlgebraicInterval, Boundary, Cause, Causes, ComplexPair, IntervalSet, ParametricPolynomial, Range, Region,
-    boundary_polynomials,
+    AlgebraicInterval, AtPoint, Boundary, Cause, Causes, ComplexPair, IntervalSet, ParametricPolynomial, Range, Region,
+    RootCount, boundary_polynomials,
 };
 use crate::limits::{Budget, Exhausted};
 use crate::number::Rational;
@@ -107,7 +107,9 @@ pub fn stable_set(
     for (i, cell) in all.iter().enumerate() {
         budget.check()?;
         budget.advance(i as u64, all.len() as u64);
-        stable.push(p.is_stable_at(&cell.sample(), region));
+        let at = p.at_within(&cell.sample(), region, budget)?;
+        let inside = |count: RootCount| count.inside == p.formal_degree();
+        stable.push(matches!(at, AtPoint::Defined { count, infinite: 0 } if inside(count)));
     }
     let examiner = EndExaminer { p, range, region, boundaries: &boundaries, budget };
     let mut intervals: Vec<StableInterval> = Vec::new();
