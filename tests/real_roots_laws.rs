@@ -178,3 +178,18 @@ proptest! {
         prop_assert!(part.poly().gcd(&part.poly().derivative()).is_constant());
     }
 }
+
+/// The only root of an odd power below zero was enclosed with the signs at the ends exchanged, and
+/// refined to nothing.
+#[test]
+fn negative_root_of_an_odd_power() {
+    for (p, expected) in [
+        (UniPoly::from_i64(&[1, 0, 0, 0, 0, 0, 0, 0, 0, 2]), "-0.925874712287290429205"),
+        (UniPoly::from_i64(&[-1, 0, 0, 0, 0, 0, 0, 0, 0, -2]), "-0.925874712287290429205"),
+        (UniPoly::from_i64(&[2, 0, 0, 1]), "-1.25992104989487316477"),
+    ] {
+        let found = roots(&p);
+        assert_eq!(found.len(), 1, "{p:?}");
+        assert_eq!(found[0].decimal(21), expected, "{p:?}");
+    }
+}

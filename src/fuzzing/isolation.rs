@@ -33,6 +33,9 @@ pub fn isolation_against_sturm(data: &[u8]) {
         assert_eq!(count(Bound::Closed(&lo), Bound::Closed(&hi)), 1);
         assert_eq!(root.exact().is_some(), lo == hi);
         assert!(root.sign_of(&p).is_eq());
+        // Refined, the enclosure still holds the root.
+        let (lo, hi) = root.refined_to_digits(30).enclosure();
+        assert_eq!(count(Bound::Closed(&lo), Bound::Closed(&hi)), 1);
         last = Some(hi);
     }
 }
@@ -50,6 +53,10 @@ fn polynomial(kind: u8, data: &[u8]) -> UniPoly {
             let shift = u64::from(kind >> 3);
             &(&p * &p).scaled(&(&Integer::ONE << shift)) - &UniPoly::from_i64(&[1])
         }
-        _ => p.compose(&UniPoly::from_i64(&[0, 0, 1])),
+        _ => {
+            let mut power = vec![0; 3 + usize::from(kind >> 3 & 3)];
+            *power.last_mut().expect("not empty") = 1;
+            p.compose(&UniPoly::from_i64(&power))
+        }
     }
 }

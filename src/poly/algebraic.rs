@@ -31,6 +31,8 @@ impl RealAlgebraic {
     }
 
     pub(super) fn from_bracket(poly: Arc<UniPoly>, bracket: Bracket) -> RealAlgebraic {
+        debug_assert_eq!(poly.sign_at(&bracket.hi()).is_gt(), bracket.rising, "the sign at the upper end");
+        debug_assert_eq!(poly.sign_at(&bracket.lo()).is_lt(), bracket.rising, "the sign at the lower end");
         RealAlgebraic { poly, place: Place::Within(bracket) }
     }
 

@@ -13,7 +13,7 @@ use crate::poly::UniPoly;
 pub fn brackets(p: &UniPoly, h: usize, relative: u64, budget: &Budget) -> Result<Vec<Bracket>, Exhausted> {
     let q = UniPoly::new(p.coeffs().iter().step_by(h).cloned().collect());
     let even = h.is_multiple_of(2);
-    let mirror = |b: Bracket| Bracket { lo: -b.hi, hi: -b.lo, bits: b.bits, rising: !b.rising };
+    let mirror = |b: Bracket| Bracket { lo: -b.hi, hi: -b.lo, ..b };
     let mut positive = roots_of_positive(&q, h, relative, budget)?;
     let mut out: Vec<Bracket> = if even {
         // p is even: its negative roots mirror the positive ones.
@@ -23,10 +23,17 @@ pub fn brackets(p: &UniPoly, h: usize, relative: u64, budget: &Budget) -> Result
         negative.into_iter().rev().map(mirror).collect()
     };
     out.append(&mut positive);
+    // All roots are simple and all are here: the signs alternate from root to root, and beyond the
+    // last the sign is that of the leading coefficient.
+    let mut rising = p.coeffs().last().is_some_and(|c| c.sign().is_gt());
+    for b in out.iter_mut().rev() {
+        b.rising = rising;
+        rising = !rising;
+    }
     Ok(out)
 }
 
-/// The positive `h`-th roots of the positive roots of `q`.
+/// The positive `h`-th roots of the positive roots of `q`; which of them rise is left to the caller.
 fn roots_of_positive(q: &UniPoly, h: usize, relative: u64, budget: &Budget) -> Result<Vec<Bracket>, Exhausted> {
     let mut more = 4 + u64::from(usize::BITS - h.leading_zeros());
     loop {
@@ -45,7 +52,7 @@ fn roots_of_positive(q: &UniPoly, h: usize, relative: u64, budget: &Budget) -> R
 }
 
 /// Brackets of the positive roots of a square-free `q`, ascending; those of rational roots, which
-/// are of relative width `2^-relative` too, may end at the root.
+/// are of relative width `2^-relative` too, may end at the root. Only the ends are meant.
 fn positive_roots(q: &UniPoly, relative: u64, budget: &Budget) -> Result<Vec<Bracket>, Exhausted> {
     let q = SquareFree::known(q.primitive_part());
     let (rational, rest) = rational_roots(&q, budget)?;
@@ -61,12 +68,6 @@ fn positive_roots(q: &UniPoly, relative: u64, budget: &Budget) -> Result<Vec<Bra
         let bits = a.bits.max(b.bits);
         (&a.lo << (bits - a.bits)).cmp(&(&b.lo << (bits - b.bits)))
     });
-    // The signs alternate from root to root; beyond the last it is that of the leading coefficient.
-    let mut rising = true;
-    for b in out.iter_mut().rev() {
-        b.rising = rising;
-        rising = !rising;
-    }
     Ok(out)
 }
 
