@@ -8,7 +8,7 @@ ours=$(mktemp)
 theirs=$(mktemp)
 trap 'rm -f "$ours" "$theirs"' EXIT
 RAYON_NUM_THREADS=1 cargo run --release --quiet --example bench_roots >"$ours"
-gp -q -f benches/roots.gp </dev/null >"$theirs" 2>/dev/null
+gp -q -f benches/pari/roots.gp </dev/null >"$theirs" 2>/dev/null
 printf '%-20s %6s %12s %12s %8s\n' family roots 'PARI ms' 'ours ms' ratio
 awk '
     { match($0, / degree /); name = substr($0, 1, RSTART - 1); sub(/ +$/, "", name)

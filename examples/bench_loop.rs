@@ -7,13 +7,17 @@
 //! `cargo run --release --example bench_loop [SECONDS_PER_FIGURE] [STEPS]`: one thread with `RAYON_NUM_THREADS=1`;
 //! with `STEPS` the parts of the limits are shown too.
 
+use families::RELATIVE_BITS;
+use families::loops::{boundary, characteristic, closed_loop, limits, substituted};
 use jurist::limits::Budget;
-use jurist::matrix::{CharacteristicPolynomial, RationalMatrix};
-use jurist::number::{Integer, Rational};
-use jurist::poly::{Domain, MultiPoly, Poly, RationalFunction, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
-use jurist::stability::{HalfSizePair, Region};
+use jurist::number::Rational;
+use jurist::poly::SquareFree;
+use jurist::poly::real_roots::isolate_real_roots_fixed;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
+
+#[path = "../benches/families/mod.rs"]
+mod families;
 
 fn main() {
     let mut arguments = std::env::args().skip(1);
@@ -45,17 +49,13 @@ fn main() {
                 let constraint = boundary(&special, n);
                 let square_free = SquareFree::part_of(&constraint).expect("not zero");
                 println!(
-                    "      {name}: substitution {:.4}  constraint {:.4} (degree {}, {} bits)  square-free part {:.4}  isolation {:.4}  refinement {:.4}",
+                    "      {name}: substitution {:.4}  constraint {:.4} (degree {}, {} bits)  square-free part {:.4}  isolation to {RELATIVE_BITS} bits {:.4}",
                     median(time, || substituted(&p, variable, value)),
                     median(time, || boundary(&special, n)),
                     constraint.degree().unwrap_or(0),
                     constraint.height_bits(),
                     median(time, || SquareFree::part_of(&constraint)),
-                    median(time, || isolate_real_roots(&square_free, &Budget::unlimited())),
-                    {
-                        let roots = isolate_real_roots(&square_free, &Budget::unlimited()).expect("no budget");
-                        median(time, || refined(&roots))
-                    }
+                    median(time, || isolate_real_roots_fixed(&square_free, RELATIVE_BITS, &Budget::unlimited())),
                 );
             }
         }
@@ -78,82 +78,4 @@ fn median<T>(time: Duration, f: impl Fn() -> T) -> f64 {
 /// On a busy machine the least time says more: `BENCH_LEAST=1`.
 fn least() -> bool {
     std::env::var_os("BENCH_LEAST").is_some()
-}
-
-fn characteristic(m: &RationalMatrix) -> CharacteristicPolynomial {
-    m.characteristic_polynomial(vec!["K".into(), "T".into()], &Budget::unlimited()).expect("no budget")
-}
-
-fn substituted(p: &CharacteristicPolynomial, variable: usize, value: &Rational) -> Poly<UniPoly> {
-    p.substitute(variable, value).and_then(|p| p.univariate()).expect("defined there").0
-}
-
-fn boundary<R: Domain>(p: &Poly<R>, n: usize) -> R {
-    HalfSizePair::new(p, n, Region::UnitDisc).critical_constraint(&Budget::unlimited()).expect("no budget")
-}
-
-fn refined(roots: &[RealAlgebraic]) -> Vec<RealAlgebraic> {
-    let fraction = Rational::new(Integer::ONE, Integer::from(2).pow(129));
-    let refine = |root: &RealAlgebraic| {
-        if root.exact().is_some() {
-            return root.clone();
-        }
-        let mut root = root.clone();
-        loop {
-            let (lo, hi) = root.enclosure();
-            let near = if lo.abs() < hi.abs() { lo.abs() } else { hi.abs() };
-            let target = &near * &fraction;
-            if !near.is_zero() && &hi - &lo <= target {
-                return root;
-            }
-            let width = if near.is_zero() { &(&hi - &lo) * &fraction } else { target };
-            root = root.refined(&width);
-        }
-    };
-    roots.iter().map(refine).collect()
-}
-
-fn limits(p: &CharacteristicPolynomial, variable: usize, value: &Rational) -> Vec<RealAlgebraic> {
-    let constraint = boundary(&substituted(p, variable, value), p.formal_degree);
-    let square_free = SquareFree::part_of(&constraint).expect("not zero");
-    refined(&isolate_real_roots(&square_free, &Budget::unlimited()).expect("no budget"))
-}
-
-/// The closed loop of the drive, variables `K` and `T`, with `filters` sections
-/// `x' = (1 - a) x + a u`, `a = 3/10`, between the current and its comparison.
-fn closed_loop(filters: usize) -> RationalMatrix {
-    let n = 6 + filters;
-    let (k, t) = (MultiPoly::variable(0), MultiPoly::variable(1));
-    let kt = &k * &t;
-    let number = |p: i64, q: i64| RationalFunction::from(Rational::new(p.into(), q.into()));
-    // p/q times a monomial.
-    let times = |m: &MultiPoly, p: i64, q: i64| RationalFunction::from(m.clone()) * number(p, q);
-    let mut a = RationalMatrix::zeros(n, n);
-    // Armature 1 ohm, 46 mH; 0.55 V s; 12 V carrier; current controller 10 and 500.
-    a[(0, 0)] = number(1, 1) + times(&t, -1000, 46);
-    a[(0, 1)] = times(&t, -550, 46);
-    a[(0, 2)] = times(&kt, 10_000, 46 * 12);
-    a[(0, 3)] = times(&kt, 500_000, 46 * 12);
-    // Inertia 0.093, friction 0.008.
-    a[(1, 0)] = times(&t, 550, 93);
-    a[(1, 1)] = number(1, 1) + times(&t, -8, 93);
-    // The current that is compared: measured, or behind the last filter.
-    let current = if filters == 0 { 0 } else { n - 1 };
-    a[(2, current)] = number(-1, 1);
-    a[(2, 4)] = number(1, 1);
-    a[(2, 5)] = number(5, 1);
-    a[(3, current)] = times(&t, -1, 2);
-    a[(3, 2)] = times(&t, 1, 2);
-    a[(3, 3)] = number(1, 1);
-    a[(3, 4)] = times(&t, 1, 2);
-    a[(3, 5)] = times(&t, 5, 2);
-    a[(4, 1)] = number(-1, 1);
-    a[(5, 1)] = times(&t, -1, 2);
-    a[(5, 4)] = times(&t, 1, 2);
-    a[(5, 5)] = number(1, 1);
-    for i in 0..filters {
-        a[(6 + i, if i == 0 { 0 } else { 5 + i })] = number(3, 10);
-        a[(6 + i, 6 + i)] = number(7, 10);
-    }
-    a
 }

@@ -4,79 +4,14 @@
 //! `cargo run --release --example bench_roots [part of a name]`; the random families are read from
 //! `benches/data/random.txt`, which PARI wrote.
 
+use families::RELATIVE_BITS;
 use jurist::limits::Budget;
-use jurist::number::Integer;
 use jurist::poly::real_roots::isolate_real_roots_fixed;
-use jurist::poly::{Domain, SquareFree, UniPoly};
+use jurist::poly::{SquareFree, UniPoly};
 use std::time::{Duration, Instant};
 
-/// The relative width of the enclosures: about 38 digits, the precision of PARI's answer.
-const RELATIVE_BITS: u64 = 128;
-
-fn x() -> UniPoly {
-    UniPoly::x()
-}
-
-/// `a x + b` for `[b, a]`.
-fn linear(b: i64, a: i64) -> UniPoly {
-    UniPoly::from_i64(&[b, a])
-}
-
-/// `f_0 = 1`, `f_1`, and so on by a recurrence that gives `f_{k+1}` from `k`, `f_k`, `f_{k-1}`.
-fn recurrence(first: UniPoly, n: i64, next: impl Fn(i64, &UniPoly, &UniPoly) -> UniPoly) -> UniPoly {
-    let (mut before, mut now) = (UniPoly::one(), first);
-    for k in 1..n {
-        let after = next(k, &now, &before);
-        before = std::mem::replace(&mut now, after);
-    }
-    now
-}
-
-fn chebyshev(n: i64) -> UniPoly {
-    recurrence(x(), n, |_, now, before| &(&linear(0, 2) * now) - before)
-}
-
-fn hermite(n: i64) -> UniPoly {
-    recurrence(linear(0, 2), n, |k, now, before| &(&linear(0, 2) * now) - &before.scaled(&Integer::from(2 * k)))
-}
-
-/// `n!` times the Laguerre polynomial.
-fn laguerre(n: i64) -> UniPoly {
-    recurrence(linear(1, -1), n, |k, now, before| {
-        &(&linear(2 * k + 1, -1) * now) - &before.scaled(&Integer::from(k * k))
-    })
-}
-
-/// `n!` times the Legendre polynomial: a multiple of PARI's, made primitive like it.
-fn legendre(n: i64) -> UniPoly {
-    recurrence(x(), n, |k, now, before| &(&linear(0, 2 * k + 1) * now) - &before.scaled(&Integer::from(k * k)))
-        .primitive_part()
-}
-
-fn wilkinson(n: i64) -> UniPoly {
-    (1..=n).fold(UniPoly::one(), |p, i| &p * &linear(-i, 1))
-}
-
-fn mignotte(n: usize, a: i64) -> UniPoly {
-    let square = &linear(-1, a) * &linear(-1, a);
-    &UniPoly::monomial(Integer::ONE, n) - &square.scaled(&Integer::from(2))
-}
-
-/// `sum n! / i! x^i`.
-fn exponential(n: i64) -> UniPoly {
-    let mut coeffs = vec![Integer::ONE];
-    for i in (1..=n).rev() {
-        let next = coeffs.last().expect("not empty") * &Integer::from(i);
-        coeffs.push(next);
-    }
-    coeffs.reverse();
-    UniPoly::new(coeffs)
-}
-
-/// A line of integers from the constant term up.
-fn parsed(line: &str) -> UniPoly {
-    UniPoly::new(line.split_whitespace().map(|c| Integer::from_decimal(c).expect("an integer")).collect())
-}
+#[path = "../benches/families/mod.rs"]
+mod families;
 
 /// Median time and number of roots.
 fn measured(p: &UniPoly) -> (Duration, usize) {
@@ -97,32 +32,8 @@ fn measured(p: &UniPoly) -> (Duration, usize) {
 }
 
 fn main() {
-    let random = include_str!("../benches/data/random.txt");
-    let mut random = random.lines().map(parsed);
-    let mut next_random = || random.next().expect("three polynomials");
-    let families: Vec<(&str, UniPoly)> = vec![
-        ("chebyshev 50", chebyshev(50)),
-        ("chebyshev 200", chebyshev(200)),
-        ("chebyshev 400", chebyshev(400)),
-        ("wilkinson 50", wilkinson(50)),
-        ("wilkinson 200", wilkinson(200)),
-        ("wilkinson 200 + 1", &wilkinson(200) + &UniPoly::one()),
-        ("laguerre 100", laguerre(100)),
-        ("laguerre 300", laguerre(300)),
-        ("hermite 200", hermite(200)),
-        ("legendre 100", legendre(100)),
-        ("mignotte 50", mignotte(50, 1 << 20)),
-        ("mignotte 200", mignotte(200, 1 << 20)),
-        ("mignotte' 40", mignotte(40, 1_000_003)),
-        ("mignotte' 60", mignotte(60, 1_000_003)),
-        ("mignotte' 200", mignotte(200, 1_000_003)),
-        ("random 100 bit 100", next_random()),
-        ("random 100 bit 500", next_random()),
-        ("random 1000 bit 200", next_random()),
-        ("exp series 200", exponential(200)),
-    ];
     let wanted = std::env::args().nth(1).unwrap_or_default();
-    for (name, p) in families.iter().filter(|(name, _)| name.contains(&wanted)) {
+    for (name, p) in families::roots::all().iter().filter(|(name, _)| name.contains(&wanted)) {
         let (time, roots) = measured(p);
         let degree = p.degree().unwrap_or(0);
         println!("{name:<20} degree {degree:>4}  roots {roots:>4}  {:>10.3} ms", time.as_secs_f64() * 1e3);

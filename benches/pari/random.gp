@@ -1,4 +1,4 @@
-\\ Writes the random polynomials of the comparison, from the constant term up: gp -q -f random.gp < /dev/null > data/random.txt
+\\ Writes the random polynomials of the comparison, from the constant term up: gp -q -f benches/pari/random.gp < /dev/null > benches/data/random.txt
 setrand(7);
 out(P)={my(v=Vecrev(P));for(i=1,#v,if(i>1,print1(" "));print1(v[i]));print()};
 {
