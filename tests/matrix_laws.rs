@@ -121,6 +121,12 @@ fn the_drive_has_its_known_characteristic_polynomial() {
     assert_eq!(p.substitute(1, &t).unwrap().coefficients, direct.coefficients);
     assert_eq!(p.substitute(1, &t).unwrap().variables, ["K_pwm"]);
     assert!(direct.univariate().is_some() && p.univariate().is_none());
+    for (i, x) in [(1, t), (0, Rational::from(110)), (0, Rational::ZERO)] {
+        let (slow, slow_denominator) = p.substitute(i, &x).unwrap().univariate().unwrap();
+        let (fast, fast_denominator) = p.on_line(i, &x).unwrap();
+        let scaled = |p: &Poly<UniPoly>, d: &UniPoly| p.map(|c| c * d);
+        assert_eq!(scaled(&slow, &fast_denominator), scaled(&fast, &slow_denominator));
+    }
 
     // The same through the adjugate, and against an elimination.
     let cleared = drive().cleared();

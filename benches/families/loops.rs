@@ -14,7 +14,7 @@ pub fn characteristic(m: &RationalMatrix) -> CharacteristicPolynomial {
 }
 
 pub fn substituted(p: &CharacteristicPolynomial, variable: usize, value: &Rational) -> Poly<UniPoly> {
-    p.substitute(variable, value).and_then(|p| p.univariate()).expect("defined there").0
+    p.on_line(variable, value).expect("defined there").0
 }
 
 pub fn boundary<R: Domain>(p: &Poly<R>, n: usize) -> R {

@@ -1,7 +1,7 @@
 //! The characteristic polynomial as a plain value.
 
 use super::rational::least_common_multiple;
-use crate::number::Rational;
+use crate::number::{Integer, Rational};
 use crate::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 
 /// A characteristic polynomial whose coefficients are rational functions of the kept parameters,
@@ -85,6 +85,35 @@ impl CharacteristicPolynomial {
             poles,
             monic: self.monic,
         })
+    }
+
+    /// Sets variable `i` of two to `x`: the numerator with coefficients in the other one, and the
+    /// denominator. `None` when the model is undefined for this value, or has other variables.
+    pub fn on_line(&self, i: usize, x: &Rational) -> Option<(Poly<UniPoly>, UniPoly)> {
+        let kept = 1usize.checked_sub(i)?;
+        let constants: Option<Vec<Integer>> = self.coefficients.iter().map(|c| c.denominator().as_constant()).collect();
+        let Some(constants) = constants else { return self.substitute(i, x)?.univariate() };
+        for pole in &self.poles {
+            if pole.substitute_univariate(i, x, kept)?.0.is_zero() {
+                return None;
+            }
+        }
+        let mut common = Integer::ONE;
+        let mut parts = Vec::with_capacity(constants.len());
+        for (c, denominator) in self.coefficients.iter().zip(constants) {
+            let (numerator, d) = c.numerator().substitute_univariate(i, x, kept)?;
+            let denominator = denominator * d;
+            // Lowest terms keep the numbers small in all that follows.
+            let g = numerator.content().gcd(&denominator);
+            let denominator = denominator.div_exact(&g);
+            common = common.lcm(&denominator);
+            parts.push((numerator, g, denominator));
+        }
+        let scaled = |(p, g, d): (UniPoly, Integer, Integer)| {
+            let factor = common.div_exact(&d);
+            Poly::new(p.into_coeffs().iter().map(|c| &c.div_exact(&g) * &factor).collect())
+        };
+        Some((Poly::new(parts.into_iter().map(scaled).collect()), UniPoly::constant(common)))
     }
 
     /// The number of the variable with this name.

@@ -270,6 +270,20 @@ impl Shr<u64> for &Integer {
     }
 }
 
+impl Shl<u64> for Integer {
+    type Output = Integer;
+    fn shl(self, bits: u64) -> Integer {
+        Integer(self.0 << bits)
+    }
+}
+
+impl Shr<u64> for Integer {
+    type Output = Integer;
+    fn shr(self, bits: u64) -> Integer {
+        Integer(self.0 >> bits)
+    }
+}
+
 impl fmt::Display for Integer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(&self.0, f)

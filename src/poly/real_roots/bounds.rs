@@ -1,5 +1,6 @@
 //! Bounds of the real roots, as powers of two.
 
+use crate::number::Integer;
 use crate::poly::UniPoly;
 
 /// The least `k` such a simple test finds with every positive root below `2^k`; `None` when the
@@ -9,14 +10,18 @@ use crate::poly::UniPoly;
 /// root is below `2 max (|c_{n-i}| / |c|)^{1/i}` over the coefficients of the other sign
 /// [Kioustelidis1986](crate::bibliography#kioustelidis1986); bit lengths stand for the logarithms, rounded up.
 pub fn positive_root_bound_bits(p: &UniPoly) -> Option<i64> {
-    let n = p.degree().filter(|&n| n > 0)?;
-    let lead = &p.coeffs()[n];
+    positive_root_bound_from_top(p.coeffs().iter().rev())
+}
+
+/// The same from the coefficients, the leading one first; from the constant term up it bounds the
+/// reciprocals of the positive roots.
+pub fn positive_root_bound_from_top<'a>(mut coeffs: impl Iterator<Item = &'a Integer>) -> Option<i64> {
+    let lead = coeffs.next()?;
     let mut best: Option<i64> = None;
-    for (j, c) in p.coeffs()[..n].iter().enumerate() {
+    for (i, c) in (1i64..).zip(coeffs) {
         if c.is_zero() || c.is_negative() == lead.is_negative() {
             continue;
         }
-        let i = (n - j) as i64;
         // |c| < 2^bits(c), |lead| >= 2^(bits(lead) - 1).
         let bits = c.bit_length() as i64 - (lead.bit_length() as i64 - 1);
         let k = bits.div_euclid(i) + i64::from(bits.rem_euclid(i) != 0);

@@ -74,29 +74,33 @@ pub(crate) fn coprime_modulo_some_prime(a: &UniPoly, b: &UniPoly) -> bool {
     })
 }
 
-/// Primes for [`without_rational_roots`].
-const SMALL_PRIMES: [u64; 12] = [13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59];
-
 /// Whether some small prime proves that a polynomial has no rational root: it does not divide the
 /// leading coefficient, and the polynomial has no root modulo it. `false` says nothing.
 pub(super) fn without_rational_roots(p: &UniPoly) -> bool {
-    let product: u64 = SMALL_PRIMES.iter().product();
-    let residues: Vec<u64> = p.coeffs().iter().map(|c| c.mod_u64(product)).collect();
-    let Some(&lead) = residues.last() else { return false };
-    let mut folded = [0u32; 64];
-    SMALL_PRIMES.iter().any(|&prime| {
-        if lead.is_multiple_of(prime) || residues[0].is_multiple_of(prime) {
+    /// Divisions by a constant are multiplications.
+    fn rootless<const PRIME: u32>(residues: &[u64], lead: u64) -> bool {
+        let q = u64::from(PRIME);
+        if lead.is_multiple_of(q) || residues[0].is_multiple_of(q) {
             return false;
         }
         // x^(q - 1) = 1 for x other than 0.
-        let period = prime as usize - 1;
-        folded[..period].fill(0);
+        let mut folded = [0u32; 58];
+        let period = (PRIME as usize - 1).min(residues.len());
+        let folded = &mut folded[..period];
         for chunk in residues.chunks(period) {
             for (sum, r) in folded.iter_mut().zip(chunk) {
-                *sum = (*sum + (r % prime) as u32) % prime as u32;
+                *sum = (*sum + (r % q) as u32) % PRIME;
             }
         }
-        let (folded, q) = (&folded[..period], prime as u32);
-        (1..q).all(|x| folded.iter().rev().fold(0, |acc, &c| (acc * x + c) % q) != 0)
-    })
+        (1..PRIME).all(|x| folded.iter().rev().fold(0, |acc, &c| (acc * x + c) % PRIME) != 0)
+    }
+    macro_rules! any_rootless {
+        ($($prime:literal),*) => {{
+            let product: u64 = 1 $(* $prime)*;
+            let residues: Vec<u64> = p.coeffs().iter().map(|c| c.mod_u64(product)).collect();
+            let Some(&lead) = residues.last() else { return false };
+            false $(|| rootless::<$prime>(&residues, lead))*
+        }};
+    }
+    any_rootless!(13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59)
 }

@@ -3,10 +3,11 @@
 use super::limbs::{add, add_assign, is_negative, within, write_shifted};
 use crate::number::Integer;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// `p(2^scale t)` for `t` from 0 to 1, by Horner's rule in as many limbs as the sign needs.
 pub struct Evaluator {
-    coeffs: Vec<Integer>,
+    coeffs: Rc<[Integer]>,
     scale: i64,
     /// The bits of the largest coefficient of `p(2^scale t)`.
     top: i64,
@@ -14,6 +15,8 @@ pub struct Evaluator {
     headroom: u64,
     /// The coefficients by width.
     tables: BTreeMap<usize, Vec<u64>>,
+    /// The coefficients in one word each, with `headroom` more free bits above for the derivative.
+    words: Vec<i64>,
 }
 
 /// A value times `2^(64 limbs - unit)` up to `error` units.
@@ -35,16 +38,40 @@ impl Value {
 }
 
 impl Evaluator {
-    pub fn new(coeffs: &[Integer], scale: i64) -> Evaluator {
+    pub fn new(coeffs: Rc<[Integer]>, scale: i64) -> Evaluator {
         let bits = |(i, c): (usize, &Integer)| c.bit_length() as i64 + scale * i as i64;
         let top = coeffs.iter().enumerate().filter(|(_, c)| !c.is_zero()).map(bits).max().unwrap_or(0);
         let headroom = u64::from(usize::BITS - coeffs.len().leading_zeros()) + 2;
-        Evaluator { coeffs: coeffs.to_vec(), scale, top, headroom, tables: BTreeMap::new() }
+        Evaluator { coeffs, scale, top, headroom, tables: BTreeMap::new(), words: Vec::new() }
+    }
+
+    /// Free bits of a word beyond those of a limb of [`value`](Self::value).
+    pub fn word_extra(&self) -> i64 {
+        self.headroom as i64
+    }
+
+    /// The coefficients of `p(2^scale t)` in one word each, rounded down: neither the value nor the
+    /// derivative on the unit interval overflows.
+    pub fn word_table(&mut self) -> &[i64] {
+        if self.words.is_empty() {
+            let up = 64 - 2 * self.headroom as i64 - self.top;
+            let word = |(i, c): (usize, &Integer)| {
+                let mut place = [0];
+                write_shifted(c, up + self.scale * i as i64, &mut place);
+                place[0] as i64
+            };
+            self.words = self.coeffs.iter().enumerate().map(word).collect();
+        }
+        &self.words
     }
 
     /// Whether the value at `numerator / 2^bits`, in the unit interval, is positive; it must not be 0.
     pub fn positive_at(&mut self, numerator: &Integer, bits: u64) -> bool {
-        let mut limbs = 2;
+        self.positive_from(numerator, bits, 2)
+    }
+
+    /// The same, with a guess of the limbs that tell it.
+    pub fn positive_from(&mut self, numerator: &Integer, bits: u64, mut limbs: usize) -> bool {
         loop {
             if let Some(positive) = self.value(numerator, bits, limbs).positive() {
                 return positive;

@@ -3,7 +3,7 @@
 use super::super::bounds::positive_root_bound_bits;
 use super::super::bracket::Bracket;
 use super::super::sign_variations::descartes_sign_variations;
-use super::piece::{Cell, Piece, binomial_row, oriented};
+use super::piece::{Cell, Piece, binomial_row};
 use super::refine::Half;
 use super::search::{Found, search};
 use crate::limits::{Budget, Exhausted};
@@ -50,18 +50,19 @@ fn positive_brackets(
         let (hi, bits) = power_of_two(bound);
         out.push(Bracket { lo: Integer::ZERO, hi, bits, rising: positive_at_infinity });
     } else {
-        let n = half.poly.coeffs().len() - 1;
+        let n = half.coeffs.len() - 1;
         let row = Rc::clone(binomials.get_or_insert_with(|| Rc::new(binomial_row(n))));
         // Twos to the power of the mean logarithm of the roots: half of them are in the unit interval.
-        let lengths = (half.poly.coeffs()[0].bit_length() as i64, half.poly.coeffs()[n].bit_length() as i64);
+        let lengths = (half.coeffs[0].bit_length() as i64, half.coeffs[n].bit_length() as i64);
         let scale = (2 * (lengths.0 - lengths.1) + n as i64).div_euclid(2 * n as i64);
-        let mut direct = Piece::new(oriented(&half.poly, false), scale, Rc::clone(&row));
+        let mut direct = Piece::new(Rc::clone(&half.coeffs), scale, Rc::clone(&row));
         for found in search(&mut direct, most, budget)? {
             out.push(direct_bracket(&found, scale));
         }
         let left = most - out.len().min(most);
         if left > 0 {
-            let mut reversed = Piece::new(oriented(&half.poly, true), -scale, row);
+            let coeffs = half.coeffs.iter().rev().cloned().collect();
+            let mut reversed = Piece::new(coeffs, -scale, row);
             for found in search(&mut reversed, left, budget)?.iter().rev() {
                 let bracket = reversed_bracket(found, scale, bound, positive_at_infinity, &mut half);
                 out.push(bracket);

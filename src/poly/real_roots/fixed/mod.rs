@@ -8,6 +8,7 @@
 mod evaluate;
 mod halves;
 mod limbs;
+mod newton;
 mod piece;
 mod powers;
 mod refine;
@@ -65,6 +66,13 @@ pub fn isolate_real_roots_fixed(
         return Ok(roots);
     }
     let exact = |x: Rational| RealAlgebraic::from_rational(x);
+    if rational.iter().all(Rational::is_zero) {
+        // No bracket holds or touches zero.
+        let at = roots.partition_point(|root| root.sign().is_lt());
+        debug_assert!(roots.iter().all(|root| root.enclosure().0.sign() == root.enclosure().1.sign()));
+        roots.insert(at, exact(Rational::ZERO));
+        return Ok(roots);
+    }
     roots.extend(rational.into_iter().map(exact));
     budget.check()?;
     Ok(separated(roots))

@@ -6,7 +6,6 @@ use super::limbs::{max_bits, rescale, write_shifted};
 use super::triangle::{HEADROOM, fitting_width, shift_by_one, sum_differences, summing_width};
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Sign};
-use crate::poly::UniPoly;
 use std::rc::Rc;
 
 /// The interval `[lo, lo + 2^log_width] / 2^bits` inside the unit interval.
@@ -71,7 +70,7 @@ impl Bernstein {
 
 /// `p(2^scale t)` for `t` from 0 to 1, `p` without rational roots.
 pub struct Piece {
-    pub coeffs: Vec<Integer>,
+    pub coeffs: Rc<[Integer]>,
     pub scale: i64,
     binomials: Rc<Vec<Integer>>,
     evaluator: Evaluator,
@@ -89,8 +88,8 @@ pub fn binomial_row(n: usize) -> Vec<Integer> {
 }
 
 impl Piece {
-    pub fn new(coeffs: Vec<Integer>, scale: i64, binomials: Rc<Vec<Integer>>) -> Piece {
-        let evaluator = Evaluator::new(&coeffs, scale);
+    pub fn new(coeffs: Rc<[Integer]>, scale: i64, binomials: Rc<Vec<Integer>>) -> Piece {
+        let evaluator = Evaluator::new(Rc::clone(&coeffs), scale);
         Piece { coeffs, scale, binomials, evaluator }
     }
 
@@ -218,13 +217,4 @@ fn stored(exact: &[u64], width: usize, height: u64, lost: u64, fraction: i64, pr
     let error = if drop as u64 >= lost { 2 } else { 1 + (1 << (lost - drop as u64)) };
     let height = max_bits(&flat, limbs);
     Bernstein { flat, limbs, error, height, scale: drop - fraction }
-}
-
-/// The polynomial's coefficients from the constant term up, or those of `x^n p(1/x)`.
-pub fn oriented(p: &UniPoly, reversed: bool) -> Vec<Integer> {
-    let mut coeffs = p.coeffs().to_vec();
-    if reversed {
-        coeffs.reverse();
-    }
-    coeffs
 }

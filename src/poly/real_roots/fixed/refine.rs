@@ -1,15 +1,18 @@
 //! Narrow brackets by quadratic interval refinement with values in fixed point.
 
-use super::super::bounds::positive_root_bound_bits;
+use super::super::bounds::positive_root_bound_from_top;
 use super::super::bracket::{Bracket, secant};
 use super::evaluate::{Evaluator, Value};
+use super::newton::leap;
 use crate::number::{Integer, Sign};
 use crate::poly::UniPoly;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// A polynomial seen on the positive axis: signs and brackets there.
 pub struct Half {
-    pub poly: UniPoly,
+    /// The coefficients from the constant term up.
+    pub coeffs: Rc<[Integer]>,
     /// Evaluators of `p(2^k t)` by `k`.
     evaluators: BTreeMap<i64, Evaluator>,
     /// No positive root is at or below `2^least`.
@@ -24,11 +27,11 @@ struct Size {
 
 impl Half {
     pub fn new(poly: UniPoly) -> Half {
-        Half { poly, evaluators: BTreeMap::new(), least: None }
+        Half { coeffs: poly.into_coeffs().into(), evaluators: BTreeMap::new(), least: None }
     }
 
     fn evaluator(&mut self, k: i64) -> &mut Evaluator {
-        self.evaluators.entry(k).or_insert_with(|| Evaluator::new(self.poly.coeffs(), k))
+        self.evaluators.entry(k).or_insert_with(|| Evaluator::new(Rc::clone(&self.coeffs), k))
     }
 
     /// Whether the polynomial is positive at `x / 2^bits > 0`, which is no root.
@@ -48,9 +51,8 @@ impl Half {
     /// Moves the ends until they are less than a factor of 4 apart and positive.
     fn narrow_to_binade(&mut self, b: &mut Bracket) {
         if b.lo.is_zero() {
-            let poly = &self.poly;
-            let n = poly.coeffs().len() - 1;
-            let least = *self.least.get_or_insert_with(|| -positive_root_bound_bits(&poly.reversed(n)).unwrap_or(0));
+            let coeffs = &self.coeffs;
+            let least = *self.least.get_or_insert_with(|| -positive_root_bound_from_top(coeffs.iter()).unwrap_or(0));
             // The bound of the reciprocals is strict.
             align(b, least);
             b.lo = &Integer::ONE << (least + b.bits as i64) as u64;
@@ -82,6 +84,10 @@ impl Half {
         }
         let k = b.hi.bit_length() as i64 - b.bits as i64;
         let evaluator = self.evaluator(k);
+        leap(evaluator, k, b, target);
+        if b.bits_missing(target) == 0 {
+            return;
+        }
         let mut qir = Qir { evaluator, k, limbs: 2 };
         let mut at_lo = qir.rough(&b.lo, b.bits);
         let mut at_hi = qir.rough(&b.hi, b.bits);
