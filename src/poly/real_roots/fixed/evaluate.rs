@@ -114,12 +114,24 @@ impl Evaluator {
             };
         }
         let value = by_width!(2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 20, 24, 32);
-        // A step adds a unit for the coefficient, a unit for the argument, and x.len() + 1 for the product.
-        Value { limbs: value, error: (n as u64 + 1) * (x.len() as u64 + 3) }
+        // A step adds a unit for the coefficient, a unit for the argument, and 2 x.len() + 1 for the product.
+        Value { limbs: value, error: (n as u64 + 1) * (2 * x.len() as u64 + 3) }
     }
 }
 
 fn horner<const L: usize>(table: &[u64], x: &[u64]) -> Vec<u64> {
+    macro_rules! by_width {
+        ($($m:literal),*) => {
+            match x.len() {
+                $($m if $m <= L => horner_by::<L, $m>(table, x.try_into().expect("the width matched")),)*
+                _ => horner_any(table, L, x),
+            }
+        };
+    }
+    by_width!(1, 2, 3, 4, 5, 6, 7, 8)
+}
+
+fn horner_by<const L: usize, const M: usize>(table: &[u64], x: &[u64; M]) -> Vec<u64> {
     let mut acc = [0u64; L];
     for c in table.as_chunks::<L>().0.iter().rev() {
         acc = add(&product_high(&acc, x), c);
@@ -127,15 +139,19 @@ fn horner<const L: usize>(table: &[u64], x: &[u64]) -> Vec<u64> {
     acc.to_vec()
 }
 
-/// `a x / 2^(64 x.len())`, rounded down, for a signed `a` not shorter than `x`, a fraction of 1.
+/// `a x / 2^(64 M)`, at most `M + 1` units below, for a signed `a` not shorter than `x`, a fraction of 1.
 #[inline(always)]
-fn product_high<const L: usize>(a: &[u64; L], x: &[u64]) -> [u64; L] {
+fn product_high<const L: usize, const M: usize>(a: &[u64; L], x: &[u64; M]) -> [u64; L] {
     let mut t = [0u64; L];
-    for &y in x {
-        // t = (t + a y) / 2^64 for unsigned a.
+    for j in 0..M {
+        // t = (t + a x[j]) / 2^64 for unsigned a, without the products that are below a unit in the end.
+        let skip = M - 1 - j;
         let mut carry = 0;
         for i in 0..L {
-            let v = u128::from(a[i]) * u128::from(y) + u128::from(t[i]) + u128::from(carry);
+            if i < skip {
+                continue;
+            }
+            let v = u128::from(a[i]) * u128::from(x[j]) + u128::from(t[i]) + u128::from(carry);
             if i > 0 {
                 t[i - 1] = v as u64;
             }
@@ -143,9 +159,15 @@ fn product_high<const L: usize>(a: &[u64; L], x: &[u64]) -> [u64; L] {
         }
         t[L - 1] = carry;
     }
-    if is_negative(a) {
-        // a is its unsigned value less 2^(64 L).
-        subtract(&mut t[L - x.len()..], x);
+    // A negative a is its unsigned value less 2^(64 L).
+    let mask = if is_negative(a) { u64::MAX } else { 0 };
+    let mut borrow = false;
+    for j in 0..M.min(L) {
+        let place = &mut t[L - M + j];
+        let (difference, first) = place.overflowing_sub(x[j] & mask);
+        let (difference, second) = difference.overflowing_sub(u64::from(borrow));
+        *place = difference;
+        borrow = first | second;
     }
     t
 }
