@@ -21,6 +21,7 @@ use super::rational_roots::rational_roots;
 use super::square_free::{SquareFree, deflation};
 use crate::limits::{Budget, Exhausted};
 use crate::number::Rational;
+use crate::poly::UniPoly;
 use crate::poly::algebraic::RealAlgebraic;
 use std::sync::Arc;
 
@@ -52,14 +53,21 @@ pub fn isolate_real_roots_fixed(
     relative_bits: u64,
     budget: &Budget,
 ) -> Result<Vec<RealAlgebraic>, Exhausted> {
-    let (rational, rest) = rational_roots(p, budget)?;
-    let poly = rest.shared();
-    let h = deflation(poly.coeffs());
-    let brackets = if h > 1 {
-        powers::brackets(&poly, h, relative_bits, budget)?
-    } else {
-        halves::brackets(&poly, true, relative_bits, budget)?
+    let (zero, nonzero) = match p.poly().coeffs().split_first() {
+        Some((c, others)) if c.is_zero() => (true, SquareFree::known(UniPoly::new(others.to_vec()))),
+        _ => (false, p.clone()),
     };
+    let h = deflation(nonzero.poly().coeffs());
+    let (mut rational, poly, brackets) = if h > 1 {
+        let powers::Roots { rational, rest, brackets } = powers::roots(nonzero.poly(), h, relative_bits, budget)?;
+        (rational, Arc::new(rest), brackets)
+    } else {
+        let (rational, rest) = rational_roots(&nonzero, budget)?;
+        let poly = rest.shared();
+        let brackets = halves::brackets(&poly, true, relative_bits, budget)?;
+        (rational, poly, brackets)
+    };
+    rational.extend(zero.then_some(Rational::ZERO));
     let mut roots: Vec<RealAlgebraic> =
         brackets.into_iter().map(|b| RealAlgebraic::from_bracket(Arc::clone(&poly), b)).collect();
     if rational.is_empty() {

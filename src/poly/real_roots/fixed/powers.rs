@@ -1,43 +1,81 @@
 //! Roots of `q(x^h)` from those of `q`.
 
 use super::super::bracket::Bracket;
-use super::super::rational_roots::rational_roots;
+use super::super::rational_roots::{linear, rational_roots};
 use super::super::square_free::SquareFree;
 use super::halves;
 use crate::limits::{Budget, Exhausted};
-use crate::number::Integer;
+use crate::number::{Integer, Rational};
 use crate::poly::UniPoly;
 
-/// Strictly disjoint brackets, ascending, of the roots of a square-free `p(x) = q(x^h)`, `h > 1`,
-/// without rational roots, refined to `2^-relative` of the root.
-pub fn brackets(p: &UniPoly, h: usize, relative: u64, budget: &Budget) -> Result<Vec<Bracket>, Exhausted> {
+/// The real roots of a polynomial in a power.
+pub struct Roots {
+    /// The rational ones, in any order.
+    pub rational: Vec<Rational>,
+    /// The polynomial without their factors.
+    pub rest: UniPoly,
+    /// Strictly disjoint brackets, ascending, of its roots.
+    pub brackets: Vec<Bracket>,
+}
+
+/// The real roots of a square-free `p(x) = q(x^h)`, `h > 1`, that is not 0 at 0, refined to
+/// `2^-relative` of the root.
+pub fn roots(p: &UniPoly, h: usize, relative: u64, budget: &Budget) -> Result<Roots, Exhausted> {
     let q = UniPoly::new(p.coeffs().iter().step_by(h).cloned().collect());
+    let (ys, irrational) = rational_roots(&SquareFree::known(q.primitive_part()), budget)?;
     let even = h.is_multiple_of(2);
+    let (mut rational, mut powers) = (Vec::new(), Vec::new());
+    let mut rest = p.clone();
+    for y in ys {
+        match exact_root(&y.abs(), h as u64) {
+            Some(_) if even && y.is_negative() => {}
+            Some(x) if even => rational.extend([-&x, x]),
+            Some(x) => rational.push(if y.is_negative() { -x } else { x }),
+            None => powers.push(y),
+        }
+    }
+    for x in &rational {
+        rest = rest.div_exact_poly(&linear(x)).expect("it is a root");
+    }
     let mirror = |b: Bracket| Bracket { lo: -b.hi, hi: -b.lo, ..b };
-    let mut positive = roots_of_positive(&q, h, relative, budget)?;
-    let mut out: Vec<Bracket> = if even {
+    let mut positive = roots_of_positive(irrational.poly(), &powers, h, relative, budget)?;
+    let mut brackets: Vec<Bracket> = if even {
         // p is even: its negative roots mirror the positive ones.
         positive.iter().rev().cloned().map(mirror).collect()
     } else {
-        let negative = roots_of_positive(&q.negated_argument(), h, relative, budget)?;
+        let powers: Vec<Rational> = powers.iter().map(|y| -y).collect();
+        let negative = roots_of_positive(&irrational.poly().negated_argument(), &powers, h, relative, budget)?;
         negative.into_iter().rev().map(mirror).collect()
     };
-    out.append(&mut positive);
+    brackets.append(&mut positive);
     // All roots are simple and all are here: the signs alternate from root to root, and beyond the
     // last the sign is that of the leading coefficient.
-    let mut rising = p.coeffs().last().is_some_and(|c| c.sign().is_gt());
-    for b in out.iter_mut().rev() {
+    let mut rising = rest.coeffs().last().is_some_and(|c| c.sign().is_gt());
+    for b in brackets.iter_mut().rev() {
         b.rising = rising;
         rising = !rising;
     }
-    Ok(out)
+    Ok(Roots { rational, rest, brackets })
 }
 
-/// The positive `h`-th roots of the positive roots of `q`; which of them rise is left to the caller.
-fn roots_of_positive(q: &UniPoly, h: usize, relative: u64, budget: &Budget) -> Result<Vec<Bracket>, Exhausted> {
+/// The `h`-th root of a non-negative number, if it is rational.
+fn exact_root(y: &Rational, h: u64) -> Option<Rational> {
+    let root = |n: Integer| Some(n.root_floor(h)).filter(|r| r.pow(h) == n);
+    Some(Rational::new(root(y.numerator())?, root(y.denominator())?))
+}
+
+/// The positive `h`-th roots of the positive roots of `q`, which has no rational roots, and of the positive ones
+/// of some rational numbers; which of them rise is left to the caller.
+fn roots_of_positive(
+    q: &UniPoly,
+    powers: &[Rational],
+    h: usize,
+    relative: u64,
+    budget: &Budget,
+) -> Result<Vec<Bracket>, Exhausted> {
     let mut more = 4 + u64::from(usize::BITS - h.leading_zeros());
     loop {
-        let ys = positive_roots(q, relative + more, budget)?;
+        let ys = positive_roots(q, powers, relative + more, budget)?;
         let roots: Vec<Bracket> = ys.iter().map(|y| root_of(y, h as u64, relative + more)).collect();
         let apart = |a: &Bracket, b: &Bracket| {
             let bits = a.bits.max(b.bits);
@@ -51,13 +89,12 @@ fn roots_of_positive(q: &UniPoly, h: usize, relative: u64, budget: &Budget) -> R
     }
 }
 
-/// Brackets of the positive roots of a square-free `q`, ascending; those of rational roots, which
-/// are of relative width `2^-relative` too, may end at the root. Only the ends are meant.
-fn positive_roots(q: &UniPoly, relative: u64, budget: &Budget) -> Result<Vec<Bracket>, Exhausted> {
-    let q = SquareFree::known(q.primitive_part());
-    let (rational, rest) = rational_roots(&q, budget)?;
-    let mut out = halves::brackets(rest.poly(), false, relative, budget)?;
-    for y in rational.into_iter().filter(|y| y.sign().is_gt()) {
+/// Brackets of the positive roots of a square-free `q` without rational roots and of the positive ones of some rational
+/// numbers, ascending; the latter, which are of relative width `2^-relative` too, may end at the root.
+/// Only the ends are meant.
+fn positive_roots(q: &UniPoly, powers: &[Rational], relative: u64, budget: &Budget) -> Result<Vec<Bracket>, Exhausted> {
+    let mut out = halves::brackets(q, false, relative, budget)?;
+    for y in powers.iter().filter(|y| y.sign().is_gt()) {
         let exponent = y.numerator().bit_length() as i64 - y.denominator().bit_length() as i64 - 1;
         let bits = (relative as i64 - exponent).max(0) as u64;
         let lo = (&y.numerator() << bits).div_mod_floor(&y.denominator()).0;
