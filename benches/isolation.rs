@@ -1,29 +1,19 @@
 //! Isolation in fixed point beside the exact reference.
 
+#[path = "families/mod.rs"]
+mod families;
+
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use families::roots::{chebyshev, mignotte};
 use jurist::limits::Budget;
-use jurist::number::Integer;
+use jurist::poly::SquareFree;
 use jurist::poly::real_roots::{isolate_real_roots_descartes, isolate_real_roots_fixed};
-use jurist::poly::{Domain, SquareFree, UniPoly};
 use std::hint::black_box;
-
-fn chebyshev(n: usize) -> UniPoly {
-    let (mut before, mut now) = (UniPoly::one(), UniPoly::x());
-    for _ in 1..n {
-        let after = &(&UniPoly::from_i64(&[0, 2]) * &now) - &before;
-        before = std::mem::replace(&mut now, after);
-    }
-    now
-}
-
-fn mignotte(n: usize) -> UniPoly {
-    let linear = UniPoly::from_i64(&[-1, 1_000_003]);
-    &UniPoly::monomial(Integer::ONE, n) - &(&linear * &linear).scaled(&Integer::from(2))
-}
 
 fn isolation(c: &mut Criterion) {
     let budget = Budget::unlimited();
-    let families = [("chebyshev 12", chebyshev(12)), ("chebyshev 50", chebyshev(50)), ("mignotte 20", mignotte(20))];
+    let families =
+        [("chebyshev 12", chebyshev(12)), ("chebyshev 50", chebyshev(50)), ("mignotte 20", mignotte(20, 1_000_003))];
     let mut group = c.benchmark_group("isolation");
     for (name, p) in families {
         let p = SquareFree::part_of(&p).expect("not zero");

@@ -5,7 +5,7 @@
 //! width of `2^-128`; the critical constraint in both parameters.
 //!
 //! `cargo run --release --example bench_loop [SECONDS_PER_FIGURE] [STEPS]`: one thread with `RAYON_NUM_THREADS=1`;
-//! with `STEPS` the parts of the limits are shown too.
+//! with `STEPS` the parts of the limits are shown too. `BENCH_ORDER=n` leaves out all other orders.
 
 use families::RELATIVE_BITS;
 use families::loops::{boundary, characteristic, closed_loop, limits, substituted};
@@ -24,9 +24,10 @@ fn main() {
     let seconds = arguments.next().and_then(|s| s.parse().ok()).unwrap_or(1.0);
     let steps = arguments.next().is_some();
     let time = Duration::from_secs_f64(seconds);
-    for filters in [0, 2, 4, 6, 10, 14, 18, 34] {
+    let only: Option<usize> = std::env::var("BENCH_ORDER").ok().and_then(|n| n.parse().ok());
+    for filters in [0, 2, 4, 6, 10, 14, 18, 26, 34] {
         let n = 6 + filters;
-        if filters == 34 && !steps {
+        if only.is_some_and(|only| only != n) {
             continue;
         }
         let m = closed_loop(filters);
@@ -60,6 +61,15 @@ fn main() {
             }
         }
     }
+    if let Some(peak) = peak_memory() {
+        println!("peak memory {peak}");
+    }
+}
+
+/// As the operating system tells it, where it does.
+fn peak_memory() -> Option<String> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    Some(status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?.trim().to_owned())
 }
 
 /// The median of the times of repeated calls in milliseconds.

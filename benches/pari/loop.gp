@@ -32,7 +32,7 @@ time(f) =
   v[3];
 }
 {
-  foreach([0, 2, 4, 6, 10, 14, 18], f,
+  foreach([0, 2, 4, 6, 10, 14, 18, 26, 34], f,
     my(n = 6 + f, M = closedloop(f), p = charpoly(M, 'z), h = pair(p, n));
     printf("n=%2d  charpoly(K,T) %9.4f ms   K at T=1e-4 %9.4f ms   T at K=110 %9.4f ms", n,
       time(() -> charpoly(M, 'z)), time(() -> limits(subst(p, T, 1/10000), n)), time(() -> limits(subst(p, K, 110), n)));

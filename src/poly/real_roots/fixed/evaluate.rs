@@ -143,15 +143,15 @@ fn horner_by<const L: usize, const M: usize>(table: &[u64], x: &[u64; M]) -> Vec
 #[inline(always)]
 fn product_high<const L: usize, const M: usize>(a: &[u64; L], x: &[u64; M]) -> [u64; L] {
     let mut t = [0u64; L];
-    for j in 0..M {
-        // t = (t + a x[j]) / 2^64 for unsigned a, without the products that are below a unit in the end.
+    for (j, &y) in x.iter().enumerate() {
+        // t = (t + a y) / 2^64 for unsigned a, without the products that are below a unit in the end.
         let skip = M - 1 - j;
         let mut carry = 0;
         for i in 0..L {
             if i < skip {
                 continue;
             }
-            let v = u128::from(a[i]) * u128::from(x[j]) + u128::from(t[i]) + u128::from(carry);
+            let v = u128::from(a[i]) * u128::from(y) + u128::from(t[i]) + u128::from(carry);
             if i > 0 {
                 t[i - 1] = v as u64;
             }
@@ -162,9 +162,8 @@ fn product_high<const L: usize, const M: usize>(a: &[u64; L], x: &[u64; M]) -> [
     // A negative a is its unsigned value less 2^(64 L).
     let mask = if is_negative(a) { u64::MAX } else { 0 };
     let mut borrow = false;
-    for j in 0..M.min(L) {
-        let place = &mut t[L - M + j];
-        let (difference, first) = place.overflowing_sub(x[j] & mask);
+    for (place, &y) in t[L - M.min(L)..].iter_mut().zip(x) {
+        let (difference, first) = place.overflowing_sub(y & mask);
         let (difference, second) = difference.overflowing_sub(u64::from(borrow));
         *place = difference;
         borrow = first | second;
