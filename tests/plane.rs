@@ -78,6 +78,8 @@ fn two_discs_and_one_ring() {
     let m = map(&p, [Range::all(), Range::all()], Region::UnitDisc);
     // 0 < (x^2-1)^2 + y^2 < 2: one region without two points (isolated points (+-1, 0) are not stable).
     assert_eq!(m.regions.len(), 1);
+    // The extent in y is known although the sample's y = 0 is a critical value of y.
+    assert_eq!(ends(&m.regions[0].y), some("-1.4142136", "1.4142136"));
     let p = polynomial(vec![&(&(&g * &g) + &(&y() * &y())) + &c("1/2"), c("1")]);
     // -3/2 < (x^2-1)^2 + y^2 < 1/2: two discs.
     let m = map(&p, [Range::all(), Range::all()], Region::UnitDisc);

@@ -68,12 +68,7 @@ pub fn map(lp: &Loop, settings: &Settings, names: [&str; 2], budget: &Budget) ->
         prepare(lp, &Question { keep: names.map(str::to_string).to_vec(), set: settings.set.clone() }, budget)?;
     let polynomial = answer.polynomial.map(|d| PlanePolynomial::new(&in_region(d, settings)));
     let map = match &polynomial {
-        None => Decision::Decided(StabilityMap {
-            curves: Vec::new(),
-            strips: Vec::new(),
-            regions: Vec::new(),
-            never_stable: true,
-        }),
+        None => Decision::Decided(StabilityMap::never_stable()),
         Some(p) => {
             let domain = [axes[0].domain.clone(), axes[1].domain.clone()];
             Decision::from_result(stability_map(p, &domain, region, budget), budget)

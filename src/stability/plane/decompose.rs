@@ -56,6 +56,8 @@ pub struct StableRegion {
     pub x: AlgebraicInterval,
     /// The smallest and the greatest `y` on its boundary.
     pub y: AlgebraicInterval,
+    /// Its cells in the decomposition with the parameters exchanged ([`StabilityMap::exchanged`]).
+    pub exchanged_cells: Vec<(usize, usize)>,
 }
 
 /// The decomposition of a rectangle (bounded or not) of two parameters.
@@ -68,6 +70,9 @@ pub struct StabilityMap {
     pub strips: Vec<Strip>,
     /// The connected stable regions.
     pub regions: Vec<StableRegion>,
+    /// The strips of the same domain with the parameters exchanged, from which the extents in `y` are read;
+    /// empty when there is no stable region.
+    pub exchanged: Vec<Strip>,
     /// Whether a boundary polynomial vanishes identically.
     pub never_stable: bool,
 }
@@ -90,31 +95,71 @@ pub fn stability_map(
 ) -> Result<StabilityMap, Exhausted> {
     budget.step("boundary curves");
     let Some(curves) = boundary_curves(p, region, budget)? else {
-        return Ok(StabilityMap { curves: Vec::new(), strips: Vec::new(), regions: Vec::new(), never_stable: true });
+        return Ok(StabilityMap::never_stable());
     };
     let strips = decompose(p, &curves, domain, region, budget)?;
     let groups = glue_stable_cells(&curves, &strips, &domain[1], budget)?;
     let mut regions: Vec<StableRegion> = groups.into_iter().map(|cells| region_of(&strips, cells)).collect();
+    let mut exchanged = Vec::new();
     if !regions.is_empty() {
         budget.step("extreme values");
-        let swapped = p.swapped();
         let swapped_curves: Vec<Curve> = curves.iter().map(swapped_curve).collect();
         let swapped_domain = [domain[1].clone(), domain[0].clone()];
-        let swapped_strips = decompose(&swapped, &swapped_curves, &swapped_domain, region, budget)?;
-        let groups = glue_stable_cells(&swapped_curves, &swapped_strips, &domain[0], budget)?;
+        exchanged = decompose(&p.swapped(), &swapped_curves, &swapped_domain, region, budget)?;
+        let groups = glue_stable_cells(&swapped_curves, &exchanged, &domain[0], budget)?;
         for r in &mut regions {
-            let (strip, cell) = r.cells[0];
-            let (x, y) = (&strips[strip].sample, &strips[strip].cells[cell].sample);
-            let place = locate(&swapped_curves, &swapped_strips, y, x, &domain[0], budget)?;
-            if let Some(group) = groups.iter().find(|g| place.is_some_and(|place| g.contains(&place))) {
-                r.y = region_of(&swapped_strips, group.clone()).x;
-            }
+            let place = place_in_exchanged(r, &curves, &strips, &swapped_curves, &exchanged, domain, budget)?;
+            let group = groups.iter().find(|g| g.contains(&place)).expect("a stable point is in a stable cell");
+            r.y = region_of(&exchanged, group.clone()).x;
+            r.exchanged_cells.clone_from(group);
         }
     }
-    Ok(StabilityMap { curves, strips, regions, never_stable: false })
+    Ok(StabilityMap { curves, strips, regions, exchanged, never_stable: false })
 }
 
-fn swapped_curve(curve: &Curve) -> Curve {
+/// A cell of the exchanged strips that is part of a region: that of a point of its first cell, moved up
+/// from the sample until it is on none of the finitely many walls.
+fn place_in_exchanged(
+    region: &StableRegion,
+    curves: &[Curve],
+    strips: &[Strip],
+    swapped_curves: &[Curve],
+    exchanged: &[Strip],
+    domain: &[Range; 2],
+    budget: &Budget,
+) -> Result<(usize, usize), Exhausted> {
+    let (strip, cell) = region.cells[0];
+    let x = &strips[strip].sample;
+    let branches = branches_at(curves, x, &domain[1], budget)?;
+    let values: Vec<RealAlgebraic> = branches.into_iter().map(|b| b.0).collect();
+    let ceiling = cells(&domain[1], &values).swap_remove(cell).upper;
+    let mut y = strips[strip].cells[cell].sample.clone();
+    loop {
+        budget.check()?;
+        if let Some(place) = locate(swapped_curves, exchanged, &y, x, &domain[0], budget)? {
+            return Ok(place);
+        }
+        let from = RealAlgebraic::from_rational(y);
+        y = AlgebraicInterval { lower: Some(from), upper: ceiling.clone() }.sample();
+    }
+}
+
+impl StabilityMap {
+    /// The map of a loop that is stable at no point because a boundary polynomial vanishes identically or
+    /// the loop is undefined everywhere.
+    pub fn never_stable() -> Self {
+        StabilityMap {
+            curves: Vec::new(),
+            strips: Vec::new(),
+            regions: Vec::new(),
+            exchanged: Vec::new(),
+            never_stable: true,
+        }
+    }
+}
+
+/// The curve with the parameters exchanged.
+pub(super) fn swapped_curve(curve: &Curve) -> Curve {
     Curve { causes: curve.causes.clone(), polynomial: curve.polynomial.map_variables(|i| 1 - i) }
 }
 
@@ -123,7 +168,8 @@ fn region_of(strips: &[Strip], cells: Vec<(usize, usize)>) -> StableRegion {
     let first = cells.iter().map(|c| c.0).min().expect("a region has cells");
     let last = cells.iter().map(|c| c.0).max().expect("a region has cells");
     let x = AlgebraicInterval { lower: strips[first].x.lower.clone(), upper: strips[last].x.upper.clone() };
-    StableRegion { cells, x, y: AlgebraicInterval { lower: None, upper: None } }
+    let y = AlgebraicInterval { lower: None, upper: None };
+    StableRegion { cells, x, y, exchanged_cells: Vec::new() }
 }
 
 /// The polynomial as one in `y` over `Z[x]`.
