@@ -1,12 +1,13 @@
 //! The stable region in two parameters.
 
-use super::prepare::prepare;
+use super::prepare::{Prepared, prepare};
 use super::question::{in_region, nominal, region_of};
 use super::{Decision, Failure, Settings};
 use crate::error::Diagnostic;
 use crate::limits::Budget;
 use crate::model::{Loop, Question, Time};
 use crate::number::Rational;
+use crate::poly::RationalFunction;
 use crate::stability::plane::{PlanePolynomial, StabilityMap, stability_map};
 use crate::stability::{Range, Region};
 
@@ -40,10 +41,13 @@ pub struct Map {
     pub radius: Option<Rational>,
     /// The decay rate asked for, if any.
     pub decay: Option<Rational>,
-    /// The polynomial; `None` when the loop is undefined for all values of both parameters.
+    /// The polynomial; `None` when the loop is undefined for all values of both parameters, or when the budget
+    /// ran out before.
     pub polynomial: Option<PlanePolynomial>,
     /// The exact decomposition of the domain.
     pub map: Decision<StabilityMap>,
+    /// The sample time in the two parameters, in discrete time and if the model gives one.
+    pub sample_time: Option<RationalFunction>,
     /// Remarks on the question, e.g. a value outside its domain.
     pub warnings: Vec<Diagnostic>,
 }
@@ -54,7 +58,7 @@ pub struct Map {
 /// is undefined for all values of both parameters is stable nowhere.
 ///
 /// # Errors
-/// [`Failure`] when the question is refused or the budget ends before there is a polynomial.
+/// [`Failure`] when the question is refused; a budget that runs out makes an undecided map.
 pub fn map(lp: &Loop, settings: &Settings, names: [&str; 2], budget: &Budget) -> Result<Map, Failure> {
     if names[0] == names[1] {
         return Err(Diagnostic::error("E-usage", format!("'{}' is asked for on both axes", names[0]))
@@ -64,12 +68,17 @@ pub fn map(lp: &Loop, settings: &Settings, names: [&str; 2], budget: &Budget) ->
     let region = region_of(lp, settings)?;
     let axes = [axis(lp, settings, names[0])?, axis(lp, settings, names[1])?];
     budget.step("characteristic polynomial");
-    let answer =
-        prepare(lp, &Question { keep: names.map(str::to_string).to_vec(), set: settings.set.clone() }, budget)?;
+    let question = Question { keep: names.map(str::to_string).to_vec(), set: settings.set.clone() };
+    let (answer, exhausted) = match prepare(lp, &question, budget) {
+        Ok(answer) => (answer, None),
+        Err(Failure::Undecided(exhausted)) => (Prepared::without_polynomial(lp.resolve(&question)?), Some(exhausted)),
+        Err(refused) => return Err(refused),
+    };
     let polynomial = answer.polynomial.map(|d| PlanePolynomial::new(&in_region(d, settings)));
-    let map = match &polynomial {
-        None => Decision::Decided(StabilityMap::never_stable()),
-        Some(p) => {
+    let map = match (&polynomial, exhausted) {
+        (_, Some(exhausted)) => Decision::from_result(Err(exhausted), budget),
+        (None, None) => Decision::Decided(StabilityMap::never_stable()),
+        (Some(p), None) => {
             let domain = [axes[0].domain.clone(), axes[1].domain.clone()];
             Decision::from_result(stability_map(p, &domain, region, budget), budget)
         }
@@ -84,6 +93,7 @@ pub fn map(lp: &Loop, settings: &Settings, names: [&str; 2], budget: &Budget) ->
         decay: settings.decay.clone(),
         polynomial,
         map,
+        sample_time: answer.sample_time.filter(|_| region == Region::UnitDisc),
         warnings: answer.warnings,
     })
 }

@@ -7,6 +7,7 @@
 mod answers;
 mod frequency;
 mod map;
+mod map_limits;
 mod prepare;
 mod question;
 mod region;
@@ -15,6 +16,7 @@ mod table;
 pub use answers::{Analysis, Decision, Intervals, PointVerdict, Verdict, analyze, intervals, verdict};
 pub use frequency::{Frequency, frequency};
 pub use map::{Axis, Map, map};
+pub use map_limits::{MapLimit, RegionExtent};
 pub use question::{DECAY, OneParameter, RADIUS, Settings, one_parameter};
 pub use table::{PointTable, TableAnswer, parametric_table, point_table};
 

@@ -22,6 +22,19 @@ pub(super) struct Prepared {
     pub warnings: Vec<Diagnostic>,
 }
 
+impl Prepared {
+    /// What is known of a question whose polynomial is not.
+    pub fn without_polynomial(resolved: crate::model::Resolved) -> Self {
+        Prepared {
+            polynomial: None,
+            formal_degree: 0,
+            values: resolved.values,
+            sample_time: None,
+            warnings: resolved.warnings,
+        }
+    }
+}
+
 pub(super) fn prepare(lp: &Loop, question: &Question, budget: &Budget) -> Result<Prepared, Failure> {
     let resolved = lp.resolve(question)?;
     let (polynomial, formal_degree) = match lp.characteristic_polynomial(question, budget) {

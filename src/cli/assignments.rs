@@ -71,6 +71,30 @@ pub(super) fn domains(line: &CommandLine, values: &[String]) -> Result<Vec<Domai
     refuse(line, wrong).map(|()| out)
 }
 
+/// A parameter on an axis of a picture, with the ends of the window that are given.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct AxisRequest {
+    pub name: String,
+    pub lower: Option<Rational>,
+    pub upper: Option<Rational>,
+    /// Where the name stands in the command line's text.
+    pub name_span: Span,
+}
+
+/// Reads `NAME` or `NAME=LO..HI`; an end that is left out or infinite is chosen later.
+pub(super) fn axis(line: &CommandLine, option: &str, text: &str) -> Result<AxisRequest, Error> {
+    let place = line.option_value(option, text);
+    let Some(equals) = text.find('=') else {
+        return Ok(AxisRequest { name: text.trim().to_owned(), lower: None, upper: None, name_span: place.span });
+    };
+    let read = range(text, place, option).and_then(|(name, lower, upper)| match (&lower, &upper) {
+        (Some(l), Some(u)) if l >= u => Err(Diagnostic::error("E-option-value", "the window is empty")
+            .at(place.part(equals + 1, text.len()), "the lower end is not below the upper end")),
+        _ => Ok(AxisRequest { name, lower, upper, name_span: place.part(0, equals) }),
+    });
+    read.map_err(|d| in_line(line, vec![d]))
+}
+
 /// Reads a plain number, such as that of `--radius`.
 pub(super) fn plain_number(line: &CommandLine, option: &str, text: &str) -> Result<Rational, Error> {
     let place = line.option_value(option, text);
@@ -129,17 +153,33 @@ fn number_between(text: &str, start: usize, end: usize, place: Place) -> Result<
     })
 }
 
-fn domain(text: &str, place: Place) -> Result<DomainChange, Diagnostic> {
-    let (name, start) = split_name(text, place, "--domain", "LO..HI")?;
+/// `NAME=LO..HI`, either side left out or infinite.
+fn range(
+    text: &str,
+    place: Place,
+    option: &str,
+) -> Result<(String, Option<Rational>, Option<Rational>), Diagnostic> {
+    let (name, start) = split_name(text, place, option, "LO..HI")?;
     let Some(dots) = text[start..].find("..").map(|i| start + i) else {
-        return Err(Diagnostic::error("E-option-value", "--domain expects NAME=LO..HI")
+        return Err(Diagnostic::error("E-option-value", format!("{option} expects NAME=LO..HI"))
             .at(place.part(start, text.len()), "there is no '..'")
-            .help("for example --domain K=0..10, --domain K=0.. or --domain K=..10"));
+            .help(format!("for example {option} K=0..10, {option} K=0.. or {option} K=..10")));
     };
-    let side = |from: usize, to: usize| -> Result<Option<Rational>, Diagnostic> {
-        if text[from..to].trim().is_empty() { Ok(None) } else { number_between(text, from, to, place).map(Some) }
+    let side = |from: usize, to: usize, infinite: &[&str]| -> Result<Option<Rational>, Diagnostic> {
+        let part = text[from..to].trim();
+        if part.is_empty() || infinite.contains(&part) {
+            return Ok(None);
+        }
+        number_between(text, from, to, place).map(Some)
     };
-    let (lower, upper) = (side(start, dots)?, side(dots + 2, text.len())?);
+    let lower = side(start, dots, &["-inf"])?;
+    let upper = side(dots + 2, text.len(), &["inf", "+inf"])?;
+    Ok((name.to_owned(), lower, upper))
+}
+
+fn domain(text: &str, place: Place) -> Result<DomainChange, Diagnostic> {
+    let (name, lower, upper) = range(text, place, "--domain")?;
+    let start = text.find('=').map_or(0, |i| i + 1);
     if let (Some(l), Some(u)) = (&lower, &upper)
         && l >= u
     {
@@ -148,7 +188,7 @@ fn domain(text: &str, place: Place) -> Result<DomainChange, Diagnostic> {
             .at(place.part(start, text.len()), "the lower end is not below the upper end"));
     }
     let name_span = place.part(0, text.find('=').unwrap_or(0));
-    Ok(DomainChange { name: name.to_owned(), lower, upper, name_span })
+    Ok(DomainChange { name, lower, upper, name_span })
 }
 
 #[cfg(test)]

@@ -94,6 +94,13 @@ pub(super) fn known_names(context: &Context, model: &Loop, option: &str, names: 
     if wrong.is_empty() { Ok(()) } else { Err(in_line(context.line, wrong).into()) }
 }
 
+/// Refuses a name that cannot vary; the caret points at its place in the command line.
+pub(super) fn known_name(context: &Context, model: &Loop, name: &str, span: Span) -> Result<(), Failure> {
+    let mut wrong = Vec::new();
+    check_name(model, name, span, &mut wrong)?;
+    if wrong.is_empty() { Ok(()) } else { Err(in_line(context.line, wrong).into()) }
+}
+
 /// An unknown name is added to what is wrong with the command line; a name that the model fixes is an
 /// error about the model.
 fn check_name(model: &Loop, name: &str, span: Span, wrong: &mut Vec<Diagnostic>) -> Result<(), Error> {

@@ -2,7 +2,7 @@
 
 use super::margins::margin;
 use super::real::{self, JSON_NUMBER_DIGITS};
-use crate::analysis::{OneParameter, frequency};
+use crate::analysis::{Frequency, OneParameter, frequency};
 use crate::number::{Enclosure, Rational};
 use crate::poly::{RealAlgebraic, UniPoly};
 use crate::stability::{End, IntervalSet, Range, StableSet};
@@ -33,7 +33,7 @@ pub(super) fn exact(value: Option<&Rational>) -> Value {
 }
 
 /// An algebraic number: decimal, exact value, enclosure, polynomial.
-fn number(value: &RealAlgebraic, digits: usize) -> Map<String, Value> {
+pub(super) fn number(value: &RealAlgebraic, digits: usize) -> Map<String, Value> {
     let rounded = real::rounded(value, digits);
     let mut out = Map::new();
     out.insert("decimal".into(), rounded.decimal.into());
@@ -72,27 +72,32 @@ pub(super) fn stable_set(set: &StableSet, question: &OneParameter, digits: usize
 /// One end with all that is known about it.
 fn end(end: Option<&End>, question: &OneParameter, digits: usize) -> Value {
     let Some(end) = end else { return Value::Null };
-    let places = digits.min(JSON_NUMBER_DIGITS);
     let mut out = number(&end.value, digits);
     out.insert("cause".into(), end.causes.to_string().into());
-    let pick = |part: fn(&crate::analysis::Frequency) -> Option<Enclosure>| {
-        let decimal = real::enclosed(places, |bits| frequency(end, question, bits).as_ref().and_then(part));
-        real::json_number(decimal.as_deref())
-    };
-    out.insert("frequency_hz".into(), pick(|f| f.hertz.clone()));
-    let enclosure = frequency(end, question, real::bits_for(digits)).and_then(|f| f.hertz);
-    out.insert(
-        "frequency_enclosure".into(),
-        enclosure.map_or(Value::Null, |e| json!([e.lower().to_string(), e.upper().to_string()])),
-    );
-    out.insert("radians_per_second".into(), pick(|f| f.radians_per_second.clone()));
-    out.insert("angle".into(), pick(|f| f.angle.clone()));
+    frequency_fields(&mut out, digits, |bits| frequency(end, question, bits));
     out.insert("closed".into(), false.into());
     let margin = margin(&end.value, question.nominal.as_ref(), digits);
     out.insert("margin_factor".into(), margin.as_ref().map_or(Value::Null, |m| m.factor.clone().into()));
     let decibels = margin.as_ref().and_then(|m| m.decibels.as_deref());
     out.insert("margin_db".into(), real::json_number(decibels));
     Value::Object(out)
+}
+
+/// The frequency of a complex pair in all its units; `null` where it has none.
+pub(super) fn frequency_fields(out: &mut Map<String, Value>, digits: usize, at: impl Fn(u64) -> Option<Frequency>) {
+    let places = digits.min(JSON_NUMBER_DIGITS);
+    let pick = |part: fn(&Frequency) -> Option<Enclosure>| {
+        let decimal = real::enclosed(places, |bits| at(bits).as_ref().and_then(part));
+        real::json_number(decimal.as_deref())
+    };
+    out.insert("frequency_hz".into(), pick(|f| f.hertz.clone()));
+    let enclosure = at(real::bits_for(digits)).and_then(|f| f.hertz);
+    out.insert(
+        "frequency_enclosure".into(),
+        enclosure.map_or(Value::Null, |e| json!([e.lower().to_string(), e.upper().to_string()])),
+    );
+    out.insert("radians_per_second".into(), pick(|f| f.radians_per_second.clone()));
+    out.insert("angle".into(), pick(|f| f.angle.clone()));
 }
 
 /// What every answer about one parameter begins with.

@@ -1,5 +1,6 @@
 //! Aligned columns and short numbers in text for people.
 
+use crate::analysis::Map;
 use crate::number::{Rational, parse_number, to_decimal};
 use std::fmt;
 
@@ -16,6 +17,15 @@ pub(super) fn short(value: &Rational) -> String {
 pub(super) fn named_values(values: &[(String, Rational)]) -> String {
     let list: Vec<String> = values.iter().map(|(name, value)| format!("{name} = {}", short(value))).collect();
     list.join(", ")
+}
+
+/// What is asked of a map's points: `stable`, or what a radius or a decay rate asks for.
+pub(super) fn goal(answer: &Map) -> String {
+    match (&answer.radius, &answer.decay) {
+        (Some(r), _) => format!("all |z| < {}", short(r)),
+        (_, Some(s)) => format!("all Re s < {}", short(&-s)),
+        _ => "stable".to_owned(),
+    }
 }
 
 /// Rows of cells that are printed in columns, left-aligned.

@@ -18,6 +18,6 @@ mod verdict;
 pub use analysis::{analysis_json, analysis_text};
 pub use intervals::{intervals_json, intervals_text};
 pub use main_job::{MainJob, main_job_json, main_job_text};
-pub use map::{map_json, map_text};
+pub use map::{map_json, map_page, map_text, published_limits};
 pub use table::{point_table_json, point_table_text, table_json, table_text};
 pub use verdict::{verdict_json, verdict_text};

@@ -30,7 +30,7 @@ pub use pair_location::ComplexPair;
 pub use parametric::{AtPoint, ParametricPolynomial};
 pub use root_count::{RootCount, count_roots, count_roots_cauchy_index, count_roots_within, is_stable};
 pub use routh::{RouthTable, is_hurwitz_routh, routh_table};
-pub use stable_set::{End, StableInterval, StableSet, stable_set};
+pub use stable_set::{End, StableInterval, StableSet, end_at, stable_set};
 
 /// Where the roots of the characteristic polynomial of a stable loop lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -126,6 +126,22 @@ pub fn stable_set(
     Ok(StableSet { intervals })
 }
 
+/// What happens at an end of a stable interval that was found elsewhere; `None` when the loop is stable
+/// nowhere. For a value that is no limit of stable values the answer means nothing.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn end_at(
+    p: &ParametricPolynomial,
+    value: &RealAlgebraic,
+    range: &Range,
+    region: Region,
+    budget: &Budget,
+) -> Result<Option<End>, Exhausted> {
+    let Some(boundaries) = boundary_polynomials(p, region, budget)? else { return Ok(None) };
+    EndExaminer { p, range, region, boundaries: &boundaries, budget }.examine(value).map(Some)
+}
+
 /// Finds out what happens at an end of a stable cell.
 struct EndExaminer<'a> {
     p: &'a ParametricPolynomial,

@@ -7,6 +7,7 @@
 mod clip;
 mod diagrams;
 mod locus;
+pub mod map;
 mod panel;
 mod responses;
 mod sketch;

@@ -110,7 +110,7 @@ pub(super) fn tick_step(range: (f64, f64), count: f64) -> f64 {
 }
 
 /// `5e33` as people write it: 5·10³³.
-fn power_of_ten(v: f64) -> String {
+pub(super) fn power_of_ten(v: f64) -> String {
     let text = format!("{v:.1e}").replace(".0e", "e").replace('-', "\u{2212}");
     let Some((mantissa, exponent)) = text.split_once('e') else { return text };
     let raised = |c: char| match c.to_digit(10) {

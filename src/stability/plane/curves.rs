@@ -52,6 +52,11 @@ impl PlanePolynomial {
         }
     }
 
+    /// The polynomial in `z` or `s`, denominators cleared.
+    pub(super) fn polynomial(&self) -> &Poly<MultiPoly> {
+        &self.polynomial
+    }
+
     /// The degree the polynomial is meant to have.
     pub fn formal_degree(&self) -> usize {
         self.formal_degree
@@ -133,6 +138,33 @@ pub fn boundary_curves(p: &PlanePolynomial, region: Region, budget: &Budget) -> 
         }
     }
     Ok(Some(curves))
+}
+
+/// Why a loop with a characteristic polynomial is stable at no point: the boundary polynomial that vanishes
+/// identically; `None` when there is none.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn vanishing_boundary(p: &PlanePolynomial, region: Region, budget: &Budget) -> Result<Option<Cause>, Exhausted> {
+    let n = p.formal_degree;
+    if p.polynomial.degree() != Some(n) || p.degree_loss.is_zero() {
+        return Ok(Some(Cause::DegreeLost));
+    }
+    if n == 0 {
+        return Ok(None);
+    }
+    let vanishes = |z: i64| p.polynomial.eval(&MultiPoly::constant(Integer::from(z))).is_zero();
+    let real = match region {
+        Region::UnitDisc if vanishes(1) => Some(Cause::RootAtOne),
+        Region::UnitDisc if vanishes(-1) => Some(Cause::RootAtMinusOne),
+        Region::LeftHalfPlane if vanishes(0) => Some(Cause::RootAtZero),
+        _ => None,
+    };
+    if real.is_some() {
+        return Ok(real);
+    }
+    let critical = HalfSizePair::new(&p.polynomial, n, region).critical_constraint(budget)?;
+    Ok(critical.is_zero().then_some(Cause::ComplexPair))
 }
 
 /// The factor in `x` alone, the factor in `y` alone, and what is left.

@@ -4,8 +4,11 @@ mod curves;
 mod decompose;
 mod elimination;
 mod glue;
+mod limit;
 mod query;
 mod sturm_at;
 
-pub use curves::{Curve, PlanePolynomial, boundary_curves};
+pub use curves::{Curve, PlanePolynomial, boundary_curves, vanishing_boundary};
 pub use decompose::{Branch, Cell, StabilityMap, StableRegion, Strip, stability_map};
+pub(crate) use limit::multi_value;
+pub use limit::{Limit, RegionLimits, region_limits};

@@ -1,6 +1,6 @@
 //! Looking things up in a finished decomposition.
 
-use super::decompose::{StabilityMap, branches_at, locate};
+use super::decompose::{Branch, StabilityMap, branches_at, locate};
 use crate::limits::{Budget, Exhausted};
 use crate::number::Rational;
 use crate::poly::RealAlgebraic;
@@ -24,6 +24,20 @@ impl StabilityMap {
             return Ok(None);
         }
         locate(&self.curves, &self.strips, x, y, y_domain, budget)
+    }
+
+    /// The branches of all curves over a rational `x`, from below, with their values in the domain of `y`. Inside
+    /// a strip branch `k` is between its cells `k` and `k + 1`.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn branches(
+        &self,
+        x: &Rational,
+        y_domain: &Range,
+        budget: &Budget,
+    ) -> Result<Vec<(RealAlgebraic, Branch)>, Exhausted> {
+        branches_at(&self.curves, x, y_domain, budget)
     }
 
     /// The open intervals of `y` that are stable at a rational `x`, cut at every boundary curve; `None`

@@ -1,0 +1,83 @@
+//! Where names and frequencies stand beside the walls.
+
+use super::lines::{Role, Wall, mechanism_words};
+use crate::analysis::{Frequency, Map};
+use crate::limits::{Budget, Exhausted};
+use crate::model::Time;
+use crate::number::{Enclosure, to_decimal};
+use crate::stability::Cause;
+use crate::stability::plane::StabilityMap;
+use rayon::prelude::*;
+
+/// Bits of a frequency in a picture.
+const BITS: u64 = 30;
+
+/// A point of a wall at which its frequency is known.
+#[derive(Clone, Debug)]
+pub struct FrequencyPoint {
+    /// The number of the point of its wall.
+    pub point: usize,
+    /// For people: `1664 Hz`.
+    pub text: String,
+}
+
+/// The frequency as people read it: hertz in discrete time with a sample time, radians without, radians per
+/// second in continuous time.
+fn frequency_text(frequency: &Frequency, time: Time) -> Option<String> {
+    let middle = |e: &Enclosure| e.lower().midpoint(e.upper());
+    let (value, unit) = match (time, &frequency.hertz) {
+        (Time::Discrete, Some(hertz)) => (middle(hertz), "Hz"),
+        (Time::Discrete, None) => (middle(frequency.angle.as_ref()?), "rad"),
+        (Time::Continuous, _) => (middle(frequency.radians_per_second.as_ref()?), "rad/s"),
+    };
+    let text = to_decimal(&value, 3);
+    let size = value.to_f64_approximate();
+    Some(if (1000.0..1e6).contains(&size) { format!("{size:.0} {unit}") } else { format!("{text} {unit}") })
+}
+
+/// Points on the visible part of a wall, about `spacing` apart in a picture of that shape, and at both ends.
+pub(super) fn spaced(wall: &Wall, shape: (f64, f64), spacing: f64) -> Vec<usize> {
+    let visible = |p: &(f64, f64)| (0.0..=1.0).contains(&p.0) && (0.0..=1.0).contains(&p.1);
+    let mut out = Vec::new();
+    let mut since = spacing * 0.6;
+    for (k, pair) in wall.points.windows(2).enumerate() {
+        if !visible(&pair[0]) || !visible(&pair[1]) {
+            continue;
+        }
+        since += ((pair[1].0 - pair[0].0) * shape.0).hypot((pair[1].1 - pair[0].1) * shape.1);
+        if since >= spacing {
+            out.push(k + 1);
+            since = 0.0;
+        }
+    }
+    out
+}
+
+/// The certified frequencies at some points of a wall of a stable cell.
+pub(super) fn frequencies(
+    answer: &Map,
+    map: &StabilityMap,
+    wall: &Wall,
+    points: &[usize],
+    budget: &Budget,
+) -> Result<Vec<FrequencyPoint>, Exhausted> {
+    let causes = &map.curves[wall.curve].causes;
+    if wall.role != Role::Stable || !causes.contains(Cause::ComplexPair) {
+        return Ok(Vec::new());
+    }
+    let found: Vec<Result<Option<FrequencyPoint>, Exhausted>> = points
+        .par_iter()
+        .map(|&point| {
+            let Some((x, number)) = wall.lines.get(point) else { return Ok(None) };
+            let end = answer.wall(x, *number, BITS, budget)?;
+            let text = end.and_then(|e| e.1).and_then(|f| frequency_text(&f, answer.time));
+            Ok(text.map(|text| FrequencyPoint { point, text }))
+        })
+        .collect();
+    found.into_iter().filter_map(Result::transpose).collect()
+}
+
+/// The mechanism of a wall in words.
+pub(super) fn words(answer: &Map, map: &StabilityMap, wall: &Wall) -> String {
+    mechanism_words(&map.curves[wall.curve].causes, answer.region)
+}

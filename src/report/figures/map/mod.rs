@@ -1,0 +1,17 @@
+//! The picture of a map of two parameters.
+//!
+//! What is drawn is floating point; which cell is stable, where strips begin and end and how many branches
+//! are in them comes from the exact decomposition, and every point of a curve is an isolated root.
+
+mod axes;
+mod draw;
+mod labels;
+mod lines;
+mod trace;
+mod window;
+
+pub use draw::{MapContents, MapFigure};
+pub use labels::FrequencyPoint;
+pub use lines::{Role, Wall, mechanism_colour, mechanism_words};
+pub use trace::{MapTrace, TracedLine, TracedStrip, trace_map};
+pub use window::{AxisWindow, WindowRequest, choose_windows};
