@@ -150,7 +150,7 @@ fn draw(
         Ok(trace) => trace,
         Err(exhausted) => return Ok(Err(exhausted)),
     };
-    let contents = match MapContents::new(shown.answer, &trace, published, &context.budget) {
+    let contents = match MapContents::new(shown.answer, &trace, shown.slices, published, &context.budget) {
         Ok(Some(contents)) => contents,
         Ok(None) => return Ok(Ok(())),
         Err(exhausted) => return Ok(Err(exhausted)),

@@ -22,7 +22,7 @@ pub(super) fn ticks(window: &AxisWindow, count: f64) -> Vec<Tick> {
 fn linear(window: &AxisWindow, count: f64) -> Vec<Tick> {
     let (lo, hi) = window.ends();
     let step = tick_step((lo, hi), count);
-    let decimals = (-step.log10() + 1e-9).ceil().max(0.0) as usize;
+    let decimals = (-step.log10() - 1e-9).ceil().max(0.0) as usize;
     let largest = lo.abs().max(hi.abs());
     let mut out = Vec::new();
     let mut k = (lo / step - 1e-9).ceil();

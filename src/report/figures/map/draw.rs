@@ -3,10 +3,10 @@
 use super::super::Figure;
 use super::super::clip::Window;
 use super::axes::{Tick, ticks};
-use super::labels::{FrequencyPoint, frequencies, spaced, words};
+use super::labels::{FrequencyPoint, frequencies, limits_on_lines, spaced, words};
 use super::lines::{Role, Wall, mechanism_colour, walls};
 use super::trace::MapTrace;
-use crate::analysis::{Axis, Map};
+use crate::analysis::{Axis, Intervals, Map};
 use crate::limits::{Budget, Exhausted};
 use crate::number::Rational;
 use crate::report::layout::goal;
@@ -20,7 +20,7 @@ const GRID: &str = "#e4e4e4";
 const PAPER: &str = "#ffffff";
 const REGION: &str = "#cfe8d8";
 /// Width of a character of the text in the figure, on average.
-const CHARACTER: f64 = 6.4;
+const CHARACTER: f64 = 5.8;
 /// Frequencies along a wall are this far apart.
 const LABEL_SPACING: f64 = 170.0;
 /// Frequencies for the page are this far apart.
@@ -45,18 +45,22 @@ pub struct MapContents<'a> {
     pub walls: Vec<Wall>,
     /// For each wall, frequencies along it.
     pub frequencies: Vec<Vec<FrequencyPoint>>,
+    /// The exact limits on the lines through the nominal point.
+    on_lines: Vec<((f64, f64), String)>,
     /// Published limits to compare with, in the parameters' units.
     pub published: Vec<(f64, f64)>,
 }
 
 impl<'a> MapContents<'a> {
-    /// Walls and frequencies of a traced map; `None` while it is undecided.
+    /// Walls and frequencies of a traced map; `None` while it is undecided. `slices` are the stable sets on the
+    /// lines through the nominal point, as far as they are known.
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
     pub fn new(
         answer: &'a Map,
         trace: &'a MapTrace,
+        slices: &[Intervals],
         published: Vec<(f64, f64)>,
         budget: &Budget,
     ) -> Result<Option<Self>, Exhausted> {
@@ -69,7 +73,8 @@ impl<'a> MapContents<'a> {
             let points = spaced(wall, (760.0, 440.0), FINE_SPACING);
             found.push(frequencies(answer, map, wall, &points, budget)?);
         }
-        Ok(Some(MapContents { answer, map, trace, walls, frequencies: found, published }))
+        let on_lines = limits_on_lines(slices, answer);
+        Ok(Some(MapContents { answer, map, trace, walls, frequencies: found, on_lines, published }))
     }
 
     /// The picture at a size.
@@ -87,6 +92,8 @@ struct Drawing<'a> {
     height: f64,
     /// Rectangles that words stand in: left, top, right, bottom.
     taken: Vec<(f64, f64, f64, f64)>,
+    /// Mechanisms that are named beside a wall.
+    named: Vec<String>,
 }
 
 impl<'a> Drawing<'a> {
@@ -99,6 +106,7 @@ impl<'a> Drawing<'a> {
             width: width - 66.0 - 18.0,
             height: 0.0,
             taken: Vec::new(),
+            named: Vec::new(),
         };
         let narrow = width < 500.0;
         let title = drawing.title();
@@ -135,6 +143,7 @@ impl<'a> Drawing<'a> {
             }
         }
         self.marks();
+        self.limits_on_lines();
         for &k in edges.iter().filter(|k| self.contents.walls[**k].role == Role::Stable) {
             self.labels(k);
         }
@@ -272,6 +281,18 @@ impl<'a> Drawing<'a> {
         }
     }
 
+    /// A dot and the exact limit where a line through the nominal point meets a wall.
+    fn limits_on_lines(&mut self) {
+        let contents = self.contents;
+        let windows = &contents.trace.windows;
+        for ((x, y), text) in &contents.on_lines {
+            let at = (windows[0].place(*x), windows[1].place(*y));
+            if (0.0..=1.0).contains(&at.0) && (0.0..=1.0).contains(&at.1) {
+                self.place_words(self.at(at), text, INK, true);
+            }
+        }
+    }
+
     fn circle(&mut self, at: (f64, f64)) {
         self.scene.add(Primitive::Circle {
             cx: at.0,
@@ -319,7 +340,8 @@ impl<'a> Drawing<'a> {
         let wall = &contents.walls[k];
         let name = words(contents.answer, contents.map, wall);
         let (colour, _) = mechanism_colour(&contents.map.curves[wall.curve].causes);
-        let mut named = false;
+        // Once in the picture is enough, and the legend has it too.
+        let mut named = self.named.contains(&name);
         let known = &contents.frequencies[k];
         let chosen = spaced(wall, (self.width, self.height), LABEL_SPACING);
         for point in chosen {
@@ -332,6 +354,9 @@ impl<'a> Drawing<'a> {
             };
             let at = self.at(wall.points[point]);
             if self.place_words(at, &text, colour, !known.is_empty()) {
+                if !named {
+                    self.named.push(name.clone());
+                }
                 named = true;
             } else if let Some(f) = nearest {
                 // Without the name there may be room.
@@ -360,7 +385,7 @@ impl<'a> Drawing<'a> {
                 }
             }
         }
-        let Some((_, centre)) = best.filter(|b| b.0 < 40) else { return false };
+        let Some((_, centre)) = best.filter(|b| b.0 < 6) else { return false };
         self.taken.push((centre.0 - half, centre.1 - 12.0, centre.0 + half, centre.1 + 4.0));
         if dot {
             self.scene.add(Primitive::Circle {
@@ -377,11 +402,15 @@ impl<'a> Drawing<'a> {
         true
     }
 
-    /// How many points of walls lie under a rectangle, those inside the region weighing as one.
+    /// How much lies under a rectangle: points of walls, twice as bad as the lines through the nominal point.
     fn crossings(&self, room: (f64, f64, f64, f64)) -> usize {
         let walls = self.contents.walls.iter().filter(|w| w.role != Role::Nothing);
         let points = walls.flat_map(|w| &w.points).map(|p| self.at(*p));
-        points.filter(|p| p.0 > room.0 && p.0 < room.2 && p.1 > room.1 && p.1 < room.3).count()
+        let walls = points.filter(|p| p.0 > room.0 && p.0 < room.2 && p.1 > room.1 && p.1 < room.3).count();
+        let lines = self.nominal().map(|at| self.at(at)).map_or(0, |at| {
+            usize::from(at.0 > room.0 && at.0 < room.2) + usize::from(at.1 > room.1 && at.1 < room.3)
+        });
+        2 * walls + lines
     }
 
     /// Samples of what is drawn with their names; returns where the next line of text would stand.

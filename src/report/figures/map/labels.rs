@@ -1,10 +1,11 @@
 //! Where names and frequencies stand beside the walls.
 
 use super::lines::{Role, Wall, mechanism_words};
-use crate::analysis::{Frequency, Map};
+use super::trace::approximate;
+use crate::analysis::{Decision, Frequency, Intervals, Map, frequency};
 use crate::limits::{Budget, Exhausted};
 use crate::model::Time;
-use crate::number::{Enclosure, to_decimal};
+use crate::number::{Enclosure, Rational, to_decimal};
 use crate::stability::Cause;
 use crate::stability::plane::StabilityMap;
 use rayon::prelude::*;
@@ -23,7 +24,7 @@ pub struct FrequencyPoint {
 
 /// The frequency as people read it: hertz in discrete time with a sample time, radians without, radians per
 /// second in continuous time.
-fn frequency_text(frequency: &Frequency, time: Time) -> Option<String> {
+pub(super) fn frequency_text(frequency: &Frequency, time: Time) -> Option<String> {
     let middle = |e: &Enclosure| e.lower().midpoint(e.upper());
     let (value, unit) = match (time, &frequency.hertz) {
         (Time::Discrete, Some(hertz)) => (middle(hertz), "Hz"),
@@ -32,7 +33,34 @@ fn frequency_text(frequency: &Frequency, time: Time) -> Option<String> {
     };
     let text = to_decimal(&value, 3);
     let size = value.to_f64_approximate();
-    Some(if (1000.0..1e6).contains(&size) { format!("{size:.0} {unit}") } else { format!("{text} {unit}") })
+    Some(match size {
+        _ if (1e4..1e6).contains(&size) && unit == "Hz" => format!("{} kHz", to_decimal(&(value / Rational::from(1000)), 3)),
+        _ if (1000.0..1e6).contains(&size) => format!("{size:.0} {unit}"),
+        _ => format!("{text} {unit}"),
+    })
+}
+
+/// The exact limits on the two lines through the nominal point, in floating point, with what is written there:
+/// `K_pwm = 550.94, 1664 Hz`.
+pub(super) fn limits_on_lines(slices: &[Intervals], answer: &Map) -> Vec<((f64, f64), String)> {
+    let mut out = Vec::new();
+    for slice in slices {
+        let question = &slice.question;
+        let (Some((fixed, at)), Decision::Decided(set)) = (question.set.last(), &slice.stable) else { continue };
+        for end in set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
+            let value = approximate(&end.value);
+            let at = at.to_f64_approximate();
+            let place = if *fixed == answer.axes[0].name { (at, value) } else { (value, at) };
+            let decimal = end.value.decimal(5);
+            let frequency = frequency(end, question, BITS).and_then(|f| frequency_text(&f, answer.time));
+            let frequency = frequency.map(|f| format!(", {f}")).unwrap_or_default();
+            let text = format!("{} = {decimal}{frequency}", question.parameter);
+            if out.iter().all(|(p, _)| *p != place) {
+                out.push((place, text));
+            }
+        }
+    }
+    out
 }
 
 /// Points on the visible part of a wall, about `spacing` apart in a picture of that shape, and at both ends.

@@ -1,0 +1,257 @@
+'use strict';
+(() => {
+  const data = JSON.parse(document.getElementById('data').textContent);
+  const $ = id => document.getElementById(id);
+  const abs = a => a < 0n ? -a : a;
+  const gcd = (a, b) => { a = abs(a); b = abs(b); while (b) [a, b] = [b, a % b]; return a; };
+
+  // Exact rationals [numerator, denominator], denominator positive.
+  function rational(text) {
+    const m = /^\s*([+-]?)(\d+)(?:\.(\d*))?(?:e([+-]?\d{1,4}))?(?:\/(\d+))?\s*$/i.exec(text)
+      || /^\s*([+-]?)()\.(\d+)(?:e([+-]?\d{1,4}))?()\s*$/i.exec(text);
+    if (!m) return null;
+    let n = BigInt((m[2] || '0') + (m[3] || '')), d = m[5] ? BigInt(m[5]) : 1n;
+    const e = Number(m[4] || 0) - (m[3] || '').length;
+    if (e >= 0) n *= 10n ** BigInt(e); else d *= 10n ** BigInt(-e);
+    if (d === 0n) return null;
+    if (m[1] === '-') n = -n;
+    const g = gcd(n, d) || 1n;
+    return [n / g, d / g];
+  }
+  const number = q => {
+    const shift = BigInt(Math.max(0, q[1].toString(2).length - q[0].toString(2).length + 64));
+    return Number((q[0] << shift) / q[1]) / 2 ** Number(shift);
+  };
+  const compare = (a, b) => { const d = a[0] * b[1] - b[0] * a[1]; return d > 0n ? 1 : d < 0n ? -1 : 0; };
+  const sign = a => a > 0n ? 1 : a < 0n ? -1 : 0;
+  // The sign of sum c_k q^k, c from the constant term up.
+  function signAt(c, q) {
+    let s = 0n, p = 1n;
+    for (let k = c.length - 1; k >= 0; k--) { s = s * q[0] + c[k] * p; p *= q[1]; }
+    return sign(s);
+  }
+  const end = e => e && { lo: rational(e.enclosure[0]), hi: rational(e.enclosure[1]), poly: e.polynomial.map(BigInt) };
+  const strips = data.strips.map(s => ({ lower: end(s.lower), upper: end(s.upper), cells: s.cells }));
+  const curves = data.curves.map(c => c.terms.map(t => [t[0], t[1], BigInt(t[2])]));
+  const domain = data.axes.map(a => ({ lower: a.lower && rational(a.lower), upper: a.upper && rational(a.upper) }));
+
+  // An algebraic number against a rational: its enclosure, and inside that the sign of its polynomial.
+  function compareEnd(e, q) {
+    if (compare(e.lo, e.hi) === 0) return compare(e.lo, q);
+    if (compare(q, e.lo) <= 0) return 1;
+    if (compare(q, e.hi) >= 0) return -1;
+    const s = signAt(e.poly, q);
+    return s === 0 ? 0 : s === signAt(e.poly, e.hi) ? -1 : 1;
+  }
+  // A curve over a rational x as a polynomial in y with integer coefficients.
+  function over(terms, x) {
+    let dx = 0, dy = 0;
+    for (const t of terms) { dx = Math.max(dx, t[0]); dy = Math.max(dy, t[1]); }
+    const n = [1n], d = [1n];
+    for (let k = 1; k <= dx; k++) { n.push(n[k - 1] * x[0]); d.push(d[k - 1] * x[1]); }
+    const c = Array(dy + 1).fill(0n);
+    for (const t of terms) c[t[1]] += t[2] * n[t[0]] * d[dx - t[0]];
+    return primitive(c);
+  }
+  function primitive(c) {
+    while (c.length && c[c.length - 1] === 0n) c.pop();
+    const g = c.reduce((g, a) => gcd(g, a), 0n);
+    return g > 1n ? c.map(a => a / g) : c;
+  }
+  // Sturm's sequence by pseudo-remainders with their signs kept.
+  function sturm(f) {
+    const chain = [f];
+    let next = primitive(f.slice(1).map((a, k) => a * BigInt(k + 1)));
+    while (next.length) {
+      chain.push(next);
+      let r = chain[chain.length - 2].slice();
+      const g = next, lead = g[g.length - 1];
+      while (r.length >= g.length) {
+        const top = r[r.length - 1], shift = r.length - g.length;
+        const m = abs(lead), q = lead < 0n ? -top : top;
+        r = r.map(a => a * m);
+        for (let k = 0; k < g.length; k++) r[k + shift] -= q * g[k];
+        while (r.length && r[r.length - 1] === 0n) r.pop();
+      }
+      next = primitive(r.map(a => -a));
+    }
+    return chain;
+  }
+  const variations = signs => {
+    let last = 0, count = 0;
+    for (const s of signs) if (s) { if (last && s !== last) count++; last = s; }
+    return count;
+  };
+  const atMinusInfinity = c => sign(c[c.length - 1]) * (c.length % 2 ? 1 : -1);
+  let cache = { key: '', chains: [] };
+  // The cell that holds an exact point, as far as there is one.
+  function locate(x, y) {
+    const inside = (q, d) => (!d.lower || compare(d.lower, q) < 0) && (!d.upper || compare(q, d.upper) < 0);
+    if (!inside(x, domain[0]) || !inside(y, domain[1])) return { kind: 'domain' };
+    if (data.never) return { kind: 'never' };
+    let strip = -1;
+    for (let k = 0; k < strips.length; k++) {
+      const lower = strips[k].lower ? compareEnd(strips[k].lower, x) : -1;
+      const upper = strips[k].upper ? compareEnd(strips[k].upper, x) : 1;
+      if (lower === 0 || upper === 0) return { kind: 'wall' };
+      if (lower < 0 && upper > 0) { strip = k; break; }
+    }
+    if (strip < 0) return { kind: 'domain' };
+    const key = x.join('/');
+    if (cache.key !== key) cache = { key, chains: curves.map(c => { const f = over(c, x); return f.length > 1 ? sturm(f) : null; }) };
+    let below = 0;
+    for (let k = 0; k < curves.length; k++) {
+      const chain = cache.chains[k];
+      if (!chain) continue;
+      if (signAt(chain[0], y) === 0) return { kind: 'curve', curve: k };
+      const low = domain[1].lower;
+      const from = variations(chain.map(c => low ? signAt(c, low) : atMinusInfinity(c)));
+      below += from - variations(chain.map(c => signAt(c, y)));
+    }
+    const cell = strips[strip].cells[below];
+    return { kind: 'cell', strip, cell: below, stable: cell[0] === 1, outside: cell[1] };
+  }
+
+  // Places in the picture, in floating point.
+  const place = (k, value) => {
+    const w = data.axes[k];
+    return w.log ? (value > 0 ? Math.log(value / w.from) / Math.log(w.to / w.from) : -Infinity) : (value - w.from) / (w.to - w.from);
+  };
+  const value = (k, at) => {
+    const w = data.axes[k];
+    return w.log ? w.from * (w.to / w.from) ** at : w.from + (w.to - w.from) * at;
+  };
+  // A short decimal near a place: what is shown is what is looked up.
+  function decimal(k, at) {
+    const v = value(k, at), step = Math.abs(value(k, at + 1e-3) - v);
+    if (v === 0 || !step) return '0';
+    const digits = Math.min(15, Math.max(1, Math.ceil(Math.log10(Math.abs(v) / step)) + 1));
+    if (Math.abs(v) < step / 2) return '0';
+    return String(Number(v.toPrecision(digits)));
+  }
+  const figures = [...document.querySelectorAll('.figure')].map((box, k) => {
+    const svg = box.querySelector('svg'), plot = data.plots[k];
+    const make = (tag, attributes) => {
+      const e = document.createElementNS('http://www.w3.org/2000/svg', tag);
+      for (const a in attributes) e.setAttribute(a, attributes[a]);
+      return e;
+    };
+    const group = make('g', { class: 'pointer', 'pointer-events': 'none', visibility: 'hidden' });
+    const parts = { h: make('line', {}), v: make('line', {}), link: make('line', { class: 'link' }), dot: make('circle', { r: 5 }) };
+    for (const p in parts) group.appendChild(parts[p]);
+    svg.appendChild(group);
+    svg.setAttribute('tabindex', '0');
+    svg.setAttribute('role', 'img');
+    svg.setAttribute('aria-label', data.label);
+    return { box, svg, plot, group, parts };
+  });
+  const seen = () => figures.find(f => f.box.offsetParent !== null) || figures[0];
+  const pixel = (f, p) => [f.plot[0] + p[0] * f.plot[2], f.plot[1] + (1 - p[1]) * f.plot[3]];
+
+  // The point of the drawn walls that is nearest in the picture.
+  function nearest(f, at) {
+    const [px, py] = pixel(f, at);
+    let best = null;
+    data.walls.forEach((w, k) => {
+      for (let i = 0; i + 3 < w.points.length; i += 2) {
+        const a = pixel(f, [w.points[i], w.points[i + 1]]), b = pixel(f, [w.points[i + 2], w.points[i + 3]]);
+        const dx = b[0] - a[0], dy = b[1] - a[1], l = dx * dx + dy * dy;
+        const t = l ? Math.max(0, Math.min(1, ((px - a[0]) * dx + (py - a[1]) * dy) / l)) : 0;
+        const x = a[0] + t * dx, y = a[1] + t * dy, d = Math.hypot(px - x, py - y);
+        if (!best || d < best.d) best = { d, wall: k, index: i / 2 + t, x, y, at: [w.points[i] + t * (w.points[i + 2] - w.points[i]), w.points[i + 1] + t * (w.points[i + 3] - w.points[i + 1])] };
+      }
+    });
+    return best;
+  }
+  const point = { text: ['', ''], at: [0.5, 0.5] };
+  function show() {
+    const f = seen();
+    const exact = point.text.map(rational);
+    ['x', 'y'].forEach((id, k) => $(id).setAttribute('aria-invalid', exact[k] ? 'false' : 'true'));
+    if (!exact[0] || !exact[1]) {
+      $('verdict').className = '';
+      $('verdict').textContent = 'enter numbers such as 110, 1e-4 or 1/3';
+      $('roots').textContent = $('near').textContent = '';
+      return;
+    }
+    point.at = exact.map((q, k) => place(k, number(q)));
+    const found = locate(exact[0], exact[1]);
+    let verdict = '', roots = '', kind = '';
+    if (found.kind === 'cell') {
+      kind = found.stable ? 'stable' : 'unstable';
+      verdict = found.stable ? data.goal : data.goal === 'stable' ? 'unstable' : 'not ' + data.goal;
+      roots = found.stable ? `all ${data.degree} roots inside` : `${found.outside} of ${data.degree} roots outside`;
+      roots += ` (strip ${found.strip}, cell ${found.cell})`;
+    } else {
+      kind = 'other';
+      verdict = { domain: 'outside the domain', never: 'nowhere ' + data.goal, wall: 'on a wall between strips', curve: 'on a boundary: not ' + data.goal }[found.kind];
+      roots = found.kind === 'curve' ? data.curves[found.curve].words : found.kind === 'wall' ? `${data.axes[0].name} is a critical value: move it a little` : '';
+    }
+    $('verdict').textContent = verdict;
+    $('verdict').className = kind;
+    $('roots').textContent = roots;
+    const inside = point.at.every(a => a >= 0 && a <= 1);
+    const wall = inside ? nearest(f, point.at) : null;
+    if (wall) {
+      const w = data.walls[wall.wall];
+      let text = 'nearest wall: ' + data.curves[w.curve].words;
+      if (w.frequencies.length) {
+        const g = w.frequencies.reduce((a, b) => Math.abs(b[0] - wall.index) < Math.abs(a[0] - wall.index) ? b : a);
+        text += ', about ' + g[1];
+      }
+      const at = [0, 1].map(k => `${data.axes[k].name} \u2248 ${Number(value(k, wall.at[k]).toPrecision(3))}`);
+      $('near').textContent = `${text}; at ${at.join(', ')}`;
+    } else $('near').textContent = inside ? '' : 'the point is outside the picture';
+    for (const g of figures) {
+      g.group.setAttribute('visibility', inside ? 'visible' : 'hidden');
+      if (!inside) continue;
+      const [x, y] = pixel(g, point.at), [l, t, w, h] = g.plot;
+      const set = (e, a) => { for (const k in a) e.setAttribute(k, a[k].toFixed(1)); };
+      set(g.parts.h, { x1: l, y1: y, x2: l + w, y2: y });
+      set(g.parts.v, { x1: x, y1: t, x2: x, y2: t + h });
+      set(g.parts.dot, { cx: x, cy: y });
+      const n = wall ? pixel(g, wall.at) : [x, y];
+      set(g.parts.link, { x1: x, y1: y, x2: n[0], y2: n[1] });
+      g.parts.dot.setAttribute('class', kind);
+    }
+  }
+  let waiting = false;
+  function update(text) {
+    point.text = text;
+    ['x', 'y'].forEach((id, k) => { if (document.activeElement !== $(id)) $(id).value = text[k]; });
+    if (!waiting) { waiting = true; requestAnimationFrame(() => { waiting = false; show(); }); }
+  }
+  const clamp = a => Math.max(0, Math.min(1, a));
+  const go = at => update([decimal(0, clamp(at[0])), decimal(1, clamp(at[1]))]);
+  for (const f of figures) {
+    const track = event => {
+      const box = f.svg.getBoundingClientRect(), view = f.svg.viewBox.baseVal;
+      const x = (event.clientX - box.left) * view.width / box.width, y = (event.clientY - box.top) * view.height / box.height;
+      const at = [(x - f.plot[0]) / f.plot[2], 1 - (y - f.plot[1]) / f.plot[3]];
+      if (at.some(a => a < -0.03 || a > 1.03)) return;
+      go(at);
+    };
+    f.svg.addEventListener('pointermove', event => { if (event.pointerType === 'mouse' || event.buttons) track(event); });
+    f.svg.addEventListener('pointerdown', event => { f.svg.focus({ preventScroll: true }); track(event); });
+    f.svg.addEventListener('keydown', event => {
+      const moves = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+      const move = moves[event.key];
+      if (!move) return;
+      event.preventDefault();
+      const step = event.shiftKey ? 0.05 : 0.005;
+      go(point.at.map((a, k) => clamp(a) + step * move[k]));
+    });
+  }
+  ['x', 'y'].forEach((id, k) => $(id).addEventListener('input', () => {
+    const text = point.text.slice();
+    text[k] = $(id).value;
+    update(text);
+  }));
+  addEventListener('resize', show);
+  const fragment = new URLSearchParams(location.hash.slice(1));
+  const asked = data.axes.map(a => fragment.get(a.name));
+  const start = data.axes.map((a, k) => asked[k] || a.nominal || decimal(k, 0.5));
+  const fits = start.every((text, k) => { const q = rational(text); const at = q ? place(k, number(q)) : -1; return at >= 0 && at <= 1; });
+  update(fits || asked.some(a => a) ? start : [decimal(0, 0.5), decimal(1, 0.5)]);
+  show();
+})();
