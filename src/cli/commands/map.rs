@@ -150,19 +150,19 @@ fn draw(
         Ok(trace) => trace,
         Err(exhausted) => return Ok(Err(exhausted)),
     };
-    let contents = match MapContents::new(shown.answer, &trace, shown.slices, published, &context.budget) {
+    let contents = match MapContents::new(shown.answer, &trace, shown.slices, shown.limits, published, &context.budget) {
         Ok(Some(contents)) => contents,
         Ok(None) => return Ok(Ok(())),
         Err(exhausted) => return Ok(Err(exhausted)),
     };
     context.reporter.finish();
-    let wide = contents.draw(WIDE.0, WIDE.1);
+    let wide = contents.draw(WIDE.0, WIDE.1, kind != Picture::Page);
     let path = Path::new(file);
     match kind {
         Picture::Svg => write(path, wide.figure.svg().as_bytes())?,
         Picture::Png => write(path, &png(&wide.figure)?)?,
         Picture::Page => {
-            let narrow = contents.draw(NARROW.0, NARROW.1);
+            let narrow = contents.draw(NARROW.0, NARROW.1, false);
             let text = map_text(shown.answer, shown.limits, shown.slices, shown.digits);
             write(path, map_page(shown.answer, &contents, &trace, &[wide, narrow], &text).as_bytes())?;
         }

@@ -163,6 +163,15 @@
     });
     return best;
   }
+  // Between two known frequencies, geometrically.
+  function frequency(known, index) {
+    let k = known.findIndex(f => f[0] >= index);
+    if (k < 0) k = known.length - 1;
+    const b = known[k], a = known[Math.max(0, k - 1)];
+    const t = b[0] > a[0] ? Math.max(0, Math.min(1, (index - a[0]) / (b[0] - a[0]))) : 0;
+    const f = a[1] > 0 && b[1] > 0 ? a[1] * (b[1] / a[1]) ** t : a[1] + t * (b[1] - a[1]);
+    return data.unit === 'Hz' && f >= 1e4 ? `${Number((f / 1000).toPrecision(3))} kHz` : `${Number(f.toPrecision(3))} ${data.unit}`;
+  }
   const point = { text: ['', ''], at: [0.5, 0.5] };
   function show() {
     const f = seen();
@@ -196,8 +205,7 @@
       const w = data.walls[wall.wall];
       let text = 'nearest wall: ' + data.curves[w.curve].words;
       if (w.frequencies.length) {
-        const g = w.frequencies.reduce((a, b) => Math.abs(b[0] - wall.index) < Math.abs(a[0] - wall.index) ? b : a);
-        text += ', about ' + g[1];
+        text += ', about ' + frequency(w.frequencies, wall.index);
       }
       const at = [0, 1].map(k => `${data.axes[k].name} \u2248 ${Number(value(k, wall.at[k]).toPrecision(3))}`);
       $('near').textContent = `${text}; at ${at.join(', ')}`;

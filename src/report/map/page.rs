@@ -1,6 +1,6 @@
 //! A self-contained page: the picture, and the verdict at the pointer, looked up exactly.
 
-use super::super::figures::map::{FrequencyPoint, MapContents, MapFigure, MapTrace, Role, Wall, mechanism_words};
+use super::super::figures::map::{FrequencyPoint, MapContents, MapFigure, MapTrace, Role, Wall, frequency_unit, mechanism_words};
 use super::super::json;
 use super::super::layout::{goal, named_values, short};
 use crate::analysis::{Axis, Map};
@@ -100,6 +100,7 @@ fn data(answer: &Map, contents: &MapContents<'_>, trace: &MapTrace, figures: &[M
     json!({
         "label": format!("stable region of {} and {}", answer.axes[0].name, answer.axes[1].name),
         "goal": goal(answer),
+        "unit": frequency_unit(answer),
         "degree": answer.polynomial.as_ref().map_or(0, |p| p.formal_degree()),
         "never": never,
         "axes": [axis(0), axis(1)],
@@ -130,6 +131,11 @@ fn strip(strip: &Strip) -> Value {
     json!({ "lower": end(&strip.x.lower), "upper": end(&strip.x.upper), "cells": cells })
 }
 
+/// Rounded to four significant digits.
+fn four_digits(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
 /// The visible parts of a wall, places to four decimals.
 fn wall(wall: &Wall, frequencies: &[FrequencyPoint]) -> Vec<Value> {
     let near = |p: &(f64, f64)| (-0.02..=1.02).contains(&p.0) && (-0.02..=1.02).contains(&p.1);
@@ -158,6 +164,6 @@ fn visible_part(curve: usize, part: &[(usize, (f64, f64))], frequencies: &[Frequ
     }
     let place = |point: usize| kept.partition_point(|k| *k < point);
     let inside = frequencies.iter().filter(|f| (first..=end).contains(&f.point));
-    let frequencies: Vec<Value> = inside.map(|f| json!([place(f.point), f.text])).collect();
+    let frequencies: Vec<Value> = inside.map(|f| json!([place(f.point), four_digits(f.value)])).collect();
     Some(json!({ "curve": curve, "points": points, "frequencies": frequencies }))
 }

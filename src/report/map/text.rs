@@ -134,8 +134,11 @@ fn place(limit: &MapLimit, parameter: usize, axes: &[Axis; 2]) -> String {
     let other = &axes[1 - parameter];
     let places = &limit.limit.at;
     if places.is_empty() {
-        let whole_edge = limit.limit.causes.contains(Cause::Domain);
-        return if whole_edge { String::new() } else { format!("along a line, or as {} grows", other.name) };
+        return match limit.limit.along_line {
+            true if limit.limit.causes.contains(Cause::Domain) => String::new(),
+            true => "along a line".to_owned(),
+            false => format!("in the limit of large |{}|", other.name),
+        };
     }
     let value = |at: &[Enclosure; 2]| {
         let (lo, hi) = (at[1 - parameter].lower(), at[1 - parameter].upper());

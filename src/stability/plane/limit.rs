@@ -23,6 +23,8 @@ pub struct Limit {
     /// Enclosures of the places, `x` first: one for each cell that ends there. None where the region ends along
     /// a whole line or at infinity of the other parameter.
     pub at: Vec<[Enclosure; 2]>,
+    /// Whether the region ends along a line: an edge of the domain, or a line that is part of a curve.
+    pub along_line: bool,
     /// For a complex pair, an enclosure of `2 cos(theta)` or of `-omega^2` there; of the lowest frequency, if
     /// there are several.
     pub half_size_root: Option<Enclosure>,
@@ -124,6 +126,7 @@ impl Search<'_> {
                         first.causes.insert(cause);
                     }
                     first.at.extend(limit.at);
+                    first.along_line |= limit.along_line;
                     first.half_size_root = lower_frequency(first.half_size_root, limit.half_size_root);
                     first
                 }
@@ -148,13 +151,17 @@ impl Search<'_> {
             .map(|c| vertical(c) && wall.sign_of(&in_y(&c.polynomial).coeff(0)).is_eq())
             .collect();
         let along_line = at_domain || lines.contains(&true);
-        let mut limit = Limit { value: wall.clone(), causes: Causes::default(), at: Vec::new(), half_size_root: None };
+        let mut limit = Limit { value: wall.clone(), causes: Causes::default(), at: Vec::new(), along_line: false, half_size_root: None };
+        // Roots on a line do not depend on the other parameter; a pair's constraint may be that of a double root.
+        let on_lines = self.curves.iter().zip(&lines).filter(|(_, line)| **line).flat_map(|(c, _)| c.causes.iter());
+        let on_lines: Vec<Cause> = on_lines.filter(|cause| *cause != Cause::ComplexPair).collect();
         let mut bits = FIRST_BITS;
         loop {
             self.budget.check()?;
             let approach = self.approach(strip, cell, wall, greatest, bits)?;
             if along_line && let Some(end) = self.end_on_line(&approach, &lines)? {
                 limit.causes = end.causes;
+                limit.along_line = true;
                 return Ok(limit);
             }
             let last = bits >= LAST_BITS;
@@ -166,6 +173,7 @@ impl Search<'_> {
                     ends.iter().filter_map(|e| e.pair.as_ref()).map(|pair| self.tracked(pair, &x, &y, bits)).collect();
                 if last || roots.iter().all(Option::is_some) {
                     self.add_causes(&mut limit, &ends, &approach, at_domain);
+                    on_lines.iter().for_each(|cause| limit.causes.insert(*cause));
                     limit.half_size_root = roots.into_iter().fold(None, lower_frequency);
                     limit.at.push([x, y]);
                     return Ok(limit);
@@ -174,6 +182,7 @@ impl Search<'_> {
                 // The walls run to infinity.
                 let ends = self.walls_beside(&approach)?;
                 self.add_causes(&mut limit, &ends, &approach, at_domain);
+                    on_lines.iter().for_each(|cause| limit.causes.insert(*cause));
                 return Ok(limit);
             }
             bits *= 2;

@@ -3,10 +3,10 @@
 use super::super::Figure;
 use super::super::clip::Window;
 use super::axes::{Tick, ticks};
-use super::labels::{FrequencyPoint, frequencies, limits_on_lines, spaced, words};
+use super::labels::{FrequencyPoint, extreme_points, frequencies, frequency_text, frequency_unit, limits_on_lines, spaced, words};
 use super::lines::{Role, Wall, mechanism_colour, walls};
 use super::trace::MapTrace;
-use crate::analysis::{Axis, Intervals, Map};
+use crate::analysis::{Axis, Intervals, Map, RegionExtent};
 use crate::limits::{Budget, Exhausted};
 use crate::number::Rational;
 use crate::report::layout::goal;
@@ -21,10 +21,12 @@ const PAPER: &str = "#ffffff";
 const REGION: &str = "#cfe8d8";
 /// Width of a character of the text in the figure, on average.
 const CHARACTER: f64 = 5.8;
+/// What a wall under words weighs; less is bearable.
+const WORST: usize = 4;
 /// Frequencies along a wall are this far apart.
 const LABEL_SPACING: f64 = 170.0;
 /// Frequencies for the page are this far apart.
-const FINE_SPACING: f64 = 24.0;
+const FINE_SPACING: f64 = 14.0;
 
 /// A picture of a map, with what is needed to look things up in it.
 #[derive(Debug)]
@@ -45,7 +47,7 @@ pub struct MapContents<'a> {
     pub walls: Vec<Wall>,
     /// For each wall, frequencies along it.
     pub frequencies: Vec<Vec<FrequencyPoint>>,
-    /// The exact limits on the lines through the nominal point.
+    /// The exact limits on the lines through the nominal point, and the extreme values of the regions.
     on_lines: Vec<((f64, f64), String)>,
     /// Published limits to compare with, in the parameters' units.
     pub published: Vec<(f64, f64)>,
@@ -53,7 +55,7 @@ pub struct MapContents<'a> {
 
 impl<'a> MapContents<'a> {
     /// Walls and frequencies of a traced map; `None` while it is undecided. `slices` are the stable sets on the
-    /// lines through the nominal point, as far as they are known.
+    /// lines through the nominal point, `limits` the extreme values of the regions, as far as they are known.
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
@@ -61,6 +63,7 @@ impl<'a> MapContents<'a> {
         answer: &'a Map,
         trace: &'a MapTrace,
         slices: &[Intervals],
+        limits: &[RegionExtent],
         published: Vec<(f64, f64)>,
         budget: &Budget,
     ) -> Result<Option<Self>, Exhausted> {
@@ -73,13 +76,14 @@ impl<'a> MapContents<'a> {
             let points = spaced(wall, (760.0, 440.0), FINE_SPACING);
             found.push(frequencies(answer, map, wall, &points, budget)?);
         }
-        let on_lines = limits_on_lines(slices, answer);
+        let mut on_lines = limits_on_lines(slices, answer);
+        on_lines.extend(extreme_points(limits, answer));
         Ok(Some(MapContents { answer, map, trace, walls, frequencies: found, on_lines, published }))
     }
 
-    /// The picture at a size.
-    pub fn draw(&self, width: f64, height: f64) -> MapFigure {
-        Drawing::new(self, width, height).finish()
+    /// The picture at a size, with or without its title.
+    pub fn draw(&self, width: f64, height: f64, titled: bool) -> MapFigure {
+        Drawing::new(self, width, height, titled).finish()
     }
 }
 
@@ -97,7 +101,7 @@ struct Drawing<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(contents: &'a MapContents<'a>, width: f64, height: f64) -> Self {
+    fn new(contents: &'a MapContents<'a>, width: f64, height: f64, titled: bool) -> Self {
         let mut drawing = Drawing {
             contents,
             scene: Scene::new(width, height),
@@ -109,11 +113,11 @@ impl<'a> Drawing<'a> {
             named: Vec::new(),
         };
         let narrow = width < 500.0;
-        let title = drawing.title();
+        let title = if titled { drawing.title() } else { String::new() };
         let size = if narrow { 13 } else { 14 };
-        let mut y = 22.0;
-        for line in broken(&title, (width - 20.0) / (f64::from(size) * 0.6)) {
-            drawing.text((width / 2.0, y), &line, size, TextAnchor::Middle, INK);
+        let mut y = if titled { 22.0 } else { 14.0 };
+        for line in broken(&title, (width - 20.0) / (f64::from(size) * 0.6)).iter().filter(|l| !l.is_empty()) {
+            drawing.text((width / 2.0, y), line, size, TextAnchor::Middle, INK);
             y += 18.0;
         }
         y = drawing.legend(y + 2.0);
@@ -281,14 +285,21 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// A dot and the exact limit where a line through the nominal point meets a wall.
+    /// A dot and the exact value at a limit on a line through the nominal point and at extreme points.
     fn limits_on_lines(&mut self) {
         let contents = self.contents;
         let windows = &contents.trace.windows;
+        let mut done: Vec<((f64, f64), &str)> = Vec::new();
         for ((x, y), text) in &contents.on_lines {
             let at = (windows[0].place(*x), windows[1].place(*y));
-            if (0.0..=1.0).contains(&at.0) && (0.0..=1.0).contains(&at.1) {
-                self.place_words(self.at(at), text, INK, true);
+            let shown = (0.0..=1.0).contains(&at.0) && (0.0..=1.0).contains(&at.1);
+            let again = |d: &((f64, f64), &str)| d.1 == text && (d.0.0 - at.0).abs().max((d.0.1 - at.1).abs()) < 0.01;
+            if shown && !done.iter().any(again) {
+                done.push((at, text));
+                let at = self.at(at);
+                if !self.place_words(at, text, INK, true) {
+                    self.place_words_far(at, text);
+                }
             }
         }
     }
@@ -322,15 +333,16 @@ impl<'a> Drawing<'a> {
         let (colour, dashes) = mechanism_colour(&self.contents.map.curves[wall.curve].causes);
         let width = if wall.role == Role::Stable { 2.2 } else { 0.9 };
         let window = Window { x: (0.0, 1.0), y: (0.0, 1.0) };
-        let pieces = window.pieces(&wall.points);
-        for piece in pieces {
-            let points: Vec<(f64, f64)> = piece.into_iter().map(|p| self.at(p)).collect();
-            self.scene.add(Primitive::PolyLine {
-                points: thinned(points),
-                stroke: Color::from(colour),
-                stroke_width: width,
-                stroke_dasharray: dashes.map(str::to_owned),
-            });
+        for piece in window.pieces(&wall.points) {
+            let points = thinned(piece.into_iter().map(|p| self.at(p)).collect());
+            for points in dashed(points, dashes) {
+                self.scene.add(Primitive::PolyLine {
+                    points,
+                    stroke: Color::from(colour),
+                    stroke_width: width,
+                    stroke_dasharray: None,
+                });
+            }
         }
     }
 
@@ -343,12 +355,13 @@ impl<'a> Drawing<'a> {
         // Once in the picture is enough, and the legend has it too.
         let mut named = self.named.contains(&name);
         let known = &contents.frequencies[k];
+        let unit = frequency_unit(contents.answer);
         let chosen = spaced(wall, (self.width, self.height), LABEL_SPACING);
         for point in chosen {
             let nearest = known.iter().min_by_key(|f| f.point.abs_diff(point));
             let (point, text) = match nearest {
-                Some(f) if named => (f.point, f.text.clone()),
-                Some(f) => (f.point, format!("{name}, {}", f.text)),
+                Some(f) if named => (f.point, frequency_text(f.value, unit)),
+                Some(f) => (f.point, format!("{name}, {}", frequency_text(f.value, unit))),
                 None if named => continue,
                 None => (point, name.clone()),
             };
@@ -360,7 +373,7 @@ impl<'a> Drawing<'a> {
                 named = true;
             } else if let Some(f) = nearest {
                 // Without the name there may be room.
-                self.place_words(at, &f.text.clone(), colour, true);
+                self.place_words(at, &frequency_text(f.value, unit), colour, true);
             }
         }
     }
@@ -369,8 +382,18 @@ impl<'a> Drawing<'a> {
     fn place_words(&mut self, at: (f64, f64), text: &str, colour: &str, dot: bool) -> bool {
         let half = text.chars().count() as f64 * CHARACTER / 2.0 + 3.0;
         let mut best: Option<(usize, (f64, f64))> = None;
-        for (dx, dy) in [(0.0, -15.0), (0.0, 19.0), (half + 8.0, 3.0), (-half - 8.0, 3.0), (half, -15.0), (half, 19.0), (-half, -15.0), (-half, 19.0)]
-        {
+        let (beside, over, under) = (half + 8.0, -15.0, 19.0);
+        let offsets = [
+            (0.0, over),
+            (0.0, under),
+            (beside, 3.0),
+            (-beside, 3.0),
+            (half, over),
+            (half, under),
+            (-half, over),
+            (-half, under),
+        ];
+        for (dx, dy) in offsets {
             let centre = (at.0 + dx, at.1 + dy);
             let room = (centre.0 - half, centre.1 - 12.0, centre.0 + half, centre.1 + 4.0);
             let inside = room.0 > self.left + 2.0
@@ -385,32 +408,59 @@ impl<'a> Drawing<'a> {
                 }
             }
         }
-        let Some((_, centre)) = best.filter(|b| b.0 < 6) else { return false };
+        let Some((_, centre)) = best.filter(|b| b.0 < WORST) else { return false };
         self.taken.push((centre.0 - half, centre.1 - 12.0, centre.0 + half, centre.1 + 4.0));
         if dot {
-            self.scene.add(Primitive::Circle {
-                cx: at.0,
-                cy: at.1,
-                r: 2.6,
-                fill: Color::from(colour),
-                fill_opacity: None,
-                stroke: None,
-                stroke_width: None,
-            });
+            self.dot(at, colour);
         }
         self.text(centre, text, 11, TextAnchor::Middle, INK);
         true
     }
 
-    /// How much lies under a rectangle: points of walls, twice as bad as the lines through the nominal point.
+    /// Words farther away, with a thin line to their point.
+    fn place_words_far(&mut self, at: (f64, f64), text: &str) {
+        let half = text.chars().count() as f64 * CHARACTER / 2.0 + 3.0;
+        for distance in [36.0, 60.0, 90.0] {
+            for (side, down) in [(0.0, -1.0), (0.0, 1.0), (-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)] {
+                let target = (at.0 + side * half * 0.8, at.1 + down * distance);
+                let taken = self.taken.len();
+                if self.place_words((target.0, target.1 + 12.0), text, INK, false) {
+                    let room = self.taken[taken];
+                    let y = if room.1 > at.1 { room.1 + 1.0 } else { room.3 };
+                    let x = at.0.clamp(room.0 + 4.0, room.2 - 4.0);
+                    self.line(at, (x, y), INK, 0.7, None);
+                    self.dot(at, INK);
+                    return;
+                }
+            }
+        }
+        self.dot(at, INK);
+    }
+
+    fn dot(&mut self, at: (f64, f64), colour: &str) {
+        self.scene.add(Primitive::Circle {
+            cx: at.0,
+            cy: at.1,
+            r: 2.6,
+            fill: Color::from(colour),
+            fill_opacity: None,
+            stroke: None,
+            stroke_width: None,
+        });
+    }
+
+    /// How much lies under a rectangle: the length of walls, and the lines through the nominal point.
     fn crossings(&self, room: (f64, f64, f64, f64)) -> usize {
+        let window = Window { x: (room.0, room.2), y: (room.1, room.3) };
         let walls = self.contents.walls.iter().filter(|w| w.role != Role::Nothing);
-        let points = walls.flat_map(|w| &w.points).map(|p| self.at(*p));
-        let walls = points.filter(|p| p.0 > room.0 && p.0 < room.2 && p.1 > room.1 && p.1 < room.3).count();
+        let crossed = |w: &Wall| {
+            let points: Vec<(f64, f64)> = w.points.iter().map(|p| self.at(*p)).collect();
+            window.pieces(&points).len()
+        };
         let lines = self.nominal().map(|at| self.at(at)).map_or(0, |at| {
             usize::from(at.0 > room.0 && at.0 < room.2) + usize::from(at.1 > room.1 && at.1 < room.3)
         });
-        2 * walls + lines
+        WORST * walls.map(crossed).sum::<usize>() + lines
     }
 
     /// Samples of what is drawn with their names; returns where the next line of text would stand.
@@ -461,7 +511,9 @@ impl<'a> Drawing<'a> {
                     opacity: None,
                 }),
                 Entry::Line(colour, dashes, width) => {
-                    self.line((x, y - 4.0), (x + 24.0, y - 4.0), colour, width, dashes);
+                    for dash in dashed(vec![(x, y - 4.0), (x + 24.0, y - 4.0)], dashes) {
+                        self.line(dash[0], dash[1], colour, width, None);
+                    }
                 }
                 Entry::Nominal => self.diamond(middle),
                 Entry::Published => self.circle(middle),
@@ -533,6 +585,39 @@ fn thinned(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
             out.push(p);
         }
     }
+    out
+}
+
+/// A line cut into its dashes, whose lengths and gaps are given as in SVG.
+fn dashed(points: Vec<(f64, f64)>, pattern: Option<&str>) -> Vec<Vec<(f64, f64)>> {
+    let lengths: Vec<f64> = pattern.map_or_else(Vec::new, |p| p.split(' ').filter_map(|v| v.parse().ok()).collect());
+    if lengths.is_empty() {
+        return vec![points];
+    }
+    let (mut k, mut left) = (0, lengths[0]);
+    let mut out: Vec<Vec<(f64, f64)>> = points.first().map(|p| vec![*p]).into_iter().collect();
+    for pair in points.windows(2) {
+        let (mut from, to) = (pair[0], pair[1]);
+        loop {
+            let length = (to.0 - from.0).hypot(to.1 - from.1);
+            let t = if length > left { left / length } else { 1.0 };
+            let reached = (from.0 + t * (to.0 - from.0), from.1 + t * (to.1 - from.1));
+            if k % 2 == 0 && let Some(dash) = out.last_mut() {
+                dash.push(reached);
+            }
+            if length <= left {
+                left -= length;
+                break;
+            }
+            k = (k + 1) % lengths.len();
+            left = lengths[k];
+            if k % 2 == 0 {
+                out.push(vec![reached]);
+            }
+            from = reached;
+        }
+    }
+    out.retain(|dash| dash.len() > 1);
     out
 }
 

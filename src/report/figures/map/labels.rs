@@ -2,10 +2,10 @@
 
 use super::lines::{Role, Wall, mechanism_words};
 use super::trace::approximate;
-use crate::analysis::{Decision, Frequency, Intervals, Map, frequency};
+use crate::analysis::{Decision, Frequency, Intervals, Map, RegionExtent, frequency};
 use crate::limits::{Budget, Exhausted};
 use crate::model::Time;
-use crate::number::{Enclosure, Rational, to_decimal};
+use crate::number::{parse_number, to_decimal};
 use crate::stability::Cause;
 use crate::stability::plane::StabilityMap;
 use rayon::prelude::*;
@@ -18,26 +18,63 @@ const BITS: u64 = 30;
 pub struct FrequencyPoint {
     /// The number of the point of its wall.
     pub point: usize,
-    /// For people: `1664 Hz`.
-    pub text: String,
+    /// The frequency, in hertz, radians or radians per second.
+    pub value: f64,
 }
 
-/// The frequency as people read it: hertz in discrete time with a sample time, radians without, radians per
-/// second in continuous time.
-pub(super) fn frequency_text(frequency: &Frequency, time: Time) -> Option<String> {
-    let middle = |e: &Enclosure| e.lower().midpoint(e.upper());
-    let (value, unit) = match (time, &frequency.hertz) {
-        (Time::Discrete, Some(hertz)) => (middle(hertz), "Hz"),
-        (Time::Discrete, None) => (middle(frequency.angle.as_ref()?), "rad"),
-        (Time::Continuous, _) => (middle(frequency.radians_per_second.as_ref()?), "rad/s"),
+/// The frequency in the unit that suits the loop: hertz in discrete time with a sample time, radians without,
+/// radians per second in continuous time.
+fn frequency_value(frequency: &Frequency, time: Time) -> Option<f64> {
+    let of = match (time, &frequency.hertz) {
+        (Time::Discrete, Some(hertz)) => hertz,
+        (Time::Discrete, None) => frequency.angle.as_ref()?,
+        (Time::Continuous, _) => frequency.radians_per_second.as_ref()?,
     };
-    let text = to_decimal(&value, 3);
-    let size = value.to_f64_approximate();
-    Some(match size {
-        _ if (1e4..1e6).contains(&size) && unit == "Hz" => format!("{} kHz", to_decimal(&(value / Rational::from(1000)), 3)),
-        _ if (1000.0..1e6).contains(&size) => format!("{size:.0} {unit}"),
-        _ => format!("{text} {unit}"),
-    })
+    Some(of.lower().midpoint(of.upper()).to_f64_approximate())
+}
+
+/// The unit of the frequencies of a map.
+pub fn frequency_unit(answer: &Map) -> &'static str {
+    match (answer.time, &answer.sample_time) {
+        (Time::Discrete, Some(_)) => "Hz",
+        (Time::Discrete, None) => "rad",
+        (Time::Continuous, _) => "rad/s",
+    }
+}
+
+/// `1664 Hz`, `12.0 kHz`, `0.506 Hz`.
+pub(super) fn frequency_text(value: f64, unit: &str) -> String {
+    match value {
+        _ if (1e4..1e6).contains(&value) && unit == "Hz" => format!("{:.1} kHz", value / 1000.0),
+        _ if (1000.0..1e6).contains(&value) => format!("{value:.0} {unit}"),
+        _ => {
+            let exact = parse_number(&format!("{value:e}")).map(|v| to_decimal(&v, 3));
+            format!("{} {unit}", exact.unwrap_or_default())
+        }
+    }
+}
+
+/// A decimal with the sign that print has for minus.
+fn printed(decimal: &str) -> String {
+    decimal.replace('-', "\u{2212}")
+}
+
+/// The extreme values of the regions that are taken at points, with what is written there.
+pub(super) fn extreme_points(limits: &[RegionExtent], answer: &Map) -> Vec<((f64, f64), String)> {
+    let mut out = Vec::new();
+    for (parameter, limit) in limits.iter().flat_map(|l| l.ends.iter().enumerate()).flat_map(|(k, ends)| {
+        ends.iter().flatten().map(move |end| (k, end))
+    }) {
+        let name = &answer.axes[parameter].name;
+        let frequency = limit.frequency.as_ref().and_then(|f| frequency_value(f, answer.time));
+        let frequency = frequency.map(|f| format!(", {}", frequency_text(f, frequency_unit(answer)))).unwrap_or_default();
+        let text = format!("{name} = {}{frequency}", printed(&limit.limit.value.decimal(5)));
+        for at in &limit.limit.at {
+            let middle = |k: usize| at[k].lower().midpoint(at[k].upper()).to_f64_approximate();
+            out.push(((middle(0), middle(1)), text.clone()));
+        }
+    }
+    out
 }
 
 /// The exact limits on the two lines through the nominal point, in floating point, with what is written there:
@@ -51,9 +88,10 @@ pub(super) fn limits_on_lines(slices: &[Intervals], answer: &Map) -> Vec<((f64, 
             let value = approximate(&end.value);
             let at = at.to_f64_approximate();
             let place = if *fixed == answer.axes[0].name { (at, value) } else { (value, at) };
-            let decimal = end.value.decimal(5);
-            let frequency = frequency(end, question, BITS).and_then(|f| frequency_text(&f, answer.time));
-            let frequency = frequency.map(|f| format!(", {f}")).unwrap_or_default();
+            let decimal = printed(&end.value.decimal(5));
+            let frequency = frequency(end, question, BITS).and_then(|f| frequency_value(&f, answer.time));
+            let frequency =
+                frequency.map(|f| format!(", {}", frequency_text(f, frequency_unit(answer)))).unwrap_or_default();
             let text = format!("{} = {decimal}{frequency}", question.parameter);
             if out.iter().all(|(p, _)| *p != place) {
                 out.push((place, text));
@@ -98,8 +136,8 @@ pub(super) fn frequencies(
         .map(|&point| {
             let Some((x, number)) = wall.lines.get(point) else { return Ok(None) };
             let end = answer.wall(x, *number, BITS, budget)?;
-            let text = end.and_then(|e| e.1).and_then(|f| frequency_text(&f, answer.time));
-            Ok(text.map(|text| FrequencyPoint { point, text }))
+            let value = end.and_then(|e| e.1).and_then(|f| frequency_value(&f, answer.time));
+            Ok(value.map(|value| FrequencyPoint { point, value }))
         })
         .collect();
     found.into_iter().filter_map(Result::transpose).collect()

@@ -11,7 +11,7 @@ mod trace;
 mod window;
 
 pub use draw::{MapContents, MapFigure};
-pub use labels::FrequencyPoint;
+pub use labels::{FrequencyPoint, frequency_unit};
 pub use lines::{Role, Wall, mechanism_colour, mechanism_words};
 pub use trace::{MapTrace, TracedLine, TracedStrip, trace_map};
 pub use window::{AxisWindow, WindowRequest, choose_windows};
