@@ -61,7 +61,8 @@ fn slices_are_the_stable_sets_of_one_parameter() {
 
 /// A positive rational number spread over decades.
 fn over_decades(from: i64, to: i64) -> impl Strategy<Value = Rational> {
-    (1i64..10_000, from..to).prop_map(|(m, e)| Rational::from(m) / Rational::from(1000) * Rational::from(10).pow(e).unwrap())
+    (1i64..10_000, from..to)
+        .prop_map(|(m, e)| Rational::from(m) / Rational::from(1000) * Rational::from(10).pow(e).unwrap())
 }
 
 proptest! {
@@ -153,7 +154,10 @@ fn constants_become_parameters_in_every_form_of_a_model() {
     let answer: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
     // |a k| < 4 and 1 < a < 3.
     assert_eq!(answer["regions"].as_array().unwrap().len(), 1);
-    assert_eq!((&answer["regions"][0]["x"]["lower"]["exact"], &answer["regions"][0]["x"]["upper"]["exact"]), (&"1".into(), &"3".into()));
+    assert_eq!(
+        (&answer["regions"][0]["x"]["lower"]["exact"], &answer["regions"][0]["x"]["upper"]["exact"]),
+        (&"1".into(), &"3".into())
+    );
     assert_eq!(answer["regions"][0]["y"]["upper"]["exact"], "4");
     let run = jurist_with_input(&["map", "-", "-x", "b", "-y", "k"], model);
     assert!(run.status == 2 && run.stderr.contains("E-not-a-number"), "{}", run.stderr);
@@ -246,7 +250,9 @@ fn the_page_needs_nothing_from_outside() {
     assert_eq!(data["degree"], 6);
     assert_eq!(data["strips"].as_array().unwrap().len(), decided(&drive("T", "K_pwm")).strips.len());
     let other = page.replace("http://www.w3.org/2000/svg", "");
-    assert!(!other.contains("http") && !other.contains("src=") && !other.contains("url("));
+    assert!(
+        !other.contains("http:") && !other.contains("https:") && !other.contains("src=") && !other.contains("url(")
+    );
     assert!(page.contains("default-src 'none'") && page.contains("drawn in floating point"));
 }
 
@@ -287,7 +293,9 @@ fn drawn_points_lie_on_the_curves() {
                         continue;
                     }
                     let y = q(&format!("{:e}", trace.windows[1].value(v + away)));
-                    let jurist::stability::AtPoint::Defined { count, .. } = p.at(&line.x, &y, answer.region) else { panic!() };
+                    let jurist::stability::AtPoint::Defined { count, .. } = p.at(&line.x, &y, answer.region) else {
+                        panic!()
+                    };
                     assert_eq!(count.outside, m.strips[strip.strip].cells[cell].outside, "T = {}, K = {y}", line.x);
                     seen += 1;
                 }

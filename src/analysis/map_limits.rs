@@ -84,9 +84,8 @@ impl Map {
     /// The question that is left when one of the parameters (0 for `x`, 1 for `y`) has a value.
     pub fn on_line(&self, fixed: usize, value: &Rational) -> OneParameter {
         let (fixed_axis, axis) = (&self.axes[fixed], &self.axes[1 - fixed]);
-        let polynomial = self.polynomial.as_ref().and_then(|p| {
-            if fixed == 0 { p.at_x(value) } else { p.swapped().at_x(value) }
-        });
+        let polynomial =
+            self.polynomial.as_ref().and_then(|p| if fixed == 0 { p.at_x(value) } else { p.swapped().at_x(value) });
         let mut set = self.set.clone();
         set.push((fixed_axis.name.clone(), value.clone()));
         OneParameter {

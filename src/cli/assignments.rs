@@ -154,11 +154,7 @@ fn number_between(text: &str, start: usize, end: usize, place: Place) -> Result<
 }
 
 /// `NAME=LO..HI`, either side left out or infinite.
-fn range(
-    text: &str,
-    place: Place,
-    option: &str,
-) -> Result<(String, Option<Rational>, Option<Rational>), Diagnostic> {
+fn range(text: &str, place: Place, option: &str) -> Result<(String, Option<Rational>, Option<Rational>), Diagnostic> {
     let (name, start) = split_name(text, place, option, "LO..HI")?;
     let Some(dots) = text[start..].find("..").map(|i| start + i) else {
         return Err(Diagnostic::error("E-option-value", format!("{option} expects NAME=LO..HI"))

@@ -5,7 +5,7 @@ use crate::analysis::{Decision, Intervals, Map, RegionExtent, Settings, map};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, settings};
-use crate::cli::output::{ending, unknown_ending};
+use crate::cli::output::{ending, note, unknown_ending};
 use crate::cli::picture::{png, write};
 use crate::cli::status::{Failure, Outcome, Status};
 use crate::limits::{Budget, Exhausted};
@@ -14,8 +14,8 @@ use crate::report::{map_json, map_page, map_text, published_limits};
 use clap::Args;
 use std::path::Path;
 
-/// Digits to which places and frequencies are enclosed at least.
-const LIMIT_DIGITS: usize = 10;
+/// Digits to which places and frequencies are enclosed, at least and at most.
+const LIMIT_DIGITS: (usize, usize) = (10, 20);
 
 /// Width and height of the picture, and of the one that a page shows on a telephone.
 const WIDE: (f64, f64) = (860.0, 600.0);
@@ -75,13 +75,19 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     };
     context.warn(None, &answer.warnings);
     let digits = options.output.digits() as usize;
-    let limits = answer.limits(digits.max(LIMIT_DIGITS), &context.budget).unwrap_or_default();
+    let limits = answer.limits(digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1), &context.budget);
+    let limits = limits.unwrap_or_else(|exhausted| {
+        note(&format!("the regions are decided, what limits them is not: {exhausted}"));
+        Vec::new()
+    });
     let slices = nominal_slices(&answer, &context.budget);
     let shown = Shown { answer: &answer, limits: &limits, slices: &slices, digits };
     match picture {
         Some(kind) if answer.map.decided().is_some() => {
             let built_in = options.model.model.is_none();
-            if let Err(exhausted) = draw(&shown, kind, windows(options, &requests), built_in, &settings, options, context)? {
+            if let Err(exhausted) =
+                draw(&shown, kind, windows(options, &requests), built_in, &settings, options, context)?
+            {
                 return Ok(context.say_undecided(&exhausted.budget, &context.budget.reached()));
             }
         }
@@ -150,7 +156,8 @@ fn draw(
         Ok(trace) => trace,
         Err(exhausted) => return Ok(Err(exhausted)),
     };
-    let contents = match MapContents::new(shown.answer, &trace, shown.slices, shown.limits, published, &context.budget) {
+    let contents = match MapContents::new(shown.answer, &trace, shown.slices, shown.limits, published, &context.budget)
+    {
         Ok(Some(contents)) => contents,
         Ok(None) => return Ok(Ok(())),
         Err(exhausted) => return Ok(Err(exhausted)),

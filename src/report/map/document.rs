@@ -120,5 +120,7 @@ fn limit_json(limit: &MapLimit, parameter: usize, digits: usize) -> Value {
 
 fn enclosure_json(value: &Enclosure, digits: usize) -> Value {
     let (lo, hi) = (value.lower(), value.upper());
-    json!({ "decimal": enclosed_decimal(lo, hi, digits), "enclosure": [lo.to_string(), hi.to_string()] })
+    // As many digits as the enclosure determines.
+    let decimal = (1..=digits.min(JSON_NUMBER_DIGITS)).rev().find_map(|d| enclosed_decimal(lo, hi, d));
+    json!({ "decimal": decimal, "enclosure": [lo.to_string(), hi.to_string()] })
 }

@@ -1,6 +1,8 @@
 //! A self-contained page: the picture, and the verdict at the pointer, looked up exactly.
 
-use super::super::figures::map::{FrequencyPoint, MapContents, MapFigure, MapTrace, Role, Wall, frequency_unit, mechanism_words};
+use super::super::figures::map::{
+    FrequencyPoint, MapContents, MapFigure, MapTrace, Role, Wall, frequency_unit, mechanism_words,
+};
 use super::super::json;
 use super::super::layout::{goal, named_values, short};
 use crate::analysis::{Axis, Map};

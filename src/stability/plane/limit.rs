@@ -5,9 +5,7 @@ use super::decompose::{StabilityMap, Strip, at_y, branches_at, in_y, swapped_cur
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Enclosure, Integer, Rational};
 use crate::poly::{MultiPoly, Poly, RealAlgebraic, SquareFree, isolate_real_roots_in};
-use crate::stability::{
-    AlgebraicInterval, Cause, Causes, ComplexPair, End, HalfSizePair, Range, Region, end_at,
-};
+use crate::stability::{AlgebraicInterval, Cause, Causes, ComplexPair, End, HalfSizePair, Range, Region, end_at};
 
 /// Bits of nearness to the end in the first attempt, and in the last.
 const FIRST_BITS: u64 = 8;
@@ -145,13 +143,16 @@ impl Search<'_> {
         let end = if greatest { &self.domain[0].upper } else { &self.domain[0].lower };
         let at_domain = end.is_some() && *end == wall.exact();
         let vertical = |c: &Curve| in_y(&c.polynomial).is_constant();
-        let lines: Vec<bool> = self
-            .curves
-            .iter()
-            .map(|c| vertical(c) && wall.sign_of(&in_y(&c.polynomial).coeff(0)).is_eq())
-            .collect();
+        let lines: Vec<bool> =
+            self.curves.iter().map(|c| vertical(c) && wall.sign_of(&in_y(&c.polynomial).coeff(0)).is_eq()).collect();
         let along_line = at_domain || lines.contains(&true);
-        let mut limit = Limit { value: wall.clone(), causes: Causes::default(), at: Vec::new(), along_line: false, half_size_root: None };
+        let mut limit = Limit {
+            value: wall.clone(),
+            causes: Causes::default(),
+            at: Vec::new(),
+            along_line: false,
+            half_size_root: None,
+        };
         // Roots on a line do not depend on the other parameter; a pair's constraint may be that of a double root.
         let on_lines = self.curves.iter().zip(&lines).filter(|(_, line)| **line).flat_map(|(c, _)| c.causes.iter());
         let on_lines: Vec<Cause> = on_lines.filter(|cause| *cause != Cause::ComplexPair).collect();
@@ -182,7 +183,7 @@ impl Search<'_> {
                 // The walls run to infinity.
                 let ends = self.walls_beside(&approach)?;
                 self.add_causes(&mut limit, &ends, &approach, at_domain);
-                    on_lines.iter().for_each(|cause| limit.causes.insert(*cause));
+                on_lines.iter().for_each(|cause| limit.causes.insert(*cause));
                 return Ok(limit);
             }
             bits *= 2;

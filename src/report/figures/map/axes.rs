@@ -83,11 +83,8 @@ mod tests {
     use crate::number::parse_number;
 
     fn labels(lower: &str, upper: &str, logarithmic: bool) -> Vec<String> {
-        let window = AxisWindow {
-            lower: parse_number(lower).unwrap(),
-            upper: parse_number(upper).unwrap(),
-            logarithmic,
-        };
+        let window =
+            AxisWindow { lower: parse_number(lower).unwrap(), upper: parse_number(upper).unwrap(), logarithmic };
         ticks(&window, 6.0).into_iter().filter_map(|t| t.label).collect()
     }
 

@@ -62,12 +62,15 @@ fn printed(decimal: &str) -> String {
 /// The extreme values of the regions that are taken at points, with what is written there.
 pub(super) fn extreme_points(limits: &[RegionExtent], answer: &Map) -> Vec<((f64, f64), String)> {
     let mut out = Vec::new();
-    for (parameter, limit) in limits.iter().flat_map(|l| l.ends.iter().enumerate()).flat_map(|(k, ends)| {
-        ends.iter().flatten().map(move |end| (k, end))
-    }) {
+    for (parameter, limit) in limits
+        .iter()
+        .flat_map(|l| l.ends.iter().enumerate())
+        .flat_map(|(k, ends)| ends.iter().flatten().map(move |end| (k, end)))
+    {
         let name = &answer.axes[parameter].name;
         let frequency = limit.frequency.as_ref().and_then(|f| frequency_value(f, answer.time));
-        let frequency = frequency.map(|f| format!(", {}", frequency_text(f, frequency_unit(answer)))).unwrap_or_default();
+        let frequency =
+            frequency.map(|f| format!(", {}", frequency_text(f, frequency_unit(answer)))).unwrap_or_default();
         let text = format!("{name} = {}{frequency}", printed(&limit.limit.value.decimal(5)));
         for at in &limit.limit.at {
             let middle = |k: usize| at[k].lower().midpoint(at[k].upper()).to_f64_approximate();

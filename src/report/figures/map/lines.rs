@@ -133,7 +133,9 @@ fn vertical_walls(answer: &Map, map: &StabilityMap, trace: &MapTrace) -> Vec<Wal
                 let value = value.as_ref().filter(|v| v.sign_of(&line).is_eq())?;
                 Some(trace.windows[0].place(approximate(value))).filter(|u| (0.0..=1.0).contains(u))
             };
-            if k == 0 && let Some(u) = shown(&strip.x.lower) {
+            if k == 0
+                && let Some(u) = shown(&strip.x.lower)
+            {
                 out.extend(pieces(answer, map, trace, (curve, u), None, Some(k)));
             }
             if let Some(u) = shown(&strip.x.upper) {

@@ -6,9 +6,12 @@
 mod axes;
 mod draw;
 mod labels;
+mod legend;
 mod lines;
+mod shapes;
 mod trace;
 mod window;
+mod words;
 
 pub use draw::{MapContents, MapFigure};
 pub use labels::{FrequencyPoint, frequency_unit};

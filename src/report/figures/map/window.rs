@@ -76,8 +76,7 @@ fn choose(
     let map = answer.map.decided();
     let regions = map.map_or(&[][..], |m| &m.regions);
     let extents: Vec<&AlgebraicInterval> = regions.iter().map(|r| if parameter == 0 { &r.x } else { &r.y }).collect();
-    let open =
-        [extents.iter().any(|e| e.lower.is_none()), extents.iter().any(|e| e.upper.is_none())];
+    let open = [extents.iter().any(|e| e.lower.is_none()), extents.iter().any(|e| e.upper.is_none())];
     let mut values: Vec<f64> = extents.iter().flat_map(|e| [&e.lower, &e.upper]).flatten().map(approximate).collect();
     values.extend(axis.nominal.as_ref().map(Rational::to_f64_approximate));
     values.extend(marks.iter().map(|m| if parameter == 0 { m.0 } else { m.1 }));
@@ -149,10 +148,14 @@ fn window_of(values: &[f64], open: [bool; 2], domain: &Range, request: &WindowRe
     let mut lower = request.lower.clone().unwrap_or_else(|| rounded(lo));
     let mut upper = request.upper.clone().unwrap_or_else(|| rounded(hi));
     // There is nothing to see outside the domain.
-    if request.lower.is_none() && let Some(end) = domain.lower.as_ref().filter(|end| lower < **end) {
+    if request.lower.is_none()
+        && let Some(end) = domain.lower.as_ref().filter(|end| lower < **end)
+    {
         lower = end.clone();
     }
-    if request.upper.is_none() && let Some(end) = domain.upper.as_ref().filter(|end| upper > **end) {
+    if request.upper.is_none()
+        && let Some(end) = domain.upper.as_ref().filter(|end| upper > **end)
+    {
         upper = end.clone();
     }
     if lower >= upper {
