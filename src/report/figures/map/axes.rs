@@ -30,7 +30,7 @@ fn linear(window: &AxisWindow, count: f64) -> Vec<Tick> {
         let value = k * step;
         let label = if k == 0.0 {
             "0".to_owned()
-        } else if largest >= 1e6 || largest < 1e-3 {
+        } else if !(1e-3..1e6).contains(&largest) {
             power_of_ten(value)
         } else {
             format!("{value:.decimals$}").replace('-', "\u{2212}")
