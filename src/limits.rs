@@ -50,6 +50,11 @@ impl Budget {
         self
     }
 
+    /// The same limits for a part of a step: what it begins is told to nobody.
+    pub fn silent(&self) -> Self {
+        Budget { progress: None, reached: Arc::default(), ..self.clone() }
+    }
+
     /// The same budget, also ended by setting `flag`.
     pub fn cancelled_by(mut self, flag: Arc<AtomicBool>) -> Self {
         self.cancelled = Some(flag);

@@ -257,6 +257,22 @@ fn the_page_needs_nothing_from_outside() {
 }
 
 #[test]
+fn a_wall_between_strips_has_its_own_cells() {
+    // T = 1/25 is a critical value of the drive's map; there and beside the exact counts decide.
+    let (answer, budget) = (drive("T", "K_pwm"), Budget::unlimited());
+    let wall = q("1/25");
+    assert!(decided(&answer).slice(&wall, &answer.axes[1].domain, &budget).unwrap().is_none());
+    let cells = answer.fibre(&wall, &budget).unwrap().unwrap();
+    assert_eq!(cells, [(false, 2), (true, 0), (false, 2)]);
+    let slice = answer.slice(0, &wall, &budget).unwrap();
+    assert_eq!(slice.stable.decided().unwrap().intervals().len(), 1);
+    // Off the walls a line has the cells of its strip.
+    let strip = decided(&answer).strips.iter().find(|s| s.x.contains(&q("1/3"))).unwrap();
+    let cells = answer.fibre(&q("1/3"), &budget).unwrap().unwrap();
+    assert_eq!(cells, strip.cells.iter().map(|c| (c.stable, c.outside)).collect::<Vec<_>>());
+}
+
+#[test]
 fn windows_are_those_asked_for() {
     let svg = |window: &str, more: &[&str]| {
         let mut arguments = vec!["-x", window, "-y", "K_pwm=0..5"];

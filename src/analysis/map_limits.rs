@@ -5,9 +5,9 @@ use super::frequency::{Frequency, frequency};
 use super::{Map, OneParameter};
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Enclosure, Rational};
-use crate::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
+use crate::poly::{Domain, MultiPoly, RationalFunction, RealAlgebraic, UniPoly};
 use crate::stability::plane::{Limit, multi_value, region_limits, vanishing_boundary};
-use crate::stability::{End, Region, StableSet, end_at, stable_set};
+use crate::stability::{AlgebraicInterval, AtPoint, End, Region, StableSet, end_at, stable_set};
 
 /// An extreme value of a region, with the frequency of the complex pair that limits it there.
 #[derive(Clone, Debug)]
@@ -121,11 +121,44 @@ impl Map {
         let question = self.on_line(0, x);
         let branches = map.branches(x, &self.axes[1].domain, budget)?;
         let (Some(p), Some((value, _))) = (&question.polynomial, branches.get(number)) else { return Ok(None) };
-        let end = end_at(p, value, &question.domain, self.region, budget)?;
+        let end = end_at(p, value, &question.domain, self.region, &budget.silent())?;
         Ok(end.map(|end| {
             let frequency = frequency(&end, &question, bits);
             (end, frequency)
         }))
+    }
+
+    /// The cells on the vertical line at a rational `x`, from below, also where it is a wall between strips: whether
+    /// the loop is stable, and how many roots are outside. `None` where a curve contains the line.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn fibre(&self, x: &Rational, budget: &Budget) -> Result<Option<Vec<(bool, usize)>>, Exhausted> {
+        let (Decision::Decided(map), Some(p)) = (&self.map, &self.polynomial) else { return Ok(None) };
+        if map.curves.iter().any(|c| c.polynomial.substitute(0, x).0.is_zero()) {
+            return Ok(None);
+        }
+        let domain = &self.axes[1].domain;
+        let mut ends: Vec<Option<RealAlgebraic>> = vec![domain.lower.clone().map(RealAlgebraic::from_rational)];
+        for (value, _) in map.branches(x, domain, budget)? {
+            // Branches of several curves may meet on a wall.
+            if !ends.last().is_some_and(|last| last.as_ref().is_some_and(|l| l.compare(&value).is_eq())) {
+                ends.push(Some(value));
+            }
+        }
+        ends.push(domain.upper.clone().map(RealAlgebraic::from_rational));
+        let mut cells = Vec::with_capacity(ends.len());
+        for pair in ends.windows(2) {
+            budget.check()?;
+            let cell = AlgebraicInterval { lower: pair[0].clone(), upper: pair[1].clone() };
+            cells.push(match p.at(x, &cell.sample(), self.region) {
+                AtPoint::Defined { count, infinite } => {
+                    (infinite == 0 && count.inside == p.formal_degree(), count.outside + infinite)
+                }
+                AtPoint::Undefined | AtPoint::Zero => (false, p.formal_degree()),
+            });
+        }
+        Ok(Some(cells))
     }
 
     /// The exact stable set on a line through the map: one parameter has a value, also that of a wall

@@ -31,7 +31,7 @@
     return sign(s);
   }
   const end = e => e && { lo: rational(e.enclosure[0]), hi: rational(e.enclosure[1]), poly: e.polynomial.map(BigInt) };
-  const strips = data.strips.map(s => ({ lower: end(s.lower), upper: end(s.upper), cells: s.cells }));
+  const strips = data.strips.map(s => ({ lower: end(s.lower), upper: end(s.upper), cells: s.cells, wall: s.wall }));
   const curves = data.curves.map(c => c.terms.map(t => [t[0], t[1], BigInt(t[2])]));
   const domain = data.axes.map(a => ({ lower: a.lower && rational(a.lower), upper: a.upper && rational(a.upper) }));
 
@@ -89,14 +89,13 @@
     const inside = (q, d) => (!d.lower || compare(d.lower, q) < 0) && (!d.upper || compare(q, d.upper) < 0);
     if (!inside(x, domain[0]) || !inside(y, domain[1])) return { kind: 'domain' };
     if (data.never) return { kind: 'never' };
-    let strip = -1;
-    for (let k = 0; k < strips.length; k++) {
-      const lower = strips[k].lower ? compareEnd(strips[k].lower, x) : -1;
+    let strip = -1, wall = false;
+    for (let k = 0; k < strips.length && strip < 0; k++) {
       const upper = strips[k].upper ? compareEnd(strips[k].upper, x) : 1;
-      if (lower === 0 || upper === 0) return { kind: 'wall' };
-      if (lower < 0 && upper > 0) { strip = k; break; }
+      if (upper >= 0) { strip = k; wall = upper === 0; }
     }
     if (strip < 0) return { kind: 'domain' };
+    if (wall) return onWall(strip, x, y);
     const key = x.join('/');
     if (cache.key !== key) cache = { key, chains: curves.map(c => { const f = over(c, x); return f.length > 1 ? sturm(f) : null; }) };
     let below = 0;
@@ -110,6 +109,26 @@
     }
     const cell = strips[strip].cells[below];
     return { kind: 'cell', strip, cell: below, stable: cell[0] === 1, outside: cell[1] };
+  }
+
+  // On a wall between strips curves may meet: the distinct roots of all of them are counted together.
+  function onWall(strip, x, y) {
+    let product = [1n];
+    for (let k = 0; k < curves.length; k++) {
+      const f = over(curves[k], x);
+      if (!f.length || signAt(f, y) === 0) return { kind: 'curve', curve: k };
+      const p = Array(product.length + f.length - 1).fill(0n);
+      product.forEach((a, i) => f.forEach((b, j) => { p[i + j] += a * b; }));
+      product = p;
+    }
+    const cells = strips[strip].wall;
+    if (!cells) return { kind: 'wall' };
+    let below = 0;
+    if (product.length > 1) {
+      const chain = sturm(product), low = domain[1].lower;
+      below = variations(chain.map(c => low ? signAt(c, low) : atMinusInfinity(c))) - variations(chain.map(c => signAt(c, y)));
+    }
+    return { kind: 'cell', wall: strip, cell: below, stable: cells[below][0] === 1, outside: cells[below][1] };
   }
 
   // Places in the picture, in floating point.
@@ -189,8 +208,9 @@
     if (found.kind === 'cell') {
       kind = found.stable ? 'stable' : 'unstable';
       verdict = found.stable ? data.goal : data.goal === 'stable' ? 'unstable' : 'not ' + data.goal;
-      roots = found.stable ? `all ${data.degree} roots inside` : `${found.outside} of ${data.degree} roots outside`;
-      roots += ` (strip ${found.strip}, cell ${found.cell})`;
+      const all = data.degree === 1 ? 'the root' : `all ${data.degree} roots`;
+      roots = found.stable ? `${all} inside` : found.outside === data.degree ? `${all} outside` : `${found.outside} of ${data.degree} roots outside`;
+      roots += found.wall === undefined ? ` (strip ${found.strip}, cell ${found.cell})` : ` (wall after strip ${found.wall}, cell ${found.cell})`;
     } else {
       kind = 'other';
       verdict = { domain: 'outside the domain', never: 'nowhere ' + data.goal, wall: 'on a wall between strips', curve: 'on a boundary: not ' + data.goal }[found.kind];

@@ -6,6 +6,7 @@ use super::super::figures::map::{
 use super::super::json;
 use super::super::layout::{goal, named_values, short};
 use crate::analysis::{Axis, Map};
+use crate::limits::Budget;
 use crate::number::Integer;
 use crate::poly::{Monomial, RealAlgebraic};
 use crate::stability::plane::{Curve, Strip};
@@ -108,7 +109,7 @@ fn data(answer: &Map, contents: &MapContents<'_>, trace: &MapTrace, figures: &[M
         "axes": [axis(0), axis(1)],
         "plots": figures.iter().map(plot).collect::<Vec<_>>(),
         "curves": curves.iter().map(|c| curve(c, answer)).collect::<Vec<_>>(),
-        "strips": strips.iter().map(strip).collect::<Vec<_>>(),
+        "strips": strips.iter().map(|s| strip(s, answer)).collect::<Vec<_>>(),
         "walls": walls.flat_map(|(w, f)| wall(w, f)).collect::<Vec<_>>(),
     })
 }
@@ -121,7 +122,7 @@ fn curve(curve: &Curve, answer: &Map) -> Value {
     })
 }
 
-fn strip(strip: &Strip) -> Value {
+fn strip(strip: &Strip, answer: &Map) -> Value {
     let end = |value: &Option<RealAlgebraic>| {
         value.as_ref().map_or(Value::Null, |value| {
             let (lo, hi) = value.enclosure();
@@ -130,7 +131,11 @@ fn strip(strip: &Strip) -> Value {
         })
     };
     let cells: Vec<Value> = strip.cells.iter().map(|c| json!([u8::from(c.stable), c.outside])).collect();
-    json!({ "lower": end(&strip.x.lower), "upper": end(&strip.x.upper), "cells": cells })
+    // On a wall that a user can type the cells are others than beside it.
+    let wall = strip.x.upper.as_ref().and_then(RealAlgebraic::exact);
+    let fibre = wall.and_then(|x| answer.fibre(&x, &Budget::unlimited()).ok().flatten());
+    let fibre = fibre.map(|cells| cells.iter().map(|c| json!([u8::from(c.0), c.1])).collect::<Vec<_>>());
+    json!({ "lower": end(&strip.x.lower), "upper": end(&strip.x.upper), "cells": cells, "wall": fibre })
 }
 
 /// Rounded to four significant digits.

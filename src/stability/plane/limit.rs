@@ -54,6 +54,7 @@ pub fn region_limits(
     budget: &Budget,
 ) -> Result<Vec<RegionLimits>, Exhausted> {
     budget.step("limits of the regions");
+    let budget = &budget.silent();
     let pair = HalfSizePair::new(p.polynomial(), p.formal_degree().max(1), region);
     let swap = |f: &MultiPoly| f.map_variables(|i| 1 - i);
     let swapped_pair = [pair.a.map(swap), pair.b.map(swap)];

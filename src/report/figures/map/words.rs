@@ -24,8 +24,8 @@ impl Drawing<'_> {
             if shown && !done.iter().any(again) {
                 done.push((at, text));
                 let at = self.at(at);
-                if !self.place_words(at, text, INK, true) {
-                    self.place_words_far(at, text);
+                if !self.place_words(at, text, INK, true) && !self.place_words_far(at, text) {
+                    self.dot(at, INK);
                 }
             }
         }
@@ -107,7 +107,7 @@ impl Drawing<'_> {
     }
 
     /// Words farther away, with a thin line to their point.
-    pub(super) fn place_words_far(&mut self, at: (f64, f64), text: &str) {
+    pub(super) fn place_words_far(&mut self, at: (f64, f64), text: &str) -> bool {
         let half = text.chars().count() as f64 * CHARACTER / 2.0 + 3.0;
         for distance in [36.0, 60.0, 90.0] {
             for (side, down) in [(0.0, -1.0), (0.0, 1.0), (-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)] {
@@ -119,11 +119,11 @@ impl Drawing<'_> {
                     let x = at.0.clamp(room.0 + 4.0, room.2 - 4.0);
                     self.line(at, (x, y), INK, 0.7, None);
                     self.dot(at, INK);
-                    return;
+                    return true;
                 }
             }
         }
-        self.dot(at, INK);
+        false
     }
 
     /// How much lies under a rectangle: the length of walls, and the lines through the nominal point.
