@@ -80,6 +80,30 @@ fn a_misspelt_key_is_not_missing_as_well() {
 }
 
 #[test]
+fn one_slip_is_one_error() {
+    // A quote too few, an equals sign too many.
+    assert_eq!(blocks(&BLOCK.replace("'y'", "'y")).len(), 1);
+    assert_eq!(errors("time == 'discrete'\nloop.characteristic = 'z'\n").len(), 1);
+    // An empty block, an empty expression, an empty name.
+    assert!(blocks(&format!("[[block]]\n{BLOCK}"))[0].starts_with("E-missing@7:3"));
+    assert_eq!(blocks(&format!("[[block]]\n{BLOCK}")).len(), 1);
+    assert_eq!(blocks(&BLOCK.replace("'r - K*y'", "''")).len(), 1);
+    assert_eq!(blocks(&BLOCK.replace("output = 'y'", "output = ''")).len(), 1);
+    // What stands in no section is not unknown as well.
+    let found = errors("time = 'discrete'\nK = 1\nloop.characteristic = 'z - K'\n");
+    assert!(found.len() == 1 && found[0].starts_with("E-unknown-key@2:1"), "{found:?}");
+    // One of two blocks is misspelt: its signal is not unknown as well.
+    let second = BLOCK.replace("plant", "sensor").replace("'y'", "'x'").replace("block", "bloc");
+    let found = blocks(&format!("{}{second}", BLOCK.replace("K*y", "x")));
+    assert!(found.len() == 1 && found[0].starts_with("E-unknown-key"), "{found:?}");
+    // A row too few.
+    let text = "time = 'discrete'\n[loop]\nA = [[1, 0]]\nB = [[1], [1]]\nC = [[1, 0]]\nK = [[1]]\n\
+                states = ['x', 'v']\ninputs = ['u']\nE = [[1], [0]]\n";
+    let found = errors(text);
+    assert!(found.len() == 1 && found[0].starts_with("E-size@3:5"), "{found:?}");
+}
+
+#[test]
 fn a_loop_without_states_is_refused() {
     let head = "time = 'discrete'\n[loop]\n";
     assert!(errors(&format!("{head}matrix = []\n"))[0].starts_with("E-size@3:10"));
@@ -100,6 +124,13 @@ fn a_sample_time_is_positive() {
     assert_eq!(errors(&model("'-h'")), [""; 0]);
     // What depends on a parameter is judged where the question is asked.
     assert_eq!(errors(&model("'-T'").replace("constants", "parameters.T = -1\nconstants")), [""; 0]);
+}
+
+#[test]
+fn a_sample_time_in_continuous_time_is_remarked_upon() {
+    let text = "time = 'continuous'\nsample_time = 1\nparameters.K = 1\nloop.characteristic = 's + K'\n";
+    let (_, warnings) = Loop::from_toml(&Source::new("model.toml", text)).unwrap();
+    assert_eq!(warnings.iter().map(|w| w.code).collect::<Vec<_>>(), ["W-unused"]);
 }
 
 #[test]

@@ -217,6 +217,10 @@ pub(super) fn names(model: &Loop, form_is_broken: bool, reader: &mut Reader) {
     }
     if let Some(e) = &model.sample_time {
         names.expression(e, &none, "");
+        if model.time == Time::Continuous {
+            let message = "a sample time says nothing in continuous time";
+            names.reader.report(Diagnostic::warning("W-unused", message).at(e.span, "not used"));
+        }
     }
     if form_is_broken {
         return;

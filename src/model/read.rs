@@ -55,10 +55,10 @@ impl Reader {
             error.help = did_you_mean(&entry.key, known.iter().copied())
                 .or_else(|| Some(format!("known here: {}", list(known.iter().copied()))));
             self.report(error);
-            if let Some(key) = nearest_name(&entry.key, known.iter().copied()) {
-                self.refuse_names(&entry.value);
-                meant.0.push(key.to_owned());
-            }
+            // What stands in the wrong place is not unknown as well where it is used.
+            self.refused.insert(entry.key.clone());
+            self.refuse_names(&entry.value);
+            meant.0.extend(nearest_name(&entry.key, known.iter().copied()).map(str::to_owned));
         }
         meant
     }
@@ -70,12 +70,24 @@ impl Reader {
             Kind::String(text) => {
                 self.refused.insert(text.as_str().to_owned());
             }
-            // Only the names themselves, not what is in arrays of arrays.
-            Kind::Array(items) => self.refused.extend(items.iter().filter_map(|item| match &item.kind {
-                Kind::String(text) => Some(text.as_str().to_owned()),
-                _ => None,
-            })),
+            Kind::Array(items) => {
+                for item in items {
+                    match &item.kind {
+                        // The signals of a block.
+                        Kind::Table(table) => table.iter().for_each(|e| self.refuse_strings(&e.value)),
+                        _ => self.refuse_strings(item),
+                    }
+                }
+            }
             _ => {}
+        }
+    }
+
+    fn refuse_strings(&mut self, value: &Value) {
+        for item in self.items(value) {
+            if let Kind::String(text) = &item.kind {
+                self.refused.insert(text.as_str().to_owned());
+            }
         }
     }
 

@@ -61,7 +61,13 @@ fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
         let error = Diagnostic::error("E-missing", format!("the block '{}' has no '{key}'", shorten(&name)));
         reader.report(error.at(value.span, "this block"));
     };
+    if table.iter().next().is_none() {
+        let error = Diagnostic::error("E-missing", "the block is empty").at(value.span, "nothing follows");
+        reader.report(error.help("give it 'input', 'output' and what it does, such as 'transfer'"));
+        return None;
+    }
     let span = table.get("name").map_or(value.span, |v| v.span);
+    let before = reader.diagnostics.len();
     let inputs = match table.get("input") {
         Some(v) => Some(reader.expressions(v, "an input")),
         None => {
@@ -84,7 +90,6 @@ fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
         let error = Diagnostic::error("E-discretize", "a continuous loop has nothing to discretise");
         reader.report(error.at(entry.key_span, "time = \"continuous\"").help("leave 'discretize' out"));
     }
-    let before = reader.diagnostics.len();
     let dynamics = dynamics(table, &meant, value, &name, time, continuous, reader);
     let pwm = table.entry("pwm").and_then(|entry| pwm(entry, reader));
     let (inputs, outputs, dynamics) = (inputs?, outputs?, dynamics?);

@@ -289,9 +289,9 @@ fn read_form(root: &Table, meant: &Meant, time: Time, reader: &mut Reader) -> Op
 
 fn read_matrix_form(table: &Table, meant: &Meant, reader: &mut Reader) -> Option<Form> {
     let matrix = reader.matrix(table.get("matrix")?, "the matrix");
+    let matrix = matrix.filter(|m| square(m, "the matrix", reader));
     let ports = read_ports(table, meant, matrix.as_ref(), "the matrix", reader);
-    let matrix = matrix?;
-    square(&matrix, "the matrix", reader).then_some(Form::Matrix { matrix, ports })
+    Some(Form::Matrix { matrix: matrix?, ports })
 }
 
 fn square(matrix: &Matrix, what: &str, reader: &mut Reader) -> bool {
@@ -320,11 +320,9 @@ fn read_feedback_form(table: &Table, meant: &Meant, given: &[&Entry], reader: &m
         reader.matrix(value, &format!("the matrix {key}"))
     };
     let (a, b, c, k) = (matrix("A"), matrix("B"), matrix("C"), matrix("K"));
+    let a = a.filter(|a| square(a, "A", reader));
     let ports = read_ports(table, meant, a.as_ref(), "A", reader);
     let (a, b, c, k) = (a?, b?, c?, k?);
-    if !square(&a, "A", reader) {
-        return None;
-    }
     let n = a.size().0;
     let because = format!("A is {n} x {n}");
     let (inputs, outputs) = (b.size().1, c.size().0);
