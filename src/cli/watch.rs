@@ -17,10 +17,13 @@ const GRACE: Duration = Duration::from_millis(250);
 /// Writes what is known, given the budget and how far the work came.
 type Known = Box<dyn FnOnce(String, String) -> Option<String> + Send>;
 
+/// The same with the file it goes to, if not to standard output.
+type ToFile = (Known, Option<OsString>);
+
 /// What is said when the time is up in the middle of a step.
 #[derive(Clone, Default)]
 pub(super) struct Watch {
-    known: Arc<Mutex<Option<(Known, Option<OsString>)>>>,
+    known: Arc<Mutex<Option<ToFile>>>,
 }
 
 impl Watch {

@@ -105,7 +105,7 @@ pub fn classical_test(
     for pole in p.poles().iter().chain([p.denominator()]) {
         poles.push(zeros_in(pole, range, budget)?);
     }
-    let poles = merge_points(poles);
+    let poles = merge_points(poles, budget)?;
     // A polynomial without conditions (order 0) is stable where it is not zero.
     let mut intersection: IntervalSet = if n == 0 {
         solve_positive(&base.coeff(0).times(&base.coeff(0)), range, budget)?
@@ -172,7 +172,7 @@ fn solve_dominates(
     }
     except.push(zeros_in(&difference, range, budget)?);
     except.push(zeros_in(&sum, range, budget)?);
-    let points = merge_points(except);
+    let points = merge_points(except, budget)?;
     IntervalSet::from_cells(range, &points, budget, |x| difference.sign_at(x) == sum.sign_at(x))
 }
 
