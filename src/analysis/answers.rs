@@ -5,7 +5,7 @@ use super::question::{Settings, in_region, nominal, one_parameter_or_stopped, pa
 use super::{Failure, OneParameter, Point, RADIUS};
 use crate::error::Diagnostic;
 use crate::limits::{Budget, Exhausted};
-use crate::model::{Loop, Time};
+use crate::model::{Loop, Question, Time};
 use crate::number::Rational;
 use crate::stability::{AtPoint, Cause, RootCount, StableSet, stable_set};
 
@@ -147,7 +147,7 @@ pub struct PointVerdict {
 pub fn verdict(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<PointVerdict, Failure> {
     let region = region_of(lp, settings)?;
     budget.step("characteristic polynomial");
-    let answer = prepare(lp, Vec::new(), settings, budget)?;
+    let answer = prepare(lp, &Question { keep: Vec::new(), set: settings.set.clone() }, budget)?;
     let at = match answer.polynomial {
         None => AtPoint::Undefined,
         Some(d) => {
@@ -178,7 +178,7 @@ pub fn verdict(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<PointV
         degree,
         count,
         infinite,
-        warnings: answer.warnings,
+        warnings: settings.warnings(lp, &[]),
     })
 }
 

@@ -5,7 +5,7 @@ use super::question::{in_region, nominal, region_of};
 use super::{Decision, Failure, Settings};
 use crate::error::Diagnostic;
 use crate::limits::Budget;
-use crate::model::{Loop, Time};
+use crate::model::{Loop, Question, Time};
 use crate::number::Rational;
 use crate::stability::plane::{PlanePolynomial, StabilityMap, stability_map};
 use crate::stability::{Range, Region};
@@ -64,7 +64,8 @@ pub fn map(lp: &Loop, settings: &Settings, names: [&str; 2], budget: &Budget) ->
     let region = region_of(lp, settings)?;
     let axes = [axis(lp, settings, names[0])?, axis(lp, settings, names[1])?];
     budget.step("characteristic polynomial");
-    let answer = prepare(lp, names.map(str::to_string).to_vec(), settings, budget)?;
+    let answer =
+        prepare(lp, &Question { keep: names.map(str::to_string).to_vec(), set: settings.set.clone() }, budget)?;
     let polynomial = answer.polynomial.map(|d| PlanePolynomial::new(&in_region(d, settings)));
     let map = match &polynomial {
         None => Decision::Decided(StabilityMap {

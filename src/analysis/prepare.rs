@@ -1,6 +1,6 @@
 //! What the model says to a question: polynomial, values, sample time.
 
-use super::{Failure, Settings};
+use super::Failure;
 use crate::error::Diagnostic;
 use crate::limits::Budget;
 use crate::matrix::CharacteristicPolynomial;
@@ -22,9 +22,8 @@ pub(super) struct Prepared {
     pub warnings: Vec<Diagnostic>,
 }
 
-pub(super) fn prepare(lp: &Loop, keep: Vec<String>, settings: &Settings, budget: &Budget) -> Result<Prepared, Failure> {
-    let question = &Question { keep, set: settings.set.clone() };
-    let values = lp.resolve(question)?.values;
+pub(super) fn prepare(lp: &Loop, question: &Question, budget: &Budget) -> Result<Prepared, Failure> {
+    let resolved = lp.resolve(question)?;
     let (polynomial, formal_degree) = match lp.characteristic_polynomial(question, budget) {
         Ok(polynomial) => {
             let degree = polynomial.formal_degree;
@@ -38,8 +37,7 @@ pub(super) fn prepare(lp: &Loop, keep: Vec<String>, settings: &Settings, budget:
         Err(ModelError::Undefined(_)) => None,
         Err(error) => return Err(error.into()),
     };
-    let warnings = settings.warnings(lp, &question.keep);
-    Ok(Prepared { polynomial, formal_degree, values, sample_time, warnings })
+    Ok(Prepared { polynomial, formal_degree, values: resolved.values, sample_time, warnings: resolved.warnings })
 }
 
 /// The degree where the values set leave the loop undefined: that of the polynomial before any was set.

@@ -247,7 +247,7 @@ fn reduce(asked: &mut OneParameter, lp: &Loop, settings: &Settings, budget: &Bud
     budget.step("characteristic polynomial");
     let relative = is_relative(&asked.parameter, asked.time)?;
     let keep = if relative { Vec::new() } else { vec![asked.parameter.clone()] };
-    let answer = prepare(lp, keep, settings, budget)?;
+    let answer = prepare(lp, &Question { keep, set: settings.set.clone() }, budget)?;
     let polynomial = answer.polynomial.map(|d| {
         if !relative {
             return in_region(d, settings);

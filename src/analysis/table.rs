@@ -5,7 +5,7 @@ use super::question::{Settings, in_region, one_parameter_or_stopped, parametric,
 use super::{Decision, Failure, OneParameter};
 use crate::error::Diagnostic;
 use crate::limits::Budget;
-use crate::model::{Loop, Time};
+use crate::model::{Loop, Question, Time};
 use crate::number::Rational;
 use crate::stability::{ClassicalTest, Range, StableSet, classical_test, stable_set};
 
@@ -92,7 +92,7 @@ impl PointTable {
 pub fn point_table(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<PointTable, Failure> {
     let region = region_of(lp, settings)?;
     budget.step("characteristic polynomial");
-    let answer = prepare(lp, Vec::new(), settings, budget)?;
+    let answer = prepare(lp, &Question { keep: Vec::new(), set: settings.set.clone() }, budget)?;
     let test = match answer.polynomial {
         None => None,
         Some(d) => {
@@ -109,6 +109,6 @@ pub fn point_table(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<Po
         radius: settings.radius.clone(),
         decay: settings.decay.clone(),
         test,
-        warnings: answer.warnings,
+        warnings: settings.warnings(lp, &[]),
     })
 }
