@@ -48,7 +48,7 @@
 //! gap has its verdict. A second way, the conditions of the Jury or Routh table each solved for itself,
 //! is compared with the first whenever a table is asked for.
 //!
-//! Cited works are listed in the [`bibliography`].
+//! Cited works are listed in the [`bibliography`]; times beside another program in [`performance`].
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -56,6 +56,9 @@
 pub mod analysis;
 #[doc = include_str!("bibliography.md")]
 pub mod bibliography {}
+
+#[doc = include_str!("performance.md")]
+pub mod performance {}
 pub mod certificate;
 pub mod cli;
 pub mod error;

@@ -52,6 +52,25 @@ fn wrong_usage_is_status_2() {
     }
 }
 
+#[cfg(unix)]
+#[test]
+fn usage_names_the_program_and_the_command_that_was_meant() {
+    use std::os::unix::process::CommandExt;
+    let output = command(&["intervals"]).arg0("/tmp/another-name").output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert!(!error.contains("another-name"), "{error}");
+    let output = command(&["intervals", "-h"]).arg0("/tmp/another-name").output().unwrap();
+    assert!(String::from_utf8(output.stdout).unwrap().contains("Usage: jurist intervals"));
+    let output = command(&["-h"]).arg0("/tmp/another-name").output().unwrap();
+    assert!(String::from_utf8(output.stdout).unwrap().contains("Usage: jurist [OPTIONS]"));
+    let run = refused(&["--set", "K_pwm=1"], "E-usage");
+    assert!(run.stderr.contains("'jurist analyze --set ...'") && run.stderr.contains("verdict"), "{}", run.stderr);
+    let run = refused(&["--param", "K_pwm"], "E-usage");
+    assert!(run.stderr.contains("'jurist intervals --param ...'"), "{}", run.stderr);
+    let run = refused(&["model.toml"], "E-usage");
+    assert!(run.stderr.contains("'jurist analyze model.toml'"), "{}", run.stderr);
+}
+
 #[test]
 fn errors_point_into_the_command_line_and_suggest() {
     let run = refused(&["verdict", "--set", "K_pmw=1"], "E-unknown-parameter");
@@ -76,7 +95,9 @@ fn no_time_is_undecided() {
     for arguments in [&["intervals", "--param", "K_pwm"][..], &["analyze"], &["verdict"], &["jury"], &["charpoly"], &[]]
     {
         let run = jurist(&[arguments, &["--timeout", "0"]].concat());
-        assert_eq!((run.status, run.stdout.as_str()), (3, ""), "{arguments:?}");
+        // Questions about one parameter say for themselves that they are open.
+        let open = run.stdout.is_empty() || run.stdout.contains("undecided, the budget ran out: time (0 s)");
+        assert!(run.status == 3 && open, "{arguments:?}: {}", run.stdout);
         assert!(run.stderr.contains("undecided: the budget ran out: time (0 s)"), "{}", run.stderr);
     }
     let run = jurist(&["intervals", "--param", "K_pwm", "--timeout", "0", "--json"]);

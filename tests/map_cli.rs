@@ -273,6 +273,28 @@ fn a_wall_between_strips_has_its_own_cells() {
 }
 
 #[test]
+fn a_smaller_region_names_its_own_boundary() {
+    // |z| < 1/2 for z^2 + a z + b: |b| < 1/4 and |a| < 1/2 + 2 b, with real roots at 1/2 and -1/2.
+    let model = b"time = 'discrete'\n[parameters]\na = {}\nb = {}\n[loop]\ncharacteristic = 'z^2 + a*z + b'\n";
+    let ask = |more: &[&str]| {
+        let mut arguments = vec!["map", "-", "-x", "a", "-y", "b", "--radius", "1/2"];
+        arguments.extend(more);
+        jurist_with_input(&arguments, model).stdout
+    };
+    let text = ask(&[]);
+    assert!(text.contains("all |z| < 0.5 in 1 region") && text.contains("-1 < a < 1"), "{text}");
+    assert!(text.contains("z=0.5") && text.contains("complex pair on |z|=0.5") && !text.contains("z=1"), "{text}");
+    let answer: serde_json::Value = serde_json::from_str(&ask(&["--json"])).unwrap();
+    let least = &answer["regions"][0]["x"]["lower"];
+    assert_eq!((&least["exact"], &least["cause"]), (&"-1".into(), &"z=1+complex pair".into()));
+    assert_eq!(least["boundary"], "z=0.5+complex pair on |z|=0.5");
+    let svg = drawn("r.svg", &["-x", "T", "-y", "K_pwm", "--radius", "0.9999"]);
+    let svg = String::from_utf8(svg).unwrap();
+    assert!(svg.contains("complex pair on |z| = 0.9999") && svg.contains("Region of all |z| &lt; 0.9999"));
+    assert!(!svg.contains("published limits"));
+}
+
+#[test]
 fn windows_are_those_asked_for() {
     let svg = |window: &str, more: &[&str]| {
         let mut arguments = vec!["-x", window, "-y", "K_pwm=0..5"];

@@ -193,3 +193,26 @@ fn negative_root_of_an_odd_power() {
         assert_eq!(found[0].decimal(21), expected, "{p:?}");
     }
 }
+
+/// A budget that has run out stops comparisons and signs before they begin to refine.
+#[test]
+fn comparisons_keep_the_budget() {
+    use jurist::limits::Budget;
+    use jurist::poly::{Domain, SquareFree, UniPoly, isolate_real_roots};
+    use std::time::Duration;
+    let roots = |coeffs: &[i64]| {
+        let p = SquareFree::part_of(&UniPoly::from_i64(coeffs)).unwrap();
+        isolate_real_roots(&p, &Budget::unlimited()).unwrap()
+    };
+    // The root of 2 in two polynomials: only a common divisor decides.
+    let (a, b) = (roots(&[-2, 0, 1]), roots(&[2, -2, -1, 1]));
+    let spent = Budget::with_timeout(Duration::ZERO);
+    let (x, y) = (&a[1], b.iter().find(|y| y.decimal(5) == "1.4142").unwrap());
+    assert!(x.compare_within(y, &spent).is_err());
+    assert!(x.compare_within(y, &Budget::unlimited()).unwrap().is_eq());
+    let q = UniPoly::from_i64(&[2, -2, -1, 1]);
+    assert!(x.sign_of_within(&q, &spent).is_err());
+    assert!(x.sign_of_within(&q, &Budget::unlimited()).unwrap().is_eq());
+    assert!(q.times(&q).gcd_within(&q, &spent).is_err());
+    assert!(SquareFree::part_of_within(&q.times(&q), &spent).is_err());
+}

@@ -1,8 +1,8 @@
 //! Verdicts at a point and exact stable sets.
 
 use super::prepare::prepare;
-use super::question::{Settings, in_region, nominal, one_parameter, parametric, region_of};
-use super::{Failure, OneParameter, RADIUS};
+use super::question::{Settings, in_region, nominal, one_parameter_or_stopped, parametric, region_of};
+use super::{Failure, OneParameter, Point, RADIUS};
 use crate::error::Diagnostic;
 use crate::limits::{Budget, Exhausted};
 use crate::model::{Loop, Question, Time};
@@ -62,9 +62,14 @@ pub struct Intervals {
 /// ```
 ///
 /// # Errors
-/// [`Failure`] when the question is refused or the budget ends before there is a polynomial.
+/// [`Failure::Refused`] when the question is refused. A budget that ends is a [`Decision::Undecided`].
 pub fn intervals(lp: &Loop, settings: &Settings, parameter: &str, budget: &Budget) -> Result<Intervals, Failure> {
-    let question = one_parameter(lp, settings, parameter, budget)?;
+    let question = match one_parameter_or_stopped(lp, settings, parameter, budget)? {
+        Ok(question) => question,
+        Err((question, stopped)) => {
+            return Ok(Intervals { question, stable: Decision::from_result(Err(stopped), budget) });
+        }
+    };
     let stable = match &question.polynomial {
         None => Decision::Decided(StableSet::default()),
         Some(p) => {
@@ -141,11 +146,14 @@ pub struct PointVerdict {
 /// [`Failure`] when the question is refused or the budget runs out.
 pub fn verdict(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<PointVerdict, Failure> {
     let region = region_of(lp, settings)?;
-    let question = Question { keep: Vec::new(), set: settings.set.clone() };
-    let answer = prepare(lp, &question, budget)?;
+    budget.step("characteristic polynomial");
+    let answer = prepare(lp, &Question { keep: Vec::new(), set: settings.set.clone() }, budget)?;
     let at = match answer.polynomial {
         None => AtPoint::Undefined,
-        Some(d) => parametric(&in_region(d, settings)).at(&Rational::ZERO, region),
+        Some(d) => {
+            budget.step("counting the roots");
+            parametric(&in_region(d, settings)).at_within(&Rational::ZERO, region, budget)?
+        }
     };
     let degree = answer.formal_degree;
     let (verdict, count, infinite) = match at {
@@ -170,7 +178,7 @@ pub fn verdict(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<PointV
         degree,
         count,
         infinite,
-        warnings: answer.warnings,
+        warnings: settings.warnings(lp, &[]),
     })
 }
 
@@ -178,20 +186,48 @@ pub fn verdict(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<PointV
 #[derive(Clone, Debug)]
 pub struct Analysis {
     /// At the set or nominal values; `None` when one of them is missing.
-    pub verdict: Option<PointVerdict>,
+    pub verdict: Option<Decision<PointVerdict>>,
+    /// What the verdict is about; `None` when a value is missing.
+    pub point: Option<Point>,
     /// One for each parameter that is not set and whose companions all have values.
     pub intervals: Vec<Intervals>,
+    /// Remarks on the question.
+    pub warnings: Vec<Diagnostic>,
+}
+
+impl Analysis {
+    /// What is known of the questions before any work.
+    pub fn undecided(point: Option<Point>, questions: Vec<OneParameter>, budget: &str, reached: &str) -> Self {
+        fn open<T>(budget: &str, reached: &str) -> Decision<T> {
+            Decision::Undecided { budget: budget.into(), reached: reached.into() }
+        }
+        let intervals = questions.into_iter().map(|question| Intervals { question, stable: open(budget, reached) });
+        Analysis {
+            verdict: point.is_some().then(|| open(budget, reached)),
+            point,
+            intervals: intervals.collect(),
+            warnings: Vec::new(),
+        }
+    }
 }
 
 /// Everything that can be said about a loop one parameter at a time.
 ///
 /// # Errors
-/// [`Failure`] when a question is refused or the budget ends before there is a polynomial.
+/// [`Failure::Refused`] when a question is refused. A budget that ends is a [`Decision::Undecided`].
 pub fn analyze(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<Analysis, Failure> {
     let free: Vec<&str> =
         lp.parameters().iter().map(|p| p.name.as_str()).filter(|name| !settings.set.contains_key(*name)).collect();
     let without_value: Vec<&str> = free.iter().copied().filter(|name| nominal(lp, name).is_none()).collect();
-    let verdict = if without_value.is_empty() { Some(verdict(lp, settings, budget)?) } else { None };
+    let point = if without_value.is_empty() { Some(Point::of(lp, settings, &[])?) } else { None };
+    let verdict = match &point {
+        None => None,
+        Some(_) => Some(match verdict(lp, settings, budget) {
+            Ok(verdict) => Decision::Decided(verdict),
+            Err(Failure::Undecided(stopped)) => Decision::from_result(Err(stopped), budget),
+            Err(refused) => return Err(refused),
+        }),
+    };
     let mut answers = Vec::new();
     for name in free {
         if without_value.iter().all(|missing| *missing == name) {
@@ -202,5 +238,5 @@ pub fn analyze(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<Analys
         // Two parameters without values: the question of the first names what is missing.
         intervals(lp, settings, without_value[0], budget)?;
     }
-    Ok(Analysis { verdict, intervals: answers })
+    Ok(Analysis { verdict, point, intervals: answers, warnings: settings.warnings(lp, &[]) })
 }

@@ -17,7 +17,7 @@ pub use answers::{Analysis, Decision, Intervals, PointVerdict, Verdict, analyze,
 pub use frequency::{Frequency, frequency};
 pub use map::{Axis, Map, map};
 pub use map_limits::{MapLimit, RegionExtent};
-pub use question::{DECAY, OneParameter, RADIUS, Settings, one_parameter};
+pub use question::{DECAY, OneParameter, Point, RADIUS, Settings, asked, one_parameter};
 pub use table::{PointTable, TableAnswer, parametric_table, point_table};
 
 use crate::error::Error;

@@ -4,7 +4,7 @@ use super::Failure;
 use super::prepare::prepare;
 use super::region::{scaled_by_radius, shifted_by_decay};
 use crate::error::Diagnostic;
-use crate::limits::Budget;
+use crate::limits::{Budget, Exhausted};
 use crate::matrix::CharacteristicPolynomial;
 use crate::model::{Loop, Question, Time};
 use crate::number::Rational;
@@ -30,6 +30,61 @@ pub struct Settings {
     pub decay: Option<Rational>,
 }
 
+impl Settings {
+    /// Values that lie outside their domains, those of the settings before those of the model.
+    ///
+    /// A nominal value outside the model's own domain is remarked upon when the model is read.
+    pub fn warnings(&self, lp: &Loop, keep: &[String]) -> Vec<Diagnostic> {
+        let parameters = lp.parameters().iter().map(|p| &p.name);
+        let names = parameters.chain(lp.constants().iter().map(|c| &c.name)).filter(|name| !keep.contains(name));
+        let mut warnings = Vec::new();
+        for name in names {
+            let set = self.set.get(name).cloned();
+            let outside = match self.domain.get(name) {
+                Some(range) => set.or_else(|| nominal(lp, name)).filter(|v| !range.contains(v)),
+                None => set.filter(|v| lp.parameter(name).is_some_and(|p| !p.contains(v))),
+            };
+            if let Some(value) = outside {
+                let message = format!("{name} = {value} is outside its domain");
+                warnings.push(Diagnostic::warning("W-outside-domain", message));
+            }
+        }
+        warnings
+    }
+}
+
+/// What is known of a question at a point before any work is done.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// The loop's title.
+    pub title: Option<String>,
+    /// Discrete or continuous time.
+    pub time: Time,
+    /// The values of all parameters that are not kept.
+    pub set: Vec<(String, Rational)>,
+    /// The radius asked for, if any.
+    pub radius: Option<Rational>,
+    /// The decay rate asked for, if any.
+    pub decay: Option<Rational>,
+}
+
+impl Point {
+    /// The loop at its set and nominal values, but for the parameters kept.
+    ///
+    /// # Errors
+    /// [`Failure::Refused`] for names the model does not know and values that are missing.
+    pub fn of(lp: &Loop, settings: &Settings, keep: &[String]) -> Result<Point, Failure> {
+        region_of(lp, settings)?;
+        Ok(Point {
+            title: lp.title().map(str::to_string),
+            time: lp.time(),
+            set: lp.resolve(&Question { keep: keep.to_vec(), set: settings.set.clone() })?.values,
+            radius: settings.radius.clone(),
+            decay: settings.decay.clone(),
+        })
+    }
+}
+
 /// A question about one parameter, reduced to algebra.
 #[derive(Clone, Debug)]
 pub struct OneParameter {
@@ -53,7 +108,8 @@ pub struct OneParameter {
     pub radius: Option<Rational>,
     /// The decay rate asked for, if any.
     pub decay: Option<Rational>,
-    /// The polynomial; `None` when the loop is undefined for every value of the parameter.
+    /// The polynomial; `None` when the loop is undefined for every value of the parameter, or beside an
+    /// answer that is undecided because the budget ran out before it.
     pub polynomial: Option<ParametricPolynomial>,
     /// Numerator and denominator of the sample time in the parameter, in discrete time and if the
     /// model gives one.
@@ -105,41 +161,56 @@ pub fn one_parameter(
     parameter: &str,
     budget: &Budget,
 ) -> Result<OneParameter, Failure> {
-    let region = region_of(lp, settings)?;
-    let relative = match (parameter, lp.time()) {
-        (RADIUS, Time::Discrete) | (DECAY, Time::Continuous) => true,
+    one_parameter_or_stopped(lp, settings, parameter, budget)?.map_err(|(_, stopped)| stopped.into())
+}
+
+/// [`one_parameter`], or what is known of the question without the polynomial when the budget runs out.
+pub(super) fn one_parameter_or_stopped(
+    lp: &Loop,
+    settings: &Settings,
+    parameter: &str,
+    budget: &Budget,
+) -> Result<Result<OneParameter, (OneParameter, Exhausted)>, Failure> {
+    let mut question = asked(lp, settings, parameter)?;
+    match reduce(&mut question, lp, settings, budget) {
+        Ok(()) => Ok(Ok(question)),
+        Err(Failure::Undecided(stopped)) => Ok(Err((question, stopped))),
+        Err(refused) => Err(refused),
+    }
+}
+
+/// Whether the question is how far inside all roots are.
+fn is_relative(parameter: &str, time: Time) -> Result<bool, Failure> {
+    match (parameter, time) {
+        (RADIUS, Time::Discrete) | (DECAY, Time::Continuous) => Ok(true),
         (RADIUS, Time::Continuous) => {
-            return Err(Diagnostic::error("E-region", "the radius of a continuous loop's region is not a question")
+            Err(Diagnostic::error("E-region", "the radius of a continuous loop's region is not a question")
                 .help("ask for '--param decay'")
-                .into());
+                .into())
         }
         (DECAY, Time::Discrete) => {
-            return Err(Diagnostic::error("E-region", "the decay rate of a discrete loop is not a question")
+            Err(Diagnostic::error("E-region", "the decay rate of a discrete loop is not a question")
                 .help("ask for '--param radius'")
-                .into());
+                .into())
         }
-        _ => false,
-    };
+        _ => Ok(false),
+    }
+}
+
+/// The question without its polynomial: what is known before any work.
+///
+/// # Errors
+/// [`Failure::Refused`] as [`one_parameter`].
+pub fn asked(lp: &Loop, settings: &Settings, parameter: &str) -> Result<OneParameter, Failure> {
+    let region = region_of(lp, settings)?;
+    let relative = is_relative(parameter, lp.time())?;
     if relative && (settings.radius.is_some() || settings.decay.is_some()) {
         return Err(Diagnostic::error("E-kept-and-set", format!("'{parameter}' is the question and is also set"))
             .help(format!("leave out either '--param {parameter}' or '--{parameter}'"))
             .into());
     }
-    budget.step("characteristic polynomial");
     let keep = if relative { Vec::new() } else { vec![parameter.to_string()] };
-    let question = Question { keep, set: settings.set.clone() };
-    let answer = prepare(lp, &question, budget)?;
-    let polynomial = answer.polynomial.map(|d| {
-        if !relative {
-            return in_region(d, settings);
-        }
-        let d = CharacteristicPolynomial { variables: vec![parameter.to_string()], ..d };
-        let variable = RationalFunction::variable(0);
-        match region {
-            Region::UnitDisc => scaled_by_radius(&d, &variable),
-            Region::LeftHalfPlane => shifted_by_decay(&d, &variable),
-        }
-    });
+    let point = Point::of(lp, settings, &keep)?;
     let domain = match settings.domain.get(parameter) {
         // No root is nearer to 0 than by a negative radius.
         Some(range) if parameter == RADIUS && relative => {
@@ -154,26 +225,47 @@ pub fn one_parameter(
             .help("the lower bound has to be below the upper one; both are excluded")
             .into());
     }
+    Ok(OneParameter {
+        title: point.title,
+        time: point.time,
+        parameter: parameter.to_string(),
+        unit: lp.parameter(parameter).and_then(|p| p.unit.clone()),
+        nominal: nominal(lp, parameter),
+        set: point.set,
+        domain,
+        region,
+        radius: point.radius,
+        decay: point.decay,
+        polynomial: None,
+        sample_time: None,
+        warnings: settings.warnings(lp, &keep),
+    })
+}
+
+/// Puts the polynomial and the sample time into the question.
+fn reduce(asked: &mut OneParameter, lp: &Loop, settings: &Settings, budget: &Budget) -> Result<(), Failure> {
+    budget.step("characteristic polynomial");
+    let relative = is_relative(&asked.parameter, asked.time)?;
+    let keep = if relative { Vec::new() } else { vec![asked.parameter.clone()] };
+    let answer = prepare(lp, &Question { keep, set: settings.set.clone() }, budget)?;
+    let polynomial = answer.polynomial.map(|d| {
+        if !relative {
+            return in_region(d, settings);
+        }
+        let d = CharacteristicPolynomial { variables: vec![asked.parameter.clone()], ..d };
+        let variable = RationalFunction::variable(0);
+        match asked.region {
+            Region::UnitDisc => scaled_by_radius(&d, &variable),
+            Region::LeftHalfPlane => shifted_by_decay(&d, &variable),
+        }
+    });
     let univariate = |f: &RationalFunction| {
         let side = |p: &crate::poly::MultiPoly| p.to_univariate(0).expect("one variable is kept");
         (side(f.numerator()), side(f.denominator()))
     };
-    let sample_time = answer.sample_time.as_ref().filter(|_| region == Region::UnitDisc).map(univariate);
-    Ok(OneParameter {
-        title: lp.title().map(str::to_string),
-        time: lp.time(),
-        parameter: parameter.to_string(),
-        unit: lp.parameter(parameter).and_then(|p| p.unit.clone()),
-        nominal: nominal(lp, parameter),
-        set: answer.values,
-        domain,
-        region,
-        radius: settings.radius.clone(),
-        decay: settings.decay.clone(),
-        polynomial: polynomial.map(|d| parametric(&d)),
-        sample_time,
-        warnings: answer.warnings,
-    })
+    asked.sample_time = answer.sample_time.as_ref().filter(|_| asked.region == Region::UnitDisc).map(univariate);
+    asked.polynomial = polynomial.map(|d| parametric(&d));
+    Ok(())
 }
 
 /// The nominal value of a parameter, or of a constant given as a number.

@@ -1,7 +1,7 @@
 //! The classical table: numeric at a point, or in one parameter with its conditions solved.
 
 use super::prepare::prepare;
-use super::question::{Settings, in_region, one_parameter, parametric, region_of};
+use super::question::{Settings, in_region, one_parameter_or_stopped, parametric, region_of};
 use super::{Decision, Failure, OneParameter};
 use crate::error::Diagnostic;
 use crate::limits::Budget;
@@ -27,14 +27,20 @@ pub struct TableAnswer {
 /// each time.
 ///
 /// # Errors
-/// [`Failure`] when the question is refused, or the two ways disagree (a defect of this program).
+/// [`Failure::Refused`] when the question is refused, or the two ways disagree (a defect of this program).
 pub fn parametric_table(
     lp: &Loop,
     settings: &Settings,
     parameter: &str,
     budget: &Budget,
 ) -> Result<TableAnswer, Failure> {
-    let question = one_parameter(lp, settings, parameter, budget)?;
+    let question = match one_parameter_or_stopped(lp, settings, parameter, budget)? {
+        Ok(question) => question,
+        Err((question, stopped)) => {
+            let test = Decision::from_result(Err(stopped.clone()), budget);
+            return Ok(TableAnswer { question, test, stable: Decision::from_result(Err(stopped), budget) });
+        }
+    };
     let Some(p) = &question.polynomial else {
         let (test, stable) = (Decision::Decided(None), Decision::Decided(StableSet::default()));
         return Ok(TableAnswer { question, test, stable });
@@ -85,8 +91,8 @@ impl PointTable {
 /// [`Failure`] when the question is refused or the budget runs out.
 pub fn point_table(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<PointTable, Failure> {
     let region = region_of(lp, settings)?;
-    let question = Question { keep: Vec::new(), set: settings.set.clone() };
-    let answer = prepare(lp, &question, budget)?;
+    budget.step("characteristic polynomial");
+    let answer = prepare(lp, &Question { keep: Vec::new(), set: settings.set.clone() }, budget)?;
     let test = match answer.polynomial {
         None => None,
         Some(d) => {
@@ -103,6 +109,6 @@ pub fn point_table(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<Po
         radius: settings.radius.clone(),
         decay: settings.decay.clone(),
         test,
-        warnings: answer.warnings,
+        warnings: settings.warnings(lp, &[]),
     })
 }

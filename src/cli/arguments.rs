@@ -15,6 +15,8 @@ use std::time::Duration;
         Every number of a model is exact, and every limit is an algebraic number that is printed to any number of \
         digits. Without a command: the main job on the built-in drive, a chopper-fed DC motor with cascaded \
         controllers.",
+    // Not the name of the file that was started.
+    bin_name = "jurist",
     after_help = "MODEL is a TOML file, '-' is standard input; left out, it is the built-in drive.\n\n\
         Exit status: 0 answered, or it holds; 1 answered, and it does not hold (verdict); 2 bad usage or bad \
         model;\n3 undecided within the given budget; 4 certificate rejected.",
@@ -81,6 +83,17 @@ pub(super) struct RegionOptions {
     /// Asks for all Re s < -S instead of Re s < 0 (continuous time)
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub decay: Option<String>,
+}
+
+/// What every command is given that decides: a model, a region, and the form of the answer.
+#[derive(Args, Debug)]
+pub(super) struct DecisionOptions {
+    #[command(flatten)]
+    pub model: ModelOptions,
+    #[command(flatten)]
+    pub region: RegionOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
 }
 
 /// How the answer is written.

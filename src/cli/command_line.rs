@@ -1,6 +1,8 @@
 //! The command line as a text that errors point into.
 
+use super::arguments::Arguments;
 use crate::error::{Diagnostic, Error, Source, Span};
+use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::ffi::OsString;
 use std::sync::Arc;
@@ -128,11 +130,48 @@ impl CommandLine {
                 message.push_str(line);
             }
         }
+        if let Some(command) = self.command_meant(error) {
+            help = vec![command];
+        }
         let mut diagnostic = Diagnostic::error("E-usage", message).help(help.join("; "));
         if let Some(span) = self.place_of(error) {
             diagnostic = diagnostic.at(span, "");
         }
         Error::new(Some(Arc::clone(&self.source)), vec![diagnostic])
+    }
+
+    /// Which commands take what was given without one: an option of theirs, or a model file.
+    fn command_meant(&self, error: &clap::Error) -> Option<String> {
+        let text = |kind| match error.get(kind) {
+            Some(ContextValue::String(s)) => Some(s.as_str()),
+            _ => None,
+        };
+        let definition = Arguments::command();
+        let named = |a: &OsString| definition.get_subcommands().any(|c| a == c.get_name());
+        if self.arguments.iter().skip(1).any(named) {
+            return None;
+        }
+        if let Some(word) = text(ContextKind::InvalidSubcommand) {
+            let is_file = word == "-" || word.ends_with(".toml") || word.contains('/');
+            return is_file.then(|| format!("to ask about a model, name a command: 'jurist analyze {word}'"));
+        }
+        let option = text(ContextKind::InvalidArg)?.split([' ', '=']).next()?;
+        let takes = |c: &&clap::Command| {
+            let long = |a: &clap::Arg| a.get_long().is_some_and(|l| option.strip_prefix("--") == Some(l));
+            let short = |a: &clap::Arg| a.get_short().is_some_and(|s| option.strip_prefix('-') == Some(&s.to_string()));
+            c.get_arguments().any(|a| long(a) || short(a))
+        };
+        let commands: Vec<String> = definition
+            .get_subcommands()
+            .filter(takes)
+            .map(|c| format!("'jurist {} {option} ...'", c.get_name()))
+            .collect();
+        let (last, others) = commands.split_last()?;
+        Some(if others.is_empty() {
+            format!("'{option}' goes with a command: {last}")
+        } else {
+            format!("'{option}' goes with a command: {} or {last}", others.join(", "))
+        })
     }
 
     fn place_of(&self, error: &clap::Error) -> Option<Span> {

@@ -1,6 +1,6 @@
 //! The model and the settings that a command is given.
 
-use super::arguments::{ModelOptions, RegionOptions};
+use super::arguments::{DecisionOptions, ModelOptions, RegionOptions};
 use super::assignments::{assignments, domains, in_line, plain_number};
 use super::commands::Context;
 use super::output::plain;
@@ -49,6 +49,14 @@ fn unreadable(context: &Context, path: &OsString, name: &str, error: &std::io::E
     in_line(context.line, vec![diagnostic.help(help)]).into()
 }
 
+/// The model and the settings of a command that decides; a wrong file ending is refused before any work.
+pub(super) fn decision(options: &DecisionOptions, context: &Context) -> Result<(Loop, Settings), Failure> {
+    context.check_output(&options.output)?;
+    let model = load(options.model.model.as_ref(), context)?;
+    let settings = settings(context, &model, &options.model, &options.region)?;
+    Ok((model, settings))
+}
+
 /// The values, domains and regions on the command line, with names that the model knows.
 pub(super) fn settings(
     context: &Context,
@@ -70,12 +78,6 @@ pub(super) fn settings(
     }
     if !wrong.is_empty() {
         return Err(in_line(context.line, wrong).into());
-    }
-    for (name, range) in &settings.domain {
-        if let Some(value) = settings.set.get(name).filter(|v| !range.contains(v)) {
-            let message = format!("{name} = {value} is outside the domain given by --domain");
-            context.warn(None, &[Diagnostic::warning("W-outside-domain", message)]);
-        }
     }
     let number = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| plain_number(context.line, option, text)).transpose()

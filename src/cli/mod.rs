@@ -11,6 +11,7 @@ mod output;
 mod picture;
 mod progress;
 mod status;
+mod watch;
 
 use crate::report::diagnostics::render_error;
 use arguments::Arguments;
@@ -42,7 +43,7 @@ fn run(line: &CommandLine) -> u8 {
             return Status::BadInput as u8;
         }
     };
-    let context = Context::new(line, arguments.run_options());
+    let context = Context::new(line, &arguments);
     let outcome = commands::run(&arguments, &context);
     context.reporter.finish();
     match outcome {

@@ -58,7 +58,8 @@ Remedy: keep one of the two."#,
     ),
     (
         "E-duplicate-name",
-        r#"One name has two meanings, such as a constant and a parameter, or a constant and a signal.
+        r#"One name has two meanings, such as a constant and a parameter, or a constant and a signal; or a
+list names the same block, input, output or state twice.
 
     [constants]
     K = 1
@@ -81,6 +82,7 @@ Remedy: make min less than max, or leave one of them out."#,
 
     characteristic = "z^0.5"
 
+Exponents fix the order of the loop, so that they are numbers: K^n is refused even where n is a constant.
 Remedy: write a whole number such as z^3; exponents from -1000 to 1000 are accepted."#,
     ),
     (
@@ -244,7 +246,7 @@ Remedy: a switched simulation needs a model made of blocks, of which one has a '
     ),
     (
         "E-size",
-        r#"The sizes of matrices or of lists of signals do not fit together.
+        r#"The sizes of matrices or of lists of signals do not fit together, or a loop has no states at all.
 
     A = [[1, 0], [0, 1]]
     B = [[1]]
@@ -369,9 +371,10 @@ Remedy: save it as UTF-8."#,
     ),
     (
         "E-value",
-        r#"A value is not among those that are accepted.
+        r#"A value is not among those that are accepted, such as a sample time that is not positive.
 
     time = "discret"
+    sample_time = 0
 
 Remedy: write one of those the message names."#,
     ),

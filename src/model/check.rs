@@ -5,7 +5,7 @@ use super::definition::{
 };
 use super::evaluate::Failure;
 use super::expression::Expression;
-use super::names::{did_you_mean, list, shorten};
+use super::names::{did_you_mean, list, nearest_name, shorten};
 use super::read::Reader;
 use super::read_block::driven;
 use super::read_loop::known_names;
@@ -146,6 +146,8 @@ struct Names<'m, 'r> {
     model: &'m Loop,
     used: HashSet<&'m str>,
     reported: HashSet<&'m str>,
+    /// Whether a signal has the name of something else: then another signal is probably missing.
+    misnamed: bool,
     reader: &'r mut Reader,
 }
 
@@ -154,9 +156,13 @@ impl<'m> Names<'m, '_> {
         e.each_name(&mut |name, span| {
             if further.contains(name) || self.model.index.contains_key(name) {
                 self.used.insert(name);
-            } else if self.reported.insert(name) {
+            } else if !self.reader.refused.contains(name) && self.reported.insert(name) {
                 let allowed = Allowed { model: self.model, further: further.iter().copied().collect(), what };
-                self.reader.report(unknown(name, span, &allowed));
+                let error = unknown(name, span, &allowed);
+                let is_follow_up = self.misnamed && !what.is_empty() && nearest(name, &allowed).is_none();
+                if !is_follow_up {
+                    self.reader.report(error);
+                }
             }
         });
     }
@@ -166,29 +172,37 @@ impl<'m> Names<'m, '_> {
     }
 }
 
+impl<'m> Allowed<'m> {
+    /// Every name that would be accepted.
+    fn names(&self) -> impl Iterator<Item = &'m str> {
+        let model = self.model;
+        let mut further = self.further.clone();
+        further.sort_unstable();
+        let parameters = model.parameters.iter().map(|p| p.name.as_str());
+        parameters.chain(model.constants.iter().map(|c| c.name.as_str())).chain(further)
+    }
+}
+
+fn nearest<'m>(name: &str, allowed: &Allowed<'m>) -> Option<&'m str> {
+    nearest_name(name, allowed.names())
+}
+
 fn unknown(name: &str, span: Span, allowed: &Allowed<'_>) -> Diagnostic {
     let model = allowed.model;
-    let mut further = allowed.further.clone();
-    further.sort_unstable();
-    let names = || {
-        let defined =
-            model.parameters.iter().map(|p| p.name.as_str()).chain(model.constants.iter().map(|c| c.name.as_str()));
-        defined.chain(further.iter().copied())
-    };
     let label = if allowed.what.is_empty() {
         "not defined".to_owned()
     } else {
         format!("neither defined nor {}", allowed.what)
     };
     let mut error = Diagnostic::error("E-unknown-name", format!("unknown name '{}'", shorten(name))).at(span, label);
-    error.help = did_you_mean(name, names());
+    error.help = did_you_mean(name, allowed.names());
     if error.help.is_none() {
         let variable = model.time.variable();
         error.help = Some(match name {
             "pi" | "e" => format!("{name} is irrational: write as many digits of it as you mean"),
             "z" | "s" if name != variable => format!("the variable of a {} loop is {variable}", model.time.name()),
             _ if name == variable => format!("{variable} is known in 'characteristic' and 'transfer' only"),
-            _ => known_names(names()).unwrap_or_else(|| "define it in [constants] or [parameters]".into()),
+            _ => known_names(allowed.names()).unwrap_or_else(|| "define it in [constants] or [parameters]".into()),
         });
     }
     error
@@ -197,12 +211,16 @@ fn unknown(name: &str, span: Span, allowed: &Allowed<'_>) -> Diagnostic {
 /// Reports every name that is not known, used twice, or not used.
 pub(super) fn names(model: &Loop, form_is_broken: bool, reader: &mut Reader) {
     let none = HashSet::new();
-    let mut names = Names { model, used: HashSet::new(), reported: HashSet::new(), reader };
+    let mut names = Names { model, used: HashSet::new(), reported: HashSet::new(), misnamed: false, reader };
     for c in &model.constants {
         names.expression(&c.expression, &none, "");
     }
     if let Some(e) = &model.sample_time {
         names.expression(e, &none, "");
+        if model.time == Time::Continuous {
+            let message = "a sample time says nothing in continuous time";
+            names.reader.report(Diagnostic::warning("W-unused", message).at(e.span, "not used"));
+        }
     }
     if form_is_broken {
         return;
@@ -219,9 +237,14 @@ pub(super) fn names(model: &Loop, form_is_broken: bool, reader: &mut Reader) {
         }
         Form::Blocks(diagram) => {
             let mut places: HashMap<&str, (Span, &str)> = HashMap::new();
-            let external = diagram.inputs.iter().map(|n| (n, "an external input"));
+            distinct(&mut names, &diagram.inputs, "input");
+            let mut once = HashSet::new();
+            let inputs = diagram.inputs.iter().filter(|n| once.insert(n.name.as_str()));
+            let external = inputs.map(|n| (n, "an external input"));
             for (name, what) in external.chain(driven(diagram).map(|(n, _)| (n, "driven by a block"))) {
-                own_name(&mut names, name);
+                if what != "an external input" {
+                    own_name(&mut names, name);
+                }
                 if let Some((first, before)) = places.insert(&name.name, (name.span, what)) {
                     let message = format!("the signal '{}' has two drivers", shorten(&name.name));
                     let error = Diagnostic::error("E-two-drivers", message).at(name.span, what).also(first, before);
@@ -257,19 +280,27 @@ fn own_name(names: &mut Names<'_, '_>, name: &Name) {
         Some(Position::Parameter(i)) => (names.model.parameters[*i].span, "a parameter here"),
         None => return,
     };
+    names.misnamed = true;
     let message = format!("'{}' has two meanings", shorten(&name.name));
     let error = Diagnostic::error("E-duplicate-name", message).at(name.span, "a signal here").also(place, what);
     names.reader.report(error.help("rename one of them"));
 }
 
 fn distinct(names: &mut Names<'_, '_>, list: &[Name], what: &str) {
+    list.iter().for_each(|name| own_name(names, name));
+    once(list.iter(), what, names.reader);
+}
+
+/// Reports every name that stands in a list again.
+fn once<'n>(list: impl Iterator<Item = &'n Name>, what: &str, reader: &mut Reader) {
     let mut seen: HashMap<&str, Span> = HashMap::new();
     for name in list {
-        own_name(names, name);
-        if let Some(first) = seen.insert(&name.name, name.span) {
+        if let Some(first) = seen.get(name.name.as_str()) {
             let message = format!("the {what} '{}' is named twice", shorten(&name.name));
             let error = Diagnostic::error("E-duplicate-name", message).at(name.span, "here again");
-            names.reader.report(error.also(first, "first here"));
+            reader.report(error.also(*first, "first here").help("name it once"));
+        } else {
+            seen.insert(&name.name, name.span);
         }
     }
 }
@@ -285,6 +316,7 @@ fn check_ports<'m>(names: &mut Names<'m, '_>, ports: &'m Ports) {
 }
 
 fn outputs<'m>(names: &mut Names<'m, '_>, outputs: &'m [Output], signals: &HashSet<&'m str>) {
+    once(outputs.iter().map(|o| &o.name), "output", names.reader);
     for output in outputs {
         names.expression(&output.expression, signals, "a signal or state");
     }
@@ -374,6 +406,30 @@ pub(super) fn values(model: &Loop, reader: &mut Reader) {
     let budget = Budget::with_timeout(CHECK_TIME);
     let found = problems(model, &mut |_, constant| (!constant).then_some(Symbol::Variable), &budget);
     found.into_iter().flatten().for_each(|d| reader.report(d));
+}
+
+/// Refuses a sample time that is not positive whatever the parameters are.
+pub(super) fn sample_time(model: &Loop, reader: &mut Reader) {
+    let Some(e) = &model.sample_time else { return };
+    let mut needed: HashSet<&str> = e.names().into_iter().collect();
+    for constant in model.ordered_constants().collect::<Vec<_>>().into_iter().rev() {
+        if needed.contains(constant.name.as_str()) {
+            needed.extend(constant.expression.names());
+        }
+    }
+    if model.parameters.iter().any(|p| needed.contains(p.name.as_str())) {
+        return;
+    }
+    let budget = Budget::with_timeout(CHECK_TIME);
+    let constants = model.ordered_constants().filter(|c| needed.contains(c.name.as_str()));
+    let mut scope = Scope::new(std::iter::empty(), constants, |_, _| None, &budget, &mut |_| {});
+    // Whatever else is wrong with it has been reported with the other values.
+    if let Some(value) = scope.scalar(e).ok().and_then(|t| t.as_constant())
+        && !value.sign().is_gt()
+    {
+        let error = Diagnostic::error("E-value", "the sample time must be positive");
+        reader.report(error.at(e.span, format!("this is {}", shorten(&value.to_string()))));
+    }
 }
 
 /// A number that no formula expects.

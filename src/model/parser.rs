@@ -202,7 +202,7 @@ fn integer_exponent(exponent: &Expression) -> Result<i64, Diagnostic> {
     if !exponent.is_constant() {
         return Err(Diagnostic::error("E-exponent", "an exponent must be a whole number, written as a number")
             .at(exponent.span, "contains a name")
-            .help("write the power with a number such as 'z^3', or multiply it out"));
+            .help("exponents fix the order of the loop: write its value as a number, such as 'z^3'"));
     }
     let too_large = || {
         Diagnostic::error("E-exponent", "the exponent is too large")

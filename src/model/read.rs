@@ -4,13 +4,14 @@ use super::definition::{Matrix, Name, Output};
 use super::evaluate::{Failure, evaluate};
 use super::expression::{Expression, Node};
 use super::lexer::is_name;
-use super::names::{did_you_mean, list, shorten};
+use super::names::{did_you_mean, list, nearest_name, shorten};
 use super::scalar::Scope;
 use super::text::Text;
 use super::toml::{Entry, Kind, Table, Value};
 use crate::error::{Diagnostic, Span};
 use crate::limits::Budget;
 use crate::number::{Rational, parse_number};
+use std::collections::HashSet;
 use std::time::Duration;
 
 /// How long a single number of the file may take to evaluate.
@@ -20,6 +21,18 @@ const NUMBER_TIME: Duration = Duration::from_millis(300);
 #[derive(Default)]
 pub(super) struct Reader {
     pub diagnostics: Vec<Diagnostic>,
+    /// Names whose definitions were refused: using them is no second mistake.
+    pub refused: HashSet<String>,
+}
+
+/// The keys that misspelt keys of a table were probably meant to be: these are not missing as well.
+#[derive(Debug, Default)]
+pub(super) struct Meant(Vec<String>);
+
+impl Meant {
+    pub fn includes(&self, key: &str) -> bool {
+        self.0.iter().any(|k| k == key)
+    }
 }
 
 impl Reader {
@@ -34,13 +47,47 @@ impl Reader {
     }
 
     /// Reports every key that is not among `known`.
-    pub fn unknown_keys(&mut self, table: &Table, known: &[&str], place: &str) {
+    pub fn unknown_keys(&mut self, table: &Table, known: &[&str], place: &str) -> Meant {
+        let mut meant = Meant::default();
         for entry in table.iter().filter(|e| !known.contains(&e.key.as_str())) {
             let message = format!("unknown key '{}' in {place}", shorten(&entry.key));
             let mut error = Diagnostic::error("E-unknown-key", message).at(entry.key_span, "not known here");
             error.help = did_you_mean(&entry.key, known.iter().copied())
                 .or_else(|| Some(format!("known here: {}", list(known.iter().copied()))));
             self.report(error);
+            // What stands in the wrong place is not unknown as well where it is used.
+            self.refused.insert(entry.key.clone());
+            self.refuse_names(&entry.value);
+            meant.0.extend(nearest_name(&entry.key, known.iter().copied()).map(str::to_owned));
+        }
+        meant
+    }
+
+    /// What a value that was not read would have defined: the keys of a table, the names of an array.
+    fn refuse_names(&mut self, value: &Value) {
+        match &value.kind {
+            Kind::Table(table) => self.refused.extend(table.iter().map(|e| e.key.clone())),
+            Kind::String(text) => {
+                self.refused.insert(text.as_str().to_owned());
+            }
+            Kind::Array(items) => {
+                for item in items {
+                    match &item.kind {
+                        // The signals of a block.
+                        Kind::Table(table) => table.iter().for_each(|e| self.refuse_strings(&e.value)),
+                        _ => self.refuse_strings(item),
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn refuse_strings(&mut self, value: &Value) {
+        for item in self.items(value) {
+            if let Kind::String(text) = &item.kind {
+                self.refused.insert(text.as_str().to_owned());
+            }
         }
     }
 

@@ -2,10 +2,11 @@
 
 use super::definition::{Block, Diagram, Discretization, Dynamics, Method, Name, Pwm, Time};
 use super::names::{did_you_mean, shorten};
-use super::read::{Reader, count};
+use super::read::{Meant, Reader, count};
 use super::toml::{Entry, Kind, Table, Value};
 use super::transfer::MAX_ORDER;
 use crate::error::{Diagnostic, Span};
+use std::collections::HashMap;
 
 const DYNAMICS: [&str; 9] = ["transfer", "num", "den", "gain", "delay", "A", "B", "C", "D"];
 
@@ -25,8 +26,23 @@ pub(super) fn diagram(table: &Table, blocks: &Entry, time: Time, reader: &mut Re
         return None;
     };
     let before = reader.diagnostics.len();
+    distinct_names(items, reader);
     let blocks: Vec<Block> = items.iter().filter_map(|item| block(item, time, reader)).collect();
     (reader.diagnostics.len() == before || blocks.len() == items.len()).then_some(Diagram { inputs, outputs, blocks })
+}
+
+/// Reports blocks that have the name of an earlier one; without a name they are as many as one likes.
+fn distinct_names(items: &[Value], reader: &mut Reader) {
+    let mut seen: HashMap<&str, Span> = HashMap::new();
+    for item in items {
+        let Kind::Table(table) = &item.kind else { continue };
+        let Some(Value { kind: Kind::String(text), span }) = table.get("name") else { continue };
+        if let Some(first) = seen.insert(text.as_str(), *span) {
+            let message = format!("two blocks have the name '{}'", shorten(text.as_str()));
+            let error = Diagnostic::error("E-duplicate-name", message).at(*span, "here again");
+            reader.report(error.also(first, "first here").help("rename one of them, or leave the name out"));
+        }
+    }
 }
 
 fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
@@ -36,13 +52,22 @@ fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
     };
     let mut known = vec!["name", "input", "output", "discretize", "pwm"];
     known.extend(DYNAMICS);
-    reader.unknown_keys(table, &known, "a block");
+    let meant = reader.unknown_keys(table, &known, "a block");
     let name = reader.plain_string(table, "name").unwrap_or_else(|| "block".into());
     let missing = |key: &str, reader: &mut Reader| {
+        if meant.includes(key) {
+            return;
+        }
         let error = Diagnostic::error("E-missing", format!("the block '{}' has no '{key}'", shorten(&name)));
         reader.report(error.at(value.span, "this block"));
     };
+    if table.iter().next().is_none() {
+        let error = Diagnostic::error("E-missing", "the block is empty").at(value.span, "nothing follows");
+        reader.report(error.help("give it 'input', 'output' and what it does, such as 'transfer'"));
+        return None;
+    }
     let span = table.get("name").map_or(value.span, |v| v.span);
+    let before = reader.diagnostics.len();
     let inputs = match table.get("input") {
         Some(v) => Some(reader.expressions(v, "an input")),
         None => {
@@ -65,11 +90,10 @@ fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
         let error = Diagnostic::error("E-discretize", "a continuous loop has nothing to discretise");
         reader.report(error.at(entry.key_span, "time = \"continuous\"").help("leave 'discretize' out"));
     }
-    let before = reader.diagnostics.len();
-    let dynamics = dynamics(table, value, &name, time, continuous, reader);
+    let dynamics = dynamics(table, &meant, value, &name, time, continuous, reader);
     let pwm = table.entry("pwm").and_then(|entry| pwm(entry, reader));
     let (inputs, outputs, dynamics) = (inputs?, outputs?, dynamics?);
-    if reader.diagnostics.len() > before {
+    if reader.diagnostics.len() > before || (continuous && discretization.is_none()) {
         return None;
     }
     let block = Block { name, span, inputs, outputs, dynamics, discretization, pwm };
@@ -80,6 +104,7 @@ fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
 
 fn dynamics(
     table: &Table,
+    meant: &Meant,
     value: &Value,
     name: &str,
     time: Time,
@@ -95,6 +120,9 @@ fn dynamics(
         _ => "delay",
     };
     let Some(first) = given.first() else {
+        if DYNAMICS.iter().any(|key| meant.includes(key)) {
+            return None;
+        }
         let error = Diagnostic::error("E-missing", format!("the block '{}' does not say what it does", shorten(name)));
         reader.report(
             error
@@ -115,7 +143,7 @@ fn dynamics(
         return None;
     }
     let need = |key: &str, reader: &mut Reader| {
-        if table.get(key).is_none() {
+        if table.get(key).is_none() && !meant.includes(key) {
             let message = format!("the block '{}' has no '{key}'", shorten(name));
             reader.report(
                 Diagnostic::error("E-missing", message).at(first.key_span, format!("this needs '{key}' as well")),
@@ -251,8 +279,11 @@ fn discretize(entry: &Entry, reader: &mut Reader) -> Option<Discretization> {
         ));
         return None;
     }
-    reader.unknown_keys(table, &["method", "T", "c"], "'discretize'");
+    let meant = reader.unknown_keys(table, &["method", "T", "c"], "'discretize'");
     let Some(method) = table.get("method") else {
+        if meant.includes("method") {
+            return None;
+        }
         let help = "give method = \"forward\", \"backward\" or \"tustin\"";
         reader.report(wrong("'discretize' has no 'method'", entry.key_span, "by which rule?", help));
         return None;
@@ -301,12 +332,13 @@ fn discretize(entry: &Entry, reader: &mut Reader) -> Option<Discretization> {
 
 fn pwm(entry: &Entry, reader: &mut Reader) -> Option<Pwm> {
     let table = reader.table(entry)?;
-    reader.unknown_keys(table, &["amplitude", "carrier", "period"], "'pwm'");
+    let meant = reader.unknown_keys(table, &["amplitude", "carrier", "period"], "'pwm'");
     let mut part = |key: &str| {
         let Some(value) = table.get(key) else {
-            reader.report(
-                Diagnostic::error("E-missing", format!("'pwm' has no '{key}'")).at(entry.key_span, "incomplete"),
-            );
+            if !meant.includes(key) {
+                let error = Diagnostic::error("E-missing", format!("'pwm' has no '{key}'"));
+                reader.report(error.at(entry.key_span, "incomplete"));
+            }
             return None;
         };
         reader.expression(value, &format!("'{key}'"))

@@ -3,13 +3,13 @@
 use super::check;
 use super::definition::{Constant, Diagram, Form, Loop, Matrix, Name, Parameter, Ports, Simulation, Time};
 use super::names::{did_you_mean, list, shorten};
-use super::read::{Reader, constant_value, count};
+use super::read::{Meant, Reader, constant_value, count};
 use super::read_block;
 use super::toml::{Entry, Kind, Table};
 use super::toml_read;
 use crate::error::{Diagnostic, Error, Severity, Source, Span};
 use crate::number::Rational;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// Errors shown of one file.
@@ -94,13 +94,13 @@ pub fn source_from_bytes(name: &str, bytes: &[u8]) -> Result<Arc<Source>, Error>
 
 fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option<Loop> {
     let known = ["title", "time", "sample_time", "constants", "parameters", "loop", "block", "simulation"];
-    reader.unknown_keys(root, &known, "the model");
+    let meant = reader.unknown_keys(root, &known, "the model");
     let title = reader.plain_string(root, "title");
-    let time = read_time(root, reader);
+    let time = read_time(root, &meant, reader);
     let sample_time = root.get("sample_time").and_then(|v| reader.expression(v, "'sample_time'"));
     let constants = read_constants(root, reader);
     let parameters = read_parameters(root, reader);
-    let form = read_form(root, time.unwrap_or(Time::Discrete), reader);
+    let form = read_form(root, &meant, time.unwrap_or(Time::Discrete), reader);
     let simulation = read_simulation(root, reader);
     let mut index = HashMap::new();
     check::definitions(&constants, &parameters, time.unwrap_or(Time::Discrete), &mut index, reader);
@@ -123,13 +123,17 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
     let broken = reader.diagnostics.iter().any(|d| d.severity == Severity::Error);
     if !broken {
         check::values(&model, reader);
+        check::sample_time(&model, reader);
     }
     model.form = form?;
     Some(model)
 }
 
-fn read_time(root: &Table, reader: &mut Reader) -> Option<Time> {
+fn read_time(root: &Table, meant: &Meant, reader: &mut Reader) -> Option<Time> {
     let Some(value) = root.get("time") else {
+        if meant.includes("time") {
+            return None;
+        }
         let error = Diagnostic::error("E-missing", "the model does not say whether time is discrete or continuous");
         reader.report(error.help("add a line: time = \"discrete\" or time = \"continuous\""));
         return None;
@@ -157,11 +161,15 @@ fn read_constants(root: &Table, reader: &mut Reader) -> Vec<Constant> {
     for entry in section(root, "constants", reader).into_iter().flat_map(Table::iter) {
         let Some(name) = reader.name(&entry.key, entry.key_span, "a constant") else { continue };
         let what = format!("the constant '{}'", shorten(&entry.key));
-        let Some(expression) = reader.expression(&entry.value, &what) else { continue };
+        let Some(expression) = reader.expression(&entry.value, &what) else {
+            reader.refused.insert(name.name);
+            continue;
+        };
         let number = match constant_value(&expression) {
             Ok(number) => Some(number),
             Err(Some(diagnostic)) => {
                 reader.report(diagnostic);
+                reader.refused.insert(name.name);
                 continue;
             }
             Err(None) => None,
@@ -220,9 +228,12 @@ fn read_parameter(table: &Table, parameter: &mut Parameter, reader: &mut Reader)
     }
 }
 
-fn read_form(root: &Table, time: Time, reader: &mut Reader) -> Option<Form> {
+fn read_form(root: &Table, meant: &Meant, time: Time, reader: &mut Reader) -> Option<Form> {
     let blocks = root.entry("block");
     let Some(entry) = root.entry("loop") else {
+        if meant.includes("loop") {
+            return None;
+        }
         let mut error = Diagnostic::error("E-missing", "the model has no [loop]");
         if let Some(block) = blocks {
             error = error.at(block.key_span, "these blocks need a [loop] with inputs and outputs");
@@ -234,8 +245,8 @@ fn read_form(root: &Table, time: Time, reader: &mut Reader) -> Option<Form> {
     let mut known = FORM_KEYS.to_vec();
     known.extend(["states", "inputs", "E", "outputs"]);
     let before = reader.diagnostics.len();
-    reader.unknown_keys(table, &known, "[loop]");
-    let misspelt = reader.diagnostics.len() > before;
+    let meant_in_loop = reader.unknown_keys(table, &known, "[loop]");
+    let misspelt = reader.diagnostics.len() > before || meant.includes("block");
     let given: Vec<&Entry> = table.iter().filter(|e| FORM_KEYS.contains(&e.key.as_str())).collect();
     let feedback = |e: &&&Entry| matches!(e.key.as_str(), "A" | "B" | "C" | "K");
     let mut forms: Vec<(&str, Span)> =
@@ -263,8 +274,8 @@ fn read_form(root: &Table, time: Time, reader: &mut Reader) -> Option<Form> {
                 }
                 reader.expression(table.get("characteristic")?, "'characteristic'").map(Form::Characteristic)
             }
-            "matrix" => read_matrix_form(table, reader),
-            "A, B, C, K" => read_feedback_form(table, &given, reader),
+            "matrix" => read_matrix_form(table, &meant_in_loop, reader),
+            "A, B, C, K" => read_feedback_form(table, &meant_in_loop, &given, reader),
             _ => read_block::diagram(table, blocks?, time, reader).map(Form::Blocks),
         },
         [(a, first), (b, second), ..] => {
@@ -276,11 +287,11 @@ fn read_form(root: &Table, time: Time, reader: &mut Reader) -> Option<Form> {
     }
 }
 
-fn read_matrix_form(table: &Table, reader: &mut Reader) -> Option<Form> {
+fn read_matrix_form(table: &Table, meant: &Meant, reader: &mut Reader) -> Option<Form> {
     let matrix = reader.matrix(table.get("matrix")?, "the matrix");
-    let ports = read_ports(table, matrix.as_ref(), "the matrix", reader);
-    let matrix = matrix?;
-    square(&matrix, "the matrix", reader).then_some(Form::Matrix { matrix, ports })
+    let matrix = matrix.filter(|m| square(m, "the matrix", reader));
+    let ports = read_ports(table, meant, matrix.as_ref(), "the matrix", reader);
+    Some(Form::Matrix { matrix: matrix?, ports })
 }
 
 fn square(matrix: &Matrix, what: &str, reader: &mut Reader) -> bool {
@@ -288,13 +299,19 @@ fn square(matrix: &Matrix, what: &str, reader: &mut Reader) -> bool {
     if r != c {
         let error = Diagnostic::error("E-size", format!("{what} is {r} x {c}, but must be square"));
         reader.report(error.at(matrix.span, format!("{}, {}", count(r, "row", "rows"), count(c, "column", "columns"))));
+    } else if r == 0 {
+        let error = Diagnostic::error("E-size", format!("{what} is empty")).at(matrix.span, "no rows");
+        reader.report(error.help("a loop has at least one state: [[\"a\"]]"));
     }
-    r == c
+    r == c && r > 0
 }
 
-fn read_feedback_form(table: &Table, given: &[&Entry], reader: &mut Reader) -> Option<Form> {
+fn read_feedback_form(table: &Table, meant: &Meant, given: &[&Entry], reader: &mut Reader) -> Option<Form> {
     let mut matrix = |key: &str| {
         let Some(value) = table.get(key) else {
+            if meant.includes(key) {
+                return None;
+            }
             let place = given.first().map_or(Span::default(), |e| e.key_span);
             let error = Diagnostic::error("E-missing", format!("[loop] has no '{key}'"));
             reader.report(error.at(place, "the form A, B, C, K begins here").help("the closed loop is A - B*K*C"));
@@ -303,11 +320,9 @@ fn read_feedback_form(table: &Table, given: &[&Entry], reader: &mut Reader) -> O
         reader.matrix(value, &format!("the matrix {key}"))
     };
     let (a, b, c, k) = (matrix("A"), matrix("B"), matrix("C"), matrix("K"));
-    let ports = read_ports(table, a.as_ref(), "A", reader);
+    let a = a.filter(|a| square(a, "A", reader));
+    let ports = read_ports(table, meant, a.as_ref(), "A", reader);
     let (a, b, c, k) = (a?, b?, c?, k?);
-    if !square(&a, "A", reader) {
-        return None;
-    }
     let n = a.size().0;
     let because = format!("A is {n} x {n}");
     let (inputs, outputs) = (b.size().1, c.size().0);
@@ -322,7 +337,7 @@ fn read_feedback_form(table: &Table, given: &[&Entry], reader: &mut Reader) -> O
     fits.then_some(Form::OutputFeedback { a, b, c, k, ports })
 }
 
-fn read_ports(table: &Table, matrix: Option<&Matrix>, what: &str, reader: &mut Reader) -> Ports {
+fn read_ports(table: &Table, meant: &Meant, matrix: Option<&Matrix>, what: &str, reader: &mut Reader) -> Ports {
     let mut names = |key: &str, what: &str| table.get(key).map(|v| reader.names(v, what)).unwrap_or_default();
     let states = names("states", "a state");
     let inputs = names("inputs", "an input");
@@ -346,7 +361,7 @@ fn read_ports(table: &Table, matrix: Option<&Matrix>, what: &str, reader: &mut R
                 if e.size().1 == inputs.len() { format!("{what} has {}", count(r, "row", "rows")) } else { because };
             reader.size(e, "E", r, inputs.len(), (place, &because));
         }
-        (None, Some(entry), None) => {
+        (None, Some(entry), None) if !meant.includes("E") => {
             let error = Diagnostic::error("E-missing", "[loop] has inputs but no 'E'");
             reader.report(
                 error
@@ -354,7 +369,7 @@ fn read_ports(table: &Table, matrix: Option<&Matrix>, what: &str, reader: &mut R
                     .help("E has a row for each state, a column for each input"),
             );
         }
-        (_, None, Some(entry)) => {
+        (_, None, Some(entry)) if !meant.includes("inputs") => {
             let error = Diagnostic::error("E-missing", "[loop] has 'E' but no 'inputs'");
             reader
                 .report(error.at(entry.key_span, "what enters here?").help("name the columns of E: inputs = [\"..\"]"));
@@ -390,8 +405,9 @@ fn read_simulation(root: &Table, reader: &mut Reader) -> Simulation {
     Simulation { inputs, initial, duration }
 }
 
-/// The names of a list for a message.
+/// The names of a list for a message, each once.
 pub(super) fn known_names<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    let names: Vec<&str> = names.into_iter().take(8).collect();
+    let mut seen = HashSet::new();
+    let names: Vec<&str> = names.into_iter().filter(|n| seen.insert(*n)).take(8).collect();
     (!names.is_empty()).then(|| format!("known here: {}", list(names)))
 }

@@ -35,7 +35,10 @@ pub(super) fn read(text: &str) -> Result<Table, Vec<Diagnostic>> {
             _ => {}
         }
     }
+    // What follows a syntax error is read in the wrong light: the first one says it best.
     let mut diagnostics: Vec<Diagnostic> = errors.iter().map(|e| syntax_error(e, text)).collect();
+    diagnostics.sort_by_key(|d| d.primary.as_ref().map_or(0, |l| l.span.start));
+    diagnostics.truncate(1);
     if diagnostics.is_empty() {
         let relevant = |e: &&Event| {
             !matches!(e.kind(), EventKind::Whitespace | EventKind::Comment | EventKind::Newline | EventKind::Error)

@@ -67,9 +67,14 @@ impl ZPoly {
 
     pub fn sum(&self, sign: Sign, other: &Self) -> Option<Self> {
         let n = self.0.len().max(other.0.len());
-        let zero = RationalFunction::zero();
-        let at = |p: &Self, k: usize| p.0.get(k).cloned().unwrap_or_else(|| zero.clone());
-        (0..n).map(|k| checked_sum(&at(self, k), sign, &at(other, k))).collect::<Option<Vec<_>>>().map(ZPoly::new)
+        // Long sums mostly add to one coefficient; the others stay as they are.
+        let at = |k: usize| match (self.0.get(k), other.0.get(k)) {
+            (Some(a), Some(b)) if !b.is_zero() => checked_sum(a, sign, b),
+            (Some(a), _) => Some(a.clone()),
+            (None, Some(b)) => Some(if sign == Sign::Plus { b.clone() } else { -b }),
+            (None, None) => Some(RationalFunction::zero()),
+        };
+        (0..n).map(at).collect::<Option<Vec<_>>>().map(ZPoly::new)
     }
 
     pub fn product(&self, other: &Self) -> Option<Self> {

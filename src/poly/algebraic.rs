@@ -148,13 +148,21 @@ impl RealAlgebraic {
 
     /// Exact comparison: equality is decided by a common divisor, never by refinement alone.
     pub fn compare(&self, other: &RealAlgebraic) -> Ordering {
+        self.compare_within(other, &Budget::unlimited()).expect("the budget is unlimited")
+    }
+
+    /// [`RealAlgebraic::compare`] within a budget.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn compare_within(&self, other: &RealAlgebraic, budget: &Budget) -> Result<Ordering, Exhausted> {
         let (a, b) = match (&self.place, &other.place) {
-            (_, Place::Exact(y)) => return self.compare_rational(y),
-            (Place::Exact(x), _) => return other.compare_rational(x).reverse(),
+            (_, Place::Exact(y)) => return Ok(self.compare_rational(y)),
+            (Place::Exact(x), _) => return Ok(other.compare_rational(x).reverse()),
             (Place::Within(a), Place::Within(b)) => (a, b),
         };
         if let Some(order) = order_of_disjoint(a, b) {
-            return order;
+            return Ok(order);
         }
         let same = Arc::ptr_eq(&self.poly, &other.poly) || self.poly == other.poly;
         // Unequal numbers mostly part after a few bits; a common divisor costs more.
@@ -164,24 +172,26 @@ impl RealAlgebraic {
                 x.halve();
                 y.halve();
                 if let Some(order) = x.disjoint_order(&y) {
-                    return order;
+                    return Ok(order);
                 }
             }
         }
+        budget.check()?;
         let common = if same {
             Some(Arc::clone(&self.poly))
         } else if coprime_modulo_some_prime(&self.poly, &other.poly) {
             None
         } else {
-            Some(Arc::new(self.poly.gcd(&other.poly)))
+            Some(Arc::new(self.poly.gcd_within(&other.poly, budget)?))
         };
         if common.is_some_and(|g| x.shares_root_of(&y, &g)) {
-            return Ordering::Equal;
+            return Ok(Ordering::Equal);
         }
         loop {
             if let Some(order) = x.disjoint_order(&y) {
-                return order;
+                return Ok(order);
             }
+            budget.check()?;
             x.narrow_further();
             y.narrow_further();
         }
@@ -211,24 +221,34 @@ impl RealAlgebraic {
 
     /// The exact sign of `q` at this number; a zero is recognised by a common divisor.
     pub fn sign_of(&self, q: &UniPoly) -> Sign {
+        self.sign_of_within(q, &Budget::unlimited()).expect("the budget is unlimited")
+    }
+
+    /// [`RealAlgebraic::sign_of`] within a budget.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn sign_of_within(&self, q: &UniPoly, budget: &Budget) -> Result<Sign, Exhausted> {
+        budget.check()?;
         let bracket = match &self.place {
-            Place::Exact(x) => return q.sign_at(x),
+            Place::Exact(x) => return Ok(q.sign_at(x)),
             Place::Within(b) => b,
         };
         if q.is_constant() {
-            return q.leading().map_or(Sign::Equal, Integer::sign);
+            return Ok(q.leading().map_or(Sign::Equal, Integer::sign));
         }
         if !coprime_modulo_some_prime(&self.poly, q) {
-            let g = self.poly.gcd(q);
+            let g = self.poly.gcd_within(q, budget)?;
             if g.sign_at(&bracket.lo()) != g.sign_at(&bracket.hi()) {
-                return Sign::Equal;
+                return Ok(Sign::Equal);
             }
         }
         let mut x = bracket.clone();
         loop {
             if let Some(sign) = sign_on(q, &x) {
-                return sign;
+                return Ok(sign);
             }
+            budget.check()?;
             x.refine_further(&self.poly);
         }
     }

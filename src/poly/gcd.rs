@@ -1,6 +1,36 @@
 //! Content, primitive part, greatest common divisor, square-free decomposition.
 
-use super::{Domain, Poly};
+use super::{Domain, Poly, UniPoly};
+use crate::limits::{Budget, Exhausted};
+
+impl UniPoly {
+    /// The greatest common divisor, contents included, normalised; within a budget.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn gcd_within(&self, other: &UniPoly, budget: &Budget) -> Result<UniPoly, Exhausted> {
+        if self.is_constant() || other.is_constant() {
+            return Ok(gcd(self, other));
+        }
+        let (a, b) = (self.content(), other.content());
+        let divide = |p: &UniPoly, c| p.div_exact_scalar(c).expect("the content divides every coefficient");
+        let g = super::kernel::gcd::primitive_gcd_within(&divide(self, &a), &divide(other, &b), budget)?;
+        Ok(g.primitive_part().scaled(&Domain::gcd(&a, &b)))
+    }
+
+    /// [`Poly::square_free_part`] within a budget.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn square_free_part_within(&self, budget: &Budget) -> Result<UniPoly, Exhausted> {
+        if self.is_zero() {
+            return Ok(self.clone());
+        }
+        let p = self.primitive_part();
+        let g = p.gcd_within(&p.derivative(), budget)?;
+        Ok(if g.is_constant() { p } else { p.div_exact_poly(&g).expect("the gcd divides").primitive_part() })
+    }
+}
 
 impl<R: Domain> Poly<R> {
     /// The greatest common divisor of the coefficients; zero for the zero polynomial.

@@ -1,14 +1,21 @@
 //! Everything that is said about a loop one parameter at a time.
 
 use super::intervals::{answer_lines, intervals_json};
+use super::json;
 use super::layout::{named_values, short};
 use super::verdict::{verdict_json, verdict_line};
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, Decision};
 use serde_json::{Value, json};
 
 /// The document `jurist/analyze/1`.
 pub fn analysis_json(answer: &Analysis, digits: usize) -> Value {
-    let verdict = answer.verdict.as_ref().map_or(Value::Null, verdict_json);
+    let verdict = match (&answer.verdict, &answer.point) {
+        (Some(Decision::Decided(verdict)), _) => verdict_json(verdict),
+        (Some(Decision::Undecided { budget, reached }), Some(point)) => {
+            json::undecided_at_point("jurist/verdict/1", "verdict", budget, reached, point)
+        }
+        _ => Value::Null,
+    };
     let parameters: Vec<Value> = answer.intervals.iter().map(|i| intervals_json(i, digits)).collect();
     json!({ "schema": "jurist/analyze/1", "verdict": verdict, "parameters": parameters })
 }
@@ -16,13 +23,19 @@ pub fn analysis_json(answer: &Analysis, digits: usize) -> Value {
 /// The analysis for people.
 pub fn analysis_text(answer: &Analysis, digits: usize) -> String {
     let mut out = String::new();
-    if let Some(verdict) = &answer.verdict {
-        let title = verdict.title.as_deref().unwrap_or("the loop");
-        out.push_str(&format!("{title}, {} time\n", verdict.time.name()));
-        if !verdict.set.is_empty() {
-            out.push_str(&format!("at {}\n", named_values(&verdict.set)));
+    if let (Some(verdict), Some(point)) = (&answer.verdict, &answer.point) {
+        let title = point.title.as_deref().unwrap_or("the loop");
+        out.push_str(&format!("{title}, {} time\n", point.time.name()));
+        if !point.set.is_empty() {
+            out.push_str(&format!("at {}\n", named_values(&point.set)));
         }
-        out.push_str(&format!("    {}\n", verdict_line(verdict)));
+        let line = match verdict {
+            Decision::Decided(verdict) => verdict_line(verdict),
+            Decision::Undecided { budget, reached } => {
+                format!("undecided, the budget ran out: {budget}; reached: {reached}")
+            }
+        };
+        out.push_str(&format!("    {line}\n"));
     } else if let Some(first) = answer.intervals.first() {
         let title = first.question.title.as_deref().unwrap_or("the loop");
         out.push_str(&format!("{title}, {} time\n", first.question.time.name()));

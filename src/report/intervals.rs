@@ -1,8 +1,8 @@
 //! The stable set of one parameter.
 
-use super::layout::{Columns, named_values, short};
+use super::layout::{Columns, fraction, named_values, short};
 use super::margins::margin;
-use super::{json, real};
+use super::{json, real, region};
 use crate::analysis::{Decision, Intervals, OneParameter, frequency};
 use crate::number::Rational;
 use crate::poly::RealAlgebraic;
@@ -46,13 +46,7 @@ fn heading(question: &OneParameter) -> String {
 pub(super) fn answer_lines(answer: &Intervals, digits: usize) -> String {
     let question = &answer.question;
     let name = &question.parameter;
-    let goal = match (&question.radius, &question.decay) {
-        (Some(r), _) => format!("all |z| < {}", short(r)),
-        (_, Some(s)) => format!("all Re s < {}", short(&-s)),
-        _ if name == crate::analysis::RADIUS => "all |z| < radius".to_owned(),
-        _ if name == crate::analysis::DECAY => "all Re s < -decay".to_owned(),
-        _ => "stable".to_owned(),
-    };
+    let goal = region::goal(question).unwrap_or_else(|| "stable".to_owned());
     let mut asked = name.clone();
     if let Some(unit) = &question.unit {
         asked.push_str(&format!(" in {unit}"));
@@ -119,7 +113,10 @@ fn end_lines(set: &StableSet, question: &OneParameter, digits: usize) -> String 
 fn end_cells(end: &End, question: &OneParameter, digits: usize) -> Vec<String> {
     let decimal = real::rounded(&end.value, digits).decimal;
     let exact = match end.value.exact() {
-        Some(exact) if !is_decimal_of(&decimal, &exact) => format!("= {exact}"),
+        Some(exact) if !is_decimal_of(&decimal, &exact) => match fraction(&exact) {
+            Ok(whole) => format!("= {whole}"),
+            Err(size) => format!("{size}, --json has it"),
+        },
         _ => String::new(),
     };
     let places = digits.min(7);
@@ -135,7 +132,8 @@ fn end_cells(end: &End, question: &OneParameter, digits: usize) -> Vec<String> {
     } else if let Some(rate) = pick(|f| f.radians_per_second.clone()) {
         at.push(format!("{rate} rad/s"));
     }
-    let cause = if at.is_empty() { end.causes.to_string() } else { format!("{} at {}", end.causes, at.join(", ")) };
+    let causes = region::causes_text(&end.causes, question);
+    let cause = if at.is_empty() { causes } else { format!("{causes} at {}", at.join(", ")) };
     let margin = margin(&end.value, question.nominal.as_ref(), places).map(|m| {
         let nominal = question.nominal.as_ref().map(short).unwrap_or_default();
         match m.decibels {

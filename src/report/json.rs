@@ -2,7 +2,8 @@
 
 use super::margins::margin;
 use super::real::{self, JSON_NUMBER_DIGITS};
-use crate::analysis::{Frequency, OneParameter, frequency};
+use super::region;
+use crate::analysis::{Frequency, OneParameter, Point, frequency};
 use crate::number::{Enclosure, Rational};
 use crate::poly::{RealAlgebraic, UniPoly};
 use crate::stability::{End, IntervalSet, Range, StableSet};
@@ -74,6 +75,9 @@ fn end(end: Option<&End>, question: &OneParameter, digits: usize) -> Value {
     let Some(end) = end else { return Value::Null };
     let mut out = number(&end.value, digits);
     out.insert("cause".into(), end.causes.to_string().into());
+    if let Some(boundary) = region::exact_boundary(&end.causes, question) {
+        out.insert("boundary".into(), boundary.into());
+    }
     frequency_fields(&mut out, digits, |bits| frequency(end, question, bits));
     out.insert("closed".into(), false.into());
     let margin = margin(&end.value, question.nominal.as_ref(), digits);
@@ -132,4 +136,17 @@ pub(super) fn undecided(budget: &str, reached: &str) -> Value {
 /// A document without an answer, because a budget ran out before the question was reduced to algebra.
 pub fn undecided_document(schema: &str, key: &str, budget: &str, reached: &str) -> Value {
     json!({ "schema": schema, key: null, "undecided": undecided(budget, reached) })
+}
+
+/// The same about a point: with all that is known of it.
+pub fn undecided_at_point(schema: &str, key: &str, budget: &str, reached: &str, point: &Point) -> Value {
+    let mut out = Map::new();
+    out.insert("schema".into(), schema.into());
+    out.insert("title".into(), point.title.as_deref().unwrap_or_default().into());
+    out.insert("time".into(), point.time.name().into());
+    out.insert("set".into(), set(&point.set));
+    relative(&mut out, point.radius.as_ref(), point.decay.as_ref());
+    out.insert(key.into(), Value::Null);
+    out.insert("undecided".into(), undecided(budget, reached));
+    Value::Object(out)
 }

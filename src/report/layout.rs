@@ -1,31 +1,42 @@
 //! Aligned columns and short numbers in text for people.
 
-use crate::analysis::Map;
 use crate::number::{Rational, parse_number, to_decimal};
 use std::fmt;
 
 /// Digits up to which a number is written as a decimal rather than as a fraction.
 const SHORT_DIGITS: usize = 15;
 
-/// The number as a short decimal if it is one, else as a fraction.
+/// Digits of a number or a fraction that are written out for people.
+const WHOLE_DIGITS: usize = 60;
+
+/// The number as a short decimal if it is one, else as a fraction; a very long one with its first digits only.
 pub(super) fn short(value: &Rational) -> String {
     let decimal = to_decimal(value, SHORT_DIGITS);
-    if parse_number(&decimal).as_ref() == Ok(value) { decimal } else { value.to_string() }
+    if parse_number(&decimal).as_ref() == Ok(value) {
+        return decimal;
+    }
+    match fraction(value) {
+        Ok(whole) => whole,
+        Err(size) => format!("{decimal}... ({size})"),
+    }
+}
+
+/// The exact fraction, or how many digits it has where these are too many to read.
+pub(super) fn fraction(value: &Rational) -> Result<String, String> {
+    let (above, below) = (value.numerator().abs().to_string().len(), value.denominator().to_string().len());
+    if above + below <= WHOLE_DIGITS {
+        Ok(value.to_string())
+    } else if value.is_integer() {
+        Err(format!("a number of {above} digits"))
+    } else {
+        Err(format!("a fraction of {above} over {below} digits"))
+    }
 }
 
 /// `K = 110, T = 0.0001`.
 pub(super) fn named_values(values: &[(String, Rational)]) -> String {
     let list: Vec<String> = values.iter().map(|(name, value)| format!("{name} = {}", short(value))).collect();
     list.join(", ")
-}
-
-/// What is asked of a map's points: `stable`, or what a radius or a decay rate asks for.
-pub(super) fn goal(answer: &Map) -> String {
-    match (&answer.radius, &answer.decay) {
-        (Some(r), _) => format!("all |z| < {}", short(r)),
-        (_, Some(s)) => format!("all Re s < {}", short(&-s)),
-        _ => "stable".to_owned(),
-    }
 }
 
 /// Rows of cells that are printed in columns, left-aligned.
@@ -105,6 +116,9 @@ mod tests {
     fn short_numbers() {
         assert_eq!(short(&parse_number("1e-4").unwrap()), "0.0001");
         assert_eq!(short(&parse_number("1/3").unwrap()), "1/3");
+        let long = format!("{}/7", "1".repeat(500));
+        assert_eq!(short(&parse_number(&long).unwrap()), "1.58730158730159e498... (a fraction of 500 over 1 digits)");
+        assert_eq!(fraction(&parse_number("-1e99").unwrap()), Err("a number of 100 digits".into()));
     }
 
     #[test]

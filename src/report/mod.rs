@@ -12,6 +12,7 @@ pub mod margins;
 pub mod notation;
 pub mod paper;
 mod real;
+mod region;
 mod table;
 mod verdict;
 

@@ -4,6 +4,7 @@ use super::intervals::{domain_text, set_lines};
 use super::json;
 use super::layout::{Columns, named_values, wrapped};
 use super::notation::{Coefficient, coefficient_text};
+use super::region;
 use crate::analysis::{Decision, OneParameter, PointTable, TableAnswer};
 use crate::model::Time;
 use crate::number::Rational;
@@ -198,7 +199,8 @@ pub fn table_text(answer: &TableAnswer, digits: usize) -> String {
 
 fn heading(question: &OneParameter) -> String {
     let title = question.title.as_deref().unwrap_or("the loop");
-    let mut line = format!("{} table of {title} in {}", table_name(question.time), question.parameter);
+    let region = region::goal(question).map(|goal| relative(question.time, &goal)).unwrap_or_default();
+    let mut line = format!("{} table of {title}{region} in {}", table_name(question.time), question.parameter);
     if !question.set.is_empty() {
         line.push_str(&format!(", {}", named_values(&question.set)));
     }
@@ -208,6 +210,14 @@ fn heading(question: &OneParameter) -> String {
     }
     line.push('\n');
     line
+}
+
+/// What the table is of when a smaller region is asked for.
+fn relative(time: Time, goal: &str) -> String {
+    match time {
+        Time::Discrete => format!(" for {goal} (roots divided by the radius),"),
+        Time::Continuous => format!(" for {goal} (roots shifted by the decay rate),"),
+    }
 }
 
 /// The conditions with their solutions, and what they have in common.
@@ -230,7 +240,9 @@ fn conditions_text(test: &ClassicalTest, name: &str, digits: usize) -> String {
 /// The table at a point for people.
 pub fn point_table_text(answer: &PointTable, digits: usize) -> String {
     let title = answer.title.as_deref().unwrap_or("the loop");
-    let mut out = format!("{} table of {title}", table_name(answer.time));
+    let goal = region::point_goal(answer.radius.as_ref(), answer.decay.as_ref());
+    let region = goal.map(|goal| relative(answer.time, &goal)).unwrap_or_default();
+    let mut out = format!("{} table of {title}{}", table_name(answer.time), region.trim_end_matches(','));
     if !answer.set.is_empty() {
         out.push_str(&format!(", {}", named_values(&answer.set)));
     }

@@ -3,7 +3,8 @@
 
 use super::interval_set::{cells, merge_points, zeros_in};
 use super::{
-    IntervalSet, JuryTable, ParametricPolynomial, Range, Region, RouthTable, jury_table, jury_table_with, routh_table,
+    IntervalSet, JuryTable, ParametricPolynomial, Range, Region, RouthTable, UNDIVIDED_ORDER, jury_table_within,
+    routh_table_within,
 };
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
@@ -96,15 +97,15 @@ pub fn classical_test(
     };
     budget.step("the table");
     let (table, scales, inequalities) = match region {
-        Region::UnitDisc => jury_inequalities(&base, n, scale),
-        Region::LeftHalfPlane => routh_inequalities(&base, n, scale),
+        Region::UnitDisc => jury_inequalities(&base, n, scale, budget)?,
+        Region::LeftHalfPlane => routh_inequalities(&base, n, scale, budget)?,
     };
     let mut conditions = Vec::with_capacity(inequalities.len());
     let mut poles = Vec::new();
     for pole in p.poles().iter().chain([p.denominator()]) {
         poles.push(zeros_in(pole, range, budget)?);
     }
-    let poles = merge_points(poles);
+    let poles = merge_points(poles, budget)?;
     // A polynomial without conditions (order 0) is stable where it is not zero.
     let mut intersection: IntervalSet = if n == 0 {
         solve_positive(&base.coeff(0).times(&base.coeff(0)), range, budget)?
@@ -113,7 +114,10 @@ pub fn classical_test(
     };
     intersection = intersection.intersection(&cells(range, &poles).into_iter().collect());
     // The textbook's rows have factors that earlier rows solve at a fraction of the degree.
-    let divided = matches!(&table, Table::Jury(table) if !table.is_divided()).then(|| jury_table_with(&base, n, true));
+    let divided = match &table {
+        Table::Jury(table) if !table.is_divided() => Some(jury_table_within(&base, n, true, budget)?),
+        _ => None,
+    };
     for (i, (name, inequality)) in inequalities.into_iter().enumerate() {
         budget.step(&format!("condition {}", i + 1));
         let row = i.checked_sub(VALUE_CONDITIONS).and_then(|row| Some((divided.as_ref()?, row)));
@@ -168,7 +172,7 @@ fn solve_dominates(
     }
     except.push(zeros_in(&difference, range, budget)?);
     except.push(zeros_in(&sum, range, budget)?);
-    let points = merge_points(except);
+    let points = merge_points(except, budget)?;
     IntervalSet::from_cells(range, &points, budget, |x| difference.sign_at(x) == sum.sign_at(x))
 }
 
@@ -214,8 +218,13 @@ fn is_positive_constant(p: &UniPoly) -> bool {
 /// The conditions of Jury's test in the order of the textbook: the values at 1 and -1, then one for
 /// each row. They are stated for a positive leading coefficient; where that is not a positive constant,
 /// the two values are multiplied by it.
-fn jury_inequalities(base: &Poly<UniPoly>, n: usize, scale: Rational) -> Inequalities {
-    let table = jury_table(base, n);
+fn jury_inequalities(
+    base: &Poly<UniPoly>,
+    n: usize,
+    scale: Rational,
+    budget: &Budget,
+) -> Result<Inequalities, Exhausted> {
+    let table = jury_table_within(base, n, n > UNDIVIDED_ORDER, budget)?;
     let mut scales: Vec<Rational> = Vec::with_capacity(table.rows.len());
     for (i, row) in table.rows.iter().enumerate() {
         scales.push(match i {
@@ -255,7 +264,7 @@ fn jury_inequalities(base: &Poly<UniPoly>, n: usize, scale: Rational) -> Inequal
             });
         }
     }
-    (Table::Jury(table), scales, list)
+    Ok((Table::Jury(table), scales, list))
 }
 
 /// The letters of the table's rows: `a`, `b`, ..., `z`, then `r26`, `r27`, ...
@@ -268,8 +277,13 @@ pub fn row_name(index: usize) -> String {
 
 /// Hurwitz determinants for a positive leading coefficient; where that is not a positive constant, those
 /// of odd order are multiplied by it.
-fn routh_inequalities(base: &Poly<UniPoly>, n: usize, scale: Rational) -> Inequalities {
-    let table = routh_table(base, n);
+fn routh_inequalities(
+    base: &Poly<UniPoly>,
+    n: usize,
+    scale: Rational,
+    budget: &Budget,
+) -> Result<Inequalities, Exhausted> {
+    let table = routh_table_within(base, n, budget)?;
     let lead = base.coeff(n);
     let plain = is_positive_constant(&lead);
     let mut scales = Vec::with_capacity(table.rows.len());
@@ -288,7 +302,7 @@ fn routh_inequalities(base: &Poly<UniPoly>, n: usize, scale: Rational) -> Inequa
         };
         list.push((name, Inequality::Positive(ScaledPoly { scale: s, polynomial: f })));
     }
-    (Table::Routh(table), scales, list)
+    Ok((Table::Routh(table), scales, list))
 }
 
 #[cfg(test)]

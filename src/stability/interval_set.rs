@@ -154,16 +154,33 @@ pub(super) fn cells(range: &Range, points: &[RealAlgebraic]) -> Vec<AlgebraicInt
 
 /// The distinct zeros of a polynomial inside a range, ascending; none for the zero polynomial.
 pub(super) fn zeros_in(f: &UniPoly, range: &Range, budget: &Budget) -> Result<Vec<RealAlgebraic>, Exhausted> {
-    let Some(f) = SquareFree::part_of(f) else { return Ok(Vec::new()) };
+    let Some(f) = SquareFree::part_of_within(f, budget)? else { return Ok(Vec::new()) };
     isolate_real_roots_in(&f, range.lower.as_ref(), range.upper.as_ref(), budget)
 }
 
 /// All points of several ascending lists, ascending, each once.
-pub(super) fn merge_points(lists: Vec<Vec<RealAlgebraic>>) -> Vec<RealAlgebraic> {
-    let mut all: Vec<RealAlgebraic> = lists.into_iter().flatten().collect();
-    all.sort_by(|a, b| a.compare(b));
-    all.dedup_by(|a, b| a.compare(b) == Ordering::Equal);
-    all
+pub(super) fn merge_points(lists: Vec<Vec<RealAlgebraic>>, budget: &Budget) -> Result<Vec<RealAlgebraic>, Exhausted> {
+    let mut all: Vec<RealAlgebraic> = Vec::new();
+    for list in lists {
+        let mut merged = Vec::with_capacity(all.len() + list.len());
+        let (mut old, mut new) = (all.into_iter().peekable(), list.into_iter().peekable());
+        while let (Some(a), Some(b)) = (old.peek(), new.peek()) {
+            let order = a.compare_within(b, budget)?;
+            if order.is_le() {
+                merged.extend(old.next());
+            }
+            if order.is_eq() {
+                new.next();
+            }
+            if order.is_gt() {
+                merged.extend(new.next());
+            }
+        }
+        merged.extend(old);
+        merged.extend(new);
+        all = merged;
+    }
+    Ok(all)
 }
 
 fn greater_lower<'a>(a: &'a Option<RealAlgebraic>, b: &'a Option<RealAlgebraic>) -> &'a Option<RealAlgebraic> {

@@ -45,7 +45,7 @@ pub(super) fn complex_pair_at(
         let special = p.specialised(&exact);
         let Some(n) = special.degree().filter(|&n| n > 0) else { return Ok(None) };
         let pair = HalfSizePair::new(&special, n, region);
-        let common = pair.a.gcd(&pair.b);
+        let common = pair.a.gcd_within(&pair.b, budget)?;
         let range = match region {
             Region::UnitDisc => Range::between(Some(Rational::from(-2)), Some(Rational::from(2))),
             Region::LeftHalfPlane => Range::between(None, Some(Rational::ZERO)),
@@ -59,12 +59,20 @@ pub(super) fn complex_pair_at(
         return Ok(None);
     }
     let chain = subresultant_chain(&first, &second, budget)?;
-    let common = chain.iter().rev().map(|s| at_parameter(s, value)).find(|s| !s.is_zero());
-    let Some(mut common) = common else { return Ok(None) };
+    let mut common = Poly::zero();
+    for subresultant in chain.iter().rev() {
+        common = at_parameter(subresultant, value, budget)?;
+        if !common.is_zero() {
+            break;
+        }
+    }
+    if common.is_zero() {
+        return Ok(None);
+    }
     for &end in ends {
         while !common.is_constant() {
             let (quotient, rest) = divide_by_linear(&common, end);
-            if value.sign_of(&rest) != Ordering::Equal {
+            if value.sign_of_within(&rest, budget)? != Ordering::Equal {
                 break;
             }
             common = quotient;
@@ -77,12 +85,15 @@ pub(super) fn complex_pair_at(
 }
 
 /// The polynomial without the leading coefficients that vanish at the parameter value.
-fn at_parameter(p: &Poly<UniPoly>, value: &RealAlgebraic) -> Poly<UniPoly> {
+fn at_parameter(p: &Poly<UniPoly>, value: &RealAlgebraic, budget: &Budget) -> Result<Poly<UniPoly>, Exhausted> {
     let mut coeffs = p.coeffs().to_vec();
-    while coeffs.last().is_some_and(|c| value.sign_of(c).is_eq()) {
+    while let Some(last) = coeffs.last() {
+        if value.sign_of_within(last, budget)?.is_ne() {
+            break;
+        }
         coeffs.pop();
     }
-    Poly::new(coeffs)
+    Ok(Poly::new(coeffs))
 }
 
 /// Quotient and remainder by `x - a`.

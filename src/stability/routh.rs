@@ -1,5 +1,6 @@
 //! The Routh table, without fractions, numeric or symbolic.
 
+use crate::limits::{Budget, Exhausted};
 use crate::poly::{Domain, Poly, UniPoly};
 
 /// The fraction-free Routh table: rows 0 and 1 hold the coefficients of even and odd distance from
@@ -28,6 +29,17 @@ impl<R: Domain> RouthTable<R> {
 /// # Panics
 /// When `n` is below the degree of `p`.
 pub fn routh_table<R: Domain>(p: &Poly<R>, n: usize) -> RouthTable<R> {
+    routh_table_within(p, n, &Budget::unlimited()).expect("the budget is unlimited")
+}
+
+/// [`routh_table`] within a budget, asked for each entry.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+///
+/// # Panics
+/// When `n` is below the degree of `p`.
+pub fn routh_table_within<R: Domain>(p: &Poly<R>, n: usize, budget: &Budget) -> Result<RouthTable<R>, Exhausted> {
     assert!(p.coeffs().len() <= n + 1, "the formal degree is below the degree");
     let line = |from: usize| -> Vec<R> { (from..=n).step_by(2).map(|i| p.coeff(n - i)).collect() };
     let mut rows = vec![line(0)];
@@ -41,15 +53,19 @@ pub fn routh_table<R: Domain>(p: &Poly<R>, n: usize) -> RouthTable<R> {
         }
         let entry = |row: &Vec<R>, j: usize| row.get(j).cloned().unwrap_or_else(R::zero);
         let length = (n - k) / 2 + 1;
-        let mut row: Vec<R> =
-            (0..length).map(|j| up1[0].times(&entry(up2, j + 1)).minus(&up2[0].times(&entry(up1, j + 1)))).collect();
-        if k >= 4 {
-            let divisor = &rows[k - 3][0];
-            row = row.iter().map(|e| e.div_exact(divisor).expect("Bareiss's identity")).collect();
+        let divisor = (k >= 4).then(|| &rows[k - 3][0]);
+        let mut row: Vec<R> = Vec::with_capacity(length);
+        for j in 0..length {
+            budget.check()?;
+            let entry = up1[0].times(&entry(up2, j + 1)).minus(&up2[0].times(&entry(up1, j + 1)));
+            row.push(match divisor {
+                Some(divisor) => entry.div_exact(divisor).expect("Bareiss's identity"),
+                None => entry,
+            });
         }
         rows.push(row);
     }
-    RouthTable { rows }
+    Ok(RouthTable { rows })
 }
 
 /// Whether all roots of `p` lie in the open left half plane, by the Hurwitz determinants.

@@ -100,7 +100,7 @@ pub fn stable_set(
     for boundary in &boundaries {
         lists.push(isolate_real_roots_in(&boundary.polynomial, range.lower.as_ref(), range.upper.as_ref(), budget)?);
     }
-    let points = merge_points(lists);
+    let points = merge_points(lists, budget)?;
     budget.step("testing a sample of each cell");
     let all = cells(range, &points);
     let mut stable = Vec::with_capacity(all.len());
@@ -153,10 +153,10 @@ struct EndExaminer<'a> {
 
 impl EndExaminer<'_> {
     fn examine(&self, value: &RealAlgebraic) -> Result<End, Exhausted> {
-        let vanishes = |f: &crate::poly::UniPoly| value.sign_of(f).is_eq();
-        let coefficients_defined = !vanishes(self.p.denominator());
+        let vanishes = |f: &crate::poly::UniPoly| value.sign_of_within(f, self.budget).map(|sign| sign.is_eq());
+        let coefficients_defined = !vanishes(self.p.denominator())?;
         // Where all coefficients vanish, or one is infinite, no root can be named.
-        let has_roots = coefficients_defined && !vanishes(self.p.content());
+        let has_roots = coefficients_defined && !vanishes(self.p.content())?;
         let mut causes = Causes::default();
         for boundary in self.boundaries {
             let counts = match boundary.cause {
@@ -164,16 +164,15 @@ impl EndExaminer<'_> {
                 Cause::ComplexPair => false,
                 _ => true,
             };
-            if counts && vanishes(boundary.polynomial.poly()) {
+            if counts && vanishes(boundary.polynomial.poly())? {
                 causes.insert(boundary.cause);
             }
         }
-        let critical = |b: &Boundary| b.cause == Cause::ComplexPair && vanishes(b.polynomial.poly());
-        let pair = if has_roots && self.boundaries.iter().any(critical) {
-            complex_pair_at(self.p, value, self.region, self.budget)?
-        } else {
-            None
-        };
+        let mut critical = false;
+        for boundary in self.boundaries.iter().filter(|b| b.cause == Cause::ComplexPair) {
+            critical |= vanishes(boundary.polynomial.poly())?;
+        }
+        let pair = if has_roots && critical { complex_pair_at(self.p, value, self.region, self.budget)? } else { None };
         if pair.is_some() {
             causes.insert(Cause::ComplexPair);
         }

@@ -1,10 +1,11 @@
 //! `jurist analyze`: the verdict at nominal and the stable set of each parameter.
 
 use super::Context;
-use crate::analysis::{Decision, analyze};
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
-use crate::cli::input::{load, settings};
+use crate::analysis::{Analysis, Decision, Point, analyze, asked};
+use crate::cli::arguments::DecisionOptions;
+use crate::cli::input::decision;
 use crate::cli::status::{Outcome, Status};
+use crate::report::json::to_text;
 use crate::report::{analysis_json, analysis_text};
 use clap::Args;
 
@@ -12,30 +13,27 @@ use clap::Args;
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
     #[command(flatten)]
-    pub model: ModelOptions,
-    #[command(flatten)]
-    pub region: RegionOptions,
-    #[command(flatten)]
-    pub output: OutputOptions,
+    pub decision: DecisionOptions,
 }
 
 /// Answers on standard output or in a file.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
-    context.check_output(&options.output)?;
-    let model = load(options.model.model.as_ref(), context)?;
-    let settings = settings(context, &model, &options.model, &options.region)?;
-    let answer = match analyze(&model, &settings, &context.budget) {
-        Ok(answer) => answer,
-        Err(failure) => return context.undecided(&options.output, "jurist/analyze/1", "parameters", failure),
-    };
-    let warnings = match (&answer.verdict, answer.intervals.first()) {
-        (Some(verdict), _) => verdict.warnings.as_slice(),
-        (None, Some(first)) => first.question.warnings.as_slice(),
-        (None, None) => &[],
-    };
-    context.warn(None, warnings);
-    let digits = options.output.digits() as usize;
-    context.answer(&options.output, || analysis_text(&answer, digits), || analysis_json(&answer, digits))?;
+    let output = &options.decision.output;
+    let (model, settings) = decision(&options.decision, context)?;
+    let digits = output.digits() as usize;
+    let names = model.parameters().iter().map(|p| p.name.as_str()).filter(|name| !settings.set.contains_key(*name));
+    let questions: Vec<_> = names.filter_map(|name| asked(&model, &settings, name).ok()).collect();
+    let point = Point::of(&model, &settings, &[]).ok();
+    context.know(output, move |wants_json, budget, reached| {
+        let answer = Analysis::undecided(point, questions, &budget, &reached);
+        Some(if wants_json { to_text(&analysis_json(&answer, digits)) } else { analysis_text(&answer, digits) })
+    })?;
+    let answer = analyze(&model, &settings, &context.budget)?;
+    context.warn(None, &answer.warnings);
+    context.answer(output, || analysis_text(&answer, digits), || analysis_json(&answer, digits))?;
+    if let Some(Decision::Undecided { budget, reached }) = &answer.verdict {
+        return Ok(context.say_undecided(budget, reached));
+    }
     for intervals in &answer.intervals {
         if let Decision::Undecided { budget, reached } = &intervals.stable {
             return Ok(context.say_undecided(budget, reached));

@@ -1,6 +1,7 @@
 //! `jurist charpoly`: the characteristic polynomial.
 
 use super::Context;
+use crate::analysis::{Point, Settings};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_names, load, settings};
@@ -9,6 +10,7 @@ use crate::cli::status::{Failure, Outcome, Status};
 use crate::error::{Diagnostic, Error};
 use crate::matrix::CharacteristicPolynomial;
 use crate::model::{Loop, ModelError, Question};
+use crate::report::json;
 use crate::report::notation::{NamedPolynomial, Notation, PolynomialReport, Relation, root_locus_form};
 use clap::{Args, ValueEnum};
 use std::ffi::OsString;
@@ -39,13 +41,23 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let notation = notation(options)?;
     let model = load(options.model.model.as_ref(), context)?;
     let question = question(options, context, &model)?;
+    let file = options.output.output.as_ref();
+    if notation == Notation::Json {
+        let document = undecided(options, &model, &question)?;
+        context.watch.know(file, move |budget, reached| Some(document(&budget, &reached)));
+    }
     let report = match report(options, context, &model, &question) {
         Ok(report) => report,
-        Err(failure) => return context.undecided(&options.output, "jurist/charpoly/1", "coefficients", failure),
+        Err(Failure::Undecided(exhausted)) if notation == Notation::Json => {
+            let document = undecided(options, &model, &question)?;
+            write_answer(&document(&exhausted.budget, &context.reporter.reached()), file)?;
+            return Err(exhausted.into());
+        }
+        Err(failure) => return Err(failure),
     };
     context.reporter.finish();
     let digits = options.output.digits.map(|d| d as usize);
-    write_answer(&report.write(notation, digits), options.output.output.as_ref())?;
+    write_answer(&report.write(notation, digits), file)?;
     Ok(Status::Holds)
 }
 
@@ -103,10 +115,32 @@ fn question(options: &Options, context: &Context, model: &Loop) -> Result<Questi
             keep.push(name.clone());
         }
     }
+    let warnings = settings.warnings(model, &keep);
     let question = Question { keep, set: settings.set };
-    let resolved = model.resolve(&question).map_err(|e| about_line(context, e))?;
-    context.warn(None, &resolved.warnings);
+    model.resolve(&question).map_err(|e| about_line(context, e))?;
+    context.warn(None, &warnings);
     Ok(question)
+}
+
+/// Writes a document, given the budget and how far the work came.
+type Document = Box<dyn FnOnce(&str, &str) -> String + Send>;
+
+/// The document of a polynomial that the budget does not allow.
+fn undecided(options: &Options, model: &Loop, question: &Question) -> Result<Document, Failure> {
+    let (schema, key) = match (&options.root_locus_form, &options.transfer) {
+        (Some(_), _) => ("jurist/root-locus-form/1", "numerator"),
+        (None, Some(_)) => ("jurist/transfer/1", "numerator"),
+        (None, None) => ("jurist/charpoly/1", "coefficients"),
+    };
+    let settings = Settings { set: question.set.clone(), ..Settings::default() };
+    let point = Point::of(model, &settings, &question.keep)?;
+    let (variable, parameters) = (model.time().variable(), question.keep.clone());
+    Ok(Box::new(move |budget, reached| {
+        let mut document = json::undecided_at_point(schema, key, budget, reached, &point);
+        document["variable"] = variable.into();
+        document["parameters"] = parameters.into();
+        json::to_text(&document)
+    }))
 }
 
 /// An error about the question that points into no text is about the command line.

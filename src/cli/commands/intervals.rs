@@ -1,13 +1,14 @@
 //! `jurist intervals`: the exact stable set of one parameter.
 
 use super::Context;
-use crate::analysis::{DECAY, Decision, RADIUS, intervals};
+use crate::analysis::{DECAY, Decision, Intervals, RADIUS, asked, intervals};
 use crate::certificate::emit::intervals_certificate;
 use crate::certificate::smt2::intervals_smt2;
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
-use crate::cli::input::{known_names, load, settings};
+use crate::cli::arguments::DecisionOptions;
+use crate::cli::input::{decision, known_names};
 use crate::cli::output::write_answer;
 use crate::cli::status::{Outcome, Status};
+use crate::report::json::to_text;
 use crate::report::{intervals_json, intervals_text};
 use clap::Args;
 use std::ffi::OsString;
@@ -16,35 +17,33 @@ use std::slice::from_ref;
 /// Options of `jurist intervals`.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
-    #[command(flatten)]
-    pub model: ModelOptions,
     /// The parameter in question: a parameter, a constant given as a number, 'radius' or 'decay'
     #[arg(long, value_name = "NAME")]
     pub param: String,
     #[command(flatten)]
-    pub region: RegionOptions,
+    pub decision: DecisionOptions,
     /// Writes a certificate that 'jurist verify' re-checks
     #[arg(long, value_name = "FILE")]
     pub certificate: Option<OsString>,
     /// Writes the statement as SMT-LIB 2; a solver answers 'unsat' if it is true
     #[arg(long, value_name = "FILE")]
     pub smt2: Option<OsString>,
-    #[command(flatten)]
-    pub output: OutputOptions,
 }
 
 /// Answers on standard output or in a file.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
-    context.check_output(&options.output)?;
-    let model = load(options.model.model.as_ref(), context)?;
-    let settings = settings(context, &model, &options.model, &options.region)?;
+    let output = &options.decision.output;
+    let (model, settings) = decision(&options.decision, context)?;
     if options.param != RADIUS && options.param != DECAY {
         known_names(context, &model, "--param", from_ref(&options.param))?;
     }
-    let answer = match intervals(&model, &settings, &options.param, &context.budget) {
-        Ok(answer) => answer,
-        Err(failure) => return context.undecided(&options.output, "jurist/intervals/1", "stable", failure),
-    };
+    let digits = output.digits() as usize;
+    let question = asked(&model, &settings, &options.param)?;
+    context.know(output, move |wants_json, budget, reached| {
+        let answer = Intervals { question, stable: Decision::Undecided { budget, reached } };
+        Some(if wants_json { to_text(&intervals_json(&answer, digits)) } else { intervals_text(&answer, digits) })
+    })?;
+    let answer = intervals(&model, &settings, &options.param, &context.budget)?;
     context.warn(None, &answer.question.warnings);
     if let Decision::Decided(set) = &answer.stable {
         if let Some(file) = &options.certificate {
@@ -55,8 +54,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
             write_answer(&intervals_smt2(&answer.question, set, &context.budget)?, Some(file))?;
         }
     }
-    let digits = options.output.digits() as usize;
-    context.answer(&options.output, || intervals_text(&answer, digits), || intervals_json(&answer, digits))?;
+    context.answer(output, || intervals_text(&answer, digits), || intervals_json(&answer, digits))?;
     Ok(match &answer.stable {
         Decision::Decided(_) => Status::Holds,
         Decision::Undecided { budget, reached } => context.say_undecided(budget, reached),

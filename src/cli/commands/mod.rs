@@ -20,6 +20,8 @@ use super::output::{ending, unknown_ending, write_answer};
 use super::progress::Reporter;
 use super::show;
 use super::status::{Failure, Outcome, Status};
+use super::watch::Watch;
+use crate::analysis::Point;
 use crate::error::{Diagnostic, Error, Source};
 use crate::limits::Budget;
 use crate::report::json;
@@ -36,13 +38,44 @@ pub(super) struct Context<'a> {
     pub budget: Budget,
     /// Whether warnings are left out.
     pub quiet: bool,
+    /// Who speaks when a step runs on after the time is up.
+    pub watch: Watch,
 }
 
 impl<'a> Context<'a> {
-    pub fn new(line: &'a CommandLine, options: &RunOptions) -> Self {
+    pub fn new(line: &'a CommandLine, arguments: &Arguments) -> Self {
+        let options = arguments.run_options();
         let reporter = Reporter::new(options);
         let budget = reporter.budget(options);
-        Context { line, reporter, budget, quiet: options.quiet }
+        // The check of a certificate keeps its own time: too late is rejected, not undecided.
+        let checks = matches!(arguments.command, Some(Command::Verify(_)));
+        let watch = Watch::after(options.timeout.filter(|_| !checks), &reporter);
+        Context { line, reporter, budget, quiet: options.quiet, watch }
+    }
+
+    /// Has this written when the time is up in the middle of a step: from whether JSON is wanted, the budget
+    /// and how far the work came.
+    pub fn know(
+        &self,
+        options: &OutputOptions,
+        document: impl FnOnce(bool, String, String) -> Option<String> + Send + 'static,
+    ) -> Result<(), Failure> {
+        let wants_json = self.wants_json(options)?;
+        self.watch.know(options.output.as_ref(), move |budget, reached| document(wants_json, budget, reached));
+        Ok(())
+    }
+
+    /// The same for a question at a point, of which only JSON says what is known.
+    pub fn know_point(
+        &self,
+        options: &OutputOptions,
+        schema: &'static str,
+        key: &'static str,
+        point: Point,
+    ) -> Result<(), Failure> {
+        self.know(options, move |wants_json, budget, reached| {
+            wants_json.then(|| json::to_text(&json::undecided_at_point(schema, key, &budget, &reached, &point)))
+        })
     }
 
     /// Shows warnings, unless they are not wanted.
@@ -90,6 +123,24 @@ impl<'a> Context<'a> {
         Err(failure)
     }
 
+    /// The same about a point, with all that is known of it.
+    pub fn undecided_at_point(
+        &self,
+        options: &OutputOptions,
+        schema: &str,
+        key: &str,
+        failure: Failure,
+        point: &Point,
+    ) -> Outcome {
+        if let Failure::Undecided(exhausted) = &failure
+            && self.wants_json(options)?
+        {
+            let document = json::undecided_at_point(schema, key, &exhausted.budget, &self.reporter.reached(), point);
+            write_answer(&json::to_text(&document), options.output.as_ref())?;
+        }
+        Err(failure)
+    }
+
     /// Says on standard error that there is no answer.
     pub fn say_undecided(&self, budget: &str, reached: &str) -> Status {
         self.reporter.finish();
@@ -104,11 +155,11 @@ impl Arguments {
         const NONE: &RunOptions = &RunOptions { timeout: None, quiet: false, verbose: false };
         match &self.command {
             None => &self.main_job.output.run,
-            Some(Command::Analyze(options)) => &options.output.run,
-            Some(Command::Intervals(options)) => &options.output.run,
-            Some(Command::Verdict(options)) => &options.output.run,
+            Some(Command::Analyze(options)) => &options.decision.output.run,
+            Some(Command::Intervals(options)) => &options.decision.output.run,
+            Some(Command::Verdict(options)) => &options.decision.output.run,
             Some(Command::Charpoly(options)) => &options.output.run,
-            Some(Command::Jury(options)) => &options.output.run,
+            Some(Command::Jury(options)) => &options.decision.output.run,
             Some(Command::Map(options)) => &options.output.run,
             Some(Command::Locus(options)) => &options.run,
             Some(Command::Simulate(options)) => &options.run,

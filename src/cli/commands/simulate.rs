@@ -85,6 +85,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         (path, _) => load(path.as_ref(), context)?,
     };
     let settings = settings(context, &model, &options.model, &Default::default())?;
+    context.warn(None, &settings.warnings(&model, &[]));
     let question = Question { keep: Vec::new(), set: settings.set.clone() };
     let course = Course::of(options, &model, context)?;
     context.budget.step("simulating");

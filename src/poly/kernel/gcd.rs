@@ -2,6 +2,7 @@
 
 use super::chinese::{Chinese, Limbs};
 use super::modular::{PrimeField, largest_primes};
+use crate::limits::{Budget, Exhausted};
 use crate::poly::{Domain, Poly, UniPoly};
 
 /// The subresultant sequence is used up to this degree of the smaller polynomial.
@@ -23,11 +24,19 @@ pub const MODULAR_MIN_DEGREE: usize = 3;
 /// # Panics
 /// When one of them is zero.
 pub fn primitive_gcd_modular(a: &UniPoly, b: &UniPoly) -> UniPoly {
-    primitive_gcd_with(a, b, |k| largest_primes(k + 1)[k])
+    primitive_gcd_modular_within(a, b, &Budget::unlimited()).expect("the budget is unlimited")
+}
+
+fn primitive_gcd_modular_within(a: &UniPoly, b: &UniPoly, budget: &Budget) -> Result<UniPoly, Exhausted> {
+    primitive_gcd_with(a, b, |k| budget.check().map(|()| largest_primes(k + 1)[k]))
 }
 
 /// The same with the given sequence of distinct primes, which must not end.
-fn primitive_gcd_with(a: &UniPoly, b: &UniPoly, prime: impl Fn(usize) -> PrimeField) -> UniPoly {
+fn primitive_gcd_with<E>(
+    a: &UniPoly,
+    b: &UniPoly,
+    prime: impl Fn(usize) -> Result<PrimeField, E>,
+) -> Result<UniPoly, E> {
     let lead = |p: &UniPoly| p.leading().expect("not zero").clone();
     let leading = lead(a).gcd(&lead(b));
     let (limbs_a, limbs_b) = (Limbs::new(a.coeffs()), Limbs::new(b.coeffs()));
@@ -36,14 +45,14 @@ fn primitive_gcd_with(a: &UniPoly, b: &UniPoly, prime: impl Fn(usize) -> PrimeFi
     let mut images: Vec<Vec<u64>> = Vec::new();
     let mut attempt_at = 1;
     for k in 0.. {
-        let f = prime(k);
+        let f = prime(k)?;
         let scale = limbs_leading.residues(&f)[0];
         if scale == 0 {
             continue;
         }
         let mut image = monic_gcd(&f, limbs_a.residues(&f), limbs_b.residues(&f));
         if image.len() == 1 {
-            return UniPoly::one();
+            return Ok(UniPoly::one());
         }
         if let Some(known) = images.first() {
             if image.len() > known.len() {
@@ -70,7 +79,7 @@ fn primitive_gcd_with(a: &UniPoly, b: &UniPoly, prime: impl Fn(usize) -> PrimeFi
         let lifted = (0..length).map(|j| chinese.integer(images.iter().map(|image| image[j])));
         let candidate = Poly::new(lifted.collect()).primitive_part();
         if candidate.coeffs().len() == length && divides(&candidate, a) && divides(&candidate, b) {
-            return candidate;
+            return Ok(candidate);
         }
     }
     unreachable!("the sequence of primes does not end")
@@ -129,10 +138,19 @@ fn monic_gcd(f: &PrimeField, a: Vec<u64>, b: Vec<u64>) -> Vec<u64> {
 
 /// The gcd of two non-zero primitive polynomials by the way that is expected to be the fastest.
 pub fn primitive_gcd(a: &UniPoly, b: &UniPoly) -> UniPoly {
+    primitive_gcd_within(a, b, &Budget::unlimited()).expect("the budget is unlimited")
+}
+
+/// [`primitive_gcd`] within a budget, asked for each prime.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn primitive_gcd_within(a: &UniPoly, b: &UniPoly, budget: &Budget) -> Result<UniPoly, Exhausted> {
     if a.coeffs().len().min(b.coeffs().len()) <= MODULAR_MIN_DEGREE {
-        crate::poly::gcd::primitive_gcd_subresultant(a, b)
+        budget.check()?;
+        Ok(crate::poly::gcd::primitive_gcd_subresultant(a, b))
     } else {
-        primitive_gcd_modular(a, b)
+        primitive_gcd_modular_within(a, b, budget)
     }
 }
 
@@ -150,10 +168,10 @@ mod tests {
         let used = Cell::new(0);
         let g = primitive_gcd_with(a, b, |k| {
             used.set(k);
-            small[k]
+            Ok::<_, Exhausted>(small[k])
         });
         assert!(used.get() < small.len());
-        g
+        g.expect("no budget runs out")
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::super::json;
 use super::super::real::JSON_NUMBER_DIGITS;
+use super::super::region::map_causes_text;
 use super::wall_cause;
 use crate::analysis::{Axis, Decision, Map, MapLimit, RegionExtent};
 use crate::number::{Enclosure, Integer, enclosed_decimal};
@@ -34,7 +35,7 @@ pub fn map_json(answer: &Map, limits: &[RegionExtent], digits: usize) -> Value {
             let undefined = answer.polynomial.is_none();
             let strips = map.strips.iter().map(|s| strip_json(s, map, x, undefined, digits));
             out.insert("strips".into(), strips.collect::<Vec<_>>().into());
-            let regions = map.regions.iter().enumerate().map(|(k, r)| region_json(r, limits.get(k), digits));
+            let regions = map.regions.iter().enumerate().map(|(k, r)| region_json(r, limits.get(k), answer, digits));
             out.insert("regions".into(), regions.collect::<Vec<_>>().into());
         }
         Decision::Undecided { budget, reached } => {
@@ -90,13 +91,13 @@ fn cell_json(cell: &Cell, undefined: bool) -> Value {
     })
 }
 
-fn region_json(region: &StableRegion, limits: Option<&RegionExtent>, digits: usize) -> Value {
+fn region_json(region: &StableRegion, limits: Option<&RegionExtent>, answer: &Map, digits: usize) -> Value {
     let cells: Vec<Value> = region.cells.iter().map(|(strip, cell)| json!([strip, cell])).collect();
     let extents = [&region.x, &region.y].map(|interval| [&interval.lower, &interval.upper]);
     let end = |parameter: usize, side: usize| {
         let limit = limits.and_then(|l| l.ends[parameter][side].as_ref());
         match (limit, extents[parameter][side]) {
-            (Some(limit), _) => limit_json(limit, parameter, digits),
+            (Some(limit), _) => limit_json(limit, parameter, answer, digits),
             (None, value) => json::plain_end(value.as_ref(), digits),
         }
     };
@@ -108,9 +109,12 @@ fn region_json(region: &StableRegion, limits: Option<&RegionExtent>, digits: usi
 }
 
 /// An extreme value with its causes; `at` lists where the other parameter is then.
-fn limit_json(limit: &MapLimit, parameter: usize, digits: usize) -> Value {
+fn limit_json(limit: &MapLimit, parameter: usize, answer: &Map, digits: usize) -> Value {
     let mut out = json::number(&limit.limit.value, digits);
     out.insert("cause".into(), limit.limit.causes.to_string().into());
+    if answer.radius.is_some() || answer.decay.is_some() {
+        out.insert("boundary".into(), map_causes_text(&limit.limit.causes, answer).into());
+    }
     json::frequency_fields(&mut out, digits.min(JSON_NUMBER_DIGITS), |_| limit.frequency.clone());
     let at = limit.limit.at.iter().map(|at| enclosure_json(&at[1 - parameter], digits));
     out.insert("at".into(), at.collect::<Vec<_>>().into());

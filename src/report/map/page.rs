@@ -4,7 +4,8 @@ use super::super::figures::map::{
     FrequencyPoint, MapContents, MapFigure, MapTrace, Role, Wall, frequency_unit, mechanism_words,
 };
 use super::super::json;
-use super::super::layout::{goal, named_values, short};
+use super::super::layout::{named_values, short};
+use super::super::region::map_goal;
 use crate::analysis::{Axis, Map};
 use crate::limits::Budget;
 use crate::number::Integer;
@@ -102,7 +103,7 @@ fn data(answer: &Map, contents: &MapContents<'_>, trace: &MapTrace, figures: &[M
     let plot = |f: &MapFigure| json!([f.plot.0, f.plot.1, f.plot.2, f.plot.3]);
     json!({
         "label": format!("stable region of {} and {}", answer.axes[0].name, answer.axes[1].name),
-        "goal": goal(answer),
+        "goal": map_goal(answer),
         "unit": frequency_unit(answer),
         "degree": answer.polynomial.as_ref().map_or(0, |p| p.formal_degree()),
         "never": never,
@@ -117,7 +118,7 @@ fn data(answer: &Map, contents: &MapContents<'_>, trace: &MapTrace, figures: &[M
 fn curve(curve: &Curve, answer: &Map) -> Value {
     let term = |(m, c): &(Monomial, Integer)| json!([m.exponent(0), m.exponent(1), c.to_string()]);
     json!({
-        "words": mechanism_words(&curve.causes, answer.region),
+        "words": mechanism_words(&curve.causes, answer),
         "terms": curve.polynomial.terms().iter().map(term).collect::<Vec<_>>(),
     })
 }

@@ -1,8 +1,9 @@
 //! The answer for people: each region, how far it reaches, and what limits it there.
 
 use super::super::intervals::{domain_text, set_lines};
-use super::super::layout::{Columns, goal, named_values, short};
+use super::super::layout::{Columns, named_values, short};
 use super::super::real;
+use super::super::region::{map_causes_text, map_goal};
 use crate::analysis::{Axis, Decision, Intervals, Map, MapLimit, RegionExtent};
 use crate::number::{Enclosure, Integer, enclosed_decimal, to_decimal};
 use crate::poly::algebraic::simplest_between;
@@ -21,7 +22,7 @@ pub fn map_text(answer: &Map, limits: &[RegionExtent], slices: &[Intervals], dig
     }
     out.push('\n');
     let [x, y] = &answer.axes;
-    let goal = goal(answer);
+    let goal = map_goal(answer);
     out.push_str(&format!("{} against {}: ", axis_text(x), axis_text(y)));
     match &answer.map {
         Decision::Undecided { budget, reached } => {
@@ -37,7 +38,7 @@ pub fn map_text(answer: &Map, limits: &[RegionExtent], slices: &[Intervals], dig
             out.push_str(&format!("{goal} in {count} region{}\n", if count == 1 { "" } else { "s" }));
             for (k, region) in map.regions.iter().enumerate() {
                 let number = (count > 1).then_some(k + 1);
-                out.push_str(&region_text(number, region, limits.get(k), map, &answer.axes, digits));
+                out.push_str(&region_text(number, region, limits.get(k), map, answer, digits));
             }
         }
     }
@@ -74,9 +75,10 @@ fn region_text(
     region: &StableRegion,
     limits: Option<&RegionExtent>,
     map: &StabilityMap,
-    axes: &[Axis; 2],
+    answer: &Map,
     digits: usize,
 ) -> String {
+    let axes = &answer.axes;
     let mut out = match number {
         Some(k) => format!("region {k}: all points lie within\n"),
         None => "all its points lie within\n".to_owned(),
@@ -99,7 +101,7 @@ fn region_text(
                 (Some(limit), Some(value)) => vec![
                     format!("{word} {}", axis.name),
                     real::rounded(value, digits).decimal,
-                    mechanism(limit),
+                    mechanism(limit, answer),
                     place(limit, k, axes),
                 ],
             };
@@ -107,7 +109,7 @@ fn region_text(
         }
     }
     out.push_str(&format!("limited by\n{columns}"));
-    let walls = walls(region, map, axes);
+    let walls = walls(region, map, answer);
     if !walls.is_empty() {
         out.push_str(&format!("with the walls\n{walls}"));
     }
@@ -115,9 +117,9 @@ fn region_text(
 }
 
 /// `complex pair at 1.2 Hz, 0.4 rad`.
-fn mechanism(limit: &MapLimit) -> String {
-    let causes = &limit.limit.causes;
-    let Some(frequency) = &limit.frequency else { return causes.to_string() };
+fn mechanism(limit: &MapLimit, answer: &Map) -> String {
+    let causes = map_causes_text(&limit.limit.causes, answer);
+    let Some(frequency) = &limit.frequency else { return causes };
     let decimal = |e: &Enclosure| enclosed_decimal(e.lower(), e.upper(), FREQUENCY_DIGITS);
     let mut at = Vec::new();
     at.extend(frequency.hertz.as_ref().and_then(decimal).map(|v| format!("{v} Hz")));
@@ -126,7 +128,7 @@ fn mechanism(limit: &MapLimit) -> String {
         (None, Some(rate)) => at.extend(decimal(rate).map(|v| format!("{v} rad/s"))),
         _ => {}
     }
-    if at.is_empty() { causes.to_string() } else { format!("{causes} at {}", at.join(", ")) }
+    if at.is_empty() { causes } else { format!("{causes} at {}", at.join(", ")) }
 }
 
 /// Where the extreme value is taken.
@@ -159,12 +161,13 @@ fn place(limit: &MapLimit, parameter: usize, axes: &[Axis; 2]) -> String {
 }
 
 /// What is below and above, from which `x` to which.
-fn walls(region: &StableRegion, map: &StabilityMap, axes: &[Axis; 2]) -> String {
+fn walls(region: &StableRegion, map: &StabilityMap, answer: &Map) -> String {
+    let axes = &answer.axes;
     let mut rows: Vec<(AlgebraicInterval, [String; 2])> = Vec::new();
     for (strip, cell) in &region.cells {
         let cell = &map.strips[*strip].cells[*cell];
         let side = |b: &Option<Branch>, domain: bool| match b {
-            Some(b) => map.curves[b.curve].causes.to_string(),
+            Some(b) => map_causes_text(&map.curves[b.curve].causes, answer),
             None if domain => "domain".to_owned(),
             None => "nothing".to_owned(),
         };

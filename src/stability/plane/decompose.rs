@@ -197,7 +197,7 @@ fn decompose(
     for q in &projection {
         lists.push(isolate_real_roots_in(q, domain[0].lower.as_ref(), domain[0].upper.as_ref(), budget)?);
     }
-    let points = merge_points(lists);
+    let points = merge_points(lists, budget)?;
     budget.step("testing a sample of each cell");
     let intervals = cells(&domain[0], &points);
     let total = intervals.len() as u64;

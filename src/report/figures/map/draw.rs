@@ -10,7 +10,7 @@ use super::trace::MapTrace;
 use crate::analysis::{Axis, Intervals, Map, RegionExtent};
 use crate::limits::{Budget, Exhausted};
 use crate::number::Rational;
-use crate::report::layout::goal;
+use crate::report::region::map_goal;
 use crate::stability::plane::StabilityMap;
 use kuva::render::color::Color;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
@@ -129,7 +129,7 @@ impl<'a> Drawing<'a> {
 
     fn title(&self) -> String {
         let answer = self.contents.answer;
-        let asked = goal(answer);
+        let asked = map_goal(answer);
         let what = if asked == "stable" { "Stable region".to_owned() } else { format!("Region of {asked}") };
         match answer.title.as_deref().filter(|t| !t.is_empty()) {
             Some(title) => format!("{what}: {title}"),

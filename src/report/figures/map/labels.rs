@@ -148,5 +148,5 @@ pub(super) fn frequencies(
 
 /// The mechanism of a wall in words.
 pub(super) fn words(answer: &Map, map: &StabilityMap, wall: &Wall) -> String {
-    mechanism_words(&map.curves[wall.curve].causes, answer.region)
+    mechanism_words(&map.curves[wall.curve].causes, answer)
 }

@@ -5,6 +5,7 @@ use super::trace::{MapTrace, approximate};
 use crate::analysis::Map;
 use crate::number::Rational;
 use crate::poly::RealAlgebraic;
+use crate::report::region::map_edge;
 use crate::stability::plane::{Cell, StabilityMap};
 use crate::stability::{Cause, Causes, Region};
 
@@ -47,20 +48,30 @@ pub fn mechanism_colour(causes: &Causes) -> (&'static str, Option<&'static str>)
     }
 }
 
-/// A mechanism in words.
-pub fn mechanism_words(causes: &Causes, region: Region) -> String {
-    let words = |cause: Cause| match (cause, region) {
-        (Cause::RootAtOne, _) => "root at z = 1",
-        (Cause::RootAtMinusOne, _) => "root at z = \u{2212}1",
-        (Cause::ComplexPair, Region::UnitDisc) => "complex pair on the circle",
-        (Cause::ComplexPair, Region::LeftHalfPlane) => "complex pair on the axis",
-        (Cause::RootAtZero, _) => "root at s = 0",
-        (Cause::DegreeLost, _) => "degree lost",
-        (Cause::Pole, _) => "loop undefined",
-        (Cause::Domain, _) => "end of the domain",
+/// A mechanism in words, with the points of the boundary that was asked for.
+pub fn mechanism_words(causes: &Causes, answer: &Map) -> String {
+    let edge = map_edge(answer);
+    let printed = |sign: &str| match &edge {
+        Some(edge) => format!("{sign}{edge}").replace("--", "").replace('-', "\u{2212}"),
+        None => format!("{sign}1").replace('-', "\u{2212}"),
+    };
+    let words = |cause: Cause| match (cause, answer.region) {
+        (Cause::RootAtOne, _) => format!("root at z = {}", printed("")),
+        (Cause::RootAtMinusOne, _) => format!("root at z = {}", printed("-")),
+        (Cause::ComplexPair, Region::UnitDisc) if edge.is_some() => format!("complex pair on |z| = {}", printed("")),
+        (Cause::ComplexPair, Region::LeftHalfPlane) if edge.is_some() => {
+            format!("complex pair on Re s = {}", printed(""))
+        }
+        (Cause::ComplexPair, Region::UnitDisc) => "complex pair on the circle".into(),
+        (Cause::ComplexPair, Region::LeftHalfPlane) => "complex pair on the axis".into(),
+        (Cause::RootAtZero, _) if edge.is_some() => format!("root at s = {}", printed("")),
+        (Cause::RootAtZero, _) => "root at s = 0".into(),
+        (Cause::DegreeLost, _) => "degree lost".into(),
+        (Cause::Pole, _) => "loop undefined".into(),
+        (Cause::Domain, _) => "end of the domain".into(),
     };
     // On a curve of real roots the pair's constraint vanishes because a root is its own mirror image twice.
-    let named: Vec<&str> = match leading_cause(causes) {
+    let named: Vec<String> = match leading_cause(causes) {
         Some(Cause::ComplexPair) | None => causes.iter().map(words).collect(),
         Some(_) => causes.iter().filter(|c| *c != Cause::ComplexPair).map(words).collect(),
     };
