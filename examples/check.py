@@ -1015,6 +1015,17 @@ def check_verdict(model, document, statement, values, discrete, extent):
     return f"The loop is {found[0]}: {found[2]} roots inside, {found[3]} on the boundary, {found[4]} outside."
 
 
+FAILURES = (Rejected, RecursionError, ZeroDivisionError, TypeError, KeyError, ValueError, AttributeError, OverflowError, IndexError)
+
+
+def judge(model, certificate):
+    """Whether the certificate is accepted, and the statement or the reason."""
+    try:
+        return True, check(model, certificate)
+    except FAILURES as error:
+        return False, str(error)
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit("usage: check.py MODEL CERTIFICATE")

@@ -1,6 +1,8 @@
 //! Models with singular cases, their certificates, and mutations.
 #![allow(dead_code)]
 
+pub mod python;
+
 use jurist::analysis::{Settings, one_parameter, verdict};
 use jurist::certificate::emit::{intervals_certificate, verdict_certificate};
 use jurist::certificate::format::Json;
