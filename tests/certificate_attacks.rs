@@ -2,49 +2,18 @@
 
 mod certificates;
 
-use certificates::python::Python;
-use jurist::certificate::check::{Limits, Step, check};
-use std::cell::RefCell;
+use certificates::checkers::{accept, reject};
+use jurist::certificate::check::Step;
 
-/// Both checkers, of which the second may be missing.
-struct Checkers(Option<RefCell<Python>>);
-
-impl Checkers {
-    fn new() -> Self {
-        Checkers(Python::start().map(RefCell::new))
-    }
-
-    fn python(&self, model: &str, certificate: &str) -> Option<Result<String, String>> {
-        self.0.as_ref().map(|p| p.borrow_mut().check(model, certificate))
-    }
-
-    fn accept(&self, model: &str, certificate: &str) {
-        check(model, certificate, &Limits::default()).unwrap_or_else(|e| panic!("{e}\n{certificate}"));
-        if let Some(Err(e)) = self.python(model, certificate) {
-            panic!("Python: {e}\n{certificate}");
-        }
-    }
-
-    fn reject(&self, model: &str, certificate: &str, step: Step) {
-        match check(model, certificate, &Limits::default()) {
-            Ok(proved) => panic!("accepted: {}\n{certificate}", proved.statement),
-            Err(e) => assert_eq!(e.step, step, "{e}\n{certificate}"),
-        }
-        if let Some(Ok(proved)) = self.python(model, certificate) {
-            panic!("Python accepted: {proved}\n{certificate}");
-        }
-    }
-
-    /// Rejected after each of the changes (all of them together in one entry).
-    fn reject_changes(&self, model: &str, certificate: &str, changes: &[(Step, &[(&str, &str)])]) {
-        self.accept(model, certificate);
-        for (step, edits) in changes {
-            let changed = edits.iter().fold(certificate.to_owned(), |text, (from, to)| {
-                assert_eq!(text.matches(from).count(), 1, "{from} in\n{text}");
-                text.replace(from, to)
-            });
-            self.reject(model, &changed, *step);
-        }
+/// Rejected after each of the changes (all of them together in one entry).
+fn reject_changes(model: &str, certificate: &str, changes: &[(Step, &[(&str, &str)])]) {
+    accept(model, certificate);
+    for (step, edits) in changes {
+        let changed = edits.iter().fold(certificate.to_owned(), |text, (from, to)| {
+            assert_eq!(text.matches(from).count(), 1, "{from} in\n{text}");
+            text.replace(from, to)
+        });
+        reject(model, &changed, *step);
     }
 }
 
@@ -80,7 +49,7 @@ fn points_and_samples_of_a_first_order_loop() {
            {"split": [], "sample": "1", "stable": true}, {"at": "2"}, {"split": [], "sample": "3", "stable": false}]"#,
     );
     let claim = |to: &'static str| (r#"{"lower": "0", "upper": "2"}"#, to);
-    Checkers::new().reject_changes(
+    reject_changes(
         &first,
         &text,
         &[
@@ -203,7 +172,7 @@ fn points_where_two_stable_stretches_touch() {
     let joined = (r#"{"lower": "-1", "upper": "0"}, {"lower": "0", "upper": "1"}"#, r#"{"lower": "-1", "upper": "1"}"#);
     let one = (r#"{"split": [], "sample": "-1/2", "stable": true}, {"at": "0", "touch": ["v", 0]},"#, "");
     let identity = r#"{"u": [], "v": [["1"]], "value": ["0", "0", "1"]}"#;
-    Checkers::new().reject_changes(
+    reject_changes(
         &touching,
         &text,
         &[
@@ -278,7 +247,7 @@ fn points_that_are_stable_are_not_left_out() {
     high.push((identity, r#"{"u": [["-3"]], "v": [["0"], ["5"]], "value": []}"#));
     let mut no_boundary = nowhere.to_vec();
     no_boundary.push((identity, "null"));
-    Checkers::new().reject_changes(
+    reject_changes(
         &always,
         &text,
         &[
@@ -298,7 +267,6 @@ fn points_that_are_stable_are_not_left_out() {
 /// Where the degree falls and where a quotient is undefined the loop is not stable, whatever is there on both sides.
 #[test]
 fn lost_degrees_and_poles_are_not_joined() {
-    let checkers = Checkers::new();
     for (time, written, characteristic, boundary) in [
         ("continuous", "(K - 1)^2*s + 1", r#"[["1"], ["1", "-2", "1"]]"#, "null"),
         ("discrete", "(K - 1)*z", r#"[[], ["-1", "1"]]"#, "null"),
@@ -317,7 +285,7 @@ fn lost_degrees_and_poles_are_not_joined() {
         let two = r#"{"lower": null, "upper": "1"}, {"lower": "1", "upper": null}"#;
         let joined = (two, r#"{"lower": null, "upper": null}"#);
         let one = (r#", {"at": "1"}, {"split": [], "sample": "2", "stable": true}"#, "");
-        checkers.reject_changes(
+        reject_changes(
             &model(time, written),
             &certificate(time, ["null", "null"], two, &parts),
             &[
@@ -339,21 +307,20 @@ fn lost_degrees_and_poles_are_not_joined() {
             certificate("discrete", ["null", "null"], "", &parts).replace(r#""set": {}"#, r#""set": {"g": "1"}"#);
         let claim = (r#""stable": []"#, r#""stable": [{"lower": null, "upper": null}]"#);
         let line = (r#""line": []"#, r#""line": [{"split": [], "sample": "1", "stable": true}]"#);
-        checkers.reject_changes(&model, &text, &[(Stable, &[claim]), (Line, &[claim, line])]);
+        reject_changes(&model, &text, &[(Stable, &[claim]), (Line, &[claim, line])]);
     }
 }
 
 /// The root is `K/g`; the statement is about the radius.
 #[test]
 fn regions_names_and_values() {
-    let checkers = Checkers::new();
     let lp = "time = 'discrete'\nparameters.K = { nominal = 1 }\nconstants.g = 2\nloop.characteristic = 'z - K/g'";
     let text = r#"{"schema": "jurist/certificate/1",
   "statement": {"kind": "intervals", "time": "discrete", "parameter": "radius", "set": {"K": "1"}, "region": {"radius": "parameter"},
     "domain": {"lower": "0", "upper": null}, "stable": [{"lower": "1/2", "upper": null}]},
   "characteristic": [["-1"], ["0", "2"]], "boundary": null, "factors": [["0", "1"], ["-1", "2"], ["1", "2"]],
   "line": [{"split": [], "sample": "1/4", "stable": false}, {"at": "1/2"}, {"split": [], "sample": "1", "stable": true}]}"#;
-    checkers.reject_changes(
+    reject_changes(
         lp,
         text,
         &[
@@ -385,31 +352,30 @@ fn regions_names_and_values() {
         "1/", "inf", "nan",
     ];
     for number in numbers {
-        checkers.reject(lp, &text.replace(r#"{"K": "1"}"#, &format!(r#"{{"K": "{number}"}}"#)), Statement);
+        reject(lp, &text.replace(r#"{"K": "1"}"#, &format!(r#"{{"K": "{number}"}}"#)), Statement);
     }
     // Not texts: numbers, truth values, lists, nothing.
     for other in ["1", "true", "null", "[\"1\"]", "{}"] {
-        checkers.reject(lp, &text.replace(r#"{"K": "1"}"#, &format!(r#"{{"K": {other}}}"#)), Statement);
+        reject(lp, &text.replace(r#"{"K": "1"}"#, &format!(r#"{{"K": {other}}}"#)), Statement);
     }
     for radius in ["0", "-1", "1/2"] {
         let changed = text.replace(r#"{"radius": "parameter"}"#, &format!(r#"{{"radius": "{radius}"}}"#));
         let changed = changed
             .replace(r#""parameter": "radius""#, r#""parameter": "K""#)
             .replace(r#""set": {"K": "1"}"#, r#""set": {}"#);
-        checkers.reject(lp, &changed, if radius == "1/2" { Characteristic } else { Statement });
+        reject(lp, &changed, if radius == "1/2" { Characteristic } else { Statement });
     }
 }
 
 /// The verdict at a point: roots 1/2, 1 and 2 of `(z - 1/2)(z - 1)(z - 2)`, and what a pole or a lost degree changes.
 #[test]
 fn verdicts() {
-    let checkers = Checkers::new();
     let lp = model("discrete", "K*(z - 1/2)*(z - 1)*(z - 2)/K");
     let text = r#"{"schema": "jurist/certificate/1",
   "statement": {"kind": "verdict", "time": "discrete", "set": {"K": "1"}, "region": {"radius": "1"}, "verdict": "unstable",
     "degree": 3, "inside": 1, "on": 1, "outside": 1, "infinite": 0},
   "characteristic": [["-2"], ["7"], ["-7"], ["2"]]}"#;
-    checkers.reject_changes(
+    reject_changes(
         &lp,
         text,
         &[

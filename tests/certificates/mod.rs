@@ -1,6 +1,7 @@
 //! Models with singular cases, their certificates, and mutations.
 #![allow(dead_code)]
 
+pub mod checkers;
 pub mod python;
 
 use jurist::analysis::{Settings, one_parameter, verdict};
