@@ -59,6 +59,12 @@ pub const MODELS: &[(&str, &str, &str)] = &[
         "time = 'continuous'\nparameters.K = { min = -3 }\nloop.characteristic = 's^4 + 4*s^3 + 6*s^2 + 4*s + 1 + K'",
         "K",
     ),
+    // D(1) = (1 - K)(1 + K)^2: its square-free part alone does not make it up.
+    (
+        "roots of two multiplicities",
+        "time = 'discrete'\nparameters.K = { min = 0 }\nloop.characteristic = '(z - K)*(z + K)*(z^2 + K)'",
+        "K",
+    ),
     (
         "matrix",
         "time = 'discrete'\nparameters.K = { min = 0 }\nparameters.T = { nominal = 0.1 }\nloop.matrix = [[1, 'T'], ['-K*T/(K + 1)', '1 - K*T']]",
