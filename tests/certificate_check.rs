@@ -267,7 +267,11 @@ fn the_check_uses_nothing_of_the_engine() {
                     assert!(allowed, "{}: {line}", file.display());
                 }
                 assert!(!path.starts_with("malachite"), "{}: {line}", file.display());
-                assert!(!path.starts_with("super::super::super"), "{}: {line}", file.display());
+                // Beside the folder lie the writers of certificates, which use the engine; only the JSON is shared.
+                let up = if file.ends_with("check/mod.rs") { "super::" } else { "super::super::" };
+                if let Some(rest) = path.strip_prefix(up).filter(|_| !file.ends_with("format.rs")) {
+                    assert!(rest.starts_with("format"), "{}: {line}", file.display());
+                }
                 assert!(
                     !rooms.iter().any(|room| path.starts_with(&format!("jurist::{room}"))),
                     "{}: {line}",

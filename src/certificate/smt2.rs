@@ -26,11 +26,9 @@ pub fn intervals_smt2(question: &OneParameter, set: &StableSet) -> String {
     match &question.polynomial {
         None => conditions.push("false".to_owned()),
         Some(p) => {
-            for pole in p.poles().iter().chain([p.denominator()]) {
-                conditions.push(format!("(distinct {} 0.0)", horner(pole)));
-            }
-            let content = [p.content()].into_iter().filter(|c| !c.is_constant());
-            conditions.extend(content.map(|c| format!("(distinct {} 0.0)", horner(c))));
+            let not_zero = p.poles().iter().chain([p.denominator(), p.content()]);
+            let not_zero = not_zero.filter(|f| f.is_zero() || !f.is_constant());
+            conditions.extend(not_zero.map(|f| format!("(distinct {} 0.0)", horner(f))));
             match question.region {
                 Region::UnitDisc => jury(p.polynomial(), p.formal_degree(), &mut conditions),
                 Region::LeftHalfPlane => routh(p.polynomial(), p.formal_degree(), &mut conditions),
