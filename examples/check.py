@@ -308,7 +308,7 @@ def evaluate(text, names, inverse):
         return (inverse(base) if k < 0 else base) ** abs(int(k))
 
     def atom(names):
-        token = tokens.pop() if tokens else "the end"
+        token = tokens.pop() if tokens else ")"
         if token == "(":
             result = total(names)
             need(accept(")"), "')' is missing")
@@ -818,10 +818,8 @@ def check_verdict(model, document, statement, values, discrete, extent):
     p = trim([value(c, 0) for c in d])
     inside, on, outside = places(p, discrete) if p else (0, 0, 0)
     infinite = n - (inside + on + outside) if all(poles) else 0
-    bad = "unstable" if outside + infinite else "marginal" if on else "stable"
-    found = [bad if all(poles) else "undefined", n, inside, on, outside, infinite]
-    if not p and all(poles):
-        found[0] = "unstable"
+    found = "unstable" if outside + infinite or not p else "marginal" if on else "stable"
+    found = [found if all(poles) else "undefined", n, inside, on, outside, infinite]
     need([name, *map(count, counts)] == found, f"stable: it is {dict(zip(names, found))}")
     at = ", ".join(f"{name} = {x}" for name, x in values.items())
     return f"at {at or 'the values of the model'}, {statement['region']}: " + ", ".join(f"{k} {x}" for k, x in zip(names, found))
