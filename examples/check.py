@@ -424,7 +424,8 @@ def characteristic_polynomial(text, kept, values):
     else:
         need(len(equations) == scope.unused - first, "there are not as many equations as unknowns")
         unknowns = range(first, scope.unused)
-        d = determinant([[(e.top.coefficients(v) + [ZERO, ZERO])[1].with_values(numbers) for v in unknowns] for e in equations])
+        rows = [[(e.top.coefficients(v) + [ZERO, ZERO])[1] for v in unknowns] for e in equations]
+        d = determinant([[coefficient.with_values(numbers) for coefficient in row] for row in rows])
         need(d.degree(0) <= degree, "a determinant has too high a degree")
         lead = (d.coefficients(0) + [ZERO] * (degree + 1))[degree]
         if forms[3]:  # not well posed, or a block loses its order
@@ -716,14 +717,17 @@ def check(model, certificate):
                 while divides(f, p):
                     p = primitive(divided(p, f)[0])
             need(len(p) == 1, "factors: a boundary polynomial is not a product of them")
-        need(walk(d, n, discrete, certain, identity, factors, line, low, high) == claimed, "stable: not what the line shows")
+        found = walk(d, n, discrete, certain, identity, factors, line, low, high)
+        need(found == claimed, "stable: the claimed set is not the one that the line shows")
     given = ", ".join([f"{low} < {parameter} < {high}".replace("None < ", "").replace(" < None", ""),
                        *(f"{name} = {x}" for name, x in values.items())])
-    where = " or ".join(" to ".join(map(in_words, interval)) for interval in claimed) or "nowhere"
-    return f"in {time} time, {given}, {region}: stable exactly for {parameter} from {where}"
+    where = [f"{in_words(lower, '-infinity')} to {in_words(upper, 'infinity')}" for lower, upper in claimed]
+    return f"in {time} time, {given}, {region}: stable exactly for {parameter} from {' or '.join(where) or 'nowhere'}"
 
-def in_words(e):
-    return "infinity" if e is None else str(e) if isinstance(e, Fraction) else f"[the root of {e[0]} in ({e[1][0]}, {e[1][1]})]"
+def in_words(e, infinite):
+    if e is None:
+        return infinite
+    return str(e) if isinstance(e, Fraction) else f"[the root of {e[0]} in ({e[1][0]}, {e[1][1]})]"
 
 def boundaries(d, n, discrete, poles, boundary):
     """The polynomials at whose zeros the loop is not stable, the identity, whether the loop is stable nowhere."""
@@ -765,7 +769,8 @@ def walk(d, n, discrete, certain, identity, factors, line, low, high):
         for i, f in enumerate(factors):
             need(value(f, a) != 0 and value(f, b) != 0, "line: a factor vanishes at an end of 'between'")
             need(descartes(f, a, b) == (i == k), "line: 'between' is not shown to hold just one root")
-        return {"end": (factors[k], [a, b]), "left": a, "right": b, "regular": True, "factor": factors[k], "touch": touch}
+        root = {"end": (factors[k], [a, b]), "left": a, "right": b}
+        return root | {"regular": True, "factor": factors[k], "touch": touch}
 
     def stretch(item, before, after):
         split, sample, stable = parts(item, ["split", "sample", "stable"])
@@ -822,7 +827,8 @@ def check_verdict(model, document, statement, values, discrete, extent):
     found = [found if all(poles) else "undefined", n, inside, on, outside, infinite]
     need([name, *map(count, counts)] == found, f"stable: it is {dict(zip(names, found))}")
     at = ", ".join(f"{name} = {x}" for name, x in values.items())
-    return f"at {at or 'the values of the model'}, {statement['region']}: " + ", ".join(f"{k} {x}" for k, x in zip(names, found))
+    roots = ", ".join(f"{name} {x}" for name, x in zip(names, found))
+    return f"in {statement['time']} time, {at or 'without parameters'}, {statement['region']}: {roots}"
 
 
 # Whatever is wrong in a certificate or a model ends in one of these; the check itself has no other way out.

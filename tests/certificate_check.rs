@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 mod certificates;
+use certificates::forgeries::forgeries;
 use certificates::{MODELS, checkers, emitted, verdict_emitted};
 
 fn limits() -> Limits {
@@ -249,6 +250,29 @@ fn mutations_are_rejected_unless_the_statement_stays_true() {
     println!("accepted with the same statement, by the part that is changed: {same:?}");
     println!("accepted with another statement that is true, by the part that is changed: {other:?}");
     assert!(rejected > 10_000 && same.keys().all(|part| !part.starts_with("statement") && part != "characteristic"));
+}
+
+/// Lines changed together with the claim that they show, by both checkers.
+#[test]
+fn forged_lines_are_rejected() {
+    let (mut tried, mut accepted) = (0, 0);
+    for (name, model, parameter) in MODELS.iter().copied().chain([("tangency", TANGENCY, "K")]) {
+        let original = Json::parse(&emitted(model, parameter)).unwrap();
+        for forgery in forgeries(&original) {
+            let text = forgery.to_text();
+            tried += 1;
+            let proved = check(model, &text, &limits());
+            if let Some(python) = checkers::python(model, &text) {
+                assert_eq!(python.is_ok(), proved.is_ok(), "{name}: {python:?}\n{text}");
+            }
+            if proved.is_ok() {
+                accepted += 1;
+                assert!(certificates::is_true(model, &forgery), "{name}: {proved:?}\n{text}");
+            }
+        }
+    }
+    println!("{tried} forged lines, {accepted} with a claim that is true and accepted");
+    assert!(tried > 100);
 }
 
 #[test]

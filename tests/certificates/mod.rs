@@ -2,6 +2,7 @@
 #![allow(dead_code)]
 
 pub mod checkers;
+pub mod forgeries;
 pub mod python;
 
 use jurist::analysis::{Settings, one_parameter, verdict};
