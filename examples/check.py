@@ -272,9 +272,10 @@ def no_names(name):
 def evaluate(text, names, inverse):
     """The value of an expression; `names` and `inverse` are functions."""
     tokens, at, text = [], 0, text.rstrip()
+    shown = repr(text[:60])
     while at < len(text):
         match = TOKEN.match(text, at)
-        need(match, f"cannot read {text!r:.60}")
+        need(match, f"cannot read {shown}")
         tokens.append(match[1])
         at = match.end()
     tokens.reverse()  # the next token is the last of the list
@@ -315,11 +316,11 @@ def evaluate(text, names, inverse):
             return result
         if token[0] in ".0123456789":
             return F(P({(): decimal(token)}))
-        need(token[0] == "_" or token[0].isalpha(), f"{token} is not expected in {text!r:.60}")
+        need(token[0] == "_" or token[0].isalpha(), f"{token:.40} is not expected in {shown}")
         return names(token)
 
     result = total(names)
-    need(not tokens, f"cannot read {text!r:.60}")
+    need(not tokens, f"cannot read {shown}")
     return result
 
 class Scope:
@@ -596,19 +597,19 @@ def half_size_pair(d, discrete):
 # ---------------------------------------------------------------- the parts of a certificate
 
 def integer(text):
-    need(isinstance(text, str) and re.fullmatch("-?[0-9]+", text), f"not an integer: {text!r:.40}")
+    need(isinstance(text, str) and re.fullmatch("-?[0-9]+", text), "not an integer")
     need(len(text.lstrip("-")) <= MAX_DIGITS, "a number has too many digits")
     return int(text)
 
 def rational(text):
-    need(isinstance(text, str), f"not a number: {text!r:.40}")
+    need(isinstance(text, str), "not a number")
     top, slash, bottom = text.partition("/")
     d = integer(bottom) if slash else 1
     need(d > 0, "a denominator is not positive")
     return Fraction(integer(top), d)
 
 def name_of(text):
-    need(isinstance(text, str) and re.fullmatch(r"[^\W\d]\w*", text), f"not a name: {text!r:.40}")
+    need(isinstance(text, str) and re.fullmatch(r"[^\W\d]\w*", text), "not a name")
     return text
 
 def count(number):
