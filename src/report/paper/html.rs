@@ -82,7 +82,14 @@ pub(super) fn math(text: &str) -> String {
     while i < chars.len() {
         let c = chars[i];
         if c.is_alphabetic() {
-            let end = while_(i, &|c| c.is_alphanumeric() || c == '_');
+            let mut end = while_(i, &|c| c.is_alphanumeric() || c == '_');
+            // A hyphen between words is no minus: class-C.
+            while end > i + 1 && !chars[i..end].contains(&'_') && chars.get(end) == Some(&'-') {
+                match chars.get(end + 1) {
+                    Some(c) if c.is_alphabetic() => end = while_(end + 1, &|c| c.is_alphanumeric()),
+                    _ => break,
+                }
+            }
             let word: String = chars[i..end].iter().collect();
             out.push_str(&name(&word));
             i = end;
@@ -129,9 +136,12 @@ fn name(word: &str) -> String {
     }
 }
 
-/// A figure with its caption, inline.
-pub(super) fn figure(figure: &Figure, caption: &str) -> String {
-    format!("<figure>{}<figcaption>{}</figcaption></figure>\n", figure.svg(), math(caption))
+/// A figure with its caption, inline; the name belongs to no other figure of the page.
+pub(super) fn figure(name: &str, figure: &Figure, caption: &str) -> String {
+    // Narrower than this its words cannot be read; a phone then scrolls the figure, not the page.
+    let narrowest = 0.65 * figure.size().0;
+    let svg = figure.svg_named(name).replacen("<svg ", &format!("<svg style=\"min-width:{narrowest:.0}px\" "), 1);
+    format!("<figure><div class=\"wide\">{svg}</div><figcaption>{}</figcaption></figure>\n", math(caption))
 }
 
 /// A paragraph; its text may contain HTML.
@@ -181,7 +191,7 @@ figcaption{font-size:.9rem}
 .grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(18rem,1fr));gap:.5rem}
 pre{overflow-x:auto;font-size:.75rem}
 sub,sup{line-height:0}
-@media print{body{max-width:none;font-size:10pt;padding:0}nav{display:none}.wide{overflow:visible}h2{break-after:avoid}tr{break-inside:avoid}pre{white-space:pre-wrap}}
+@media print{body{max-width:none;font-size:10pt;padding:0}nav{display:none}.wide{overflow:visible;break-inside:avoid}figure svg{min-width:0!important}figure{margin:.3rem 0}h2,h3,caption{break-after:avoid}tr{break-inside:avoid}p,li{max-width:none;orphans:3;widows:3}pre{white-space:pre-wrap}.grid{grid-template-columns:repeat(3,1fr);break-inside:avoid}.grid.two{grid-template-columns:repeat(2,1fr)}th,td{padding:.15rem .35rem}}
 ";
 
 #[cfg(test)]
@@ -193,5 +203,7 @@ mod tests {
         assert_eq!(math("-K_a*T^2/J"), "−<i>K</i><sub>a</sub>·<i>T</i><sup>2</sup>/<i>J</i>");
         assert_eq!(math("1.5e-3 < x"), "1.5·10<sup>−3</sup> &lt; <i>x</i>");
         assert_eq!(math("<script>"), "&lt;script&gt;");
+        assert_eq!(math("class-C chopper, -T"), "class-C chopper, −<i>T</i>");
+        assert_eq!(math("R_a-T"), "<i>R</i><sub>a</sub>−<i>T</i>");
     }
 }

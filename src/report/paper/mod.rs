@@ -3,9 +3,11 @@
 mod errata;
 mod facts;
 mod html;
+mod limits;
 mod printed;
 mod report;
 mod runs;
+mod tables;
 
 pub use errata::{Comparison, Match, compare, compare_all};
 pub use html::Table;

@@ -1,8 +1,9 @@
 //! The whole paper once more on one page.
 
-use super::facts::{errata, limits, polynomial, sensitivity};
 use super::html::{Table, escaped, figure, math, matrix, page, paragraph};
+use super::limits::limits;
 use super::runs;
+use super::tables::{errata, polynomial, sensitivity};
 use crate::analysis::{Failure, Settings, TableAnswer, intervals, parametric_table};
 use crate::error::Source;
 use crate::limits::Budget;
@@ -109,11 +110,11 @@ fn drive_section(
         ("fig-06", tracker(), "Fig. 6: the system as a tracker with output feedback"),
     ];
     for (name, drawing, caption) in drawn {
-        html.push_str(&figure(&drawing, caption));
+        html.push_str(&figure(name, &drawing, caption));
         figures.push(NamedFigure { name: name.into(), figure: drawing });
     }
     if let Some(ripple) = runs::ripple(blocks, budget)? {
-        html.push_str(&figure(&ripple.figure, "The current of the switched circuit in steady state, with its ripple"));
+        html.push_str(&figure(&ripple.name, &ripple.figure, "The current of the switched circuit in steady state, with its ripple"));
         figures.push(ripple);
     }
     let mut table = Table::new("Nominal values", &["name", "value", "meaning, unit"]);
@@ -231,7 +232,12 @@ fn locus_section(model: &Loop, figures: &mut Vec<NamedFigure>, budget: &Budget) 
     let range = (Rational::new(1.into(), 1000.into()), Rational::from(1000));
     let drawn = locus_of(&answer, &range, None, budget)?;
     let caption = "Roots of Eq. 24; colours and crossings are those of the exact answer, not of the drawn roots";
-    let mut html = figure(&drawn.figure, caption);
+    let [whole, near] = &drawn.parts;
+    let mut html = format!(
+        "<div class=\"grid two\">{}{}</div>\n",
+        figure("root-locus-whole", whole, caption),
+        figure("root-locus-near", near, "The same near z = 1")
+    );
     let labels: Vec<String> = drawn.crossings.iter().map(|c| format!("<li>{}</li>", math(&c.label))).collect();
     html.push_str(&format!("<p>The unit circle is crossed at</p><ul>{}</ul>\n", labels.concat()));
     figures.push(NamedFigure { name: "root-locus".into(), figure: drawn.figure });
