@@ -59,9 +59,7 @@ pub(super) fn check(model: &Loop, reader: &mut Reader) {
         }
     };
     let signals: Vec<&str> = match &model.form {
-        Form::Blocks(diagram) => {
-            inputs.iter().copied().chain(driven(diagram).map(|(n, _)| n.name.as_str())).collect()
-        }
+        Form::Blocks(diagram) => inputs.iter().copied().chain(driven(diagram).map(|(n, _)| n.name.as_str())).collect(),
         _ => inputs.iter().chain(&states).copied().collect(),
     };
     let outputs = model.outputs().iter().map(|o| o.name.name.as_str());
@@ -76,8 +74,7 @@ fn unknown<'n>(names: impl Iterator<Item = &'n Name>, known: &[&str], what: &str
     for name in names.filter(|n| !known.contains(&n.name.as_str())) {
         let message = format!("unknown {what} '{}'", shorten(&name.name));
         let mut error = Diagnostic::error("E-unknown-name", message).at(name.span, format!("no {what} of the loop"));
-        error.help =
-            did_you_mean(&name.name, known.iter().copied()).or_else(|| known_names(known.iter().copied()));
+        error.help = did_you_mean(&name.name, known.iter().copied()).or_else(|| known_names(known.iter().copied()));
         reader.report(error);
     }
 }

@@ -85,7 +85,8 @@ pub fn locus_json(answer: &Intervals, drawn: &DrawnLocus) -> Value {
     out.insert("time".into(), question.time.name().into());
     out.insert("parameter".into(), question.parameter.as_str().into());
     out.insert("unit".into(), question.unit.as_deref().map_or(Value::Null, Value::from));
-    let crossing = |c: &crate::simulate::Crossing| json!({ "value": c.parameter, "at": complex(&c.at), "label": c.label });
+    let crossing =
+        |c: &crate::simulate::Crossing| json!({ "value": c.parameter, "at": complex(&c.at), "label": c.label });
     out.insert("crossings".into(), drawn.crossings.iter().map(crossing).collect::<Vec<_>>().into());
     let branch = |b: &crate::simulate::Branch| {
         let (values, roots): (Vec<f64>, Vec<Complex<f64>>) = b.points.iter().copied().unzip();

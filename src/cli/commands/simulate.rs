@@ -185,12 +185,7 @@ fn parsed(option: &str, text: &str, context: &Context) -> Result<(String, f64, f
     }
 }
 
-fn sampled(
-    model: &Loop,
-    question: &Question,
-    course: &Course,
-    context: &Context,
-) -> Result<SimulationAnswer, Failure> {
+fn sampled(model: &Loop, question: &Question, course: &Course, context: &Context) -> Result<SimulationAnswer, Failure> {
     let step = course.duration / CONTINUOUS_SAMPLES;
     let system = SampledModel::from_loop(model, question, step, &context.budget)?;
     let at = |name: &str| system.state_named(name);

@@ -248,7 +248,13 @@ fn frame(figure: &LocusFigure<'_>, centre: (f64, f64), half: f64, title: String)
     for branch in figure.locus.branches() {
         for (inside, points) in runs(&branch.points, is_stable) {
             let (colour, word) = if inside { (STABLE, "stable (certified)") } else { (OTHER, "not stable") };
-            panel.curves.push(Curve { points, label: Some(word.into()), colour: colour.into(), width: 1.8, dashed: false });
+            panel.curves.push(Curve {
+                points,
+                label: Some(word.into()),
+                colour: colour.into(),
+                width: 1.8,
+                dashed: false,
+            });
         }
     }
     for piece in &figure.locus.pieces {

@@ -174,7 +174,7 @@ impl Panel {
             }
             plots.push(plot.into());
         }
-        let (x_step, y_step) = (tick_step(self.x, width / 80.0), tick_step(self.y, height / 50.0));
+        let (x_step, y_step) = (tick_step(self.x, width / 70.0), tick_step(self.y, height / 45.0));
         let y_step = if self.equal { x_step } else { y_step };
         let mut layout = Layout::new(self.x, self.y)
             .with_width(width)

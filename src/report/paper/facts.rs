@@ -35,22 +35,8 @@ pub(super) struct TestPoint {
 
 /// Figs. 7 to 14.
 pub(super) const TEST_POINTS: [TestPoint; 4] = [
-    TestPoint {
-        heading: "K_pwm = 545 V",
-        amplitude: 545,
-        frequency: 10_000,
-        speed: 7,
-        current: 8,
-        duration: 1.0,
-    },
-    TestPoint {
-        heading: "K_pwm = 555 V",
-        amplitude: 555,
-        frequency: 10_000,
-        speed: 9,
-        current: 10,
-        duration: 1.0,
-    },
+    TestPoint { heading: "K_pwm = 545 V", amplitude: 545, frequency: 10_000, speed: 7, current: 8, duration: 1.0 },
+    TestPoint { heading: "K_pwm = 555 V", amplitude: 555, frequency: 10_000, speed: 9, current: 10, duration: 1.0 },
     TestPoint { heading: "f = 2010 Hz", amplitude: 110, frequency: 2010, speed: 11, current: 12, duration: 3.0 },
     TestPoint { heading: "f = 2020 Hz", amplitude: 110, frequency: 2020, speed: 13, current: 14, duration: 3.0 },
 ];

@@ -81,23 +81,20 @@ pub(super) fn limits(model: &Loop, blocks: &Loop, printed: [&Loop; 2], budget: &
     budget.step("limits by runs of the linear model");
     let lower = bisected((0.06, 0.02), 2e-5, budget, |k| growth(k, PERIOD))?;
     let [upper, f] = both(&growth, (545.0, 555.0), (2020.0, 2010.0), [0.002, 0.002], budget)?;
-    row(["linear model, runs bisected", &shown(lower, 4), &shown(upper, 2), &shown(f, 2), "drawn"]);
+    row(["linear model, runs", &shown(lower, 4), &shown(upper, 2), &shown(f, 2), "drawn"]);
     let inputs = DVector::from_vec(vec![SPEED_REFERENCE, 0.0]);
-    let circuit = |k: f64, t: f64, pulse| {
-        SwitchedModel::from_loop(blocks, &at(&rational(k)?, &rational(t)?), pulse, budget).ok()
-    };
+    let circuit =
+        |k: f64, t: f64, pulse| SwitchedModel::from_loop(blocks, &at(&rational(k)?, &rational(t)?), pulse, budget).ok();
     for (pulse, word) in [(Pulse::Beginning, "beginning"), (Pulse::End, "end")] {
         let eigenvalue =
             |k: f64, t: f64| circuit(k, t, pulse)?.small_signal_eigenvalues(&inputs)?.first().map(|z| z.norm());
         let run = |k: f64, t: f64| circuit(k, t, pulse)?.perturbed_growth(&inputs, 2_000, 8_000).map(|g| g.factor);
-        let ways: [(&str, &Seen<'_>, [f64; 2], usize); 2] = [
-            ("eigenvalues of its linearised map", &eigenvalue, [1e-6, 1e-6], 3),
-            ("slightly disturbed runs, bisected", &run, [0.005, 0.02], 2),
-        ];
+        let ways: [(&str, &Seen<'_>, [f64; 2], usize); 2] =
+            [("eigenvalues", &eigenvalue, [1e-6, 1e-6], 3), ("disturbed runs", &run, [0.005, 0.02], 2)];
         for (how, seen, width, digits) in ways {
             budget.step(&format!("limits of the circuit by {how}, pulse at the {word}"));
             let [upper, f] = both(seen, (550.0, 553.0), (2010.0, 2000.0), width, budget)?;
-            let way = format!("circuit, pulse at the period's {word}: {how}");
+            let way = format!("circuit, pulse at the {word}: {how}");
             row([&way, "", &shown(upper, digits), &shown(f, digits - 1), "drawn"]);
         }
     }

@@ -119,7 +119,7 @@ fn one_case(
         html.push_str("<div class=\"grid\">\n");
         for (file, title, trace, label) in panels {
             let curve = ResponseCurve { trace, signal, label: "" };
-            let drawn = response_panel(&title, "s", &label, &[curve]).figure(460.0, 280.0);
+            let drawn = response_panel(&title, "s", &label, &[curve]).figure(350.0, 240.0);
             html.push_str(&figure(&file, &drawn, &format!("{title}, {}", case.heading)));
             figures.push(NamedFigure { name: file, figure: drawn });
         }

@@ -3,8 +3,8 @@
 use super::coefficient;
 use super::errata::{Comparison, Match, compare_all};
 use super::html::Table;
-use super::printed::{EQUATION_23, EQUATION_37, LIST_AFTER_36, Printed};
 use super::limits::{decimal, ends, reciprocal};
+use super::printed::{EQUATION_23, EQUATION_37, LIST_AFTER_36, Printed};
 use crate::analysis::{Failure, Settings, intervals};
 use crate::error::Source;
 use crate::limits::Budget;
@@ -70,9 +70,8 @@ fn erratum(c: &Comparison, parameter: &str) -> Vec<String> {
 
 /// How the limits move when a constant changes by a tenth, each limit exact.
 pub(super) fn sensitivity(model: &Loop, budget: &Budget) -> Result<Table, Failure> {
-    let head =
-        ["constant", "value", "K_pwm, lower", "change", "K_pwm, upper", "change", "f, lower limit / Hz", "change"];
-    let mut table = Table::new("The limits when one constant is 10 % smaller or larger", &head);
+    let head = ["constant", "value", "K_pwm, lower", "change / %", "upper", "change / %", "f, lower", "change / %"];
+    let mut table = Table::new("The limits when one constant is 10 % smaller or larger: K_pwm in V, f in Hz", &head);
     let limits = |settings: &Settings| -> Result<[Option<RealAlgebraic>; 3], Failure> {
         let (k, t) = (intervals(model, settings, "K_pwm", budget)?, intervals(model, settings, "T", budget)?);
         let ((lower, upper), (_, longest)) = (ends(&k), ends(&t));
@@ -83,7 +82,7 @@ pub(super) fn sensitivity(model: &Loop, budget: &Budget) -> Result<Table, Failur
         let mut row = first.to_vec();
         for (k, (x, x0)) in now.iter().zip(&base).enumerate() {
             let frequency = k == 2;
-            row.push(if frequency { reciprocal(x.as_ref(), 10) } else { decimal(x.as_ref(), 10) });
+            row.push(if frequency { reciprocal(x.as_ref(), 7) } else { decimal(x.as_ref(), 7) });
             row.push(change(x.as_ref(), x0.as_ref(), frequency).unwrap_or_default());
         }
         row
@@ -96,7 +95,7 @@ pub(super) fn sensitivity(model: &Loop, budget: &Budget) -> Result<Table, Failur
             let value = &nominal * &Rational::new(percent.into(), 100.into());
             let mut settings = Settings::default();
             settings.set.insert(name.into(), value.clone());
-            let text = format!("{} ({sign})", to_decimal(&value, 8));
+            let text = format!("{}, {sign}", to_decimal(&value, 8));
             table.rows.push(cells(&limits(&settings)?, [name.into(), text]));
         }
     }
@@ -114,5 +113,31 @@ fn change(x: Option<&RealAlgebraic>, base: Option<&RealAlgebraic>, reciprocal: b
     let percent = (&ratio - &Rational::ONE) * Rational::from(100);
     let sign = if percent.sign().is_gt() { "+" } else { "" };
     // The enclosures are far narrower than three digits ask for.
-    (!percent.is_zero()).then(|| format!("{sign}{} %", to_decimal(&percent, 3)))
+    (!percent.is_zero()).then(|| format!("{sign}{}", three_digits(&percent)))
+}
+
+/// A number that is not zero to three digits, small ones with a power of ten.
+fn three_digits(value: &Rational) -> String {
+    let thousandth = Rational::new(1.into(), 1000.into());
+    if value.abs() >= thousandth {
+        return to_decimal(value, 3);
+    }
+    let (mut mantissa, mut power) = (value.clone(), 0);
+    while mantissa.abs() < Rational::ONE {
+        (mantissa, power) = (mantissa * Rational::from(10), power + 1);
+    }
+    format!("{}e-{power}", to_decimal(&mantissa, 3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_changes_have_powers_of_ten() {
+        let q = |n: i64, d: i64| Rational::new(n.into(), d.into());
+        assert_eq!(three_digits(&q(-1, 1000)), "-0.00100");
+        assert_eq!(three_digits(&q(15, 10_000_000)), "1.50e-6");
+        assert_eq!(three_digits(&q(-41, 1000)), "-0.0410");
+    }
 }
