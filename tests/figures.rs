@@ -89,7 +89,10 @@ fn the_same_data_give_the_same_bytes() {
     let draw = || small_panel().figure(320.0, 200.0);
     assert_eq!(draw().svg(), draw().svg());
     assert_eq!(draw().png(1.0), draw().png(1.0));
-    assert_eq!(draw().terminal(60, 20), draw().terminal(60, 20));
+    let plain = draw().terminal(60, false);
+    assert_eq!(plain, draw().terminal(60, false));
+    assert!(!plain.contains('\u{1b}') && draw().terminal(60, true).contains('\u{1b}'));
+    assert!(plain.lines().all(|l| l.chars().count() <= 60) && plain.contains("time / s"), "{plain}");
 }
 
 #[test]

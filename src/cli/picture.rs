@@ -61,9 +61,8 @@ pub(super) fn deliver(picture: &Picture<'_>, kind: Kind, file: Option<&OsString>
         if !std::io::stdout().is_terminal() {
             return print(&(picture.csv)());
         }
-        let drawing = picture.figure.terminal(terminal_columns(), 40);
         let plain = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
-        return print(&if plain { without_colours(&drawing) } else { drawing });
+        return print(&picture.figure.terminal(terminal_columns(), !plain));
     };
     let path = Path::new(file);
     match kind {
@@ -78,22 +77,10 @@ pub(super) fn deliver(picture: &Picture<'_>, kind: Kind, file: Option<&OsString>
     Ok(())
 }
 
-/// The text without the escape sequences `ESC [ ... letter` that give colours.
-fn without_colours(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let mut parts = text.split("\u{1b}[");
-    out.push_str(parts.next().unwrap_or_default());
-    for part in parts {
-        let end = part.find(|c: char| c.is_ascii_alphabetic()).map_or(part.len(), |k| k + 1);
-        out.push_str(&part[end..]);
-    }
-    out
-}
-
-/// Columns of the terminal as the shell tells them, else 100.
+/// Columns of the terminal as the shell tells them, else 80, which every terminal has.
 fn terminal_columns() -> usize {
     let told = std::env::var("COLUMNS").ok().and_then(|c| c.parse::<usize>().ok());
-    told.unwrap_or(100).clamp(40, 220)
+    told.unwrap_or(80).clamp(40, 220)
 }
 
 /// The PNG's bytes.
@@ -107,14 +94,4 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         let message = format!("cannot write {}: {}", path.display(), super::output::plain(&e));
         Diagnostic::error("E-write", message).into()
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::without_colours;
-
-    #[test]
-    fn colours_are_taken_away() {
-        assert_eq!(without_colours("a\u{1b}[38;2;1;2;3mb\u{1b}[0m c"), "ab c");
-    }
 }

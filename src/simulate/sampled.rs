@@ -143,6 +143,8 @@ impl SampledModel {
             (0..self.outputs.len()).filter(|&k| !self.states.contains(&self.outputs[k])).collect();
         let mut trace = Trace::with_names(&names);
         let mut x = self.initial_state(excitation);
+        // Products into vectors that exist: a run has millions of steps.
+        let (mut next, mut y) = (x.clone(), DVector::zeros(self.outputs.len()));
         let changes = excitation.changes();
         let mut r = excitation.inputs_at(0, self.inputs.len());
         for n in 0..=samples {
@@ -156,9 +158,12 @@ impl SampledModel {
             if x.iter().any(|v| !v.is_finite()) {
                 break;
             }
-            let y = &self.output * &x + &self.feedthrough * &r;
+            y.gemv(1.0, &self.output, &x, 0.0);
+            y.gemv(1.0, &self.feedthrough, &r, 1.0);
             trace.push(n as f64 * self.sample_time, x.iter().copied().chain(new_outputs.iter().map(|&k| y[k])));
-            x = &self.transition * &x + &self.input * &r;
+            next.gemv(1.0, &self.transition, &x, 0.0);
+            next.gemv(1.0, &self.input, &r, 1.0);
+            std::mem::swap(&mut x, &mut next);
         }
         Ok(trace)
     }
