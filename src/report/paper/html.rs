@@ -125,6 +125,7 @@ figcaption{font-size:.9rem}
 .grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(17rem,1fr));gap:.5rem}
 pre{overflow-x:auto;font-size:.75rem}
 sub,sup{line-height:0}
+@media screen{table:not(.matrix) td:not(.s){min-width:11rem}}
 @media print{table,figcaption{font-size:8pt}body{max-width:none;font-size:10pt;padding:0}nav{display:none}.wide{overflow:visible;break-inside:avoid}figure svg{min-width:0!important}figure{margin:.3rem 0}h2,h3,caption,h3+p{break-after:avoid}tr{break-inside:avoid}p,li{max-width:none;orphans:3;widows:3}pre{white-space:pre-wrap}.grid{grid-template-columns:repeat(3,1fr);break-inside:avoid}.grid.two{grid-template-columns:repeat(2,1fr)}th,td{padding:.15rem .35rem}}
 ";
 

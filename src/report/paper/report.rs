@@ -273,20 +273,20 @@ fn limits_remarks() -> String {
     let rounding = paragraph(&format!(
         "The lower limit of the paper is an effect of rounding: with twelve digits printed, Q(1) of Eq. 23 vanishes at \
          {}, with exact coefficients Q(1) is a positive multiple of {}. The printed Eq. 37, taken as exact, is not stable \
-         at very short periods either. {} Hz is 1/0.0004969 s: the limit of the period was rounded to four digits before \
-         it was inverted.",
+         at very short periods either. The published 2012.47 Hz is 1/0.0004969 s = {} Hz, cut: the limit of the period was \
+         rounded to four digits before it was inverted.",
         math("K_pwm = 2.9853 V"),
         math("K_pwm"),
-        to_decimal(&cut, 6),
+        to_decimal(&cut, 8),
     ));
     let circuit = paragraph(
-        "The rows called circuit are about the chopper itself: its periodic steady state at 80 rad/s with the on-time \
-         from the sawtooth, once by the eigenvalues of the period map linearised there without approximation, once by \
-         runs that a disturbance of a ten-millionth shows to grow or to die. The two ways share no formula. At 2010 Hz \
-         the linear model is unstable and the circuit is not. Two things make the difference: Euler's rule, which \
-         replaces the motor's exponential over a period, and the pulse, which acts at its own instant and not, as a \
-         mean, over the whole period; so it also matters where in the period the pulse lies. A large disturbance is \
-         another question: from rest the duty ratio is clamped, and nothing can grow without bound.",
+        "The rows called circuit are about the chopper itself, around its periodic steady state at 80 rad/s with the \
+         on-time from the sawtooth: once by the eigenvalues of the period map linearised there without approximation, \
+         once by runs of the circuit that a disturbance of a ten-millionth shows to grow or to die, which need no \
+         derivative. At 2010 Hz the linear model is unstable and the circuit is not. Two things make the difference: \
+         Euler's rule, which replaces the motor's exponential over a period, and the pulse, which acts at its own \
+         instant and not, as a mean, over the whole period; so it also matters where in the period the pulse lies. A \
+         large disturbance is another question: from rest the duty ratio is clamped, and nothing can grow without bound.",
     );
     rounding + &circuit
 }
