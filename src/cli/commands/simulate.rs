@@ -236,8 +236,12 @@ fn switched(
         }
         (false, _) => system.start(&drive),
     };
-    // The ripple in full for as long as its file stays small.
-    let record = if periods <= 2000 { Record::Waveform(3) } else { Record::Waveform(0) };
+    // The ripple in full for as long as its file stays small, and round where it can be seen.
+    let record = Record::Waveform(match periods {
+        0..=200 => 15,
+        201..=2000 => 3,
+        _ => 0,
+    });
     let run = system.simulate_within(&start, &drive, periods, record, &context.budget)?;
     circuit.clamped = run.clamped;
     if run.clamped > 0 {

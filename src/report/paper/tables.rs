@@ -136,8 +136,8 @@ mod tests {
     #[test]
     fn small_changes_have_powers_of_ten() {
         let q = |n: i64, d: i64| Rational::new(n.into(), d.into());
-        assert_eq!(three_digits(&q(-1, 1000)), "-0.00100");
-        assert_eq!(three_digits(&q(15, 10_000_000)), "1.50e-6");
-        assert_eq!(three_digits(&q(-41, 1000)), "-0.0410");
+        assert_eq!(three_digits(&q(-1, 300)), "-0.00333");
+        assert_eq!(three_digits(&q(1, 1000)), "0.001");
+        assert_eq!(three_digits(&q(1, 3_000_000)), "3.33e-7");
     }
 }
