@@ -43,7 +43,7 @@ fn float(label: &str, table: &Table) -> String {
 }
 
 /// Tables with more columns are set smaller.
-const MANY_COLUMNS: usize = 7;
+const MANY_COLUMNS: usize = 4;
 
 /// How wide a column is.
 #[derive(Clone, Copy, Debug, PartialEq)]
