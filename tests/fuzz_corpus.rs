@@ -37,3 +37,8 @@ fn jury_against_count() {
 fn interval_answer() {
     replay("interval_answer", fuzzing::interval_answer);
 }
+
+#[test]
+fn certificate_check() {
+    replay("certificate_check", fuzzing::certificate_check);
+}

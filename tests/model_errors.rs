@@ -161,6 +161,8 @@ fn structure() {
         ("[constants]\n'2x' = 1\n[loop]\ncharacteristic = 'z - K'\n", "E-name@5:1"),
         ("[loop]\ncharacteristic = 'z - K\n", "E-toml@5:24"),
         ("[loop]\nmatrix = [['K']]\n[simulation]\ninputs = { r = 1 }\n", "E-unknown-name@7:12"),
+        ("[loop]\nmatrix = [['K']]\nstates = ['x']\n[simulation]\nunits = { y = 'A' }\n", "E-unknown-name@8:11"),
+        ("[loop]\nmatrix = [['K']]\nstates = ['x']\n[simulation]\nunits = { x = 1 }\n", "E-type@8:15"),
     ] {
         let found = after_head(text);
         assert!(found.iter().any(|f| f == expected), "{text}: {found:?}");

@@ -11,7 +11,8 @@ use jurist::number::Rational;
 use jurist::stability::{Cause, End};
 use proptest::collection::vec;
 use proptest::prelude::*;
-use whole_loops::{continuous, discrete, stable_set_of};
+use whole_loops::certificates::checkers::accept_intervals_of;
+use whole_loops::{certified_set_of as stable_set_of, continuous, discrete};
 
 type Matrix = Vec<Vec<Rational>>;
 
@@ -175,6 +176,8 @@ proptest! {
                 return Ok(());
             }
         };
+        // Both checkers read the diagram's text in their own way, and compare the polynomial.
+        accept_intervals_of(&lp, &Settings::default(), "k");
         prop_assert_eq!(polynomial.formal_degree, blocks.iter().map(Kind::order).sum::<usize>());
         let closed = lp.closed_loop(&question, &budget).unwrap();
         for k in &values {

@@ -1,4 +1,5 @@
-//! Singular models, read from text and decided: each with its answer derived by hand.
+//! Singular models, read from text and decided: each with its answer derived by hand. Every answer has a certificate that both
+//! checkers accept.
 
 mod whole_loops;
 
@@ -6,7 +7,8 @@ use jurist::analysis::{PointVerdict, Settings, Verdict, verdict};
 use jurist::limits::Budget;
 use jurist::model::Loop;
 use jurist::stability::Range;
-use whole_loops::{assert_stable, continuous, discrete, load, number, set, stable_set_of};
+use whole_loops::certificates::checkers::{accept_intervals_of, accept_verdict_of};
+use whole_loops::{assert_stable, certified_set_of as stable_set_of, continuous, discrete, load, number, set};
 
 fn nominal() -> Settings {
     Settings::default()
@@ -21,7 +23,9 @@ fn assert_continuous(characteristic: &str, parameter: &str, expected: &[(&str, &
 }
 
 fn at(lp: &Loop, k: &str) -> PointVerdict {
-    verdict(lp, &set(&[("k", k)]), &Budget::unlimited()).unwrap()
+    let settings = set(&[("k", k)]);
+    accept_verdict_of(lp, &settings);
+    verdict(lp, &settings, &Budget::unlimited()).unwrap()
 }
 
 /// (verdict, inside, on, outside, infinite)
@@ -420,6 +424,7 @@ fn negative_radii_are_never_the_answer() {
     let lp = discrete("z^2 - z + k", "nominal = 0.25");
     let mut settings = Settings::default();
     settings.domain.insert("radius".into(), Range::between(Some(number("-1")), Some(number("2"))));
+    accept_intervals_of(&lp, &settings, "radius");
     let answer = jurist::analysis::intervals(&lp, &settings, "radius", &Budget::unlimited()).unwrap();
     let set = answer.stable.decided().unwrap();
     assert_eq!(set.intervals().len(), 1);
@@ -430,6 +435,7 @@ fn negative_radii_are_never_the_answer() {
 #[test]
 fn radius_zero_is_the_end_of_the_domain_only() {
     let lp = load("time = 'discrete'\n[loop]\ncharacteristic = 'z^2'");
+    accept_intervals_of(&lp, &Settings::default(), "radius");
     let answer = jurist::analysis::intervals(&lp, &Settings::default(), "radius", &Budget::unlimited()).unwrap();
     let set = answer.stable.decided().unwrap();
     assert_eq!(set.intervals()[0].lower.as_ref().unwrap().causes.to_string(), "domain");

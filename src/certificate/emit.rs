@@ -173,7 +173,8 @@ impl Proof {
 fn coprime_basis(polynomials: &[UniPoly], budget: &Budget) -> Result<Vec<UniPoly>, Exhausted> {
     let mut basis: Vec<UniPoly> = Vec::new();
     for p in polynomials {
-        let mut parts = vec![p.square_free_part()];
+        // Roots of different multiplicities belong to different factors: p is a product of the parts' powers.
+        let mut parts: Vec<UniPoly> = p.square_free_decomposition().into_iter().map(|(part, _)| part).collect();
         while let Some(mut part) = parts.pop() {
             budget.check()?;
             let mut k = 0;

@@ -1,10 +1,9 @@
 //! The statement about one parameter in the language of SMT solvers.
 
 use crate::analysis::OneParameter;
-use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
-use crate::poly::{Domain, RealAlgebraic, UniPoly};
-use crate::stability::{Inequality, ScaledPoly, StableSet, classical_test};
+use crate::poly::{Domain, Poly, RealAlgebraic, UniPoly};
+use crate::stability::{Region, StableSet, jury_table_with, routh_table};
 use std::fmt::Write;
 
 /// An SMT-LIB 2 script (the SMT-LIB Standard, version 2.6) that asks for a parameter value in the domain at which the classical
@@ -13,9 +12,9 @@ use std::fmt::Write;
 /// The only variable is the parameter. An irrational end is no variable either: with `f` its polynomial and `(a, b)`
 /// its enclosure, `x < end` is `x <= a or (x < b and f(x) has the sign of f(a))`.
 ///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-pub fn intervals_smt2(question: &OneParameter, set: &StableSet, budget: &Budget) -> Result<String, Exhausted> {
+/// The conditions are those of the table whose rows are divided by the entry two rows above, so that their degrees grow by
+/// addition: `|first| > |last|` of a row stands as "`first - last` and `first + last` have the same sign".
+pub fn intervals_smt2(question: &OneParameter, set: &StableSet) -> String {
     let mut domain = Vec::new();
     if let Some(lower) = &question.domain.lower {
         domain.push(format!("(< {} p)", real(lower)));
@@ -27,22 +26,12 @@ pub fn intervals_smt2(question: &OneParameter, set: &StableSet, budget: &Budget)
     match &question.polynomial {
         None => conditions.push("false".to_owned()),
         Some(p) => {
-            for pole in p.poles().iter().chain([p.denominator()]) {
-                conditions.push(format!("(distinct {} 0.0)", horner(pole)));
-            }
-            let test = classical_test(p, &question.domain, question.region, budget)?;
-            if p.formal_degree() == 0 {
-                let c = p.polynomial().coeffs().first().cloned().unwrap_or_else(UniPoly::zero);
-                conditions.push(format!("(distinct (* {} {}) 0.0)", horner(&c), horner(p.content())));
-            }
-            for condition in &test.conditions {
-                conditions.push(match &condition.inequality {
-                    Inequality::Positive(f) => format!("(> {} 0.0)", horner(&f.polynomial)),
-                    Inequality::Dominates { left, right } => {
-                        let (l, r) = (scaled(left), scaled(right));
-                        format!("(let ((l {l}) (r {r})) (> (* (- l r) (+ l r)) 0.0))")
-                    }
-                });
+            let not_zero = p.poles().iter().chain([p.denominator(), p.content()]);
+            let not_zero = not_zero.filter(|f| f.is_zero() || !f.is_constant());
+            conditions.extend(not_zero.map(|f| format!("(distinct {} 0.0)", horner(f))));
+            match question.region {
+                Region::UnitDisc => jury(p.polynomial(), p.formal_degree(), &mut conditions),
+                Region::LeftHalfPlane => routh(p.polynomial(), p.formal_degree(), &mut conditions),
             }
         }
     }
@@ -65,7 +54,58 @@ pub fn intervals_smt2(question: &OneParameter, set: &StableSet, budget: &Budget)
     let _ = writeln!(out, "(define-fun stable () Bool {})", joined("and", conditions, "true"));
     let _ = writeln!(out, "(define-fun claimed () Bool {})", joined("or", claimed, "false"));
     let _ = writeln!(out, "(assert (distinct stable claimed))\n(check-sat)");
-    Ok(out)
+    out
+}
+
+/// Jury's conditions: `a_n D(1) > 0`, `(-1)^n a_n D(-1) > 0`, `|a_n| > |a_0|`, and `|first| > |last|` of every further row. A divisor
+/// of a row is the first entry of an earlier one, which is not zero where that row's condition holds.
+fn jury(d: &Poly<UniPoly>, n: usize, out: &mut Vec<String>) {
+    if n == 0 {
+        return out.push(format!("(distinct {} 0.0)", horner(&d.coeff(0))));
+    }
+    let value = |x: i64| d.eval(&UniPoly::constant(Integer::from(x)));
+    let at_minus_one = if n.is_multiple_of(2) { value(-1) } else { value(-1).negated() };
+    out.push(same_sign(&d.coeff(n), &value(1)));
+    out.push(same_sign(&d.coeff(n), &at_minus_one));
+    for (i, (first, last)) in jury_table_with(d, n, true).end_entries().enumerate() {
+        let (large, small) = if i == 0 { (last, first) } else { (first, last) };
+        out.push(same_sign(&large.minus(small), &large.plus(small)));
+    }
+}
+
+/// Routh's conditions: all Hurwitz determinants have the sign of `a_n` to the power of their order.
+fn routh(d: &Poly<UniPoly>, n: usize, out: &mut Vec<String>) {
+    let lead = d.coeff(n);
+    if n == 0 {
+        return out.push(format!("(distinct {} 0.0)", horner(&lead)));
+    }
+    for (k, minor) in routh_table(d, n).first_column().enumerate().skip(1) {
+        let power = if k % 2 == 0 { UniPoly::one() } else { lead.clone() };
+        out.push(same_sign(&power, minor));
+    }
+}
+
+/// Both polynomials are positive, or both are negative.
+fn same_sign(f: &UniPoly, g: &UniPoly) -> String {
+    let (f, g) = (without_content(f), without_content(g));
+    let both = |sign: &str| {
+        let parts = [&f, &g].into_iter().filter(|p| !is_positive_constant(p));
+        let parts: Vec<String> = parts.map(|p| format!("({sign} {} 0.0)", horner(p))).collect();
+        joined("and", parts, "true")
+    };
+    if is_positive_constant(&f) || is_positive_constant(&g) {
+        return both(">");
+    }
+    format!("(or {} {})", both(">"), both("<"))
+}
+
+/// Divided by a positive integer: `primitive_part` would change signs.
+fn without_content(f: &UniPoly) -> UniPoly {
+    if f.is_zero() { f.clone() } else { f.div_exact_scalar(&f.content()).expect("the content divides") }
+}
+
+fn is_positive_constant(f: &UniPoly) -> bool {
+    f.is_constant() && f.coeff(0).sign().is_gt()
 }
 
 fn joined(operator: &str, parts: Vec<String>, empty: &str) -> String {
@@ -92,10 +132,6 @@ fn horner(f: &UniPoly) -> String {
     let Some((last, rest)) = f.coeffs().split_last() else { return "0.0".into() };
     let open: String = rest.iter().map(|c| format!("(+ {} (* p ", integer(c))).collect();
     format!("{open}{}{}", integer(last), "))".repeat(rest.len()))
-}
-
-fn scaled(f: &ScaledPoly) -> String {
-    format!("(* {} {})", real(&f.scale), horner(&f.polynomial))
 }
 
 fn below(end: &RealAlgebraic) -> String {

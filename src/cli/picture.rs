@@ -1,9 +1,11 @@
 //! Pictures to files and to the terminal.
 
-use super::output::{ending, unknown_ending};
+use super::output::{ending, unknown_ending, write_answer};
 use super::status::Failure;
 use crate::error::Diagnostic;
 use crate::report::figures::Figure;
+use crate::report::json;
+use serde_json::Value;
 use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::path::Path;
@@ -17,6 +19,7 @@ pub(super) enum Kind {
     Svg,
     Png,
     Csv,
+    Json,
     /// A drawing in characters on a terminal, a table into a pipe.
     Standard,
 }
@@ -25,40 +28,47 @@ pub(super) enum Kind {
 pub(super) struct Picture<'a> {
     pub figure: &'a Figure,
     pub csv: &'a dyn Fn() -> String,
+    pub json: &'a dyn Fn() -> Value,
     /// Whether the data are also written beside the picture.
     pub csv_beside: bool,
 }
 
 /// What the output option asks for, before any work is done.
-pub(super) fn wanted(file: Option<&OsString>) -> Result<Kind, Failure> {
+pub(super) fn wanted(file: Option<&OsString>, json: bool) -> Result<Kind, Failure> {
+    if json {
+        return Ok(Kind::Json);
+    }
     let Some(file) = file.filter(|f| *f != "-") else { return Ok(Kind::Standard) };
     match ending(file).as_deref() {
         Some("svg") => Ok(Kind::Svg),
         Some("png") => Ok(Kind::Png),
         Some("csv") => Ok(Kind::Csv),
-        _ => Err(unknown_ending(file, &["svg", "png", "csv"]).into()),
+        Some("json") => Ok(Kind::Json),
+        _ => Err(unknown_ending(file, &["svg", "png", "csv", "json"]).into()),
     }
 }
 
 /// Writes the picture.
-pub(super) fn deliver(
-    picture: &Picture<'_>,
-    kind: Kind,
-    file: Option<&OsString>,
-    print: impl Fn(&str) -> Result<(), Failure>,
-) -> Result<(), Failure> {
-    let Some(file) = file.filter(|_| kind != Kind::Standard) else {
+pub(super) fn deliver(picture: &Picture<'_>, kind: Kind, file: Option<&OsString>) -> Result<(), Failure> {
+    if kind == Kind::Json {
+        write_answer(&json::to_text(&(picture.json)()), file)?;
+    }
+    let Some(file) = file.filter(|f| kind != Kind::Standard && *f != "-") else {
+        if kind == Kind::Json {
+            return Ok(());
+        }
+        let print = |text: &str| write_answer(text, None);
         if !std::io::stdout().is_terminal() {
             return print(&(picture.csv)());
         }
-        let drawing = picture.figure.terminal(terminal_columns(), 40);
         let plain = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
-        return print(&if plain { without_colours(&drawing) } else { drawing });
+        return print(&picture.figure.terminal(terminal_columns(), !plain));
     };
     let path = Path::new(file);
     match kind {
         Kind::Svg => write(path, picture.figure.svg().as_bytes())?,
         Kind::Png => write(path, &png(picture.figure)?)?,
+        Kind::Json => {}
         Kind::Csv | Kind::Standard => write(path, (picture.csv)().as_bytes())?,
     }
     if picture.csv_beside && kind != Kind::Csv {
@@ -67,22 +77,10 @@ pub(super) fn deliver(
     Ok(())
 }
 
-/// The text without the escape sequences `ESC [ ... letter` that give colours.
-fn without_colours(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let mut parts = text.split("\u{1b}[");
-    out.push_str(parts.next().unwrap_or_default());
-    for part in parts {
-        let end = part.find(|c: char| c.is_ascii_alphabetic()).map_or(part.len(), |k| k + 1);
-        out.push_str(&part[end..]);
-    }
-    out
-}
-
-/// Columns of the terminal as the shell tells them, else 100.
+/// Columns of the terminal as the shell tells them, else 80, which every terminal has.
 fn terminal_columns() -> usize {
     let told = std::env::var("COLUMNS").ok().and_then(|c| c.parse::<usize>().ok());
-    told.unwrap_or(100).clamp(40, 220)
+    told.unwrap_or(80).clamp(40, 220)
 }
 
 /// The PNG's bytes.
@@ -96,14 +94,4 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         let message = format!("cannot write {}: {}", path.display(), super::output::plain(&e));
         Diagnostic::error("E-write", message).into()
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::without_colours;
-
-    #[test]
-    fn colours_are_taken_away() {
-        assert_eq!(without_colours("a\u{1b}[38;2;1;2;3mb\u{1b}[0m c"), "ab c");
-    }
 }

@@ -29,13 +29,7 @@ impl Reporter {
     /// A listener that draws only if standard error is a terminal.
     pub fn new(options: &RunOptions) -> Arc<Self> {
         let drawn = !options.quiet && !options.verbose && std::io::stderr().is_terminal();
-        let bar = drawn.then(|| {
-            let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {wide_bar} {pos}/{len} {elapsed}") {
-                bar.set_style(style);
-            }
-            bar
-        });
+        let bar = drawn.then(|| ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()));
         Arc::new(Reporter { state: Mutex::default(), bar, verbose: options.verbose, begun: Instant::now() })
     }
 
@@ -69,6 +63,15 @@ impl Reporter {
         }
         if bar.is_hidden() {
             bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        // A bar says how much is done; where that is not known, none is drawn.
+        let template = if state.total > 0 {
+            "{spinner} {msg} {wide_bar} {percent}% {elapsed}"
+        } else {
+            "{spinner} {msg} {elapsed}"
+        };
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
         }
         bar.set_message(state.step.clone());
         bar.set_length(state.total);

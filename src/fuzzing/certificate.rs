@@ -1,7 +1,12 @@
 //! The check of certificates on arbitrary bytes.
 
+use crate::analysis::{Settings, one_parameter, verdict};
 use crate::certificate::check::{Limits, check};
+use crate::certificate::emit::{intervals_certificate, verdict_certificate};
+use crate::error::Source;
 use crate::limits::Budget;
+use crate::model::Loop;
+use crate::number::Rational;
 use std::time::Duration;
 
 /// Small models with their true certificates are mutated by the bytes, or the bytes are the certificate.
@@ -26,7 +31,7 @@ pub fn certificate_check(data: &[u8]) {
         let _ = check(&text, &true_certificate(model), &limits);
         return;
     }
-    let certificate = true_certificate(model);
+    let certificate = if kind & 8 == 0 { true_certificate(model) } else { true_verdict(model) };
     let original = check(model, &certificate, &limits).expect("a true certificate");
     let mut bytes = certificate.into_bytes();
     for edit in data.chunks_exact(3) {
@@ -42,10 +47,18 @@ pub fn certificate_check(data: &[u8]) {
 }
 
 fn true_certificate(model: &str) -> String {
-    use crate::analysis::{Settings, one_parameter};
-    let source = crate::error::Source::new("model", model);
-    let (lp, _) = crate::model::Loop::from_toml(&source).expect("a correct model");
     let budget = Budget::unlimited();
-    let question = one_parameter(&lp, &Settings::default(), "K", &budget).expect("a good question");
-    crate::certificate::emit::intervals_certificate(model, &question, &budget).expect("no limit")
+    let question = one_parameter(&read(model), &Settings::default(), "K", &budget).expect("a good question");
+    intervals_certificate(model, &question, &budget).expect("no limit")
+}
+
+fn true_verdict(model: &str) -> String {
+    let (lp, budget, mut settings) = (read(model), Budget::unlimited(), Settings::default());
+    settings.set.insert("K".into(), Rational::from(1));
+    let answer = verdict(&lp, &settings, &budget).expect("a good question");
+    verdict_certificate(&lp, &settings, &answer, &budget).expect("no limit")
+}
+
+fn read(model: &str) -> Loop {
+    Loop::from_toml(&Source::new("model", model)).expect("a correct model").0
 }

@@ -5,11 +5,12 @@ use super::definition::{
 };
 use super::evaluate::Failure;
 use super::expression::Expression;
-use super::names::{did_you_mean, list, nearest_name, shorten};
+use super::names::{did_you_mean, nearest_name, shorten};
 use super::read::Reader;
 use super::read_block::driven;
 use super::read_loop::known_names;
 use super::scalar::{Scope, Symbol};
+use super::simulation;
 use super::state_space::assemble;
 use super::symbolic::{Wiring, symbolic};
 use crate::error::{Diagnostic, Span};
@@ -262,8 +263,8 @@ pub(super) fn names(model: &Loop, form_is_broken: bool, reader: &mut Reader) {
             }
         }
     }
-    check_simulation(&mut names);
     let Names { used, reader, .. } = names;
+    simulation::check(model, reader);
     let constants = model.constants.iter().map(|c| (&c.name, c.span, "constant"));
     let parameters = model.parameters.iter().map(|p| (&p.name, p.span, "parameter"));
     for (name, span, what) in constants.chain(parameters).filter(|(name, ..)| !used.contains(name.as_str())) {
@@ -358,33 +359,6 @@ fn check_block<'m>(names: &mut Names<'m, '_>, block: &'m Block, signals: &HashSe
     }
     if let Some(pwm) = &block.pwm {
         [&pwm.amplitude, &pwm.carrier, &pwm.period].into_iter().for_each(|e| names.expression(e, &none, ""));
-    }
-}
-
-fn check_simulation(names: &mut Names<'_, '_>) {
-    let model = names.model;
-    let inputs: Vec<&str> = model.inputs().iter().map(|n| n.name.as_str()).collect();
-    let states: Vec<&str> = match &model.form {
-        Form::Characteristic(_) => Vec::new(),
-        Form::Matrix { ports, .. } | Form::OutputFeedback { ports, .. } => {
-            ports.states.iter().map(|n| n.name.as_str()).collect()
-        }
-        Form::Blocks(diagram) => {
-            let own = |b: &Block| matches!(b.dynamics, Dynamics::StateSpace { c: None, .. });
-            driven(diagram).filter(|(_, b)| own(b)).map(|(n, _)| n.name.as_str()).collect()
-        }
-    };
-    let simulation = &model.simulation;
-    for (values, known, what) in [(&simulation.inputs, inputs, "input"), (&simulation.initial, states, "state")] {
-        for (name, _) in values.iter().filter(|(n, _)| !known.contains(&n.name.as_str())) {
-            let message = format!("unknown {what} '{}'", shorten(&name.name));
-            let mut error =
-                Diagnostic::error("E-unknown-name", message).at(name.span, format!("no {what} of the loop"));
-            error.help = did_you_mean(&name.name, known.iter().copied()).or_else(|| {
-                (!known.is_empty()).then(|| format!("known here: {}", list(known.iter().take(8).copied())))
-            });
-            names.reader.report(error);
-        }
     }
 }
 

@@ -249,7 +249,32 @@ pub struct Pwm {
     pub period: Expression,
 }
 
-/// Defaults of a time response.
+/// Defaults of a time response, and units for its axes: the section `[simulation]` of a model file.
+///
+/// Nothing of it enters a verdict.
+///
+/// ```
+/// use jurist::error::Source;
+/// use jurist::model::Loop;
+/// let text = "
+///     time = 'discrete'
+///     [parameters]
+///     k = { nominal = 0.5, min = 0 }
+///     [loop]
+///     matrix = [['1 - k']]
+///     states = ['speed']
+///     inputs = ['reference']
+///     E = [['k']]
+///     [simulation]
+///     inputs = { reference = 80 }
+///     duration = 20
+///     units = { speed = 'rad/s' }
+/// ";
+/// let (model, _) = Loop::from_toml(&Source::new("model.toml", text))?;
+/// assert_eq!(model.unit("speed"), Some("rad/s"));
+/// assert_eq!(model.unit("reference"), None);
+/// # Ok::<(), jurist::error::Error>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Simulation {
     /// Constant values of inputs; others are zero.
@@ -258,6 +283,8 @@ pub struct Simulation {
     pub initial: Vec<(Name, Rational)>,
     /// The time to be simulated: seconds, or samples when the loop has no sample time.
     pub duration: Option<Rational>,
+    /// Units of inputs, states, signals and outputs, for people; the program does not calculate with them.
+    pub units: Vec<(Name, String)>,
 }
 
 /// A model: what its text says, checked.
@@ -351,6 +378,11 @@ impl Loop {
     /// The defaults of a time response.
     pub fn simulation(&self) -> &Simulation {
         &self.simulation
+    }
+
+    /// The unit of a signal, where the model names one.
+    pub fn unit(&self, signal: &str) -> Option<&str> {
+        self.simulation.units.iter().find(|(name, _)| name.name == signal).map(|(_, unit)| unit.as_str())
     }
 
     /// The external inputs.

@@ -25,6 +25,7 @@ mod read;
 mod read_block;
 mod read_loop;
 mod scalar;
+mod simulation;
 mod state_space;
 mod symbolic;
 mod text;

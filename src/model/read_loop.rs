@@ -1,14 +1,14 @@
 //! A whole model file.
 
 use super::check;
-use super::definition::{Constant, Diagram, Form, Loop, Matrix, Name, Parameter, Ports, Simulation, Time};
+use super::definition::{Constant, Diagram, Form, Loop, Matrix, Name, Parameter, Ports, Time};
 use super::names::{did_you_mean, list, shorten};
 use super::read::{Meant, Reader, constant_value, count};
 use super::read_block;
+use super::simulation;
 use super::toml::{Entry, Kind, Table};
 use super::toml_read;
 use crate::error::{Diagnostic, Error, Severity, Source, Span};
-use crate::number::Rational;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -101,7 +101,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
     let constants = read_constants(root, reader);
     let parameters = read_parameters(root, reader);
     let form = read_form(root, &meant, time.unwrap_or(Time::Discrete), reader);
-    let simulation = read_simulation(root, reader);
+    let simulation = simulation::read(root, reader);
     let mut index = HashMap::new();
     check::definitions(&constants, &parameters, time.unwrap_or(Time::Discrete), &mut index, reader);
     let constant_order = check::constant_order(&constants, &index, reader);
@@ -152,7 +152,7 @@ fn read_time(root: &Table, meant: &Meant, reader: &mut Reader) -> Option<Time> {
     }
 }
 
-fn section<'t>(root: &'t Table, key: &str, reader: &mut Reader) -> Option<&'t Table> {
+pub(super) fn section<'t>(root: &'t Table, key: &str, reader: &mut Reader) -> Option<&'t Table> {
     root.entry(key).and_then(|entry| reader.table(entry))
 }
 
@@ -377,32 +377,6 @@ fn read_ports(table: &Table, meant: &Meant, matrix: Option<&Matrix>, what: &str,
         _ => {}
     }
     Ports { states, inputs, input_matrix, outputs }
-}
-
-fn read_simulation(root: &Table, reader: &mut Reader) -> Simulation {
-    let Some(table) = section(root, "simulation", reader) else { return Simulation::default() };
-    reader.unknown_keys(table, &["inputs", "initial", "duration"], "[simulation]");
-    let mut values = |key: &str| -> Vec<(Name, Rational)> {
-        let Some(values) = section(table, key, reader) else { return Vec::new() };
-        let mut out = Vec::new();
-        for entry in values.iter() {
-            if let Some(number) = reader.number(&entry.value, &format!("'{}'", shorten(&entry.key))) {
-                out.push((Name { name: entry.key.clone(), span: entry.key_span }, number));
-            }
-        }
-        out
-    };
-    let (inputs, initial) = (values("inputs"), values("initial"));
-    let duration = table.get("duration").and_then(|v| {
-        let number = reader.number(v, "'duration'")?;
-        if number.is_negative() || number.is_zero() {
-            let error = Diagnostic::error("E-value", "the duration of a simulation must be positive");
-            reader.report(error.at(v.span, "not positive"));
-            return None;
-        }
-        Some(number)
-    });
-    Simulation { inputs, initial, duration }
 }
 
 /// The names of a list for a message, each once.

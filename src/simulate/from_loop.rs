@@ -112,6 +112,20 @@ pub fn excitation(
     Ok(out)
 }
 
+/// The unit of a signal of a simulation, where the model names it: `NAME.control` of a modulator has
+/// the unit of the signal that drives it, `NAME.duty` is a number.
+pub fn signal_unit(model: &Loop, signal: &str) -> Option<String> {
+    if let Some(unit) = model.unit(signal) {
+        return Some(unit.to_owned());
+    }
+    let source = signal.strip_suffix(".control")?;
+    let Form::Blocks(diagram) = model.form() else { return None };
+    let block = diagram.blocks.iter().find(|b| b.pwm.is_some() && b.outputs.iter().any(|o| o.name == source))?;
+    let span = block.inputs.first()?.span;
+    let driven_by = model.source().text.get(span.start..span.end)?.trim_matches(['"', '\'', ' ']);
+    model.unit(driven_by).map(str::to_owned)
+}
+
 /// The parts of a diagram that a switched simulation keeps apart.
 struct Parts<'m> {
     sources: Vec<&'m Block>,

@@ -23,7 +23,7 @@ mod trace;
 
 pub use exact::exact_response;
 pub use exponential::{Exponential, StateIntegral};
-pub use from_loop::excitation;
+pub use from_loop::{excitation, signal_unit};
 pub use root_locus::{Branch, Crossing, LocusOptions, LocusSample, ParameterScale, RootLocus, trace_root_locus};
 pub use roots::{ApproximateRoot, roots};
 pub use sampled::{Excitation, SampledModel, Step};

@@ -2,7 +2,11 @@
 
 use super::trace::Trace;
 use crate::error::{Diagnostic, Error};
+use crate::limits::{Budget, Exhausted};
 use nalgebra::{DMatrix, DVector};
+
+/// How many samples are computed between two looks at the clock.
+pub(super) const SAMPLES_BETWEEN_CHECKS: usize = 1 << 10;
 
 /// A sampled linear model in `f64`: `x(n+1) = A x(n) + E r(n)`, `y(n) = C x(n) + D r(n)`.
 ///
@@ -120,26 +124,48 @@ impl SampledModel {
     /// assert_eq!(run.signal("y").unwrap().values[3], 5.25);
     /// ```
     pub fn simulate(&self, excitation: &Excitation, samples: usize) -> Trace {
+        self.simulate_within(excitation, samples, &Budget::unlimited()).expect("an unlimited budget does not run out")
+    }
+
+    /// The same within a budget, which is told how far the run is.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn simulate_within(
+        &self,
+        excitation: &Excitation,
+        samples: usize,
+        budget: &Budget,
+    ) -> Result<Trace, Exhausted> {
         let names: Vec<String> =
             self.states.iter().chain(self.outputs.iter().filter(|o| !self.states.contains(o))).cloned().collect();
         let new_outputs: Vec<usize> =
             (0..self.outputs.len()).filter(|&k| !self.states.contains(&self.outputs[k])).collect();
         let mut trace = Trace::with_names(&names);
         let mut x = self.initial_state(excitation);
+        // Products into vectors that exist: a run has millions of steps.
+        let (mut next, mut y) = (x.clone(), DVector::zeros(self.outputs.len()));
         let changes = excitation.changes();
         let mut r = excitation.inputs_at(0, self.inputs.len());
         for n in 0..=samples {
+            if n % SAMPLES_BETWEEN_CHECKS == 0 {
+                budget.check()?;
+                budget.advance(n as u64, samples as u64);
+            }
             if changes.binary_search(&n).is_ok() {
                 r = excitation.inputs_at(n, self.inputs.len());
             }
             if x.iter().any(|v| !v.is_finite()) {
                 break;
             }
-            let y = &self.output * &x + &self.feedthrough * &r;
+            y.gemv(1.0, &self.output, &x, 0.0);
+            y.gemv(1.0, &self.feedthrough, &r, 1.0);
             trace.push(n as f64 * self.sample_time, x.iter().copied().chain(new_outputs.iter().map(|&k| y[k])));
-            x = &self.transition * &x + &self.input * &r;
+            next.gemv(1.0, &self.transition, &x, 0.0);
+            next.gemv(1.0, &self.input, &r, 1.0);
+            std::mem::swap(&mut x, &mut next);
         }
-        trace
+        Ok(trace)
     }
 
     /// The state at sample 0.

@@ -27,6 +27,14 @@ impl Trace {
         Trace { time: Vec::new(), signals: names.iter().map(signal).collect() }
     }
 
+    /// The trace with the units that `unit` knows of its signals.
+    pub fn with_units(mut self, unit: impl Fn(&str) -> Option<String>) -> Trace {
+        for signal in &mut self.signals {
+            signal.unit = unit(&signal.name).unwrap_or_default();
+        }
+        self
+    }
+
     /// Adds one instant; missing values become 0, surplus ones are ignored.
     pub fn push(&mut self, time: f64, values: impl IntoIterator<Item = f64>) {
         self.time.push(time);

@@ -1,6 +1,10 @@
 //! Models with singular cases, their certificates, and mutations.
 #![allow(dead_code)]
 
+pub mod checkers;
+pub mod forgeries;
+pub mod python;
+
 use jurist::analysis::{Settings, one_parameter, verdict};
 use jurist::certificate::emit::{intervals_certificate, verdict_certificate};
 use jurist::certificate::format::Json;
@@ -56,6 +60,12 @@ pub const MODELS: &[(&str, &str, &str)] = &[
         "time = 'continuous'\nparameters.K = { min = -3 }\nloop.characteristic = 's^4 + 4*s^3 + 6*s^2 + 4*s + 1 + K'",
         "K",
     ),
+    // D(1) = (1 - K)(1 + K)^2: its square-free part alone does not make it up.
+    (
+        "roots of two multiplicities",
+        "time = 'discrete'\nparameters.K = { min = 0 }\nloop.characteristic = '(z - K)*(z + K)*(z^2 + K)'",
+        "K",
+    ),
     (
         "matrix",
         "time = 'discrete'\nparameters.K = { min = 0 }\nparameters.T = { nominal = 0.1 }\nloop.matrix = [[1, 'T'], ['-K*T/(K + 1)', '1 - K*T']]",
@@ -78,7 +88,8 @@ pub const MODELS: &[(&str, &str, &str)] = &[
     ),
 ];
 
-fn read(model: &str) -> Loop {
+/// The model.
+pub fn read(model: &str) -> Loop {
     Loop::from_toml(&Source::new("model", model)).unwrap_or_else(|e| panic!("{e}\n{model}")).0
 }
 
@@ -180,7 +191,7 @@ fn mutations_of(value: &Json) -> Vec<Json> {
     }
 }
 
-/// Whether the engine, asked the question of a certificate's statement, gives the claimed set.
+/// Whether the engine, asked the question of a certificate's statement, gives the claimed set or verdict.
 pub fn is_true(model: &str, certificate: &Json) -> bool {
     let Some(statement) = certificate.get("statement") else { return false };
     let text = |json: &Json| match json {
@@ -188,7 +199,6 @@ pub fn is_true(model: &str, certificate: &Json) -> bool {
         _ => None,
     };
     let number = |json: &Json| text(json).map(|t| parse_number(&t).unwrap());
-    let Some(parameter) = statement.get("parameter").and_then(text) else { return false };
     let mut settings = Settings::default();
     if let Some(Json::Object(pairs)) = statement.get("set") {
         settings.set.extend(pairs.iter().map(|(name, value)| (name.clone(), number(value).unwrap())));
@@ -197,6 +207,21 @@ pub fn is_true(model: &str, certificate: &Json) -> bool {
         settings.radius = region.get("radius").and_then(number);
         settings.decay = region.get("decay").and_then(number);
     }
+    if statement.get("kind").and_then(text).as_deref() == Some("verdict") {
+        let Ok(answer) = verdict(&read(model), &settings, &Budget::unlimited()) else { return false };
+        let found = answer.count.unwrap_or_default();
+        let counts = [
+            ("degree", answer.degree),
+            ("inside", found.inside),
+            ("on", found.on),
+            ("outside", found.outside),
+            ("infinite", answer.infinite),
+        ];
+        return statement.get("time").and_then(text).as_deref() == Some(answer.time.name())
+            && statement.get("verdict").and_then(text).as_deref() == Some(answer.verdict.name())
+            && counts.iter().all(|(key, n)| statement.get(key) == Some(&Json::Count(*n as u32)));
+    }
+    let Some(parameter) = statement.get("parameter").and_then(text) else { return false };
     let bound = |key: &str| statement.get("domain").and_then(|d| d.get(key)).and_then(number);
     settings.domain.insert(parameter.clone(), Range::between(bound("lower"), bound("upper")));
     let budget = Budget::unlimited();

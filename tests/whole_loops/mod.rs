@@ -1,6 +1,9 @@
 //! What the tests of whole loops share: loading, and stating an expected stable set in words.
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
+#[path = "../certificates/mod.rs"]
+pub mod certificates;
+
 use jurist::analysis::{Settings, intervals};
 use jurist::error::Source;
 use jurist::limits::Budget;
@@ -53,13 +56,21 @@ pub fn stable_set_of(lp: &Loop, parameter: &str, settings: &Settings) -> StableS
     answer.stable.decided().expect("there is no budget").clone()
 }
 
+/// The exact stable set, whose certificate both checkers accept.
+pub fn certified_set_of(lp: &Loop, parameter: &str, settings: &Settings) -> StableSet {
+    certificates::checkers::accept_intervals_of(lp, settings, parameter);
+    stable_set_of(lp, parameter, settings)
+}
+
 /// Asserts that the stable set is the list of intervals, each end in words:
 ///
 /// * `-inf`, `inf`;
 /// * `19/50: z=-1`: the exact value and its causes;
-/// * `root 1 -10 10 near 0.1127: complex pair`: an irrational root of 1 - 10 k + 10 k^2 with these digits.
+/// * `root 1 -10 10 near 0.1127: complex pair`: an irrational root of 1 - 10 k + 10 k^2 with these digits;
+///
+/// and that both checkers accept the set's certificate.
 pub fn assert_stable(lp: &Loop, parameter: &str, settings: &Settings, expected: &[(&str, &str)]) {
-    let found = stable_set_of(lp, parameter, settings);
+    let found = certified_set_of(lp, parameter, settings);
     let shown: Vec<_> = found.intervals().iter().map(|i| (words(&i.lower, "-inf"), words(&i.upper, "inf"))).collect();
     assert_eq!(found.intervals().len(), expected.len(), "found {shown:?}");
     for ((interval, expected), shown) in found.intervals().iter().zip(expected).zip(&shown) {

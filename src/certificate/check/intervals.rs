@@ -5,7 +5,7 @@ use super::model::Characteristic;
 use super::number::{Clock, Q};
 use super::roots::{is_hurwitz, is_schur};
 use super::statement::{End, boolean, count, end, list, number, object, polynomial, polynomials, text};
-use super::univariate::{Uni, common_denominator};
+use super::univariate::Uni;
 use super::{Rejection, Step};
 use crate::certificate::format::Json;
 
@@ -168,8 +168,8 @@ fn separator(json: &Json, factors: &[Uni], clock: &Clock) -> Result<Separator, S
     if json.get("at").is_some() {
         let [at] = object(json, "a root", ["at"], &["touch"])?;
         let q = number(at, "'at'")?;
-        if !factors.iter().any(|f| f.vanishes_at(&q)) {
-            return Err(format!("no factor vanishes at {q}"));
+        if !any_vanishes(factors, &q, clock)? {
+            return Err("no factor vanishes at 'at'".into());
         }
         return Ok(Separator {
             end: End::Rational(q.clone()),
@@ -185,12 +185,12 @@ fn separator(json: &Json, factors: &[Uni], clock: &Clock) -> Result<Separator, S
     let index = count(factor, "'factor'")?;
     let polynomial = factors.get(index).ok_or("there is no such factor")?;
     for (i, f) in factors.iter().enumerate() {
-        if f.vanishes_at(&a) || f.vanishes_at(&b) {
-            return Err(format!("factor {i} vanishes at an end of [{a}, {b}]"));
+        if f.vanishes_at(&a, clock)? || f.vanishes_at(&b, clock)? {
+            return Err(format!("factor {i} vanishes at an end of 'between'"));
         }
         let expected = usize::from(i == index);
         if f.descartes(Some(&a), Some(&b), clock)? != Some(expected) {
-            return Err(format!("factor {i} is not shown to have {expected} roots in ({a}, {b})"));
+            return Err(format!("factor {i} is not shown to have {expected} roots in 'between'"));
         }
     }
     let end = End::Root(polynomial.clone(), a.clone(), b.clone());
@@ -253,7 +253,8 @@ fn stretch(
     clock: &Clock,
 ) -> Result<bool, String> {
     let [split, sample, stable] = object(json, "a stretch", ["split", "sample", "stable"], &[])?;
-    let split = list(split, "'split'")?.iter().map(|q| number(q, "'split'")).collect::<Result<Vec<_>, _>>()?;
+    let point = |q| clock.tick().and_then(|()| number(q, "'split'"));
+    let split = list(split, "'split'")?.iter().map(point).collect::<Result<Vec<_>, _>>()?;
     let (left, right) = (&before.right, &after.left);
     let touching = matches!((left, right), (Some(a), Some(b)) if a == b && before.regular && after.regular);
     let mut ends: Vec<Option<Q>> = vec![left.clone()];
@@ -275,8 +276,10 @@ fn stretch(
             }
         }
     }
-    if let Some(q) = split.iter().find(|q| factors.iter().any(|f| f.vanishes_at(q))) {
-        return Err(format!("a factor vanishes at {q}"));
+    for q in &split {
+        if any_vanishes(factors, q, clock)? {
+            return Err("a factor vanishes at a point of 'split'".into());
+        }
     }
     let sample = number(sample, "'sample'")?;
     let above = left.as_ref().is_none_or(|l| *l < sample || (before.regular && *l == sample));
@@ -284,17 +287,36 @@ fn stretch(
     if !(above && below) {
         return Err("the sample is not in the stretch".into());
     }
-    let values: Vec<Q> = coefficients.iter().map(|c| c.value_at(&sample)).collect();
-    let m = common_denominator(values.iter());
-    let polynomial = Uni::new(values.iter().map(|q| q.numer() * (&m / q.denom())).collect());
+    let polynomial = at_point(coefficients, &sample, clock)?;
     if polynomial.0.len() != d.degree + 1 {
         return Err("the sample loses degree".into());
     }
     let actual = if d.discrete { is_schur(&polynomial, clock)? } else { is_hurwitz(&polynomial, clock)? };
     if actual != boolean(stable, "'stable'")? {
-        return Err(format!("at the sample {sample} the loop is {}stable", if actual { "" } else { "not " }));
+        return Err(format!("at the sample the loop is {}stable", if actual { "" } else { "not " }));
     }
     Ok(actual)
+}
+
+fn any_vanishes(polynomials: &[Uni], q: &Q, clock: &Clock) -> Result<bool, String> {
+    for f in polynomials {
+        if f.vanishes_at(q, clock)? {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// A positive multiple of the polynomial at a value of the parameter.
+fn at_point(coefficients: &[Uni], sample: &Q, clock: &Clock) -> Result<Uni, String> {
+    // All values over the denominator of the sample to the power of the highest degree.
+    let degree = coefficients.iter().map(Uni::degree).max().unwrap_or(0);
+    let mut values = Vec::with_capacity(coefficients.len());
+    for c in coefficients {
+        let value = c.numerator_at(sample, clock)?;
+        values.push(value * num_traits::pow(sample.denom().clone(), degree - c.degree()));
+    }
+    Ok(Uni::new(values))
 }
 
 /// Whether a separator between two stable stretches is shown not to be stable itself.
@@ -305,12 +327,12 @@ fn is_excluded(separator: &Separator, boundaries: &Boundaries, clock: &Clock) ->
     };
     match (&separator.end, separator.factor) {
         (End::Rational(q), _) => {
-            if boundaries.certain.iter().any(|c| c.vanishes_at(q)) {
+            if any_vanishes(&boundaries.certain, q, clock)? {
                 return Ok(true);
             }
             let Some(identity) = &boundaries.pair else { return Ok(false) };
-            let w = witness(identity, separator.touch);
-            Ok(identity.value.vanishes_at(q) && w.is_some_and(|w| !w.vanishes_at(q)))
+            let Some(w) = witness(identity, separator.touch) else { return Ok(false) };
+            Ok(identity.value.vanishes_at(q, clock)? && !w.vanishes_at(q, clock)?)
         }
         (End::Root(f, a, b), Some(_)) => {
             for c in &boundaries.certain {

@@ -21,14 +21,18 @@ mod verdict;
 
 use super::format::{Json, SCHEMA};
 use num_traits::Zero;
-use number::{Clock, Q, shorten};
-use statement::{Extent, bound, extent, object, polynomials, text, values};
+use number::{Clock, Q, out_of_time, shorten};
+use statement::{Extent, bound, extent, identifier, object, polynomials, text, values};
 use std::fmt;
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 use univariate::Uni;
 
 /// The stack of the thread in which a check runs: expressions may nest deeper than a default stack allows.
 const STACK: usize = 64 << 20;
+
+/// A check that does not end by itself is given up this long after its time.
+const GRACE: Duration = Duration::from_millis(500);
 
 /// How much work a check may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,6 +76,8 @@ pub enum Step {
     Line,
     /// The claimed set, or the claimed verdict.
     Stable,
+    /// The check was given up in the middle of a step.
+    Time,
 }
 
 impl Step {
@@ -86,6 +92,7 @@ impl Step {
             Step::Factors => "factors",
             Step::Line => "line",
             Step::Stable => "stable",
+            Step::Time => "time",
         }
     }
 
@@ -146,14 +153,21 @@ impl From<Rejection> for crate::error::Error {
 /// # Errors
 /// [`Rejection`] with the step that failed. A rejection says nothing about the statement.
 pub fn check(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Rejection> {
-    let work = || checked(model, certificate, limits);
-    std::thread::scope(|scope| {
-        let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
-        let failed = |what: &str| Err(Rejection { step: Step::Format, reason: format!("internal: {what}") });
-        match thread {
-            Ok(thread) => thread.join().unwrap_or_else(|_| failed("the check broke off")),
-            Err(_) => failed("there is no thread to check in"),
-        }
+    let limits = *limits;
+    let (model, certificate) = (model.to_owned(), certificate.to_owned());
+    let (sender, receiver) = channel();
+    let work = move || drop(sender.send(checked(&model, &certificate, &limits)));
+    if std::thread::Builder::new().stack_size(STACK).spawn(work).is_err() {
+        return Err(Rejection { step: Step::Format, reason: "internal: there is no thread to check in".into() });
+    }
+    // The clock is looked at between operations; one of them on long numbers can take its time.
+    receiver.recv_timeout(limits.timeout.saturating_add(GRACE)).unwrap_or_else(|e| {
+        Err(match e {
+            RecvTimeoutError::Timeout => Rejection { step: Step::Time, reason: out_of_time(limits.timeout) },
+            RecvTimeoutError::Disconnected => {
+                Rejection { step: Step::Format, reason: "internal: the check broke off".into() }
+            }
+        })
     })
 }
 
@@ -197,7 +211,7 @@ fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) ->
     let [_, time, parameter, set, region, domain, stable] =
         Step::Statement.of(object(statement, "the statement", keys, &[]))?;
     let discrete = Step::Statement.of(is_discrete(time))?;
-    let parameter = Step::Statement.of(text(parameter, "'parameter'"))?;
+    let parameter = Step::Statement.of(text(parameter, "'parameter'").and_then(identifier))?;
     let set = Step::Statement.of(values(set))?;
     let extent = Step::Statement.of(extent(region, discrete))?;
     let domain = Step::Statement.of((|| {
@@ -212,6 +226,9 @@ fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) ->
             }
             if discrete && lower.as_ref().is_none_or(|l| *l < Q::zero()) {
                 return Err("a radius is positive".into());
+            }
+            if set.iter().any(|(name, _)| name == parameter) {
+                return Err(format!("'{parameter}' is also a parameter of the model"));
             }
         }
         Ok((lower, upper))

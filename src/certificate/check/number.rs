@@ -24,12 +24,14 @@ impl Clock {
 
     pub fn tick(&self) -> Result<(), String> {
         match self.end {
-            Some(end) if Instant::now() >= end => {
-                Err(format!("the check takes longer than {} s", self.timeout.as_secs_f64()))
-            }
+            Some(end) if Instant::now() >= end => Err(out_of_time(self.timeout)),
             _ => Ok(()),
         }
     }
+}
+
+pub(super) fn out_of_time(timeout: Duration) -> String {
+    format!("the check takes longer than {} s", timeout.as_secs_f64())
 }
 
 /// An integer as certificates write it: an optional minus sign and digits.

@@ -116,7 +116,16 @@ pub(super) fn polynomials(json: &Json, what: &str) -> Result<Vec<Uni>, String> {
 /// Names with their values.
 pub(super) fn values(json: &Json) -> Result<Vec<(String, Q)>, String> {
     let Json::Object(pairs) = json else { return Err("'set' is not an object".into()) };
-    pairs.iter().map(|(name, value)| Ok((name.clone(), number(value, "a value in 'set'")?))).collect()
+    pairs.iter().map(|(name, value)| Ok((identifier(name)?.to_owned(), number(value, "a value in 'set'")?))).collect()
+}
+
+/// A name; anything else could make the proved sentence say something else.
+pub(super) fn identifier(name: &str) -> Result<&str, String> {
+    let first = name.starts_with(|c: char| c == '_' || c.is_alphabetic());
+    if first && name.chars().all(|c| c == '_' || c.is_alphanumeric()) {
+        return Ok(name);
+    }
+    Err(format!("'{}' is not a name", shorten(&name.replace(char::is_control, " "))))
 }
 
 pub(super) fn extent(json: &Json, discrete: bool) -> Result<Extent, String> {

@@ -2,7 +2,6 @@
 
 use super::number::{Clock, Q, Z};
 use num_bigint::Sign;
-use num_rational::Ratio;
 use num_traits::{One, Signed, Zero};
 
 /// Coefficients from the constant term up, without zeros at the top.
@@ -86,25 +85,21 @@ impl Uni {
         Uni(self.0.iter().map(|c| c / &content).collect())
     }
 
-    /// The sign of the value at a rational number.
-    pub fn sign_at(&self, value: &Q) -> Sign {
-        let (p, q) = (value.numer(), value.denom());
-        let mut result = Z::zero();
-        let mut q_power = Z::one();
-        for c in self.0.iter().rev() {
-            result = result * p + c * &q_power;
-            q_power *= q;
+    /// The value at a rational number, times the denominator of that number to the power of the degree.
+    pub fn numerator_at(&self, value: &Q, clock: &Clock) -> Result<Z, String> {
+        let (mut result, mut q_power) = (Z::zero(), Z::one());
+        for (i, c) in self.0.iter().rev().enumerate() {
+            clock.tick()?;
+            if i > 0 {
+                q_power *= value.denom();
+            }
+            result = result * value.numer() + c * &q_power;
         }
-        result.sign()
+        Ok(result)
     }
 
-    pub fn vanishes_at(&self, value: &Q) -> bool {
-        self.sign_at(value) == Sign::NoSign
-    }
-
-    /// The value at a rational number.
-    pub fn value_at(&self, value: &Q) -> Q {
-        self.0.iter().rev().fold(Q::zero(), |sum, c| sum * value + Ratio::from(c.clone()))
+    pub fn vanishes_at(&self, value: &Q, clock: &Clock) -> Result<bool, String> {
+        Ok(self.numerator_at(value, clock)?.is_zero())
     }
 
     /// The quotient over the rationals, made primitive, if the division leaves no remainder.

@@ -2,10 +2,11 @@
 
 use super::number::{Clock, Q};
 use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
-use super::statement::{Extent, count, extent, list, object, polynomials, text, values};
+use super::statement::{self, End, Extent, count, extent, list, object, polynomials, text, values};
 use super::univariate::Uni;
 use super::{Proved, Rejection, Step, is_discrete, model, region, same_characteristic};
 use crate::certificate::format::Json;
+use num_traits::Zero;
 use std::fmt::Write;
 
 pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
@@ -130,18 +131,8 @@ pub(super) fn sentence_of_intervals(
         if i > 0 {
             out.push_str(" or ");
         }
-        let end = |key: &str| match interval.get(key) {
-            Some(Json::Text(text)) => Some(text.clone()),
-            Some(other) => match other.get("between") {
-                Some(Json::List(ab)) => {
-                    let side = |i: usize| ab.get(i).and_then(|q| text(q, "").ok()).unwrap_or_default().to_owned();
-                    Some(format!("[a root in ({}, {})]", side(0), side(1)))
-                }
-                _ => None,
-            },
-            None => None,
-        };
-        out.push_str(&match (end("lower"), end("upper")) {
+        let [lower, upper] = ["lower", "upper"].map(|key| interval.get(key).and_then(|e| end(e, parameter)));
+        out.push_str(&match (lower, upper) {
             (None, None) => "all of them".to_owned(),
             (Some(l), None) => format!("{parameter} > {l}"),
             (None, Some(u)) => format!("{parameter} < {u}"),
@@ -150,4 +141,27 @@ pub(super) fn sentence_of_intervals(
     }
     out.push('.');
     out
+}
+
+/// Polynomials that take more characters than this are not written out.
+const SHOWN: usize = 500;
+
+/// An end in words; `None` for an infinite one.
+fn end(json: &Json, parameter: &str) -> Option<String> {
+    match statement::end(json).ok()? {
+        End::Infinite => None,
+        End::Rational(q) => Some(q.to_string()),
+        End::Root(f, a, b) => {
+            let terms = f.0.iter().enumerate().filter(|(_, c)| !c.is_zero()).map(|(k, c)| match k {
+                0 => c.to_string(),
+                1 => format!("{c}*{parameter}"),
+                _ => format!("{c}*{parameter}^{k}"),
+            });
+            let mut polynomial = terms.collect::<Vec<_>>().join(" + ").replace("+ -", "- ");
+            if polynomial.len() > SHOWN {
+                polynomial = format!("the polynomial of degree {} in 'stable'", f.degree());
+            }
+            Some(format!("[the root in ({a}, {b}) of {polynomial}]"))
+        }
+    }
 }

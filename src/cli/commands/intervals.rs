@@ -51,7 +51,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
             write_answer(&certificate, Some(file))?;
         }
         if let Some(file) = &options.smt2 {
-            write_answer(&intervals_smt2(&answer.question, set, &context.budget)?, Some(file))?;
+            write_answer(&intervals_smt2(&answer.question, set), Some(file))?;
         }
     }
     context.answer(output, || intervals_text(&answer, digits), || intervals_json(&answer, digits))?;

@@ -5,12 +5,12 @@ use crate::analysis::{Decision, Intervals, intervals};
 use crate::cli::arguments::{ModelOptions, RunOptions};
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_names, load, settings};
-use crate::cli::output::write_answer;
 use crate::cli::picture::{Picture, deliver, wanted};
 use crate::cli::status::{Failure, Outcome, Status};
 use crate::error::Diagnostic;
 use crate::number::{Rational, parse_number};
 use crate::report::figures::locus_of;
+use crate::report::locus_json;
 use crate::simulate::ParameterScale;
 use clap::Args;
 use std::ffi::OsString;
@@ -30,7 +30,10 @@ pub(in crate::cli) struct Options {
     /// Lets the parameter run evenly in its logarithm [default: over ranges of more than two decades]
     #[arg(long)]
     pub log: bool,
-    /// Writes the picture to a file: .svg, .png, or the data: .csv
+    /// Writes JSON: the roots, and the crossings
+    #[arg(long)]
+    pub json: bool,
+    /// Writes the picture to a file: .svg, .png, or the data: .csv, .json
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<OsString>,
     /// Also writes the data, beside the picture
@@ -42,7 +45,7 @@ pub(in crate::cli) struct Options {
 
 /// Draws to a file or on the terminal.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
-    let kind = wanted(options.output.as_ref())?;
+    let kind = wanted(options.output.as_ref(), options.json)?;
     let model = load(options.model.model.as_ref(), context)?;
     let settings = settings(context, &model, &options.model, &Default::default())?;
     known_names(context, &model, "--param", from_ref(&options.param))?;
@@ -62,8 +65,9 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         crate::cli::output::note(&format!("crossing: {}", crossing.label));
     }
     let table = || picture.locus.to_csv(&options.param);
-    let out = Picture { figure: &picture.figure, csv: &table, csv_beside: options.csv };
-    deliver(&out, kind, options.output.as_ref(), |text| write_answer(text, None))?;
+    let document = || locus_json(&answer, &picture);
+    let out = Picture { figure: &picture.figure, csv: &table, json: &document, csv_beside: options.csv };
+    deliver(&out, kind, options.output.as_ref())?;
     Ok(Status::Holds)
 }
 

@@ -4,14 +4,15 @@ use super::Context;
 use crate::cli::arguments::{ModelOptions, RunOptions};
 use crate::cli::assignments::{in_line, plain_number};
 use crate::cli::input::{load, settings};
-use crate::cli::output::{note, write_answer};
+use crate::cli::output::note;
 use crate::cli::picture::{Picture, deliver, wanted};
 use crate::cli::status::{Failure, Outcome, Status};
 use crate::error::{Diagnostic, Source};
 use crate::model::{Loop, Question};
 use crate::number::parse_number;
-use crate::report::figures::{response_panels, stacked};
-use crate::simulate::{Excitation, Pulse, Record, SampledModel, SwitchedModel, Trace, excitation};
+use crate::report::figures::{Figure, response_panels, stacked};
+use crate::report::{CircuitAnswer, SimulationAnswer, simulation_json, time_unit};
+use crate::simulate::{Excitation, Pulse, Record, SampledModel, SwitchedModel, excitation, signal_unit};
 use clap::{Args, ValueEnum};
 use std::ffi::OsString;
 
@@ -59,7 +60,10 @@ pub(in crate::cli) struct Options {
     /// Starts in the periodic steady state instead of the initial state
     #[arg(long, requires = "switched", conflicts_with = "initial")]
     pub steady: bool,
-    /// Writes the picture to a file: .svg, .png, or the data: .csv
+    /// Writes JSON: times and signals, in floating point
+    #[arg(long)]
+    pub json: bool,
+    /// Writes the picture to a file: .svg, .png, or the data: .csv, .json
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<OsString>,
     /// Also writes the data, beside the picture
@@ -79,7 +83,7 @@ struct Course {
 
 /// Draws to a file or on the terminal.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
-    let kind = wanted(options.output.as_ref())?;
+    let kind = wanted(options.output.as_ref(), options.json)?;
     let model = match (&options.model.model, options.switched) {
         (None, true) => Loop::from_toml(&Source::new("<built-in drive>", DRIVE_BLOCKS))?.0,
         (path, _) => load(path.as_ref(), context)?,
@@ -89,25 +93,34 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let question = Question { keep: Vec::new(), set: settings.set.clone() };
     let course = Course::of(options, &model, context)?;
     context.budget.step("simulating");
-    let trace = if options.switched {
+    let mut answer = if options.switched {
         switched(options, &model, &question, &course, context)?
     } else {
         sampled(&model, &question, &course, context)?
     };
+    answer.trace = answer.trace.with_units(|name| signal_unit(&model, name));
     context.reporter.finish();
-    let shown: Vec<String> = if options.switched {
-        trace.signals.iter().map(|s| s.name.clone()).filter(|n| !n.ends_with(".duty")).collect()
-    } else {
-        let outputs: Vec<String> = model.outputs().iter().map(|o| o.name.name.clone()).collect();
-        if outputs.is_empty() { trace.signals.iter().map(|s| s.name.clone()).collect() } else { outputs }
-    };
-    let kind_of_run = if options.switched { "switched circuit" } else { "sampled linear model" };
-    let title = format!("{}, {kind_of_run}", model.title().unwrap_or("the loop"));
-    let figure = stacked(&response_panels(&title, &trace, &shown), 760.0, 240.0);
-    let table = || trace.to_csv();
-    let out = Picture { figure: &figure, csv: &table, csv_beside: options.csv };
-    deliver(&out, kind, options.output.as_ref(), |text| write_answer(text, None))?;
+    let figure = figure(&model, &answer);
+    let table = || answer.trace.to_csv();
+    let set = model.resolve(&question)?.values;
+    let document = || simulation_json(&model, &set, &answer);
+    let out = Picture { figure: &figure, csv: &table, json: &document, csv_beside: options.csv };
+    deliver(&out, kind, options.output.as_ref())?;
     Ok(Status::Holds)
+}
+
+/// The outputs over time, one panel each; of the circuit all but the duty ratios.
+fn figure(model: &Loop, answer: &SimulationAnswer) -> Figure {
+    let all = || answer.trace.signals.iter().map(|s| s.name.clone());
+    let outputs: Vec<String> = model.outputs().iter().map(|o| o.name.name.clone()).collect();
+    let (shown, kind) = match &answer.circuit {
+        Some(_) => (all().filter(|n| !n.ends_with(".duty")).collect(), "switched circuit"),
+        None if outputs.is_empty() => (all().collect(), "sampled linear model"),
+        None => (outputs, "sampled linear model"),
+    };
+    let title = format!("{}, {kind}", model.title().unwrap_or("the loop"));
+    let unit = time_unit(model, answer.sample_time);
+    stacked(&response_panels(&title, unit, &answer.trace, &shown), 760.0, 240.0)
 }
 
 impl Course {
@@ -172,19 +185,20 @@ fn parsed(option: &str, text: &str, context: &Context) -> Result<(String, f64, f
     }
 }
 
-fn sampled(model: &Loop, question: &Question, course: &Course, context: &Context) -> Result<Trace, Failure> {
+fn sampled(model: &Loop, question: &Question, course: &Course, context: &Context) -> Result<SimulationAnswer, Failure> {
     let step = course.duration / CONTINUOUS_SAMPLES;
     let system = SampledModel::from_loop(model, question, step, &context.budget)?;
     let at = |name: &str| system.state_named(name);
     let steps = course.steps(system.sample_time);
     let drive = excitation(at, system.states.len(), &system.inputs, &course.initial, &steps)?;
     let samples = course.samples(system.sample_time)?;
-    let trace = system.simulate(&drive, samples);
+    let trace = system.simulate_within(&drive, samples, &context.budget)?;
     if trace.time.len() <= samples {
         let last = trace.time.last().copied().unwrap_or(0.0);
         note(&format!("the response leaves the range of floating point after t = {last} s"));
     }
-    Ok(trace)
+    let sampled = model.sample_time(question, &context.budget)?.is_some();
+    Ok(SimulationAnswer { trace, sample_time: sampled.then_some(system.sample_time), circuit: None })
 }
 
 fn switched(
@@ -193,7 +207,7 @@ fn switched(
     question: &Question,
     course: &Course,
     context: &Context,
-) -> Result<Trace, Failure> {
+) -> Result<SimulationAnswer, Failure> {
     let pulse = match options.pulse {
         PulsePlace::Beginning => Pulse::Beginning,
         PulsePlace::End => Pulse::End,
@@ -205,29 +219,33 @@ fn switched(
     let initial: &[(String, f64)] = if options.steady { &[] } else { &course.initial };
     let drive: Excitation = excitation(at, system.plant_states().len(), system.inputs(), initial, &steps)?;
     let periods = course.samples(system.period())?;
-    let inputs = drive.inputs_at(0, system.inputs().len());
-    let operating = system.periodic_steady_state(&inputs);
-    match &operating {
+    let mut circuit = CircuitAnswer::around(&system, &drive.inputs_at(0, system.inputs().len()));
+    match &circuit.operating {
         Some(operating) => {
             let duty: Vec<String> = operating.duty.iter().map(|d| format!("{d:.6}")).collect();
-            let largest = system.small_signal_eigenvalues(&inputs).and_then(|v| v.first().map(|z| z.norm()));
+            let largest = circuit.multipliers.first().map(|z| z.norm());
             let largest = largest.map_or_else(String::new, |m| format!(", largest multiplier {m:.6} per period"));
             note(&format!("periodic steady state (floating point): on {} of the period{largest}", duty.join(", ")));
         }
         None => note("no periodic steady state without clamping (floating point)"),
     }
-    let start = match (options.steady, operating) {
-        (true, Some(operating)) => operating.state,
+    let start = match (options.steady, &circuit.operating) {
+        (true, Some(operating)) => operating.state.clone(),
         (true, None) => {
             return Err(Diagnostic::error("E-simulation", "there is no periodic steady state to start from").into());
         }
         (false, _) => system.start(&drive),
     };
-    // The ripple in full for as long as its file stays small.
-    let record = if periods <= 2000 { Record::Waveform(3) } else { Record::Waveform(0) };
-    let run = system.simulate(&start, &drive, periods, record);
+    // The ripple in full for as long as its file stays small, and round where it can be seen.
+    let record = Record::Waveform(match periods {
+        0..=200 => 15,
+        201..=2000 => 3,
+        _ => 0,
+    });
+    let run = system.simulate_within(&start, &drive, periods, record, &context.budget)?;
+    circuit.clamped = run.clamped;
     if run.clamped > 0 {
         note(&format!("a modulator was at its limit in {} of {periods} periods", run.clamped));
     }
-    Ok(run.trace)
+    Ok(SimulationAnswer { trace: run.trace, sample_time: Some(system.period()), circuit: Some(circuit) })
 }

@@ -112,8 +112,8 @@ pub fn chopper() -> Figure {
     }
     s.label_right((left - 8.0, 74.0), "K_pwm");
     s.label((left + 22.0, 168.0), "t_on");
-    s.label((left + period, 168.0), "T");
-    s.label((left + 2.0 * period, 168.0), "2T");
+    s.label((left + period + 9.0, 168.0), "T");
+    s.label((left + 2.0 * period + 13.0, 168.0), "2T");
     s.label((710.0, 350.0), "(b) voltage and current");
     s.finish()
 }

@@ -36,8 +36,10 @@ pub struct DrawnLocus {
     pub locus: RootLocus,
     /// The certified crossings that lie in the range.
     pub crossings: Vec<Crossing>,
-    /// The picture.
+    /// The whole picture and the magnified one, side by side.
     pub figure: Figure,
+    /// The two pictures, each alone, for a page that may be narrow.
+    pub parts: [Figure; 2],
 }
 
 /// Bits to which the ends of the stable set are known for a picture.
@@ -95,12 +97,12 @@ pub fn locus_of(
     let locus = trace_root_locus(of, &options, budget)?;
     let unit = question.unit.as_deref().map(|u| format!(" {u}")).unwrap_or_default();
     let title = format!(
-        "Root locus, {} from {} to {}{unit}",
+        "{} from {}{unit} (×) to {}{unit} (○)",
         question.parameter,
         to_decimal(&range.0, 4),
         to_decimal(&range.1, 4)
     );
-    let figure = locus_figure(&LocusFigure {
+    let panels = locus_panels(&LocusFigure {
         time: question.time,
         title: &title,
         parameter: &question.parameter,
@@ -109,7 +111,9 @@ pub fn locus_of(
         crossings: &crossings,
         magnified: None,
     });
-    Ok(DrawnLocus { locus, crossings, figure })
+    let figure = side_by_side(&panels, SIDE, SIDE);
+    let parts = panels.map(|p| p.figure(SIDE, SIDE));
+    Ok(DrawnLocus { locus, crossings, figure, parts })
 }
 
 /// Where on the boundary the roots are at an end, and its label; nothing for ends without a root
@@ -145,11 +149,14 @@ fn crossing(end: &End, value: &Rational, answer: &Intervals) -> Option<Crossing>
 const STABLE: &str = COLOURS[0];
 const OTHER: &str = COLOURS[1];
 
-/// The locus in two panels of equal axes, left the whole, right magnified at z = 1 (or s = 0).
+/// Width and height of a panel.
+const SIDE: f64 = 520.0;
+
+/// The locus in two panels of equal axes, first the whole, then magnified at z = 1 (or s = 0).
 ///
 /// The colour follows the certified intervals, not the drawn roots; crossings are drawn where the
-/// certified answer has them, on the circle or the axis, with their labels.
-pub fn locus_figure(figure: &LocusFigure<'_>) -> Figure {
+/// certified answer has them, on the circle or the axis. Each is labelled in at least one panel.
+pub fn locus_panels(figure: &LocusFigure<'_>) -> [Panel; 2] {
     let discrete = figure.time == Time::Discrete;
     let focus = if discrete { (1.0, 0.0) } else { (0.0, 0.0) };
     let farthest = figure
@@ -160,11 +167,38 @@ pub fn locus_figure(figure: &LocusFigure<'_>) -> Figure {
         .filter(|v| v.is_finite())
         .fold(0.0, f64::max);
     let reach = if discrete { (farthest * 1.08).clamp(1.25, 3.0) } else { (farthest * 1.08).max(1e-9) };
-    let whole = frame(figure, (0.0, 0.0), reach, figure.title.to_string());
     let half = figure.magnified.unwrap_or_else(|| magnification(figure, focus, reach));
     let name = if discrete { "z = 1" } else { "s = 0" };
-    let zoom = frame(figure, focus, half, format!("near {name}, {:.0} times larger", reach / half));
-    side_by_side(&[whole, zoom], 520.0, 520.0)
+    let mut whole = frame(figure, (0.0, 0.0), reach, figure.title.to_string());
+    let mut near = frame(figure, focus, half, format!("near {name}, {:.0} times larger", reach / half));
+    let distance = |z: &Complex<f64>| (z.re - focus.0).abs().max((z.im - focus.1).abs());
+    // In the whole picture a crossing at the focus is a dot among dots: its label is in the other.
+    let in_both = |z: &Complex<f64>| distance(z) > reach / 50.0;
+    whole.texts = labels(figure, &whole, |z| in_both(z) || distance(z) >= half);
+    near.texts = labels(figure, &near, |z| distance(z) < half);
+    let right = (focus.0 + 0.55 * (reach - focus.0), -0.2 * reach);
+    whole.texts.push(Text { text: "magnified".into(), at: right, target: Some(focus) });
+    near.legend = Some(Corner::BottomRight);
+    [whole, near]
+}
+
+/// The labels of the crossings that are wanted in a panel, none over another.
+fn labels(figure: &LocusFigure<'_>, panel: &Panel, wanted: impl Fn(&Complex<f64>) -> bool) -> Vec<Text> {
+    let centre = (f64::midpoint(panel.x.0, panel.x.1), f64::midpoint(panel.y.0, panel.y.1));
+    let half = (panel.x.1 - panel.x.0) / 2.0;
+    let mut texts: Vec<Text> = Vec::new();
+    for crossing in figure.crossings {
+        for z in crossing.at.iter().filter(|z| wanted(z)) {
+            // Beside the point, on the side where there is room; above the middle, where no legend is.
+            let side = if z.re > centre.0 { -0.5 } else { 0.52 };
+            let mut at = (centre.0 + side * half, (z.im + 0.2 * half).min(centre.1 + 0.9 * half));
+            while texts.iter().any(|t| (t.at.0 - at.0).abs() < half && (t.at.1 - at.1).abs() < 0.07 * half) {
+                at.1 -= 0.08 * half;
+            }
+            texts.push(Text { text: crossing.label.clone(), at, target: Some((z.re, z.im)) });
+        }
+    }
+    texts
 }
 
 /// Half the width of the inset: it shows the crossing nearest the focus, the focus, and what
@@ -191,16 +225,13 @@ fn frame(figure: &LocusFigure<'_>, centre: (f64, f64), half: f64, title: String)
         x: (centre.0 - half, centre.0 + half),
         y: (centre.1 - half, centre.1 + half),
         equal: true,
-        legend: (half > 0.5 || !discrete).then_some(Corner::BottomLeft),
         ..Panel::default()
     };
     let boundary = if discrete {
         // Fine enough to be round also where the panel shows a millionth of it.
         let fine = |k: i32| f64::from(k) / 2000.0 * half.min(3.0);
-        let mut angles: Vec<f64> = (0..=720).map(|k| f64::from(k).to_radians() / 2.0).collect();
+        let mut angles: Vec<f64> = (-360..=360).map(|k| f64::from(k).to_radians() / 2.0).collect();
         angles.extend((-2000..=2000).map(fine));
-        angles.retain(|a| *a < std::f64::consts::TAU - 0.01);
-        angles.push(std::f64::consts::TAU);
         angles.sort_by(f64::total_cmp);
         angles.into_iter().map(|a| (a.cos(), a.sin())).collect()
     } else {
@@ -214,28 +245,22 @@ fn frame(figure: &LocusFigure<'_>, centre: (f64, f64), half: f64, title: String)
         dashed: false,
     });
     let is_stable = |value: f64| figure.stable.iter().any(|(a, b)| value >= *a && value <= *b);
-    let mut labels = (Some("stable (certified)".to_string()), Some("not stable".to_string()));
     for branch in figure.locus.branches() {
         for (inside, points) in runs(&branch.points, is_stable) {
-            let label = if inside { labels.0.take() } else { labels.1.take() };
-            let colour = if inside { STABLE } else { OTHER };
-            panel.curves.push(Curve { points, label, colour: colour.into(), width: 1.8, dashed: false });
+            let (colour, word) = if inside { (STABLE, "stable (certified)") } else { (OTHER, "not stable") };
+            panel.curves.push(Curve {
+                points,
+                label: Some(word.into()),
+                colour: colour.into(),
+                width: 1.8,
+                dashed: false,
+            });
         }
     }
     for piece in &figure.locus.pieces {
-        let ends = [(piece.first(), Shape::Cross, "start"), (piece.last(), Shape::Circle, "end")];
-        for (sample, shape, word) in ends {
-            let Some(sample) = sample else { continue };
-            let value = format!("{:.4}", sample.parameter.to_f64_approximate());
-            let value = value.trim_end_matches('0').trim_end_matches('.').to_string();
-            let mut label = Some(format!("{word}: {} = {value}", figure.parameter));
-            for z in &sample.roots {
-                panel.marks.push(Mark {
-                    at: (z.re, z.im),
-                    shape,
-                    colour: "#222222".into(),
-                    label: label.take().filter(|_| half > 0.5),
-                });
+        for (sample, shape) in [(piece.first(), Shape::Cross), (piece.last(), Shape::Circle)] {
+            for z in sample.iter().flat_map(|s| &s.roots) {
+                panel.marks.push(Mark { at: (z.re, z.im), shape, colour: "#222222".into(), label: None });
             }
         }
     }
@@ -244,15 +269,6 @@ fn frame(figure: &LocusFigure<'_>, centre: (f64, f64), half: f64, title: String)
             for im in if z.im == 0.0 { vec![0.0] } else { vec![z.im, -z.im] } {
                 let at = (z.re, im);
                 panel.marks.push(Mark { at, shape: Shape::Diamond, colour: "#000000".into(), label: None });
-            }
-            let at = (z.re, z.im);
-            let close = (at.0 - centre.0).abs().max((at.1 - centre.1).abs());
-            // In the whole picture a crossing at the focus is a dot among dots: its label is beside.
-            if close < half && (half < 0.5 || (at.0 - 1.0).hypot(at.1) > half / 50.0) {
-                let left = if at.0 > centre.0 { -0.62 } else { 0.2 };
-                let place = (centre.0 + left * half, at.1 + 0.2 * half);
-                let place = (place.0, place.1.min(centre.1 + 0.9 * half));
-                panel.texts.push(Text { text: crossing.label.clone(), at: place, target: Some(at) });
             }
         }
     }

@@ -11,14 +11,16 @@ pub mod map;
 mod panel;
 mod responses;
 mod sketch;
+mod svg;
 
 pub use diagrams::{chopper, current_controller, drive_blocks, pwm_signal, speed_controller, tracker};
-pub use locus::{DrawnLocus, LocusFigure, locus_figure, locus_of};
+pub use locus::{DrawnLocus, LocusFigure, locus_of, locus_panels};
 pub use panel::{Corner, Curve, Mark, Panel, Shape, Text, side_by_side, stacked};
-pub use responses::{ResponseCurve, response_panel, response_panels, thinned};
+pub use responses::{ResponseCurve, axis_label, response_panel, response_panels, thinned};
 
 use kuva::backend::svg::SvgBackend;
-use kuva::render::render::Scene;
+use kuva::render::color::Color;
+use kuva::render::render::{Primitive, Scene};
 use kuva::{RasterBackend, TerminalBackend};
 
 /// Fonts in order of preference; the first is also the one that PNGs are drawn with.
@@ -47,7 +49,14 @@ impl Figure {
 
     /// The figure as an SVG document that scales with the page.
     pub fn svg(&self) -> String {
-        let svg = renumbered(&SvgBackend::new().render_scene(&self.scene), "kuva-clip-");
+        self.svg_named("figure")
+    }
+
+    /// The figure as an SVG to stand in a page beside others: its identifiers begin with `name`,
+    /// for a page has one set of them, and the first clip path of that name would cut all figures.
+    pub fn svg_named(&self, name: &str) -> String {
+        let drawn = SvgBackend::new().render_scene(&self.scene);
+        let svg = svg::indexed(&svg::rounded(&svg::renumbered(&drawn, "kuva-clip-", &format!("{name}-clip-"))));
         let (w, h) = self.size();
         let view = format!("<svg viewBox=\"0 0 {w:.0} {h:.0}\" ");
         if svg.contains("viewBox") { svg } else { svg.replacen("<svg ", &view, 1) }
@@ -61,26 +70,49 @@ impl Figure {
         RasterBackend::new().with_scale(scale).render_scene(&self.scene)
     }
 
-    /// The figure in characters, for a terminal of that size.
-    pub fn terminal(&self, columns: usize, rows: usize) -> String {
-        TerminalBackend::new(columns, rows).render_scene(&self.scene)
+    /// The figure in characters, for a terminal of that many columns; a character counts as twice as
+    /// high as wide, so equal axes stay equal. Black is left to the terminal, whose own text may be
+    /// white; without `colours` there are no escape sequences at all.
+    pub fn terminal(&self, columns: usize, colours: bool) -> String {
+        let (w, h) = self.size();
+        let rows = (columns as f64 * h / w / 2.0).ceil().clamp(12.0, 120.0) as usize;
+        let mut bare = Scene::new(w, h);
+        bare.elements = self.scene.elements.iter().filter(|e| !is_background(e)).cloned().collect();
+        bare.defs.clone_from(&self.scene.defs);
+        let drawn = TerminalBackend::new(columns, rows).render_scene(&bare);
+        let ink = ["\u{1b}[38;2;0;0;0m", "\u{1b}[38;2;34;34;34m"];
+        if colours { ink.iter().fold(drawn, |text, code| text.replace(code, "")) } else { without_colours(&drawn) }
     }
 }
 
-/// The text with the numbers behind `prefix` counted from 0 in the order in which they appear: the
-/// plotting library counts them through the whole process, and equal data shall give equal bytes.
-fn renumbered(text: &str, prefix: &str) -> String {
-    let mut parts = text.split(prefix);
-    let mut out = parts.next().unwrap_or_default().to_string();
-    let mut seen: Vec<&str> = Vec::new();
+/// Grid lines and the legend's white ground: in characters they hide what they are behind.
+fn is_background(element: &Primitive) -> bool {
+    let is = |colour: &Color, text: &str| colour.to_svg_string() == Color::from(text).to_svg_string();
+    match element {
+        Primitive::Line { stroke, .. } => is(stroke, "#cccccc"),
+        Primitive::Rect { fill, .. } => is(fill, "white"),
+        _ => false,
+    }
+}
+
+/// The text without the escape sequences `ESC [ ... letter` that give colours.
+fn without_colours(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut parts = text.split("\u{1b}[");
+    out.push_str(parts.next().unwrap_or_default());
     for part in parts {
-        let digits = part.len() - part.trim_start_matches(|c: char| c.is_ascii_digit()).len();
-        let (number, rest) = part.split_at(digits);
-        let place = seen.iter().position(|s| *s == number).unwrap_or_else(|| {
-            seen.push(number);
-            seen.len() - 1
-        });
-        out.push_str(&format!("{prefix}{place}{rest}"));
+        let end = part.find(|c: char| c.is_ascii_alphabetic()).map_or(part.len(), |k| k + 1);
+        out.push_str(&part[end..]);
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_taken_away() {
+        assert_eq!(without_colours("a\u{1b}[38;2;1;2;3mb\u{1b}[0m c"), "ab c");
+    }
 }

@@ -128,7 +128,7 @@ pub(super) fn power_of_ten(v: f64) -> String {
 /// Numbers at ticks: as many decimals as the step needs, powers of ten where they would be long.
 fn tick_format(range: (f64, f64), step: f64) -> TickFormat {
     let largest = range.0.abs().max(range.1.abs());
-    let decimals = (-step.log10() + 1e-9).ceil().max(0.0) as usize;
+    let decimals = (-step.log10() - 1e-9).ceil().max(0.0) as usize;
     if largest >= 1e6 || (largest < 1e-3 && largest > 0.0) {
         return TickFormat::Custom(Arc::new(|v| if v == 0.0 { "0".into() } else { power_of_ten(v) }));
     }
@@ -142,15 +142,17 @@ impl Panel {
     fn render(&self, width: f64, height: f64) -> Scene {
         let window = Window { x: self.x, y: self.y };
         let mut plots: Vec<Plot> = Vec::new();
+        // Curves may share an entry of the legend; one that is not to be seen brings none.
+        let mut entered: Vec<&str> = Vec::new();
         for curve in &self.curves {
-            let mut label = curve.label.clone();
             for piece in window.pieces(&curve.points) {
                 let mut line =
                     LinePlot::new().with_data(piece).with_color(&curve.colour).with_stroke_width(curve.width);
                 if curve.dashed {
                     line = line.with_dashed();
                 }
-                if let Some(label) = label.take() {
+                if let Some(label) = curve.label.as_deref().filter(|l| !entered.contains(l)) {
+                    entered.push(label);
                     line = line.with_legend(label);
                 }
                 plots.push(line.into());
@@ -172,7 +174,8 @@ impl Panel {
             }
             plots.push(plot.into());
         }
-        let (x_step, y_step) = (tick_step(self.x, width / 110.0), tick_step(self.y, height / 60.0));
+        let (x_step, y_step) = (tick_step(self.x, width / 70.0), tick_step(self.y, height / 45.0));
+        let y_step = if self.equal { x_step } else { y_step };
         let mut layout = Layout::new(self.x, self.y)
             .with_width(width)
             .with_height(height)

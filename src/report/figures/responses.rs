@@ -1,7 +1,7 @@
 //! Time responses.
 
 use super::COLOURS;
-use super::panel::{Corner, Curve, Panel};
+use super::panel::{Corner, Curve, Panel, tick_step};
 use crate::simulate::Trace;
 
 /// Longest list of points a curve keeps; more would only make the file larger.
@@ -19,12 +19,20 @@ pub struct ResponseCurve<'a> {
 }
 
 /// A panel with signals over time; the axes fit the data.
-pub fn response_panel(title: &str, y_label: &str, curves: &[ResponseCurve<'_>]) -> Panel {
+///
+/// Times are in `time_unit`; short times in seconds are drawn in milli- or microseconds.
+pub fn response_panel(title: &str, time_unit: &str, y_label: &str, curves: &[ResponseCurve<'_>]) -> Panel {
+    let longest = curves.iter().filter_map(|c| c.trace.time.last()).fold(0.0f64, |m, t| m.max(t.abs()));
+    let (factor, shown) = match time_unit {
+        "s" if longest > 0.0 && longest < 1e-4 => (1e6, "µs"),
+        "s" if longest > 0.0 && longest < 0.1 => (1e3, "ms"),
+        unit => (1.0, unit),
+    };
     let drawn: Vec<Curve> = curves
         .iter()
         .enumerate()
         .map(|(k, c)| Curve {
-            points: thinned(&c.trace.points(c.signal)),
+            points: thinned(&c.trace.points(c.signal)).into_iter().map(|(t, v)| (factor * t, v)).collect(),
             label: (!c.label.is_empty()).then(|| c.label.to_string()),
             colour: COLOURS[k % COLOURS.len()].into(),
             width: if k == 0 { 1.3 } else { 1.1 },
@@ -32,12 +40,12 @@ pub fn response_panel(title: &str, y_label: &str, curves: &[ResponseCurve<'_>]) 
         })
         .collect();
     let all = || drawn.iter().flat_map(|c| c.points.iter());
-    let x = extent(all().map(|p| p.0), 0.0);
+    let x = rounded_up(extent(all().map(|p| p.0), 0.0));
     let y = extent(all().map(|p| p.1), 0.06);
     let legend = drawn.iter().any(|c| c.label.is_some()).then_some(Corner::BottomRight);
     Panel {
         title: title.into(),
-        x_label: "time / s".into(),
+        x_label: axis_label("time", shown),
         y_label: y_label.into(),
         x,
         y,
@@ -47,15 +55,30 @@ pub fn response_panel(title: &str, y_label: &str, curves: &[ResponseCurve<'_>]) 
     }
 }
 
+/// A quantity with its unit as on an axis: `omega / (rad/s)`; the name alone where no unit is known.
+pub fn axis_label(name: &str, unit: &str) -> String {
+    match unit {
+        "" => name.to_string(),
+        u if u.contains(['/', ' ', '*', '·']) => format!("{name} / ({u})"),
+        u => format!("{name} / {u}"),
+    }
+}
+
 /// One panel for each of these signals of a run, the title over the first.
-pub fn response_panels(title: &str, trace: &Trace, signals: &[String]) -> Vec<Panel> {
+pub fn response_panels(title: &str, time_unit: &str, trace: &Trace, signals: &[String]) -> Vec<Panel> {
     let panel = |(k, name): (usize, &String)| {
-        let unit = trace.signal(name).map(|s| s.unit.clone()).filter(|u| !u.is_empty());
-        let label = unit.map_or_else(|| name.clone(), |u| format!("{name} / {u}"));
+        let label = axis_label(name, trace.signal(name).map_or("", |s| &s.unit));
         let curve = ResponseCurve { trace, signal: name, label: "" };
-        response_panel(if k == 0 { title } else { "" }, &label, &[curve])
+        response_panel(if k == 0 { title } else { "" }, time_unit, &label, &[curve])
     };
     signals.iter().enumerate().map(panel).collect()
+}
+
+/// The range with its upper end moved to the next tick where only a sample is missing to it.
+fn rounded_up(range: (f64, f64)) -> (f64, f64) {
+    let step = tick_step(range, 10.0);
+    let end = (range.1 / step).ceil() * step;
+    if end - range.1 < 0.01 * (range.1 - range.0) { (range.0, end) } else { range }
 }
 
 /// Smallest and largest value, widened by a share of their distance.
@@ -106,6 +129,24 @@ mod tests {
         assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[99_999]));
         assert!(kept.contains(&(54_321.0, 7.0)));
         assert!(kept.windows(2).all(|w| w[0].0 < w[1].0));
+    }
+
+    #[test]
+    fn axes_have_units_where_they_are_known() {
+        assert_eq!(axis_label("omega", "rad/s"), "omega / (rad/s)");
+        assert_eq!(axis_label("i_a", "A"), "i_a / A");
+        assert_eq!(axis_label("x", ""), "x");
+        let mut trace = Trace::with_names(&["x".into()]);
+        (0..5).for_each(|k| trace.push(1e-4 * f64::from(k), [0.0]));
+        let curve = [ResponseCurve { trace: &trace, signal: "x", label: "" }];
+        assert_eq!(response_panel("", "s", "x", &curve).x_label, "time / ms");
+        assert_eq!(response_panel("", "samples", "x", &curve).x_label, "time / samples");
+    }
+
+    #[test]
+    fn the_time_axis_ends_at_a_tick_that_one_sample_is_missing_to() {
+        assert_eq!(rounded_up((0.0, 0.9999)), (0.0, 1.0));
+        assert_eq!(rounded_up((0.0, 0.87)), (0.0, 0.87));
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod text;
 use crate::number::Rational;
 use crate::poly::RationalFunction;
 
+pub(super) use latex::symbol as latex_symbol;
 pub use root_locus::root_locus_form;
 pub(super) use terms::Coefficient;
 pub(super) use text::coefficient_text;

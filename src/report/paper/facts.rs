@@ -1,206 +1,66 @@
-//! The tables of the report: errata, limits by several ways, sensitivity.
+//! What the paper says in numbers besides its equations, each with its place. The motor's and the
+//! controllers' constants are those of the drive's model file.
 
-use super::coefficient;
-use super::errata::{Comparison, Match, compare_all};
-use super::html::Table;
-use super::printed::{EQUATION_23, EQUATION_37, LIST_AFTER_36, Printed};
-use super::runs::at;
-use crate::analysis::{Failure, Intervals, Settings, intervals};
-use crate::error::Source;
-use crate::limits::Budget;
-use crate::matrix::CharacteristicPolynomial;
-use crate::model::{Loop, Question};
-use crate::number::{Rational, enclosed_decimal, parse_number, to_decimal};
-use crate::poly::RealAlgebraic;
-use crate::report::real;
-use crate::simulate::{Pulse, SampledModel, SwitchedModel, growth_limit};
-use nalgebra::DVector;
+use crate::model::Loop;
 
-/// Constants whose influence the report shows.
-const CONSTANTS: [&str; 8] = ["J", "B_v", "R_a", "L_a", "K_pi", "K_ii", "K_ps", "K_is"];
+/// Reference speed in rad/s (Section 3, list of parameters); the load torque is 0.
+pub(super) const SPEED_REFERENCE: f64 = 80.0;
 
-/// Eqs. 5 and 13 as the text has them: place, printed entry, the entry as it has to be.
-const ENTRIES: [(&str, &str, &str); 2] =
-    [("Eq. 5, entry (1,1)", "(L_a - R_a)/L_a", "(L_a - R_a*T)/L_a"), ("Eq. 13, entry (2,1)", "-K_a*T/J", "K_a*T/J")];
+/// Sampling and chopping period in s (Section 3).
+pub(super) const PERIOD: f64 = 1e-4;
 
-/// The polynomial with one parameter kept.
-pub(super) fn polynomial(model: &Loop, name: &str, budget: &Budget) -> Result<CharacteristicPolynomial, Failure> {
-    Ok(model.characteristic_polynomial(&Question::keeping([name]), budget)?)
+/// Amplitude of the PWM signal in V (Section 3).
+pub(super) const AMPLITUDE: f64 = 110.0;
+
+/// The limits that the paper states, as printed: lower and upper limit of the amplitude in V, lower
+/// limit of the frequency in Hz; the displayed intervals of Sections 3.1 and 3.2.
+pub(super) const PUBLISHED_LIMITS: [(&str, [&str; 3]); 2] =
+    [("paper, root locus", ["3.0", "550", ""]), ("paper, Jury test", ["2.9853", "549.7", "2012.47"])];
+
+/// A point at which the paper shows responses.
+pub(super) struct TestPoint {
+    /// The point as a heading.
+    pub heading: &'static str,
+    /// Amplitude in V.
+    pub amplitude: i64,
+    /// Chopping frequency in Hz.
+    pub frequency: i64,
+    /// Number of the figure with the speed.
+    pub speed: usize,
+    /// Number of the figure with the current.
+    pub current: usize,
+    /// Seconds that the circuit is simulated for.
+    pub duration: f64,
 }
 
-/// How many of the printed numbers are right to the last digit.
-fn right(printed: &[Printed], p: &CharacteristicPolynomial) -> usize {
-    let all = compare_all(printed, |z, k| coefficient(p, z, k));
-    all.iter().filter(|c| c.outcome == Match::Rounded).count()
+/// Figs. 7 to 14.
+pub(super) const TEST_POINTS: [TestPoint; 4] = [
+    TestPoint { heading: "K_pwm = 545 V", amplitude: 545, frequency: 10_000, speed: 7, current: 8, duration: 1.0 },
+    TestPoint { heading: "K_pwm = 555 V", amplitude: 555, frequency: 10_000, speed: 9, current: 10, duration: 1.0 },
+    TestPoint { heading: "f = 2010 Hz", amplitude: 110, frequency: 2010, speed: 11, current: 12, duration: 3.0 },
+    TestPoint { heading: "f = 2020 Hz", amplitude: 110, frequency: 2020, speed: 13, current: 14, duration: 3.0 },
+];
+
+/// A constant of the drive, rounded; NaN for a name that it does not have.
+pub(super) fn constant(model: &Loop, name: &str) -> f64 {
+    model.constant(name).and_then(|c| c.number.as_ref()).map_or(f64::NAN, |n| n.to_f64_approximate())
 }
 
-/// Everything printed that is not what it should be, found by comparison.
-pub(super) fn errata(model: &Loop, budget: &Budget) -> Result<Table, Failure> {
-    let (eq_23, eq_37) = (polynomial(model, "K_pwm", budget)?, polynomial(model, "T", budget)?);
-    let mut table =
-        Table::new("Errata, found by comparison with the exact values", &["where", "printed", "exact", "what"]);
-    let total = EQUATION_23.len();
-    for (place, printed, entry) in ENTRIES {
-        let text = model.source().text.replacen(&format!("\"{entry}\""), &format!("\"{printed}\""), 1);
-        let (damaged, _) = Loop::from_toml(&Source::new("<as printed>", text))?;
-        let count = right(EQUATION_23, &polynomial(&damaged, "K_pwm", budget)?);
-        let what = format!(
-            "in the text as we have it: it gives {count} of the {total} numbers of Eq. 23, the exact entry {}",
-            right(EQUATION_23, &eq_23)
-        );
-        table.rows.push(vec![place.into(), printed.into(), entry.into(), what]);
-    }
-    for (list, p, name) in
-        [(EQUATION_23, &eq_23, "K_pwm"), (LIST_AFTER_36, &eq_23, "K_pwm"), (EQUATION_37, &eq_37, "T")]
-    {
-        let all = compare_all(list, |z, k| coefficient(p, z, k));
-        table.rows.extend(all.iter().filter(|c| c.outcome != Match::Rounded).map(|c| erratum(c, name)));
-    }
-    Ok(table)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::to_decimal;
 
-fn erratum(c: &Comparison, parameter: &str) -> Vec<String> {
-    let Printed { place, power_of_z, power_of_parameter, digits } = c.printed;
-    let monomial = match power_of_parameter {
-        0 => String::new(),
-        1 => format!(", {parameter}"),
-        n => format!(", {parameter}^{n}"),
-    };
-    let significant = digits.split('e').next().map_or(0, |d| d.chars().filter(char::is_ascii_digit).count());
-    let exact = to_decimal(&c.exact, significant + 4);
-    vec![format!("{place}, a_{power_of_z}{monomial}"), digits.into(), exact, c.outcome.words().into()]
-}
-
-/// The ends of the stable interval around the nominal value (or of the first).
-fn ends(answer: &Intervals) -> (Option<&RealAlgebraic>, Option<&RealAlgebraic>) {
-    let Some(set) = answer.stable.decided() else { return (None, None) };
-    let bare = set.to_interval_set();
-    let nominal = answer.question.nominal.as_ref();
-    let around = bare.intervals().iter().position(|i| nominal.is_some_and(|n| i.contains(n)));
-    match set.intervals().get(around.unwrap_or(0)) {
-        Some(i) => (i.lower.as_ref().map(|e| &e.value), i.upper.as_ref().map(|e| &e.value)),
-        None => (None, None),
-    }
-}
-
-fn decimal(x: Option<&RealAlgebraic>, digits: usize) -> String {
-    x.map_or_else(|| "none".into(), |x| real::rounded(x, digits).decimal)
-}
-
-/// `1/x` of a positive number, correctly rounded.
-fn reciprocal(x: Option<&RealAlgebraic>, digits: usize) -> String {
-    let Some(x) = x.filter(|x| x.sign().is_gt()) else { return "none".into() };
-    let mut accuracy = digits + 2;
-    loop {
-        let (lo, hi) = x.refined_to_digits(accuracy).enclosure();
-        if let (Some(a), Some(b)) = (hi.recip(), lo.recip())
-            && let Some(text) = enclosed_decimal(&a, &b, digits)
-        {
-            return text;
+    #[test]
+    fn the_models_nominal_values_and_gains_are_the_papers() {
+        let drive = Loop::drive();
+        for (name, value) in [("T", PERIOD), ("K_pwm", AMPLITUDE)] {
+            let nominal = drive.parameter(name).and_then(|p| p.nominal.clone()).unwrap();
+            assert_eq!(to_decimal(&nominal, 6).parse::<f64>().unwrap(), value, "{name}");
         }
-        accuracy *= 2;
-    }
-}
-
-/// The limits by five ways.
-pub(super) fn limits(model: &Loop, blocks: &Loop, printed: [&Loop; 2], budget: &Budget) -> Result<Table, Failure> {
-    let head = ["way", "K_pwm, lower", "K_pwm, upper", "f, lower limit / Hz", "kind"];
-    let mut table = Table::new("Limits of stability at the nominal values of the other parameter", &head);
-    let mut row = |cells: [&str; 5]| table.rows.push(cells.iter().map(|c| (*c).to_owned()).collect());
-    row(["paper, root locus", "3.0", "550", "", "published"]);
-    row(["paper, Jury test", "2.9853", "549.7", "2012.47", "published"]);
-    let settings = Settings::default();
-    let exact = |lp: &Loop, name: &str| intervals(lp, &settings, name, budget);
-    for (way, in_amplitude, in_period) in
-        [("exact", model, model), ("printed coefficients, exact", printed[0], printed[1])]
-    {
-        let (k, t) = (exact(in_amplitude, "K_pwm")?, exact(in_period, "T")?);
-        let ((lower, upper), (shortest, longest)) = (ends(&k), ends(&t));
-        let mut f = reciprocal(longest, 16);
-        if shortest.is_some_and(|s| s.sign().is_gt()) {
-            f.push_str(&format!(" (and f < {})", reciprocal(shortest, 8)));
+        for (name, value) in [("K_pi", 10.0), ("K_ii", 500.0), ("E_sw", 12.0)] {
+            assert_eq!(constant(&drive, name), value, "{name}");
         }
-        row([way, &decimal(lower, 16), &decimal(upper, 16), &f, "proved"]);
+        assert!(constant(&drive, "no such constant").is_nan());
     }
-    let growth = |k: f64, t: f64| {
-        let question = at(&rational(k)?, &rational(t)?);
-        let mut m = SampledModel::from_loop(model, &question, 1.0, budget).ok()?;
-        // Seen every 1024 samples: the same run, and the slow mode has time to show itself.
-        for _ in 0..10 {
-            m.transition = &m.transition * &m.transition;
-        }
-        m.observed_growth(600, 3000)
-    };
-    let show = |x: Option<f64>, digits: usize| x.map_or_else(|| "none found".into(), |x| format!("{x:.digits$}"));
-    let lower = growth_limit(0.06, 0.02, 2e-5, |k| growth(k, 1e-4));
-    let upper = growth_limit(545.0, 555.0, 0.002, |k| growth(k, 1e-4));
-    let f = growth_limit(2020.0, 2010.0, 0.002, |f| growth(110.0, 1.0 / f));
-    row(["simulation of the linear model, bisected", &show(lower, 4), &show(upper, 2), &show(f, 2), "drawn"]);
-    let inputs = DVector::from_vec(vec![80.0, 0.0]);
-    for (pulse, word) in [(Pulse::Beginning, "beginning"), (Pulse::End, "end")] {
-        let largest = |k: f64, t: f64| {
-            let question = at(&rational(k)?, &rational(t)?);
-            let circuit = SwitchedModel::from_loop(blocks, &question, pulse, budget).ok()?;
-            circuit.small_signal_eigenvalues(&inputs)?.first().map(|z| z.norm())
-        };
-        let upper = growth_limit(545.0, 560.0, 1e-3, |k| largest(k, 1e-4));
-        let f = growth_limit(2020.0, 1990.0, 1e-3, |f| largest(110.0, 1.0 / f));
-        let way = format!("circuit around its steady state, pulse at the period's {word}");
-        row([&way, "", &show(upper, 2), &show(f, 2), "drawn"]);
-    }
-    Ok(table)
-}
-
-/// The rational that a float is, by its shortest decimal.
-fn rational(x: f64) -> Option<Rational> {
-    parse_number(&x.to_string()).ok()
-}
-
-/// How the limits move when a constant changes by a tenth, each limit exact.
-pub(super) fn sensitivity(model: &Loop, budget: &Budget) -> Result<Table, Failure> {
-    let head =
-        ["constant", "value", "K_pwm, lower", "change", "K_pwm, upper", "change", "f, lower limit / Hz", "change"];
-    let mut table = Table::new("The limits when one constant is 10 % smaller or larger", &head);
-    let limits = |settings: &Settings| -> Result<[Option<RealAlgebraic>; 3], Failure> {
-        let (k, t) = (intervals(model, settings, "K_pwm", budget)?, intervals(model, settings, "T", budget)?);
-        let ((lower, upper), (_, longest)) = (ends(&k), ends(&t));
-        Ok([lower.cloned(), upper.cloned(), longest.cloned()])
-    };
-    let base = limits(&Settings::default())?;
-    let cells = |now: &[Option<RealAlgebraic>; 3], first: [String; 2]| {
-        let mut row = first.to_vec();
-        for (k, (x, x0)) in now.iter().zip(&base).enumerate() {
-            let frequency = k == 2;
-            row.push(if frequency { reciprocal(x.as_ref(), 10) } else { decimal(x.as_ref(), 10) });
-            row.push(change(x.as_ref(), x0.as_ref(), frequency).unwrap_or_default());
-        }
-        row
-    };
-    table.rows.push(cells(&base, ["all".into(), "nominal".into()]));
-    for name in CONSTANTS {
-        budget.step("limits with other constants");
-        let Some(nominal) = model.constant(name).and_then(|c| c.number.clone()) else { continue };
-        for (percent, sign) in [(90, "−10 %"), (110, "+10 %")] {
-            let value = &nominal * &Rational::new(percent.into(), 100.into());
-            let mut settings = Settings::default();
-            settings.set.insert(name.into(), value.clone());
-            let text = format!("{} ({sign})", to_decimal(&value, 8));
-            table.rows.push(cells(&limits(&settings)?, [name.into(), text]));
-        }
-    }
-    Ok(table)
-}
-
-/// The relative change in percent to three digits; of the reciprocals for frequencies.
-fn change(x: Option<&RealAlgebraic>, base: Option<&RealAlgebraic>, reciprocal: bool) -> Option<String> {
-    let middle = |x: &RealAlgebraic| {
-        let (lo, hi) = x.refined_to_digits(20).enclosure();
-        lo.midpoint(&hi)
-    };
-    let (a, b) = (middle(x?), middle(base?));
-    let ratio = if reciprocal { b.checked_div(&a)? } else { a.checked_div(&b)? };
-    let percent = (&ratio - &Rational::ONE) * Rational::from(100);
-    let sign = if percent.sign().is_gt() { "+" } else { "" };
-    // The enclosures are far narrower than three digits ask for.
-    (!percent.is_zero()).then(|| format!("{sign}{} %", to_decimal(&percent, 3)))
 }

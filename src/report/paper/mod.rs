@@ -3,9 +3,13 @@
 mod errata;
 mod facts;
 mod html;
+mod latex;
+mod limits;
 mod printed;
 mod report;
 mod runs;
+mod tables;
+mod words;
 
 pub use errata::{Comparison, Match, compare, compare_all};
 pub use html::Table;

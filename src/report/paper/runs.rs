@@ -1,5 +1,6 @@
 //! Figs. 7-14: the linear model, and beside it the circuit with its switches.
 
+use super::facts::{SPEED_REFERENCE, TEST_POINTS, TestPoint, constant};
 use super::html::{figure, paragraph};
 use super::report::NamedFigure;
 use crate::analysis::Failure;
@@ -10,40 +11,8 @@ use crate::report::figures::{ResponseCurve, response_panel};
 use crate::simulate::{Excitation, Pulse, Record, SampledModel, Step, SwitchedModel, Trace, eigenvalues};
 use nalgebra::DVector;
 
-/// Reference speed of the paper's runs in rad/s.
-const REFERENCE: f64 = 80.0;
-
 /// Current in A that disturbs the steady state.
 const DISTURBANCE: f64 = 0.01;
-
-/// One operating point of the paper with the figures that show it.
-struct Case {
-    heading: &'static str,
-    amplitude: Rational,
-    frequency: Rational,
-    speed: usize,
-    current: usize,
-    /// Seconds after which the switched runs end.
-    duration: f64,
-}
-
-/// The four operating points.
-fn cases() -> [Case; 4] {
-    let case = |heading, amplitude: i64, frequency: i64, speed, current, duration| Case {
-        heading,
-        amplitude: Rational::from(amplitude),
-        frequency: Rational::from(frequency),
-        speed,
-        current,
-        duration,
-    };
-    [
-        case("K_pwm = 545", 545, 10_000, 7, 8, 1.0),
-        case("K_pwm = 555", 555, 10_000, 9, 10, 1.0),
-        case("f = 2010 Hz", 110, 2010, 11, 12, 3.0),
-        case("f = 2020 Hz", 110, 2020, 13, 14, 3.0),
-    ]
-}
 
 /// The question with both parameters set.
 pub(super) fn at(amplitude: &Rational, period: &Rational) -> Question {
@@ -53,7 +22,7 @@ pub(super) fn at(amplitude: &Rational, period: &Rational) -> Question {
 
 /// The reference steps to 80 rad/s at the beginning.
 fn reference() -> Excitation {
-    Excitation { initial: vec![], steps: vec![Step { sample: 0, input: 0, value: REFERENCE }] }
+    Excitation { initial: vec![], steps: vec![Step { sample: 0, input: 0, value: SPEED_REFERENCE }] }
 }
 
 /// Where a growing signal leaves three times the range of its first tenth of a second; else the end.
@@ -76,18 +45,19 @@ pub(super) fn section(
          switches, its duty ratio clamped to 0 .. 1, once from rest and once from its periodic steady state, disturbed by \
          0.01 A (drawn is the deviation at the periods' beginnings). All of this section is floating point.",
     );
-    for case in cases() {
-        budget.step("simulating");
+    budget.step("simulating");
+    for (k, case) in TEST_POINTS.iter().enumerate() {
+        budget.advance(k as u64, TEST_POINTS.len() as u64);
         budget.check()?;
-        let Some(period) = case.frequency.recip() else { continue };
-        let question = at(&case.amplitude, &period);
-        html.push_str(&one_case(&case, model, blocks, &question, figures, budget)?);
+        let period = Rational::new(1.into(), case.frequency.into());
+        let question = at(&Rational::from(case.amplitude), &period);
+        html.push_str(&one_case(case, model, blocks, &question, figures, budget)?);
     }
     Ok(html)
 }
 
 fn one_case(
-    case: &Case,
+    case: &TestPoint,
     model: &Loop,
     blocks: &Loop,
     question: &Question,
@@ -101,7 +71,7 @@ fn one_case(
     let trace = linear.simulate(&reference(), (2.0f64.max(case.duration) / period).round() as usize);
     let periods = (case.duration / period).round() as usize;
     let rest = circuit.simulate(&circuit.rest(), &reference(), periods, Record::Samples);
-    let inputs = DVector::from_vec(vec![REFERENCE, 0.0]);
+    let inputs = DVector::from_vec(vec![SPEED_REFERENCE, 0.0]);
     let steady = circuit.periodic_steady_state(&inputs);
     let multiplier = circuit.small_signal_eigenvalues(&inputs).and_then(|v| v.first().map(|z| z.norm()));
     let disturbed = steady.map(|operating| {
@@ -119,17 +89,18 @@ fn one_case(
     let word = if growth < 1.0 { "settles" } else { "grows without bound" };
     html.push_str(&paragraph(&format!(
         "The linear model {word}: its dominant pair changes by a factor of {growth:.7} per period. {} From rest the \
-         linear model's current controller asks for up to {:.0} V against a carrier of 12 V; the circuit is at a limit of \
+         linear model's current controller asks for up to {:.0} V against a carrier of {} V; the circuit is at a limit of \
          its modulator in {} of {periods} periods.",
         multiplier.map_or_else(String::new, |m| format!(
             "The circuit's small deviations change by a factor of {m:.7} per period: it is small-signal {}.",
             if m < 1.0 { "stable" } else { "unstable" }
         )),
-        largest_control(&trace),
+        largest_control(model, &trace),
+        constant(model, "E_sw"),
         rest.clamped,
     )));
     for (number, signal, label, settled) in
-        [(case.speed, "omega", "ω / (rad/s)", REFERENCE), (case.current, "i_a", "current / A", 1.0)]
+        [(case.speed, "omega", "ω / (rad/s)", SPEED_REFERENCE), (case.current, "i_a", "current / A", 1.0)]
     {
         let end = window(&trace, signal, settled);
         let shown = trace.between(0.0, end);
@@ -148,8 +119,8 @@ fn one_case(
         html.push_str("<div class=\"grid\">\n");
         for (file, title, trace, label) in panels {
             let curve = ResponseCurve { trace, signal, label: "" };
-            let drawn = response_panel(&title, &label, &[curve]).figure(460.0, 280.0);
-            html.push_str(&figure(&drawn, &format!("{title}, {}", case.heading)));
+            let drawn = response_panel(&title, "s", &label, &[curve]).figure(350.0, 240.0);
+            html.push_str(&figure(&file, &drawn, &format!("{title}, {}", case.heading)));
             figures.push(NamedFigure { name: file, figure: drawn });
         }
         html.push_str("</div>\n");
@@ -158,21 +129,22 @@ fn one_case(
 }
 
 /// The largest output of the current controller in the linear model's first tenth of a second, V:
-/// Eq. 9 with the paper's gains 10 and 500.
-fn largest_control(trace: &Trace) -> f64 {
+/// Eq. 9 with the gains of the model.
+fn largest_control(model: &Loop, trace: &Trace) -> f64 {
     let early = trace.between(0.0, 0.1);
     let (Some(a), Some(b)) = (early.signal("eps_1i"), early.signal("eps_2i")) else { return f64::NAN };
-    a.values.iter().zip(&b.values).map(|(a, b)| (10.0 * a + 500.0 * b).abs()).fold(0.0, f64::max)
+    let (proportional, integral) = (constant(model, "K_pi"), constant(model, "K_ii"));
+    a.values.iter().zip(&b.values).map(|(a, b)| (proportional * a + integral * b).abs()).fold(0.0, f64::max)
 }
 
 /// The ripple of the current over four periods of the nominal steady state.
 pub(super) fn ripple(blocks: &Loop, budget: &Budget) -> Result<Option<NamedFigure>, Failure> {
     let circuit = SwitchedModel::from_loop(blocks, &Question::default(), Pulse::Beginning, budget)?;
-    let inputs = DVector::from_vec(vec![REFERENCE, 0.0]);
+    let inputs = DVector::from_vec(vec![SPEED_REFERENCE, 0.0]);
     Ok(circuit.periodic_steady_state(&inputs).map(|operating| {
         let run = circuit.simulate(&operating.state, &reference(), 4, Record::Waveform(3));
         let curve = ResponseCurve { trace: &run.trace, signal: "i_a", label: "" };
-        let panel = response_panel("Steady state at 80 rad/s, four periods", "current / A", &[curve]);
+        let panel = response_panel("Steady state at 80 rad/s, four periods", "s", "current / A", &[curve]);
         NamedFigure { name: "ripple".into(), figure: panel.figure(760.0, 260.0) }
     }))
 }

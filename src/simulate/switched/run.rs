@@ -1,7 +1,8 @@
 //! Runs over many periods.
 
 use super::{SwitchedModel, SwitchedState};
-use crate::simulate::sampled::Excitation;
+use crate::limits::{Budget, Exhausted};
+use crate::simulate::sampled::{Excitation, SAMPLES_BETWEEN_CHECKS};
 use crate::simulate::trace::Trace;
 
 /// What a run writes down.
@@ -35,6 +36,22 @@ impl SwitchedModel {
         periods: usize,
         record: Record,
     ) -> SwitchedRun {
+        self.simulate_within(start, excitation, periods, record, &Budget::unlimited())
+            .expect("an unlimited budget does not run out")
+    }
+
+    /// The same within a budget, which is told how far the run is.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn simulate_within(
+        &self,
+        start: &SwitchedState,
+        excitation: &Excitation,
+        periods: usize,
+        record: Record,
+        budget: &Budget,
+    ) -> Result<SwitchedRun, Exhausted> {
         let mut names = self.plant_states.clone();
         for source in &self.sources {
             names.extend([source.name.clone() + ".control", source.name.clone() + ".duty", source.name.clone()]);
@@ -45,6 +62,10 @@ impl SwitchedModel {
         let changes = excitation.changes();
         let mut clamped = 0;
         for n in 0..periods {
+            if n % SAMPLES_BETWEEN_CHECKS == 0 {
+                budget.check()?;
+                budget.advance(n as u64, periods as u64);
+            }
             if changes.binary_search(&n).is_ok() {
                 inputs = excitation.inputs_at(n, self.inputs.len());
             }
@@ -84,6 +105,6 @@ impl SwitchedModel {
             }
             state = next;
         }
-        SwitchedRun { trace, end: state, clamped }
+        Ok(SwitchedRun { trace, end: state, clamped })
     }
 }
