@@ -58,6 +58,9 @@ impl<R: Domain> Domain for Poly<R> {
     fn needs_negation(&self) -> bool {
         self.leading().is_some_and(R::needs_negation)
     }
+    fn primitive_gcd(a: &Poly<Self>, b: &Poly<Self>) -> Poly<Self> {
+        R::primitive_gcd_over_polynomials(a, b)
+    }
     fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize, budget: &Budget) -> Option<Fast<Self>> {
         R::resultant_over_polynomials_fast(a, n, b, m, budget)
     }

@@ -86,6 +86,11 @@ pub trait Domain: Clone + PartialEq + Debug + Send + Sync + 'static {
         super::gcd::primitive_gcd_subresultant(a, b)
     }
 
+    /// [`Domain::primitive_gcd`] for polynomials over this domain as coefficients.
+    fn primitive_gcd_over_polynomials(a: &Poly<Poly<Self>>, b: &Poly<Poly<Self>>) -> Poly<Poly<Self>> {
+        super::gcd::primitive_gcd_subresultant(a, b)
+    }
+
     /// The resultant of two polynomials for formal degrees that are not below the degrees, or `None`
     /// where the subresultant sequence is expected to be the fastest.
     fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize, budget: &Budget) -> Option<Fast<Self>> {
@@ -160,6 +165,9 @@ impl Domain for Integer {
     }
     fn primitive_gcd(a: &Poly<Self>, b: &Poly<Self>) -> Poly<Self> {
         super::kernel::gcd::primitive_gcd(a, b)
+    }
+    fn primitive_gcd_over_polynomials(a: &Poly<Poly<Self>>, b: &Poly<Poly<Self>>) -> Poly<Poly<Self>> {
+        super::kernel::gcd_by_values::primitive_gcd(a, b)
     }
     fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize, budget: &Budget) -> Option<Fast<Self>> {
         resultants::over_integers(a, n, b, m, budget)

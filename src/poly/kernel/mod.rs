@@ -2,6 +2,7 @@
 
 pub mod chinese;
 pub mod gcd;
+pub mod gcd_by_values;
 pub mod grid;
 pub mod kronecker;
 pub mod modular;

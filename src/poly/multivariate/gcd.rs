@@ -1,7 +1,7 @@
 //! Greatest common divisors.
 
 use super::MultiPoly;
-use crate::poly::{Domain, Poly};
+use crate::poly::{Domain, Poly, UniPoly};
 
 /// The greatest common divisor over the integers, contents included, with a positive leading
 /// coefficient; `gcd(0, 0) = 0`.
@@ -54,7 +54,10 @@ fn primitive_gcd(a: &MultiPoly, b: &MultiPoly) -> MultiPoly {
             // The main variable is the one in which the sequence is shortest.
             let shortest = |i: &&usize| a.degree_in(**i).min(b.degree_in(**i));
             let main = *several.iter().min_by_key(shortest).expect("there are several");
-            gcd_in_main_variable(a, b, main)
+            match several {
+                [x, y] => gcd_in_two_variables(a, b, if main == *x { *y } else { *x }, main),
+                _ => gcd_in_main_variable(a, b, main),
+            }
         }
     }
 }
@@ -70,6 +73,14 @@ fn gcd_with_content(a: &MultiPoly, b: &MultiPoly, i: usize) -> MultiPoly {
         g = g.gcd(c);
     }
     g
+}
+
+/// The same as [`gcd_in_main_variable`] with coefficients that are known to be in one other variable.
+fn gcd_in_two_variables(a: &MultiPoly, b: &MultiPoly, other: usize, main: usize) -> MultiPoly {
+    let dense = |p: &MultiPoly| p.as_poly_in(main).map(|c| c.to_univariate(other).expect("one other variable"));
+    let g: Poly<UniPoly> = dense(a).gcd(&dense(b));
+    let g = MultiPoly::from_poly_in(&g.map(|c| MultiPoly::from_univariate(c, other)), main);
+    if g.needs_negation() { g.negated() } else { g }
 }
 
 /// Content and primitive part with respect to one variable, the primitive parts by the

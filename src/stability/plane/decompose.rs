@@ -1,11 +1,12 @@
 //! Strips and cells: the plane cut along the boundary curves, one exact sample in each cell.
 
 use super::curves::{Curve, PlanePolynomial, X, Y, boundary_curves};
-use super::elimination::{discriminant_by_values, resultant_by_values};
 use super::glue::glue_stable_cells;
 use crate::limits::{Budget, Exhausted};
 use crate::number::Rational;
-use crate::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
+use crate::poly::{
+    Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, discriminant, isolate_real_roots_in, resultant,
+};
 use crate::stability::interval_set::{cells, merge_points};
 use crate::stability::{AlgebraicInterval, AtPoint, Range, Region};
 
@@ -232,13 +233,13 @@ fn projection(curves: &[Curve], y_domain: &Range, budget: &Budget) -> Result<Vec
             continue;
         }
         if degree > 1 {
-            push(discriminant_by_values(f, budget)?);
+            push(discriminant(f, budget)?);
         }
         for end in [&y_domain.lower, &y_domain.upper].into_iter().flatten() {
             push(at_y(f, end));
         }
         for g in polynomials[..i].iter().filter(|g| !g.is_constant()) {
-            push(resultant_by_values(f, g, budget)?);
+            push(resultant(f, g, budget)?);
         }
     }
     Ok(out)

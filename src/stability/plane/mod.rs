@@ -2,7 +2,6 @@
 
 mod curves;
 mod decompose;
-mod elimination;
 mod glue;
 mod limit;
 mod query;
