@@ -62,6 +62,11 @@ impl PlanePolynomial {
         self.formal_degree
     }
 
+    /// In `z` over `Z[x, y]`, denominators cleared.
+    pub(super) fn cleared(&self) -> &Poly<MultiPoly> {
+        &self.polynomial
+    }
+
     /// The exact root count at a point.
     pub fn at(&self, x: &Rational, y: &Rational, region: Region) -> AtPoint {
         let point = [x.clone(), y.clone()];

@@ -1,5 +1,6 @@
 //! Two parameters at once: the plane cut into open cells of constant root count.
 
+pub mod boxes;
 mod curves;
 mod decompose;
 mod glue;
