@@ -44,6 +44,18 @@ impl Budget {
         Budget { deadline, ..Budget::default() }
     }
 
+    /// A budget that ends when half of the time that is left is used up; without end where there is no limit.
+    pub fn first_half(&self) -> Self {
+        let mut half = self.clone();
+        if let Some((end, _)) = self.deadline {
+            let now = Instant::now();
+            let time = end.saturating_duration_since(now) / 2;
+            // A time that the clock cannot count is as good as no limit.
+            half.deadline = now.checked_add(time).map(|end| (end, time));
+        }
+        half
+    }
+
     /// The same budget, reporting to `progress`.
     pub fn reporting_to(mut self, progress: Arc<dyn Progress>) -> Self {
         self.progress = Some(progress);

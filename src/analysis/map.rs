@@ -4,7 +4,7 @@ use super::prepare::{Prepared, prepare};
 use super::question::{in_region, nominal, region_of};
 use super::{Decision, Failure, Settings};
 use crate::error::Diagnostic;
-use crate::limits::Budget;
+use crate::limits::{Budget, Exhausted};
 use crate::model::{Loop, Question, Time};
 use crate::number::Rational;
 use crate::poly::RationalFunction;
@@ -60,6 +60,21 @@ pub struct Map {
 /// # Errors
 /// [`Failure`] when the question is refused; a budget that runs out makes an undecided map.
 pub fn map(lp: &Loop, settings: &Settings, names: [&str; 2], budget: &Budget) -> Result<Map, Failure> {
+    let (mut answer, exhausted) = map_question(lp, settings, names, budget)?;
+    answer.map = match exhausted {
+        Some(exhausted) => Decision::from_result(Err(exhausted), budget),
+        None => answer.decomposed(budget),
+    };
+    Ok(answer)
+}
+
+/// The question of a map without its answer, and why there is no polynomial if the budget is to blame.
+pub(super) fn map_question(
+    lp: &Loop,
+    settings: &Settings,
+    names: [&str; 2],
+    budget: &Budget,
+) -> Result<(Map, Option<Exhausted>), Failure> {
     if names[0] == names[1] {
         return Err(Diagnostic::error("E-usage", format!("'{}' is asked for on both axes", names[0]))
             .help("name two different parameters with '-x' and '-y'")
@@ -75,15 +90,8 @@ pub fn map(lp: &Loop, settings: &Settings, names: [&str; 2], budget: &Budget) ->
         Err(refused) => return Err(refused),
     };
     let polynomial = answer.polynomial.map(|d| PlanePolynomial::new(&in_region(d, settings)));
-    let map = match (&polynomial, exhausted) {
-        (_, Some(exhausted)) => Decision::from_result(Err(exhausted), budget),
-        (None, None) => Decision::Decided(StabilityMap::never_stable()),
-        (Some(p), None) => {
-            let domain = [axes[0].domain.clone(), axes[1].domain.clone()];
-            Decision::from_result(stability_map(p, &domain, region, budget), budget)
-        }
-    };
-    Ok(Map {
+    let map = Decision::Undecided { budget: "none".to_owned(), reached: "the question".to_owned() };
+    let answer = Map {
         title: lp.title().map(str::to_string),
         time: lp.time(),
         axes,
@@ -95,7 +103,21 @@ pub fn map(lp: &Loop, settings: &Settings, names: [&str; 2], budget: &Budget) ->
         map,
         sample_time: answer.sample_time.filter(|_| region == Region::UnitDisc),
         warnings: answer.warnings,
-    })
+    };
+    Ok((answer, exhausted))
+}
+
+impl Map {
+    /// The exact decomposition of the domain.
+    pub(super) fn decomposed(&self, budget: &Budget) -> Decision<StabilityMap> {
+        match &self.polynomial {
+            None => Decision::Decided(StabilityMap::never_stable()),
+            Some(p) => {
+                let domain = [self.axes[0].domain.clone(), self.axes[1].domain.clone()];
+                Decision::from_result(stability_map(p, &domain, self.region, budget), budget)
+            }
+        }
+    }
 }
 
 fn axis(lp: &Loop, settings: &Settings, name: &str) -> Result<Axis, Failure> {

@@ -7,6 +7,7 @@
 mod answers;
 mod frequency;
 mod map;
+mod map_boxes;
 mod map_limits;
 mod prepare;
 mod question;
@@ -16,6 +17,7 @@ mod table;
 pub use answers::{Analysis, Decision, Intervals, PointVerdict, Verdict, analyze, intervals, verdict};
 pub use frequency::{Frequency, frequency};
 pub use map::{Axis, Map, map};
+pub use map_boxes::{BoxRequest, MapAnswer, MapBoxes, MapMethod, map_by};
 pub use map_limits::{MapLimit, RegionExtent};
 pub use question::{DECAY, OneParameter, Point, RADIUS, Settings, asked, one_parameter};
 pub use table::{PointTable, TableAnswer, parametric_table, point_table};

@@ -1,7 +1,8 @@
 //! `jurist map`: the stable region in two parameters.
 
 use super::Context;
-use crate::analysis::{Decision, Intervals, Map, RegionExtent, Settings, map};
+use super::map_boxes::{self, MethodOptions};
+use crate::analysis::{Decision, Intervals, Map, MapAnswer, RegionExtent, Settings, map_by};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, settings};
@@ -45,6 +46,8 @@ pub(in crate::cli) struct Options {
     #[arg(long)]
     pub linear_y: bool,
     #[command(flatten)]
+    pub method: MethodOptions,
+    #[command(flatten)]
     pub region: RegionOptions,
     #[command(flatten)]
     pub output: OutputOptions,
@@ -69,8 +72,14 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     for request in &requests {
         known_name(context, &model, &request.name, request.name_span)?;
     }
-    let answer = match map(&model, &settings, [&requests[0].name, &requests[1].name], &context.budget) {
-        Ok(answer) => answer,
+    let boxes = options.method.request(&requests, context)?;
+    let names = [requests[0].name.as_str(), requests[1].name.as_str()];
+    let answer = match map_by(&model, &settings, names, options.method.method(), &boxes, &context.budget) {
+        Ok(MapAnswer::Exact(answer)) => *answer,
+        Ok(MapAnswer::Boxes(boxes)) => {
+            context.warn(None, &boxes.question.warnings);
+            return map_boxes::answer(&boxes, &options.output, context);
+        }
         Err(failure) => return context.undecided(&options.output, "jurist/map/1", "regions", failure),
     };
     context.warn(None, &answer.warnings);

@@ -9,6 +9,7 @@ pub(super) mod jury;
 pub(super) mod locus;
 pub(super) mod main_job;
 pub(super) mod map;
+mod map_boxes;
 pub(super) mod paper;
 pub(super) mod simulate;
 pub(super) mod verdict;

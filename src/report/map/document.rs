@@ -12,19 +12,8 @@ use serde_json::{Map as Object, Value, json};
 
 /// The document `jurist/map/1`. `limits` holds what limits each region, as far as it is known.
 pub fn map_json(answer: &Map, limits: &[RegionExtent], digits: usize) -> Value {
-    let mut out = Object::new();
-    out.insert("schema".into(), "jurist/map/1".into());
-    out.insert("title".into(), answer.title.as_deref().unwrap_or_default().into());
-    out.insert("time".into(), answer.time.name().into());
-    let [x, y] = &answer.axes;
-    out.insert("x".into(), x.name.as_str().into());
-    out.insert("y".into(), y.name.as_str().into());
-    let pair = |of: fn(&Axis) -> Value| json!({ "x": of(x), "y": of(y) });
-    out.insert("unit".into(), pair(|a| a.unit.as_deref().map_or(Value::Null, Value::from)));
-    out.insert("nominal".into(), pair(|a| json::exact(a.nominal.as_ref())));
-    out.insert("set".into(), json::set(&answer.set));
-    out.insert("domain".into(), pair(|a| json::domain(&a.domain)));
-    json::relative(&mut out, answer.radius.as_ref(), answer.decay.as_ref());
+    let mut out = question_fields(answer, "jurist/map/1");
+    let x = &answer.axes[0];
     match &answer.map {
         Decision::Decided(map) => {
             out.insert("never_stable".into(), map.never_stable.into());
@@ -48,12 +37,30 @@ pub fn map_json(answer: &Map, limits: &[RegionExtent], digits: usize) -> Value {
     Value::Object(out)
 }
 
+/// What a document says of the question.
+pub(super) fn question_fields(answer: &Map, schema: &str) -> Object<String, Value> {
+    let mut out = Object::new();
+    out.insert("schema".into(), schema.into());
+    out.insert("title".into(), answer.title.as_deref().unwrap_or_default().into());
+    out.insert("time".into(), answer.time.name().into());
+    let [x, y] = &answer.axes;
+    out.insert("x".into(), x.name.as_str().into());
+    out.insert("y".into(), y.name.as_str().into());
+    let pair = |of: fn(&Axis) -> Value| json!({ "x": of(x), "y": of(y) });
+    out.insert("unit".into(), pair(|a| a.unit.as_deref().map_or(Value::Null, Value::from)));
+    out.insert("nominal".into(), pair(|a| json::exact(a.nominal.as_ref())));
+    out.insert("set".into(), json::set(&answer.set));
+    out.insert("domain".into(), pair(|a| json::domain(&a.domain)));
+    json::relative(&mut out, answer.radius.as_ref(), answer.decay.as_ref());
+    out
+}
+
 /// `undefined`, or the boundary that holds for all values; `null` where it was not found.
 fn never_stable_cause(answer: &Map) -> Value {
     answer.never_stable_cause().map_or(Value::Null, Value::from)
 }
 
-fn curve_json(curve: &Curve) -> Value {
+pub(super) fn curve_json(curve: &Curve) -> Value {
     let term = |(m, c): &(Monomial, Integer)| json!([m.exponent(0), m.exponent(1), c.to_string()]);
     json!({ "name": curve.causes.to_string(), "terms": curve.polynomial.terms().iter().map(term).collect::<Vec<_>>() })
 }

@@ -1,10 +1,12 @@
 //! The stable region in two parameters: JSON, text, a page.
 
+mod boxes;
 mod document;
 mod page;
 mod published;
 mod text;
 
+pub use boxes::{map_boxes_json, map_boxes_text};
 pub use document::map_json;
 pub use page::map_page;
 pub use published::published_limits;

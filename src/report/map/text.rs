@@ -48,7 +48,7 @@ pub fn map_text(answer: &Map, limits: &[RegionExtent], slices: &[Intervals], dig
     out
 }
 
-fn axis_text(axis: &Axis) -> String {
+pub(super) fn axis_text(axis: &Axis) -> String {
     let mut text = axis.name.clone();
     if let Some(unit) = &axis.unit {
         text.push_str(&format!(" in {unit}"));

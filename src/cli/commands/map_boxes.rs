@@ -1,0 +1,78 @@
+//! Options of `jurist map` that choose the method, and its answer by boxes.
+
+use super::Context;
+use crate::analysis::{BoxRequest, Decision, MapBoxes, MapMethod};
+use crate::cli::arguments::OutputOptions;
+use crate::cli::assignments::{AxisRequest, in_line, plain_number};
+use crate::cli::status::{Failure, Outcome, Status};
+use crate::error::Diagnostic;
+use crate::number::Rational;
+use crate::report::{map_boxes_json, map_boxes_text};
+use crate::stability::Range;
+use clap::{Args, ValueEnum};
+
+/// How the map is made.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct MethodOptions {
+    /// The exact decomposition, boxes of the window of -x and -y, or boxes after half of the --timeout
+    #[arg(long, value_enum, default_value_t)]
+    pub method: MethodName,
+    /// The share of the window that boxes may leave undecided [default: 0.01]
+    #[arg(long, value_name = "SHARE")]
+    pub undecided: Option<String>,
+}
+
+/// See [`MapMethod`].
+#[derive(ValueEnum, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::cli) enum MethodName {
+    /// The exact decomposition of the whole domain
+    Exact,
+    /// Boxes of the window, each proved stable, proved unstable or undecided
+    Boxes,
+    /// The exact decomposition; boxes when half of the --timeout is over and the window is bounded
+    #[default]
+    Auto,
+}
+
+impl MethodOptions {
+    /// The method of the analysis.
+    pub fn method(&self) -> MapMethod {
+        match self.method {
+            MethodName::Exact => MapMethod::Exact,
+            MethodName::Boxes => MapMethod::Boxes,
+            MethodName::Auto => MapMethod::Auto,
+        }
+    }
+
+    /// What boxes are to cover.
+    pub fn request(&self, axes: &[AxisRequest; 2], context: &Context) -> Result<BoxRequest, Failure> {
+        let undecided = match &self.undecided {
+            None => Rational::from(1) / Rational::from(100),
+            Some(text) => {
+                let share = plain_number(context.line, "--undecided", text)?;
+                if !share.sign().is_gt() || share > Rational::ONE {
+                    let span = context.line.option_value("--undecided", text).span;
+                    let error = Diagnostic::error("E-option-value", "the undecided share is not between 0 and 1")
+                        .at(span, "a share of the window's area, such as 0.01");
+                    return Err(in_line(context.line, vec![error]).into());
+                }
+                share
+            }
+        };
+        let range = |a: &AxisRequest| Range::between(a.lower.clone(), a.upper.clone());
+        Ok(BoxRequest { windows: [range(&axes[0]), range(&axes[1])], undecided })
+    }
+}
+
+/// Writes the answer by boxes.
+pub(super) fn answer(boxes: &MapBoxes, output: &OutputOptions, context: &Context) -> Outcome {
+    let digits = output.digits() as usize;
+    context.answer(output, || map_boxes_text(boxes, digits), || map_boxes_json(boxes))?;
+    Ok(match &boxes.boxes {
+        Decision::Decided(map) => match &map.stopped {
+            None => Status::Holds,
+            Some(budget) => context.say_undecided(budget, "subdividing the window"),
+        },
+        Decision::Undecided { budget, reached } => context.say_undecided(budget, reached),
+    })
+}
