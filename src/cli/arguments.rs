@@ -128,6 +128,9 @@ pub(super) struct RunOptions {
     /// Gives up after this time, with exit status 3
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = seconds)]
     pub timeout: Option<Duration>,
+    /// Works on so many threads; the answer is the same for any number [default: those of the machine]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
     /// No warnings, no progress
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,

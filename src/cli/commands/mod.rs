@@ -46,6 +46,10 @@ pub(super) struct Context<'a> {
 impl<'a> Context<'a> {
     pub fn new(line: &'a CommandLine, arguments: &Arguments) -> Self {
         let options = arguments.run_options();
+        if let Some(threads) = options.threads {
+            // A pool that exists already keeps its size: that changes the time, no answer.
+            let _ = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global();
+        }
         let reporter = Reporter::new(options);
         let budget = reporter.budget(options);
         // The check of a certificate keeps its own time: too late is rejected, not undecided.
@@ -153,7 +157,7 @@ impl<'a> Context<'a> {
 impl Arguments {
     /// The options that say how long to work and how much to say.
     pub fn run_options(&self) -> &RunOptions {
-        const NONE: &RunOptions = &RunOptions { timeout: None, quiet: false, verbose: false };
+        const NONE: &RunOptions = &RunOptions { timeout: None, threads: None, quiet: false, verbose: false };
         match &self.command {
             None => &self.main_job.output.run,
             Some(Command::Analyze(options)) => &options.decision.output.run,

@@ -2,13 +2,14 @@
 
 use super::curves::{Curve, PlanePolynomial, X, Y, boundary_curves};
 use super::glue::glue_stable_cells;
+use super::projection::projection;
 use crate::limits::{Budget, Exhausted};
 use crate::number::Rational;
-use crate::poly::{
-    Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, discriminant, isolate_real_roots_in, resultant,
-};
+use crate::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
 use crate::stability::interval_set::{cells, merge_points};
 use crate::stability::{AlgebraicInterval, AtPoint, Range, Region};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A branch of a curve over a strip: the root of the curve's polynomial in `y`, counted from 0 from
 /// below over the real roots inside the domain.
@@ -194,55 +195,20 @@ fn decompose(
     budget.step("projecting the curves");
     let projection = projection(curves, &domain[1], budget)?;
     budget.step("isolating critical values");
-    let mut lists = Vec::new();
-    for q in &projection {
-        lists.push(isolate_real_roots_in(q, domain[0].lower.as_ref(), domain[0].upper.as_ref(), budget)?);
-    }
-    let points = merge_points(lists, budget)?;
+    let (lower, upper) = (domain[0].lower.as_ref(), domain[0].upper.as_ref());
+    let lists = projection.par_iter().map(|q| isolate_real_roots_in(q, lower, upper, budget));
+    let points = merge_points(lists.collect::<Result<_, _>>()?, budget)?;
     budget.step("testing a sample of each cell");
     let intervals = cells(&domain[0], &points);
-    let total = intervals.len() as u64;
-    let mut strips = Vec::with_capacity(intervals.len());
-    for (i, x) in intervals.into_iter().enumerate() {
+    let (total, done) = (intervals.len() as u64, AtomicU64::new(0));
+    let strip = |x: AlgebraicInterval| {
         budget.check()?;
-        budget.advance(i as u64, total);
         let sample = x.sample();
         let cells = cells_at(p, curves, &sample, &domain[1], region, budget)?;
-        strips.push(Strip { x, sample, cells });
-    }
-    Ok(strips)
-}
-
-/// The polynomials in `x` whose zeros cut the domain into strips, coprime to their derivatives.
-fn projection(curves: &[Curve], y_domain: &Range, budget: &Budget) -> Result<Vec<SquareFree>, Exhausted> {
-    let mut out: Vec<SquareFree> = Vec::new();
-    let mut push = |q: UniPoly| {
-        if let Some(q) = SquareFree::part_of(&q)
-            && q.degree() > 0
-            && !out.contains(&q)
-        {
-            out.push(q);
-        }
+        budget.advance(done.fetch_add(1, Ordering::Relaxed) + 1, total);
+        Ok(Strip { x, sample, cells })
     };
-    let polynomials: Vec<Poly<UniPoly>> = curves.iter().map(|c| in_y(&c.polynomial)).collect();
-    for (i, f) in polynomials.iter().enumerate() {
-        budget.check()?;
-        let Some(degree) = f.degree() else { continue };
-        push(f.leading().expect("not zero").clone());
-        if degree == 0 {
-            continue;
-        }
-        if degree > 1 {
-            push(discriminant(f, budget)?);
-        }
-        for end in [&y_domain.lower, &y_domain.upper].into_iter().flatten() {
-            push(at_y(f, end));
-        }
-        for g in polynomials[..i].iter().filter(|g| !g.is_constant()) {
-            push(resultant(f, g, budget)?);
-        }
-    }
-    Ok(out)
+    intervals.into_par_iter().map(strip).collect()
 }
 
 /// `q^d f(x, a/q)`.

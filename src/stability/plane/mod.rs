@@ -5,6 +5,7 @@ mod curves;
 mod decompose;
 mod glue;
 mod limit;
+mod projection;
 mod query;
 mod sturm_at;
 
