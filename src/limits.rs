@@ -44,16 +44,20 @@ impl Budget {
         Budget { deadline, ..Budget::default() }
     }
 
-    /// A budget that ends when half of the time that is left is used up; without end where there is no limit.
-    pub fn first_half(&self) -> Self {
-        let mut half = self.clone();
-        if let Some((end, _)) = self.deadline {
+    /// A budget that ends when `part / of` of the time that is left is used up; without end where there is no
+    /// limit. When it runs out it names the whole.
+    ///
+    /// # Panics
+    /// When `of` is 0.
+    pub fn share(&self, part: u32, of: u32) -> Self {
+        let mut share = self.clone();
+        if let Some((end, timeout)) = self.deadline {
             let now = Instant::now();
-            let time = end.saturating_duration_since(now) / 2;
+            let time = end.saturating_duration_since(now) / of * part;
             // A time that the clock cannot count is as good as no limit.
-            half.deadline = now.checked_add(time).map(|end| (end, time));
+            share.deadline = now.checked_add(time).map(|end| (end, timeout));
         }
-        half
+        share
     }
 
     /// The same budget, reporting to `progress`.

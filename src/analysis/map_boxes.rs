@@ -9,6 +9,9 @@ use crate::number::Rational;
 use crate::stability::Range;
 use crate::stability::plane::boxes::{BoxMap, Window, stability_boxes};
 
+/// The part of the time that boxes may take, so that some is left to write them.
+const SUBDIVISION: (u32, u32) = (9, 10);
+
 /// How a map is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum MapMethod {
@@ -75,12 +78,18 @@ pub fn map_by(
         (_, Ok(window)) => Some(window),
     };
     if method != MapMethod::Boxes {
-        let part = if window.is_some() { budget.first_half() } else { budget.clone() };
+        let part = if window.is_some() { budget.share(1, 2) } else { budget.clone() };
         question.map = question.decomposed(&part);
     }
     match (window, &question.map, &question.polynomial) {
         (Some(window), Decision::Undecided { .. }, Some(p)) => {
-            let boxes = stability_boxes(p, &window, question.region, &request.undecided, budget);
+            let boxes = stability_boxes(
+                p,
+                &window,
+                question.region,
+                &request.undecided,
+                &budget.share(SUBDIVISION.0, SUBDIVISION.1),
+            );
             let boxes = Decision::from_result(boxes, budget);
             Ok(MapAnswer::Boxes(Box::new(MapBoxes { question, goal: request.undecided.clone(), boxes })))
         }

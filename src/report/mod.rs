@@ -20,7 +20,7 @@ mod verdict;
 pub use analysis::{analysis_json, analysis_text};
 pub use intervals::{intervals_json, intervals_text};
 pub use main_job::{MainJob, main_job_json, main_job_text};
-pub use map::{map_boxes_json, map_boxes_text, map_json, map_page, map_text, published_limits};
+pub use map::{map_boxes_json, map_boxes_page, map_boxes_text, map_json, map_page, map_text, published_limits};
 pub use simulation::{CircuitAnswer, SimulationAnswer, locus_json, simulation_json, time_unit};
 pub use table::{point_table_json, point_table_text, table_json, table_text};
 pub use verdict::{verdict_json, verdict_text};

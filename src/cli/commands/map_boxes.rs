@@ -4,12 +4,16 @@ use super::Context;
 use crate::analysis::{BoxRequest, Decision, MapBoxes, MapMethod};
 use crate::cli::arguments::OutputOptions;
 use crate::cli::assignments::{AxisRequest, in_line, plain_number};
+use crate::cli::output::ending;
+use crate::cli::picture::{png, write};
 use crate::cli::status::{Failure, Outcome, Status};
 use crate::error::Diagnostic;
 use crate::number::Rational;
-use crate::report::{map_boxes_json, map_boxes_text};
+use crate::report::figures::map::boxes_figure;
+use crate::report::{map_boxes_json, map_boxes_page, map_boxes_text};
 use crate::stability::Range;
 use clap::{Args, ValueEnum};
+use std::path::Path;
 
 /// How the map is made.
 #[derive(Args, Debug)]
@@ -64,10 +68,28 @@ impl MethodOptions {
     }
 }
 
-/// Writes the answer by boxes.
+/// Width and height of the picture.
+const SIZE: (f64, f64) = (860.0, 600.0);
+
+/// Writes the answer by boxes, as a picture where the output file's ending asks for one.
 pub(super) fn answer(boxes: &MapBoxes, output: &OutputOptions, context: &Context) -> Outcome {
     let digits = output.digits() as usize;
-    context.answer(output, || map_boxes_text(boxes, digits), || map_boxes_json(boxes))?;
+    let file = output.output.as_ref().filter(|_| !output.json);
+    let kind = file.and_then(|f| ending(f)).filter(|e| ["svg", "png", "html", "htm"].contains(&e.as_str()));
+    match (file, kind.as_deref(), boxes_figure(boxes, SIZE.0, SIZE.1)) {
+        (Some(file), Some(kind), Some(figure)) => {
+            context.reporter.finish();
+            let bytes = match kind {
+                "svg" => figure.svg().into_bytes(),
+                "png" => png(&figure)?,
+                _ => map_boxes_page(boxes, &figure, digits).into_bytes(),
+            };
+            write(Path::new(file), &bytes)?;
+        }
+        // There is nothing to draw.
+        (_, Some(_), None) => {}
+        _ => context.answer(output, || map_boxes_text(boxes, digits), || map_boxes_json(boxes))?,
+    }
     Ok(match &boxes.boxes {
         Decision::Decided(map) => match &map.stopped {
             None => Status::Holds,

@@ -7,9 +7,11 @@
 //! it is known to be the same at all points, else `null`) and `stopped` (`null`, or the budget that ran out before
 //! the goal). All numbers are exact. `boxes` is `null` with `undecided` where not even the curves were found.
 
+use super::super::figures::Figure;
 use super::super::json;
 use super::super::layout::{goal, named_values};
 use super::document::{curve_json, question_fields};
+use super::page::escaped;
 use super::text::axis_text;
 use crate::analysis::{Decision, MapBoxes};
 use crate::number::{Rational, to_decimal};
@@ -59,6 +61,21 @@ fn box_json(b: &PlaneBox) -> Value {
     out["verdict"] = b.verdict.name().into();
     out["outside"] = outside;
     out
+}
+
+/// The picture and the text as a page that stands alone.
+pub fn map_boxes_page(answer: &MapBoxes, figure: &Figure, digits: usize) -> String {
+    let title = escaped(answer.question.title.as_deref().unwrap_or("the loop"));
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>{title}</title>\
+         <style>body{{font-family:sans-serif;max-width:60rem;margin:1rem auto;padding:0 1rem}}svg{{width:100%;height:auto}}\
+         pre{{white-space:pre-wrap}}</style></head>\n<body>\n{}\n<pre>{}</pre>\n\
+         <p>Every verdict is proved for the whole box; positions in the picture are drawn in floating point.</p>\n\
+         </body>\n</html>\n",
+        figure.svg(),
+        escaped(&map_boxes_text(answer, digits)),
+    )
 }
 
 /// The answer for people: areas by verdict, and the extent of the stable boxes.

@@ -6,7 +6,7 @@ mod page;
 mod published;
 mod text;
 
-pub use boxes::{map_boxes_json, map_boxes_text};
+pub use boxes::{map_boxes_json, map_boxes_page, map_boxes_text};
 pub use document::map_json;
 pub use page::map_page;
 pub use published::published_limits;

@@ -4,6 +4,7 @@
 //! are in them comes from the exact decomposition, and every point of a curve is an isolated root.
 
 mod axes;
+mod boxes;
 mod draw;
 mod labels;
 mod legend;
@@ -13,6 +14,7 @@ mod trace;
 mod window;
 mod words;
 
+pub use boxes::boxes_figure;
 pub use draw::{MapContents, MapFigure};
 pub use labels::{FrequencyPoint, frequency_unit};
 pub use lines::{Role, Wall, mechanism_colour, mechanism_words};
