@@ -9,7 +9,8 @@
 
 use super::super::figures::Figure;
 use super::super::json;
-use super::super::layout::{goal, named_values};
+use super::super::layout::named_values;
+use super::super::region::map_goal;
 use super::document::{curve_json, question_fields};
 use super::page::escaped;
 use super::text::axis_text;
@@ -92,7 +93,7 @@ pub fn map_boxes_text(answer: &MapBoxes, digits: usize) -> String {
         Decision::Undecided { budget, reached } => {
             out.push_str(&format!("undecided, the budget ran out: {budget}; reached: {reached}\n"));
         }
-        Decision::Decided(map) => boxes_text(&mut out, map, &goal(question), [&x.name, &y.name], digits),
+        Decision::Decided(map) => boxes_text(&mut out, map, &map_goal(question), [&x.name, &y.name], digits),
     }
     out
 }

@@ -7,7 +7,7 @@ use super::draw::{FAINT, INK, PAPER, REGION, axis_name};
 use super::window::AxisWindow;
 use crate::analysis::MapBoxes;
 use crate::number::{Rational, to_decimal};
-use crate::report::layout::goal;
+use crate::report::region::map_goal;
 use crate::stability::plane::boxes::{BoxMap, BoxVerdict};
 use kuva::render::color::Color;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
@@ -32,7 +32,7 @@ pub fn boxes_figure(answer: &MapBoxes, width: f64, height: f64) -> Option<Figure
     let mut scene = Scene::new(width, height);
     let title = answer.question.title.as_deref().unwrap_or("the loop");
     scene.add(text((width / 2.0, 20.0), title, 14, TextAnchor::Middle, None));
-    legend(&mut scene, map, &goal(&answer.question), (left, 40.0));
+    legend(&mut scene, map, &map_goal(&answer.question), (left, 40.0));
     for (verdict, fill, edge) in [
         (BoxVerdict::Unstable { outside: None }, UNSTABLE, PAPER),
         (BoxVerdict::Stable, REGION, PAPER),

@@ -155,11 +155,11 @@ impl Patch {
         let steps = match axis {
             Axis::X => {
                 for (low, high) in left.chunks_exact_mut(self.width).zip(right.chunks_exact_mut(self.width)) {
-                    for step in 1..self.width {
+                    for (step, corner) in low.iter_mut().enumerate().skip(1) {
                         for i in 0..self.width - step {
                             high[i] = (high[i] + high[i + 1]) >> 1;
                         }
-                        low[step] = high[0];
+                        *corner = high[0];
                     }
                 }
                 self.width
