@@ -151,3 +151,27 @@ fn text_of_boxes() {
         assert!(run.stdout.contains(part), "{part}: {}", run.stdout);
     }
 }
+
+#[test]
+fn pictures_of_boxes() {
+    let folder = std::env::temp_dir().join(format!("jurist-boxes-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let draw = |name: &str| {
+        let file = folder.join(name);
+        let output = file.to_str().unwrap();
+        let run = jurist(&["map", "-x", "K_pi=-1..60", "-y", "K_ii=0..130000", "--method", "boxes", "-o", output]);
+        assert_eq!((run.status, run.stdout.as_str()), (0, ""), "{}", run.stderr);
+        std::fs::read(&file).unwrap()
+    };
+    let svg = String::from_utf8(draw("boxes.svg")).unwrap();
+    for part in ["<svg", "K_pi", "K_ii", "undecided", "stable 5"] {
+        assert!(svg.contains(part), "{part}");
+    }
+    assert_eq!(svg, String::from_utf8(draw("again.svg")).unwrap());
+    assert!(draw("boxes.png").starts_with(b"\x89PNG"));
+    let page = String::from_utf8(draw("boxes.html")).unwrap();
+    assert!(page.starts_with("<!DOCTYPE html>") && page.contains("</svg>") && page.contains("% of the window"));
+    let document: Value = serde_json::from_slice(&draw("boxes.json")).unwrap();
+    assert_eq!(document["schema"], "jurist/map-boxes/1");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
