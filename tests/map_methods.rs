@@ -96,7 +96,10 @@ fn auto_falls_back_on_boxes() {
     let window = ["-x", "T=0..0.02", "-y", "K_pwm=0..600"];
     let run = jurist(&[&["map", path][..], &window, &["--timeout", "4", "--undecided", "0.2", "--json"]].concat());
     let exact_only = jurist(&[&["map", path][..], &window, &["--timeout", "1", "--method", "exact"]].concat());
+    let no_window = jurist(&["map", path, "-x", "T", "-y", "K_pwm", "--timeout", "1"]);
     std::fs::remove_file(&file).unwrap();
+    assert_eq!(no_window.status, 3);
+    assert!(no_window.stderr.contains("give both axes a window"), "{}", no_window.stderr);
     let answer: Value = serde_json::from_str(&run.stdout).unwrap();
     assert_eq!(answer["schema"], "jurist/map-boxes/1", "{}", run.stderr);
     assert_eq!(run.status, if answer["stopped"].is_null() { 0 } else { 3 });

@@ -109,7 +109,13 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     }
     Ok(match &answer.map {
         Decision::Decided(_) => Status::Holds,
-        Decision::Undecided { budget, reached } => context.say_undecided(budget, reached),
+        Decision::Undecided { budget, reached } => {
+            let status = context.say_undecided(budget, reached);
+            if let Some(hint) = options.method.hint(&boxes) {
+                note(&hint);
+            }
+            status
+        }
     })
 }
 

@@ -48,6 +48,16 @@ impl MethodOptions {
         }
     }
 
+    /// What may help when the exact map is not finished in time.
+    pub fn hint(&self, request: &BoxRequest) -> Option<String> {
+        let bounded = request.windows.iter().all(|w| w.lower.is_some() && w.upper.is_some());
+        (self.method == MethodName::Auto && !bounded).then(|| {
+            "help: give both axes a window, '-x NAME=LO..HI -y NAME=LO..HI': boxes of it are decided where the exact map \
+             takes too long"
+                .to_owned()
+        })
+    }
+
     /// What boxes are to cover.
     pub fn request(&self, axes: &[AxisRequest; 2], context: &Context) -> Result<BoxRequest, Failure> {
         let undecided = match &self.undecided {

@@ -63,26 +63,7 @@ pub fn stability_boxes(
             stopped = Some(format!("boxes ({} undecided, halved {level} times)", frontier.len()));
             break;
         }
-        let mut next = Vec::new();
-        let mut rest = frontier.into_iter();
-        loop {
-            let group: Vec<Node> = rest.by_ref().take(GROUP).collect();
-            if group.is_empty() {
-                break;
-            }
-            if let Err(exhausted) = budget.check() {
-                stopped = Some(exhausted.budget);
-                next.extend(group);
-                next.extend(rest);
-                break;
-            }
-            let halves: Vec<[Tested; 2]> = group.par_iter().map(|node| search.halves(node)).collect();
-            for tested in halves.into_iter().flatten() {
-                search.sort_out(tested, &mut decided, &mut next);
-            }
-            budget.advance(decided.len() as u64, (decided.len() + next.len() + rest.len()) as u64);
-        }
-        frontier = next;
+        (frontier, stopped) = search.next_level(frontier, &mut decided, budget);
         level += 1;
     }
     let undecided = |n: Node| PlaneBox { window: n.place.window(window), verdict: BoxVerdict::Undecided };
@@ -215,6 +196,38 @@ impl Search<'_> {
             Tested::Decided(place, verdict) => decided.push(PlaneBox { window: place.window(self.window), verdict }),
             Tested::Open(node) => open.push(node),
         }
+    }
+
+    /// The open boxes after each has been halved, or some of them and the budget that ran out.
+    fn next_level(
+        &self,
+        frontier: Vec<Node>,
+        decided: &mut Vec<PlaneBox>,
+        budget: &Budget,
+    ) -> (Vec<Node>, Option<String>) {
+        let (mut next, mut stopped) = (Vec::new(), None);
+        let mut rest = frontier.into_iter();
+        // A box whose turn comes too late stays as it is.
+        let halve = |node: Node| match budget.check() {
+            Ok(()) => Ok(self.halves(&node)),
+            Err(exhausted) => Err((node, exhausted)),
+        };
+        while stopped.is_none() && rest.len() > 0 {
+            let group: Vec<Node> = rest.by_ref().take(GROUP).collect();
+            let halves: Vec<Result<[Tested; 2], (Node, Exhausted)>> = group.into_par_iter().map(halve).collect();
+            for result in halves {
+                match result {
+                    Ok(tested) => tested.into_iter().for_each(|t| self.sort_out(t, decided, &mut next)),
+                    Err((node, exhausted)) => {
+                        next.push(node);
+                        stopped = Some(exhausted.budget);
+                    }
+                }
+            }
+            budget.advance(decided.len() as u64, (decided.len() + next.len() + rest.len()) as u64);
+        }
+        next.extend(rest);
+        (next, stopped)
     }
 
     /// Both halves along the axis on which the open polynomials change most.
