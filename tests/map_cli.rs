@@ -221,7 +221,7 @@ const DRIVE: [&str; 4] = ["-x", "T", "-y", "K_pwm"];
 fn pictures_have_the_same_bytes_every_time() {
     let svg = String::from_utf8(drawn("a.svg", &DRIVE)).unwrap();
     assert_eq!(svg, String::from_utf8(drawn("b.svg", &DRIVE)).unwrap());
-    for words in ["complex pair on the circle", "K_pwm = 550.94, 1664 Hz", "K_pwm = 0.038101, 0.506 Hz", "333 Hz"] {
+    for words in ["complex pair on the circle", "= 550.94, 1664 Hz", "= 0.038101, 0.506 Hz", "333 Hz"] {
         assert!(svg.contains(words), "{words}");
     }
     assert!(svg.contains("T = 0.062065, 1.15 Hz") && svg.contains("published limits") && !svg.contains("NaN"));
@@ -238,7 +238,10 @@ fn a_small_picture_looks_as_it_did() {
     std::fs::write(&model, text).unwrap();
     let svg = drawn("c.svg", &[model.to_str().unwrap(), "-x", "a", "-y", "b"]);
     std::fs::remove_file(&model).unwrap();
-    insta::assert_snapshot!(String::from_utf8(svg).unwrap());
+    // The curves are followed elsewhere; here it is axes, marks and labels that are looked at.
+    let svg = String::from_utf8(svg).unwrap().replace("><", ">\n<");
+    let looked_at = svg.lines().filter(|l| !l.starts_with("<path")).map(|l| format!("{l}\n"));
+    insta::assert_snapshot!(looked_at.collect::<String>());
 }
 
 #[test]
