@@ -10,7 +10,7 @@
 use super::expression::{Names, Scope};
 use super::model::{matrix, sized};
 use super::multivariate::{Fraction, Multi};
-use super::number::{Q, Z};
+use super::number::{Clock, Q, Z};
 use super::toml::Toml;
 use num_traits::{One, ToPrimitive, Zero};
 use std::collections::{BTreeMap, HashMap};
@@ -32,15 +32,20 @@ struct Diagram<'s, 'c> {
     /// The number of unknowns so far: driven signals first, then states.
     unknowns: usize,
     degree: usize,
+    blocks: Vec<Ordered>,
 }
 
-/// The system matrix and the degree its determinant has when the connection is well posed.
+/// A matrix and the degree of its determinant unless a block loses its order.
+pub(super) type Ordered = (Vec<Vec<Multi>>, usize);
+
+/// The system matrix with the degree its determinant has when the connection is well posed; and those of all
+/// blocks alone: direct feedthrough may keep up the degree of the whole where a block loses its order.
 pub(super) fn system_matrix(
     table: &Toml,
     blocks: &Toml,
     variable: &str,
     scope: &mut Scope<'_>,
-) -> Result<(Vec<Vec<Multi>>, usize), String> {
+) -> Result<(Ordered, Vec<Ordered>), String> {
     let blocks = blocks.list()?;
     let external = table.get("inputs").map(Toml::one_or_more).unwrap_or_default();
     let mut signals: HashMap<String, usize> = HashMap::new();
@@ -60,7 +65,7 @@ pub(super) fn system_matrix(
     if let Some(name) = signals.keys().find(|n| scope.constants.contains_key(*n) || scope.parameters.contains_key(*n)) {
         return Err(format!("'{}' is a signal and also something else", super::number::shorten(name)));
     }
-    let mut diagram = Diagram { scope, rows: Vec::new(), unknowns: count, degree: 0 };
+    let mut diagram = Diagram { scope, rows: Vec::new(), unknowns: count, degree: 0, blocks: Vec::new() };
     let mut first_output = 0;
     for block in blocks {
         let outputs = block.get("output").map(Toml::one_or_more).unwrap_or_default().len();
@@ -146,8 +151,14 @@ impl Diagram<'_, '_> {
         if den.is_zero() || num.degree(0) > den.degree(0) {
             return Err("a transfer function is improper".into());
         }
+        if substitution.is_some() {
+            // The order of the continuous block.
+            let lead = den.coefficients(0).pop().unwrap_or_default();
+            self.blocks.push((vec![vec![lead]], 0));
+        }
         let (num, den, order) = self.substituted(&num, &den, substitution)?;
         self.degree += order;
+        self.blocks.push((vec![vec![den.clone()]], order));
         let mut row: Row = BTreeMap::new();
         let whole = |m: Multi| Fraction { numerator: m, denominator: Multi::one(), scalar: Multi::one() };
         row.insert(outputs.start, whole(den));
@@ -267,6 +278,7 @@ impl Diagram<'_, '_> {
         if let Some(d) = &d {
             sized(d, outputs.len(), inputs.len())?;
         }
+        let discretised = substitution.is_some();
         let (top, bottom) = match substitution {
             Some(s) => (s.top, s.bottom),
             None => (Multi::variable(0), Multi::one()),
@@ -276,6 +288,7 @@ impl Diagram<'_, '_> {
         let first = self.unknowns;
         self.unknowns += n;
         self.degree += n;
+        let mut alone = Vec::new();
         for i in 0..n {
             // top x - bottom (A x + B u) = 0
             let mut row = Row::new();
@@ -283,11 +296,16 @@ impl Diagram<'_, '_> {
             for j in 0..n {
                 self.add(&mut row, first + j, a[i][j].times(&minus_bottom, clock)?)?;
             }
+            let states = row.iter().map(|(k, f)| (k - first, f)).collect();
+            alone.push(cleared(states, n, clock)?);
             for (j, input) in inputs.iter().enumerate() {
                 let factor = b[i][j].times(&minus_bottom, clock)?;
                 self.feed(&mut row, &factor, input)?;
             }
             self.rows.push(row);
+        }
+        if discretised {
+            self.blocks.push((alone, n));
         }
         for (i, output) in outputs.enumerate() {
             // y - C x - D u = 0
@@ -308,31 +326,35 @@ impl Diagram<'_, '_> {
     }
 
     /// The rows, each cleared of its scalar denominators, which are divisors noted already.
-    fn matrix(self) -> Result<(Vec<Vec<Multi>>, usize), String> {
+    fn matrix(self) -> Result<(Ordered, Vec<Ordered>), String> {
         let clock = self.scope.clock;
         let n = self.unknowns;
         let mut out = Vec::with_capacity(n);
         for row in &self.rows {
-            let row: Vec<(usize, &Fraction)> = row.iter().filter(|(k, _)| **k < n).map(|(k, f)| (*k, f)).collect();
-            let mut common = Multi::one();
-            for (_, f) in row.iter().filter(|(_, f)| !f.numerator.is_zero()) {
-                if f.denominator != Multi::one() {
-                    return Err("internal: a coefficient of a signal contains the variable".into());
-                }
-                let g = common.gcd(&f.scalar, clock)?;
-                let rest = f.scalar.divided(&g, clock)?.ok_or("internal: a gcd does not divide")?;
-                common = common.times(&rest, clock)?;
-            }
-            let mut entries = vec![Multi::default(); n];
-            for (k, f) in row.into_iter().filter(|(_, f)| !f.numerator.is_zero()) {
-                let factor = common.divided(&f.scalar, clock)?.ok_or("internal: a common multiple is none")?;
-                entries[k] = f.numerator.times(&factor, clock)?;
-            }
-            out.push(entries);
+            out.push(cleared(row.iter().filter(|(k, _)| **k < n).map(|(k, f)| (*k, f)).collect(), n, clock)?);
         }
         if out.len() != n {
             return Err("the diagram has not as many equations as signals".into());
         }
-        Ok((out, self.degree))
+        Ok(((out, self.degree), self.blocks))
     }
+}
+
+/// A row of `n` entries times its least common denominator, which is free of the variable.
+fn cleared(row: Vec<(usize, &Fraction)>, n: usize, clock: &Clock) -> Result<Vec<Multi>, String> {
+    let mut common = Multi::one();
+    for (_, f) in row.iter().filter(|(_, f)| !f.numerator.is_zero()) {
+        if f.denominator != Multi::one() {
+            return Err("internal: a coefficient of a signal contains the variable".into());
+        }
+        let g = common.gcd(&f.scalar, clock)?;
+        let rest = f.scalar.divided(&g, clock)?.ok_or("internal: a gcd does not divide")?;
+        common = common.times(&rest, clock)?;
+    }
+    let mut entries = vec![Multi::default(); n];
+    for (k, f) in row.into_iter().filter(|(_, f)| !f.numerator.is_zero()) {
+        let factor = common.divided(&f.scalar, clock)?.ok_or("internal: a common multiple is none")?;
+        entries[k] = f.numerator.times(&factor, clock)?;
+    }
+    Ok(entries)
 }

@@ -9,6 +9,7 @@ mod determinant;
 mod expression;
 mod half_size;
 mod intervals;
+mod keys;
 mod model;
 mod multivariate;
 mod number;

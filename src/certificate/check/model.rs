@@ -1,6 +1,6 @@
 //! From a model's text to its characteristic polynomial in one parameter.
 
-use super::blocks::system_matrix;
+use super::blocks::{Ordered, system_matrix};
 use super::determinant::{Entry, determinant};
 use super::expression::{Constant, Names, Scope};
 use super::multivariate::{Fraction, Multi};
@@ -38,7 +38,7 @@ enum Form {
     /// `A - B K C`.
     Feedback([Vec<Vec<Fraction>>; 4]),
     /// A polynomial system matrix and the degree of its determinant.
-    System(Vec<Vec<Multi>>, usize),
+    System(Ordered, Vec<Ordered>),
 }
 
 /// Reads the model; `values` are the values of all parameters but `kept`. `kept` may be none of the
@@ -50,6 +50,7 @@ pub(super) fn read(
     clock: &Clock,
 ) -> Result<Characteristic, String> {
     let root = toml::read(text)?;
+    super::keys::known(&root)?;
     let discrete = match root.get("time").ok_or("the model has no 'time'")?.text()? {
         "discrete" => true,
         "continuous" => false,
@@ -139,8 +140,8 @@ fn evaluate(root: &Toml, variable: &str, scope: &mut Scope<'_>) -> Result<Evalua
         ports(table, scope)?;
         Form::Matrix(m)
     } else if let Some(blocks) = root.get("block") {
-        let (rows, degree) = system_matrix(table, blocks, variable, scope)?;
-        Form::System(rows, degree)
+        let (whole, alone) = system_matrix(table, blocks, variable, scope)?;
+        Form::System(whole, alone)
     } else {
         let get = |key: &str| table.get(key).ok_or_else(|| format!("[loop] has no '{key}'"));
         let (a, b) = (matrix(get("A")?, scope)?, matrix(get("B")?, scope)?);
@@ -245,16 +246,18 @@ fn specialise(evaluated: Evaluated, discrete: bool, numbers: &[Q], clock: &Clock
             };
             monic(entries, m.len(), clock)?
         }
-        Form::System(rows, degree) => {
-            let mut entries = Vec::new();
-            for row in rows {
-                let parts: Vec<Vec<Vec<Q>>> = row.iter().map(|m| m.specialised(1, numbers)).collect();
-                entries.push(clear_row(parts));
+        Form::System(whole, alone) => {
+            let specialised = |(rows, degree): &Ordered| {
+                let parts = |row: &Vec<Multi>| row.iter().map(|m| m.specialised(1, numbers)).collect();
+                monic(rows.iter().map(|row| clear_row(parts(row))).collect(), *degree, clock)
+            };
+            // A block keeps its order, the connection is well posed, where its leading coefficient is not zero.
+            for block in alone {
+                poles.push(specialised(block)?.1);
             }
-            let (coefficients, lead, degree) = monic(entries, *degree, clock)?;
-            // The connection is well posed, and every block keeps its order, where this is not zero.
-            poles.push(lead.clone());
-            (coefficients, lead, degree)
+            let found = specialised(whole)?;
+            poles.push(found.1.clone());
+            found
         }
     };
     if denominator.is_zero() {

@@ -143,13 +143,8 @@ fn quote_long_numbers(text: &str) -> String {
     for event in events.iter().filter(|e| e.kind() == EventKind::Scalar && e.encoding().is_none()) {
         let (start, end) = (event.span().start(), event.span().end());
         let Some(raw) = text.get(start..end) else { continue };
-        let digits = raw.strip_prefix(['+', '-']).unwrap_or(raw);
-        let decimal = digits.starts_with(|c: char| c.is_ascii_digit())
-            && digits.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'_' | b'.' | b'e' | b'E' | b'+' | b'-'))
-            && digits.matches('-').count() <= 1
-            && !digits.starts_with("0_");
-        let exponent = digits.find(['e', 'E']).is_some();
-        if decimal && start >= done && (exponent || raw.len() > LONG) {
+        let exponent = raw.find(['e', 'E']).is_some();
+        if is_decimal(raw) && start >= done && (exponent || raw.len() > LONG) {
             out.push_str(&text[done..start]);
             out.push('"');
             out.push_str(raw);
@@ -159,6 +154,26 @@ fn quote_long_numbers(text: &str) -> String {
     }
     out.push_str(&text[done..]);
     out
+}
+
+/// Whether a scalar without quotes is a decimal number of TOML: what is not must not become an expression.
+fn is_decimal(raw: &str) -> bool {
+    // Underscores stand between digits only.
+    let digits = |part: &str| part.split('_').all(|d| !d.is_empty() && d.bytes().all(|b| b.is_ascii_digit()));
+    let unsigned = |part: &str| part.strip_prefix(['+', '-']).unwrap_or(part).to_owned();
+    let number = unsigned(raw);
+    let (mantissa, exponent) = match number.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, Some(unsigned(exponent))),
+        None => (number.as_str(), None),
+    };
+    let (whole, fraction) = match mantissa.split_once('.') {
+        Some((whole, fraction)) => (whole, Some(fraction)),
+        None => (mantissa, None),
+    };
+    digits(whole)
+        && (whole == "0" || !whole.starts_with('0'))
+        && fraction.is_none_or(digits)
+        && exponent.is_none_or(|e| digits(&e))
 }
 
 #[cfg(test)]
@@ -176,7 +191,13 @@ mod tests {
         assert_eq!(of("d"), "31/1");
         assert_eq!(t.get("e").unwrap().list().unwrap()[1].expression().unwrap(), "2.50e-3");
         assert!(read("a = 1\na = 2").is_err());
-        assert!(read("a = nan").is_err());
+        assert!(read("a = nan").is_err() && read("a = inf").is_err());
+        for wrong in ["1e5-99999.5", "1e5+1", "1-2", "01e5", "1__0e5", "1_e5", "1.e5", ".5e1", "1e", "1e5.0", "--1e5"] {
+            assert!(read(&format!("a = {wrong}")).is_err(), "{wrong}");
+        }
+        for (text, value) in [("-1_0.5e-1_0", "-1_0.5e-1_0"), ("+0e5", "+0e5"), ("0.0E+0", "0.0E+0")] {
+            assert_eq!(read(&format!("a = {text}")).unwrap().get("a").unwrap().expression().unwrap(), value);
+        }
         assert!(read(&format!("a = {}1{}", "[".repeat(5000), "]".repeat(5000))).is_err());
     }
 }
