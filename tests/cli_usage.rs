@@ -223,3 +223,110 @@ fn help() {
     }
     insta::assert_snapshot!("help", all);
 }
+
+const BLOCK: &str =
+    "[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'plant'\ninput = 'r - y'\noutput = 'y'\n";
+
+/// The answer in words to a question about a model.
+fn text(arguments: &[&str], model: &str) -> String {
+    let run = jurist_with_input(arguments, model.as_bytes());
+    assert!(run.status <= 1, "{}", run.stderr);
+    run.stdout
+}
+
+#[test]
+fn an_undefined_point_says_what_is_undefined() {
+    let model = format!("time = 'discrete'\nparameters = {{ p = 0, q = 0 }}\n{BLOCK}transfer = '2*z/(q*p*z + 1)'\n");
+    let order = "undefined: the leading coefficient of the denominator of 'plant' is zero: the block loses its order";
+    assert!(text(&["verdict", "-"], &model).contains(order));
+    let nowhere = text(&["intervals", "-", "--param", "p"], &model);
+    assert!(nowhere.contains("stable nowhere, undefined for every p"), "{nowhere}");
+    let pole = text(&["intervals", "-", "--param", "p", "--set", "q=1"], &model);
+    assert!(pole.contains("pole: the model is undefined here"), "{pole}");
+    let run = jurist_with_input(&["intervals", "-", "--param", "p", "--set", "q=1", "--json"], model.as_bytes());
+    assert!(run.stdout.contains("\"cause\": \"pole\""), "{}", run.stdout);
+    assert!(jurist(&["intervals", "--help"]).stdout.contains("pole: the model is undefined"));
+    let divided = "time = 'discrete'\nparameters.p = 0\nloop.characteristic = 'z - 1/p'\n";
+    assert!(text(&["verdict", "-"], divided).contains("undefined: division by zero"));
+    let looped = format!("time = 'discrete'\nparameters.p = -1\n{BLOCK}transfer = 'p + 1/z'\n");
+    assert!(text(&["verdict", "-"], &looped).contains("undefined: an algebraic loop that is not well posed"));
+}
+
+#[test]
+fn one_root_is_spoken_of_as_one() {
+    let model = "time = 'continuous'\nparameters.p = {}\nloop.characteristic = 's + p'\n";
+    let at = |value: &str| text(&["verdict", "-", "--set", value], model);
+    assert!(at("p=1").contains("stable: the root is left of the imaginary axis"));
+    assert!(at("p=-1").contains("unstable: 0 roots left of the imaginary axis, 0 on it, 1 right of it"));
+    let analysis = text(&["analyze", "-"], model);
+    assert!(analysis.contains("no verdict: parameter p has no nominal value"), "{analysis}");
+}
+
+#[test]
+fn margins_are_printed_where_they_mean_something() {
+    let period = jurist(&["intervals", "--param", "T"]).stdout;
+    assert!(period.contains("4.969397 x nominal 0.0001") && !period.contains("dB"), "{period}");
+    assert!(!period.contains(" 0 x nominal"), "{period}");
+    assert!(jurist(&["intervals", "--param", "K_pwm"]).stdout.contains("(13.99425 dB)"));
+}
+
+/// Stable between two numbers that agree in sixteen digits, and beside one of them.
+#[test]
+fn ends_that_are_close_have_digits_that_tell_them_apart() {
+    let model = "time = 'continuous'\nparameters.p = {}\n\
+        loop.characteristic = 's - (p^2 - 2)*(p - 1.4142135623)*(p - 1.414213562373095)'\n";
+    let narrow = ["intervals", "-", "--param", "p", "--domain", "p=1.41421356236..2"];
+    let found = text(&narrow, model);
+    assert!(found.contains("    1.414213562373095 < p < 1.41421356237309505\n"), "{found}");
+    assert!(found.contains("\n    1.41421356237309505"), "{found}");
+    // JSON has the digits that were asked for.
+    let run = jurist_with_input(&[&narrow[..], &["--json"]].concat(), model.as_bytes());
+    let document: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(document["stable"][0]["upper"]["decimal"], "1.41421356237");
+}
+
+/// Three ends: the first two differ in the 14th digit, the last two in the 20th.
+#[test]
+fn close_ends_stay_in_order() {
+    let model = "time = 'continuous'\nparameters.p = {}\n\
+        loop.characteristic = 's - (p - 1.4142135623730)*(p - 1.4142135623731000002)*(p - 1.4142135623731)'\n";
+    let found = text(&["intervals", "-", "--param", "p"], model);
+    assert!(found.contains("    p < 1.414213562373\n    1.4142135623731 < p < 1.4142135623731000002\n"), "{found}");
+}
+
+#[test]
+fn verify_speaks_of_its_own_files_and_status() {
+    let run = refused(&["verify", "examples/drive.toml", "no-such-file"], "E-read");
+    assert!(run.stderr.contains("no certificate can be read") && !run.stderr.contains("left out"), "{}", run.stderr);
+    let run = refused(&["verify", "no-such-file", "no-such-file"], "E-read");
+    assert!(run.stderr.contains("no model can be read") && !run.stderr.contains("left out"), "{}", run.stderr);
+    let help = jurist(&["verify", "--help"]).stdout;
+    assert!(help.contains("exit status 4") && !help.contains("exit status 3"), "{help}");
+    assert!(jurist(&["verdict", "--help"]).stdout.contains("exit status 3"));
+}
+
+#[test]
+fn conditions_name_their_rows_and_sides() {
+    let jury = json(&["jury", "--json"]);
+    let first = &jury["conditions"][2];
+    assert_eq!((&first["name"], &first["relation"]), (&"|a_0| < a_6".into(), &"|left| < |right|".into()));
+    assert_eq!((&first["left"], &first["right"]), (&jury["rows"][0]["entries"][0], &jury["rows"][0]["entries"][6]));
+    assert_eq!((&first["row"], &jury["conditions"][0]["row"]), (&"a".into(), &Value::Null));
+    let second = &jury["conditions"][3];
+    assert_eq!((&second["relation"], &second["row"]), (&"|left| > |right|".into(), &jury["rows"][1]["name"]));
+    assert_eq!(second["left"], jury["rows"][1]["entries"][0]);
+    let model = "time = 'continuous'\nparameters.p = 3\nloop.characteristic = 's^3 + p*s^2 + 2*s + 1'\n";
+    let run = jurist_with_input(&["jury", "-", "--json"], model.as_bytes());
+    let routh: Value = serde_json::from_str(&run.stdout).unwrap();
+    for (k, condition) in routh["conditions"].as_array().unwrap().iter().enumerate() {
+        let row = &routh["rows"][k + 1];
+        assert_eq!((&condition["row"], &condition["left"]), (&row["name"], &row["entries"][0]));
+    }
+    assert!(text(&["jury", "-"], model).contains("H_k is the first entry r_k,0 of row k"));
+}
+
+#[test]
+fn the_readme_has_no_marks_of_a_merge() {
+    let readme = std::fs::read_to_string("README.md").unwrap();
+    assert!(readme.lines().all(|l| !["<<<<<<<", "=======", ">>>>>>>"].iter().any(|mark| l.starts_with(mark))));
+}

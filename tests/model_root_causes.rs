@@ -157,3 +157,11 @@ fn an_exponent_with_a_name_says_what_to_do() {
     assert_eq!(found.len(), 1);
     assert!(found[0].starts_with("E-exponent@4:32") && found[0].contains("write its value"), "{found:?}");
 }
+
+#[test]
+fn blocks_without_a_loop_are_told_what_to_add() {
+    let found = errors(&format!("{HEAD}{BLOCK}"));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].starts_with("E-missing@4:3 add [loop]"), "{found:?}");
+    assert!(found[0].contains("inputs = [\"r\"], outputs = [\"y\"]"), "{found:?}");
+}

@@ -92,3 +92,22 @@ fn the_locus_as_json_has_the_crossings_and_the_branches() {
         assert_eq!(branch["values"].as_array().unwrap().len(), branch["roots"].as_array().unwrap().len());
     }
 }
+
+#[test]
+fn without_inputs_the_first_one_steps() {
+    let model = "time = 'discrete'\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'plant'\n\
+        input = 'r - y'\noutput = 'y'\ntransfer = '0.5/z'\n";
+    let run = jurist_with_input(&["simulate", "-", "--json"], model.as_bytes());
+    assert!(run.stderr.contains("a unit step of 'r'"), "{}", run.stderr);
+    let document: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(document["time"].as_array().unwrap().len(), 51);
+    assert!((last(signal(&document, "y")) - 1.0 / 3.0).abs() < 1e-9);
+    let quiet = jurist_with_input(&["simulate", "-", "-q", "--duration", "2"], model.as_bytes());
+    assert_eq!((quiet.stderr.as_str(), quiet.stdout.lines().count()), ("", 4));
+    let given = jurist_with_input(&["simulate", "-", "--input", "r=2", "--json"], model.as_bytes());
+    let document: Value = serde_json::from_str(&given.stdout).unwrap();
+    assert!(given.stderr.is_empty() && (last(signal(&document, "y")) - 2.0 / 3.0).abs() < 1e-9);
+    let closed = "time = 'discrete'\nloop.matrix = [['0.5']]\n";
+    let run = jurist_with_input(&["simulate", "-"], closed.as_bytes());
+    assert!(run.stderr.contains("--initial NAME=VALUE"), "{}", run.stderr);
+}

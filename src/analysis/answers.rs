@@ -99,7 +99,7 @@ pub enum Verdict {
     Marginal,
     /// At least one root outside or at infinity.
     Unstable,
-    /// An expression of the model divides by zero.
+    /// An expression of the model divides by zero, a block loses its order, or the loop is not well posed.
     Undefined,
 }
 
@@ -130,6 +130,8 @@ pub struct PointVerdict {
     pub decay: Option<Rational>,
     /// The verdict.
     pub verdict: Verdict,
+    /// Why the loop is undefined at the point, where that is known.
+    pub undefined: Option<String>,
     /// The degree of the polynomial in all parameters.
     pub degree: usize,
     /// Finite roots by place; `None` at an undefined point.
@@ -175,6 +177,7 @@ pub fn verdict(lp: &Loop, settings: &Settings, budget: &Budget) -> Result<PointV
         radius: settings.radius.clone(),
         decay: settings.decay.clone(),
         verdict,
+        undefined: answer.undefined,
         degree,
         count,
         infinite,

@@ -12,6 +12,8 @@ use crate::poly::RationalFunction;
 pub(super) struct Prepared {
     /// The polynomial; `None` when the loop is undefined whatever the kept parameters are.
     pub polynomial: Option<CharacteristicPolynomial>,
+    /// Why the loop is undefined whatever the kept parameters are.
+    pub undefined: Option<String>,
     /// The degree while all parameters are symbolic.
     pub formal_degree: usize,
     /// The values of all parameters that are not kept.
@@ -27,6 +29,7 @@ impl Prepared {
     pub fn without_polynomial(resolved: crate::model::Resolved) -> Self {
         Prepared {
             polynomial: None,
+            undefined: None,
             formal_degree: 0,
             values: resolved.values,
             sample_time: None,
@@ -37,12 +40,16 @@ impl Prepared {
 
 pub(super) fn prepare(lp: &Loop, question: &Question, budget: &Budget) -> Result<Prepared, Failure> {
     let resolved = lp.resolve(question)?;
+    let mut undefined = None;
     let (polynomial, formal_degree) = match lp.characteristic_polynomial(question, budget) {
         Ok(polynomial) => {
             let degree = polynomial.formal_degree;
             (Some(polynomial), degree)
         }
-        Err(ModelError::Undefined(_)) => (None, symbolic_degree(lp, question, budget)?),
+        Err(ModelError::Undefined(why)) => {
+            undefined = Some(why);
+            (None, symbolic_degree(lp, question, budget)?)
+        }
         Err(error) => return Err(error.into()),
     };
     let sample_time = match lp.sample_time(question, budget) {
@@ -50,7 +57,14 @@ pub(super) fn prepare(lp: &Loop, question: &Question, budget: &Budget) -> Result
         Err(ModelError::Undefined(_)) => None,
         Err(error) => return Err(error.into()),
     };
-    Ok(Prepared { polynomial, formal_degree, values: resolved.values, sample_time, warnings: resolved.warnings })
+    Ok(Prepared {
+        polynomial,
+        undefined,
+        formal_degree,
+        values: resolved.values,
+        sample_time,
+        warnings: resolved.warnings,
+    })
 }
 
 /// The degree where the values set leave the loop undefined: that of the polynomial before any was set.

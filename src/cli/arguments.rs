@@ -31,12 +31,18 @@ pub(super) struct Arguments {
     pub main_job: commands::main_job::Options,
 }
 
+/// What the causes of ends mean.
+const CAUSES: &str = "Causes of an end: z=1, z=-1, s=0, complex pair: roots reach the boundary of stability there; infinity: the \
+    degree is lost; pole: the model is undefined there (a division by zero, a block that loses its order, a loop that is \
+    not well posed); domain: the parameter's domain ends. Several are joined by '+'.";
+
 /// The commands. Each has its file in `commands`.
 #[derive(Subcommand, Debug)]
 pub(super) enum Command {
     /// Verdict at the nominal point, and the stable set of each parameter
     Analyze(commands::analyze::Options),
     /// The exact stable set of one parameter
+    #[command(after_help = CAUSES)]
     Intervals(commands::intervals::Options),
     /// One point: stable, marginal, unstable or undefined, with the exact number of roots
     Verdict(commands::verdict::Options),
@@ -53,6 +59,7 @@ pub(super) enum Command {
     /// The built-in drive's paper once more, as one HTML report with figures
     Paper(commands::paper::Options),
     /// Re-checks a certificate against a model, with code that shares nothing with the engine
+    #[command(mut_arg("timeout", |timeout| timeout.help("Rejects the certificate after this time, with exit status 4")))]
     Verify(commands::verify::Options),
     /// What an error code means
     Explain(commands::explain::Options),

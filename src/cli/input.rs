@@ -23,7 +23,7 @@ pub(super) fn load(model: Option<&OsString>, context: &Context) -> Result<Loop, 
     } else {
         (path.to_string_lossy().into_owned(), File::open(path).and_then(read_all))
     };
-    let bytes = bytes.map_err(|e| unreadable(context, path, &name, &e))?;
+    let bytes = bytes.map_err(|e| unreadable(context, path, &name, &e, &MODEL))?;
     if bytes.len() as u64 > MAX_MODEL_BYTES {
         let message = format!("{name} is longer than {} megabytes", MAX_MODEL_BYTES >> 20);
         return Err(Diagnostic::error("E-read", message).into());
@@ -39,14 +39,33 @@ fn read_all(from: impl Read) -> std::io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-fn unreadable(context: &Context, path: &OsString, name: &str, error: &std::io::Error) -> Failure {
+/// A file that a command reads: what to say where it cannot be read.
+pub(super) struct Wanted {
+    noun: &'static str,
+    help: &'static str,
+}
+
+/// The model of a command that has the built-in drive to fall back on.
+const MODEL: Wanted =
+    Wanted { noun: "model", help: "MODEL is a TOML file, '-' for standard input; left out, it is the built-in drive" };
+
+/// The model that a certificate is about.
+pub(super) const CERTIFIED_MODEL: Wanted =
+    Wanted { noun: "model", help: "MODEL is the TOML file that the certificate is about, '-' for standard input" };
+
+/// The certificate itself.
+pub(super) const CERTIFICATE: Wanted = Wanted {
+    noun: "certificate",
+    help: "CERTIFICATE is a file that '--certificate FILE' of 'jurist intervals' or 'jurist verdict' wrote, '-' for standard input",
+};
+
+fn unreadable(context: &Context, path: &OsString, name: &str, error: &std::io::Error, wanted: &Wanted) -> Failure {
     let diagnostic = Diagnostic::error("E-read", format!("cannot read {name}: {}", plain(error)));
     let diagnostic = match context.line.argument(&path.to_string_lossy()) {
-        Some(span) => diagnostic.at(span, "no model can be read from here"),
+        Some(span) => diagnostic.at(span, format!("no {} can be read from here", wanted.noun)),
         None => diagnostic,
     };
-    let help = "MODEL is a TOML file, '-' for standard input; left out, it is the built-in drive";
-    in_line(context.line, vec![diagnostic.help(help)]).into()
+    in_line(context.line, vec![diagnostic.help(wanted.help)]).into()
 }
 
 /// The model and the settings of a command that decides; a wrong file ending is refused before any work.
@@ -117,7 +136,12 @@ fn check_name(model: &Loop, name: &str, span: Span, wrong: &mut Vec<Diagnostic>)
 }
 
 /// A text file, or standard input for `-`. The inner error says why its content is not a text.
-pub(super) fn read_text(context: &Context, path: &OsString, most: u64) -> Result<Result<String, String>, Failure> {
+pub(super) fn read_text(
+    context: &Context,
+    path: &OsString,
+    most: u64,
+    wanted: &Wanted,
+) -> Result<Result<String, String>, Failure> {
     let name = path.to_string_lossy().into_owned();
     let mut bytes = Vec::new();
     let read = if path == "-" {
@@ -125,7 +149,7 @@ pub(super) fn read_text(context: &Context, path: &OsString, most: u64) -> Result
     } else {
         File::open(path).and_then(|file| file.take(most + 1).read_to_end(&mut bytes))
     };
-    read.map_err(|e| unreadable(context, path, &name, &e))?;
+    read.map_err(|e| unreadable(context, path, &name, &e, wanted))?;
     if bytes.len() as u64 > most {
         return Ok(Err(format!("{name} is longer than {most} bytes")));
     }

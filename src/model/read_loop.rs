@@ -238,7 +238,12 @@ fn read_form(root: &Table, meant: &Meant, time: Time, reader: &mut Reader) -> Op
         if let Some(block) = blocks {
             error = error.at(block.key_span, "these blocks need a [loop] with inputs and outputs");
         }
-        reader.report(error.help("add [loop] with 'characteristic', with 'matrix', or with 'A', 'B', 'C', 'K'"));
+        reader.report(error.help(match blocks {
+            Some(_) => {
+                "add [loop] with the external signals and those of interest: inputs = [\"r\"], outputs = [\"y\"]"
+            }
+            None => "add [loop] with 'characteristic', with 'matrix', or with 'A', 'B', 'C', 'K'",
+        }));
         return None;
     };
     let table = reader.table(entry)?;

@@ -143,7 +143,10 @@ fn realise(
     let n = denominator.degree();
     let leading = substituted(&denominator.coefficient(n), set)?;
     let Some(inverse) = leading.recip() else {
-        let message = format!("the leading coefficient of the denominator of '{}' is zero", shorten(&block.name));
+        let message = format!(
+            "the leading coefficient of the denominator of '{}' is zero: the block loses its order",
+            shorten(&block.name)
+        );
         return Err(undefined(message, block.span));
     };
     poles.push(leading.numerator().clone());

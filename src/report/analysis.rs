@@ -39,6 +39,9 @@ pub fn analysis_text(answer: &Analysis, digits: usize) -> String {
     } else if let Some(first) = answer.intervals.first() {
         let title = first.question.title.as_deref().unwrap_or("the loop");
         out.push_str(&format!("{title}, {} time\n", first.question.time.name()));
+        // One parameter alone may be without a value: the one that is asked about.
+        let name = &first.question.parameter;
+        out.push_str(&format!("    no verdict: parameter {name} has no nominal value\n"));
     }
     for intervals in &answer.intervals {
         let question = &intervals.question;

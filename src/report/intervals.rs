@@ -4,9 +4,9 @@ use super::layout::{Columns, fraction, named_values, short};
 use super::margins::margin;
 use super::{json, real, region};
 use crate::analysis::{Decision, Intervals, OneParameter, frequency};
-use crate::number::Rational;
+use crate::number::{Rational, parse_number};
 use crate::poly::RealAlgebraic;
-use crate::stability::{End, IntervalSet, Range, StableSet};
+use crate::stability::{Cause, End, IntervalSet, Range, StableSet};
 use serde_json::Value;
 
 /// The document `jurist/intervals/1`.
@@ -59,6 +59,9 @@ pub(super) fn answer_lines(answer: &Intervals, digits: usize) -> String {
         Decision::Undecided { budget, reached } => {
             format!("{asked}: undecided, the budget ran out: {budget}; reached: {reached}\n")
         }
+        Decision::Decided(set) if set.is_empty() && question.polynomial.is_none() => {
+            format!("{asked}: {goal} nowhere, undefined for every {name}\n")
+        }
         Decision::Decided(set) if set.is_empty() => format!("{asked}: {goal} nowhere\n"),
         Decision::Decided(set) => {
             let mut out = format!("{asked}: {goal} for\n");
@@ -83,35 +86,63 @@ pub(super) fn domain_text(name: &str, range: &Range) -> String {
 
 /// `0.038 < K < 550.9`, one line for each interval.
 pub(super) fn set_lines(name: &str, set: &IntervalSet, digits: usize) -> Vec<String> {
-    let decimal = |x: &RealAlgebraic| real::rounded(x, digits).decimal;
-    let line = |i: &crate::stability::AlgebraicInterval| match (&i.lower, &i.upper) {
+    let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten().collect::<Vec<_>>();
+    let mut decimals = distinct_decimals(&ends, digits).into_iter();
+    let mut decimal = |end: &Option<RealAlgebraic>| end.as_ref().and_then(|_| decimals.next());
+    let line = |i: &crate::stability::AlgebraicInterval| match (decimal(&i.lower), decimal(&i.upper)) {
         (None, None) => format!("every {name}"),
-        (Some(l), None) => format!("{name} > {}", decimal(l)),
-        (None, Some(u)) => format!("{name} < {}", decimal(u)),
-        (Some(l), Some(u)) => format!("{} < {name} < {}", decimal(l), decimal(u)),
+        (Some(l), None) => format!("{name} > {l}"),
+        (None, Some(u)) => format!("{name} < {u}"),
+        (Some(l), Some(u)) => format!("{l} < {name} < {u}"),
     };
     set.intervals().iter().map(line).collect()
+}
+
+/// Digits up to which two ends that are close are told apart.
+const MOST_DIGITS: usize = 100;
+
+/// Decimals of ascending values. Different values that round to the same decimal have more digits, so many
+/// that all of them can be told apart.
+fn distinct_decimals(values: &[&RealAlgebraic], digits: usize) -> Vec<String> {
+    let decimals = |values: &[&RealAlgebraic], digits| -> Vec<String> {
+        values.iter().map(|x| real::rounded(x, digits).decimal).collect()
+    };
+    let mut out = decimals(values, digits);
+    let mut first = 0;
+    while first < values.len() {
+        let same = out[first..].iter().take_while(|d| **d == out[first]).count();
+        let group = &values[first..first + same];
+        let differ: Vec<bool> = group.windows(2).map(|pair| pair[0].compare(pair[1]).is_ne()).collect();
+        if differ.contains(&true) {
+            // Exact decimals have no trailing zeros, so that only their values tell.
+            let tell = |d: &Vec<String>| {
+                let apart =
+                    |(pair, differ): (&[String], &bool)| !differ || parse_number(&pair[0]) != parse_number(&pair[1]);
+                d.windows(2).zip(&differ).all(apart)
+            };
+            if let Some(longer) = (digits + 1..=MOST_DIGITS).map(|more| decimals(group, more)).find(tell) {
+                out.splice(first..first + same, longer);
+            }
+        }
+        first += same;
+    }
+    out
 }
 
 /// A row for each end: value, cause, frequency, margin.
 fn end_lines(set: &StableSet, question: &OneParameter, digits: usize) -> String {
     let mut columns = Columns::new("    ");
-    let mut last: Option<&RealAlgebraic> = None;
-    for interval in set.intervals() {
-        for end in [&interval.lower, &interval.upper].into_iter().flatten() {
-            // Two intervals that touch share an end.
-            if last.is_some_and(|l| l.compare(&end.value).is_eq()) {
-                continue;
-            }
-            last = Some(&end.value);
-            columns.row(end_cells(end, question, digits));
-        }
+    let mut ends: Vec<&End> = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten().collect();
+    // Two intervals that touch share an end.
+    ends.dedup_by(|b, a| a.value.compare(&b.value).is_eq());
+    let values: Vec<&RealAlgebraic> = ends.iter().map(|end| &end.value).collect();
+    for (end, decimal) in ends.iter().zip(distinct_decimals(&values, digits)) {
+        columns.row(end_cells(end, decimal, question, digits));
     }
     if columns.is_empty() { String::new() } else { format!("ends\n{columns}") }
 }
 
-fn end_cells(end: &End, question: &OneParameter, digits: usize) -> Vec<String> {
-    let decimal = real::rounded(&end.value, digits).decimal;
+fn end_cells(end: &End, decimal: String, question: &OneParameter, digits: usize) -> Vec<String> {
     let exact = match end.value.exact() {
         Some(exact) if !is_decimal_of(&decimal, &exact) => match fraction(&exact) {
             Ok(whole) => format!("= {whole}"),
@@ -133,25 +164,30 @@ fn end_cells(end: &End, question: &OneParameter, digits: usize) -> Vec<String> {
         at.push(format!("{rate} rad/s"));
     }
     let causes = region::causes_text(&end.causes, question);
-    let cause = if at.is_empty() { causes } else { format!("{causes} at {}", at.join(", ")) };
-    let margin = margin(&end.value, question.nominal.as_ref(), places).map(|m| {
+    let mut cause = if at.is_empty() { causes } else { format!("{causes} at {}", at.join(", ")) };
+    if end.causes.contains(Cause::Pole) {
+        cause.push_str(": the model is undefined here");
+    }
+    // A gain margin of a time means nothing in decibels.
+    let is_time = question.sample_time.as_ref().is_some_and(|(n, d)| !(n.is_constant() && d.is_constant()));
+    let margin = margin(&end.value, question.nominal.as_ref(), places).and_then(|m| {
         let nominal = question.nominal.as_ref().map(short).unwrap_or_default();
-        match m.decibels {
-            Some(db) => format!("{} x nominal {nominal} ({db} dB)", decimal_factor(&m.factor, places)),
-            None => format!("0 x nominal {nominal}"),
-        }
+        // That an end at 0 is 0 x nominal goes without saying.
+        let decibels = m.decibels?;
+        let factor = format!("{} x nominal {nominal}", decimal_factor(&m.factor, places));
+        Some(if is_time { factor } else { format!("{factor} ({decibels} dB)") })
     });
     vec![decimal, exact, cause, margin.unwrap_or_default()]
 }
 
 /// An exact factor as a decimal.
 fn decimal_factor(factor: &str, digits: usize) -> String {
-    match crate::number::parse_number(factor) {
+    match parse_number(factor) {
         Ok(value) => crate::number::to_decimal(&value, digits),
         Err(_) => factor.to_owned(),
     }
 }
 
 fn is_decimal_of(decimal: &str, value: &Rational) -> bool {
-    crate::number::parse_number(decimal).as_ref() == Ok(value)
+    parse_number(decimal).as_ref() == Ok(value)
 }

@@ -165,13 +165,14 @@ fn conditions_text(job: &MainJob, digits: usize) -> String {
     let (Some(a), Some(b)) = (test(&job.amplitude), test(&job.period)) else { return String::new() };
     let piece = |answer: &TableAnswer, set: &IntervalSet| {
         let question = &answer.question;
-        let lines = set_lines(&question.parameter, set, digits.min(9));
-        let around = |i: &AlgebraicInterval| question.nominal.as_ref().is_some_and(|n| i.contains(n));
-        let shown = set.intervals().iter().position(around).unwrap_or(0);
-        match (lines.get(shown), lines.len()) {
-            (None, _) => "nowhere".to_owned(),
-            (Some(line), 1) => line.clone(),
-            (Some(line), n) => format!("{line} (and {} more)", n - 1),
+        let around = |i: &&AlgebraicInterval| question.nominal.as_ref().is_some_and(|n| i.contains(n));
+        let intervals = set.intervals();
+        let Some(shown) = intervals.iter().find(around).or(intervals.first()) else { return "nowhere".to_owned() };
+        // Alone, so that its ends need not be told apart from others that are not shown.
+        let line = set_lines(&question.parameter, &IntervalSet::from_iter([shown.clone()]), digits.min(9)).remove(0);
+        match intervals.len() {
+            1 => line,
+            n => format!("{line} (and {} more)", n - 1),
         }
     };
     let mut columns = Columns::new("  ");

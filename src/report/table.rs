@@ -82,12 +82,26 @@ fn rows_json(test: &ClassicalTest, numeric: bool) -> Value {
     rows(test).into_iter().map(row).collect::<Vec<_>>().into()
 }
 
-/// Name and sides of each condition; `|left| > |right|` or `left > right`.
-fn condition_json(condition: &crate::stability::Condition, numeric: bool) -> Map<String, Value> {
+/// The row of the table that a condition is on; none for the values at 1 and -1.
+fn condition_row(test: &ClassicalTest, index: usize) -> Option<String> {
+    match &test.table {
+        Table::Jury(_) => index.checked_sub(2).map(row_name),
+        Table::Routh(_) => Some(format!("s^{}", order(test).saturating_sub(index + 1))),
+    }
+}
+
+/// Name, sides and row of each condition; `left > right`, or `|left| > |right|`, or as it is named
+/// `|left| < |right|`.
+fn condition_json(test: &ClassicalTest, index: usize, numeric: bool) -> Map<String, Value> {
+    let condition = &test.conditions[index];
     let (relation, left, right) = match &condition.inequality {
         Inequality::Positive(f) => {
             let zero = ScaledPoly { scale: Rational::ONE, polynomial: UniPoly::zero() };
             ("left > right", entry_json(f, numeric), entry_json(&zero, numeric))
+        }
+        // Textbooks write the first row's condition the other way round: |a_0| < a_n.
+        Inequality::Dominates { left, right } if condition.name.contains('<') => {
+            ("|left| < |right|", entry_json(right, numeric), entry_json(left, numeric))
         }
         Inequality::Dominates { left, right } => {
             ("|left| > |right|", entry_json(left, numeric), entry_json(right, numeric))
@@ -98,6 +112,7 @@ fn condition_json(condition: &crate::stability::Condition, numeric: bool) -> Map
     out.insert("relation".into(), relation.into());
     out.insert("left".into(), left);
     out.insert("right".into(), right);
+    out.insert("row".into(), condition_row(test, index).map_or(Value::Null, Value::from));
     out
 }
 
@@ -125,8 +140,8 @@ pub fn table_json(answer: &TableAnswer, digits: usize) -> Value {
     if let Some(factor) = &test.cleared_by {
         out.insert("cleared_by".into(), json::polynomial(factor));
     }
-    let conditions = test.conditions.iter().map(|c| {
-        let mut out = condition_json(c, false);
+    let conditions = test.conditions.iter().enumerate().map(|(i, c)| {
+        let mut out = condition_json(test, i, false);
         out.insert("solution".into(), json::interval_set(&c.solution, digits));
         Value::Object(out)
     });
@@ -152,8 +167,9 @@ pub fn point_table_json(answer: &PointTable) -> Value {
     json::relative(&mut out, answer.radius.as_ref(), answer.decay.as_ref());
     let test = answer.test.as_ref();
     out.insert("rows".into(), test.map_or(json!([]), |t| rows_json(t, true)));
-    let conditions = test.iter().flat_map(|t| &t.conditions).map(|c| {
-        let mut out = condition_json(c, true);
+    let conditions = test.iter().flat_map(|t| t.conditions.iter().enumerate().map(move |(i, c)| (t, i, c)));
+    let conditions = conditions.map(|(test, i, c)| {
+        let mut out = condition_json(test, i, true);
         out.insert("holds".into(), (!c.solution.intervals().is_empty()).into());
         Value::Object(out)
     });
@@ -192,7 +208,7 @@ pub fn table_text(answer: &TableAnswer, digits: usize) -> String {
     }
     out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has them exactly)\n"));
     out.push_str(&entries_text(test, Some(&question.parameter), digits));
-    out.push_str("\nConditions, each with its exact solution set\n");
+    out.push_str(&format!("\nConditions, each with its exact solution set\n{}", determinants(test)));
     out.push_str(&conditions_text(test, &question.parameter, digits));
     out
 }
@@ -254,7 +270,7 @@ pub fn point_table_text(answer: &PointTable, digits: usize) -> String {
     out.push_str(&scheme(test));
     out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has them exactly)\n"));
     out.push_str(&entries_text(test, None, digits));
-    out.push_str("\nConditions\n");
+    out.push_str(&format!("\nConditions\n{}", determinants(test)));
     let mut columns = Columns::new("  ");
     for c in &test.conditions {
         let holds = if c.solution.intervals().is_empty() { "does not hold" } else { "holds" };
@@ -264,6 +280,14 @@ pub fn point_table_text(answer: &PointTable, digits: usize) -> String {
     columns.row(["all together".to_owned(), all.to_owned()]);
     out.push_str(&columns.to_string());
     out
+}
+
+/// How Routh's conditions are named after the rows.
+fn determinants(test: &ClassicalTest) -> &'static str {
+    match test.table {
+        Table::Routh(_) => "  (H_k is the first entry r_k,0 of row k, the Hurwitz determinant of order k)\n",
+        Table::Jury(_) => "",
+    }
 }
 
 /// The arrangement of the rows by their names, as textbooks print it.

@@ -34,11 +34,13 @@ pub fn verdict_text(answer: &PointVerdict) -> String {
     format!("{point}\n{}\n", verdict_line(answer))
 }
 
-/// `unstable: of 6 roots 4 are inside the unit circle, 2 outside`.
+/// `unstable: 4 roots inside the unit circle, 0 on it, 2 outside`.
 pub(super) fn verdict_line(answer: &PointVerdict) -> String {
     let name = answer.verdict.name();
     let Some(count) = answer.count else {
-        return format!("{name}: an expression of the model divides by zero here");
+        let unknown =
+            "an expression of the model divides by zero, a block loses its order, or the loop is not well posed";
+        return format!("{name}: {}", answer.undefined.as_deref().unwrap_or(unknown));
     };
     let boundary = match (answer.time, &answer.radius, &answer.decay) {
         (Time::Discrete, Some(r), _) => format!("the circle |z| = {}", short(r)),
@@ -48,7 +50,7 @@ pub(super) fn verdict_line(answer: &PointVerdict) -> String {
     };
     let (inner, outer) = match answer.time {
         Time::Discrete => ("inside", "outside"),
-        Time::Continuous => ("left of", "right of"),
+        Time::Continuous => ("left of", "right of it"),
     };
     let degree = answer.degree;
     if degree > 0 && count.total() == 0 && answer.infinite == degree {
@@ -58,7 +60,8 @@ pub(super) fn verdict_line(answer: &PointVerdict) -> String {
     if answer.verdict == Verdict::Stable {
         return match degree {
             0 => format!("{name}: the characteristic polynomial is a constant"),
-            n => format!("{name}: all {n} {} {inner} {boundary}", roots(n)),
+            1 => format!("{name}: the root is {inner} {boundary}"),
+            n => format!("{name}: all {n} roots are {inner} {boundary}"),
         };
     }
     let mut line = format!(

@@ -15,7 +15,8 @@ pub enum Cause {
     RootAtZero,
     /// The leading coefficient vanishes: a root leaves through infinity.
     DegreeLost,
-    /// The loop is undefined there: an expression divides by zero.
+    /// The loop is undefined there: an expression divides by zero, a block loses its order, or the loop is
+    /// not well posed.
     Pole,
     /// The parameter's domain ends there.
     Domain,

@@ -25,6 +25,9 @@ const MOST_SAMPLES: f64 = 2e7;
 /// Samples of a continuous loop over the duration.
 const CONTINUOUS_SAMPLES: f64 = 2000.0;
 
+/// Samples where the model and the command line name no duration and a second has fewer.
+const LEAST_SAMPLES: f64 = 50.0;
+
 /// Where in its period a pulse lies.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
 pub(in crate::cli) enum PulsePlace {
@@ -42,13 +45,14 @@ pub(in crate::cli) enum PulsePlace {
 pub(in crate::cli) struct Options {
     #[command(flatten)]
     pub model: ModelOptions,
-    /// Gives an input a value, from a time on if one is named [repeatable]
+    /// Gives an input a value, from a time on if one is named [repeatable; with none: a unit step of the first]
     #[arg(long, value_name = "NAME=VALUE[@SECONDS]")]
     pub input: Vec<String>,
     /// Gives a state its value at the beginning [repeatable]
     #[arg(long, value_name = "NAME=VALUE")]
     pub initial: Vec<String>,
-    /// How long to simulate, in seconds (in samples without a sample time)
+    /// How long to simulate, in seconds (in samples without a sample time) [default: the model's, else 1 s
+    /// and at least 50 samples]
     #[arg(long, value_name = "SECONDS")]
     pub duration: Option<String>,
     /// Simulates the switching circuit, for every block with a 'pwm' entry
@@ -79,6 +83,8 @@ struct Course {
     inputs: Vec<(String, f64, f64)>,
     initial: Vec<(String, f64)>,
     duration: f64,
+    /// Fewer samples are too few to see; 1 where a duration was asked for.
+    least_samples: f64,
 }
 
 /// Draws to a file or on the terminal.
@@ -145,7 +151,26 @@ impl Course {
             let (name, value, _) = parsed("--initial", text, context)?;
             initial.push((name, value));
         }
-        Ok(Course { inputs, initial, duration })
+        if inputs.is_empty() && initial.is_empty() && !options.steady {
+            let what = match model.inputs().first() {
+                Some(first) => {
+                    inputs.push((first.name.clone(), 0.0, 1.0));
+                    format!(
+                        "a unit step of '{}', since no input is given; --input NAME=VALUE or [simulation] gives others",
+                        first.name
+                    )
+                }
+                None => {
+                    "the loop has no inputs and begins at rest: --initial NAME=VALUE gives a state a value".to_owned()
+                }
+            };
+            if !options.run.quiet {
+                note(&what);
+            }
+        }
+        let asked = options.duration.is_some() || defaults.duration.is_some();
+        let least_samples = if asked { 1.0 } else { LEAST_SAMPLES };
+        Ok(Course { inputs, initial, duration, least_samples })
     }
 
     /// Inputs as steps at samples `period` apart.
@@ -155,7 +180,7 @@ impl Course {
     }
 
     fn samples(&self, period: f64) -> Result<usize, Failure> {
-        let count = (self.duration / period).round().max(1.0);
+        let count = (self.duration / period).round().max(self.least_samples);
         if count > MOST_SAMPLES {
             let message = format!("{count:e} samples are too many for a simulation");
             return Err(Diagnostic::error("E-simulation", message).help("shorten it with --duration").into());

@@ -4,7 +4,7 @@ use super::Context;
 use crate::certificate::check::{Limits, check};
 use crate::certificate::format::MAX_TEXT;
 use crate::cli::arguments::RunOptions;
-use crate::cli::input::read_text;
+use crate::cli::input::{CERTIFICATE, CERTIFIED_MODEL, read_text};
 use crate::cli::output::{note, write_answer};
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
@@ -25,8 +25,8 @@ pub(in crate::cli) struct Options {
 
 /// Prints the proved statement; the status is 4 for a certificate that proves nothing.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
-    let model = read_text(context, &options.model, MAX_TEXT as u64)?;
-    let certificate = read_text(context, &options.certificate, MAX_TEXT as u64)?;
+    let model = read_text(context, &options.model, MAX_TEXT as u64, &CERTIFIED_MODEL)?;
+    let certificate = read_text(context, &options.certificate, MAX_TEXT as u64, &CERTIFICATE)?;
     let limits = options.run.timeout.map_or_else(Limits::default, |timeout| Limits { timeout });
     let result = match (&model, &certificate) {
         (Ok(model), Ok(certificate)) => check(model, certificate, &limits).map_err(|rejection| rejection.to_string()),

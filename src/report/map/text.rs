@@ -118,7 +118,10 @@ fn region_text(
 
 /// `complex pair at 1.2 Hz, 0.4 rad`.
 fn mechanism(limit: &MapLimit, answer: &Map) -> String {
-    let causes = map_causes_text(&limit.limit.causes, answer);
+    let mut causes = map_causes_text(&limit.limit.causes, answer);
+    if limit.limit.causes.contains(Cause::Pole) {
+        causes.push_str(" (undefined there)");
+    }
     let Some(frequency) = &limit.frequency else { return causes };
     let decimal = |e: &Enclosure| enclosed_decimal(e.lower(), e.upper(), FREQUENCY_DIGITS);
     let mut at = Vec::new();
