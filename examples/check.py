@@ -15,9 +15,8 @@ import sys
 import threading
 import tomllib
 from fractions import Fraction
-from functools import cache
 from itertools import zip_longest
-from math import gcd, lcm
+from math import gcd, lcm, prod
 
 MAX_DIGITS = 100_000
 MAX_TEXT = 64 << 20
@@ -180,6 +179,14 @@ class P:
             out[k][monomial((*e[:v], 0, *e[v + 1:]))] = c
         return [P(terms) for terms in out]
 
+    def coefficient(self, v, k):
+        """That of the k-th power of one variable."""
+        return P({monomial((*e[:v], 0, *e[v + 1:])): c for e, c in self.terms.items() if (e[v] if len(e) > v else 0) == k})
+
+    def primitive(self):
+        """Integers without a common factor; a positive factor is lost."""
+        return P(dict(zip(self.terms, primitive(list(self.terms.values())))))
+
     def in_parameter(self):
         """A polynomial in variable 1 alone, as a list."""
         return (self.rows() or [[]])[0]
@@ -211,7 +218,7 @@ class P:
             while rest.terms and rest.degree(v) >= b.degree(v):
                 top = rest.coefficients(v)[-1] * P.variable(v) ** (rest.degree(v) - b.degree(v))
                 rest = rest * lead - b * top
-            a, b = b, rest / rest.content(v) if rest.terms else ZERO
+            a, b = b, (rest / rest.content(v)).primitive() if rest.terms else ZERO
         return content if b.terms else content * a
 
     def with_values(self, values):
@@ -369,9 +376,43 @@ def several(toml):
 def dot(row, vector):
     return sum((c * x for c, x in zip(row, vector) if c.top.terms), F(ZERO))
 
+def finite(text):
+    need("n" not in text, f"{text} is not a number of a model")
+    return text
+
+KNOWN = {
+    "model": "title time sample_time constants parameters loop block simulation",
+    "parameter": "nominal min max unit description",
+    "loop": "characteristic matrix A B C K states inputs E outputs",
+    "loop of blocks": "inputs outputs",
+    "block": "name input output discretize pwm transfer num den gain delay A B C D",
+    "discretize": "method T c",
+    "pwm": "amplitude carrier period",
+    "simulation": "inputs initial duration units",
+}
+
+def known_keys(root):
+    """Rejects every key that has no meaning: it may be a misspelt one that has."""
+    def only(table, kind):
+        need(isinstance(table, dict), f"{kind}: not a table")
+        unknown = set(table) - set(KNOWN[kind].split())
+        need(not unknown, f"{kind}: unknown key {min(unknown, default='')!r:.60}")
+
+    only(root, "model")
+    only(root.get("loop", {}), "loop of blocks" if "block" in root else "loop")
+    only(root.get("simulation", {}), "simulation")
+    for parameter in root.get("parameters", {}).values():
+        if isinstance(parameter, dict):  # otherwise it is the nominal value
+            only(parameter, "parameter")
+    for block in root.get("block", []):
+        only(block, "block")
+        for kind in {"discretize", "pwm"} & set(block):
+            only(block[kind], kind)
+
 def characteristic_polynomial(text, kept, values):
     """(discrete, degree, coefficients of z^0, z^1, ... as polynomials in the parameter, poles)."""
-    root = tomllib.loads(text, parse_float=str)
+    root = tomllib.loads(text.removeprefix("\ufeff"), parse_float=finite)
+    known_keys(root)
     need(root.get("time") in ("discrete", "continuous"), "the model has no time")
     discrete = root["time"] == "discrete"
     z = "z" if discrete else "s"
@@ -392,13 +433,13 @@ def characteristic_polynomial(text, kept, values):
     loop = root.get("loop", {})
     forms = ("characteristic" in loop, "matrix" in loop, any(k in loop for k in "ABCK"), "block" in root)
     need(sum(forms) == 1, "the model has not exactly one form of loop")
-    first, written = scope.unused, None
+    first, written, own = scope.unused, None, []
     if forms[0]:
         written = scope.value(loop["characteristic"], {z: Z})
         need(written.bottom.degree(0) == 0, "the polynomial divides by its variable")
         degree = written.top.degree(0)
     elif forms[3]:
-        equations, degree = diagram(loop, root["block"], z, scope)
+        equations, own, degree = diagram(loop, root["block"], z, scope)
     else:
         degree = len(loop["matrix"] if forms[1] else loop["A"])
         x = [F(scope.unknown()) for _ in range(degree)]
@@ -424,13 +465,18 @@ def characteristic_polynomial(text, kept, values):
         d, lead = written.top.with_values(numbers), written.bottom.with_values(numbers)
     else:
         need(len(equations) == scope.unused - first, "there are not as many equations as unknowns")
-        unknowns = range(first, scope.unused)
-        rows = [[(e.top.coefficients(v) + [ZERO, ZERO])[1] for v in unknowns] for e in equations]
-        d = determinant([[coefficient.with_values(numbers) for coefficient in row] for row in rows])
-        need(d.degree(0) <= degree, "a determinant has too high a degree")
-        lead = (d.coefficients(0) + [ZERO] * (degree + 1))[degree]
-        if forms[3]:  # not well posed, or a block loses its order
+
+        def system(equations, unknowns, degree):
+            """Determinant and leading coefficient."""
+            d = determinant([[e.top.coefficient(v, 1).with_values(numbers) for v in unknowns] for e in equations])
+            need(d.degree(0) <= degree, "a determinant has too high a degree")
+            return d, d.coefficient(0, degree)
+
+        d, lead = system(equations, range(first, scope.unused), degree)
+        if forms[3]:  # not well posed
             poles.append(lead.in_parameter())
+        for states, among in own:  # a block loses its order, which the other blocks' numerators can hide
+            poles.append(system(states, among, len(states))[1].in_parameter())
     if not lead.terms or not all(poles):
         return discrete, degree, ZERO, [[]]
     common = d.content(0).common(lead)  # to lowest terms
@@ -439,23 +485,36 @@ def characteristic_polynomial(text, kept, values):
     return discrete, degree, d / common, poles
 
 def determinant(m):
-    """By expansion along the rows, up to its sign; equal minors are computed once."""
-    m = sorted(m, key=lambda row: sum(bool(e.terms) for e in row))
+    """Up to a number, by Bareiss' elimination of integers [Bareiss1968].
 
-    @cache
-    def minor(i, columns):
-        """Of the rows from i on and as many columns."""
-        out = ZERO if columns else ONE
-        for k, j in enumerate(columns):
-            if m[i][j].terms:
-                term = m[i][j] * minor(i + 1, columns[:k] + columns[k + 1:])
-                out = out - term if k % 2 else out + term
-        return out
-    return minor(0, tuple(range(len(m))))
+    The variables are powers of 2 so large that the coefficients can be read off the value, digit by digit.
+    """
+    rows = [primitive([c for e in row for c in e.terms.values()]) for row in m]
+    bits = prod(sum(map(abs, row)) for row in rows).bit_length() + 1  # no coefficient is greater than the product
+    width = 1 + sum(max(e.degree(1) for e in row) for row in m)
+    for i, row in enumerate(m):
+        numbers = iter(rows[i])
+        exponents = [[(*e, 0, 0)[:2] for e in entry.terms] for entry in row]
+        rows[i] = [sum(next(numbers) << bits * (j * width + k) for j, k in entry) for entry in exponents]
+    last = 1
+    while rows:
+        pivot = min((row for row in rows if row[0]), key=lambda row: abs(row[0]), default=None)
+        if pivot is None:
+            return ZERO
+        rows.remove(pivot)
+        rows = [[(pivot[0] * x - row[0] * y) // last for x, y in zip(row[1:], pivot[1:])] for row in rows]
+        last = pivot[0]
+    digits = []
+    while last:
+        digit = last & (1 << bits) - 1
+        digits.append(digit - (digit >> bits - 1 << bits))
+        last = last - digits[-1] >> bits
+    return P({monomial(divmod(k, width)): c for k, c in enumerate(digits)})
 
 def diagram(loop, blocks, z, scope):
-    """The equations of all blocks in the driven signals and the states, and the sum of the orders."""
-    first, equations, degree = scope.unused, [], 0
+    """The equations of all blocks in the driven signals and the states; of each block with states its own equations
+    and states; and the sum of the orders."""
+    first, equations, own, degree = scope.unused, [], [], 0
     driven = [name for block in blocks for name in several(block.get("output", []))]
     external = several(loop.get("inputs", []))
     signals = {name: ZERO for name in external} | {name: scope.unknown() for name in driven}
@@ -482,7 +541,7 @@ def diagram(loop, blocks, z, scope):
         kinds = [any(k in block for k in keys) for keys in (["transfer"], ["gain"], ["delay"], ["num", "den"], "ABCD")]
         need(sum(kinds) == 1, "a block does not say exactly once what it does")
         if kinds[4]:
-            order = len(block.get("A", []))
+            order, state = len(block.get("A", [])), scope.unused
             need(("A" in block) == ("B" in block) and ("A" in block or "C" not in block), "A and B are needed")
             sizes = {"A": (order, order), "B": (order, len(inputs)), "C": (len(outputs), order)}
             sizes["D"] = (len(outputs), len(inputs))
@@ -492,6 +551,7 @@ def diagram(loop, blocks, z, scope):
             need(len(seen) == len(outputs), "sizes do not fit")
             for i in range(order):
                 equations.append(F(up) * x[i] - F(down) * (dot(a[i], x) + dot(b[i], inputs)))
+            own.append((equations[len(equations) - order:], range(state, state + order)))
             for i, y in enumerate(outputs):
                 equations.append(y - seen[i] - (dot(d[i], inputs) if d else F(ZERO)))
             degree += order
@@ -511,14 +571,16 @@ def diagram(loop, blocks, z, scope):
             num, den = f.top, f.bottom
         order = den.degree(0)
         need(den.terms and num.degree(0) <= order, "a transfer function is improper")
+        scope.divisors.append(den.coefficient(0, order))
         if "discretize" in block:
             num, den = (sum((c * up ** k * down ** (order - k) for k, c in enumerate(p.coefficients(0))), ZERO)
                         for p in (num, den))
+            scope.divisors.append(den.coefficient(0, order))
         equations.append(F(den) * outputs[0] - F(num) * inputs[0])
         degree += order
     for output in several(loop.get("outputs", [])):
         scope.value(output, signals)
-    return equations, degree
+    return equations, own, degree
 
 # ---------------------------------------------------------------- roots and boundaries
 
@@ -671,9 +733,7 @@ def in_region(d, n, discrete, extent):
     extent = P.variable(1) if extent == "parameter" else P({(): extent})
     argument = Z * extent if discrete else Z - extent
     d = sum((c * argument ** k for k, c in enumerate(d.coefficients(0))), ZERO)
-    m = lcm(*(Fraction(c).denominator for c in d.terms.values()))
-    g = gcd(*(int(c * m) for c in d.terms.values()))
-    rows = [[int(c * m) // g for c in row] for row in d.rows()]
+    rows = d.primitive().rows()
     return rows + [[]] * (n + 1 - len(rows))
 
 def check(model, certificate):
@@ -854,7 +914,7 @@ def main():
     timer.daemon = True
     timer.start()
     try:
-        texts = [open(name, encoding="utf-8").read(MAX_TEXT + 1) for name in sys.argv[1:]]
+        texts = [open(name, encoding="utf-8", newline="").read(MAX_TEXT + 1) for name in sys.argv[1:]]
     except (OSError, UnicodeDecodeError) as error:
         accepted, sentence = False, str(error)
     else:
