@@ -2,8 +2,10 @@
 
 mod certificates;
 
-use certificates::checkers::{accept, reject};
+use certificates::checkers::{accept, python, reject};
+use certificates::{emitted, verdict_emitted};
 use jurist::certificate::check::Step;
+use std::time::{Duration, Instant};
 
 /// Rejected after each of the changes (all of them together in one entry).
 fn reject_changes(model: &str, certificate: &str, changes: &[(Step, &[(&str, &str)])]) {
@@ -409,4 +411,74 @@ fn verdicts() {
             (Format, &[(r#""kind": "verdict""#, r#""kind": "intervals""#)]),
         ],
     );
+}
+
+/// `inf` and `nan` are numbers of TOML, here also names; keys with another meaning, or none; marks before the text.
+#[test]
+fn texts_that_are_no_models() {
+    let good = format!("{}\nconstants.c = 1\nparameters.inf = 1\nparameters.nan = 1", model("discrete", "z - c*K"));
+    let text = emitted(&good, "K");
+    accept(&good, &text);
+    accept(&format!("\u{feff}{good}"), &text);
+    for named in ["inf", "+inf", "-inf", "nan", "+nan"] {
+        reject(&good.replace("c = 1", &format!("c = {named}")), &text, Step::Model);
+    }
+    for further in ["simulation.steps = 3", "loop.a = 1", "parameters.d = { value = 1 }", "name = 'K'"] {
+        reject(&format!("{good}\n{further}"), &text, Step::Model);
+    }
+    let described = "title = 'one'\nsimulation = { inputs = {}, initial = {}, duration = 3, units = {} }\n";
+    let declared = "K = { unit = '1', description = 'gain', max = 1e3 }";
+    accept(&format!("{described}{}", good.replace("K = {}", declared)), &text);
+
+    let block = "time = 'discrete'\nparameters.K = {}\nloop.inputs = 'r'\n\
+                 block = [{ input = 'r - y', output = 'y', transfer = 'K/s', discretize = { method = 'forward', T = 1 } }]";
+    let text = emitted(block, "K");
+    accept(block, &text);
+    for (from, to) in [
+        ("input =", "feedback = 1, input ="),
+        ("method =", "rule = 1, method ="),
+        ("transfer =", "pwm = { amplitude = 1, carrier = 1, period = 1, phase = 1 }, transfer ="),
+    ] {
+        reject(&block.replacen(from, to, 1), &text, Step::Model);
+    }
+    for key in ["states = 'x'", "E = []"] {
+        // Of no influence on the statement; the engine and Python refuse them beside blocks.
+        assert!(
+            python(&block.replace("loop.inputs", &format!("loop.{key}\nloop.inputs")), &text)
+                .is_none_or(|a| a.is_err())
+        );
+    }
+}
+
+/// Full matrices and blocks in a ring: no way through them is short, and elimination is.
+#[test]
+fn determinants_without_zeros_are_quick() {
+    let rows: Vec<String> = (0..18)
+        .map(|i| {
+            let entry = |j: usize| format!("'{}/{}'", (i * i + 7 * j + i * j) % 19 + 1, 37 + (3 * i + 5 * j) % 11);
+            format!("[{}]", (0..18).map(entry).collect::<Vec<_>>().join(", "))
+        })
+        .collect();
+    let full = format!("time = 'discrete'\nparameters.K = {{}}\nloop.matrix = [{}]", rows.join(", "));
+    let full = full.replacen("'1/37'", "'K/37'", 1);
+    let ring: Vec<String> = (0..16)
+        .map(|i| {
+            let input = if i == 0 { "r - y15".to_owned() } else { format!("y{}", i - 1) };
+            let discretize = "discretize = { method = 'tustin', T = 'K' }";
+            format!(
+                "{{ input = '{input}', output = 'y{i}', transfer = '{}/(10*s + {})', {discretize} }}",
+                i + 1,
+                10 + i
+            )
+        })
+        .collect();
+    let ring = format!("time = 'discrete'\nparameters.K = {{}}\nloop.inputs = 'r'\nblock = [{}]", ring.join(", "));
+    for model in [full, ring] {
+        let text = verdict_emitted(&model, "K", "1/3");
+        accept(&model, &text);
+        let start = Instant::now();
+        if python(&model, &text).is_some() {
+            assert!(start.elapsed() < Duration::from_secs(20), "{:?} for\n{model}", start.elapsed());
+        }
+    }
 }
