@@ -74,6 +74,7 @@ fn misspelt_keys_are_no_models() {
         reject(&model.replace(from, to), &text, Step::Model);
     }
     reject(&model.replace("discretize", "discretise"), &other, Step::Model);
+    reject(&model.replace("inputs", "states = ['x']\ninputs"), &text, Step::Model);
     reject(&model.replace("p = {}", "p = { nominale = 1 }"), &text, Step::Model);
 }
 

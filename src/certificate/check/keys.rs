@@ -20,6 +20,11 @@ pub(super) fn known(model: &Toml) -> Result<(), String> {
     if let Some(table) = model.get("simulation") {
         only(table, &["inputs", "initial", "duration", "units"], "[simulation]")?;
     }
+    if let (Some(table), Some(_)) = (model.get("loop"), model.get("block"))
+        && let Some(key) = ["states", "E"].iter().find(|key| table.get(key).is_some())
+    {
+        return Err(format!("'{key}' does not go with blocks"));
+    }
     for block in model.get("block").map(Toml::one_or_more).unwrap_or_default() {
         only(block, &BLOCK, "a block")?;
         if let Some(table) = block.get("discretize") {
