@@ -72,6 +72,18 @@ fn inside_the_certified_limits_every_drawn_root_is_inside_the_circle() {
     }
 }
 
+/// From 0 to 2, evenly, nothing in particular looked at.
+fn plain_options() -> LocusOptions {
+    LocusOptions {
+        lower: q(0, 1),
+        upper: q(2, 1),
+        scale: ParameterScale::Linear,
+        focus: Complex::new(1.0, 0.0),
+        through: vec![],
+        reach: 3.0,
+    }
+}
+
 #[test]
 fn a_degree_that_is_lost_makes_a_gap_and_not_a_jump() {
     // (k - 1) z^2 + z + 1: a root passes through infinity at k = 1.
@@ -79,29 +91,13 @@ fn a_degree_that_is_lost_makes_a_gap_and_not_a_jump() {
         let p = jurist::poly::Poly::new(vec![q(1, 1), q(1, 1), k - &q(1, 1)]);
         Some(UniPoly::from_rational_poly(&p).1)
     };
-    let options = LocusOptions {
-        lower: q(0, 1),
-        upper: q(2, 1),
-        scale: ParameterScale::Linear,
-        focus: Complex::new(1.0, 0.0),
-        through: vec![],
-        reach: 3.0,
-    };
-    let locus = trace_root_locus(of, &options, &Budget::unlimited()).unwrap();
+    let locus = trace_root_locus(of, &plain_options(), &Budget::unlimited()).unwrap();
     assert_eq!(locus.pieces.len(), 2);
     assert!(locus.to_csv("k").starts_with("k,re_1,im_1,re_2,im_2\n"));
 }
 
 #[test]
 fn a_budget_ends_the_tracing() {
-    let options = LocusOptions {
-        lower: q(0, 1),
-        upper: q(2, 1),
-        scale: ParameterScale::Linear,
-        focus: Complex::new(1.0, 0.0),
-        through: vec![],
-        reach: 3.0,
-    };
     let none = Budget::with_timeout(std::time::Duration::ZERO);
-    assert!(trace_root_locus(|k| Some(drive_polynomial(k, &q(1, 100))), &options, &none).is_err());
+    assert!(trace_root_locus(|k| Some(drive_polynomial(k, &q(1, 100))), &plain_options(), &none).is_err());
 }

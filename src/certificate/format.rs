@@ -97,11 +97,30 @@ impl Json {
         }
     }
 
+    /// The items between brackets: on one line when short, each on its own otherwise.
+    fn write_items<T>(
+        &self,
+        out: &mut String,
+        depth: usize,
+        [open, close]: [char; 2],
+        items: &[T],
+        write: impl Fn(&T, &mut String),
+    ) {
+        out.push(open);
+        for (i, item) in items.iter().enumerate() {
+            out.push_str(if i > 0 { "," } else { "" });
+            if self.is_short() {
+                out.push_str(if i > 0 { " " } else { "" });
+            } else {
+                out.push('\n');
+                out.extend(std::iter::repeat_n(' ', depth + 1));
+            }
+            write(item, out);
+        }
+        out.push(close);
+    }
+
     fn write(&self, out: &mut String, depth: usize) {
-        let line = |out: &mut String, depth: usize| {
-            out.push('\n');
-            out.extend(std::iter::repeat_n(' ', depth));
-        };
         match self {
             Json::Null => out.push_str("null"),
             Json::Bool(b) => out.push_str(if *b { "true" } else { "false" }),
@@ -110,37 +129,13 @@ impl Json {
             }
             Json::Text(text) => write_string(out, text),
             Json::List(items) => {
-                out.push('[');
-                for (i, item) in items.iter().enumerate() {
-                    if i > 0 {
-                        out.push(',');
-                    }
-                    if self.is_short() {
-                        out.push_str(if i > 0 { " " } else { "" });
-                    } else {
-                        line(out, depth + 1);
-                    }
-                    item.write(out, depth + 1);
-                }
-                out.push(']');
+                self.write_items(out, depth, ['[', ']'], items, |item, out| item.write(out, depth + 1))
             }
-            Json::Object(pairs) => {
-                out.push('{');
-                for (i, (key, value)) in pairs.iter().enumerate() {
-                    if i > 0 {
-                        out.push(',');
-                    }
-                    if self.is_short() {
-                        out.push_str(if i > 0 { " " } else { "" });
-                    } else {
-                        line(out, depth + 1);
-                    }
-                    write_string(out, key);
-                    out.push_str(": ");
-                    value.write(out, depth + 1);
-                }
-                out.push('}');
-            }
+            Json::Object(pairs) => self.write_items(out, depth, ['{', '}'], pairs, |(key, value), out| {
+                write_string(out, key);
+                out.push_str(": ");
+                value.write(out, depth + 1);
+            }),
         }
     }
 }

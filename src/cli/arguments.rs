@@ -119,6 +119,20 @@ pub(super) struct OutputOptions {
     pub run: RunOptions,
 }
 
+/// Where a picture goes, and the numbers behind it.
+#[derive(Args, Debug)]
+pub(super) struct PictureOptions {
+    /// Writes JSON: the numbers behind the picture, in floating point, and what is certain about it
+    #[arg(long)]
+    pub json: bool,
+    /// Writes the picture to a file: .svg, .png, or the data: .csv, .json
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<OsString>,
+    /// Also writes the data, beside the picture
+    #[arg(long)]
+    pub csv: bool,
+}
+
 impl OutputOptions {
     /// The digits asked for, or the default.
     pub fn digits(&self) -> u32 {

@@ -1,5 +1,6 @@
 //! Pictures to files and to the terminal.
 
+use super::arguments::PictureOptions;
 use super::output::{ending, unknown_ending, write_answer};
 use super::status::Failure;
 use crate::error::Diagnostic;
@@ -34,11 +35,11 @@ pub(super) struct Picture<'a> {
 }
 
 /// What the output option asks for, before any work is done.
-pub(super) fn wanted(file: Option<&OsString>, json: bool) -> Result<Kind, Failure> {
-    if json {
+pub(super) fn wanted(options: &PictureOptions) -> Result<Kind, Failure> {
+    if options.json {
         return Ok(Kind::Json);
     }
-    let Some(file) = file.filter(|f| *f != "-") else { return Ok(Kind::Standard) };
+    let Some(file) = options.output.as_ref().filter(|f| *f != "-") else { return Ok(Kind::Standard) };
     match ending(file).as_deref() {
         Some("svg") => Ok(Kind::Svg),
         Some("png") => Ok(Kind::Png),

@@ -2,7 +2,7 @@
 
 use super::Context;
 use crate::analysis::{Decision, Intervals, intervals};
-use crate::cli::arguments::{ModelOptions, RunOptions};
+use crate::cli::arguments::{ModelOptions, PictureOptions, RunOptions};
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_names, load, settings};
 use crate::cli::picture::{Picture, deliver, wanted};
@@ -13,7 +13,6 @@ use crate::report::figures::locus_of;
 use crate::report::locus_json;
 use crate::simulate::ParameterScale;
 use clap::Args;
-use std::ffi::OsString;
 use std::slice::from_ref;
 
 /// Options of `jurist locus`.
@@ -30,22 +29,15 @@ pub(in crate::cli) struct Options {
     /// Lets the parameter run evenly in its logarithm [default: over ranges of more than two decades]
     #[arg(long)]
     pub log: bool,
-    /// Writes JSON: the roots, and the crossings
-    #[arg(long)]
-    pub json: bool,
-    /// Writes the picture to a file: .svg, .png, or the data: .csv, .json
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<OsString>,
-    /// Also writes the data, beside the picture
-    #[arg(long)]
-    pub csv: bool,
+    #[command(flatten)]
+    pub picture: PictureOptions,
     #[command(flatten)]
     pub run: RunOptions,
 }
 
 /// Draws to a file or on the terminal.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
-    let kind = wanted(options.output.as_ref(), options.json)?;
+    let kind = wanted(&options.picture)?;
     let model = load(options.model.model.as_ref(), context)?;
     let settings = settings(context, &model, &options.model, &Default::default())?;
     known_names(context, &model, "--param", from_ref(&options.param))?;
@@ -66,8 +58,8 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     }
     let table = || picture.locus.to_csv(&options.param);
     let document = || locus_json(&answer, &picture);
-    let out = Picture { figure: &picture.figure, csv: &table, json: &document, csv_beside: options.csv };
-    deliver(&out, kind, options.output.as_ref())?;
+    let out = Picture { figure: &picture.figure, csv: &table, json: &document, csv_beside: options.picture.csv };
+    deliver(&out, kind, options.picture.output.as_ref())?;
     Ok(Status::Holds)
 }
 

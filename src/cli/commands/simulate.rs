@@ -1,7 +1,7 @@
 //! `jurist simulate`: time responses of the sampled loop, or of the switched circuit.
 
 use super::Context;
-use crate::cli::arguments::{ModelOptions, RunOptions};
+use crate::cli::arguments::{ModelOptions, PictureOptions, RunOptions};
 use crate::cli::assignments::{in_line, plain_number};
 use crate::cli::input::{load, settings};
 use crate::cli::output::note;
@@ -14,7 +14,6 @@ use crate::report::figures::{Figure, response_panels, stacked};
 use crate::report::{CircuitAnswer, SimulationAnswer, simulation_json, time_unit};
 use crate::simulate::{Excitation, Pulse, Record, SampledModel, SwitchedModel, excitation, signal_unit};
 use clap::{Args, ValueEnum};
-use std::ffi::OsString;
 
 /// The built-in drive as blocks, which is what a switched simulation reads.
 const DRIVE_BLOCKS: &str = include_str!("../../../examples/drive-blocks.toml");
@@ -64,15 +63,8 @@ pub(in crate::cli) struct Options {
     /// Starts in the periodic steady state instead of the initial state
     #[arg(long, requires = "switched", conflicts_with = "initial")]
     pub steady: bool,
-    /// Writes JSON: times and signals, in floating point
-    #[arg(long)]
-    pub json: bool,
-    /// Writes the picture to a file: .svg, .png, or the data: .csv, .json
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<OsString>,
-    /// Also writes the data, beside the picture
-    #[arg(long)]
-    pub csv: bool,
+    #[command(flatten)]
+    pub picture: PictureOptions,
     #[command(flatten)]
     pub run: RunOptions,
 }
@@ -89,7 +81,7 @@ struct Course {
 
 /// Draws to a file or on the terminal.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
-    let kind = wanted(options.output.as_ref(), options.json)?;
+    let kind = wanted(&options.picture)?;
     let model = match (&options.model.model, options.switched) {
         (None, true) => Loop::from_toml(&Source::new("<built-in drive>", DRIVE_BLOCKS))?.0,
         (path, _) => load(path.as_ref(), context)?,
@@ -110,8 +102,8 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let table = || answer.trace.to_csv();
     let set = model.resolve(&question)?.values;
     let document = || simulation_json(&model, &set, &answer);
-    let out = Picture { figure: &figure, csv: &table, json: &document, csv_beside: options.csv };
-    deliver(&out, kind, options.output.as_ref())?;
+    let out = Picture { figure: &figure, csv: &table, json: &document, csv_beside: options.picture.csv };
+    deliver(&out, kind, options.picture.output.as_ref())?;
     Ok(Status::Holds)
 }
 
