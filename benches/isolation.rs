@@ -5,9 +5,9 @@ mod families;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use families::roots::{chebyshev, mignotte};
-use jurist::limits::Budget;
-use jurist::poly::SquareFree;
-use jurist::poly::real_roots::{isolate_real_roots_descartes, isolate_real_roots_fixed};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::poly::SquareFree;
+use jurist_algebra::poly::real_roots::{isolate_real_roots_descartes, isolate_real_roots_fixed};
 use std::hint::black_box;
 
 fn isolation(c: &mut Criterion) {

@@ -6,11 +6,11 @@ mod families;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use families::RELATIVE_BITS;
 use families::loops::{boundary, characteristic, closed_loop, substituted};
-use jurist::limits::Budget;
-use jurist::number::{Enclosure, Rational};
-use jurist::poly::SquareFree;
-use jurist::poly::real_roots::isolate_real_roots_fixed;
-use jurist::stability::{Region, count_roots, jury_table};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::poly::SquareFree;
+use jurist_algebra::poly::real_roots::isolate_real_roots_fixed;
+use jurist_engine::stability::{Region, count_roots, jury_table};
 use std::hint::black_box;
 
 fn steps(c: &mut Criterion) {

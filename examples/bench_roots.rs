@@ -5,9 +5,9 @@
 //! `benches/data/random.txt`, which PARI wrote.
 
 use families::RELATIVE_BITS;
-use jurist::limits::Budget;
-use jurist::poly::real_roots::isolate_real_roots_fixed;
-use jurist::poly::{SquareFree, UniPoly};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::poly::real_roots::isolate_real_roots_fixed;
+use jurist_algebra::poly::{SquareFree, UniPoly};
 use std::time::{Duration, Instant};
 
 #[path = "../benches/families/mod.rs"]

@@ -8,10 +8,10 @@ mod families;
 
 use families::loops::{boundary, characteristic, closed_loop, limits};
 use families::{RELATIVE_BITS, roots};
-use jurist::limits::Budget;
-use jurist::number::Rational;
-use jurist::poly::SquareFree;
-use jurist::poly::real_roots::isolate_real_roots_fixed;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::SquareFree;
+use jurist_algebra::poly::real_roots::isolate_real_roots_fixed;
 use std::hint::black_box;
 use std::process::ExitCode;
 

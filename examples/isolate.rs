@@ -4,10 +4,10 @@
 //!
 //! `cargo run --release --example isolate FILE`
 
-use jurist::limits::Budget;
-use jurist::number::Integer;
-use jurist::poly::real_roots::isolate_real_roots_fixed;
-use jurist::poly::{SquareFree, UniPoly};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Integer;
+use jurist_algebra::poly::real_roots::isolate_real_roots_fixed;
+use jurist_algebra::poly::{SquareFree, UniPoly};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 

@@ -53,22 +53,17 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod analysis;
-#[doc = include_str!("bibliography.md")]
-pub mod bibliography {}
+#[doc(inline)]
+pub use jurist_algebra::{bibliography, limits, matrix, number, poly};
+#[doc(inline)]
+pub use jurist_check as check;
+#[cfg(feature = "cli")]
+#[doc(inline)]
+pub use jurist_draw::{figures, page, simulate};
+#[doc(inline)]
+pub use jurist_engine::{analysis, error, model, prove, show, stability};
 
+#[cfg(feature = "cli")]
+pub mod cli;
 #[doc = include_str!("performance.md")]
 pub mod performance {}
-pub mod certificate;
-pub mod cli;
-pub mod error;
-#[cfg(feature = "strategies")]
-pub mod fuzzing;
-pub mod limits;
-pub mod matrix;
-pub mod model;
-pub mod number;
-pub mod poly;
-pub mod report;
-pub mod simulate;
-pub mod stability;

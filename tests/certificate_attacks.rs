@@ -4,7 +4,7 @@ mod certificates;
 
 use certificates::checkers::{accept, python, reject};
 use certificates::{emitted, verdict_emitted};
-use jurist::certificate::check::Step;
+use jurist_check::Step;
 use std::time::{Duration, Instant};
 
 /// Rejected after each of the changes (all of them together in one entry).

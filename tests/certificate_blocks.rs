@@ -5,7 +5,7 @@ mod certificates;
 
 use certificates::checkers::{accept, reject};
 use certificates::emitted;
-use jurist::certificate::check::Step;
+use jurist_check::Step;
 
 fn diagram(time: &str, input: &str, block: &str) -> String {
     format!(

@@ -2,9 +2,9 @@
 
 mod certificates;
 
-use jurist::analysis::{Settings, intervals};
-use jurist::certificate::smt2::intervals_smt2;
-use jurist::limits::Budget;
+use jurist_algebra::limits::Budget;
+use jurist_engine::analysis::{Settings, intervals};
+use jurist_engine::prove::smt2::intervals_smt2;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 

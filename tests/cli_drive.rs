@@ -2,7 +2,7 @@
 
 mod program;
 
-use jurist::number::{Rational, parse_number};
+use jurist_algebra::number::{Rational, parse_number};
 use program::{json, jurist, jurist_with_input};
 use serde_json::Value;
 

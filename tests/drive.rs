@@ -1,16 +1,16 @@
 //! The paper's drive, through the public library: every value the paper could have had.
 
-use jurist::analysis::{Settings, Verdict, frequency, intervals, parametric_table, verdict};
-use jurist::limits::Budget;
-use jurist::model::Loop;
-use jurist::number::parse_number;
-use jurist::stability::End;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::parse_number;
+use jurist_engine::analysis::{Settings, Verdict, frequency, intervals, parametric_table, verdict};
+use jurist_engine::model::Loop;
+use jurist_engine::stability::End;
 
 fn unlimited() -> Budget {
     Budget::unlimited()
 }
 
-fn only_interval(parameter: &str) -> (jurist::analysis::Intervals, Option<End>, Option<End>) {
+fn only_interval(parameter: &str) -> (jurist_engine::analysis::Intervals, Option<End>, Option<End>) {
     let answer = intervals(&Loop::drive(), &Settings::default(), parameter, &unlimited()).unwrap();
     let set = answer.stable.decided().unwrap();
     assert_eq!(set.intervals().len(), 1);

@@ -1,6 +1,6 @@
 //! The table of diagnostic codes is complete, and nothing in it is made up.
 
-use jurist::error::CODES;
+use jurist_engine::error::CODES;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -41,7 +41,7 @@ fn the_table_is_complete() {
 /// The page of the docs has every code with the explanation that the program prints.
 #[test]
 fn the_page_of_codes_is_the_table() {
-    let page = include_str!("../src/error/codes.md");
+    let page = include_str!("../crates/engine/src/error/codes.md");
     let mut expected = String::from("Every code that a diagnostic can carry, as `jurist explain CODE` prints it.\n");
     for (code, text) in CODES {
         expected += &format!("\n### {code}\n\n");

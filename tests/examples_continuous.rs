@@ -2,10 +2,10 @@
 
 mod whole_loops;
 
-use jurist::analysis::{DECAY, Intervals, Settings, frequency, intervals};
-use jurist::limits::Budget;
-use jurist::number::Rational;
-use jurist::stability::End;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_engine::analysis::{DECAY, Intervals, Settings, frequency, intervals};
+use jurist_engine::stability::End;
 use whole_loops::{assert_stable, example, number, set, stable_set_of};
 
 fn nominal() -> Settings {

@@ -2,11 +2,11 @@
 
 mod whole_loops;
 
-use jurist::analysis::{RADIUS, Settings, Verdict, frequency, intervals, verdict};
-use jurist::limits::Budget;
-use jurist::number::Rational;
-use jurist::report::margins::margin;
-use jurist::stability::Cause;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_engine::analysis::{RADIUS, Settings, Verdict, frequency, intervals, verdict};
+use jurist_engine::show::margins::margin;
+use jurist_engine::stability::Cause;
 use whole_loops::{assert_changes_sign, assert_stable, discrete, example, load, number, set, stable_set_of};
 
 fn nominal() -> Settings {
@@ -31,7 +31,7 @@ fn every_example_loads_without_a_warning_and_is_stable_at_nominal() {
 
 #[test]
 fn every_example_is_on_the_page_of_examples() {
-    let page = include_str!("../src/model/examples.md");
+    let page = include_str!("../crates/engine/src/model/examples.md");
     for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/examples")).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
         assert!(!name.ends_with(".toml") || page.contains(&name), "{name} is not on the page");

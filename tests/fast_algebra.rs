@@ -1,18 +1,18 @@
 //! The fast ways of the algebra against their references.
 
-use jurist::limits::Budget;
-use jurist::matrix::{RationalMatrix, characteristic_polynomial_multimodular};
-use jurist::number::{Integer, Rational};
-use jurist::poly::kernel::gcd::primitive_gcd_modular;
-use jurist::poly::kernel::multimodular_resultant::{
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::{RationalMatrix, characteristic_polynomial_multimodular};
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::kernel::gcd::primitive_gcd_modular;
+use jurist_algebra::poly::kernel::multimodular_resultant::{
     resultant_multimodular, resultant_multimodular_integers, resultant_multimodular_multivariate,
 };
-use jurist::poly::multivariate::strategies::multi_poly;
-use jurist::poly::{
+use jurist_algebra::poly::multivariate::strategies::multi_poly;
+use jurist_algebra::poly::{
     Domain, MultiPoly, Poly, RationalFunction, UniPoly, discriminant, resultant, resultant_formal,
     resultant_formal_subresultant, resultant_subresultant,
 };
-use jurist::stability::{HalfSizePair, Region};
+use jurist_engine::stability::{HalfSizePair, Region};
 use proptest::prelude::*;
 
 fn unlimited() -> Budget {
@@ -188,7 +188,7 @@ fn denominators_that_vanish_on_the_grid() {
 /// Denominators divisible by the very primes that are used.
 #[test]
 fn denominators_that_vanish_modulo_the_primes() {
-    let p = jurist::poly::kernel::modular::largest_primes(2);
+    let p = jurist_algebra::poly::kernel::modular::largest_primes(2);
     let product = Integer::from(p[0].prime()) * Integer::from(p[1].prime());
     let k = RationalFunction::variable(0);
     let entry = |c: i64| &RationalFunction::from(Rational::new(Integer::from(c), product.clone())) * &k;

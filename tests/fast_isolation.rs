@@ -1,10 +1,10 @@
 //! Isolation in fixed-point arithmetic against the exact reference.
 
-use jurist::limits::Budget;
-use jurist::number::{Integer, Rational};
-use jurist::poly::real_roots::{isolate_real_roots_descartes, isolate_real_roots_fixed};
-use jurist::poly::strategies::{nasty_polynomial, polynomial_with_known_roots, small_polynomial};
-use jurist::poly::{Domain, RealAlgebraic, SquareFree, UniPoly};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::real_roots::{isolate_real_roots_descartes, isolate_real_roots_fixed};
+use jurist_algebra::poly::strategies::{nasty_polynomial, polynomial_with_known_roots, small_polynomial};
+use jurist_algebra::poly::{Domain, RealAlgebraic, SquareFree, UniPoly};
 use proptest::prelude::*;
 
 fn fast(p: &UniPoly, bits: u64) -> Vec<RealAlgebraic> {

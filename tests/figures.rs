@@ -2,12 +2,13 @@
 
 mod common;
 
-use jurist::analysis::{Settings, Verdict, intervals, verdict};
-use jurist::limits::Budget;
-use jurist::model::{Loop, Question, Time};
-use jurist::number::Rational;
-use jurist::report::figures::{Curve, DrawnLocus, Figure, Panel, chopper, drive_blocks, locus_of, pwm_signal, tracker};
-use jurist::simulate::{Excitation, Pulse, SampledModel, SwitchedModel};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_draw::figures::{Curve, DrawnLocus, Figure, Panel, locus_of};
+use jurist_draw::simulate::{Excitation, Pulse, SampledModel, SwitchedModel};
+use jurist_drive::{chopper, drive_blocks, pwm_signal, tracker};
+use jurist_engine::analysis::{Settings, Verdict, intervals, verdict};
+use jurist_engine::model::{Loop, Question, Time};
 use nalgebra::dvector;
 
 fn small_panel() -> Panel {
@@ -69,7 +70,7 @@ fn a_small_locus_looks_as_it_did() {
     // z^2 - z + k: two real roots meet at k = 1/4, leave as a pair, and cross the circle at k = 1, 1/6 of a turn.
     let text = "time = 'discrete'\nsample_time = 1\nparameters.k = { nominal = 0.5, min = 0 }\n\
                 loop.characteristic = 'z^2 - z + k'\n";
-    let (model, _) = Loop::from_toml(&jurist::error::Source::new("model.toml", text)).unwrap();
+    let (model, _) = Loop::from_toml(&jurist_engine::error::Source::new("model.toml", text)).unwrap();
     let budget = Budget::unlimited();
     let answer = intervals(&model, &Settings::default(), "k", &budget).unwrap();
     let drawn = locus_of(&answer, &(common::q(1, 100), common::q(2, 1)), None, &budget).unwrap();
@@ -122,7 +123,7 @@ fn the_locus_of_the_drive_shows_every_certified_crossing() {
 #[test]
 fn the_block_model_gives_the_circuit_and_the_matrix_model_the_sampled_loop() {
     let text = include_str!("../examples/drive-blocks.toml");
-    let (blocks, _) = Loop::from_toml(&jurist::error::Source::new("drive-blocks.toml", text)).unwrap();
+    let (blocks, _) = Loop::from_toml(&jurist_engine::error::Source::new("drive-blocks.toml", text)).unwrap();
     let (question, budget) = (Question::default(), Budget::unlimited());
     let circuit = SwitchedModel::from_loop(&blocks, &question, Pulse::Beginning, &budget).unwrap();
     let expected = common::switched_drive(110.0, 1e-4, Pulse::Beginning);
@@ -154,7 +155,7 @@ fn pictures(mut see: impl FnMut(&str, &Loop, &str, &DrawnLocus)) {
     for path in names {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let text = std::fs::read_to_string(&path).unwrap();
-        let (model, _) = Loop::from_toml(&jurist::error::Source::new(name.as_str(), text)).unwrap();
+        let (model, _) = Loop::from_toml(&jurist_engine::error::Source::new(name.as_str(), text)).unwrap();
         for p in model.parameters() {
             let Ok(answer) = intervals(&model, &Settings::default(), &p.name, &budget) else { continue };
             let Some(set) = answer.stable.decided() else { panic!("{name}: undecided") };

@@ -1,6 +1,5 @@
 //! Replays the committed corpora of the fuzz targets.
 
-use jurist::fuzzing;
 use std::path::Path;
 
 fn replay(target: &str, harness: fn(&[u8])) {
@@ -15,30 +14,30 @@ fn replay(target: &str, harness: fn(&[u8])) {
 
 #[test]
 fn number_parser() {
-    replay("number_parser", fuzzing::number_parser);
+    replay("number_parser", jurist_fuzzing::number_parser);
 }
 
 #[test]
 fn model_parser() {
-    replay("model_parser", fuzzing::model_parser);
+    replay("model_parser", jurist_fuzzing::model_parser);
 }
 
 #[test]
 fn isolation_against_sturm() {
-    replay("isolation_against_sturm", fuzzing::isolation_against_sturm);
+    replay("isolation_against_sturm", jurist_fuzzing::isolation_against_sturm);
 }
 
 #[test]
 fn jury_against_count() {
-    replay("jury_against_count", fuzzing::jury_against_count);
+    replay("jury_against_count", jurist_fuzzing::jury_against_count);
 }
 
 #[test]
 fn interval_answer() {
-    replay("interval_answer", fuzzing::interval_answer);
+    replay("interval_answer", jurist_fuzzing::interval_answer);
 }
 
 #[test]
 fn certificate_check() {
-    replay("certificate_check", fuzzing::certificate_check);
+    replay("certificate_check", jurist_fuzzing::certificate_check);
 }

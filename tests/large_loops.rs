@@ -1,9 +1,9 @@
 //! Loops of high order: they answer, or they stop when their time is up and say what they had reached.
 
-use jurist::analysis::{Decision, Settings, intervals};
-use jurist::error::Source;
-use jurist::limits::Budget;
-use jurist::model::Loop;
+use jurist_algebra::limits::Budget;
+use jurist_engine::analysis::{Decision, Settings, intervals};
+use jurist_engine::error::Source;
+use jurist_engine::model::Loop;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
@@ -82,7 +82,7 @@ fn order_two_hundred_keeps_its_time() {
             Decision::Decided(set) => assert!(!set.is_empty()),
             Decision::Undecided { budget, reached } => assert!(budget.starts_with("time") && !reached.is_empty()),
         },
-        Err(jurist::analysis::Failure::Undecided(_)) => assert!(!budget.reached().is_empty()),
+        Err(jurist_engine::analysis::Failure::Undecided(_)) => assert!(!budget.reached().is_empty()),
         Err(refused) => panic!("{refused}"),
     }
     assert!(start.elapsed() < Duration::from_secs(40), "the time limit was not kept");

@@ -3,11 +3,11 @@
 mod planes;
 mod program;
 
-use jurist::analysis::{Map, Settings, intervals, map};
-use jurist::limits::Budget;
-use jurist::model::Loop;
-use jurist::number::Rational;
-use jurist::stability::plane::StabilityMap;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_engine::analysis::{Map, Settings, intervals, map};
+use jurist_engine::model::Loop;
+use jurist_engine::stability::plane::StabilityMap;
 use planes::{cell_agrees, q};
 use program::{command, json, jurist, jurist_with_input, refused};
 use proptest::prelude::*;
@@ -316,7 +316,7 @@ fn windows_are_those_asked_for() {
 
 #[test]
 fn drawn_points_lie_on_the_curves() {
-    use jurist::report::figures::map::{WindowRequest, choose_windows, trace_map};
+    use jurist_draw::figures::map::{WindowRequest, choose_windows, trace_map};
     let budget = Budget::unlimited();
     let answer = drive("T", "K_pwm");
     let limits = answer.limits(10, &budget).unwrap();
@@ -334,7 +334,8 @@ fn drawn_points_lie_on_the_curves() {
                         continue;
                     }
                     let y = q(&format!("{:e}", trace.windows[1].value(v + away)));
-                    let jurist::stability::AtPoint::Defined { count, .. } = p.at(&line.x, &y, answer.region) else {
+                    let jurist_engine::stability::AtPoint::Defined { count, .. } = p.at(&line.x, &y, answer.region)
+                    else {
                         panic!()
                     };
                     assert_eq!(count.outside, m.strips[strip.strip].cells[cell].outside, "T = {}, K = {y}", line.x);

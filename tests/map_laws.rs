@@ -2,12 +2,12 @@
 
 mod planes;
 
-use jurist::limits::Budget;
-use jurist::matrix::CharacteristicPolynomial;
-use jurist::number::Rational;
-use jurist::poly::{MultiPoly, SquareFree, isolate_real_roots};
-use jurist::stability::plane::PlanePolynomial;
-use jurist::stability::{Range, Region, stable_set};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{MultiPoly, SquareFree, isolate_real_roots};
+use jurist_engine::stability::plane::PlanePolynomial;
+use jurist_engine::stability::{Range, Region, stable_set};
 use planes::{cell_agrees, is_stable, map, q};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -22,9 +22,9 @@ fn coefficient() -> impl Strategy<Value = MultiPoly> {
 fn small_loop() -> impl Strategy<Value = PlanePolynomial> {
     vec(coefficient(), 1..=3).prop_map(|low| {
         let formal_degree = low.len();
-        let scale = |p: &MultiPoly| jurist::poly::RationalFunction::new(p.clone(), MultiPoly::from(8)).unwrap();
+        let scale = |p: &MultiPoly| jurist_algebra::poly::RationalFunction::new(p.clone(), MultiPoly::from(8)).unwrap();
         let mut coefficients: Vec<_> = low.iter().map(scale).collect();
-        coefficients.push(jurist::poly::RationalFunction::one());
+        coefficients.push(jurist_algebra::poly::RationalFunction::one());
         let variables = vec!["x".into(), "y".into()];
         let poles = Vec::new();
         PlanePolynomial::new(&CharacteristicPolynomial { variables, coefficients, formal_degree, poles, monic: true })
@@ -80,7 +80,7 @@ proptest! {
             }
         }
         for region in &m.regions {
-            let same = |r: &jurist::stability::plane::StableRegion| {
+            let same = |r: &jurist_engine::stability::plane::StableRegion| {
                 planes::ends(&r.x) == planes::ends(&region.y) && planes::ends(&r.y) == planes::ends(&region.x)
             };
             prop_assert!(swapped.regions.iter().any(same));
@@ -111,16 +111,16 @@ proptest! {
         for x in &xs {
             let Some(strip) = m.strips.iter().find(|s| s.x.contains(x)) else { continue };
             // All curves at once, as one polynomial in y.
-            let mut product = jurist::poly::UniPoly::from_i64(&[1]);
+            let mut product = jurist_algebra::poly::UniPoly::from_i64(&[1]);
             for curve in &m.curves {
                 let line = curve.polynomial.substitute(0, x).0.to_univariate(1).unwrap();
-                product = jurist::poly::Domain::times(&product, &line);
+                product = jurist_algebra::poly::Domain::times(&product, &line);
             }
             let roots = isolate_real_roots(&SquareFree::part_of(&product).unwrap(), &budget).unwrap();
             prop_assert_eq!(strip.cells.len(), roots.len() + 1);
             for (k, cell) in strip.cells.iter().enumerate() {
                 let lower = k.checked_sub(1).and_then(|k| roots.get(k)).cloned();
-                let between = jurist::stability::AlgebraicInterval { lower, upper: roots.get(k).cloned() };
+                let between = jurist_engine::stability::AlgebraicInterval { lower, upper: roots.get(k).cloned() };
                 prop_assert_eq!(is_stable(&p, x, &between.sample(), region), cell.stable);
             }
         }

@@ -2,11 +2,11 @@
 
 mod program;
 
-use jurist::analysis::{Settings, map};
-use jurist::error::Source;
-use jurist::limits::Budget;
-use jurist::model::Loop;
-use jurist::number::{Rational, parse_number};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Rational, parse_number};
+use jurist_engine::analysis::{Settings, map};
+use jurist_engine::error::Source;
+use jurist_engine::model::Loop;
 use program::{json, jurist, refused};
 use serde_json::Value;
 
@@ -142,7 +142,7 @@ fn exact_maps_of_filtered_drives() {
         assert_eq!(exact.regions[0].y.lower.as_ref().unwrap().decimal(10), low);
         let at = parse_number("1e-4").unwrap();
         let slice = exact.slice(&at, &answer.axes[1].domain, &budget).unwrap().unwrap();
-        let one = jurist::analysis::intervals(&generated, &Settings::default(), "K_pwm", &budget).unwrap();
+        let one = jurist_engine::analysis::intervals(&generated, &Settings::default(), "K_pwm", &budget).unwrap();
         assert!(slice.same_as(&one.stable.decided().unwrap().to_interval_set()));
     }
 }

@@ -1,15 +1,15 @@
 //! Laws of matrices, determinants and characteristic polynomials.
 
-use jurist::limits::Budget;
-use jurist::matrix::strategies::{
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::strategies::{
     from_roots, integer_matrix, integer_matrix_of_size, polynomial_matrix, unimodular, with_eigenvalues,
 };
-use jurist::matrix::{
+use jurist_algebra::matrix::{
     CharacteristicPolynomial, PolyMatrix, RationalMatrix, characteristic_over_denominator, determinant_bareiss,
     determinant_leibniz, faddeev_leverrier,
 };
-use jurist::number::{Integer, Rational};
-use jurist::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 use proptest::prelude::*;
 
 fn unlimited() -> Budget {
@@ -296,7 +296,7 @@ proptest! {
 
     #[test]
     fn symbolic_eigenvalues(
-        (m, roots) in prop::collection::vec(jurist::poly::multivariate::strategies::multi_poly(2, 1, 2), 0..4)
+        (m, roots) in prop::collection::vec(jurist_algebra::poly::multivariate::strategies::multi_poly(2, 1, 2), 0..4)
             .prop_flat_map(with_eigenvalues)
     ) {
         prop_assert_eq!(charpoly(&m), from_roots(&roots));

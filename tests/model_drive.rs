@@ -1,11 +1,11 @@
 //! The built-in drive: its coefficients, its two forms, its transfer functions.
 
-use jurist::error::Source;
-use jurist::limits::Budget;
-use jurist::matrix::faddeev_leverrier;
-use jurist::model::{DRIVE, Loop, Question};
-use jurist::number::{Rational, parse_number};
-use jurist::poly::RationalFunction;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::faddeev_leverrier;
+use jurist_algebra::number::{Rational, parse_number};
+use jurist_algebra::poly::RationalFunction;
+use jurist_engine::error::Source;
+use jurist_engine::model::{DRIVE, Loop, Question};
 
 const DRIVE_BLOCKS: &str = include_str!("../examples/drive-blocks.toml");
 

@@ -1,9 +1,9 @@
 //! Whatever is wrong with a model is said with its code and its place, several things in one run.
 
-use jurist::error::Source;
-use jurist::limits::Budget;
-use jurist::model::{Loop, ModelError, Question, source_from_bytes};
-use jurist::report::diagnostics::{render, render_error};
+use jurist_algebra::limits::Budget;
+use jurist_engine::error::Source;
+use jurist_engine::model::{Loop, ModelError, Question, source_from_bytes};
+use jurist_engine::show::diagnostics::{render, render_error};
 use std::time::{Duration, Instant};
 
 const HEAD: &str = "time = 'discrete'\n[parameters]\nK = { nominal = 1 }\n";
@@ -18,7 +18,7 @@ fn errors(text: &str) -> Vec<String> {
         Err(error) => {
             let drawn = render_error(error, false);
             assert!(drawn.len() < 50_000, "a long rendering: {} bytes", drawn.len());
-            let place = |d: &jurist::error::Diagnostic| match &d.primary {
+            let place = |d: &jurist_engine::error::Diagnostic| match &d.primary {
                 Some(label) => {
                     let (line, column) = source.line_column(label.span.start);
                     format!("{}@{line}:{column}", d.code)
@@ -216,7 +216,7 @@ fn huge_and_broken_texts() {
     assert_eq!(after_head(&format!("[loop]\nmatrix = [[{digits}, 'K'], [1, \"{digits}\"]]\n")), [""; 0]);
     assert_eq!(after_head("[loop]\nmatrix = [[1e400, 'K'], [1, 99999999999999999999]]\n"), [""; 0]);
     let open = "(".repeat(megabyte);
-    assert_eq!(characteristic(&open)[0], format!("E-too-deep@5:{}", 19 + jurist::model::MAX_DEPTH));
+    assert_eq!(characteristic(&open)[0], format!("E-too-deep@5:{}", 19 + jurist_engine::model::MAX_DEPTH));
     assert!(characteristic(&format!("z{}", "^2".repeat(megabyte)))[0].starts_with("E-too-deep"));
     assert!(characteristic(&format!("z{}", "-".repeat(megabyte)))[0].starts_with("E-too-deep"));
     assert!(after_head(&format!("[loop]\nmatrix = {open}", open = "[".repeat(megabyte)))[0].starts_with("E-"));

@@ -1,8 +1,8 @@
 //! Expressions against exact evaluation at points, and back through their printed text.
 
-use jurist::limits::Budget;
-use jurist::model::{BlockBuilder, Expression, Loop, ParameterBuilder, Question, Time};
-use jurist::number::Rational;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_engine::model::{BlockBuilder, Expression, Loop, ParameterBuilder, Question, Time};
 use proptest::prelude::*;
 
 /// A text and its value where a = 2/3 and b = -5.

@@ -1,10 +1,10 @@
 //! The fuzz harness of models over damaged copies of the examples.
 
-use jurist::fuzzing::model_parser;
+use jurist_fuzzing::model_parser;
 
 #[test]
 fn damaged_examples() {
-    for text in [jurist::model::DRIVE, include_str!("../examples/drive-blocks.toml")] {
+    for text in [jurist_engine::model::DRIVE, include_str!("../examples/drive-blocks.toml")] {
         let bytes = text.as_bytes();
         let mut state = 12345u64;
         for _ in 0..120 {

@@ -3,12 +3,12 @@
 
 mod whole_loops;
 
-use jurist::analysis::Settings;
-use jurist::error::Source;
-use jurist::limits::Budget;
-use jurist::model::{Loop, ModelError, Question};
-use jurist::number::Rational;
-use jurist::stability::{Cause, End};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_engine::analysis::Settings;
+use jurist_engine::error::Source;
+use jurist_engine::model::{Loop, ModelError, Question};
+use jurist_engine::stability::{Cause, End};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use whole_loops::certificates::checkers::accept_intervals_of;
@@ -226,7 +226,7 @@ proptest! {
         let in_z = discrete(&text(&|i| format!("(z - 1)^{i}*(z + 1)^{}", n - i)), "");
         let (a, b) = (stable_set_of(&in_s, "k", &Settings::default()), stable_set_of(&in_z, "k", &Settings::default()));
         prop_assert!(a.to_interval_set().same_as(&b.to_interval_set()), "{:?}\n{:?}", a, b);
-        let ends = |set: &jurist::stability::StableSet| -> Vec<End> {
+        let ends = |set: &jurist_engine::stability::StableSet| -> Vec<End> {
             set.intervals().iter().flat_map(|i| [i.lower.clone(), i.upper.clone()]).flatten().collect()
         };
         for (s, z) in ends(&a).iter().zip(&ends(&b)) {

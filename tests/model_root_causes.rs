@@ -1,8 +1,8 @@
 //! One mistake is one error, the most helpful one; what makes no sense is refused where it stands.
 
-use jurist::error::{Diagnostic, Source};
-use jurist::model::Loop;
-use jurist::report::diagnostics::render_error;
+use jurist_engine::error::{Diagnostic, Source};
+use jurist_engine::model::Loop;
+use jurist_engine::show::diagnostics::render_error;
 
 /// Every error: code, line and column of the caret, line of the second place, help.
 fn errors(text: &str) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! Laws of the numbers: ring and field axioms, num-bigint as a second opinion, reading and printing.
 
-use jurist::number::strategies::{integer, nonzero_integer, nonzero_rational, rational};
-use jurist::number::{
+use jurist_algebra::number::strategies::{integer, nonzero_integer, nonzero_rational, rational};
+use jurist_algebra::number::{
     Enclosure, Integer, Rational, enclosed_decimal, parse_number, to_decimal, to_decimal_refining, to_scientific,
 };
 use num_bigint::BigInt;
@@ -329,14 +329,14 @@ fn corpus_of_the_number_parser() {
     for text in
         ["1e100000/3e-100000", "-0_0.1_2e-0_3", &limit, &format!("{limit}/{limit}1"), &format!("0.{limit}e-{limit}")]
     {
-        jurist::fuzzing::number_parser(text.as_bytes());
+        jurist_fuzzing::number_parser(text.as_bytes());
     }
 }
 
 proptest! {
     #[test]
     fn the_number_parser_keeps_its_promises(text in "[-+0-9._eE/ é]{0,12}") {
-        jurist::fuzzing::number_parser(text.as_bytes());
+        jurist_fuzzing::number_parser(text.as_bytes());
     }
 }
 

@@ -1,9 +1,9 @@
 //! The derivation of the paper (Gürbüz and Akpınar 2002), step by step, with every gain symbolic.
 
-use jurist::error::Source;
-use jurist::limits::Budget;
-use jurist::model::{Loop, Question};
-use jurist::poly::RationalFunction;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::poly::RationalFunction;
+use jurist_engine::error::Source;
+use jurist_engine::model::{Loop, Question};
 
 fn load(text: &str) -> Loop {
     let (lp, warnings) = Loop::from_toml(&Source::new("derivation.toml", text)).unwrap_or_else(|e| panic!("{e}"));

@@ -1,7 +1,7 @@
 //! The report on the paper: complete, self-contained, its errata those that are known.
 
-use jurist::limits::Budget;
-use jurist::report::paper::{PaperReport, paper_report};
+use jurist_algebra::limits::Budget;
+use jurist_drive::{PaperReport, paper_report};
 use std::sync::OnceLock;
 
 fn report() -> &'static PaperReport {

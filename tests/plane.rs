@@ -2,12 +2,12 @@
 
 mod planes;
 
-use jurist::limits::Budget;
-use jurist::matrix::CharacteristicPolynomial;
-use jurist::number::Rational;
-use jurist::poly::RationalFunction;
-use jurist::stability::plane::{PlanePolynomial, vanishing_boundary};
-use jurist::stability::{Cause, Range, Region};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::RationalFunction;
+use jurist_engine::stability::plane::{PlanePolynomial, vanishing_boundary};
+use jurist_engine::stability::{Cause, Range, Region};
 use planes::{c, disc, ends, is_stable, limits, map, plane, polynomial, q, said, says, some, x, y};
 
 #[test]
@@ -172,7 +172,7 @@ fn an_isolated_point_is_not_stable_and_does_not_split() {
     let (s, k) = m.locate(&q("1e-9"), &q("0"), &Range::all(), &budget).unwrap().unwrap();
     assert!(m.strips[s].cells[k].stable);
     // x = 0 is a wall between strips: there the exact set in y has a hole.
-    let set = jurist::stability::stable_set(&p.at_x(&q("0")).unwrap(), &Range::all(), Region::UnitDisc, &budget);
+    let set = jurist_engine::stability::stable_set(&p.at_x(&q("0")).unwrap(), &Range::all(), Region::UnitDisc, &budget);
     let set = set.unwrap().to_interval_set();
     assert_eq!(set.intervals().len(), 2);
     assert!(!set.contains(&q("0")) && set.contains(&q("1e-9")));

@@ -1,12 +1,12 @@
 //! Boxes of two parameters: against exact counts, against the exact decomposition, against known areas.
 
-use jurist::limits::Budget;
-use jurist::matrix::CharacteristicPolynomial;
-use jurist::number::{Rational, parse_number};
-use jurist::poly::{MultiPoly, RationalFunction};
-use jurist::stability::plane::boxes::{BoxMap, BoxVerdict, Window, stability_boxes};
-use jurist::stability::plane::{PlanePolynomial, stability_map};
-use jurist::stability::{AtPoint, Range, Region};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_algebra::number::{Rational, parse_number};
+use jurist_algebra::poly::{MultiPoly, RationalFunction};
+use jurist_engine::stability::plane::boxes::{BoxMap, BoxVerdict, Window, stability_boxes};
+use jurist_engine::stability::plane::{PlanePolynomial, stability_map};
+use jurist_engine::stability::{AtPoint, Range, Region};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use std::time::Duration;

@@ -1,10 +1,10 @@
 //! Laws of polynomials: ring axioms, divisors, resultants, decompositions, values.
 
-use jurist::limits::Budget;
-use jurist::matrix::{PolyMatrix, determinant_bareiss};
-use jurist::number::{Integer, Rational};
-use jurist::poly::multivariate::strategies::{multi_poly, nonzero_multi_poly, rational_function};
-use jurist::poly::{
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::{PolyMatrix, determinant_bareiss};
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::multivariate::strategies::{multi_poly, nonzero_multi_poly, rational_function};
+use jurist_algebra::poly::{
     Domain, MultiPoly, Poly, RationalFunction, UniPoly, discriminant, resultant, resultant_formal, subresultant_chain,
 };
 use proptest::prelude::*;

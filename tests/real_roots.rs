@@ -1,13 +1,13 @@
 //! Real root isolation against Sturm's theorem and against roots known by construction.
 
-use jurist::limits::Budget;
-use jurist::number::{Integer, Rational, Sign};
-use jurist::poly::algebraic::{RealAlgebraic, rational_between, simplest_between};
-use jurist::poly::real_roots::{
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Integer, Rational, Sign};
+use jurist_algebra::poly::algebraic::{RealAlgebraic, rational_between, simplest_between};
+use jurist_algebra::poly::real_roots::{
     Bound, SquareFree, budan_fourier_bound, count_roots_sturm, descartes_sign_variations, isolate_real_roots,
     isolate_real_roots_in, root_bound_bits,
 };
-use jurist::poly::{Domain, UniPoly};
+use jurist_algebra::poly::{Domain, UniPoly};
 use std::time::Duration;
 
 fn r(p: i64, q: i64) -> Rational {

@@ -1,15 +1,15 @@
 //! Laws of real root isolation and of real algebraic numbers, on generated polynomials.
 
-use jurist::fuzzing::isolation_against_sturm;
-use jurist::limits::Budget;
-use jurist::number::{Integer, Rational, parse_number};
-use jurist::poly::real_roots::{Bound, budan_fourier_bound, count_roots_sturm};
-use jurist::poly::strategies::{
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Integer, Rational, parse_number};
+use jurist_algebra::poly::real_roots::{Bound, budan_fourier_bound, count_roots_sturm};
+use jurist_algebra::poly::strategies::{
     ChosenRoot, awkward_rational, nasty_polynomial, polynomial_with_known_roots, small_polynomial,
 };
-use jurist::poly::{
+use jurist_algebra::poly::{
     Domain, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots, isolate_real_roots_in, rational_between,
 };
+use jurist_fuzzing::isolation_against_sturm;
 use proptest::prelude::*;
 use std::cmp::Ordering;
 
@@ -197,8 +197,8 @@ fn negative_root_of_an_odd_power() {
 /// A budget that has run out stops comparisons and signs before they begin to refine.
 #[test]
 fn comparisons_keep_the_budget() {
-    use jurist::limits::Budget;
-    use jurist::poly::{Domain, SquareFree, UniPoly, isolate_real_roots};
+    use jurist_algebra::limits::Budget;
+    use jurist_algebra::poly::{Domain, SquareFree, UniPoly, isolate_real_roots};
     use std::time::Duration;
     let roots = |coeffs: &[i64]| {
         let p = SquareFree::part_of(&UniPoly::from_i64(coeffs)).unwrap();

@@ -3,8 +3,8 @@
 mod common;
 
 use common::{drive_polynomial, q, sampled_drive};
-use jurist::number::Rational;
-use jurist::simulate::{Excitation, Step, eigenvalues, exact_response, roots};
+use jurist_algebra::number::Rational;
+use jurist_draw::simulate::{Excitation, Step, eigenvalues, exact_response, roots};
 use nalgebra::DVector;
 
 fn reference_step() -> Excitation {

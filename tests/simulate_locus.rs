@@ -3,10 +3,10 @@
 mod common;
 
 use common::{drive_polynomial, q};
-use jurist::limits::Budget;
-use jurist::number::Rational;
-use jurist::poly::UniPoly;
-use jurist::simulate::{LocusOptions, ParameterScale, RootLocus, trace_root_locus};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::UniPoly;
+use jurist_draw::simulate::{LocusOptions, ParameterScale, RootLocus, trace_root_locus};
 use nalgebra::Complex;
 
 fn drive_locus(through: Vec<Rational>) -> RootLocus {
@@ -88,7 +88,7 @@ fn plain_options() -> LocusOptions {
 fn a_degree_that_is_lost_makes_a_gap_and_not_a_jump() {
     // (k - 1) z^2 + z + 1: a root passes through infinity at k = 1.
     let of = |k: &Rational| {
-        let p = jurist::poly::Poly::new(vec![q(1, 1), q(1, 1), k - &q(1, 1)]);
+        let p = jurist_algebra::poly::Poly::new(vec![q(1, 1), q(1, 1), k - &q(1, 1)]);
         Some(UniPoly::from_rational_poly(&p).1)
     };
     let locus = trace_root_locus(of, &plain_options(), &Budget::unlimited()).unwrap();

@@ -3,8 +3,8 @@
 mod common;
 
 use common::{E_SW, K_A, L_A, sampled_drive, switched_drive};
-use jurist::limits::Budget;
-use jurist::simulate::{Excitation, Pulse, Record, Step, SwitchedModel, SwitchedState, eigenvalues, growth_limit};
+use jurist_algebra::limits::Budget;
+use jurist_draw::simulate::{Excitation, Pulse, Record, Step, SwitchedModel, SwitchedState, eigenvalues, growth_limit};
 use nalgebra::{DMatrix, DVector, dvector};
 
 fn inputs() -> DVector<f64> {
@@ -184,12 +184,12 @@ fn a_budget_ends_a_run() {
 fn shapes_and_signs_are_checked() {
     let drive = switched_drive(110.0, 1e-4, Pulse::Beginning);
     assert_eq!(drive.plant_states().len(), 2);
-    let plant = jurist::simulate::Plant {
+    let plant = jurist_draw::simulate::Plant {
         matrix: DMatrix::zeros(2, 2),
         source: DMatrix::zeros(2, 0),
         input: DMatrix::zeros(1, 1),
     };
-    let controller = jurist::simulate::Controller {
+    let controller = jurist_draw::simulate::Controller {
         transition: DMatrix::zeros(0, 0),
         from_plant: DMatrix::zeros(0, 2),
         from_input: DMatrix::zeros(0, 1),
@@ -200,7 +200,7 @@ fn shapes_and_signs_are_checked() {
     let names = || [common::names(&["a", "b"]), vec![], common::names(&["r"])];
     let bad = SwitchedModel::new(1.0, plant.clone(), vec![], controller.clone(), names());
     assert!(bad.unwrap_err().to_string().contains("W is 1 x 1"));
-    let good = jurist::simulate::Plant { input: DMatrix::zeros(2, 1), ..plant };
+    let good = jurist_draw::simulate::Plant { input: DMatrix::zeros(2, 1), ..plant };
     assert!(SwitchedModel::new(0.0, good.clone(), vec![], controller.clone(), names()).is_err());
     assert!(SwitchedModel::new(1.0, good, vec![], controller, names()).is_ok());
 }

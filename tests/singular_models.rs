@@ -3,10 +3,10 @@
 
 mod whole_loops;
 
-use jurist::analysis::{PointVerdict, Settings, Verdict, verdict};
-use jurist::limits::Budget;
-use jurist::model::Loop;
-use jurist::stability::Range;
+use jurist_algebra::limits::Budget;
+use jurist_engine::analysis::{PointVerdict, Settings, Verdict, verdict};
+use jurist_engine::model::Loop;
+use jurist_engine::stability::Range;
 use whole_loops::certificates::checkers::{accept_intervals_of, accept_verdict_of};
 use whole_loops::{assert_stable, certified_set_of as stable_set_of, continuous, discrete, load, number, set};
 
@@ -338,7 +338,7 @@ fn ends_1e_minus_30_apart() {
     // z - 1 + (k - 1)(k - 1 - 1e-30): outside between 1 and 1 + 1e-30 only.
     let found = stable_set_of(&discrete("z - 1 + (k - 1)*(k - 1 - 1e-30)", "min = 0, max = 2"), "k", &nominal());
     assert_eq!(found.intervals().len(), 2);
-    let end = |e: &Option<jurist::stability::End>| e.as_ref().unwrap().value.exact().unwrap();
+    let end = |e: &Option<jurist_engine::stability::End>| e.as_ref().unwrap().value.exact().unwrap();
     assert_eq!(end(&found.intervals()[0].upper), number("1"));
     assert_eq!(end(&found.intervals()[1].lower), number("1") + number("1e-30"));
     // The other way round: stable only between.
@@ -425,7 +425,7 @@ fn negative_radii_are_never_the_answer() {
     let mut settings = Settings::default();
     settings.domain.insert("radius".into(), Range::between(Some(number("-1")), Some(number("2"))));
     accept_intervals_of(&lp, &settings, "radius");
-    let answer = jurist::analysis::intervals(&lp, &settings, "radius", &Budget::unlimited()).unwrap();
+    let answer = jurist_engine::analysis::intervals(&lp, &settings, "radius", &Budget::unlimited()).unwrap();
     let set = answer.stable.decided().unwrap();
     assert_eq!(set.intervals().len(), 1);
     assert_eq!(set.intervals()[0].lower.as_ref().unwrap().value.decimal(5), "0.5");
@@ -436,7 +436,7 @@ fn negative_radii_are_never_the_answer() {
 fn radius_zero_is_the_end_of_the_domain_only() {
     let lp = load("time = 'discrete'\n[loop]\ncharacteristic = 'z^2'");
     accept_intervals_of(&lp, &Settings::default(), "radius");
-    let answer = jurist::analysis::intervals(&lp, &Settings::default(), "radius", &Budget::unlimited()).unwrap();
+    let answer = jurist_engine::analysis::intervals(&lp, &Settings::default(), "radius", &Budget::unlimited()).unwrap();
     let set = answer.stable.decided().unwrap();
     assert_eq!(set.intervals()[0].lower.as_ref().unwrap().causes.to_string(), "domain");
 }

@@ -1,10 +1,10 @@
 //! Laws of stability: counts against roots known by construction, every algorithm against every other.
 
-use jurist::limits::Budget;
-use jurist::number::{Integer, Rational};
-use jurist::poly::{Domain, Poly, UniPoly};
-use jurist::stability::strategies::{chosen_loop, expected_count, polynomial_with_chosen_roots};
-use jurist::stability::*;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, Poly, UniPoly};
+use jurist_engine::stability::strategies::{chosen_loop, expected_count, polynomial_with_chosen_roots};
+use jurist_engine::stability::*;
 use proptest::collection::vec;
 use proptest::prelude::*;
 

@@ -2,12 +2,12 @@
 //! from its matrix to the limits.
 
 use super::RELATIVE_BITS;
-use jurist::limits::Budget;
-use jurist::matrix::{CharacteristicPolynomial, RationalMatrix};
-use jurist::number::Rational;
-use jurist::poly::real_roots::isolate_real_roots_fixed;
-use jurist::poly::{Domain, MultiPoly, Poly, RationalFunction, RealAlgebraic, SquareFree, UniPoly};
-use jurist::stability::{HalfSizePair, Region};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::real_roots::isolate_real_roots_fixed;
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, RealAlgebraic, SquareFree, UniPoly};
+use jurist_engine::stability::{HalfSizePair, Region};
 
 pub fn characteristic(m: &RationalMatrix) -> CharacteristicPolynomial {
     m.characteristic_polynomial(vec!["K".into(), "T".into()], &Budget::unlimited()).expect("no budget")

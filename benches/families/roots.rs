@@ -1,7 +1,7 @@
 //! Families of polynomials for real root isolation, those of `pari/roots.gp`.
 
-use jurist::number::Integer;
-use jurist::poly::{Domain, UniPoly};
+use jurist_algebra::number::Integer;
+use jurist_algebra::poly::{Domain, UniPoly};
 
 fn x() -> UniPoly {
     UniPoly::x()

@@ -1,3 +1,3 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|data: &[u8]| jurist::fuzzing::isolation_against_sturm(data));
+libfuzzer_sys::fuzz_target!(|data: &[u8]| jurist_fuzzing::isolation_against_sturm(data));

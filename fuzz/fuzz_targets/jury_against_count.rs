@@ -1,3 +1,3 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|data: &[u8]| jurist::fuzzing::jury_against_count(data));
+libfuzzer_sys::fuzz_target!(|data: &[u8]| jurist_fuzzing::jury_against_count(data));

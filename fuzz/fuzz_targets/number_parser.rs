@@ -1,3 +1,3 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|data: &[u8]| jurist::fuzzing::number_parser(data));
+libfuzzer_sys::fuzz_target!(|data: &[u8]| jurist_fuzzing::number_parser(data));

@@ -1,8 +1,8 @@
 //! `NAME=VALUE` and `NAME=LO..HI` on the command line.
 
 use super::command_line::{CommandLine, Place};
-use crate::error::{Diagnostic, Error, Span};
-use crate::number::{ParseNumberErrorKind, Rational, parse_number};
+use jurist_algebra::number::{ParseNumberErrorKind, Rational, parse_number};
+use jurist_engine::error::{Diagnostic, Error, Span};
 use std::sync::Arc;
 
 /// A name with its value.

@@ -1,9 +1,9 @@
 //! The command line as a text that errors point into.
 
 use super::arguments::Arguments;
-use crate::error::{Diagnostic, Error, Source, Span};
 use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
+use jurist_engine::error::{Diagnostic, Error, Source, Span};
 use std::ffi::OsString;
 use std::sync::Arc;
 

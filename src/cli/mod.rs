@@ -13,11 +13,11 @@ mod progress;
 mod status;
 mod watch;
 
-use crate::report::diagnostics::render_error;
 use arguments::Arguments;
 use clap::Parser;
 use command_line::CommandLine;
 use commands::Context;
+use jurist_engine::show::diagnostics::render_error;
 use status::{Failure, Status};
 use std::process::ExitCode;
 
@@ -60,7 +60,7 @@ fn run(line: &CommandLine) -> u8 {
 }
 
 /// Draws an error or warnings on standard error, in colour if it is a terminal that wants it.
-fn show(error: &crate::error::Error) {
+fn show(error: &jurist_engine::error::Error) {
     output::note(render_error(error, output::colored_errors()).trim_end());
 }
 

@@ -1,7 +1,7 @@
 //! Where answers and remarks go: standard output or a file, and standard error.
 
 use super::status::Failure;
-use crate::error::Diagnostic;
+use jurist_engine::error::Diagnostic;
 use std::ffi::{OsStr, OsString};
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;

@@ -3,9 +3,9 @@
 use super::arguments::PictureOptions;
 use super::output::{ending, unknown_ending, write_answer};
 use super::status::Failure;
-use crate::error::Diagnostic;
-use crate::report::figures::Figure;
-use crate::report::json;
+use jurist_draw::figures::Figure;
+use jurist_engine::error::Diagnostic;
+use jurist_engine::show::json;
 use serde_json::Value;
 use std::ffi::OsString;
 use std::io::IsTerminal;

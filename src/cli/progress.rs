@@ -1,8 +1,8 @@
 //! What is being done: remembered for an undecided answer, shown on a terminal.
 
 use crate::cli::arguments::RunOptions;
-use crate::limits::{Budget, Progress};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use jurist_algebra::limits::{Budget, Progress};
 use std::io::IsTerminal;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};

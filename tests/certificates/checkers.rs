@@ -1,11 +1,11 @@
 //! Both checkers on one certificate, and the certificates of whole loops.
 
 use super::python::Python;
-use jurist::analysis::{Settings, one_parameter, verdict};
-use jurist::certificate::check::{Limits, Step, check};
-use jurist::certificate::emit::{intervals_certificate, verdict_certificate};
-use jurist::limits::Budget;
-use jurist::model::Loop;
+use jurist_algebra::limits::Budget;
+use jurist_check::{Limits, Step, check};
+use jurist_engine::analysis::{Settings, one_parameter, verdict};
+use jurist_engine::model::Loop;
+use jurist_engine::prove::emit::{intervals_certificate, verdict_certificate};
 use std::sync::{Mutex, OnceLock};
 
 /// What the Python checker says; `None` where Python is not there. One process serves a whole test program.

@@ -1,6 +1,6 @@
 //! Forgeries: a line that is changed, with the claim that the changed line shows.
 
-use jurist::certificate::format::Json;
+use jurist_check::format::Json;
 
 fn object(pairs: Vec<(&str, Json)>) -> Json {
     Json::Object(pairs.into_iter().map(|(k, v)| (k.to_owned(), v)).collect())

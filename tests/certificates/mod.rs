@@ -5,14 +5,14 @@ pub mod checkers;
 pub mod forgeries;
 pub mod python;
 
-use jurist::analysis::{Settings, one_parameter, verdict};
-use jurist::certificate::emit::{intervals_certificate, verdict_certificate};
-use jurist::certificate::format::Json;
-use jurist::error::Source;
-use jurist::limits::Budget;
-use jurist::model::Loop;
-use jurist::number::parse_number;
-use jurist::stability::{Range, stable_set};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::parse_number;
+use jurist_check::format::Json;
+use jurist_engine::analysis::{Settings, one_parameter, verdict};
+use jurist_engine::error::Source;
+use jurist_engine::model::Loop;
+use jurist_engine::prove::emit::{intervals_certificate, verdict_certificate};
+use jurist_engine::stability::{Range, stable_set};
 
 /// Name, text, parameter.
 pub const MODELS: &[(&str, &str, &str)] = &[
@@ -148,7 +148,7 @@ fn mutations_of(value: &Json) -> Vec<Json> {
         Json::Text(text) => {
             let mut out = vec![format!("-{text}"), format!("1{text}"), format!("{text}0"), "0".into(), "1/7".into()];
             if let Ok(q) = parse_number(text) {
-                out.extend([1, -1].map(|d| (&q + &jurist::number::Rational::from(d)).to_string()));
+                out.extend([1, -1].map(|d| (&q + &jurist_algebra::number::Rational::from(d)).to_string()));
             }
             out.into_iter().filter(|t| t != text).map(Json::Text).collect()
         }
@@ -231,7 +231,7 @@ pub fn is_true(model: &str, certificate: &Json) -> bool {
     };
     let set = stable_set(p, &question.domain, question.region, &budget).unwrap();
     let Some(Json::List(claimed)) = statement.get("stable") else { return false };
-    let matches_end = |json: Option<&Json>, end: Option<&jurist::stability::End>| match (json, end) {
+    let matches_end = |json: Option<&Json>, end: Option<&jurist_engine::stability::End>| match (json, end) {
         (Some(Json::Null), None) => true,
         (Some(Json::Text(text)), Some(end)) => end.value.exact() == Some(parse_number(text).unwrap()),
         (Some(other), Some(end)) => {
@@ -239,7 +239,7 @@ pub fn is_true(model: &str, certificate: &Json) -> bool {
             let side = |i: usize| ab.get(i).and_then(number).unwrap();
             let Some(Json::List(coefficients)) = other.get("polynomial") else { return false };
             let coefficients = coefficients.iter().map(|c| number(c).unwrap().numerator()).collect();
-            let f = jurist::poly::UniPoly::new(coefficients);
+            let f = jurist_algebra::poly::UniPoly::new(coefficients);
             end.value.compare_rational(&side(0)).is_gt()
                 && end.value.compare_rational(&side(1)).is_lt()
                 && end.value.sign_of(&f).is_eq()

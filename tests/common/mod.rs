@@ -1,9 +1,9 @@
 //! The paper's drive as plain matrices, for the tests of the simulation.
 #![allow(dead_code)]
 
-use jurist::number::{Integer, Rational};
-use jurist::poly::{Poly, UniPoly};
-use jurist::simulate::{Controller, Plant, Pulse, Pwm, SampledModel, SwitchedModel};
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Poly, UniPoly};
+use jurist_draw::simulate::{Controller, Plant, Pulse, Pwm, SampledModel, SwitchedModel};
 use nalgebra::{DMatrix, dmatrix};
 
 pub const R_A: f64 = 1.0;

@@ -3,12 +3,14 @@
 // Each test file uses some of this.
 #![allow(dead_code)]
 
-use jurist::limits::Budget;
-use jurist::matrix::CharacteristicPolynomial;
-use jurist::number::{Rational, parse_number};
-use jurist::poly::{RationalFunction, RealAlgebraic};
-use jurist::stability::plane::{Limit, PlanePolynomial, RegionLimits, StabilityMap, region_limits, stability_map};
-use jurist::stability::{AlgebraicInterval, AtPoint, Range, Region};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_algebra::number::{Rational, parse_number};
+use jurist_algebra::poly::{RationalFunction, RealAlgebraic};
+use jurist_engine::stability::plane::{
+    Limit, PlanePolynomial, RegionLimits, StabilityMap, region_limits, stability_map,
+};
+use jurist_engine::stability::{AlgebraicInterval, AtPoint, Range, Region};
 
 pub fn q(text: &str) -> Rational {
     parse_number(text).unwrap()

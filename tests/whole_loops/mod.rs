@@ -4,13 +4,13 @@
 #[path = "../certificates/mod.rs"]
 pub mod certificates;
 
-use jurist::analysis::{Settings, intervals};
-use jurist::error::Source;
-use jurist::limits::Budget;
-use jurist::model::Loop;
-use jurist::number::{Rational, parse_number};
-use jurist::poly::{RealAlgebraic, UniPoly};
-use jurist::stability::{End, StableSet};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Rational, parse_number};
+use jurist_algebra::poly::{RealAlgebraic, UniPoly};
+use jurist_engine::analysis::{Settings, intervals};
+use jurist_engine::error::Source;
+use jurist_engine::model::Loop;
+use jurist_engine::stability::{End, StableSet};
 
 /// An exact number.
 pub fn number(text: &str) -> Rational {

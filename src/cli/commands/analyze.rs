@@ -1,13 +1,13 @@
 //! `jurist analyze`: the verdict at nominal and the stable set of each parameter.
 
 use super::Context;
-use crate::analysis::{Analysis, Decision, Point, analyze, asked};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::decision;
 use crate::cli::status::{Outcome, Status};
-use crate::report::json::to_text;
-use crate::report::{analysis_json, analysis_text};
 use clap::Args;
+use jurist_engine::analysis::{Analysis, Decision, Point, analyze, asked};
+use jurist_engine::show::json::to_text;
+use jurist_engine::show::{analysis_json, analysis_text};
 
 /// Options of `jurist analyze`.
 #[derive(Args, Debug)]

@@ -1,18 +1,18 @@
 //! `jurist charpoly`: the characteristic polynomial.
 
 use super::Context;
-use crate::analysis::{Point, Settings};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_names, load, settings};
 use crate::cli::output::{ending, unknown_ending, write_answer};
 use crate::cli::status::{Failure, Outcome, Status};
-use crate::error::{Diagnostic, Error};
-use crate::matrix::CharacteristicPolynomial;
-use crate::model::{Loop, ModelError, Question};
-use crate::report::json;
-use crate::report::notation::{NamedPolynomial, Notation, PolynomialReport, Relation, root_locus_form};
 use clap::{Args, ValueEnum};
+use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_engine::analysis::{Point, Settings};
+use jurist_engine::error::{Diagnostic, Error};
+use jurist_engine::model::{Loop, ModelError, Question};
+use jurist_engine::show::json;
+use jurist_engine::show::notation::{NamedPolynomial, Notation, PolynomialReport, Relation, root_locus_form};
 use std::ffi::OsString;
 
 /// Options of `jurist charpoly`.

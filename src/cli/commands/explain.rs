@@ -2,8 +2,8 @@
 
 use crate::cli::output::write_answer;
 use crate::cli::status::{Failure, Outcome, Status};
-use crate::error::{CODES, Diagnostic};
 use clap::Args;
+use jurist_engine::error::{CODES, Diagnostic};
 
 /// Options of `jurist explain`.
 #[derive(Args, Debug)]

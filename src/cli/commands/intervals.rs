@@ -1,16 +1,16 @@
 //! `jurist intervals`: the exact stable set of one parameter.
 
 use super::Context;
-use crate::analysis::{DECAY, Decision, Intervals, RADIUS, asked, intervals};
-use crate::certificate::emit::intervals_certificate;
-use crate::certificate::smt2::intervals_smt2;
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::{decision, known_names};
 use crate::cli::output::write_answer;
 use crate::cli::status::{Outcome, Status};
-use crate::report::json::to_text;
-use crate::report::{intervals_json, intervals_text};
 use clap::Args;
+use jurist_engine::analysis::{DECAY, Decision, Intervals, RADIUS, asked, intervals};
+use jurist_engine::prove::emit::intervals_certificate;
+use jurist_engine::prove::smt2::intervals_smt2;
+use jurist_engine::show::json::to_text;
+use jurist_engine::show::{intervals_json, intervals_text};
 use std::ffi::OsString;
 use std::slice::from_ref;
 

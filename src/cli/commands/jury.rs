@@ -1,13 +1,13 @@
 //! `jurist jury`: the classical table and its conditions.
 
 use super::Context;
-use crate::analysis::{DECAY, Decision, Point, RADIUS, TableAnswer, asked, parametric_table, point_table};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::{decision, known_names};
 use crate::cli::status::{Outcome, Status};
-use crate::report::json::to_text;
-use crate::report::{point_table_json, point_table_text, table_json, table_text};
 use clap::Args;
+use jurist_engine::analysis::{DECAY, Decision, Point, RADIUS, TableAnswer, asked, parametric_table, point_table};
+use jurist_engine::show::json::to_text;
+use jurist_engine::show::{point_table_json, point_table_text, table_json, table_text};
 use std::slice::from_ref;
 
 /// Options of `jurist jury`.

@@ -1,18 +1,18 @@
 //! `jurist locus`: root locus with the exact crossings on it.
 
 use super::Context;
-use crate::analysis::{Decision, Intervals, intervals};
 use crate::cli::arguments::{ModelOptions, PictureOptions, RunOptions};
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_names, load, settings};
 use crate::cli::picture::{Picture, deliver, wanted};
 use crate::cli::status::{Failure, Outcome, Status};
-use crate::error::Diagnostic;
-use crate::number::{Rational, parse_number};
-use crate::report::figures::locus_of;
-use crate::report::locus_json;
-use crate::simulate::ParameterScale;
 use clap::Args;
+use jurist_algebra::number::{Rational, parse_number};
+use jurist_draw::document::locus_json;
+use jurist_draw::figures::locus_of;
+use jurist_draw::simulate::ParameterScale;
+use jurist_engine::analysis::{Decision, Intervals, intervals};
+use jurist_engine::error::Diagnostic;
 use std::slice::from_ref;
 
 /// Options of `jurist locus`.

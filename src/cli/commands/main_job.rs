@@ -1,14 +1,14 @@
 //! `jurist`: the main job on the built-in drive.
 
 use super::Context;
-use crate::analysis::{Decision, Settings, intervals, parametric_table};
 use crate::cli::arguments::OutputOptions;
 use crate::cli::status::{Failure, Outcome, Status};
-use crate::error::Source;
-use crate::matrix::CharacteristicPolynomial;
-use crate::model::{Loop, Question};
-use crate::report::{MainJob, main_job_json, main_job_text};
 use clap::Args;
+use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_drive::{MainJob, main_job_json, main_job_text};
+use jurist_engine::analysis::{Decision, Settings, intervals, parametric_table};
+use jurist_engine::error::Source;
+use jurist_engine::model::{Loop, Question};
 
 /// Eq. 23 with the digits that the paper prints.
 const PRINTED_EQUATION_23: &str = include_str!("../../../examples/equation-23-as-printed.toml");

@@ -2,17 +2,19 @@
 
 use super::Context;
 use super::map_boxes::{self, MethodOptions};
-use crate::analysis::{Decision, Intervals, Map, MapAnswer, RegionExtent, Settings, map_by};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, settings};
 use crate::cli::output::{ending, note, unknown_ending};
 use crate::cli::picture::{png, write};
 use crate::cli::status::{Failure, Outcome, Status};
-use crate::limits::{Budget, Exhausted};
-use crate::report::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
-use crate::report::{map_json, map_page, map_text, published_limits};
 use clap::Args;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
+use jurist_draw::page::map_page;
+use jurist_drive::published_limits;
+use jurist_engine::analysis::{Decision, Intervals, Map, MapAnswer, RegionExtent, Settings, map_by};
+use jurist_engine::show::{map_json, map_text};
 use std::path::Path;
 
 /// Digits to which places and frequencies are enclosed, at least and at most.

@@ -1,18 +1,19 @@
 //! Options of `jurist map` that choose the method, and its answer by boxes.
 
 use super::Context;
-use crate::analysis::{BoxRequest, Decision, MapBoxes, MapMethod};
 use crate::cli::arguments::OutputOptions;
 use crate::cli::assignments::{AxisRequest, in_line, plain_number};
 use crate::cli::output::ending;
 use crate::cli::picture::{png, write};
 use crate::cli::status::{Failure, Outcome, Status};
-use crate::error::Diagnostic;
-use crate::number::Rational;
-use crate::report::figures::map::boxes_figure;
-use crate::report::{map_boxes_json, map_boxes_page, map_boxes_text};
-use crate::stability::Range;
 use clap::{Args, ValueEnum};
+use jurist_algebra::number::Rational;
+use jurist_draw::figures::map::boxes_figure;
+use jurist_draw::page::map_boxes_page;
+use jurist_engine::analysis::{BoxRequest, Decision, MapBoxes, MapMethod};
+use jurist_engine::error::Diagnostic;
+use jurist_engine::show::{map_boxes_json, map_boxes_text};
+use jurist_engine::stability::Range;
 use std::path::Path;
 
 /// How the map is made.

@@ -22,10 +22,10 @@ use super::progress::Reporter;
 use super::show;
 use super::status::{Failure, Outcome, Status};
 use super::watch::Watch;
-use crate::analysis::Point;
-use crate::error::{Diagnostic, Error, Source};
-use crate::limits::Budget;
-use crate::report::json;
+use jurist_algebra::limits::Budget;
+use jurist_engine::analysis::Point;
+use jurist_engine::error::{Diagnostic, Error, Source};
+use jurist_engine::show::json;
 use serde_json::Value;
 use std::sync::Arc;
 

@@ -5,9 +5,9 @@ use crate::cli::arguments::RunOptions;
 use crate::cli::output::{note, plain};
 use crate::cli::picture::write;
 use crate::cli::status::{Outcome, Status};
-use crate::error::Diagnostic;
-use crate::report::paper::paper_report;
 use clap::Args;
+use jurist_drive::paper_report;
+use jurist_engine::error::Diagnostic;
 use std::ffi::OsString;
 use std::path::Path;
 

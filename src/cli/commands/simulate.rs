@@ -7,13 +7,13 @@ use crate::cli::input::{load, settings};
 use crate::cli::output::note;
 use crate::cli::picture::{Picture, deliver, wanted};
 use crate::cli::status::{Failure, Outcome, Status};
-use crate::error::{Diagnostic, Source};
-use crate::model::{Loop, Question};
-use crate::number::parse_number;
-use crate::report::figures::{Figure, response_panels, stacked};
-use crate::report::{CircuitAnswer, SimulationAnswer, simulation_json, time_unit};
-use crate::simulate::{Excitation, Pulse, Record, SampledModel, SwitchedModel, excitation, signal_unit};
 use clap::{Args, ValueEnum};
+use jurist_algebra::number::parse_number;
+use jurist_draw::document::{CircuitAnswer, SimulationAnswer, simulation_json, time_unit};
+use jurist_draw::figures::{Figure, response_panels, stacked};
+use jurist_draw::simulate::{Excitation, Pulse, Record, SampledModel, SwitchedModel, excitation, signal_unit};
+use jurist_engine::error::{Diagnostic, Source};
+use jurist_engine::model::{Loop, Question};
 
 /// The built-in drive as blocks, which is what a switched simulation reads.
 const DRIVE_BLOCKS: &str = include_str!("../../../examples/drive-blocks.toml");

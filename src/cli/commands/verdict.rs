@@ -1,14 +1,14 @@
 //! `jurist verdict`: one point.
 
 use super::Context;
-use crate::analysis::{Point, Verdict, verdict};
-use crate::certificate::emit::verdict_certificate;
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::decision;
 use crate::cli::output::write_answer;
 use crate::cli::status::{Outcome, Status};
-use crate::report::{verdict_json, verdict_text};
 use clap::Args;
+use jurist_engine::analysis::{Point, Verdict, verdict};
+use jurist_engine::prove::emit::verdict_certificate;
+use jurist_engine::show::{verdict_json, verdict_text};
 use std::ffi::OsString;
 
 /// Options of `jurist verdict`.

@@ -1,13 +1,13 @@
 //! `jurist verify`: re-checks a certificate.
 
 use super::Context;
-use crate::certificate::check::{Limits, check};
-use crate::certificate::format::MAX_TEXT;
 use crate::cli::arguments::RunOptions;
 use crate::cli::input::{CERTIFICATE, CERTIFIED_MODEL, read_text};
 use crate::cli::output::{note, write_answer};
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
+use jurist_check::format::MAX_TEXT;
+use jurist_check::{Limits, check};
 use std::ffi::OsString;
 
 /// Options of `jurist verify`.

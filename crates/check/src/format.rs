@@ -1,0 +1,355 @@
+//! The text of certificates: a strict reader and a writer for a small part of JSON.
+//!
+//! Numbers are kept as the text they are written in: exact numbers stand in strings, and only
+//! small counts are JSON numbers. A key that occurs twice, nesting deeper than [`MAX_DEPTH`], a text longer
+//! than [`MAX_TEXT`] and anything after the end are refused.
+
+use std::fmt::Write;
+
+/// The schema this version writes and accepts.
+pub const SCHEMA: &str = "jurist/certificate/1";
+
+/// Texts longer than this many bytes are refused unread.
+pub const MAX_TEXT: usize = 64 << 20;
+
+/// Arrays and objects may nest this deep; a certificate needs six levels.
+pub const MAX_DEPTH: usize = 16;
+
+/// A JSON value. Objects keep their order.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Json {
+    /// `null`
+    Null,
+    /// `true` or `false`
+    Bool(bool),
+    /// A small count.
+    Count(u32),
+    /// A string.
+    Text(String),
+    /// An array.
+    List(Vec<Json>),
+    /// An object.
+    Object(Vec<(String, Json)>),
+}
+
+impl From<&str> for Json {
+    fn from(text: &str) -> Self {
+        Json::Text(text.to_owned())
+    }
+}
+
+impl From<String> for Json {
+    fn from(text: String) -> Self {
+        Json::Text(text)
+    }
+}
+
+impl Json {
+    /// Reads a whole text.
+    ///
+    /// # Errors
+    /// A sentence with the position in bytes.
+    ///
+    /// ```
+    /// use jurist_check::format::Json;
+    /// let value = Json::parse(r#"{"a": ["1/2", 3]}"#)?;
+    /// assert_eq!(value.get("a").unwrap().to_text(), "[\"1/2\", 3]\n");
+    /// assert!(Json::parse(r#"{"a": 1, "a": 1}"#).is_err());
+    /// # Ok::<(), String>(())
+    /// ```
+    pub fn parse(text: &str) -> Result<Json, String> {
+        if text.len() > MAX_TEXT {
+            return Err(format!("the text is longer than {MAX_TEXT} bytes"));
+        }
+        let mut reader = Reader { text, at: 0 };
+        let value = reader.value(0)?;
+        reader.space();
+        if reader.at < text.len() {
+            return Err(reader.wrong("something follows the end"));
+        }
+        Ok(value)
+    }
+
+    /// The value under `key`, if this is an object that has it.
+    pub fn get(&self, key: &str) -> Option<&Json> {
+        match self {
+            Json::Object(pairs) => pairs.iter().find(|(k, _)| k == key).map(|(_, v)| v),
+            _ => None,
+        }
+    }
+
+    /// The text, with line breaks between the parts of a certificate, and one at the end.
+    pub fn to_text(&self) -> String {
+        let mut out = String::new();
+        self.write(&mut out, 0);
+        out.push('\n');
+        out
+    }
+
+    /// Whether the value is small enough for one line.
+    fn is_short(&self) -> bool {
+        match self {
+            Json::List(items) => {
+                items.len() <= 8 && items.iter().all(|i| !matches!(i, Json::List(_) | Json::Object(_)))
+            }
+            Json::Object(pairs) => pairs.len() <= 6 && pairs.iter().all(|(_, v)| v.is_short()),
+            _ => true,
+        }
+    }
+
+    /// The items between brackets: on one line when short, each on its own otherwise.
+    fn write_items<T>(
+        &self,
+        out: &mut String,
+        depth: usize,
+        [open, close]: [char; 2],
+        items: &[T],
+        write: impl Fn(&T, &mut String),
+    ) {
+        out.push(open);
+        for (i, item) in items.iter().enumerate() {
+            out.push_str(if i > 0 { "," } else { "" });
+            if self.is_short() {
+                out.push_str(if i > 0 { " " } else { "" });
+            } else {
+                out.push('\n');
+                out.extend(std::iter::repeat_n(' ', depth + 1));
+            }
+            write(item, out);
+        }
+        out.push(close);
+    }
+
+    fn write(&self, out: &mut String, depth: usize) {
+        match self {
+            Json::Null => out.push_str("null"),
+            Json::Bool(b) => out.push_str(if *b { "true" } else { "false" }),
+            Json::Count(n) => {
+                let _ = write!(out, "{n}");
+            }
+            Json::Text(text) => write_string(out, text),
+            Json::List(items) => {
+                self.write_items(out, depth, ['[', ']'], items, |item, out| item.write(out, depth + 1))
+            }
+            Json::Object(pairs) => self.write_items(out, depth, ['{', '}'], pairs, |(key, value), out| {
+                write_string(out, key);
+                out.push_str(": ");
+                value.write(out, depth + 1);
+            }),
+        }
+    }
+}
+
+fn write_string(out: &mut String, text: &str) {
+    out.push('"');
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => {
+                out.push('\\');
+                out.push(c);
+            }
+            c if (c as u32) < 0x20 => {
+                let _ = write!(out, "\\u{:04x}", c as u32);
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+}
+
+struct Reader<'t> {
+    text: &'t str,
+    at: usize,
+}
+
+impl Reader<'_> {
+    fn wrong(&self, what: &str) -> String {
+        format!("{what} (byte {})", self.at + 1)
+    }
+
+    fn peek(&self) -> Option<u8> {
+        self.text.as_bytes().get(self.at).copied()
+    }
+
+    fn space(&mut self) {
+        while matches!(self.peek(), Some(b' ' | b'\n' | b'\r' | b'\t')) {
+            self.at += 1;
+        }
+    }
+
+    fn eat(&mut self, byte: u8) -> bool {
+        self.space();
+        let found = self.peek() == Some(byte);
+        self.at += usize::from(found);
+        found
+    }
+
+    fn word(&mut self, word: &str, value: Json) -> Result<Json, String> {
+        if self.text[self.at..].starts_with(word) {
+            self.at += word.len();
+            return Ok(value);
+        }
+        Err(self.wrong("not a value"))
+    }
+
+    fn value(&mut self, depth: usize) -> Result<Json, String> {
+        self.space();
+        if depth > MAX_DEPTH {
+            return Err(self.wrong("nested too deep"));
+        }
+        match self.peek() {
+            Some(b'n') => self.word("null", Json::Null),
+            Some(b't') => self.word("true", Json::Bool(true)),
+            Some(b'f') => self.word("false", Json::Bool(false)),
+            Some(b'"') => self.string().map(Json::Text),
+            Some(b'0'..=b'9') => self.count(),
+            Some(b'[') => {
+                self.at += 1;
+                let mut items = Vec::new();
+                if self.eat(b']') {
+                    return Ok(Json::List(items));
+                }
+                loop {
+                    items.push(self.value(depth + 1)?);
+                    if self.eat(b']') {
+                        return Ok(Json::List(items));
+                    }
+                    if !self.eat(b',') {
+                        return Err(self.wrong("',' or ']' is missing"));
+                    }
+                }
+            }
+            Some(b'{') => {
+                self.at += 1;
+                let mut pairs: Vec<(String, Json)> = Vec::new();
+                if self.eat(b'}') {
+                    return Ok(Json::Object(pairs));
+                }
+                let mut seen = std::collections::HashSet::new();
+                loop {
+                    self.space();
+                    let key = self.string()?;
+                    if !seen.insert(key.clone()) {
+                        return Err(self.wrong("a key occurs twice"));
+                    }
+                    if !self.eat(b':') {
+                        return Err(self.wrong("':' is missing"));
+                    }
+                    let value = self.value(depth + 1)?;
+                    pairs.push((key, value));
+                    if self.eat(b'}') {
+                        return Ok(Json::Object(pairs));
+                    }
+                    if !self.eat(b',') {
+                        return Err(self.wrong("',' or '}' is missing"));
+                    }
+                }
+            }
+            Some(_) => Err(self.wrong("not a value of this format")),
+            None => Err(self.wrong("the text ends too early")),
+        }
+    }
+
+    fn count(&mut self) -> Result<Json, String> {
+        let start = self.at;
+        while matches!(self.peek(), Some(b'0'..=b'9')) {
+            self.at += 1;
+        }
+        let digits = &self.text[start..self.at];
+        let plain = digits.len() == 1 || !digits.starts_with('0');
+        match digits.parse() {
+            Ok(n) if plain && !matches!(self.peek(), Some(b'.' | b'e' | b'E')) => Ok(Json::Count(n)),
+            _ => Err(self.wrong("only small counts are written as numbers, all others as strings")),
+        }
+    }
+
+    fn string(&mut self) -> Result<String, String> {
+        if self.peek() != Some(b'"') {
+            return Err(self.wrong("a string is missing"));
+        }
+        self.at += 1;
+        let mut out = String::new();
+        loop {
+            let rest = &self.text[self.at..];
+            let plain = rest.find(|c: char| c == '"' || c == '\\' || (c as u32) < 0x20);
+            let Some(length) = plain else { return Err(self.wrong("a string does not end")) };
+            out.push_str(&rest[..length]);
+            self.at += length;
+            match self.peek() {
+                Some(b'"') => {
+                    self.at += 1;
+                    return Ok(out);
+                }
+                Some(b'\\') => {
+                    let escape = self.text.as_bytes().get(self.at + 1).copied();
+                    self.at += 2;
+                    out.push(match escape {
+                        Some(b'"') => '"',
+                        Some(b'\\') => '\\',
+                        Some(b'/') => '/',
+                        Some(b'n') => '\n',
+                        Some(b't') => '\t',
+                        Some(b'r') => '\r',
+                        Some(b'b') => '\u{8}',
+                        Some(b'f') => '\u{c}',
+                        Some(b'u') => {
+                            let code = self
+                                .text
+                                .get(self.at..self.at + 4)
+                                .filter(|t| t.bytes().all(|b| b.is_ascii_hexdigit()));
+                            let code = code.and_then(|t| u32::from_str_radix(t, 16).ok()).and_then(char::from_u32);
+                            self.at += 4;
+                            code.ok_or_else(|| "a \\u escape is wrong".to_owned())?
+                        }
+                        _ => return Err("an escape is wrong".to_owned()),
+                    });
+                }
+                _ => return Err(self.wrong("a control character in a string")),
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_reads_back() {
+        let text = r#"{"a": [null, true, false, 17, "x\"\\\n\u0041é"], "b": {"c": []}, "d": {}}"#;
+        let value = Json::parse(text).unwrap();
+        assert_eq!(Json::parse(&value.to_text()).unwrap(), value);
+        assert_eq!(value.get("a"), value.get("a"));
+    }
+
+    #[test]
+    fn what_is_not_of_the_format_is_refused() {
+        let deep = "[".repeat(100_000);
+        for text in [
+            "",
+            "{",
+            "[1,]",
+            "{\"a\":1,}",
+            "01",
+            "1.5",
+            "-1",
+            "1e3",
+            "99999999999",
+            "\"",
+            "\"\\",
+            "\"\\u12\"",
+            "\"\\ud800\"",
+            "\"\u{1}\"",
+            "nul",
+            "[] []",
+            "{\"a\":1,\"a\":2}",
+            "{a:1}",
+            "\u{feff}{}",
+            "[\"é",
+            "\"\\u00é\"",
+            &deep,
+        ] {
+            assert!(Json::parse(text).is_err(), "{}", &text[..text.len().min(20)]);
+        }
+    }
+}

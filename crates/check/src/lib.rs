@@ -1,0 +1,261 @@
+//! The check of a certificate against a model, by code that shares nothing with the engine: its own reading of
+//! the model, its own arithmetic (`num-bigint`, `num-rational`) and other algorithms.
+//!
+//! One pass goes through the certificate from front to back; nothing is searched for. What each part means and
+//! why the check suffices stands in [the grammar](grammar).
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod blocks;
+mod determinant;
+mod expression;
+pub mod format;
+#[doc = include_str!("grammar.md")]
+pub mod grammar {}
+mod half_size;
+mod intervals;
+mod keys;
+mod model;
+mod multivariate;
+mod number;
+#[doc = include_str!("proved.md")]
+pub mod proved {}
+mod region;
+mod roots;
+mod statement;
+mod toml;
+mod univariate;
+mod verdict;
+
+use format::{Json, SCHEMA};
+use num_traits::Zero;
+use number::{Clock, Q, out_of_time, shorten};
+use statement::{Extent, bound, extent, identifier, object, polynomials, text, values};
+use std::fmt;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+use univariate::Uni;
+
+/// The stack of the thread in which a check runs: expressions may nest deeper than a default stack allows.
+const STACK: usize = 64 << 20;
+
+/// A check that does not end by itself is given up this long after its time.
+const GRACE: Duration = Duration::from_millis(500);
+
+/// How much work a check may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// The longest time, after which the certificate is rejected.
+    pub timeout: Duration,
+}
+
+impl Default for Limits {
+    /// One minute.
+    fn default() -> Self {
+        Limits { timeout: Duration::from_secs(60) }
+    }
+}
+
+/// What has been proved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Proved {
+    /// The statement in a sentence or two.
+    pub statement: String,
+    /// The kind of the statement: `intervals` or `verdict`.
+    pub kind: &'static str,
+}
+
+/// The step at which a check failed, in the order in which they are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// The text is JSON of the right version with the right parts.
+    Format,
+    /// The statement is complete.
+    Statement,
+    /// The model can be read and fits the statement.
+    Model,
+    /// The characteristic polynomial is that of the model.
+    Characteristic,
+    /// The identity `U A + V B = value` holds.
+    Boundary,
+    /// The factors make up all boundary polynomials.
+    Factors,
+    /// The points, counts and samples on the line.
+    Line,
+    /// The claimed set, or the claimed verdict.
+    Stable,
+    /// The check was given up in the middle of a step.
+    Time,
+}
+
+impl Step {
+    /// The name of the part of the certificate that is checked.
+    pub fn name(self) -> &'static str {
+        match self {
+            Step::Format => "format",
+            Step::Statement => "statement",
+            Step::Model => "model",
+            Step::Characteristic => "characteristic",
+            Step::Boundary => "boundary",
+            Step::Factors => "factors",
+            Step::Line => "line",
+            Step::Stable => "stable",
+            Step::Time => "time",
+        }
+    }
+
+    fn of<T>(self, result: Result<T, String>) -> Result<T, Rejection> {
+        result.map_err(|reason| Rejection { step: self, reason })
+    }
+}
+
+/// Why a certificate proves nothing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rejection {
+    /// The step that failed.
+    pub step: Step,
+    /// What is wrong, in a sentence.
+    pub reason: String,
+}
+
+impl fmt::Display for Rejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the certificate is rejected at the step '{}': {}", self.step.name(), self.reason)
+    }
+}
+
+impl std::error::Error for Rejection {}
+
+/// Checks that a certificate proves its statement about a model, both given as text.
+///
+/// ```
+/// use jurist_check::{check, Limits};
+/// let model = r#"
+///     time = "discrete"
+///     parameters.K = {}
+///     loop.characteristic = "z - 1 + K"
+/// "#;
+/// let certificate = r#"{
+///     "schema": "jurist/certificate/1",
+///     "statement": {"kind": "intervals", "time": "discrete", "parameter": "K", "set": {}, "region": {"radius": "1"},
+///         "domain": {"lower": null, "upper": null}, "stable": [{"lower": "0", "upper": "2"}]},
+///     "characteristic": [["-1", "1"], ["1"]],
+///     "boundary": null,
+///     "factors": [["0", "1"], ["-2", "1"]],
+///     "line": [{"split": [], "sample": "-1", "stable": false}, {"at": "0"},
+///              {"split": [], "sample": "1", "stable": true}, {"at": "2"},
+///              {"split": [], "sample": "3", "stable": false}]
+/// }"#;
+/// let proved = check(model, certificate, &Limits::default()).unwrap();
+/// assert_eq!(proved.statement, "For all real K, the loop is stable exactly for 0 < K < 2.");
+/// let wrong = certificate.replace("\"upper\": \"2\"", "\"upper\": \"3\"");
+/// assert!(check(model, &wrong, &Limits::default()).is_err());
+/// ```
+///
+/// # Errors
+/// [`Rejection`] with the step that failed. A rejection says nothing about the statement.
+pub fn check(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Rejection> {
+    let limits = *limits;
+    let (model, certificate) = (model.to_owned(), certificate.to_owned());
+    let (sender, receiver) = channel();
+    let work = move || drop(sender.send(checked(&model, &certificate, &limits)));
+    if std::thread::Builder::new().stack_size(STACK).spawn(work).is_err() {
+        return Err(Rejection { step: Step::Format, reason: "internal: there is no thread to check in".into() });
+    }
+    // The clock is looked at between operations; one of them on long numbers can take its time.
+    receiver.recv_timeout(limits.timeout.saturating_add(GRACE)).unwrap_or_else(|e| {
+        Err(match e {
+            RecvTimeoutError::Timeout => Rejection { step: Step::Time, reason: out_of_time(limits.timeout) },
+            RecvTimeoutError::Disconnected => {
+                Rejection { step: Step::Format, reason: "internal: the check broke off".into() }
+            }
+        })
+    })
+}
+
+fn checked(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Rejection> {
+    let clock = Clock::new(limits.timeout);
+    let json = Step::Format.of(Json::parse(certificate))?;
+    // Another version may have other parts, so it is looked at first.
+    let schema = json.get("schema").ok_or_else(|| "the certificate has no 'schema'".to_owned());
+    let schema = Step::Format.of(schema.and_then(|s| text(s, "'schema'")))?;
+    if schema != SCHEMA {
+        let reason = format!("the schema is '{}', not '{SCHEMA}'", shorten(schema));
+        return Err(Rejection { step: Step::Format, reason });
+    }
+    let statement =
+        Step::Format.of(json.get("statement").ok_or_else(|| "the certificate has no 'statement'".into()))?;
+    let kind = Step::Statement.of(statement.get("kind").ok_or_else(|| "the statement has no 'kind'".into()))?;
+    match Step::Statement.of(text(kind, "'kind'"))? {
+        "intervals" => check_intervals(model, &json, statement, &clock),
+        "verdict" => verdict::check(model, &json, statement, &clock),
+        other => {
+            let reason = format!("unknown kind of statement '{}'", shorten(other));
+            Err(Rejection { step: Step::Statement, reason })
+        }
+    }
+}
+
+/// `time` of a statement.
+fn is_discrete(json: &Json) -> Result<bool, String> {
+    match text(json, "'time'")? {
+        "discrete" => Ok(true),
+        "continuous" => Ok(false),
+        other => Err(format!("unknown time '{}'", shorten(other))),
+    }
+}
+
+fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
+    let parts = ["schema", "statement", "characteristic", "boundary", "factors", "line"];
+    let [_, _, characteristic, boundary, factors, line] =
+        Step::Format.of(object(json, "the certificate", parts, &["model"]))?;
+    let keys = ["kind", "time", "parameter", "set", "region", "domain", "stable"];
+    let [_, time, parameter, set, region, domain, stable] =
+        Step::Statement.of(object(statement, "the statement", keys, &[]))?;
+    let discrete = Step::Statement.of(is_discrete(time))?;
+    let parameter = Step::Statement.of(text(parameter, "'parameter'").and_then(identifier))?;
+    let set = Step::Statement.of(values(set))?;
+    let extent = Step::Statement.of(extent(region, discrete))?;
+    let domain = Step::Statement.of((|| {
+        let [lower, upper] = object(domain, "'domain'", ["lower", "upper"], &[])?;
+        let (lower, upper) = (bound(lower, "'lower'")?, bound(upper, "'upper'")?);
+        if matches!((&lower, &upper), (Some(l), Some(u)) if l >= u) {
+            return Err("the domain is empty".to_owned());
+        }
+        if extent == Extent::Parameter {
+            if parameter != if discrete { "radius" } else { "decay" } {
+                return Err("the region depends on the parameter, which is not its radius or decay".into());
+            }
+            if discrete && lower.as_ref().is_none_or(|l| *l < Q::zero()) {
+                return Err("a radius is positive".into());
+            }
+            if set.iter().any(|(name, _)| name == parameter) {
+                return Err(format!("'{parameter}' is also a parameter of the model"));
+            }
+        }
+        Ok((lower, upper))
+    })())?;
+    let kept = if extent == Extent::Parameter { None } else { Some(parameter) };
+    let d = Step::Model.of(model::read(model, kept, &set, clock))?;
+    if d.discrete != discrete {
+        return Err(Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() });
+    }
+    let coefficients = region::transformed(&d.coefficients, discrete, &extent);
+    let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'"))?;
+    Step::Characteristic.of(same_characteristic(&given, &coefficients))?;
+    let proof = intervals::Proof { boundary, factors, line, stable };
+    intervals::check(&d, &coefficients, &domain, &proof, clock)?;
+    let statement = verdict::sentence_of_intervals(parameter, &set, &extent, discrete, &domain, stable);
+    Ok(Proved { statement, kind: "intervals" })
+}
+
+fn same_characteristic(given: &[Uni], own: &[Uni]) -> Result<(), String> {
+    if given.len() != own.len() {
+        return Err(format!("there are {} coefficients, but the model's polynomial has {}", given.len(), own.len()));
+    }
+    match given.iter().zip(own).position(|(g, o)| g != o) {
+        Some(k) => Err(format!("coefficient {k} is not that of the model")),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,177 @@
+//! A self-contained page: the picture, and the verdict at the pointer, looked up exactly.
+
+use crate::figures::map::{
+    FrequencyPoint, MapContents, MapFigure, MapTrace, Role, Wall, frequency_unit, mechanism_words,
+};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Integer;
+use jurist_algebra::poly::{Monomial, RealAlgebraic};
+use jurist_engine::analysis::{Axis, Map};
+use jurist_engine::show::json;
+use jurist_engine::show::layout::{named_values, short};
+use jurist_engine::show::region::map_goal;
+use jurist_engine::stability::plane::{Curve, Strip};
+use serde_json::{Value, json};
+
+const STYLE: &str = include_str!("page.css");
+const SCRIPT: &str = include_str!("page.js");
+
+/// Nothing is loaded from anywhere.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
+
+/// The map as an HTML page that needs nothing from outside: the picture for wide and for narrow screens,
+/// `text` below it, and a script that looks a point up in the exact strips with integers of any size.
+pub fn map_page(
+    answer: &Map,
+    contents: &MapContents<'_>,
+    trace: &MapTrace,
+    figures: &[MapFigure; 2],
+    text: &str,
+) -> String {
+    let [x, y] = &answer.axes;
+    let title = match answer.title.as_deref().filter(|t| !t.is_empty()) {
+        Some(title) => format!("Stability map: {title}"),
+        None => "Stability map".to_owned(),
+    };
+    let others = if answer.set.is_empty() {
+        "Every other quantity has its value in the model.".to_owned()
+    } else {
+        format!("With {}.", named_values(&answer.set))
+    };
+    let field = |id: &str, axis: &Axis| {
+        format!(
+            "<label for=\"{id}\">{}</label><input id=\"{id}\" autocomplete=\"off\" spellcheck=\"false\"><span>{}</span>\n",
+            escaped(&axis.name),
+            escaped(axis.unit.as_deref().unwrap_or_default()),
+        )
+    };
+    let data = data(answer, contents, trace, figures).to_string().replace('<', "\\u003c");
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{title}</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n\
+         <p class=\"small\">{x_name} from left to right, {y_name} upwards. {others}</p>\n\
+         <div class=\"figure wide\">{wide}</div>\n<div class=\"figure narrow\">{narrow}</div>\n\
+         <div class=\"panel\"><div class=\"inputs\">\n{x_field}{y_field}</div>\n\
+         <div aria-live=\"polite\"><div id=\"verdict\"></div><div id=\"roots\"></div><div id=\"near\"></div></div></div>\n\
+         <p class=\"small screen\">Move the pointer, tap, use the arrow keys (with Shift in larger steps), or enter exact \
+         values: 110, 1e-4, 1/3.</p>\n\
+         <h2>What is certain</h2>\n\
+         <p class=\"small\">The picture and the place of the nearest wall are drawn in floating point. The verdict and the \
+         number of roots are not: they hold for exactly the numbers shown in the two fields, which this page looks up with \
+         integers of any size in strips and cells that were computed and proved by exact algebra. A point on a boundary is \
+         not stable.</p>\n\
+         <h2>Limits</h2>\n<pre>{text}</pre>\n\
+         <script type=\"application/json\" id=\"data\">{data}</script>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n",
+        title = escaped(&title),
+        x_name = escaped(&x.name),
+        y_name = escaped(&y.name),
+        others = escaped(&others),
+        wide = figures[0].figure.svg(),
+        narrow = figures[1].figure.svg(),
+        x_field = field("x", x),
+        y_field = field("y", y),
+        text = escaped(text),
+    )
+}
+
+pub(super) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// What the script needs: the exact strips, and the walls as they are drawn.
+fn data(answer: &Map, contents: &MapContents<'_>, trace: &MapTrace, figures: &[MapFigure; 2]) -> Value {
+    let axis = |k: usize| {
+        let (axis, window) = (&answer.axes[k], &trace.windows[k]);
+        let (from, to) = window.ends();
+        json!({
+            "name": axis.name,
+            "lower": json::exact(axis.domain.lower.as_ref()),
+            "upper": json::exact(axis.domain.upper.as_ref()),
+            "nominal": axis.nominal.as_ref().map(short),
+            "from": from,
+            "to": to,
+            "log": window.logarithmic,
+        })
+    };
+    let (curves, strips, never) = match answer.map.decided() {
+        Some(map) => (&map.curves[..], &map.strips[..], map.never_stable),
+        None => (&[][..], &[][..], true),
+    };
+    let walls = contents.walls.iter().zip(&contents.frequencies).filter(|(w, _)| w.role != Role::Nothing);
+    let plot = |f: &MapFigure| json!([f.plot.0, f.plot.1, f.plot.2, f.plot.3]);
+    json!({
+        "label": format!("stable region of {} and {}", answer.axes[0].name, answer.axes[1].name),
+        "goal": map_goal(answer),
+        "unit": frequency_unit(answer),
+        "degree": answer.polynomial.as_ref().map_or(0, |p| p.formal_degree()),
+        "never": never,
+        "axes": [axis(0), axis(1)],
+        "plots": figures.iter().map(plot).collect::<Vec<_>>(),
+        "curves": curves.iter().map(|c| curve(c, answer)).collect::<Vec<_>>(),
+        "strips": strips.iter().map(|s| strip(s, answer)).collect::<Vec<_>>(),
+        "walls": walls.flat_map(|(w, f)| wall(w, f)).collect::<Vec<_>>(),
+    })
+}
+
+fn curve(curve: &Curve, answer: &Map) -> Value {
+    let term = |(m, c): &(Monomial, Integer)| json!([m.exponent(0), m.exponent(1), c.to_string()]);
+    json!({
+        "words": mechanism_words(&curve.causes, answer),
+        "terms": curve.polynomial.terms().iter().map(term).collect::<Vec<_>>(),
+    })
+}
+
+fn strip(strip: &Strip, answer: &Map) -> Value {
+    let end = |value: &Option<RealAlgebraic>| {
+        value.as_ref().map_or(Value::Null, |value| {
+            let (lo, hi) = value.enclosure();
+            let polynomial = json::polynomial(value.polynomial());
+            json!({ "enclosure": [lo.to_string(), hi.to_string()], "polynomial": polynomial })
+        })
+    };
+    let cells: Vec<Value> = strip.cells.iter().map(|c| json!([u8::from(c.stable), c.outside])).collect();
+    // On a wall that a user can type the cells are others than beside it.
+    let wall = strip.x.upper.as_ref().and_then(RealAlgebraic::exact);
+    let fibre = wall.and_then(|x| answer.fibre(&x, &Budget::unlimited()).ok().flatten());
+    let fibre = fibre.map(|cells| cells.iter().map(|c| json!([u8::from(c.0), c.1])).collect::<Vec<_>>());
+    json!({ "lower": end(&strip.x.lower), "upper": end(&strip.x.upper), "cells": cells, "wall": fibre })
+}
+
+/// Rounded to four significant digits.
+fn four_digits(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+/// The visible parts of a wall, places to four decimals.
+fn wall(wall: &Wall, frequencies: &[FrequencyPoint]) -> Vec<Value> {
+    let near = |p: &(f64, f64)| (-0.02..=1.02).contains(&p.0) && (-0.02..=1.02).contains(&p.1);
+    let numbered: Vec<(usize, (f64, f64))> = wall.points.iter().copied().enumerate().collect();
+    let parts = numbered.chunk_by(|a, b| near(&a.1) == near(&b.1)).filter(|part| near(&part[0].1));
+    parts.filter_map(|part| visible_part(wall.curve, part, frequencies)).collect()
+}
+
+fn visible_part(curve: usize, part: &[(usize, (f64, f64))], frequencies: &[FrequencyPoint]) -> Option<Value> {
+    let rounded = |v: f64| (v * 1e4).round() / 1e4;
+    let (mut points, mut kept) = (Vec::new(), Vec::new());
+    let mut last: Option<(f64, f64)> = None;
+    let (first, end) = (part.first()?.0, part.last()?.0);
+    for (k, p) in part {
+        let at = (rounded(p.0), rounded(p.1));
+        let close = last.is_some_and(|l| (l.0 - at.0).abs() < 2e-3 && (l.1 - at.1).abs() < 2e-3);
+        if close && *k != end {
+            continue;
+        }
+        last = Some(at);
+        points.extend([at.0, at.1]);
+        kept.push(*k);
+    }
+    if kept.len() < 2 {
+        return None;
+    }
+    let place = |point: usize| kept.partition_point(|k| *k < point);
+    let inside = frequencies.iter().filter(|f| (first..=end).contains(&f.point));
+    let frequencies: Vec<Value> = inside.map(|f| json!([place(f.point), four_digits(f.value)])).collect();
+    Some(json!({ "curve": curve, "points": points, "frequencies": frequencies }))
+}

@@ -1,0 +1,288 @@
+//! From a model to its simulations.
+
+use super::sampled::{Excitation, SampledModel, Step, simulation_error};
+use super::switched::{Controller, Plant, Pulse, Pwm, SwitchedModel, SwitchedState};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::RationalMatrix;
+use jurist_algebra::number::Rational;
+use jurist_engine::error::{Error, Span};
+use jurist_engine::model::{
+    Block, ClosedLoop, Diagram, Discretization, Form, Loop, ModelError, Name, Output, Question, Time,
+};
+use nalgebra::DMatrix;
+
+/// Entries of a matrix without symbols, rounded.
+fn rounded(matrix: &RationalMatrix) -> Result<DMatrix<f64>, ModelError> {
+    let undefined = || ModelError::Undefined("an entry of the closed loop divides by zero".into());
+    let mut values = Vec::with_capacity(matrix.entries().len());
+    for entry in matrix.entries() {
+        values.push(entry.as_constant().ok_or_else(undefined)?.to_f64_approximate());
+    }
+    Ok(DMatrix::from_row_slice(matrix.rows(), matrix.columns(), &values))
+}
+
+fn without_symbols(question: &Question) -> Question {
+    Question { keep: Vec::new(), set: question.set.clone() }
+}
+
+impl SampledModel {
+    /// The closed loop with every parameter set or nominal, entries rounded to `f64`.
+    ///
+    /// Discrete loops come with their sample time, or 1 if they have none. A continuous loop is
+    /// sampled every `step` seconds, exactly for inputs that are constant in between.
+    ///
+    /// # Errors
+    /// [`ModelError`] as for the closed loop; `E-simulation` when the step is not positive.
+    pub fn from_loop(
+        model: &Loop,
+        question: &Question,
+        step: f64,
+        budget: &Budget,
+    ) -> Result<SampledModel, ModelError> {
+        let question = without_symbols(question);
+        let ClosedLoop { a, e, c, d, states, inputs, outputs, .. } = model.closed_loop(&question, budget)?;
+        let (mut transition, mut input) = (rounded(&a)?, rounded(&e)?);
+        let mut sample_time = 1.0;
+        if model.time() == Time::Continuous {
+            let (n, m) = (transition.nrows(), input.ncols());
+            let mut bordered = DMatrix::zeros(n + m, n + m);
+            bordered.view_mut((0, 0), (n, n)).copy_from(&(&transition * step));
+            bordered.view_mut((0, n), (n, m)).copy_from(&(&input * step));
+            let flow = bordered.exp();
+            transition = flow.view((0, 0), (n, n)).into_owned();
+            input = flow.view((0, n), (n, m)).into_owned();
+            sample_time = step;
+        } else if let Some(time) = model.sample_time(&question, budget)? {
+            sample_time = time.as_constant().map_or(1.0, |t| t.to_f64_approximate());
+        }
+        let model = SampledModel {
+            transition,
+            input,
+            output: rounded(&c)?,
+            feedthrough: rounded(&d)?,
+            states,
+            inputs,
+            outputs,
+            sample_time,
+        };
+        Ok(model.checked()?)
+    }
+
+    /// Which state a name means: a state, or an output that is one state and nothing else.
+    pub fn state_named(&self, name: &str) -> Option<usize> {
+        self.states.iter().position(|s| s == name).or_else(|| {
+            let row = self.outputs.iter().position(|o| o == name)?;
+            let direct = self.feedthrough.row(row).iter().all(|v| *v == 0.0);
+            unit_position(self.output.row(row).iter().copied()).filter(|_| direct)
+        })
+    }
+}
+
+/// The position of the only non-zero entry, if that is 1.
+fn unit_position(row: impl Iterator<Item = f64>) -> Option<usize> {
+    let mut found = None;
+    for (j, v) in row.enumerate().filter(|(_, v)| *v != 0.0) {
+        if v != 1.0 || found.is_some() {
+            return None;
+        }
+        found = Some(j);
+    }
+    found
+}
+
+/// Names and values as steps at sample 0 and initial states.
+///
+/// # Errors
+/// `E-simulation` for a name that is no input, or no state.
+pub fn excitation(
+    states: impl Fn(&str) -> Option<usize>,
+    order: usize,
+    inputs: &[String],
+    initial: &[(String, f64)],
+    steps: &[(String, usize, f64)],
+) -> Result<Excitation, Error> {
+    let mut out = Excitation { initial: vec![0.0; order], steps: Vec::new() };
+    for (name, value) in initial {
+        let unknown = || simulation_error(format!("'{name}' is no state that an initial value can be given"));
+        out.initial[states(name).ok_or_else(unknown)?] = *value;
+    }
+    for (name, sample, value) in steps {
+        let unknown = || simulation_error(format!("the loop has no input '{name}'"));
+        let input = inputs.iter().position(|i| i == name).ok_or_else(unknown)?;
+        out.steps.push(Step { sample: *sample, input, value: *value });
+    }
+    Ok(out)
+}
+
+/// The unit of a signal of a simulation, where the model names it: `NAME.control` of a modulator has
+/// the unit of the signal that drives it, `NAME.duty` is a number.
+pub fn signal_unit(model: &Loop, signal: &str) -> Option<String> {
+    if let Some(unit) = model.unit(signal) {
+        return Some(unit.to_owned());
+    }
+    let source = signal.strip_suffix(".control")?;
+    let Form::Blocks(diagram) = model.form() else { return None };
+    let block = diagram.blocks.iter().find(|b| b.pwm.is_some() && b.outputs.iter().any(|o| o.name == source))?;
+    let span = block.inputs.first()?.span;
+    let driven_by = model.source().text.get(span.start..span.end)?.trim_matches(['"', '\'', ' ']);
+    model.unit(driven_by).map(str::to_owned)
+}
+
+/// The parts of a diagram that a switched simulation keeps apart.
+struct Parts<'m> {
+    sources: Vec<&'m Block>,
+    continuous: Vec<&'m Block>,
+    sampled: Vec<&'m Block>,
+}
+
+impl SwitchedModel {
+    /// The circuit behind a model made of blocks: every block with a `pwm` entry becomes a source
+    /// with pulses at `pulse`, every block with a `discretize` entry the continuous system it was,
+    /// all other blocks run once per period.
+    ///
+    /// # Errors
+    /// [`ModelError`]; `E-simulation` where the model has no such parts, where a continuous block is
+    /// driven by a sampled one without a modulator between, or where periods differ.
+    pub fn from_loop(
+        model: &Loop,
+        question: &Question,
+        pulse: Pulse,
+        budget: &Budget,
+    ) -> Result<SwitchedModel, ModelError> {
+        let question = without_symbols(question);
+        let Form::Blocks(diagram) = model.form() else {
+            return Err(simulation_error("a switched simulation needs a model made of blocks").into());
+        };
+        let parts = Parts::of(diagram)?;
+        let value = |e: &jurist_engine::model::Expression| model.value(e, &question, budget);
+        let (mut period, mut sources): (Option<Rational>, Vec<Pwm>) = (None, Vec::new());
+        for block in &parts.sources {
+            let Some(pwm) = &block.pwm else { continue };
+            let this = value(&pwm.period)?;
+            if period.as_ref().is_some_and(|p| *p != this) {
+                return Err(simulation_error("all modulators need the same period").into());
+            }
+            period = Some(this);
+            sources.push(Pwm {
+                name: block.outputs[0].name.clone(),
+                amplitude: value(&pwm.amplitude)?.to_f64_approximate(),
+                carrier: value(&pwm.carrier)?.to_f64_approximate(),
+                pulse,
+            });
+        }
+        let period = period.ok_or_else(|| ModelError::from(simulation_error("no block has a 'pwm' entry")))?;
+        if let Some(time) = model.sample_time(&question, budget)?.and_then(|t| t.as_constant())
+            && time != period
+        {
+            return Err(simulation_error("the modulators' period is not the sample time").into());
+        }
+        let (r, m) = (diagram.inputs.len(), sources.len());
+        let plant = model.with_diagram(parts.plant(diagram), Time::Continuous).closed_loop(&question, budget)?;
+        let sampled = model.with_diagram(parts.controller(diagram), Time::Discrete).closed_loop(&question, budget)?;
+        let signals = plant.outputs.len();
+        let (a, e, c, d) = (rounded(&plant.a)?, rounded(&plant.e)?, rounded(&plant.c)?, rounded(&plant.d)?);
+        let held = e.ncols() - r - m;
+        if e.columns(r + m, held).iter().chain(d.columns(r, m + held).iter()).any(|v| *v != 0.0) {
+            let message = "a continuous block has to be driven by external inputs, continuous blocks and modulators, \
+                and must not pass a modulator's pulses on at once";
+            return Err(simulation_error(message).into());
+        }
+        let (f, g, h, k) = (rounded(&sampled.a)?, rounded(&sampled.e)?, rounded(&sampled.c)?, rounded(&sampled.d)?);
+        // Inputs of the sampled part: external, pulses, the continuous signals.
+        if g.columns(r, m).iter().chain(k.columns(r, m).iter()).any(|v| *v != 0.0) {
+            return Err(simulation_error("a sampled block must not read a modulator's pulses").into());
+        }
+        let (gy, ky) = (g.columns(r + m, signals), k.columns(r + m, signals));
+        let direct = d.columns(0, r);
+        let controller = Controller {
+            from_plant: gy * &c,
+            from_input: g.columns(0, r) + gy * direct,
+            direct_plant: ky * &c,
+            direct_input: k.columns(0, r) + ky * direct,
+            transition: f,
+            output: h,
+        };
+        let mut plant_states = plant.states.clone();
+        for (row, name) in plant.outputs.iter().enumerate() {
+            if let Some(j) = unit_position(c.row(row).iter().copied()) {
+                plant_states[j].clone_from(name);
+            }
+        }
+        let plant = Plant { matrix: a, source: e.columns(r, m).into_owned(), input: e.columns(0, r).into_owned() };
+        let inputs = diagram.inputs.iter().map(|n| n.name.clone()).collect();
+        let period = period.to_f64_approximate();
+        Ok(SwitchedModel::new(period, plant, sources, controller, [plant_states, sampled.states, inputs])?)
+    }
+
+    /// Which plant state a name means.
+    pub fn state_named(&self, name: &str) -> Option<usize> {
+        self.plant_states().iter().position(|s| s == name)
+    }
+
+    /// The state an excitation starts from: its initial values are those of the plant.
+    pub fn start(&self, excitation: &Excitation) -> SwitchedState {
+        let mut state = self.rest();
+        for (slot, value) in state.plant.iter_mut().zip(&excitation.initial) {
+            *slot = *value;
+        }
+        state
+    }
+}
+
+impl<'m> Parts<'m> {
+    fn of(diagram: &'m Diagram) -> Result<Self, Error> {
+        let mut parts = Parts { sources: Vec::new(), continuous: Vec::new(), sampled: Vec::new() };
+        for block in &diagram.blocks {
+            if block.pwm.is_some() {
+                if block.inputs.len() != 1 || block.outputs.len() != 1 {
+                    return Err(simulation_error(format!(
+                        "the modulator '{}' needs one input and one output",
+                        block.name
+                    )));
+                }
+                parts.sources.push(block);
+            } else if block.discretization.is_some() {
+                parts.continuous.push(block);
+            } else {
+                parts.sampled.push(block);
+            }
+        }
+        if parts.continuous.is_empty() {
+            return Err(simulation_error("no block has a 'discretize' entry, so nothing is continuous"));
+        }
+        Ok(parts)
+    }
+
+    /// The continuous blocks as they are, open: external inputs, pulses, sampled signals go in, all
+    /// their own signals come out.
+    fn plant(&self, diagram: &Diagram) -> Diagram {
+        let blocks = self.continuous.iter().map(|b| Block { discretization: None::<Discretization>, ..(*b).clone() });
+        let inputs = diagram.inputs.iter().cloned().chain(outputs_of(&self.sources)).chain(outputs_of(&self.sampled));
+        Diagram {
+            inputs: inputs.collect(),
+            outputs: as_outputs(outputs_of(&self.continuous)),
+            blocks: blocks.collect(),
+        }
+    }
+
+    /// The sampled blocks, open: external inputs, pulses, continuous signals go in, what the
+    /// modulators read comes out.
+    fn controller(&self, diagram: &Diagram) -> Diagram {
+        let inputs =
+            diagram.inputs.iter().cloned().chain(outputs_of(&self.sources)).chain(outputs_of(&self.continuous));
+        let read = self.sources.iter().map(|b| Output {
+            name: Name { name: b.name.clone(), span: Span::default() },
+            expression: b.inputs[0].clone(),
+        });
+        let blocks = self.sampled.iter().map(|b| (*b).clone()).collect();
+        Diagram { inputs: inputs.collect(), outputs: read.collect(), blocks }
+    }
+}
+
+fn outputs_of<'b>(blocks: &'b [&Block]) -> impl Iterator<Item = Name> + 'b {
+    blocks.iter().flat_map(|b| b.outputs.iter().cloned())
+}
+
+fn as_outputs(names: impl Iterator<Item = Name>) -> Vec<Output> {
+    names.map(|n| Output { expression: jurist_engine::model::Expression::name(n.name.clone()), name: n }).collect()
+}

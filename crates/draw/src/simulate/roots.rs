@@ -1,0 +1,271 @@
+//! All complex roots of an exact polynomial, for pictures.
+
+use super::fixed::Fixed;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, UniPoly};
+use nalgebra::Complex;
+
+/// Bits after the point in the first attempt, and in the last.
+const FIRST_BITS: u64 = 128;
+const LAST_BITS: u64 = 4096;
+
+/// A root is good enough when its disc is smaller than `2^-46` of it (or of 1): far below a pixel,
+/// also in an inset magnified ten thousand times.
+const GOOD_ENOUGH: f64 = 1.0 / (1u64 << 46) as f64;
+
+/// A root in floating point: a picture's coordinate, not evidence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ApproximateRoot {
+    /// Where it is, to `radius`.
+    pub value: Complex<f64>,
+    /// A disc of this radius around `value` holds a root, up to the rounding of the final `f64`.
+    pub radius: f64,
+    /// Exact multiplicity.
+    pub multiplicity: usize,
+}
+
+/// All complex roots of `p`, by real and then imaginary part; none for a constant.
+///
+/// Multiplicities are exact (square-free decomposition); the simple roots of each factor come from
+/// Aberth's iteration [Aberth1973](jurist_algebra::bibliography#aberth1973), started at the radii of the Newton polygon [Bini1996](jurist_algebra::bibliography#bini1996), in fixed
+/// point with as many bits as it takes, so that a cluster such as four roots within 1e-3 of z = 1
+/// is resolved. Real roots have imaginary part exactly 0. O(d^2) products per sweep.
+///
+/// ```
+/// use jurist_algebra::poly::UniPoly;
+/// let p = UniPoly::from_i64(&[-1, 3, -3, 1]); // (z - 1)^3
+/// let roots = jurist_draw::simulate::roots(&p);
+/// assert_eq!((roots[0].value.re, roots[0].value.im, roots[0].multiplicity), (1.0, 0.0, 3));
+/// ```
+pub fn roots(p: &UniPoly) -> Vec<ApproximateRoot> {
+    let zeros = p.coeffs().iter().take_while(|c| c.is_zero()).count();
+    let rest = UniPoly::new(p.coeffs()[zeros..].to_vec());
+    let mut found = Vec::new();
+    if rest.is_zero() {
+        return found;
+    }
+    if zeros > 0 {
+        found.push(ApproximateRoot { value: Complex::new(0.0, 0.0), radius: 0.0, multiplicity: zeros });
+    }
+    for (factor, multiplicity) in rest.square_free_decomposition() {
+        for (value, radius) in simple_roots(&factor) {
+            found.push(ApproximateRoot { value, radius, multiplicity });
+        }
+    }
+    found.sort_by(|a, b| a.value.re.total_cmp(&b.value.re).then(a.value.im.total_cmp(&b.value.im)));
+    found
+}
+
+/// The roots of a square-free polynomial with the radii of their discs.
+fn simple_roots(p: &UniPoly) -> Vec<(Complex<f64>, f64)> {
+    let Some(degree) = p.degree().filter(|d| *d > 0) else { return Vec::new() };
+    if degree == 1 {
+        let root = Rational::new(-p.coeff(0), p.coeff(1));
+        return vec![(Complex::new(root.to_f64_approximate(), 0.0), 0.0)];
+    }
+    let mut bits = FIRST_BITS;
+    let mut roots: Vec<Fixed> = starting_points(p).into_iter().map(|z| Fixed::from_f64(z, bits)).collect();
+    loop {
+        iterate(p, &mut roots, bits);
+        let discs: Vec<(Complex<f64>, f64)> = roots.iter().map(|z| (z.to_f64(bits), radius(p, z, bits))).collect();
+        let good = |(z, r): &(Complex<f64>, f64)| *r <= GOOD_ENOUGH * z.norm().max(1.0);
+        if discs.iter().all(good) || bits >= LAST_BITS {
+            return with_real_roots_real(discs);
+        }
+        roots = roots.iter().map(|z| z.widened(bits)).collect();
+        bits *= 2;
+    }
+}
+
+/// Sweeps of Aberth's correction until every root stands still.
+fn iterate(p: &UniPoly, roots: &mut [Fixed], bits: u64) {
+    let one = Fixed::one(bits);
+    let mut settled = vec![false; roots.len()];
+    // A correction below 2^-(bits / 2) is followed by one below 2^-bits: the method is cubic.
+    let still = bits / 2;
+    for _ in 0..150 {
+        for i in 0..roots.len() {
+            if settled[i] {
+                continue;
+            }
+            let (value, slope) = evaluate(p, &roots[i], bits);
+            if value.is_zero() {
+                settled[i] = true;
+                continue;
+            }
+            let Some(newton) = value.over(&slope, bits) else {
+                // A critical point: any step away from it will do.
+                roots[i].im += &Integer::ONE << (bits - 20);
+                continue;
+            };
+            let mut sum = Fixed::zero();
+            for j in (0..roots.len()).filter(|&j| j != i) {
+                if let Some(term) = one.over(&roots[i].minus(&roots[j]), bits) {
+                    sum = sum.plus(&term);
+                }
+            }
+            let factor = one.minus(&newton.times(&sum, bits));
+            let correction = newton.over(&factor, bits).unwrap_or(newton);
+            settled[i] = correction.size() <= still;
+            roots[i] = roots[i].minus(&correction);
+        }
+        if settled.iter().all(|s| *s) {
+            break;
+        }
+    }
+}
+
+/// The polynomial and its derivative at `z`, by Horner's rule.
+fn evaluate(p: &UniPoly, z: &Fixed, bits: u64) -> (Fixed, Fixed) {
+    let (mut value, mut slope) = (Fixed::zero(), Fixed::zero());
+    for c in p.coeffs().iter().rev() {
+        slope = slope.times(z, bits).plus(&value);
+        value = value.times(z, bits);
+        value.re += c << bits;
+    }
+    (value, slope)
+}
+
+/// Radius of a disc around `z` that holds a root: `d |p / p'|`, with the rounding of `p` added.
+fn radius(p: &UniPoly, z: &Fixed, bits: u64) -> f64 {
+    let degree = p.degree().unwrap_or(0) as f64;
+    let (value, slope) = evaluate(p, z, bits);
+    let size = z.to_f64(bits).norm().max(1.0);
+    // Each Horner step rounds by less than 2 units and hands the sum on, times |z|.
+    let rounding = degree * (degree.log2() + degree * size.log2() + 1.0 - bits as f64).exp2();
+    let slope = slope.to_f64(bits).norm();
+    if slope > 0.0 { (degree * value.to_f64(bits).norm() + rounding) / slope } else { f64::INFINITY }
+}
+
+/// Roots whose disc meets the real axis, and no disc but its own there, are real.
+fn with_real_roots_real(mut discs: Vec<(Complex<f64>, f64)>) -> Vec<(Complex<f64>, f64)> {
+    for i in 0..discs.len() {
+        let (z, r) = discs[i];
+        let reach = r + f64::EPSILON * z.norm();
+        let partner = |(j, (w, s)): (usize, &(Complex<f64>, f64))| {
+            j != i && (w - z.conj()).norm() <= reach + s + f64::EPSILON * z.norm()
+        };
+        if z.im.abs() <= reach && !discs.iter().enumerate().any(partner) {
+            discs[i].0.im = 0.0;
+        }
+    }
+    discs
+}
+
+/// Points on the circles whose radii the Newton polygon gives, none of them real.
+fn starting_points(p: &UniPoly) -> Vec<Complex<f64>> {
+    let logs: Vec<Option<f64>> = p.coeffs().iter().map(log2_magnitude).collect();
+    let mut hull: Vec<(usize, f64)> = Vec::new();
+    for (k, log) in logs.iter().enumerate().filter_map(|(k, l)| l.map(|l| (k, l))) {
+        while let [.., (i, a), (j, b)] = hull[..] {
+            if (b - a) * (k - i) as f64 <= (log - a) * (j - i) as f64 {
+                hull.pop();
+            } else {
+                break;
+            }
+        }
+        hull.push((k, log));
+    }
+    let mut points = Vec::new();
+    for pair in hull.windows(2) {
+        let ((i, a), (j, b)) = (pair[0], pair[1]);
+        let count = j - i;
+        let radius = ((a - b) / count as f64).clamp(-1000.0, 1000.0).exp2();
+        for m in 0..count {
+            let angle = std::f64::consts::TAU * m as f64 / count as f64 + 0.7 + 0.31 * i as f64;
+            points.push(Complex::from_polar(radius, angle));
+        }
+    }
+    points
+}
+
+/// `log2 |c|`; `None` for 0.
+fn log2_magnitude(c: &Integer) -> Option<f64> {
+    let length = c.bit_length();
+    let drop = length.saturating_sub(60);
+    (length > 0).then(|| (&c.abs() >> drop).to_f64_approximate().log2() + drop as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn product(roots: &[i64]) -> UniPoly {
+        roots.iter().fold(UniPoly::from_i64(&[1]), |p, r| &p * &UniPoly::from_i64(&[-r, 1]))
+    }
+
+    #[test]
+    fn constants_have_no_roots_and_powers_of_z_only_zero() {
+        assert!(roots(&UniPoly::from_i64(&[])).is_empty());
+        assert!(roots(&UniPoly::from_i64(&[7])).is_empty());
+        let zero = roots(&UniPoly::from_i64(&[0, 0, 5]));
+        assert_eq!((zero.len(), zero[0].multiplicity, zero[0].value.norm()), (1, 2, 0.0));
+    }
+
+    #[test]
+    fn wilkinsons_twenty_roots_are_integers() {
+        let found = roots(&product(&(1..=20).collect::<Vec<_>>()));
+        for (root, expected) in found.iter().zip(1..) {
+            assert!((root.value.re - f64::from(expected)).abs() < 1e-12 && root.value.im == 0.0);
+        }
+    }
+
+    #[test]
+    fn a_tight_cluster_is_resolved() {
+        // (10^10 z - 10^10 - k) for k = -1, 0, 1, 2: four roots within 3e-10.
+        let scale = 10_000_000_000i64;
+        let p =
+            [-1, 0, 1, 2].iter().fold(UniPoly::from_i64(&[1]), |p, k| &p * &UniPoly::from_i64(&[-(scale + k), scale]));
+        let found = roots(&p);
+        for (root, k) in found.iter().zip([-1.0, 0.0, 1.0, 2.0]) {
+            assert!(((root.value.re - 1.0) * 1e10 - k).abs() < 1e-4, "{root:?}");
+            assert_eq!(root.value.im, 0.0);
+        }
+    }
+
+    #[test]
+    fn magnitudes_far_apart_are_found() {
+        // (z - 10^15)(10^12 z - 1)(z^2 + 1)
+        let p = &(&UniPoly::from_i64(&[-1_000_000_000_000_000, 1]) * &UniPoly::from_i64(&[-1, 1_000_000_000_000]))
+            * &UniPoly::from_i64(&[1, 0, 1]);
+        let found = roots(&p);
+        assert!(found.iter().any(|r| (r.value.re / 1e15 - 1.0).abs() < 1e-14));
+        assert!(found.iter().any(|r| (r.value.re - 1e-12).abs() < 1e-16 && r.value.im == 0.0));
+        assert!(found.iter().filter(|r| (r.value.im.abs() - 1.0).abs() < 1e-14).count() == 2);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+        #[test]
+        fn known_integer_roots_come_back(mut known in proptest::collection::vec(-6i64..7, 1..7)) {
+            known.sort_unstable();
+            let p = product(&known);
+            let found = roots(&p);
+            let mut list = Vec::new();
+            for root in &found {
+                prop_assert_eq!(root.value.im, 0.0);
+                list.extend(std::iter::repeat_n(root.value.re.round() as i64, root.multiplicity));
+                prop_assert!((root.value.re - root.value.re.round()).abs() < 1e-12);
+            }
+            prop_assert_eq!(list, known);
+        }
+
+        #[test]
+        fn sum_and_product_follow_from_the_coefficients(c in proptest::collection::vec(-50i64..50, 2..9)) {
+            let p = UniPoly::from_i64(&c);
+            let Some(d) = p.degree() else { return Ok(()) };
+            let found = roots(&p);
+            prop_assert_eq!(found.iter().map(|r| r.multiplicity).sum::<usize>(), d);
+            let lead = p.coeff(d).to_f64_approximate();
+            let sum: Complex<f64> = found.iter().map(|r| r.value * r.multiplicity as f64).sum();
+            let all: Complex<f64> = found.iter().map(|r| r.value.powu(r.multiplicity as u32)).product();
+            if d > 0 {
+                let (s, q) = (-p.coeff(d - 1).to_f64_approximate() / lead, p.coeff(0).to_f64_approximate() / lead);
+                let q = if d % 2 == 0 { q } else { -q };
+                prop_assert!((sum - s).norm() < 1e-9 * (1.0 + s.abs()), "{} {}", sum, s);
+                prop_assert!((all - q).norm() < 1e-9 * (1.0 + q.abs()), "{} {}", all, q);
+            }
+        }
+    }
+}

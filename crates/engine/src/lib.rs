@@ -1,0 +1,20 @@
+//! Models of control loops, and exact answers about their stability.
+//!
+//! | room | what it does |
+//! |---|---|
+//! | [`error`] | diagnostics with places and stable codes |
+//! | [`model`] | expressions, model files, block diagrams, discretisation |
+//! | [`stability`] | exact root count, tables of Jury and Routh, boundary polynomials, stable sets, two parameters |
+//! | [`analysis`] | the questions asked of a loop, answered as plain values |
+//! | [`prove`] | certificates and statements for solvers |
+//! | [`show`] | text, JSON, LaTeX, code |
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod analysis;
+pub mod error;
+pub mod model;
+pub mod prove;
+pub mod show;
+pub mod stability;

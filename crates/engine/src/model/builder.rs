@@ -1,0 +1,297 @@
+//! Loops built in Rust.
+//!
+//! A builder writes the model file that says the same. So both ways mean the same by
+//! construction, errors point into readable text, and every built loop can be saved.
+
+use super::definition::{Loop, Time};
+use crate::error::{Diagnostic, Error, Source};
+use std::fmt::Write;
+
+/// A loop in the making.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{BlockBuilder, Loop, ParameterBuilder, Question, Time};
+///
+/// let (model, _) = Loop::builder(Time::Discrete)
+///     .title("integrator under proportional control")
+///     .parameter(ParameterBuilder::new("K").nominal("1/2").min("0"))
+///     .inputs(["r"])
+///     .outputs(["y"])
+///     .block(BlockBuilder::new("controller", "r - y", "u").gain("K"))
+///     .block(BlockBuilder::new("plant", "u", "y").transfer("1/(z - 1)"))
+///     .build()?;
+/// let p = model.characteristic_polynomial(&Question::keeping(["K"]), &Budget::unlimited())?;
+/// // z - 1 + K
+/// assert_eq!(p.coefficients[0].display(&p.variables).to_string(), "K - 1");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct LoopBuilder {
+    time: Time,
+    title: Option<String>,
+    sample_time: Option<String>,
+    constants: String,
+    parameters: String,
+    form: String,
+    blocks: String,
+}
+
+/// A parameter in the making.
+#[derive(Clone, Debug)]
+pub struct ParameterBuilder {
+    name: String,
+    keys: Vec<(&'static str, String)>,
+}
+
+/// A block in the making.
+#[derive(Clone, Debug)]
+pub struct BlockBuilder {
+    text: String,
+}
+
+/// A TOML string; also right as a key.
+fn quoted(text: &str) -> String {
+    let mut out = String::with_capacity(text.len() + 2);
+    out.push('"');
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            '\n' => out.push_str("\\n"),
+            c if c.is_control() => write!(out, "\\u{:04X}", u32::from(c)).expect("a string takes all text"),
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
+
+fn array<S: AsRef<str>>(items: impl IntoIterator<Item = S>) -> String {
+    let items: Vec<String> = items.into_iter().map(|s| quoted(s.as_ref())).collect();
+    format!("[{}]", items.join(", "))
+}
+
+fn matrix(rows: &[&[&str]]) -> String {
+    let rows: Vec<String> = rows.iter().map(|row| array(row.iter())).collect();
+    format!("[{}]", rows.join(", "))
+}
+
+impl Loop {
+    /// Begins a loop.
+    pub fn builder(time: Time) -> LoopBuilder {
+        LoopBuilder {
+            time,
+            title: None,
+            sample_time: None,
+            constants: String::new(),
+            parameters: String::new(),
+            form: String::new(),
+            blocks: String::new(),
+        }
+    }
+}
+
+impl LoopBuilder {
+    /// The title.
+    pub fn title(mut self, title: &str) -> Self {
+        self.title = Some(title.into());
+        self
+    }
+
+    /// The sample time, as an expression.
+    pub fn sample_time(mut self, expression: &str) -> Self {
+        self.sample_time = Some(expression.into());
+        self
+    }
+
+    /// A constant, as an expression.
+    pub fn constant(mut self, name: &str, expression: &str) -> Self {
+        self.constants.push_str(&format!("{} = {}\n", quoted(name), quoted(expression)));
+        self
+    }
+
+    /// A parameter.
+    pub fn parameter(mut self, parameter: ParameterBuilder) -> Self {
+        let keys: Vec<String> = parameter.keys.iter().map(|(k, v)| format!("{k} = {}", quoted(v))).collect();
+        self.parameters.push_str(&format!("{} = {{ {} }}\n", quoted(&parameter.name), keys.join(", ")));
+        self
+    }
+
+    fn key(mut self, key: &str, value: &str) -> Self {
+        self.form.push_str(&format!("{key} = {value}\n"));
+        self
+    }
+
+    /// The characteristic polynomial as it is.
+    pub fn characteristic(self, expression: &str) -> Self {
+        self.key("characteristic", &quoted(expression))
+    }
+
+    /// The closed-loop matrix.
+    pub fn matrix(self, rows: &[&[&str]]) -> Self {
+        self.key("matrix", &matrix(rows))
+    }
+
+    /// `u = -K y`, `y = C x`: the closed loop is `A - B K C`.
+    pub fn feedback(self, a: &[&[&str]], b: &[&[&str]], c: &[&[&str]], k: &[&[&str]]) -> Self {
+        self.key("A", &matrix(a)).key("B", &matrix(b)).key("C", &matrix(c)).key("K", &matrix(k))
+    }
+
+    /// The names of the states of a loop of matrices.
+    pub fn states<S: AsRef<str>>(self, names: impl IntoIterator<Item = S>) -> Self {
+        self.key("states", &array(names))
+    }
+
+    /// The names of the external inputs.
+    pub fn inputs<S: AsRef<str>>(self, names: impl IntoIterator<Item = S>) -> Self {
+        self.key("inputs", &array(names))
+    }
+
+    /// How the inputs enter a loop of matrices.
+    pub fn input_matrix(self, rows: &[&[&str]]) -> Self {
+        self.key("E", &matrix(rows))
+    }
+
+    /// The responses: linear expressions in states or signals.
+    pub fn outputs<S: AsRef<str>>(self, expressions: impl IntoIterator<Item = S>) -> Self {
+        self.key("outputs", &array(expressions))
+    }
+
+    /// A block of a diagram.
+    pub fn block(mut self, block: BlockBuilder) -> Self {
+        self.blocks.push_str(&format!("\n[[block]]\n{}", block.text));
+        self
+    }
+
+    /// The model file that says the same.
+    pub fn to_toml(&self) -> String {
+        let mut text = String::new();
+        if let Some(title) = &self.title {
+            text.push_str(&format!("title = {}\n", quoted(title)));
+        }
+        text.push_str(&format!("time = {}\n", quoted(self.time.name())));
+        if let Some(expression) = &self.sample_time {
+            text.push_str(&format!("sample_time = {}\n", quoted(expression)));
+        }
+        for (header, body) in [("constants", &self.constants), ("parameters", &self.parameters)] {
+            if !body.is_empty() {
+                text.push_str(&format!("\n[{header}]\n{body}"));
+            }
+        }
+        text.push_str(&format!("\n[loop]\n{}{}", self.form, self.blocks));
+        text
+    }
+
+    /// The loop, with warnings.
+    ///
+    /// # Errors
+    /// As [`Loop::from_toml`], pointing into the text of [`LoopBuilder::to_toml`].
+    pub fn build(&self) -> Result<(Loop, Vec<Diagnostic>), Error> {
+        Loop::from_toml(&Source::new("<built loop>", self.to_toml()))
+    }
+}
+
+impl ParameterBuilder {
+    /// A parameter without a nominal value, unit or bounds.
+    pub fn new(name: &str) -> Self {
+        ParameterBuilder { name: name.into(), keys: Vec::new() }
+    }
+
+    fn key(mut self, key: &'static str, value: &str) -> Self {
+        self.keys.push((key, value.into()));
+        self
+    }
+
+    /// The value it has when nothing else is said.
+    pub fn nominal(self, value: &str) -> Self {
+        self.key("nominal", value)
+    }
+
+    /// The open lower bound of its domain.
+    pub fn min(self, value: &str) -> Self {
+        self.key("min", value)
+    }
+
+    /// The open upper bound of its domain.
+    pub fn max(self, value: &str) -> Self {
+        self.key("max", value)
+    }
+
+    /// Its unit.
+    pub fn unit(self, unit: &str) -> Self {
+        self.key("unit", unit)
+    }
+
+    /// What it is.
+    pub fn description(self, text: &str) -> Self {
+        self.key("description", text)
+    }
+}
+
+impl BlockBuilder {
+    /// A block with one input, a linear expression in signals, that drives one signal.
+    pub fn new(name: &str, input: &str, output: &str) -> Self {
+        BlockBuilder::with_signals(name, [input], [output])
+    }
+
+    /// A block with several inputs and outputs.
+    pub fn with_signals<S: AsRef<str>, R: AsRef<str>>(
+        name: &str,
+        inputs: impl IntoIterator<Item = S>,
+        outputs: impl IntoIterator<Item = R>,
+    ) -> Self {
+        let text = format!("name = {}\ninput = {}\noutput = {}\n", quoted(name), array(inputs), array(outputs));
+        BlockBuilder { text }
+    }
+
+    fn key(mut self, key: &str, value: &str) -> Self {
+        self.text.push_str(&format!("{key} = {value}\n"));
+        self
+    }
+
+    /// A rational expression in z or s.
+    pub fn transfer(self, expression: &str) -> Self {
+        self.key("transfer", &quoted(expression))
+    }
+
+    /// Numerator and denominator, coefficients of the highest power first.
+    pub fn ratio<S: AsRef<str>, R: AsRef<str>>(
+        self,
+        numerator: impl IntoIterator<Item = S>,
+        denominator: impl IntoIterator<Item = R>,
+    ) -> Self {
+        self.key("num", &array(numerator)).key("den", &array(denominator))
+    }
+
+    /// A factor.
+    pub fn gain(self, expression: &str) -> Self {
+        self.key("gain", &quoted(expression))
+    }
+
+    /// A number of samples.
+    pub fn delay(self, samples: usize) -> Self {
+        self.key("delay", &samples.to_string())
+    }
+
+    /// State space; the outputs are the states.
+    pub fn states(self, a: &[&[&str]], b: &[&[&str]]) -> Self {
+        self.key("A", &matrix(a)).key("B", &matrix(b))
+    }
+
+    /// The output matrix of a state space.
+    pub fn output_matrix(self, c: &[&[&str]]) -> Self {
+        self.key("C", &matrix(c))
+    }
+
+    /// The direct matrix of a state space, or a static block.
+    pub fn direct_matrix(self, d: &[&[&str]]) -> Self {
+        self.key("D", &matrix(d))
+    }
+
+    /// Makes a continuous block discrete: `forward`, `backward` or `tustin`.
+    pub fn discretize(self, method: &str, sample_time: &str) -> Self {
+        let value = format!("{{ method = {}, T = {} }}", quoted(method), quoted(sample_time));
+        self.key("discretize", &value)
+    }
+}

@@ -1,0 +1,440 @@
+//! Whether the names and values of a model make sense.
+
+use super::definition::{
+    Block, Constant, Discretization, Dynamics, Form, Loop, Matrix, Name, Output, Parameter, Ports, Position, Time,
+};
+use super::evaluate::Failure;
+use super::expression::Expression;
+use super::names::{did_you_mean, nearest_name, shorten};
+use super::read::Reader;
+use super::read_block::driven;
+use super::read_loop::known_names;
+use super::scalar::{Scope, Symbol};
+use super::simulation;
+use super::state_space::assemble;
+use super::symbolic::{Wiring, symbolic};
+use crate::error::{Diagnostic, Span};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Integer, Rational};
+use std::collections::{HashMap, HashSet};
+use std::time::Duration;
+
+/// How long the check of values may take; what is not found by then shows when a question is asked.
+const CHECK_TIME: Duration = Duration::from_millis(300);
+
+/// Names with a meaning of their own.
+const RESERVED: [(&str, &str); 2] =
+    [("radius", "the radius of the stability region"), ("decay", "the decay rate of the stability region")];
+
+fn reserved(name: &str, time: Time) -> Option<&'static str> {
+    if name == time.variable() {
+        return Some("the polynomial variable");
+    }
+    RESERVED.iter().find(|(reserved, _)| *reserved == name).map(|(_, meaning)| *meaning)
+}
+
+fn check_reserved(name: &str, span: Span, time: Time, reader: &mut Reader) {
+    if let Some(meaning) = reserved(name, time) {
+        let error = Diagnostic::error("E-reserved-name", format!("the name '{name}' is reserved"));
+        reader.report(error.at(span, format!("stands for {meaning}")).help("choose another name"));
+    }
+}
+
+/// Fills the index of constants and parameters.
+pub(super) fn definitions(
+    constants: &[Constant],
+    parameters: &[Parameter],
+    time: Time,
+    index: &mut HashMap<String, Position>,
+    reader: &mut Reader,
+) {
+    for (i, c) in constants.iter().enumerate() {
+        check_reserved(&c.name, c.span, time, reader);
+        index.insert(c.name.clone(), Position::Constant(i));
+    }
+    for (i, p) in parameters.iter().enumerate() {
+        check_reserved(&p.name, p.span, time, reader);
+        if let Some(Position::Constant(first)) = index.insert(p.name.clone(), Position::Parameter(i)) {
+            let message = format!("'{}' is both a constant and a parameter", shorten(&p.name));
+            let error = Diagnostic::error("E-duplicate-name", message).at(p.span, "a parameter here");
+            let error = error.also(constants[first].span, "a constant here");
+            reader.report(error.help("a constant given as a number can be varied as it is: remove the parameter"));
+        }
+    }
+}
+
+/// The constants in an order in which each uses earlier ones only.
+pub(super) fn constant_order(
+    constants: &[Constant],
+    index: &HashMap<String, Position>,
+    reader: &mut Reader,
+) -> Vec<usize> {
+    #[derive(Clone, Copy, PartialEq)]
+    enum State {
+        New,
+        Open,
+        Done,
+    }
+    let uses: Vec<Vec<usize>> = constants
+        .iter()
+        .map(|c| {
+            let position = |name: &str| match index.get(name) {
+                Some(Position::Constant(i)) => Some(*i),
+                _ => None,
+            };
+            c.expression.names().into_iter().filter_map(position).collect()
+        })
+        .collect();
+    let mut state = vec![State::New; constants.len()];
+    let mut order = Vec::new();
+    for root in 0..constants.len() {
+        if state[root] != State::New {
+            continue;
+        }
+        // Depth first with a stack of its own: chains of constants may be as long as the file.
+        let mut stack = vec![(root, 0)];
+        state[root] = State::Open;
+        while let Some((current, next)) = stack.pop() {
+            let Some(&used) = uses[current].get(next) else {
+                state[current] = State::Done;
+                order.push(current);
+                continue;
+            };
+            stack.push((current, next + 1));
+            match state[used] {
+                State::New => {
+                    state[used] = State::Open;
+                    stack.push((used, 0));
+                }
+                State::Open => {
+                    let from = stack.iter().position(|&(i, _)| i == used).unwrap_or(0);
+                    let cycle: Vec<&Constant> = stack[from..].iter().map(|&(i, _)| &constants[i]).collect();
+                    reader.report(cycle_error(&cycle));
+                }
+                State::Done => {}
+            }
+        }
+    }
+    order
+}
+
+fn cycle_error(cycle: &[&Constant]) -> Diagnostic {
+    /// Members of a cycle that are shown.
+    const SHOWN: usize = 8;
+    let first = cycle[0];
+    let mut path: Vec<String> = cycle.iter().take(SHOWN).map(|c| shorten(&c.name).into_owned()).collect();
+    if cycle.len() > SHOWN {
+        path.push("...".into());
+    }
+    path.push(shorten(&first.name).into_owned());
+    let message = format!("constants are defined by each other: {}", path.join(" -> "));
+    let mut error = Diagnostic::error("E-cycle", message).at(first.span, "depends on itself");
+    for c in cycle.iter().skip(1).take(SHOWN) {
+        error = error.also(c.span, "by way of this");
+    }
+    error.help("give one of them a value of its own")
+}
+
+/// The names of one kind of place.
+struct Allowed<'m> {
+    model: &'m Loop,
+    /// Signals or states; the polynomial variable.
+    further: Vec<&'m str>,
+    what: &'static str,
+}
+
+struct Names<'m, 'r> {
+    model: &'m Loop,
+    used: HashSet<&'m str>,
+    reported: HashSet<&'m str>,
+    /// Whether a signal has the name of something else: then another signal is probably missing.
+    misnamed: bool,
+    reader: &'r mut Reader,
+}
+
+impl<'m> Names<'m, '_> {
+    fn expression(&mut self, e: &'m Expression, further: &HashSet<&'m str>, what: &'static str) {
+        e.each_name(&mut |name, span| {
+            if further.contains(name) || self.model.index.contains_key(name) {
+                self.used.insert(name);
+            } else if !self.reader.refused.contains(name) && self.reported.insert(name) {
+                let allowed = Allowed { model: self.model, further: further.iter().copied().collect(), what };
+                let error = unknown(name, span, &allowed);
+                let is_follow_up = self.misnamed && !what.is_empty() && nearest(name, &allowed).is_none();
+                if !is_follow_up {
+                    self.reader.report(error);
+                }
+            }
+        });
+    }
+
+    fn matrix(&mut self, matrix: &'m Matrix, further: &HashSet<&'m str>) {
+        matrix.entries().for_each(|e| self.expression(e, further, ""));
+    }
+}
+
+impl<'m> Allowed<'m> {
+    /// Every name that would be accepted.
+    fn names(&self) -> impl Iterator<Item = &'m str> {
+        let model = self.model;
+        let mut further = self.further.clone();
+        further.sort_unstable();
+        let parameters = model.parameters.iter().map(|p| p.name.as_str());
+        parameters.chain(model.constants.iter().map(|c| c.name.as_str())).chain(further)
+    }
+}
+
+fn nearest<'m>(name: &str, allowed: &Allowed<'m>) -> Option<&'m str> {
+    nearest_name(name, allowed.names())
+}
+
+fn unknown(name: &str, span: Span, allowed: &Allowed<'_>) -> Diagnostic {
+    let model = allowed.model;
+    let label = if allowed.what.is_empty() {
+        "not defined".to_owned()
+    } else {
+        format!("neither defined nor {}", allowed.what)
+    };
+    let mut error = Diagnostic::error("E-unknown-name", format!("unknown name '{}'", shorten(name))).at(span, label);
+    error.help = did_you_mean(name, allowed.names());
+    if error.help.is_none() {
+        let variable = model.time.variable();
+        error.help = Some(match name {
+            "pi" | "e" => format!("{name} is irrational: write as many digits of it as you mean"),
+            "z" | "s" if name != variable => format!("the variable of a {} loop is {variable}", model.time.name()),
+            _ if name == variable => format!("{variable} is known in 'characteristic' and 'transfer' only"),
+            _ => known_names(allowed.names()).unwrap_or_else(|| "define it in [constants] or [parameters]".into()),
+        });
+    }
+    error
+}
+
+/// Reports every name that is not known, used twice, or not used.
+pub(super) fn names(model: &Loop, form_is_broken: bool, reader: &mut Reader) {
+    let none = HashSet::new();
+    let mut names = Names { model, used: HashSet::new(), reported: HashSet::new(), misnamed: false, reader };
+    for c in &model.constants {
+        names.expression(&c.expression, &none, "");
+    }
+    if let Some(e) = &model.sample_time {
+        names.expression(e, &none, "");
+        if model.time == Time::Continuous {
+            let message = "a sample time says nothing in continuous time";
+            names.reader.report(Diagnostic::warning("W-unused", message).at(e.span, "not used"));
+        }
+    }
+    if form_is_broken {
+        return;
+    }
+    match &model.form {
+        Form::Characteristic(e) => names.expression(e, &HashSet::from([model.time.variable()]), ""),
+        Form::Matrix { matrix, ports } => {
+            names.matrix(matrix, &none);
+            check_ports(&mut names, ports);
+        }
+        Form::OutputFeedback { a, b, c, k, ports } => {
+            [a, b, c, k].into_iter().for_each(|m| names.matrix(m, &none));
+            check_ports(&mut names, ports);
+        }
+        Form::Blocks(diagram) => {
+            let mut places: HashMap<&str, (Span, &str)> = HashMap::new();
+            distinct(&mut names, &diagram.inputs, "input");
+            let mut once = HashSet::new();
+            let inputs = diagram.inputs.iter().filter(|n| once.insert(n.name.as_str()));
+            let external = inputs.map(|n| (n, "an external input"));
+            for (name, what) in external.chain(driven(diagram).map(|(n, _)| (n, "driven by a block"))) {
+                if what != "an external input" {
+                    own_name(&mut names, name);
+                }
+                if let Some((first, before)) = places.insert(&name.name, (name.span, what)) {
+                    let message = format!("the signal '{}' has two drivers", shorten(&name.name));
+                    let error = Diagnostic::error("E-two-drivers", message).at(name.span, what).also(first, before);
+                    names.reader.report(error.help("add the two in a block's input: input = \"a + b\""));
+                }
+            }
+            let signals: HashSet<&str> = places.into_keys().collect();
+            for block in &diagram.blocks {
+                check_block(&mut names, block, &signals);
+            }
+            outputs(&mut names, &diagram.outputs, &signals);
+            for input in diagram.inputs.iter().filter(|n| !names.used.contains(n.name.as_str())) {
+                let message = format!("the external input '{}' enters nowhere", shorten(&input.name));
+                names.reader.report(Diagnostic::warning("W-unused", message).at(input.span, "not used"));
+            }
+        }
+    }
+    let Names { used, reader, .. } = names;
+    simulation::check(model, reader);
+    let constants = model.constants.iter().map(|c| (&c.name, c.span, "constant"));
+    let parameters = model.parameters.iter().map(|p| (&p.name, p.span, "parameter"));
+    for (name, span, what) in constants.chain(parameters).filter(|(name, ..)| !used.contains(name.as_str())) {
+        let message = format!("the {what} '{}' is not used", shorten(name));
+        reader.report(Diagnostic::warning("W-unused", message).at(span, "not used"));
+    }
+}
+
+/// A signal or state must not have the name of something else.
+fn own_name(names: &mut Names<'_, '_>, name: &Name) {
+    check_reserved(&name.name, name.span, names.model.time, names.reader);
+    let (place, what) = match names.model.index.get(&name.name) {
+        Some(Position::Constant(i)) => (names.model.constants[*i].span, "a constant here"),
+        Some(Position::Parameter(i)) => (names.model.parameters[*i].span, "a parameter here"),
+        None => return,
+    };
+    names.misnamed = true;
+    let message = format!("'{}' has two meanings", shorten(&name.name));
+    let error = Diagnostic::error("E-duplicate-name", message).at(name.span, "a signal here").also(place, what);
+    names.reader.report(error.help("rename one of them"));
+}
+
+fn distinct(names: &mut Names<'_, '_>, list: &[Name], what: &str) {
+    list.iter().for_each(|name| own_name(names, name));
+    once(list.iter(), what, names.reader);
+}
+
+/// Reports every name that stands in a list again.
+fn once<'n>(list: impl Iterator<Item = &'n Name>, what: &str, reader: &mut Reader) {
+    let mut seen: HashMap<&str, Span> = HashMap::new();
+    for name in list {
+        if let Some(first) = seen.get(name.name.as_str()) {
+            let message = format!("the {what} '{}' is named twice", shorten(&name.name));
+            let error = Diagnostic::error("E-duplicate-name", message).at(name.span, "here again");
+            reader.report(error.also(*first, "first here").help("name it once"));
+        } else {
+            seen.insert(&name.name, name.span);
+        }
+    }
+}
+
+fn check_ports<'m>(names: &mut Names<'m, '_>, ports: &'m Ports) {
+    distinct(names, &ports.states, "state");
+    distinct(names, &ports.inputs, "input");
+    if let Some(e) = &ports.input_matrix {
+        names.matrix(e, &HashSet::new());
+    }
+    let states: HashSet<&str> = ports.states.iter().map(|n| n.name.as_str()).collect();
+    outputs(names, &ports.outputs, &states);
+}
+
+fn outputs<'m>(names: &mut Names<'m, '_>, outputs: &'m [Output], signals: &HashSet<&'m str>) {
+    once(outputs.iter().map(|o| &o.name), "output", names.reader);
+    for output in outputs {
+        names.expression(&output.expression, signals, "a signal or state");
+    }
+}
+
+fn check_block<'m>(names: &mut Names<'m, '_>, block: &'m Block, signals: &HashSet<&'m str>) {
+    let none = HashSet::new();
+    for e in &block.inputs {
+        names.expression(e, signals, "a signal that is driven");
+    }
+    let variable = if block.discretization.is_some() { "s" } else { names.model.time.variable() };
+    let variables = HashSet::from([variable]);
+    match &block.dynamics {
+        Dynamics::Transfer(e) => {
+            if let Some(position) = names.model.index.get(variable).filter(|_| variable != names.model.time.variable())
+            {
+                let span = match position {
+                    Position::Constant(i) => names.model.constants[*i].span,
+                    Position::Parameter(i) => names.model.parameters[*i].span,
+                };
+                let error = Diagnostic::error("E-reserved-name", format!("the name '{variable}' is reserved"));
+                let error = error.at(span, "a discretised block uses this name for its variable");
+                names.reader.report(error.also(e.span, "here"));
+            }
+            names.expression(e, &variables, "");
+        }
+        Dynamics::Ratio { numerator, denominator } => {
+            numerator.iter().chain(denominator).for_each(|e| names.expression(e, &none, ""));
+        }
+        Dynamics::Gain(e) => names.expression(e, &none, ""),
+        Dynamics::Delay(_) => {}
+        Dynamics::StateSpace { a, b, c, d } => {
+            [Some(a), Some(b), c.as_ref(), d.as_ref()].into_iter().flatten().for_each(|m| names.matrix(m, &none));
+        }
+        Dynamics::Static(d) => names.matrix(d, &none),
+    }
+    if let Some(Discretization { sample_time, factor, .. }) = &block.discretization {
+        sample_time.iter().chain(factor).for_each(|e| names.expression(e, &none, ""));
+    }
+    if let Some(pwm) = &block.pwm {
+        [&pwm.amplitude, &pwm.carrier, &pwm.period].into_iter().for_each(|e| names.expression(e, &none, ""));
+    }
+}
+
+/// Evaluates everything with numbers for the parameters. What is not zero at one point is not
+/// identically zero, so this acquits; what looks wrong there is evaluated again with symbols.
+pub(super) fn values(model: &Loop, reader: &mut Reader) {
+    for attempt in 0..3u64 {
+        let budget = Budget::with_timeout(CHECK_TIME);
+        let mut position = 0;
+        let mut symbol = |_: &str, constant: bool| {
+            position += 1;
+            (!constant).then(|| Symbol::Value(probe(attempt, position)))
+        };
+        let Some(found) = problems(model, &mut symbol, &budget) else { return };
+        if found.is_empty() {
+            return;
+        }
+    }
+    let budget = Budget::with_timeout(CHECK_TIME);
+    let found = problems(model, &mut |_, constant| (!constant).then_some(Symbol::Variable), &budget);
+    found.into_iter().flatten().for_each(|d| reader.report(d));
+}
+
+/// Refuses a sample time that is not positive whatever the parameters are.
+pub(super) fn sample_time(model: &Loop, reader: &mut Reader) {
+    let Some(e) = &model.sample_time else { return };
+    let mut needed: HashSet<&str> = e.names().into_iter().collect();
+    for constant in model.ordered_constants().collect::<Vec<_>>().into_iter().rev() {
+        if needed.contains(constant.name.as_str()) {
+            needed.extend(constant.expression.names());
+        }
+    }
+    if model.parameters.iter().any(|p| needed.contains(p.name.as_str())) {
+        return;
+    }
+    let budget = Budget::with_timeout(CHECK_TIME);
+    let constants = model.ordered_constants().filter(|c| needed.contains(c.name.as_str()));
+    let mut scope = Scope::new(std::iter::empty(), constants, |_, _| None, &budget, &mut |_| {});
+    // Whatever else is wrong with it has been reported with the other values.
+    if let Some(value) = scope.scalar(e).ok().and_then(|t| t.as_constant())
+        && !value.sign().is_gt()
+    {
+        let error = Diagnostic::error("E-value", "the sample time must be positive");
+        reader.report(error.at(e.span, format!("this is {}", shorten(&value.to_string()))));
+    }
+}
+
+/// A number that no formula expects.
+fn probe(attempt: u64, position: u64) -> Rational {
+    let mixed = (attempt * 1_000_003 + position).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40;
+    Rational::new(Integer::from(mixed + 1009), Integer::from(7919 + 2 * attempt))
+}
+
+/// Everything that is wrong with the values; `None` when the budget ran out first.
+fn problems(
+    model: &Loop,
+    symbol: &mut dyn FnMut(&str, bool) -> Option<Symbol>,
+    budget: &Budget,
+) -> Option<Vec<Diagnostic>> {
+    let mut found = Vec::new();
+    let mut exhausted = false;
+    let mut report = |failure| match failure {
+        Failure::Wrong(diagnostic) => found.push(*diagnostic),
+        Failure::Exhausted(_) => exhausted = true,
+        Failure::Poisoned => {}
+    };
+    let mut scope = Scope::new(model.parameters.iter(), model.ordered_constants(), symbol, budget, &mut report);
+    let wiring = Wiring::of(model);
+    let form = symbolic(model, &wiring, &mut scope, &mut report);
+    if let Some(form) = form
+        && let Err(failure) = assemble(model, &wiring, &form, &|f| Some(f.clone()), budget)
+    {
+        match failure {
+            super::state_space::Stop::Exhausted(_) => exhausted = true,
+            super::state_space::Stop::Undefined(diagnostic) => found.push(*diagnostic),
+        }
+    }
+    if exhausted && found.is_empty() { None } else { Some(found) }
+}

@@ -1,0 +1,410 @@
+//! What a model says, as plain data.
+
+use super::expression::Expression;
+use crate::error::{Source, Span};
+use jurist_algebra::number::Rational;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Whether the loop runs in steps or continuously.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Time {
+    /// Polynomial variable z, stable inside the unit circle.
+    Discrete,
+    /// Polynomial variable s, stable in the left half plane.
+    Continuous,
+}
+
+impl Time {
+    /// `z` or `s`.
+    pub fn variable(self) -> &'static str {
+        match self {
+            Time::Discrete => "z",
+            Time::Continuous => "s",
+        }
+    }
+
+    /// `discrete` or `continuous`, as model files say it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Time::Discrete => "discrete",
+            Time::Continuous => "continuous",
+        }
+    }
+}
+
+/// A name and where it is given.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Name {
+    /// The name.
+    pub name: String,
+    /// Its place in the source text.
+    pub span: Span,
+}
+
+/// A named value that does not change unless it is freed.
+#[derive(Clone, Debug)]
+pub struct Constant {
+    /// The name.
+    pub name: String,
+    /// The place of the name.
+    pub span: Span,
+    /// The value, in terms of other constants and parameters.
+    pub expression: Expression,
+    /// The value, if it is given as a number; such a constant can become a parameter.
+    pub number: Option<Rational>,
+}
+
+/// A quantity that stays free.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// The name.
+    pub name: String,
+    /// The place of the name.
+    pub span: Span,
+    /// The value it has when nothing else is said.
+    pub nominal: Option<Rational>,
+    /// The open lower bound of its domain.
+    pub min: Option<Rational>,
+    /// The open upper bound of its domain.
+    pub max: Option<Rational>,
+    /// Its unit, for people.
+    pub unit: Option<String>,
+    /// What it is, for people.
+    pub description: Option<String>,
+}
+
+impl Parameter {
+    /// Whether `value` lies in the open domain.
+    pub fn contains(&self, value: &Rational) -> bool {
+        self.min.as_ref().is_none_or(|min| min < value) && self.max.as_ref().is_none_or(|max| value < max)
+    }
+}
+
+/// A rectangle of expressions.
+#[derive(Clone, Debug)]
+pub struct Matrix {
+    /// The rows, all of the same length.
+    pub rows: Vec<Vec<Expression>>,
+    /// Where it stands.
+    pub span: Span,
+}
+
+impl Matrix {
+    /// Rows and columns.
+    pub fn size(&self) -> (usize, usize) {
+        (self.rows.len(), self.rows.first().map_or(0, Vec::len))
+    }
+
+    /// The entries, row by row.
+    pub fn entries(&self) -> impl Iterator<Item = &Expression> {
+        self.rows.iter().flatten()
+    }
+}
+
+/// A response: a linear expression in states or signals, and its text as its name.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// The text it is given as.
+    pub name: Name,
+    /// What it is.
+    pub expression: Expression,
+}
+
+/// How a loop of matrices is connected to the outside.
+#[derive(Clone, Debug, Default)]
+pub struct Ports {
+    /// The names of the states; none, or as many as the order.
+    pub states: Vec<Name>,
+    /// The names of the inputs.
+    pub inputs: Vec<Name>,
+    /// How the inputs enter: one row for each state, one column for each input.
+    pub input_matrix: Option<Matrix>,
+    /// The responses.
+    pub outputs: Vec<Output>,
+}
+
+/// What the loop is made of.
+#[derive(Clone, Debug)]
+pub enum Form {
+    /// A characteristic polynomial as it is written.
+    Characteristic(Expression),
+    /// The matrix of the closed loop.
+    Matrix {
+        /// The square matrix.
+        matrix: Matrix,
+        /// States, inputs, outputs.
+        ports: Ports,
+    },
+    /// `u = -K y`, `y = C x`: the closed loop is `A - B K C`.
+    OutputFeedback {
+        /// State matrix, n x n.
+        a: Matrix,
+        /// Input matrix, n x m.
+        b: Matrix,
+        /// Output matrix, p x n.
+        c: Matrix,
+        /// Feedback matrix, m x p.
+        k: Matrix,
+        /// States, inputs, outputs.
+        ports: Ports,
+    },
+    /// A block diagram.
+    Blocks(Diagram),
+}
+
+/// Blocks wired by the names of their signals.
+#[derive(Clone, Debug)]
+pub struct Diagram {
+    /// The external signals.
+    pub inputs: Vec<Name>,
+    /// The responses.
+    pub outputs: Vec<Output>,
+    /// The blocks.
+    pub blocks: Vec<Block>,
+}
+
+/// A block of a diagram.
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// Its name, for people.
+    pub name: String,
+    /// Where it begins.
+    pub span: Span,
+    /// Linear expressions in signals.
+    pub inputs: Vec<Expression>,
+    /// The signals it drives.
+    pub outputs: Vec<Name>,
+    /// What it does.
+    pub dynamics: Dynamics,
+    /// How a continuous block is made discrete.
+    pub discretization: Option<Discretization>,
+    /// What a switched simulation needs to know of a pulse-width modulator.
+    pub pwm: Option<Pwm>,
+}
+
+/// What a block does to its inputs.
+#[derive(Clone, Debug)]
+pub enum Dynamics {
+    /// A rational expression in the variable.
+    Transfer(Expression),
+    /// Numerator and denominator, coefficients of the highest power first, taken as written.
+    Ratio {
+        /// Numerator.
+        numerator: Vec<Expression>,
+        /// Denominator.
+        denominator: Vec<Expression>,
+    },
+    /// A factor.
+    Gain(Expression),
+    /// A number of samples.
+    Delay(usize),
+    /// State space; a missing matrix has its usual meaning.
+    StateSpace {
+        /// State matrix.
+        a: Matrix,
+        /// Input matrix.
+        b: Matrix,
+        /// Output matrix; the identity when missing.
+        c: Option<Matrix>,
+        /// Direct matrix; zero when missing.
+        d: Option<Matrix>,
+    },
+    /// A constant matrix from inputs to outputs.
+    Static(Matrix),
+}
+
+/// How a continuous block is made discrete.
+#[derive(Clone, Debug)]
+pub struct Discretization {
+    /// The rule.
+    pub method: Method,
+    /// The sample time, which forward and backward need.
+    pub sample_time: Option<Expression>,
+    /// The factor of the bilinear map, `2/T` when missing.
+    pub factor: Option<Expression>,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// The rules of discretisation that keep rational functions rational.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// `s = (z - 1)/T`.
+    Forward,
+    /// `s = (z - 1)/(T z)`.
+    Backward,
+    /// `s = c (z - 1)/(z + 1)`.
+    Tustin,
+}
+
+/// A pulse-width modulator: what a switched simulation needs beside its gain.
+#[derive(Clone, Debug)]
+pub struct Pwm {
+    /// The height of the pulses.
+    pub amplitude: Expression,
+    /// The height of the carrier.
+    pub carrier: Expression,
+    /// The period.
+    pub period: Expression,
+}
+
+/// Defaults of a time response, and units for its axes: the section `[simulation]` of a model file.
+///
+/// Nothing of it enters a verdict.
+///
+/// ```
+/// use jurist_engine::error::Source;
+/// use jurist_engine::model::Loop;
+/// let text = "
+///     time = 'discrete'
+///     [parameters]
+///     k = { nominal = 0.5, min = 0 }
+///     [loop]
+///     matrix = [['1 - k']]
+///     states = ['speed']
+///     inputs = ['reference']
+///     E = [['k']]
+///     [simulation]
+///     inputs = { reference = 80 }
+///     duration = 20
+///     units = { speed = 'rad/s' }
+/// ";
+/// let (model, _) = Loop::from_toml(&Source::new("model.toml", text))?;
+/// assert_eq!(model.unit("speed"), Some("rad/s"));
+/// assert_eq!(model.unit("reference"), None);
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Simulation {
+    /// Constant values of inputs; others are zero.
+    pub inputs: Vec<(Name, Rational)>,
+    /// Initial values of states or signals; others are zero.
+    pub initial: Vec<(Name, Rational)>,
+    /// The time to be simulated: seconds, or samples when the loop has no sample time.
+    pub duration: Option<Rational>,
+    /// Units of inputs, states, signals and outputs, for people; the program does not calculate with them.
+    pub units: Vec<(Name, String)>,
+}
+
+/// A model: what its text says, checked.
+///
+/// ```
+/// use jurist_engine::model::{Loop, Question};
+/// use jurist_algebra::limits::Budget;
+/// let drive = Loop::drive();
+/// let question = Question::keeping(["K_pwm"]);
+/// let p = drive.characteristic_polynomial(&question, &Budget::unlimited())?;
+/// assert_eq!(p.formal_degree, 6);
+/// assert_eq!(p.coefficients[5], jurist_algebra::number::parse_number("-21378329/5347500")?.into());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Loop {
+    pub(super) source: Arc<Source>,
+    pub(super) title: Option<String>,
+    pub(super) time: Time,
+    pub(super) sample_time: Option<Expression>,
+    /// In the order of the text.
+    pub(super) constants: Vec<Constant>,
+    /// Positions in `constants`, each after those it uses.
+    pub(super) constant_order: Vec<usize>,
+    pub(super) parameters: Vec<Parameter>,
+    pub(super) form: Form,
+    pub(super) simulation: Simulation,
+    /// Positions of constants and parameters by name.
+    pub(super) index: HashMap<String, Position>,
+}
+
+/// Where a name is defined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Position {
+    Constant(usize),
+    Parameter(usize),
+}
+
+impl Loop {
+    /// The text the model was read from.
+    pub fn source(&self) -> &Arc<Source> {
+        &self.source
+    }
+
+    /// The title, if it has one.
+    pub fn title(&self) -> Option<&str> {
+        self.title.as_deref()
+    }
+
+    /// Discrete or continuous.
+    pub fn time(&self) -> Time {
+        self.time
+    }
+
+    /// The sample time as it is written.
+    pub fn sample_time_expression(&self) -> Option<&Expression> {
+        self.sample_time.as_ref()
+    }
+
+    /// The constants in the order of the text.
+    pub fn constants(&self) -> &[Constant] {
+        &self.constants
+    }
+
+    /// The parameters in the order of the text.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// The parameter of this name.
+    pub fn parameter(&self, name: &str) -> Option<&Parameter> {
+        match self.index.get(name)? {
+            Position::Parameter(i) => self.parameters.get(*i),
+            Position::Constant(_) => None,
+        }
+    }
+
+    /// The constant of this name.
+    pub fn constant(&self, name: &str) -> Option<&Constant> {
+        match self.index.get(name)? {
+            Position::Constant(i) => self.constants.get(*i),
+            Position::Parameter(_) => None,
+        }
+    }
+
+    /// What the loop is made of.
+    pub fn form(&self) -> &Form {
+        &self.form
+    }
+
+    /// The defaults of a time response.
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// The unit of a signal, where the model names one.
+    pub fn unit(&self, signal: &str) -> Option<&str> {
+        self.simulation.units.iter().find(|(name, _)| name.name == signal).map(|(_, unit)| unit.as_str())
+    }
+
+    /// The external inputs.
+    pub fn inputs(&self) -> &[Name] {
+        match &self.form {
+            Form::Characteristic(_) => &[],
+            Form::Matrix { ports, .. } | Form::OutputFeedback { ports, .. } => &ports.inputs,
+            Form::Blocks(diagram) => &diagram.inputs,
+        }
+    }
+
+    /// The responses.
+    pub fn outputs(&self) -> &[Output] {
+        match &self.form {
+            Form::Characteristic(_) => &[],
+            Form::Matrix { ports, .. } | Form::OutputFeedback { ports, .. } => &ports.outputs,
+            Form::Blocks(diagram) => &diagram.outputs,
+        }
+    }
+
+    /// The constants, each after those it uses.
+    pub(super) fn ordered_constants(&self) -> impl Iterator<Item = &Constant> {
+        self.constant_order.iter().map(|&i| &self.constants[i])
+    }
+}

@@ -1,0 +1,285 @@
+//! Tokens to the syntax tree: a Pratt parser.
+//!
+//! Powers bind tighter than the minus sign in front (`-a^2` is `-(a^2)`) and group to the right;
+//! exponents are integers, known when the text is read.
+
+use super::expression::{Expression, Factor, Node, Sign};
+use super::lexer::{Token, TokenKind, lex};
+use super::text::Text;
+use crate::error::{Diagnostic, Error, Source, Span};
+use jurist_algebra::number::{Integer, Rational};
+
+/// Parentheses, signs and powers may nest this deep. The parser recurses a few frames per level
+/// in a debug build, far from the two megabytes a thread has.
+pub const MAX_DEPTH: usize = 200;
+
+/// Exponents may be this large. A loop of order 1000 is far beyond what can be decided.
+pub const MAX_EXPONENT: i64 = 1000;
+
+/// Binding powers, weakest first.
+const SUM: u8 = 1;
+const PRODUCT: u8 = 2;
+const PREFIX: u8 = 3;
+const POWER: u8 = 4;
+
+impl Expression {
+    /// Reads an expression that stands alone, such as one given on the command line.
+    ///
+    /// # Errors
+    /// `E-syntax`, `E-number`, `E-exponent` or `E-too-deep`, pointing into `text`.
+    pub fn parse(text: &str) -> Result<Expression, Error> {
+        let source = Source::new("<expression>", text);
+        parse(&Text::verbatim(text, 0)).map_err(|d| Error::new(Some(source), vec![d]))
+    }
+}
+
+/// Reads an expression out of a file.
+pub(super) fn parse(text: &Text) -> Result<Expression, Diagnostic> {
+    let tokens = lex(text)?;
+    if tokens.len() == 1 {
+        let error = Diagnostic::error("E-syntax", "an expression is missing").at(text.span(), "empty");
+        return Err(error.help("write a number, a name, or a formula of them"));
+    }
+    let mut parser = Parser { tokens: &tokens, position: 0, depth: 0 };
+    let expression = parser.expression(SUM)?;
+    match &parser.peek().kind {
+        TokenKind::End => Ok(expression),
+        TokenKind::Close => {
+            Err(Diagnostic::error("E-syntax", "unmatched ')'").at(parser.peek().span, "nothing to close"))
+        }
+        other => Err(parser.missing_operator(other)),
+    }
+}
+
+struct Parser<'t> {
+    tokens: &'t [Token],
+    position: usize,
+    depth: usize,
+}
+
+impl Parser<'_> {
+    fn peek(&self) -> &Token {
+        // The last token is `End` and is never passed.
+        &self.tokens[self.position]
+    }
+
+    fn advance(&mut self) -> Token {
+        let token = self.peek().clone();
+        self.position = (self.position + 1).min(self.tokens.len() - 1);
+        token
+    }
+
+    fn missing_operator(&self, found: &TokenKind) -> Diagnostic {
+        Diagnostic::error("E-syntax", format!("an operator is missing before {}", found.describe()))
+            .at(self.peek().span, "expected an operator")
+            .help("multiplication is written out: 'a*b', not 'a b'")
+    }
+
+    fn deeper(&mut self, span: Span) -> Result<(), Diagnostic> {
+        self.depth += 1;
+        if self.depth > MAX_DEPTH {
+            let message = format!("the expression is nested more than {MAX_DEPTH} levels deep");
+            return Err(Diagnostic::error("E-too-deep", message)
+                .at(span, "too deep here")
+                .help("give parts of it a name in [constants]"));
+        }
+        Ok(())
+    }
+
+    /// An expression of operators that bind at least as tightly as `least`.
+    fn expression(&mut self, least: u8) -> Result<Expression, Diagnostic> {
+        let mut left = self.prefix()?;
+        loop {
+            let operator = &self.peek().kind;
+            match operator {
+                TokenKind::Plus | TokenKind::Minus if least <= SUM => left = self.sum(left)?,
+                TokenKind::Times | TokenKind::Over if least <= PRODUCT => left = self.product(left)?,
+                TokenKind::Power if least <= POWER => left = self.power(left)?,
+                _ => return Ok(left),
+            }
+        }
+    }
+
+    fn sum(&mut self, first: Expression) -> Result<Expression, Diagnostic> {
+        let mut span = first.span;
+        let mut terms = vec![(Sign::Plus, first)];
+        loop {
+            let sign = match self.peek().kind {
+                TokenKind::Plus => Sign::Plus,
+                TokenKind::Minus => Sign::Minus,
+                _ => return Ok(Expression { span, node: Node::Sum(terms) }),
+            };
+            self.advance();
+            let term = self.expression(PRODUCT)?;
+            span = span.to(term.span);
+            terms.push((sign, term));
+        }
+    }
+
+    fn product(&mut self, first: Expression) -> Result<Expression, Diagnostic> {
+        let mut span = first.span;
+        let mut factors = vec![(Factor::Times, first)];
+        loop {
+            let factor = match self.peek().kind {
+                TokenKind::Times => Factor::Times,
+                TokenKind::Over => Factor::Over,
+                _ => return Ok(Expression { span, node: Node::Product(factors) }),
+            };
+            let operator = self.advance();
+            if factor == Factor::Times && self.peek().kind == TokenKind::Times {
+                let span = operator.span.to(self.peek().span);
+                let error = Diagnostic::error("E-syntax", "unexpected '**'").at(span, "not an operator");
+                return Err(error.help("powers are written with '^'"));
+            }
+            let operand = self.expression(PREFIX)?;
+            span = span.to(operand.span);
+            factors.push((factor, operand));
+        }
+    }
+
+    fn power(&mut self, base: Expression) -> Result<Expression, Diagnostic> {
+        let operator = self.advance();
+        self.deeper(operator.span)?;
+        let exponent = self.expression(PREFIX)?;
+        self.depth -= 1;
+        let value = integer_exponent(&exponent)?;
+        Ok(Expression { span: base.span.to(exponent.span), node: Node::Power(Box::new(base), value) })
+    }
+
+    fn prefix(&mut self) -> Result<Expression, Diagnostic> {
+        let token = self.advance();
+        match token.kind {
+            TokenKind::Number(value) => Ok(Expression { span: token.span, node: Node::Number(value) }),
+            TokenKind::Name(name) => {
+                if self.peek().kind == TokenKind::Open {
+                    let what = super::names::shorten(&name).into_owned();
+                    return Err(Diagnostic::error(
+                        "E-syntax",
+                        format!("'{what}(' looks like a call, but there are no functions"),
+                    )
+                    .at(token.span.to(self.peek().span), "no operator here")
+                    .help("multiplication is written out: 'a*(b + c)'"));
+                }
+                Ok(Expression { span: token.span, node: Node::Name(name) })
+            }
+            TokenKind::Minus | TokenKind::Plus => {
+                self.deeper(token.span)?;
+                let inner = self.expression(PREFIX)?;
+                self.depth -= 1;
+                let span = token.span.to(inner.span);
+                if token.kind == TokenKind::Plus {
+                    return Ok(Expression { span, node: inner.node });
+                }
+                Ok(Expression { span, node: Node::Negative(Box::new(inner)) })
+            }
+            TokenKind::Open => {
+                self.deeper(token.span)?;
+                let inner = self.expression(SUM)?;
+                self.depth -= 1;
+                let close = self.peek().clone();
+                if close.kind != TokenKind::Close {
+                    if close.kind == TokenKind::End {
+                        return Err(Diagnostic::error("E-syntax", "')' is missing")
+                            .at(close.span, "expected ')'")
+                            .also(token.span, "to close this"));
+                    }
+                    return Err(self.missing_operator(&close.kind));
+                }
+                self.advance();
+                Ok(Expression { span: token.span.to(close.span), node: inner.node })
+            }
+            kind => Err(Diagnostic::error(
+                "E-syntax",
+                format!("expected a number, a name or '(', found {}", kind.describe()),
+            )
+            .at(token.span, "unexpected")),
+        }
+    }
+}
+
+/// The value of an exponent, which must be an integer of moderate size.
+fn integer_exponent(exponent: &Expression) -> Result<i64, Diagnostic> {
+    if !exponent.is_constant() {
+        return Err(Diagnostic::error("E-exponent", "an exponent must be a whole number, written as a number")
+            .at(exponent.span, "contains a name")
+            .help("exponents fix the order of the loop: write its value as a number, such as 'z^3'"));
+    }
+    let too_large = || {
+        Diagnostic::error("E-exponent", "the exponent is too large")
+            .at(exponent.span, format!("beyond {MAX_EXPONENT}"))
+            .help(format!("exponents from -{MAX_EXPONENT} to {MAX_EXPONENT} are accepted"))
+    };
+    let value = small_value(exponent).ok_or_else(too_large)?;
+    let Some(value) = value else {
+        let error = Diagnostic::error("E-division-by-zero", "division by zero in an exponent");
+        return Err(error.at(exponent.span, "has no value"));
+    };
+    if !value.is_integer() {
+        return Err(Diagnostic::error("E-exponent", "an exponent must be a whole number")
+            .at(exponent.span, "not a whole number")
+            .help("roots are not rational; name the root in [parameters] or square the equation"));
+    }
+    let value = value.numerator();
+    if value.abs() > Integer::from(MAX_EXPONENT) {
+        return Err(too_large());
+    }
+    value.to_i64().ok_or_else(too_large)
+}
+
+/// The value of a constant expression: `None` when it grows too large on the way, `Some(None)`
+/// when it divides by zero.
+fn small_value(e: &Expression) -> Option<Option<Rational>> {
+    /// Intermediate results beyond this are no sensible exponent.
+    const MAX_BITS: u64 = 4096;
+    macro_rules! value {
+        ($e:expr) => {
+            match small_value($e)? {
+                Some(value) => value,
+                None => return Some(None),
+            }
+        };
+    }
+    let result = match &e.node {
+        Node::Number(value) => value.clone(),
+        Node::Name(_) => return Some(None),
+        Node::Negative(inner) => -value!(inner),
+        Node::Sum(terms) => {
+            let mut sum = Rational::ZERO;
+            for (sign, term) in terms {
+                let term = value!(term);
+                sum = if *sign == Sign::Plus { sum + term } else { sum - term };
+            }
+            sum
+        }
+        Node::Product(factors) => {
+            let mut product = Rational::ONE;
+            for (factor, e) in factors {
+                let value = value!(e);
+                product = match factor {
+                    Factor::Times => product * value,
+                    Factor::Over => match product.checked_div(&value) {
+                        Some(quotient) => quotient,
+                        None => return Some(None),
+                    },
+                };
+                if product.numerator().bit_length() + product.denominator().bit_length() > MAX_BITS {
+                    return None;
+                }
+            }
+            product
+        }
+        Node::Power(base, exponent) => {
+            let base = value!(base);
+            let bits = base.numerator().bit_length().max(base.denominator().bit_length());
+            if bits > 1 && bits.saturating_mul(exponent.unsigned_abs()) > MAX_BITS {
+                return None;
+            }
+            match base.pow(*exponent) {
+                Some(power) => power,
+                None => return Some(None),
+            }
+        }
+    };
+    let small = result.numerator().bit_length() + result.denominator().bit_length() <= MAX_BITS;
+    small.then_some(Some(result))
+}

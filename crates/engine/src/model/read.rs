@@ -1,0 +1,284 @@
+//! TOML values to typed parts of a model, with an error for whatever does not fit.
+
+use super::definition::{Matrix, Name, Output};
+use super::evaluate::{Failure, evaluate};
+use super::expression::{Expression, Node};
+use super::lexer::is_name;
+use super::names::{did_you_mean, list, nearest_name, shorten};
+use super::scalar::Scope;
+use super::text::Text;
+use super::toml::{Entry, Kind, Table, Value};
+use crate::error::{Diagnostic, Span};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Rational, parse_number};
+use std::collections::HashSet;
+use std::time::Duration;
+
+/// How long a single number of the file may take to evaluate.
+const NUMBER_TIME: Duration = Duration::from_millis(300);
+
+/// Collects what is wrong while it reads on.
+#[derive(Default)]
+pub(super) struct Reader {
+    pub diagnostics: Vec<Diagnostic>,
+    /// Names whose definitions were refused: using them is no second mistake.
+    pub refused: HashSet<String>,
+}
+
+/// The keys that misspelt keys of a table were probably meant to be: these are not missing as well.
+#[derive(Debug, Default)]
+pub(super) struct Meant(Vec<String>);
+
+impl Meant {
+    pub fn includes(&self, key: &str) -> bool {
+        self.0.iter().any(|k| k == key)
+    }
+}
+
+impl Reader {
+    pub fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// A value of another kind than was expected.
+    pub fn wrong_type(&mut self, value: &Value, what: &str, expected: &str) {
+        let error = Diagnostic::error("E-type", format!("{what} must be {expected}"));
+        self.report(error.at(value.span, format!("this is {}", value.describe())));
+    }
+
+    /// Reports every key that is not among `known`.
+    pub fn unknown_keys(&mut self, table: &Table, known: &[&str], place: &str) -> Meant {
+        let mut meant = Meant::default();
+        for entry in table.iter().filter(|e| !known.contains(&e.key.as_str())) {
+            let message = format!("unknown key '{}' in {place}", shorten(&entry.key));
+            let mut error = Diagnostic::error("E-unknown-key", message).at(entry.key_span, "not known here");
+            error.help = did_you_mean(&entry.key, known.iter().copied())
+                .or_else(|| Some(format!("known here: {}", list(known.iter().copied()))));
+            self.report(error);
+            // What stands in the wrong place is not unknown as well where it is used.
+            self.refused.insert(entry.key.clone());
+            self.refuse_names(&entry.value);
+            meant.0.extend(nearest_name(&entry.key, known.iter().copied()).map(str::to_owned));
+        }
+        meant
+    }
+
+    /// What a value that was not read would have defined: the keys of a table, the names of an array.
+    fn refuse_names(&mut self, value: &Value) {
+        match &value.kind {
+            Kind::Table(table) => self.refused.extend(table.iter().map(|e| e.key.clone())),
+            Kind::String(text) => {
+                self.refused.insert(text.as_str().to_owned());
+            }
+            Kind::Array(items) => {
+                for item in items {
+                    match &item.kind {
+                        // The signals of a block.
+                        Kind::Table(table) => table.iter().for_each(|e| self.refuse_strings(&e.value)),
+                        _ => self.refuse_strings(item),
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn refuse_strings(&mut self, value: &Value) {
+        for item in self.items(value) {
+            if let Kind::String(text) = &item.kind {
+                self.refused.insert(text.as_str().to_owned());
+            }
+        }
+    }
+
+    pub fn string<'v>(&mut self, value: &'v Value, what: &str) -> Option<&'v Text> {
+        let Kind::String(text) = &value.kind else {
+            self.wrong_type(value, what, "a string");
+            return None;
+        };
+        Some(text)
+    }
+
+    pub fn plain_string(&mut self, table: &Table, key: &str) -> Option<String> {
+        let value = table.get(key)?;
+        self.string(value, &format!("'{key}'")).map(|t| t.as_str().to_owned())
+    }
+
+    pub fn table<'v>(&mut self, entry: &'v Entry) -> Option<&'v Table> {
+        let Kind::Table(table) = &entry.value.kind else {
+            self.wrong_type(&entry.value, &format!("'{}'", shorten(&entry.key)), "a table");
+            return None;
+        };
+        Some(table)
+    }
+
+    /// A number or a string with an expression.
+    pub fn expression(&mut self, value: &Value, what: &str) -> Option<Expression> {
+        match &value.kind {
+            Kind::String(text) => match super::parser::parse(text) {
+                Ok(expression) => Some(expression),
+                Err(diagnostic) => {
+                    self.report(diagnostic);
+                    None
+                }
+            },
+            Kind::Number(text) => self.literal(text, value.span).map(|n| Expression::number(n).at(value.span)),
+            _ => {
+                self.wrong_type(value, what, "a number or a string with an expression");
+                None
+            }
+        }
+    }
+
+    fn literal(&mut self, text: &str, span: Span) -> Option<Rational> {
+        let word = text.trim_start_matches(['+', '-']);
+        if word.eq_ignore_ascii_case("inf") || word.eq_ignore_ascii_case("nan") {
+            let error = Diagnostic::error("E-number", format!("{word} is not a number of a model"));
+            self.report(error.at(span, "not finite").help("leave the key out where there is no bound"));
+            return None;
+        }
+        match parse_number(text) {
+            Ok(number) => Some(number),
+            Err(error) => {
+                self.report(Diagnostic::error("E-number", error.to_string()).at(span, "not accepted"));
+                None
+            }
+        }
+    }
+
+    /// A number, or an expression of numbers only.
+    pub fn number(&mut self, value: &Value, what: &str) -> Option<Rational> {
+        let expression = self.expression(value, what)?;
+        match constant_value(&expression) {
+            Ok(number) => Some(number),
+            Err(Some(diagnostic)) => {
+                self.report(diagnostic);
+                None
+            }
+            Err(None) => {
+                let error = Diagnostic::error("E-not-a-number", format!("{what} must be a number"));
+                let help = "write a number, or a formula of numbers such as \"1/3\"";
+                self.report(error.at(expression.span, "contains a name").help(help));
+                None
+            }
+        }
+    }
+
+    /// A name that expressions can use.
+    pub fn name(&mut self, text: &str, span: Span, what: &str) -> Option<Name> {
+        if is_name(text) {
+            return Some(Name { name: text.to_owned(), span });
+        }
+        let message = format!("'{}' is no name for {what}", shorten(text));
+        let error = Diagnostic::error("E-name", message).at(span, "not a name");
+        self.report(error.help("names are made of letters, digits and '_', and do not begin with a digit"));
+        None
+    }
+
+    /// An array, or a single value standing for an array of one.
+    pub fn items<'v>(&mut self, value: &'v Value) -> &'v [Value] {
+        match &value.kind {
+            Kind::Array(items) => items,
+            _ => std::slice::from_ref(value),
+        }
+    }
+
+    /// One name or an array of names.
+    pub fn names(&mut self, value: &Value, what: &str) -> Vec<Name> {
+        let items = self.items(value);
+        let mut names = Vec::new();
+        for item in items {
+            if let Some(text) = self.string(item, what) {
+                let span = text.source_span(0, text.as_str().len());
+                names.extend(self.name(text.as_str(), span, what));
+            }
+        }
+        names
+    }
+
+    /// One expression or an array of expressions.
+    pub fn expressions(&mut self, value: &Value, what: &str) -> Vec<Expression> {
+        let items = self.items(value);
+        items.iter().filter_map(|item| self.expression(item, what)).collect()
+    }
+
+    pub fn outputs(&mut self, value: &Value) -> Vec<Output> {
+        let mut outputs = Vec::new();
+        for item in self.items(value) {
+            let Some(text) = self.string(item, "an output") else { continue };
+            if let Some(expression) = self.expression(item, "an output") {
+                let name = text.as_str().trim().to_owned();
+                outputs.push(Output { name: Name { name, span: expression.span }, expression });
+            }
+        }
+        outputs
+    }
+
+    /// A rectangle of expressions.
+    pub fn matrix(&mut self, value: &Value, what: &str) -> Option<Matrix> {
+        let Kind::Array(rows) = &value.kind else {
+            self.wrong_type(value, what, "an array of rows");
+            return None;
+        };
+        let before = self.diagnostics.len();
+        let mut out: Vec<Vec<Expression>> = Vec::with_capacity(rows.len());
+        let mut first: Option<(usize, Span)> = None;
+        for row in rows {
+            let Kind::Array(items) = &row.kind else {
+                self.wrong_type(row, &format!("a row of {what}"), "an array");
+                continue;
+            };
+            match first {
+                None => first = Some((items.len(), row.span)),
+                Some((length, span)) if length != items.len() => {
+                    let message = format!("the rows of {what} differ in length");
+                    self.report(
+                        Diagnostic::error("E-size", message)
+                            .at(row.span, format!("{} here", count(items.len(), "entry", "entries")))
+                            .also(span, format!("{} here", count(length, "entry", "entries"))),
+                    );
+                }
+                Some(_) => {}
+            }
+            out.push(items.iter().filter_map(|item| self.expression(item, &format!("an entry of {what}"))).collect());
+        }
+        (self.diagnostics.len() == before).then_some(Matrix { rows: out, span: value.span })
+    }
+
+    /// Whether a matrix has the wanted size; if not, that is reported with the place that asks for it.
+    pub fn size(&mut self, matrix: &Matrix, what: &str, rows: usize, columns: usize, because: (Span, &str)) -> bool {
+        let (r, c) = matrix.size();
+        // A matrix without rows has no columns to count.
+        if r == rows && (c == columns || r == 0) {
+            return true;
+        }
+        let message = format!("{what} is {r} x {c}, but must be {rows} x {columns}");
+        let error = Diagnostic::error("E-size", message).at(matrix.span, format!("{r} x {c}"));
+        self.report(error.also(because.0, because.1));
+        false
+    }
+}
+
+/// `1 entry`, `2 entries`.
+pub(super) fn count(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
+}
+
+/// The value of an expression without names; `Err(None)` when it has names.
+pub(super) fn constant_value(e: &Expression) -> Result<Rational, Option<Diagnostic>> {
+    if let Node::Number(value) = &e.node {
+        return Ok(value.clone());
+    }
+    if !e.is_constant() {
+        return Err(None);
+    }
+    let budget = Budget::with_timeout(NUMBER_TIME);
+    let mut scope = Scope::new(std::iter::empty(), std::iter::empty(), |_, _| None, &budget, &mut |_| {});
+    match evaluate(e, &mut scope) {
+        Ok(value) => value.as_constant().ok_or(None),
+        Err(Failure::Wrong(diagnostic)) => Err(Some(*diagnostic)),
+        Err(Failure::Exhausted(_) | Failure::Poisoned) => {
+            Err(Some(Diagnostic::error("E-too-large", "the number takes too long to compute").at(e.span, "too large")))
+        }
+    }
+}

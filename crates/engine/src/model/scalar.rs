@@ -1,0 +1,168 @@
+//! Values that depend on the parameters only.
+
+use super::definition::{Constant, Parameter};
+use super::evaluate::{Failure, Meaning, division_by_zero, evaluate, too_large};
+use super::expression::{Expression, Sign};
+use crate::error::{Diagnostic, Span};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+use std::collections::{HashMap, HashSet};
+
+/// Polynomials whose coefficients could grow beyond this many bits are not computed.
+const MAX_BITS: u64 = 1 << 23;
+
+/// What every name of a model stands for, and what has been divided by so far.
+pub(super) struct Scope<'a> {
+    values: HashMap<&'a str, Option<RationalFunction>>,
+    /// The names of the variables of all values.
+    pub variables: Vec<String>,
+    /// The model is undefined where all polynomials of one of these are zero together.
+    pub divisors: Vec<Vec<MultiPoly>>,
+    seen: HashSet<Vec<MultiPoly>>,
+    pub budget: &'a Budget,
+}
+
+/// What a parameter stands for.
+pub(super) enum Symbol {
+    /// Itself, under its own name.
+    Variable,
+    /// A number.
+    Value(Rational),
+}
+
+impl<'a> Scope<'a> {
+    /// A scope in which `symbol` says what each parameter, and each constant it knows, stands for.
+    /// The constants come in an order in which each uses earlier ones only. Errors in constants
+    /// are handed to `report`; what depends on them is [`Failure::Poisoned`].
+    pub fn new(
+        parameters: impl Iterator<Item = &'a Parameter>,
+        constants: impl Iterator<Item = &'a Constant>,
+        mut symbol: impl FnMut(&str, bool) -> Option<Symbol>,
+        budget: &'a Budget,
+        report: &mut dyn FnMut(Failure),
+    ) -> Self {
+        let mut scope =
+            Scope { values: HashMap::new(), variables: Vec::new(), divisors: Vec::new(), seen: HashSet::new(), budget };
+        for parameter in parameters {
+            let symbol = symbol(&parameter.name, false).unwrap_or(Symbol::Variable);
+            scope.bind(&parameter.name, symbol);
+        }
+        for constant in constants {
+            if let Some(symbol) = symbol(&constant.name, true) {
+                scope.bind(&constant.name, symbol);
+                continue;
+            }
+            let value = match evaluate(&constant.expression, &mut scope) {
+                Ok(value) => Some(value),
+                Err(Failure::Poisoned) => None,
+                Err(failure) => {
+                    report(failure);
+                    None
+                }
+            };
+            scope.values.insert(&constant.name, value);
+        }
+        scope
+    }
+
+    fn bind(&mut self, name: &'a str, symbol: Symbol) {
+        let value = match symbol {
+            Symbol::Variable => {
+                self.variables.push(name.to_owned());
+                RationalFunction::variable(self.variables.len() - 1)
+            }
+            Symbol::Value(value) => value.into(),
+        };
+        self.values.insert(name, Some(value));
+    }
+
+    /// The value of an expression in constants and parameters.
+    pub fn scalar(&mut self, e: &Expression) -> Result<RationalFunction, Failure> {
+        evaluate(e, self)
+    }
+
+    /// Notes that the model is undefined where all of `polynomials` are zero.
+    pub fn divides_by(&mut self, polynomials: Vec<MultiPoly>) {
+        let divisor: Vec<MultiPoly> =
+            polynomials.iter().filter(|p| !p.is_zero()).map(MultiPoly::primitive_over_integers).collect();
+        if !divisor.iter().any(MultiPoly::is_constant) && self.seen.insert(divisor.clone()) {
+            self.divisors.push(divisor);
+        }
+    }
+}
+
+fn fits(a: &MultiPoly, b: &MultiPoly) -> bool {
+    let terms = (a.terms().len() as u64).saturating_mul(b.terms().len() as u64);
+    a.total_degree() + b.total_degree() <= MultiPoly::MAX_DEGREE
+        && terms <= 4 * MultiPoly::MAX_TERMS
+        && a.height_bits() + b.height_bits() <= MAX_BITS
+}
+
+/// `a + b` or `a - b`, unless it would grow beyond every use.
+pub(super) fn checked_sum(a: &RationalFunction, sign: Sign, b: &RationalFunction) -> Option<RationalFunction> {
+    let fits = fits(a.numerator(), b.denominator())
+        && fits(b.numerator(), a.denominator())
+        && fits(a.denominator(), b.denominator());
+    fits.then(|| if sign == Sign::Plus { a + b } else { a - b })
+}
+
+/// `a b`, unless it would grow beyond every use.
+pub(super) fn checked_product(a: &RationalFunction, b: &RationalFunction) -> Option<RationalFunction> {
+    (fits(a.numerator(), b.numerator()) && fits(a.denominator(), b.denominator())).then(|| a * b)
+}
+
+impl Meaning for Scope<'_> {
+    type Value = RationalFunction;
+
+    fn number(&mut self, value: &Rational) -> Result<RationalFunction, Failure> {
+        self.budget.check()?;
+        Ok(value.into())
+    }
+
+    fn name(&mut self, name: &str, span: Span) -> Result<RationalFunction, Failure> {
+        self.budget.check()?;
+        match self.values.get(name) {
+            Some(Some(value)) => Ok(value.clone()),
+            Some(None) => Err(Failure::Poisoned),
+            None => {
+                let message = format!("unknown name '{}'", super::names::shorten(name));
+                Err(Diagnostic::error("E-unknown-name", message).at(span, "not defined").into())
+            }
+        }
+    }
+
+    fn negative(&mut self, value: RationalFunction) -> Result<RationalFunction, Failure> {
+        Ok(-value)
+    }
+
+    fn sum(
+        &mut self,
+        a: RationalFunction,
+        sign: Sign,
+        b: RationalFunction,
+        span: Span,
+    ) -> Result<RationalFunction, Failure> {
+        checked_sum(&a, sign, &b).ok_or_else(|| too_large(span))
+    }
+
+    fn product(&mut self, a: RationalFunction, b: RationalFunction, span: Span) -> Result<RationalFunction, Failure> {
+        checked_product(&a, &b).ok_or_else(|| too_large(span))
+    }
+
+    fn quotient(&mut self, a: RationalFunction, b: RationalFunction, span: Span) -> Result<RationalFunction, Failure> {
+        let inverse = b.recip().ok_or_else(|| division_by_zero(span))?;
+        self.divides_by(vec![b.numerator().clone()]);
+        checked_product(&a, &inverse).ok_or_else(|| too_large(span))
+    }
+
+    fn power(&mut self, base: RationalFunction, exponent: i64, span: Span) -> Result<RationalFunction, Failure> {
+        if exponent < 0 {
+            if base.is_zero() {
+                return Err(division_by_zero(span));
+            }
+            self.divides_by(vec![base.numerator().clone()]);
+        }
+        base.pow(exponent).ok_or_else(|| too_large(span))
+    }
+}

@@ -1,0 +1,377 @@
+//! Blocks realised in state space, made discrete, and connected.
+//!
+//! The controllable canonical form of a numerator and a denominator keeps every mode, common
+//! factors included: its characteristic polynomial is the denominator.
+
+use super::definition::{Dynamics, Form, Loop, Method};
+use super::evaluate::Failure;
+use super::names::shorten;
+use super::symbolic::{BlockValues, DynamicValues, PortValues, Row, Values, Wiring};
+use super::zpoly::ZPoly;
+use crate::error::{Diagnostic, Span};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::matrix::RationalMatrix;
+use jurist_algebra::poly::{MultiPoly, RationalFunction};
+
+/// Why there is no closed loop.
+pub(super) enum Stop {
+    /// The loop is undefined for these values of the parameters.
+    Undefined(Box<Diagnostic>),
+    /// The budget ran out.
+    Exhausted(Exhausted),
+}
+
+impl From<Exhausted> for Stop {
+    fn from(exhausted: Exhausted) -> Self {
+        Stop::Exhausted(exhausted)
+    }
+}
+
+impl From<Stop> for Failure {
+    fn from(stop: Stop) -> Self {
+        match stop {
+            Stop::Undefined(diagnostic) => Failure::Wrong(diagnostic),
+            Stop::Exhausted(exhausted) => Failure::Exhausted(exhausted),
+        }
+    }
+}
+
+/// Sets parameters to values; `None` where that divides by zero.
+pub(super) type Substitution<'s> = dyn Fn(&RationalFunction) -> Option<RationalFunction> + 's;
+
+/// A realised system; all parts have entries in the kept parameters only.
+#[derive(Clone, Debug)]
+pub(super) struct System {
+    pub a: RationalMatrix,
+    pub b: RationalMatrix,
+    pub c: RationalMatrix,
+    pub d: RationalMatrix,
+}
+
+/// A closed loop and where it is undefined beyond its expressions.
+pub(super) struct Assembled {
+    pub system: System,
+    pub states: Vec<String>,
+    pub poles: Vec<MultiPoly>,
+}
+
+fn undefined(message: String, span: Span) -> Stop {
+    Stop::Undefined(Box::new(Diagnostic::error("E-division-by-zero", message).at(span, "undefined")))
+}
+
+fn substituted(f: &RationalFunction, substitution: &Substitution<'_>) -> Result<RationalFunction, Stop> {
+    substitution(f)
+        .ok_or_else(|| undefined("division by zero at these values of the parameters".into(), Span::default()))
+}
+
+fn substituted_matrix(m: &RationalMatrix, substitution: &Substitution<'_>) -> Result<RationalMatrix, Stop> {
+    let mut entries = Vec::with_capacity(m.entries().len());
+    for f in m.entries() {
+        entries.push(substituted(f, substitution)?);
+    }
+    let columns = m.columns();
+    Ok(RationalMatrix::from_fn(m.rows(), columns, |i, j| entries[i * columns + j].clone()))
+}
+
+/// Connects the parts of the model's form. `Characteristic` has no parts and gives order 0.
+pub(super) fn assemble(
+    model: &Loop,
+    wiring: &Wiring<'_>,
+    values: &Values,
+    substitution: &Substitution<'_>,
+    budget: &Budget,
+) -> Result<Assembled, Stop> {
+    let set = |m: &RationalMatrix| substituted_matrix(m, substitution);
+    let named = |n: usize| match &model.form {
+        Form::Matrix { ports, .. } | Form::OutputFeedback { ports, .. } if ports.states.len() == n => {
+            ports.states.iter().map(|s| s.name.clone()).collect()
+        }
+        _ => (1..=n).map(|i| format!("x_{i}")).collect::<Vec<String>>(),
+    };
+    let with_ports = |a: RationalMatrix, ports: &PortValues| -> Result<Assembled, Stop> {
+        let n = a.rows();
+        let b = match &ports.input_matrix {
+            Some(e) => set(e)?,
+            None => RationalMatrix::zeros(n, 0),
+        };
+        // A matrix without rows does not know its columns.
+        let b = if n == 0 { RationalMatrix::zeros(0, wiring.inputs.len()) } else { b };
+        let c = selection(&ports.outputs, n, substitution)?;
+        let d = RationalMatrix::zeros(c.rows(), b.columns());
+        Ok(Assembled { system: System { a, b, c, d }, states: named(n), poles: Vec::new() })
+    };
+    match values {
+        Values::Characteristic(_) => {
+            let empty = || RationalMatrix::zeros(0, 0);
+            let system = System { a: empty(), b: empty(), c: empty(), d: empty() };
+            Ok(Assembled { system, states: Vec::new(), poles: Vec::new() })
+        }
+        Values::Matrix { matrix, ports } => with_ports(set(matrix)?, ports),
+        Values::Feedback { a, b, c, k, ports } => {
+            let (a, b, c, k) = (set(a)?, set(b)?, set(c)?, set(k)?);
+            let closed = if a.rows() == 0 || b.columns() == 0 || c.rows() == 0 { a } else { &a - &(&(&b * &k) * &c) };
+            with_ports(closed, ports)
+        }
+        Values::Blocks { blocks, outputs } => connect(model, wiring, blocks, outputs, substitution, budget),
+    }
+}
+
+/// The matrix of linear expressions in the first `n` signals.
+fn selection(rows: &[Row], n: usize, substitution: &Substitution<'_>) -> Result<RationalMatrix, Stop> {
+    part(rows, 0, n, substitution)
+}
+
+/// The matrix of the coefficients of signals `from .. from + n`.
+fn part(rows: &[Row], from: usize, n: usize, substitution: &Substitution<'_>) -> Result<RationalMatrix, Stop> {
+    let mut out = RationalMatrix::zeros(rows.len(), n);
+    for (i, row) in rows.iter().enumerate() {
+        for (&j, c) in row.range(from..from + n) {
+            out[(i, j - from)] = substituted(c, substitution)?;
+        }
+    }
+    Ok(out)
+}
+
+/// The controllable canonical form.
+fn realise(
+    numerator: &ZPoly,
+    denominator: &ZPoly,
+    block: &BlockValues,
+    set: &Substitution<'_>,
+    poles: &mut Vec<MultiPoly>,
+) -> Result<System, Stop> {
+    let n = denominator.degree();
+    let leading = substituted(&denominator.coefficient(n), set)?;
+    let Some(inverse) = leading.recip() else {
+        let message = format!(
+            "the leading coefficient of the denominator of '{}' is zero: the block loses its order",
+            shorten(&block.name)
+        );
+        return Err(undefined(message, block.span));
+    };
+    poles.push(leading.numerator().clone());
+    let monic = |p: &ZPoly, k: usize| substituted(&p.coefficient(k), set).map(|c| &c * &inverse);
+    let direct = monic(numerator, n)?;
+    let mut a = RationalMatrix::zeros(n, n);
+    let mut b = RationalMatrix::zeros(n, 1);
+    let mut c = RationalMatrix::zeros(1, n);
+    for k in 0..n {
+        let d = monic(denominator, k)?;
+        c[(0, k)] = &monic(numerator, k)? - &(&direct * &d);
+        a[(n - 1, k)] = -&d;
+        if k + 1 < n {
+            a[(k, k + 1)] = RationalFunction::one();
+        }
+    }
+    if n > 0 {
+        b[(n - 1, 0)] = RationalFunction::one();
+    }
+    Ok(System { a, b, c, d: RationalMatrix::from_fn(1, 1, |_, _| direct.clone()) })
+}
+
+/// The discrete system that the rule makes of a continuous one.
+fn discretised(
+    s: System,
+    method: Method,
+    value: &RationalFunction,
+    block: &BlockValues,
+    poles: &mut Vec<MultiPoly>,
+    budget: &Budget,
+) -> Result<System, Stop> {
+    let n = s.a.rows();
+    if n == 0 {
+        return Ok(s);
+    }
+    let identity = RationalMatrix::identity(n);
+    if method == Method::Forward {
+        return Ok(System { a: &identity + &s.a.scaled(value), b: s.b.scaled(value), ..s });
+    }
+    // Backward: with M = (I - T A)^-1: M, T M B, C M, D + T C M B.
+    // Tustin: with W = (c I - A)^-1: W (c I + A), W B, 2 c C W, D + C W B.
+    let left = match method {
+        Method::Tustin => &identity.scaled(value) - &s.a,
+        _ => &identity - &s.a.scaled(value),
+    };
+    let Some((inverse, determinant)) = solve(&left, &identity, budget)? else {
+        let message = format!(
+            "the discretisation of '{}' divides by zero: the map meets a pole of the block",
+            shorten(&block.name)
+        );
+        return Err(undefined(message, block.span));
+    };
+    poles.push(determinant.numerator().clone());
+    let through = &inverse * &s.b;
+    Ok(match method {
+        Method::Tustin => System {
+            a: &inverse * &(&identity.scaled(value) + &s.a),
+            d: &s.d + &(&s.c * &through),
+            c: (&s.c * &inverse).scaled(&(value + value)),
+            b: through,
+        },
+        _ => System {
+            d: &s.d + &(&s.c * &through).scaled(value),
+            c: &s.c * &inverse,
+            b: through.scaled(value),
+            a: inverse,
+        },
+    })
+}
+
+/// `M^-1 R` and `det M` by elimination over the field of rational functions; `None` when `M` is
+/// singular. Zero entries cost nothing, so a sparse diagram stays cheap.
+pub(super) fn solve(
+    m: &RationalMatrix,
+    right: &RationalMatrix,
+    budget: &Budget,
+) -> Result<Option<(RationalMatrix, RationalFunction)>, Exhausted> {
+    let n = m.rows();
+    let columns = right.columns();
+    let mut rows: Vec<Vec<RationalFunction>> = (0..n)
+        .map(|i| (0..n).map(|j| m[(i, j)].clone()).chain((0..columns).map(|j| right[(i, j)].clone())).collect())
+        .collect();
+    let mut determinant = RationalFunction::one();
+    for k in 0..n {
+        budget.check()?;
+        // The simplest pivot keeps the entries small.
+        let size = |f: &RationalFunction| f.numerator().terms().len() + f.denominator().terms().len();
+        let candidates = (k..n).filter(|&i| !rows[i][k].is_zero());
+        let Some(pivot) = candidates.min_by_key(|&i| size(&rows[i][k])) else { return Ok(None) };
+        if pivot != k {
+            rows.swap(pivot, k);
+            determinant = -determinant;
+        }
+        determinant = &determinant * &rows[k][k];
+        let Some(inverse) = rows[k][k].recip() else { return Ok(None) };
+        if !inverse.is_one() {
+            for f in rows[k].iter_mut().filter(|f| !f.is_zero()) {
+                *f = &*f * &inverse;
+            }
+        }
+        let pivot_row = rows[k].clone();
+        for (i, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != k) {
+            if row[k].is_zero() {
+                continue;
+            }
+            let factor = row[k].clone();
+            debug_assert!(i != k);
+            for (f, p) in row.iter_mut().zip(&pivot_row).filter(|(_, p)| !p.is_zero()) {
+                *f = &*f - &(&factor * p);
+            }
+        }
+    }
+    let solution = RationalMatrix::from_fn(n, columns, |i, j| rows[i][n + j].clone());
+    Ok(Some((solution, determinant)))
+}
+
+fn block_diagonal(parts: &[&RationalMatrix]) -> RationalMatrix {
+    let rows = parts.iter().map(|m| m.rows()).sum();
+    let columns = parts.iter().map(|m| m.columns()).sum();
+    let mut out = RationalMatrix::zeros(rows, columns);
+    let (mut top, mut left) = (0, 0);
+    for m in parts {
+        for i in 0..m.rows() {
+            for j in 0..m.columns() {
+                out[(top + i, left + j)] = m[(i, j)].clone();
+            }
+        }
+        top += m.rows();
+        left += m.columns();
+    }
+    out
+}
+
+fn connect(
+    model: &Loop,
+    wiring: &Wiring<'_>,
+    blocks: &[BlockValues],
+    outputs: &[Row],
+    set: &Substitution<'_>,
+    budget: &Budget,
+) -> Result<Assembled, Stop> {
+    let mut poles = Vec::new();
+    let mut systems = Vec::with_capacity(blocks.len());
+    let mut states = Vec::new();
+    for (i, block) in blocks.iter().enumerate() {
+        budget.check()?;
+        let mut system = match &block.dynamics {
+            DynamicValues::Ratio(ratio) => realise(&ratio.numerator, &ratio.denominator, block, set, &mut poles)?,
+            DynamicValues::StateSpace { a, b, c, d } => {
+                let set = |m| substituted_matrix(m, set);
+                System { a: set(a)?, b: set(b)?, c: set(c)?, d: set(d)? }
+            }
+        };
+        if let Some((method, value)) = &block.discretization {
+            system = discretised(system, *method, &substituted(value, set)?, block, &mut poles, budget)?;
+        }
+        let n = system.a.rows();
+        states.extend(state_names(model, i, block, n));
+        // Matrices without rows or columns do not remember their other size.
+        let (inputs, outputs) = (block.inputs.len(), block.outputs);
+        if n == 0 {
+            system.b = RationalMatrix::zeros(0, inputs);
+            system.c = RationalMatrix::zeros(outputs, 0);
+        }
+        systems.push(system);
+    }
+    let diagonal = |part: fn(&System) -> &RationalMatrix| block_diagonal(&systems.iter().map(part).collect::<Vec<_>>());
+    let (a, b, c, d) = (diagonal(|s| &s.a), diagonal(|s| &s.b), diagonal(|s| &s.c), diagonal(|s| &s.d));
+    let rows: Vec<Row> = blocks.iter().flat_map(|b| b.inputs.iter().cloned()).collect();
+    // u = L y + M r, y = C x + D u:  (I - L D) u = L C x + M r.
+    let l = part(&rows, 0, wiring.driven, set)?;
+    let m = part(&rows, wiring.driven, wiring.inputs.len(), set)?;
+    let n = a.rows();
+    let left = &RationalMatrix::identity(rows.len()) - &(&l * &d);
+    let lc = &l * &c;
+    let right = beside(&lc, &m);
+    let Some((u, determinant)) = solve(&left, &right, budget)? else {
+        return Err(algebraic_loop(blocks, &systems));
+    };
+    poles.push(determinant.numerator().clone());
+    let from_states = RationalMatrix::from_fn(rows.len(), n, |i, j| u[(i, j)].clone());
+    let from_inputs = RationalMatrix::from_fn(rows.len(), m.columns(), |i, j| u[(i, n + j)].clone());
+    // All signals, the external ones last.
+    let y_states = &c + &(&d * &from_states);
+    let y_inputs = &d * &from_inputs;
+    let s = part(outputs, 0, wiring.driven, set)?;
+    let direct = part(outputs, wiring.driven, wiring.inputs.len(), set)?;
+    let system = System {
+        a: &a + &(&b * &from_states),
+        b: &b * &from_inputs,
+        c: &s * &y_states,
+        d: &(&s * &y_inputs) + &direct,
+    };
+    Ok(Assembled { system, states, poles })
+}
+
+fn beside(left: &RationalMatrix, right: &RationalMatrix) -> RationalMatrix {
+    RationalMatrix::from_fn(left.rows(), left.columns() + right.columns(), |i, j| {
+        if j < left.columns() { left[(i, j)].clone() } else { right[(i, j - left.columns())].clone() }
+    })
+}
+
+/// States that are outputs have their names; others are numbered.
+fn state_names(model: &Loop, i: usize, values: &BlockValues, n: usize) -> Vec<String> {
+    if let Form::Blocks(diagram) = &model.form
+        && let Some(block) = diagram.blocks.get(i)
+        && matches!(block.dynamics, Dynamics::StateSpace { c: None, .. })
+        && block.discretization.as_ref().is_none_or(|d| d.method == Method::Forward)
+    {
+        return block.outputs.iter().map(|o| o.name.clone()).collect();
+    }
+    (1..=n).map(|k| format!("{}.{k}", values.name)).collect()
+}
+
+fn algebraic_loop(blocks: &[BlockValues], systems: &[System]) -> Stop {
+    /// Blocks that are pointed at.
+    const SHOWN: usize = 5;
+    let direct = |s: &&(&BlockValues, &System)| s.1.d.entries().iter().any(|f| !f.is_zero());
+    let pairs: Vec<(&BlockValues, &System)> = blocks.iter().zip(systems).collect();
+    let mut members = pairs.iter().filter(direct).map(|(b, _)| b.span);
+    let error = Diagnostic::error("E-algebraic-loop", "an algebraic loop that is not well posed");
+    let mut error = error.at(members.next().unwrap_or_default(), "passes its input on at once");
+    for span in members.take(SHOWN) {
+        error = error.also(span, "and so does this");
+    }
+    let help = "around the loop the gain without delay is 1, so the signals have no unique value; change a gain or add a delay";
+    Stop::Undefined(Box::new(error.help(help)))
+}

@@ -1,0 +1,282 @@
+//! Every expression of a model as a value.
+
+use super::definition::{Block, Dynamics, Form, Loop, Matrix, Method, Output, Ports};
+use super::evaluate::{Failure, division_by_zero};
+use super::expression::Expression;
+use super::linear::linear;
+use super::names::shorten;
+use super::read_block::driven;
+use super::scalar::Scope;
+use super::transfer::{Fraction, fraction, polynomial};
+use super::zpoly::ZPoly;
+use crate::error::{Diagnostic, Span};
+use jurist_algebra::matrix::RationalMatrix;
+use jurist_algebra::poly::RationalFunction;
+use std::collections::{BTreeMap, HashMap};
+
+/// The coefficients of a linear expression by signal.
+pub(super) type Row = BTreeMap<usize, RationalFunction>;
+
+/// The numbers of signals or states: those that are driven first, then the external ones.
+pub(super) struct Wiring<'m> {
+    pub numbers: HashMap<&'m str, usize>,
+    /// How many are driven.
+    pub driven: usize,
+    pub inputs: Vec<&'m str>,
+}
+
+impl<'m> Wiring<'m> {
+    pub fn of(model: &'m Loop) -> Self {
+        let own: Vec<&str> = match &model.form {
+            Form::Characteristic(_) => Vec::new(),
+            Form::Matrix { ports, .. } | Form::OutputFeedback { ports, .. } => {
+                ports.states.iter().map(|n| n.name.as_str()).collect()
+            }
+            Form::Blocks(diagram) => driven(diagram).map(|(n, _)| n.name.as_str()).collect(),
+        };
+        let inputs: Vec<&str> = model.inputs().iter().map(|n| n.name.as_str()).collect();
+        let mut numbers: HashMap<&str, usize> = own.iter().enumerate().map(|(i, n)| (*n, i)).collect();
+        if matches!(model.form, Form::Blocks(_)) {
+            numbers.extend(inputs.iter().enumerate().map(|(i, n)| (*n, own.len() + i)));
+        }
+        Wiring { numbers, driven: own.len(), inputs }
+    }
+}
+
+/// The values of everything in a model's form.
+pub(super) enum Values {
+    Characteristic(ZPoly),
+    Matrix { matrix: RationalMatrix, ports: PortValues },
+    Feedback { a: RationalMatrix, b: RationalMatrix, c: RationalMatrix, k: RationalMatrix, ports: PortValues },
+    Blocks { blocks: Vec<BlockValues>, outputs: Vec<Row> },
+}
+
+pub(super) struct PortValues {
+    pub input_matrix: Option<RationalMatrix>,
+    pub outputs: Vec<Row>,
+}
+
+pub(super) struct BlockValues {
+    pub name: String,
+    pub span: Span,
+    pub inputs: Vec<Row>,
+    pub outputs: usize,
+    pub dynamics: DynamicValues,
+    pub discretization: Option<(Method, RationalFunction)>,
+}
+
+pub(super) enum DynamicValues {
+    /// Numerator and denominator, of which the denominator's degree is the order.
+    Ratio(Fraction),
+    StateSpace {
+        a: RationalMatrix,
+        b: RationalMatrix,
+        c: RationalMatrix,
+        d: RationalMatrix,
+    },
+}
+
+struct Evaluator<'e, 'a> {
+    scope: &'e mut Scope<'a>,
+    report: &'e mut dyn FnMut(Failure),
+}
+
+impl Evaluator<'_, '_> {
+    fn keep<T>(&mut self, value: Result<T, Failure>) -> Option<T> {
+        value.map_err(&mut *self.report).ok()
+    }
+
+    fn scalar(&mut self, e: &Expression) -> Option<RationalFunction> {
+        let value = self.scope.scalar(e);
+        self.keep(value)
+    }
+
+    fn matrix(&mut self, matrix: &Matrix) -> Option<RationalMatrix> {
+        let mut rows = Vec::with_capacity(matrix.rows.len());
+        let mut complete = true;
+        for row in &matrix.rows {
+            let values: Vec<Option<RationalFunction>> = row.iter().map(|e| self.scalar(e)).collect();
+            match values.into_iter().collect::<Option<Vec<_>>>() {
+                Some(row) => rows.push(row),
+                None => complete = false,
+            }
+        }
+        if complete { RationalMatrix::from_rows(rows) } else { None }
+    }
+
+    fn rows<'x>(&mut self, list: impl Iterator<Item = &'x Expression>, wiring: &Wiring<'_>) -> Option<Vec<Row>> {
+        let rows: Vec<Option<Row>> = list
+            .map(|e| {
+                let row = linear(e, &wiring.numbers, self.scope);
+                self.keep(row)
+            })
+            .collect();
+        rows.into_iter().collect()
+    }
+
+    fn outputs(&mut self, outputs: &[Output], wiring: &Wiring<'_>) -> Option<Vec<Row>> {
+        self.rows(outputs.iter().map(|o| &o.expression), wiring)
+    }
+
+    fn ports(&mut self, ports: &Ports, wiring: &Wiring<'_>) -> Option<PortValues> {
+        let input_matrix = match &ports.input_matrix {
+            Some(e) => Some(self.matrix(e)?),
+            None => None,
+        };
+        Some(PortValues { input_matrix, outputs: self.outputs(&ports.outputs, wiring)? })
+    }
+
+    fn block(&mut self, block: &Block, wiring: &Wiring<'_>, variable: &str) -> Option<BlockValues> {
+        let inputs = self.rows(block.inputs.iter(), wiring);
+        let variable = if block.discretization.is_some() { "s" } else { variable };
+        let dynamics = self.dynamics(block, variable);
+        let discretization = match &block.discretization {
+            None => Some(None),
+            Some(d) => {
+                let time = d.sample_time.as_ref().map(|e| (self.scalar(e), e.span));
+                let factor = d.factor.as_ref().map(|e| self.scalar(e));
+                match (d.method, factor, time) {
+                    (Method::Tustin, Some(factor), _) => factor.map(|c| Some((d.method, c))),
+                    (Method::Tustin, None, Some((Some(time), span))) => {
+                        // c = 2/T is an expression of the model like any other.
+                        let two = RationalFunction::from(2);
+                        match time.recip() {
+                            Some(inverse) => {
+                                self.scope.divides_by(vec![time.numerator().clone()]);
+                                Some(Some((d.method, &two * &inverse)))
+                            }
+                            None => {
+                                (self.report)(division_by_zero(span));
+                                None
+                            }
+                        }
+                    }
+                    (_, _, Some((Some(time), _))) => Some(Some((d.method, time))),
+                    (_, _, Some((None, _))) => None,
+                    (_, _, None) => {
+                        let error = Diagnostic::error("E-discretize", "'discretize' has no sample time");
+                        (self.report)(error.at(d.span, "how long is a step?").help("give T = \"..\"").into());
+                        None
+                    }
+                }
+            }
+        };
+        if let Some(pwm) = &block.pwm {
+            for e in [&pwm.amplitude, &pwm.carrier, &pwm.period] {
+                self.scalar(e);
+            }
+        }
+        Some(BlockValues {
+            name: block.name.clone(),
+            span: block.span,
+            inputs: inputs?,
+            outputs: block.outputs.len(),
+            dynamics: dynamics?,
+            discretization: discretization?,
+        })
+    }
+
+    fn dynamics(&mut self, block: &Block, variable: &str) -> Option<DynamicValues> {
+        let (ratio, span) = match &block.dynamics {
+            Dynamics::Transfer(e) => {
+                let value = fraction(e, variable, self.scope);
+                (self.keep(value)?, e.span)
+            }
+            Dynamics::Ratio { numerator, denominator } => {
+                // Files give the highest power first.
+                let mut list = |coefficients: &[Expression]| {
+                    let values: Vec<Option<RationalFunction>> =
+                        coefficients.iter().rev().map(|e| self.scalar(e)).collect();
+                    values.into_iter().collect::<Option<Vec<_>>>().map(ZPoly::new)
+                };
+                let (numerator, denominator) = (list(numerator), list(denominator));
+                let span = block.span;
+                (Fraction { numerator: numerator?, denominator: denominator? }, span)
+            }
+            Dynamics::Gain(e) => (self.constant(e)?, e.span),
+            Dynamics::Delay(n) => {
+                (Fraction { numerator: ZPoly::one(), denominator: ZPoly::power_of_variable(*n) }, block.span)
+            }
+            Dynamics::StateSpace { a, b, c, d } => {
+                let (n, inputs, outputs) = (a.size().0, block.inputs.len(), block.outputs.len());
+                let (a, b) = (self.matrix(a), self.matrix(b));
+                let c = match c {
+                    Some(c) => self.matrix(c),
+                    None => Some(RationalMatrix::identity(n)),
+                };
+                let d = match d {
+                    Some(d) => self.matrix(d),
+                    None => Some(RationalMatrix::zeros(outputs, inputs)),
+                };
+                return Some(DynamicValues::StateSpace { a: a?, b: b?, c: c?, d: d? });
+            }
+            Dynamics::Static(d) => {
+                let (inputs, outputs) = (block.inputs.len(), block.outputs.len());
+                let d = self.matrix(d)?;
+                return Some(DynamicValues::StateSpace {
+                    a: RationalMatrix::zeros(0, 0),
+                    b: RationalMatrix::zeros(0, inputs),
+                    c: RationalMatrix::zeros(outputs, 0),
+                    d,
+                });
+            }
+        };
+        if ratio.denominator.is_zero() {
+            (self.report)(division_by_zero(span));
+            return None;
+        }
+        if ratio.numerator.degree() > ratio.denominator.degree() {
+            let (n, d) = (ratio.numerator.degree(), ratio.denominator.degree());
+            let message = format!("the transfer function of '{}' is improper", shorten(&block.name));
+            let error = Diagnostic::error("E-improper", message);
+            let error = error.at(span, format!("degree {n} over degree {d}"));
+            (self.report)(
+                error
+                    .help("the numerator's degree must not exceed the denominator's; add a delay or a filter pole")
+                    .into(),
+            );
+            return None;
+        }
+        Some(DynamicValues::Ratio(ratio))
+    }
+
+    fn constant(&mut self, e: &Expression) -> Option<Fraction> {
+        let value = self.scalar(e)?;
+        Some(Fraction { numerator: ZPoly::constant(value), denominator: ZPoly::one() })
+    }
+}
+
+/// Evaluates the form; `None` when something was reported.
+pub(super) fn symbolic(
+    model: &Loop,
+    wiring: &Wiring<'_>,
+    scope: &mut Scope<'_>,
+    report: &mut dyn FnMut(Failure),
+) -> Option<Values> {
+    let mut evaluator = Evaluator { scope, report };
+    if let Some(e) = &model.sample_time {
+        evaluator.scalar(e);
+    }
+    match &model.form {
+        Form::Characteristic(e) => {
+            let value = polynomial(e, model.time.variable(), evaluator.scope);
+            evaluator.keep(value).map(Values::Characteristic)
+        }
+        Form::Matrix { matrix, ports } => {
+            let (matrix, ports) = (evaluator.matrix(matrix), evaluator.ports(ports, wiring));
+            Some(Values::Matrix { matrix: matrix?, ports: ports? })
+        }
+        Form::OutputFeedback { a, b, c, k, ports } => {
+            let [a, b, c, k] = [a, b, c, k].map(|m| evaluator.matrix(m));
+            let ports = evaluator.ports(ports, wiring);
+            Some(Values::Feedback { a: a?, b: b?, c: c?, k: k?, ports: ports? })
+        }
+        Form::Blocks(diagram) => {
+            let variable = model.time.variable();
+            let blocks: Vec<Option<BlockValues>> =
+                diagram.blocks.iter().map(|b| evaluator.block(b, wiring, variable)).collect();
+            let outputs = evaluator.outputs(&diagram.outputs, wiring);
+            Some(Values::Blocks { blocks: blocks.into_iter().collect::<Option<_>>()?, outputs: outputs? })
+        }
+    }
+}

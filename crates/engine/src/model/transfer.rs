@@ -1,0 +1,158 @@
+//! Rational expressions in z (or s): sums use the least common denominator, products and
+//! quotients never cancel.
+
+use super::evaluate::{Failure, Meaning, division_by_zero, evaluate, too_large};
+use super::expression::{Expression, Sign};
+use super::scalar::Scope;
+use super::zpoly::ZPoly;
+use crate::error::{Diagnostic, Span};
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::RationalFunction;
+
+/// Orders beyond this are refused.
+pub(super) const MAX_ORDER: usize = 2000;
+
+/// A numerator and a denominator as they stand, common factors included.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Fraction {
+    pub numerator: ZPoly,
+    pub denominator: ZPoly,
+}
+
+/// Evaluates expressions in the polynomial variable.
+pub(super) struct InVariable<'s, 'a> {
+    pub scope: &'s mut Scope<'a>,
+    /// `z` or `s`.
+    pub variable: &'s str,
+    /// Whether a denominator may contain the variable.
+    pub rational: bool,
+}
+
+/// A transfer expression.
+pub(super) fn fraction(e: &Expression, variable: &str, scope: &mut Scope<'_>) -> Result<Fraction, Failure> {
+    evaluate(e, &mut InVariable { scope, variable, rational: true })
+}
+
+/// An expression that is a polynomial in the variable.
+pub(super) fn polynomial(e: &Expression, variable: &str, scope: &mut Scope<'_>) -> Result<ZPoly, Failure> {
+    let Fraction { numerator, denominator } = evaluate(e, &mut InVariable { scope, variable, rational: false })?;
+    debug_assert!(denominator.is_one());
+    Ok(numerator)
+}
+
+impl Fraction {
+    fn constant(value: RationalFunction) -> Self {
+        Fraction { numerator: ZPoly::constant(value), denominator: ZPoly::one() }
+    }
+
+    fn sum(&self, sign: Sign, other: &Self) -> Option<Self> {
+        let (d, e) = (&self.denominator, &other.denominator);
+        if d == e {
+            return Some(Fraction { numerator: self.numerator.sum(sign, &other.numerator)?, denominator: d.clone() });
+        }
+        // With g = gcd(d, e) the least common denominator is d (e/g) = e (d/g).
+        let (e_rest, d_rest) = if d.degree() == 0 || e.degree() == 0 {
+            (e.clone(), d.clone())
+        } else {
+            let g = d.gcd(e)?;
+            (e.divide(&g)?.0, d.divide(&g)?.0)
+        };
+        let left = self.numerator.product(&e_rest)?;
+        let right = other.numerator.product(&d_rest)?;
+        Some(Fraction { numerator: left.sum(sign, &right)?, denominator: d.product(&e_rest)? })
+    }
+}
+
+impl InVariable<'_, '_> {
+    fn divided(&mut self, a: Fraction, b: &Fraction, span: Span) -> Result<Fraction, Failure> {
+        if b.numerator.is_zero() {
+            return Err(division_by_zero(span));
+        }
+        if b.numerator.degree() > 0 && !self.rational {
+            let v = self.variable;
+            return Err(Diagnostic::error("E-not-polynomial", format!("the characteristic polynomial divides by {v}"))
+                .at(span, format!("contains {v}"))
+                .help("multiply the equation by its denominators, or use [[block]] with transfer functions")
+                .into());
+        }
+        let polynomials = b.numerator.coefficients().iter().map(|c| c.numerator().clone()).collect();
+        self.scope.divides_by(polynomials);
+        let too_large = || too_large(span);
+        let mut numerator = a.numerator.product(&b.denominator).ok_or_else(too_large)?;
+        let mut denominator = a.denominator;
+        if b.numerator.degree() == 0 {
+            // A divisor without z goes into the coefficients.
+            let inverse = b.numerator.leading().recip().ok_or_else(|| division_by_zero(span))?;
+            numerator = numerator.scaled(&inverse).ok_or_else(too_large)?;
+        } else {
+            denominator = denominator.product(&b.numerator).ok_or_else(too_large)?;
+        }
+        self.limited(Fraction { numerator, denominator }, span)
+    }
+
+    fn limited(&self, f: Fraction, span: Span) -> Result<Fraction, Failure> {
+        if f.numerator.degree().max(f.denominator.degree()) > MAX_ORDER { Err(too_large(span)) } else { Ok(f) }
+    }
+}
+
+impl Meaning for InVariable<'_, '_> {
+    type Value = Fraction;
+
+    fn number(&mut self, value: &Rational) -> Result<Fraction, Failure> {
+        Ok(Fraction::constant(value.into()))
+    }
+
+    fn name(&mut self, name: &str, span: Span) -> Result<Fraction, Failure> {
+        if name == self.variable {
+            return Ok(Fraction { numerator: ZPoly::power_of_variable(1), denominator: ZPoly::one() });
+        }
+        self.scope.name(name, span).map(Fraction::constant)
+    }
+
+    fn negative(&mut self, f: Fraction) -> Result<Fraction, Failure> {
+        Ok(Fraction { numerator: f.numerator.negated(), denominator: f.denominator })
+    }
+
+    fn sum(&mut self, a: Fraction, sign: Sign, b: Fraction, span: Span) -> Result<Fraction, Failure> {
+        self.scope.budget.check()?;
+        let sum = a.sum(sign, &b).ok_or_else(|| too_large(span))?;
+        self.limited(sum, span)
+    }
+
+    fn product(&mut self, a: Fraction, b: Fraction, span: Span) -> Result<Fraction, Failure> {
+        self.scope.budget.check()?;
+        let too_large = || too_large(span);
+        let budget = self.scope.budget;
+        let product = |a: &ZPoly, b: &ZPoly| match a.product_within(b, budget) {
+            Some(product) => Ok(product),
+            None => budget.check().map_err(Failure::from).and(Err(too_large())),
+        };
+        let numerator = product(&a.numerator, &b.numerator)?;
+        let denominator = product(&a.denominator, &b.denominator)?;
+        self.limited(Fraction { numerator, denominator }, span)
+    }
+
+    fn quotient(&mut self, a: Fraction, b: Fraction, span: Span) -> Result<Fraction, Failure> {
+        self.scope.budget.check()?;
+        self.divided(a, &b, span)
+    }
+
+    fn power(&mut self, base: Fraction, exponent: i64, span: Span) -> Result<Fraction, Failure> {
+        let degree = base.numerator.degree().max(base.denominator.degree()) as u64;
+        if degree.saturating_mul(exponent.unsigned_abs()) > MAX_ORDER as u64 {
+            return Err(too_large(span));
+        }
+        self.scope.budget.check()?;
+        if degree == 0 && !base.numerator.is_zero() {
+            // A power of numbers and parameters has its own limits.
+            return self.scope.power(base.numerator.leading(), exponent, span).map(Fraction::constant);
+        }
+        let base = if exponent < 0 { self.divided(Fraction::constant(1.into()), &base, span)? } else { base };
+        let budget = self.scope.budget;
+        let raise = |p: &ZPoly| match p.power(exponent.unsigned_abs(), budget) {
+            Some(power) => Ok(power),
+            None => budget.check().map_err(Failure::from).and(Err(too_large(span))),
+        };
+        Ok(Fraction { numerator: raise(&base.numerator)?, denominator: raise(&base.denominator)? })
+    }
+}

@@ -1,0 +1,7 @@
+//! What independent programs can check: certificates, and statements for SMT solvers.
+
+mod cofactors;
+pub mod emit;
+mod line;
+pub mod smt2;
+mod text;

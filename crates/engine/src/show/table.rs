@@ -1,0 +1,349 @@
+//! The classical table: Jury's in discrete time, Routh's in continuous time.
+
+use super::intervals::{domain_text, set_lines};
+use super::json;
+use super::layout::{Columns, named_values, wrapped};
+use super::notation::{Coefficient, coefficient_text};
+use super::region;
+use crate::analysis::{Decision, OneParameter, PointTable, TableAnswer};
+use crate::model::Time;
+use crate::stability::{ClassicalTest, Inequality, ScaledPoly, Table, UNDIVIDED_ORDER, row_name};
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, UniPoly};
+use serde_json::{Map, Value, json};
+
+/// Characters per line of a printed table.
+const WIDTH: usize = 100;
+
+/// One row of the table as it is written: its name, entries, and what it was divided by.
+struct Row {
+    name: String,
+    entries: Vec<ScaledPoly>,
+    divided_by: Option<String>,
+}
+
+/// The rows with their scale factors applied.
+fn rows(test: &ClassicalTest) -> Vec<Row> {
+    let scaled = |p: &UniPoly, i: usize| ScaledPoly {
+        scale: test.scales.get(i).cloned().unwrap_or(Rational::ONE),
+        polynomial: p.clone(),
+    };
+    match &test.table {
+        Table::Jury(table) => {
+            let row = |(i, row): (usize, &crate::stability::JuryRow<UniPoly>)| Row {
+                name: row_name(i),
+                entries: row.entries.iter().map(|p| scaled(p, i)).collect(),
+                divided_by: row.divisor.as_ref().map(|_| format!("{}_0", row_name(i - 2))),
+            };
+            table.rows.iter().enumerate().map(row).collect()
+        }
+        Table::Routh(table) => {
+            let n = order(test);
+            let row = |(i, row): (usize, &Vec<UniPoly>)| Row {
+                name: format!("s^{}", n.saturating_sub(i)),
+                entries: row.iter().map(|p| scaled(p, i)).collect(),
+                divided_by: None,
+            };
+            table.rows.iter().enumerate().map(row).collect()
+        }
+    }
+}
+
+/// The degree the table was built for.
+fn order(test: &ClassicalTest) -> usize {
+    match &test.table {
+        Table::Jury(table) => table.rows.first().map_or(0, |r| r.entries.len().saturating_sub(1)),
+        Table::Routh(table) => {
+            let (first, second) = (table.rows.first().map_or(0, Vec::len), table.rows.get(1).map_or(0, Vec::len));
+            (first + second).saturating_sub(1)
+        }
+    }
+}
+
+/// Rational coefficients from the constant term up.
+fn coefficients(p: &ScaledPoly) -> Vec<Rational> {
+    p.polynomial.coeffs().iter().map(|c| &p.scale * &Rational::from(c)).collect()
+}
+
+/// A polynomial in the parameter as a list of strings, or a number as a string.
+fn entry_json(p: &ScaledPoly, numeric: bool) -> Value {
+    let mut list: Vec<String> = coefficients(p).iter().map(Rational::to_string).collect();
+    if list.is_empty() {
+        list.push("0".to_owned());
+    }
+    if numeric { list.swap_remove(0).into() } else { list.into() }
+}
+
+fn rows_json(test: &ClassicalTest, numeric: bool) -> Value {
+    let row = |r: Row| {
+        let entries: Vec<Value> = r.entries.iter().map(|p| entry_json(p, numeric)).collect();
+        json!({ "name": r.name, "entries": entries, "divided_by": r.divided_by })
+    };
+    rows(test).into_iter().map(row).collect::<Vec<_>>().into()
+}
+
+/// The row of the table that a condition is on; none for the values at 1 and -1.
+fn condition_row(test: &ClassicalTest, index: usize) -> Option<String> {
+    match &test.table {
+        Table::Jury(_) => index.checked_sub(2).map(row_name),
+        Table::Routh(_) => Some(format!("s^{}", order(test).saturating_sub(index + 1))),
+    }
+}
+
+/// Name, sides and row of each condition; `left > right`, or `|left| > |right|`, or as it is named
+/// `|left| < |right|`.
+fn condition_json(test: &ClassicalTest, index: usize, numeric: bool) -> Map<String, Value> {
+    let condition = &test.conditions[index];
+    let (relation, left, right) = match &condition.inequality {
+        Inequality::Positive(f) => {
+            let zero = ScaledPoly { scale: Rational::ONE, polynomial: UniPoly::zero() };
+            ("left > right", entry_json(f, numeric), entry_json(&zero, numeric))
+        }
+        // Textbooks write the first row's condition the other way round: |a_0| < a_n.
+        Inequality::Dominates { left, right } if condition.name.contains('<') => {
+            ("|left| < |right|", entry_json(right, numeric), entry_json(left, numeric))
+        }
+        Inequality::Dominates { left, right } => {
+            ("|left| > |right|", entry_json(left, numeric), entry_json(right, numeric))
+        }
+    };
+    let mut out = Map::new();
+    out.insert("name".into(), condition.name.as_str().into());
+    out.insert("relation".into(), relation.into());
+    out.insert("left".into(), left);
+    out.insert("right".into(), right);
+    out.insert("row".into(), condition_row(test, index).map_or(Value::Null, Value::from));
+    out
+}
+
+/// The document `jurist/jury/1` in one parameter.
+pub fn table_json(answer: &TableAnswer, digits: usize) -> Value {
+    let mut out = json::question(&answer.question, "jurist/jury/1");
+    out.insert("table".into(), table_name(answer.question.time).into());
+    let test = match &answer.test {
+        Decision::Undecided { budget, reached } => {
+            for key in ["rows", "conditions", "intersection"] {
+                out.insert(key.into(), Value::Null);
+            }
+            out.insert("undecided".into(), json::undecided(budget, reached));
+            return Value::Object(out);
+        }
+        Decision::Decided(None) => {
+            for key in ["rows", "conditions", "intersection"] {
+                out.insert(key.into(), json!([]));
+            }
+            return Value::Object(out);
+        }
+        Decision::Decided(Some(test)) => test,
+    };
+    out.insert("rows".into(), rows_json(test, false));
+    if let Some(factor) = &test.cleared_by {
+        out.insert("cleared_by".into(), json::polynomial(factor));
+    }
+    let conditions = test.conditions.iter().enumerate().map(|(i, c)| {
+        let mut out = condition_json(test, i, false);
+        out.insert("solution".into(), json::interval_set(&c.solution, digits));
+        Value::Object(out)
+    });
+    out.insert("conditions".into(), conditions.collect::<Vec<_>>().into());
+    // The stable set is the same set, end by end, and knows the causes.
+    let intersection = match answer.stable.decided() {
+        Some(set) => json::stable_set(set, &answer.question, digits),
+        None => json::interval_set(&test.intersection, digits),
+    };
+    out.insert("intersection".into(), intersection);
+    Value::Object(out)
+}
+
+/// The document `jurist/jury/1` at a point.
+pub fn point_table_json(answer: &PointTable) -> Value {
+    let mut out = Map::new();
+    out.insert("schema".into(), "jurist/jury/1".into());
+    out.insert("title".into(), answer.title.as_deref().unwrap_or_default().into());
+    out.insert("time".into(), answer.time.name().into());
+    out.insert("table".into(), table_name(answer.time).into());
+    out.insert("parameter".into(), Value::Null);
+    out.insert("set".into(), json::set(&answer.set));
+    json::relative(&mut out, answer.radius.as_ref(), answer.decay.as_ref());
+    let test = answer.test.as_ref();
+    out.insert("rows".into(), test.map_or(json!([]), |t| rows_json(t, true)));
+    let conditions = test.iter().flat_map(|t| t.conditions.iter().enumerate().map(move |(i, c)| (t, i, c)));
+    let conditions = conditions.map(|(test, i, c)| {
+        let mut out = condition_json(test, i, true);
+        out.insert("holds".into(), (!c.solution.intervals().is_empty()).into());
+        Value::Object(out)
+    });
+    out.insert("conditions".into(), conditions.collect::<Vec<_>>().into());
+    out.insert("holds".into(), answer.holds().into());
+    Value::Object(out)
+}
+
+fn table_name(time: Time) -> &'static str {
+    match time {
+        Time::Discrete => "Jury",
+        Time::Continuous => "Routh",
+    }
+}
+
+/// The table, its conditions and their solutions for people.
+pub fn table_text(answer: &TableAnswer, digits: usize) -> String {
+    let question = &answer.question;
+    let mut out = heading(question);
+    let test = match &answer.test {
+        Decision::Undecided { budget, reached } => {
+            out.push_str(&format!("undecided, the budget ran out: {budget}; reached: {reached}\n"));
+            return out;
+        }
+        Decision::Decided(None) => {
+            out.push_str(&format!("the loop is undefined for every {}\n", question.parameter));
+            return out;
+        }
+        Decision::Decided(Some(test)) => test,
+    };
+    out.push_str(&scheme(test));
+    if let Some(factor) = &test.cleared_by {
+        let factor = ScaledPoly { scale: Rational::ONE, polynomial: factor.clone() };
+        let text = entry_text(&factor, Some(&question.parameter), digits);
+        out.push_str(&format!("coefficients multiplied by {text}\n"));
+    }
+    out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has them exactly)\n"));
+    out.push_str(&entries_text(test, Some(&question.parameter), digits));
+    out.push_str(&format!("\nConditions, each with its exact solution set\n{}", determinants(test)));
+    out.push_str(&conditions_text(test, &question.parameter, digits));
+    out
+}
+
+fn heading(question: &OneParameter) -> String {
+    let title = question.title.as_deref().unwrap_or("the loop");
+    let region = region::goal(question).map(|goal| relative(question.time, &goal)).unwrap_or_default();
+    let mut line = format!("{} table of {title}{region} in {}", table_name(question.time), question.parameter);
+    if !question.set.is_empty() {
+        line.push_str(&format!(", {}", named_values(&question.set)));
+    }
+    let domain = domain_text(&question.parameter, &question.domain);
+    if domain != "all" {
+        line.push_str(&format!(", asked: {domain}"));
+    }
+    line.push('\n');
+    line
+}
+
+/// What the table is of when a smaller region is asked for.
+fn relative(time: Time, goal: &str) -> String {
+    match time {
+        Time::Discrete => format!(" for {goal} (roots divided by the radius),"),
+        Time::Continuous => format!(" for {goal} (roots shifted by the decay rate),"),
+    }
+}
+
+/// The conditions with their solutions, and what they have in common.
+fn conditions_text(test: &ClassicalTest, name: &str, digits: usize) -> String {
+    let mut columns = Columns::new("  ");
+    let sets = test.conditions.iter().map(|c| (c.name.as_str(), &c.solution));
+    for (label, set) in sets.chain([("all together", &test.intersection)]) {
+        let mut lines = set_lines(name, set, digits);
+        if lines.is_empty() {
+            lines.push("nowhere".to_owned());
+        }
+        for (i, line) in lines.into_iter().enumerate() {
+            let (label, or) = if i == 0 { (label, "") } else { ("", "or") };
+            columns.row([label.to_owned(), or.to_owned(), line]);
+        }
+    }
+    columns.to_string()
+}
+
+/// The table at a point for people.
+pub fn point_table_text(answer: &PointTable, digits: usize) -> String {
+    let title = answer.title.as_deref().unwrap_or("the loop");
+    let goal = region::point_goal(answer.radius.as_ref(), answer.decay.as_ref());
+    let region = goal.map(|goal| relative(answer.time, &goal)).unwrap_or_default();
+    let mut out = format!("{} table of {title}{}", table_name(answer.time), region.trim_end_matches(','));
+    if !answer.set.is_empty() {
+        out.push_str(&format!(", {}", named_values(&answer.set)));
+    }
+    out.push('\n');
+    let Some(test) = &answer.test else {
+        out.push_str("the loop is undefined here\n");
+        return out;
+    };
+    out.push_str(&scheme(test));
+    out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has them exactly)\n"));
+    out.push_str(&entries_text(test, None, digits));
+    out.push_str(&format!("\nConditions\n{}", determinants(test)));
+    let mut columns = Columns::new("  ");
+    for c in &test.conditions {
+        let holds = if c.solution.intervals().is_empty() { "does not hold" } else { "holds" };
+        columns.row([c.name.clone(), holds.to_owned()]);
+    }
+    let all = if answer.holds() { "all hold: stable" } else { "not stable" };
+    columns.row(["all together".to_owned(), all.to_owned()]);
+    out.push_str(&columns.to_string());
+    out
+}
+
+/// How Routh's conditions are named after the rows.
+fn determinants(test: &ClassicalTest) -> &'static str {
+    match test.table {
+        Table::Routh(_) => "  (H_k is the first entry r_k,0 of row k, the Hurwitz determinant of order k)\n",
+        Table::Jury(_) => "",
+    }
+}
+
+/// The arrangement of the rows by their names, as textbooks print it.
+fn scheme(test: &ClassicalTest) -> String {
+    let n = order(test);
+    let mut columns = Columns::new("  ");
+    let mut divided = Vec::new();
+    match &test.table {
+        Table::Jury(_) => {
+            columns.row((0..=n).map(|k| format!("z^{k}")));
+            for row in rows(test) {
+                let names: Vec<String> = (0..row.entries.len()).map(|k| format!("{}_{k}", row.name)).collect();
+                // The last row of the table stands alone.
+                if row.entries.len() > 3 || n < 3 {
+                    columns.row(names.clone());
+                    columns.row(names.into_iter().rev());
+                } else {
+                    columns.row(names);
+                }
+                divided.extend(row.divided_by.map(|by| format!("row {} by {by}", row.name)));
+            }
+        }
+        Table::Routh(table) => {
+            for (i, row) in table.rows.iter().enumerate() {
+                let names = (0..row.len()).map(|k| format!("r_{i},{k}"));
+                columns.row(std::iter::once(format!("s^{}", n.saturating_sub(i))).chain(names));
+            }
+        }
+    }
+    let mut out = format!("\n{columns}");
+    if !divided.is_empty() {
+        let text =
+            format!("above order {UNDIVIDED_ORDER} rows are divided by their known factors: {}", divided.join(", "));
+        out.push_str(&format!("  {}\n", wrapped(&text, WIDTH - 2, "    ")));
+    }
+    out
+}
+
+fn entries_text(test: &ClassicalTest, name: Option<&str>, digits: usize) -> String {
+    let mut out = String::new();
+    let is_routh = matches!(test.table, Table::Routh(_));
+    for (i, row) in rows(test).into_iter().enumerate() {
+        for (k, entry) in row.entries.iter().enumerate() {
+            let label = if is_routh { format!("r_{i},{k}") } else { format!("{}_{k}", row.name) };
+            let text = format!("{label} = {}", entry_text(entry, name, digits));
+            out.push_str(&format!("  {}\n", wrapped(&text, WIDTH - 2, "      ")));
+        }
+    }
+    out
+}
+
+/// A polynomial in the parameter with rounded coefficients.
+fn entry_text(p: &ScaledPoly, name: Option<&str>, digits: usize) -> String {
+    let list = coefficients(p);
+    let terms = list.into_iter().enumerate().rev().filter(|(_, c)| !c.is_zero());
+    let numerator = terms.map(|(k, c)| (vec![k as u32], c)).collect();
+    let names = [name.unwrap_or("x").to_owned()];
+    coefficient_text(&Coefficient { numerator, denominator: None }, &names, Some(digits))
+}

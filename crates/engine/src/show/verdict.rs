@@ -1,0 +1,78 @@
+//! The verdict at one point.
+
+use super::json;
+use super::layout::{named_values, short};
+use crate::analysis::{PointVerdict, Verdict};
+use crate::model::Time;
+use serde_json::{Map, Value};
+
+/// The document `jurist/verdict/1`.
+pub fn verdict_json(answer: &PointVerdict) -> Value {
+    let mut out = Map::new();
+    out.insert("schema".into(), "jurist/verdict/1".into());
+    out.insert("title".into(), answer.title.as_deref().unwrap_or_default().into());
+    out.insert("time".into(), answer.time.name().into());
+    out.insert("set".into(), json::set(&answer.set));
+    json::relative(&mut out, answer.radius.as_ref(), answer.decay.as_ref());
+    out.insert("verdict".into(), answer.verdict.name().into());
+    out.insert("degree".into(), answer.degree.into());
+    let count = answer.count;
+    out.insert("inside".into(), count.map_or(Value::Null, |c| c.inside.into()));
+    out.insert("on".into(), count.map_or(Value::Null, |c| c.on.into()));
+    out.insert("outside".into(), count.map_or(Value::Null, |c| c.outside.into()));
+    out.insert("infinite".into(), count.map_or(Value::Null, |_| answer.infinite.into()));
+    Value::Object(out)
+}
+
+/// The verdict for people: two lines.
+pub fn verdict_text(answer: &PointVerdict) -> String {
+    let title = answer.title.as_deref().unwrap_or("the loop");
+    let mut point = format!("{title}, {} time", answer.time.name());
+    if !answer.set.is_empty() {
+        point.push_str(&format!(", {}", named_values(&answer.set)));
+    }
+    format!("{point}\n{}\n", verdict_line(answer))
+}
+
+/// `unstable: 4 roots inside the unit circle, 0 on it, 2 outside`.
+pub fn verdict_line(answer: &PointVerdict) -> String {
+    let name = answer.verdict.name();
+    let Some(count) = answer.count else {
+        let unknown =
+            "an expression of the model divides by zero, a block loses its order, or the loop is not well posed";
+        return format!("{name}: {}", answer.undefined.as_deref().unwrap_or(unknown));
+    };
+    let boundary = match (answer.time, &answer.radius, &answer.decay) {
+        (Time::Discrete, Some(r), _) => format!("the circle |z| = {}", short(r)),
+        (Time::Discrete, None, _) => "the unit circle".to_owned(),
+        (Time::Continuous, _, Some(s)) => format!("the line Re s = {}", short(&-s)),
+        (Time::Continuous, _, None) => "the imaginary axis".to_owned(),
+    };
+    let (inner, outer) = match answer.time {
+        Time::Discrete => ("inside", "outside"),
+        Time::Continuous => ("left of", "right of it"),
+    };
+    let degree = answer.degree;
+    if degree > 0 && count.total() == 0 && answer.infinite == degree {
+        return format!("{name}: the characteristic polynomial loses all of its degree {degree} here");
+    }
+    let roots = |n: usize| if n == 1 { "root".to_owned() } else { "roots".to_owned() };
+    if answer.verdict == Verdict::Stable {
+        return match degree {
+            0 => format!("{name}: the characteristic polynomial is a constant"),
+            1 => format!("{name}: the root is {inner} {boundary}"),
+            n => format!("{name}: all {n} roots are {inner} {boundary}"),
+        };
+    }
+    let mut line = format!(
+        "{name}: {} {} {inner} {boundary}, {} on it, {} {outer}",
+        count.inside,
+        roots(count.inside),
+        count.on,
+        count.outside
+    );
+    if answer.infinite > 0 {
+        line.push_str(&format!(", {} at infinity (the degree drops from {degree})", answer.infinite));
+    }
+    line
+}

@@ -1,0 +1,247 @@
+//! Where on the boundary a complex pair sits at a limit of stability.
+
+use super::interval_set::zeros_in;
+use super::{HalfSizePair, ParametricPolynomial, Range, Region};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
+use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, UniPoly, subresultant_chain};
+use std::cmp::Ordering;
+
+/// A pair of complex conjugate roots on the boundary, located by the half-size variable
+/// `x = 2 cos(theta)` (unit disc) or `x = -omega^2` (left half plane).
+#[derive(Clone, Debug)]
+pub struct ComplexPair {
+    region: Region,
+    x: HalfSizeRoot,
+}
+
+#[derive(Clone, Debug)]
+enum HalfSizeRoot {
+    /// The parameter value is rational, so the root is an algebraic number.
+    Number(RealAlgebraic),
+    /// The largest root of a polynomial with only real roots, whose coefficients are polynomials in
+    /// an algebraic parameter value.
+    Over { polynomial: Poly<UniPoly>, parameter: RealAlgebraic },
+}
+
+/// The complex pair of lowest frequency at an end of a stable interval, if there is one.
+///
+/// `value` must be a limit of stable parameter values at which the coefficients are finite and not
+/// all zero: all roots are then in the closed region, so every mirror pair of roots is on the
+/// boundary, and every common root `x` of the half-size pair lies in the closed interval `[-2, 2]`
+/// or `(-inf, 0]`; the ends of the interval stand for double roots at `1`, `-1` and `0`. The greatest
+/// common divisor at `value` is the first subresultant, from the lowest degree up, that does not vanish there.
+pub(super) fn complex_pair_at(
+    p: &ParametricPolynomial,
+    value: &RealAlgebraic,
+    region: Region,
+    budget: &Budget,
+) -> Result<Option<ComplexPair>, Exhausted> {
+    let ends: &[i64] = match region {
+        Region::UnitDisc => &[2, -2],
+        Region::LeftHalfPlane => &[0],
+    };
+    if let Some(exact) = value.exact() {
+        let special = p.specialised(&exact);
+        let Some(n) = special.degree().filter(|&n| n > 0) else { return Ok(None) };
+        let pair = HalfSizePair::new(&special, n, region);
+        let common = pair.a.gcd_within(&pair.b, budget)?;
+        let range = match region {
+            Region::UnitDisc => Range::between(Some(Rational::from(-2)), Some(Rational::from(2))),
+            Region::LeftHalfPlane => Range::between(None, Some(Rational::ZERO)),
+        };
+        let roots = zeros_in(&common, &range, budget)?;
+        return Ok(roots.into_iter().last().map(|x| ComplexPair { region, x: HalfSizeRoot::Number(x) }));
+    }
+    let pair = HalfSizePair::new(p.polynomial(), p.formal_degree(), region);
+    let (first, second) = if pair.a.degree() >= pair.b.degree() { (pair.a, pair.b) } else { (pair.b, pair.a) };
+    if second.is_zero() {
+        return Ok(None);
+    }
+    let chain = subresultant_chain(&first, &second, budget)?;
+    let mut common = Poly::zero();
+    for subresultant in chain.iter().rev() {
+        common = at_parameter(subresultant, value, budget)?;
+        if !common.is_zero() {
+            break;
+        }
+    }
+    if common.is_zero() {
+        return Ok(None);
+    }
+    for &end in ends {
+        while !common.is_constant() {
+            let (quotient, rest) = divide_by_linear(&common, end);
+            if value.sign_of_within(&rest, budget)? != Ordering::Equal {
+                break;
+            }
+            common = quotient;
+        }
+    }
+    if common.is_constant() {
+        return Ok(None);
+    }
+    Ok(Some(ComplexPair { region, x: HalfSizeRoot::Over { polynomial: common, parameter: value.clone() } }))
+}
+
+/// The polynomial without the leading coefficients that vanish at the parameter value.
+fn at_parameter(p: &Poly<UniPoly>, value: &RealAlgebraic, budget: &Budget) -> Result<Poly<UniPoly>, Exhausted> {
+    let mut coeffs = p.coeffs().to_vec();
+    while let Some(last) = coeffs.last() {
+        if value.sign_of_within(last, budget)?.is_ne() {
+            break;
+        }
+        coeffs.pop();
+    }
+    Ok(Poly::new(coeffs))
+}
+
+/// Quotient and remainder by `x - a`.
+fn divide_by_linear(p: &Poly<UniPoly>, a: i64) -> (Poly<UniPoly>, UniPoly) {
+    let a = UniPoly::constant(Integer::from(a));
+    let mut coeffs = p.coeffs().to_vec();
+    for i in (1..coeffs.len()).rev() {
+        coeffs[i - 1] = coeffs[i - 1].plus(&coeffs[i].times(&a));
+    }
+    let rest = coeffs.remove(0);
+    (Poly::new(coeffs), rest)
+}
+
+impl ComplexPair {
+    /// The region on whose boundary the pair sits.
+    pub fn region(&self) -> Region {
+        self.region
+    }
+
+    /// A certified enclosure of `2 cos(theta)`, or of `-omega^2`, whose width is about `2^-bits`
+    /// relative to the distance from the nearest end of the interval.
+    pub fn half_size_root(&self, bits: u64) -> Enclosure {
+        match &self.x {
+            HalfSizeRoot::Number(x) => {
+                let (lo, hi) = self.refine_number(x, bits);
+                Enclosure::new(lo, hi)
+            }
+            HalfSizeRoot::Over { polynomial, parameter } => {
+                let (lo, hi) = match polynomial.coeffs() {
+                    [c0, c1] => self.refine_quotient(c0, c1, parameter, bits),
+                    _ => self.bisect(polynomial, parameter, bits),
+                };
+                Enclosure::new(lo, hi)
+            }
+        }
+    }
+
+    /// The angle of the upper root in radians, in `(0, pi)`; `None` in continuous time.
+    pub fn angle(&self, bits: u64) -> Option<Enclosure> {
+        match self.region {
+            Region::UnitDisc => {
+                let x = self.half_size_root(bits + 8);
+                let half = Enclosure::from_rational(Rational::new(Integer::ONE, Integer::from(2)));
+                Some(x.mul(&half, 2 * bits + 64).acos(bits + 8))
+            }
+            Region::LeftHalfPlane => None,
+        }
+    }
+
+    /// The angular frequency in radians per second; `None` in discrete time.
+    pub fn angular_frequency(&self, bits: u64) -> Option<Enclosure> {
+        match self.region {
+            Region::UnitDisc => None,
+            Region::LeftHalfPlane => {
+                let x = self.half_size_root(bits + 8);
+                Some(x.neg().sqrt(bits + 8))
+            }
+        }
+    }
+
+    /// Whether an enclosure is narrow enough: within the open interval and of small width relative
+    /// to the distance from its ends.
+    fn is_fine(&self, lo: &Rational, hi: &Rational, bits: u64) -> bool {
+        let distance = match self.region {
+            Region::UnitDisc => {
+                let two = Rational::from(2);
+                (&two - hi).min(lo + &two)
+            }
+            Region::LeftHalfPlane => -hi,
+        };
+        distance.sign() == Ordering::Greater && (hi - lo) * Rational::from(&Integer::ONE << bits) <= distance
+    }
+
+    fn refine_number(&self, x: &RealAlgebraic, bits: u64) -> (Rational, Rational) {
+        let mut x = x.clone();
+        let mut width_bits = bits + 4;
+        loop {
+            x = x.refined(&Rational::dyadic(&Integer::ONE, width_bits));
+            let (lo, hi) = x.enclosure();
+            if lo == hi || self.is_fine(&lo, &hi, bits) {
+                return (lo, hi);
+            }
+            width_bits *= 2;
+        }
+    }
+
+    /// `-c0/c1` at the parameter value.
+    fn refine_quotient(
+        &self,
+        c0: &UniPoly,
+        c1: &UniPoly,
+        parameter: &RealAlgebraic,
+        bits: u64,
+    ) -> (Rational, Rational) {
+        let mut working = 2 * bits + 64;
+        let mut parameter = parameter.clone();
+        loop {
+            parameter = parameter.refined(&Rational::dyadic(&Integer::ONE, working));
+            let (lo, hi) = parameter.enclosure();
+            let at = Enclosure::new(lo, hi);
+            let evaluate = |c: &UniPoly| c.eval_enclosure(&at, working);
+            if let Some(x) = evaluate(c0).neg().div(&evaluate(c1), working)
+                && self.is_fine(x.lower(), x.upper(), bits)
+            {
+                return (x.lower().clone(), x.upper().clone());
+            }
+            working *= 2;
+        }
+    }
+
+    /// Bisection for the largest root: of a polynomial with only real roots, the number of roots above
+    /// `c` is exactly the number of sign variations of its coefficients about `c`.
+    fn bisect(&self, polynomial: &Poly<UniPoly>, parameter: &RealAlgebraic, bits: u64) -> (Rational, Rational) {
+        let degree = polynomial.coeffs().len() - 1;
+        let above = |c: &Rational| roots_above(polynomial, parameter, c);
+        let (mut lo, mut hi) = match self.region {
+            Region::UnitDisc => (Rational::from(-2), Rational::from(2)),
+            Region::LeftHalfPlane => {
+                let mut lo = Rational::from(-1);
+                while above(&lo) < degree {
+                    lo *= Rational::from(2);
+                }
+                (lo, Rational::ZERO)
+            }
+        };
+        while !self.is_fine(&lo, &hi, bits) {
+            let mid = lo.midpoint(&hi);
+            if above(&mid) > 0 {
+                lo = mid;
+            } else {
+                hi = mid;
+            }
+        }
+        (lo, hi)
+    }
+}
+
+fn roots_above(polynomial: &Poly<UniPoly>, parameter: &RealAlgebraic, c: &Rational) -> usize {
+    // q^d g(x + a/q) has the coefficients of (q^d g(x/q)) shifted by a, up to positive factors.
+    let (a, q) = (c.numerator(), c.denominator());
+    let degree = polynomial.coeffs().len() - 1;
+    let scaled = polynomial.coeffs().iter().enumerate().map(|(k, g)| g.scaled(&q.pow((degree - k) as u64)));
+    let shifted = Poly::new(scaled.collect()).taylor_shift(&UniPoly::constant(a));
+    let mut last: Option<Sign> = None;
+    let mut variations = 0;
+    for sign in shifted.coeffs().iter().map(|g| parameter.sign_of(g)).filter(|s| s.is_ne()) {
+        variations += usize::from(last.is_some_and(|l| l != sign));
+        last = Some(sign);
+    }
+    variations
+}

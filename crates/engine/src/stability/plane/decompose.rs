@@ -1,0 +1,289 @@
+//! Strips and cells: the plane cut along the boundary curves, one exact sample in each cell.
+
+use super::curves::{Curve, PlanePolynomial, X, Y, boundary_curves};
+use super::glue::glue_stable_cells;
+use super::projection::projection;
+use crate::stability::interval_set::{cells, merge_points};
+use crate::stability::{AlgebraicInterval, AtPoint, Range, Region};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A branch of a curve over a strip: the root of the curve's polynomial in `y`, counted from 0 from
+/// below over the real roots inside the domain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Branch {
+    /// The number of the curve.
+    pub curve: usize,
+    /// The number of the root.
+    pub root: usize,
+}
+
+/// An open cell of a strip, between two neighbouring branches or the domain's edge (`None`).
+#[derive(Clone, Debug)]
+pub struct Cell {
+    /// Below.
+    pub lower: Option<Branch>,
+    /// Above.
+    pub upper: Option<Branch>,
+    /// A rational `y` inside the cell at the strip's sample.
+    pub sample: Rational,
+    /// Whether all roots are strictly inside.
+    pub stable: bool,
+    /// Roots outside the region.
+    pub outside: usize,
+    /// Roots on its boundary.
+    pub on: usize,
+}
+
+/// An open strip of the domain between two neighbouring critical values of `x`.
+#[derive(Clone, Debug)]
+pub struct Strip {
+    /// The ends.
+    pub x: AlgebraicInterval,
+    /// A rational `x` inside.
+    pub sample: Rational,
+    /// The cells from below.
+    pub cells: Vec<Cell>,
+}
+
+/// A connected region of stable points.
+#[derive(Clone, Debug)]
+pub struct StableRegion {
+    /// Its cells: number of the strip, number of the cell.
+    pub cells: Vec<(usize, usize)>,
+    /// The smallest and the greatest `x` on its boundary.
+    pub x: AlgebraicInterval,
+    /// The smallest and the greatest `y` on its boundary.
+    pub y: AlgebraicInterval,
+    /// Its cells in the decomposition with the parameters exchanged ([`StabilityMap::exchanged`]).
+    pub exchanged_cells: Vec<(usize, usize)>,
+}
+
+/// The decomposition of a rectangle (bounded or not) of two parameters.
+#[derive(Clone, Debug)]
+pub struct StabilityMap {
+    /// The boundary curves; empty when the loop is stable nowhere for one reason.
+    pub curves: Vec<Curve>,
+    /// The strips from left to right; empty when a boundary polynomial vanishes identically, so that the
+    /// loop is stable at no point.
+    pub strips: Vec<Strip>,
+    /// The connected stable regions.
+    pub regions: Vec<StableRegion>,
+    /// The strips of the same domain with the parameters exchanged, from which the extents in `y` are read;
+    /// empty when there is no stable region.
+    pub exchanged: Vec<Strip>,
+    /// Whether a boundary polynomial vanishes identically.
+    pub never_stable: bool,
+}
+
+/// Decomposes the domain of two parameters into cells of constant root count, exactly.
+///
+/// The critical values of `x` are the real zeros of leading coefficients, discriminants and resultants
+/// with respect to `y` of the boundary curves, and of the curves on the domain's edges: between them
+/// the branches do not meet, vanish or leave, so one sample decides a cell (the open part of Collins's
+/// decomposition, [Collins1975](jurist_algebra::bibliography#collins1975), [McCallum1998](jurist_algebra::bibliography#mccallum1998)). Extreme values in `y` come from the same
+/// decomposition with the parameters exchanged.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn stability_map(
+    p: &PlanePolynomial,
+    domain: &[Range; 2],
+    region: Region,
+    budget: &Budget,
+) -> Result<StabilityMap, Exhausted> {
+    budget.step("boundary curves");
+    let Some(curves) = boundary_curves(p, region, budget)? else {
+        return Ok(StabilityMap::never_stable());
+    };
+    let strips = decompose(p, &curves, domain, region, budget)?;
+    let groups = glue_stable_cells(&curves, &strips, &domain[1], budget)?;
+    let mut regions: Vec<StableRegion> = groups.into_iter().map(|cells| region_of(&strips, cells)).collect();
+    let mut exchanged = Vec::new();
+    if !regions.is_empty() {
+        budget.step("extreme values");
+        let swapped_curves: Vec<Curve> = curves.iter().map(swapped_curve).collect();
+        let swapped_domain = [domain[1].clone(), domain[0].clone()];
+        exchanged = decompose(&p.swapped(), &swapped_curves, &swapped_domain, region, budget)?;
+        let groups = glue_stable_cells(&swapped_curves, &exchanged, &domain[0], budget)?;
+        for r in &mut regions {
+            let place = place_in_exchanged(r, &curves, &strips, &swapped_curves, &exchanged, domain, budget)?;
+            let group = groups.iter().find(|g| g.contains(&place)).expect("a stable point is in a stable cell");
+            r.y = region_of(&exchanged, group.clone()).x;
+            r.exchanged_cells.clone_from(group);
+        }
+    }
+    Ok(StabilityMap { curves, strips, regions, exchanged, never_stable: false })
+}
+
+/// A cell of the exchanged strips that is part of a region: that of a point of its first cell, moved up
+/// from the sample until it is on none of the finitely many walls.
+fn place_in_exchanged(
+    region: &StableRegion,
+    curves: &[Curve],
+    strips: &[Strip],
+    swapped_curves: &[Curve],
+    exchanged: &[Strip],
+    domain: &[Range; 2],
+    budget: &Budget,
+) -> Result<(usize, usize), Exhausted> {
+    let (strip, cell) = region.cells[0];
+    let x = &strips[strip].sample;
+    let branches = branches_at(curves, x, &domain[1], budget)?;
+    let values: Vec<RealAlgebraic> = branches.into_iter().map(|b| b.0).collect();
+    let ceiling = cells(&domain[1], &values).swap_remove(cell).upper;
+    let mut y = strips[strip].cells[cell].sample.clone();
+    loop {
+        budget.check()?;
+        if let Some(place) = locate(swapped_curves, exchanged, &y, x, &domain[0], budget)? {
+            return Ok(place);
+        }
+        let from = RealAlgebraic::from_rational(y);
+        y = AlgebraicInterval { lower: Some(from), upper: ceiling.clone() }.sample();
+    }
+}
+
+impl StabilityMap {
+    /// The map of a loop that is stable at no point because a boundary polynomial vanishes identically or
+    /// the loop is undefined everywhere.
+    pub fn never_stable() -> Self {
+        StabilityMap {
+            curves: Vec::new(),
+            strips: Vec::new(),
+            regions: Vec::new(),
+            exchanged: Vec::new(),
+            never_stable: true,
+        }
+    }
+}
+
+/// The curve with the parameters exchanged.
+pub(super) fn swapped_curve(curve: &Curve) -> Curve {
+    Curve { causes: curve.causes.clone(), polynomial: curve.polynomial.map_variables(|i| 1 - i) }
+}
+
+/// The region made of some cells; the extent in `y` is filled in later.
+fn region_of(strips: &[Strip], cells: Vec<(usize, usize)>) -> StableRegion {
+    let first = cells.iter().map(|c| c.0).min().expect("a region has cells");
+    let last = cells.iter().map(|c| c.0).max().expect("a region has cells");
+    let x = AlgebraicInterval { lower: strips[first].x.lower.clone(), upper: strips[last].x.upper.clone() };
+    let y = AlgebraicInterval { lower: None, upper: None };
+    StableRegion { cells, x, y, exchanged_cells: Vec::new() }
+}
+
+/// The polynomial as one in `y` over `Z[x]`.
+pub(super) fn in_y(f: &MultiPoly) -> Poly<UniPoly> {
+    let coefficients = f.as_poly_in(Y);
+    coefficients.map(|c| c.to_univariate(X).expect("only x is left"))
+}
+
+/// The curve's polynomial at a rational `x`, in `y`, up to a factor.
+pub(super) fn at_x(f: &MultiPoly, x: &Rational) -> UniPoly {
+    f.substitute(X, x).0.to_univariate(Y).expect("x is set")
+}
+
+fn decompose(
+    p: &PlanePolynomial,
+    curves: &[Curve],
+    domain: &[Range; 2],
+    region: Region,
+    budget: &Budget,
+) -> Result<Vec<Strip>, Exhausted> {
+    budget.step("projecting the curves");
+    let projection = projection(curves, &domain[1], budget)?;
+    budget.step("isolating critical values");
+    let (lower, upper) = (domain[0].lower.as_ref(), domain[0].upper.as_ref());
+    let lists = projection.par_iter().map(|q| isolate_real_roots_in(q, lower, upper, budget));
+    let points = merge_points(lists.collect::<Result<_, _>>()?, budget)?;
+    budget.step("testing a sample of each cell");
+    let intervals = cells(&domain[0], &points);
+    let (total, done) = (intervals.len() as u64, AtomicU64::new(0));
+    let strip = |x: AlgebraicInterval| {
+        budget.check()?;
+        let sample = x.sample();
+        let cells = cells_at(p, curves, &sample, &domain[1], region, budget)?;
+        budget.advance(done.fetch_add(1, Ordering::Relaxed) + 1, total);
+        Ok(Strip { x, sample, cells })
+    };
+    intervals.into_par_iter().map(strip).collect()
+}
+
+/// `q^d f(x, a/q)`.
+pub(super) fn at_y(f: &Poly<UniPoly>, y: &Rational) -> UniPoly {
+    let (a, q) = (y.numerator(), y.denominator());
+    let mut acc = UniPoly::zero();
+    let mut power = jurist_algebra::number::Integer::ONE;
+    for c in f.coeffs().iter().rev() {
+        acc = acc.scaled(&a).plus(&c.scaled(&power));
+        power = &power * &q;
+    }
+    acc
+}
+
+/// The branches over a rational `x` from below, with their values.
+pub(super) fn branches_at(
+    curves: &[Curve],
+    x: &Rational,
+    y_domain: &Range,
+    budget: &Budget,
+) -> Result<Vec<(RealAlgebraic, Branch)>, Exhausted> {
+    let mut all = Vec::new();
+    for (curve, c) in curves.iter().enumerate() {
+        let Some(f) = SquareFree::part_of(&at_x(&c.polynomial, x)) else { continue };
+        let roots = isolate_real_roots_in(&f, y_domain.lower.as_ref(), y_domain.upper.as_ref(), budget)?;
+        all.extend(roots.into_iter().enumerate().map(|(root, value)| (value, Branch { curve, root })));
+    }
+    all.sort_by(|a, b| a.0.compare(&b.0));
+    Ok(all)
+}
+
+fn cells_at(
+    p: &PlanePolynomial,
+    curves: &[Curve],
+    x: &Rational,
+    y_domain: &Range,
+    region: Region,
+    budget: &Budget,
+) -> Result<Vec<Cell>, Exhausted> {
+    let branches = branches_at(curves, x, y_domain, budget)?;
+    let values: Vec<RealAlgebraic> = branches.iter().map(|b| b.0.clone()).collect();
+    let mut out = Vec::with_capacity(values.len() + 1);
+    for (i, interval) in cells(y_domain, &values).into_iter().enumerate() {
+        let sample = interval.sample();
+        let (stable, outside, on) = match p.at(x, &sample, region) {
+            AtPoint::Defined { count, infinite } => {
+                (infinite == 0 && count.inside == p.formal_degree(), count.outside + infinite, count.on)
+            }
+            // Not in an open cell: these points lie on curves.
+            AtPoint::Undefined | AtPoint::Zero => (false, 0, 0),
+        };
+        let branch = |i: usize| branches.get(i).map(|b| b.1);
+        out.push(Cell { lower: i.checked_sub(1).and_then(branch), upper: branch(i), sample, stable, outside, on });
+    }
+    Ok(out)
+}
+
+/// The cell that contains a point; `None` when it lies on a curve or between strips.
+pub(super) fn locate(
+    curves: &[Curve],
+    strips: &[Strip],
+    x: &Rational,
+    y: &Rational,
+    y_domain: &Range,
+    budget: &Budget,
+) -> Result<Option<(usize, usize)>, Exhausted> {
+    let Some(strip) = strips.iter().position(|s| s.x.contains(x)) else { return Ok(None) };
+    let branches = branches_at(curves, x, y_domain, budget)?;
+    let mut below = 0;
+    for (value, _) in &branches {
+        match value.compare_rational(y) {
+            std::cmp::Ordering::Less => below += 1,
+            std::cmp::Ordering::Equal => return Ok(None),
+            std::cmp::Ordering::Greater => break,
+        }
+    }
+    Ok(Some((strip, below)))
+}

@@ -1,0 +1,176 @@
+//! Which stable cells of neighbouring strips are parts of one region.
+
+use super::curves::Curve;
+use super::decompose::{Strip, at_y, branches_at, in_y};
+use super::sturm_at::SturmAt;
+use crate::stability::Range;
+use crate::stability::interval_set::cells;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
+use std::collections::BTreeSet;
+
+/// The stable cells grouped into connected regions, each group ascending.
+///
+/// Two cells on either side of a wall are parts of one region when a horizontal segment leads from one
+/// to the other without meeting a curve: that is proved by root counts. Where a few trials do not connect
+/// all that might be connected, one height is taken in every piece of the wall, found by Sturm's theorem
+/// over the wall's algebraic number.
+pub(super) fn glue_stable_cells(
+    curves: &[Curve],
+    strips: &[Strip],
+    y_domain: &Range,
+    budget: &Budget,
+) -> Result<Vec<Vec<(usize, usize)>>, Exhausted> {
+    budget.step("connecting cells");
+    let stable: Vec<(usize, usize)> = strips
+        .iter()
+        .enumerate()
+        .flat_map(|(s, strip)| strip.cells.iter().enumerate().filter(|c| c.1.stable).map(move |(c, _)| (s, c)))
+        .collect();
+    let mut parent: Vec<usize> = (0..stable.len()).collect();
+    let polynomials: Vec<Poly<UniPoly>> = curves.iter().map(|c| in_y(&c.polynomial)).collect();
+    let index = |cell: (usize, usize)| stable.binary_search(&cell).ok();
+    for (s, pair) in strips.windows(2).enumerate() {
+        let wall = pair[0].x.upper.as_ref().expect("a wall between strips is finite");
+        let open = |parent: &[usize]| {
+            let side = |strip: usize| stable.iter().enumerate().filter(move |c| c.1.0 == strip).map(|c| c.0);
+            side(s).any(|a| side(s + 1).any(|b| root(parent, a) != root(parent, b)))
+        };
+        let join = |parent: &mut Vec<usize>, (left, right): (usize, usize)| {
+            if let (Some(a), Some(b)) = (index((s, left)), index((s + 1, right))) {
+                let (a, b) = (root(parent, a), root(parent, b));
+                parent[a.max(b)] = a.min(b);
+            }
+        };
+        let search = Wall { curves, polynomials: &polynomials, strips: pair, value: wall, y_domain };
+        for bits in [8, 16, 32] {
+            if !open(&parent) {
+                break;
+            }
+            for link in search.nearby_links(bits, budget)? {
+                join(&mut parent, link);
+            }
+        }
+        if open(&parent) {
+            for link in search.all_links(budget)? {
+                join(&mut parent, link);
+            }
+        }
+    }
+    let mut groups: Vec<Vec<(usize, usize)>> = Vec::new();
+    let mut number = vec![usize::MAX; stable.len()];
+    for (i, &cell) in stable.iter().enumerate() {
+        let r = root(&parent, i);
+        if number[r] == usize::MAX {
+            number[r] = groups.len();
+            groups.push(Vec::new());
+        }
+        groups[number[r]].push(cell);
+    }
+    Ok(groups)
+}
+
+fn root(parent: &[usize], mut i: usize) -> usize {
+    while parent[i] != i {
+        i = parent[i];
+    }
+    i
+}
+
+/// The wall between two strips.
+struct Wall<'a> {
+    curves: &'a [Curve],
+    polynomials: &'a [Poly<UniPoly>],
+    strips: &'a [Strip],
+    value: &'a RealAlgebraic,
+    y_domain: &'a Range,
+}
+
+impl Wall<'_> {
+    /// Links found by trying one height in each gap between the branches close to the wall.
+    fn nearby_links(&self, bits: u64, budget: &Budget) -> Result<BTreeSet<(usize, usize)>, Exhausted> {
+        let (left, right) = self.either_side(bits);
+        let sides = [self.branches(&left, budget)?, self.branches(&right, budget)?];
+        let mut merged: Vec<RealAlgebraic> = sides.iter().flatten().cloned().collect();
+        merged.sort_by(|a, b| a.compare(b));
+        merged.dedup_by(|a, b| a.compare(b).is_eq());
+        let mut links = BTreeSet::new();
+        for gap in cells(self.y_domain, &merged) {
+            let y = gap.sample();
+            let link = (cell_of(&sides[0], &y), cell_of(&sides[1], &y));
+            let stable = |side: usize, cell: usize| self.strips[side].cells.get(cell).is_some_and(|c| c.stable);
+            if stable(0, link.0)
+                && stable(1, link.1)
+                && !links.contains(&link)
+                && self.is_clear(&left, &right, &y, budget)?
+            {
+                links.insert(link);
+            }
+        }
+        Ok(links)
+    }
+
+    /// All pairs of a cell on the left and a cell on the right that touch along a piece of the wall:
+    /// one height in each piece between the distinct roots of the curves on the wall, and a segment
+    /// at that height short enough to meet no curve.
+    fn all_links(&self, budget: &Budget) -> Result<BTreeSet<(usize, usize)>, Exhausted> {
+        let product = self.polynomials.iter().fold(Poly::one(), |p, f| p.times(f));
+        let mut links = BTreeSet::new();
+        let (lower, upper) = (self.y_domain.lower.as_ref(), self.y_domain.upper.as_ref());
+        // A curve that contains the whole wall separates the strips.
+        let Some(sturm) = SturmAt::new(&product, self.value, lower, upper, budget)? else { return Ok(links) };
+        for y in sturm.points_between_roots(budget)? {
+            let mut bits = 8u64;
+            loop {
+                budget.check()?;
+                let (left, right) = self.either_side(bits);
+                if self.is_clear(&left, &right, &y, budget)? {
+                    let cell = |x: &Rational| Ok(cell_of(&self.branches(x, budget)?, &y));
+                    links.insert((cell(&left)?, cell(&right)?));
+                    break;
+                }
+                bits *= 2;
+            }
+        }
+        Ok(links)
+    }
+
+    fn branches(&self, x: &Rational, budget: &Budget) -> Result<Vec<RealAlgebraic>, Exhausted> {
+        Ok(branches_at(self.curves, x, self.y_domain, budget)?.into_iter().map(|b| b.0).collect())
+    }
+
+    /// Rationals close to the wall in the strip on either side.
+    fn either_side(&self, bits: u64) -> (Rational, Rational) {
+        let half = Rational::dyadic(&Integer::ONE, 1);
+        let mut step = Rational::dyadic(&Integer::ONE, bits);
+        loop {
+            let (lo, hi) = self.value.refined(&step).enclosure();
+            let (left, right) = (&lo - &step, &hi + &step);
+            if self.strips[0].x.contains(&left) && self.strips[1].x.contains(&right) {
+                return (left, right);
+            }
+            step *= &half;
+        }
+    }
+
+    /// Whether no curve meets the horizontal segment.
+    fn is_clear(&self, left: &Rational, right: &Rational, y: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
+        for f in self.polynomials {
+            let Some(restricted) = SquareFree::part_of(&at_y(f, y)) else { return Ok(false) };
+            let touches = |x: &Rational| restricted.poly().sign_at(x).is_eq();
+            if touches(left)
+                || touches(right)
+                || !isolate_real_roots_in(&restricted, Some(left), Some(right), budget)?.is_empty()
+            {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+}
+
+/// The number of the cell that holds a height: how many branches are below.
+fn cell_of(branches: &[RealAlgebraic], y: &Rational) -> usize {
+    branches.iter().take_while(|v| v.compare_rational(y).is_lt()).count()
+}

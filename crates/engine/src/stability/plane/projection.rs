@@ -1,0 +1,63 @@
+//! The critical values of `x`: where branches of the curves meet, vanish, leave or have a vertical tangent.
+
+use super::curves::Curve;
+use super::decompose::{at_y, in_y};
+use crate::stability::Range;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Poly, SquareFree, UniPoly, discriminant, resultant};
+use rayon::prelude::*;
+
+/// A polynomial of the projection before it is computed.
+enum Projected<'a> {
+    Leading(&'a UniPoly),
+    Discriminant(&'a Poly<UniPoly>),
+    AtEdge(&'a Poly<UniPoly>, &'a Rational),
+    Resultant(&'a Poly<UniPoly>, &'a Poly<UniPoly>),
+}
+
+impl Projected<'_> {
+    /// Without repeated roots; `None` without roots.
+    fn computed(&self, budget: &Budget) -> Result<Option<SquareFree>, Exhausted> {
+        budget.check()?;
+        let value = match self {
+            Projected::Leading(c) => (*c).clone(),
+            Projected::Discriminant(f) => discriminant(f, budget)?,
+            Projected::AtEdge(f, y) => at_y(f, y),
+            Projected::Resultant(f, g) => resultant(f, g, budget)?,
+        };
+        budget.check()?;
+        Ok(SquareFree::part_of_within(&value, budget)?.filter(|q| q.degree() > 0))
+    }
+}
+
+/// The polynomials in `x` whose zeros cut the domain into strips, coprime to their derivatives: leading
+/// coefficients, discriminants and resultants in `y`, and the curves on the domain's edges. They are
+/// independent of each other and distributed over the threads; their order is fixed.
+pub(super) fn projection(curves: &[Curve], y_domain: &Range, budget: &Budget) -> Result<Vec<SquareFree>, Exhausted> {
+    let polynomials: Vec<Poly<UniPoly>> = curves.iter().map(|c| in_y(&c.polynomial)).collect();
+    let mut wanted = Vec::new();
+    for (i, f) in polynomials.iter().enumerate() {
+        let (Some(degree), Some(leading)) = (f.degree(), f.leading()) else { continue };
+        wanted.push(Projected::Leading(leading));
+        if degree == 0 {
+            continue;
+        }
+        if degree > 1 {
+            wanted.push(Projected::Discriminant(f));
+        }
+        let edges = [&y_domain.lower, &y_domain.upper].into_iter().flatten();
+        wanted.extend(edges.map(|end| Projected::AtEdge(f, end)));
+        let others = polynomials[..i].iter().filter(|g| g.coeffs().len() > 1);
+        wanted.extend(others.map(|g| Projected::Resultant(f, g)));
+    }
+    let computed: Vec<Option<SquareFree>> =
+        wanted.par_iter().map(|q| q.computed(budget)).collect::<Result<_, Exhausted>>()?;
+    let mut out: Vec<SquareFree> = Vec::new();
+    for q in computed.into_iter().flatten() {
+        if !out.contains(&q) {
+            out.push(q);
+        }
+    }
+    Ok(out)
+}

@@ -1,0 +1,240 @@
+//! How many roots of a polynomial lie inside, on and outside the boundary: exactly, in all cases.
+
+use super::{HalfSizePair, Region};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Integer, Sign};
+use jurist_algebra::poly::{Domain, Poly, UniPoly};
+use std::cmp::Ordering;
+
+/// Numbers of roots with respect to a region, counted with multiplicity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub struct RootCount {
+    /// Roots in the open region: strictly stable.
+    pub inside: usize,
+    /// Roots on its boundary.
+    pub on: usize,
+    /// Roots beyond it: unstable.
+    pub outside: usize,
+}
+
+impl RootCount {
+    /// The number of all roots: the degree.
+    pub fn total(self) -> usize {
+        self.inside + self.on + self.outside
+    }
+}
+
+/// The exact root count of a non-zero polynomial; a constant has none.
+///
+/// Chooses the algorithm; at present always [`count_roots_cauchy_index`].
+///
+/// ```
+/// use jurist_algebra::poly::UniPoly;
+/// use jurist_engine::stability::{Region, RootCount, count_roots};
+/// // (2z - 1)(z - 1)(z - 3)
+/// let p = UniPoly::from_i64(&[-3, 10, -9, 2]);
+/// let count = count_roots(&p, Region::UnitDisc);
+/// assert_eq!(count, RootCount { inside: 1, on: 1, outside: 1 });
+/// ```
+///
+/// # Panics
+/// When `p` is zero.
+pub fn count_roots(p: &UniPoly, region: Region) -> RootCount {
+    count_roots_cauchy_index(p, region)
+}
+
+/// Whether all roots lie in the open region. A non-zero constant is stable, zero is not.
+pub fn is_stable(p: &UniPoly, region: Region) -> bool {
+    if p.is_zero() {
+        return false;
+    }
+    let count = count_roots(p, region);
+    count.inside == count.total()
+}
+
+/// The root count from the Cauchy index of the half-size pair.
+///
+/// After the roots at the ends of the boundary (`1` and `-1`, or `0`) are split off and the degree
+/// is made even by a root known to be inside, the argument of the polynomial grows along the
+/// boundary's upper half by `pi/2 (inside - outside)`, which is `pi` times the Cauchy index of
+/// `B/A` (Gantmacher, The Theory of Matrices 2, ch. XV). Common roots of the pair are mirror pairs:
+/// those in the interval are on the boundary, the others have one root on either side.
+/// `O(n^2)` operations on integers that grow to `O(n)` times the input's length.
+///
+/// # Panics
+/// When `p` is zero.
+pub fn count_roots_cauchy_index(p: &UniPoly, region: Region) -> RootCount {
+    count_roots_within(p, region, &Budget::unlimited()).expect("the budget is unlimited")
+}
+
+/// [`count_roots_cauchy_index`] within a budget.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+///
+/// # Panics
+/// When `p` is zero.
+pub fn count_roots_within(p: &UniPoly, region: Region, budget: &Budget) -> Result<RootCount, Exhausted> {
+    assert!(!p.is_zero(), "the zero polynomial has no root count");
+    let mut count = RootCount::default();
+    let mut d = p.clone();
+    match region {
+        Region::UnitDisc => {
+            for root in [1, -1] {
+                while d.eval(&Integer::from(root)).is_zero() {
+                    d = d.div_exact(&UniPoly::from_i64(&[-root, 1])).expect("a root's factor divides");
+                    count.on += 1;
+                }
+            }
+        }
+        Region::LeftHalfPlane => {
+            let zeros = d.coeffs().iter().take_while(|c| c.is_zero()).count();
+            d = Poly::new(d.coeffs()[zeros..].to_vec());
+            count.on += zeros;
+        }
+    }
+    let n = d.coeffs().len() - 1;
+    if n == 0 {
+        return Ok(count);
+    }
+    let padded = n % 2 == 1;
+    if padded {
+        d = match region {
+            Region::UnitDisc => d.shifted_up(1),
+            Region::LeftHalfPlane => &d * &UniPoly::from_i64(&[1, 1]),
+        };
+    }
+    let even = n + usize::from(padded);
+    let pair = HalfSizePair::new(&d, even, region);
+    let ends = match region {
+        Region::UnitDisc => [End::Finite(-2), End::Finite(2)],
+        Region::LeftHalfPlane => [End::MinusInfinity, End::Finite(0)],
+    };
+    let sequence = signed_remainder_sequence(pair.a, pair.b, budget)?;
+    // The signs are taken before the division by the gcd, which has no root at the ends: it changes
+    // all signs of the sequence at an end together, so the variations stay.
+    let variations = ends.map(|end| sign_variations(sequence.iter().map(|s| end.sign(s))));
+    let index = variations[0] as i64 - variations[1] as i64;
+    let gcd = sequence.last().expect("the sequence is not empty");
+    let mirrored = gcd.coeffs().len() - 1;
+    let on_boundary = roots_with_multiplicity(gcd, ends, budget)?;
+    let regular = even - 2 * mirrored;
+    // inside - outside = 2 index, inside + outside = regular.
+    let inside = (regular as i64 + 2 * index) / 2;
+    count.inside += inside as usize + (mirrored - on_boundary) - usize::from(padded);
+    count.outside += regular - inside as usize + (mirrored - on_boundary);
+    count.on += 2 * on_boundary;
+    Ok(count)
+}
+
+/// An end of the interval that the boundary's upper half is mapped to.
+#[derive(Clone, Copy)]
+enum End {
+    MinusInfinity,
+    Finite(i64),
+}
+
+impl End {
+    fn sign(self, p: &UniPoly) -> Sign {
+        match self {
+            End::Finite(x) => p.eval(&Integer::from(x)).sign(),
+            End::MinusInfinity => {
+                let sign = p.leading().map_or(Ordering::Equal, Integer::sign);
+                if p.coeffs().len().is_multiple_of(2) { sign.reverse() } else { sign }
+            }
+        }
+    }
+}
+
+/// `S_0 = a`, `S_1 = b`, `S_(i+1) = -rem(S_(i-1), S_i)` up to positive factors, without the final zero.
+fn signed_remainder_sequence(a: UniPoly, b: UniPoly, budget: &Budget) -> Result<Vec<UniPoly>, Exhausted> {
+    let positive = |p: UniPoly| {
+        let content = p.content();
+        if content.is_one() || p.is_zero() { p } else { p.div_exact_scalar(&content).expect("the content divides") }
+    };
+    let mut sequence = vec![positive(a)];
+    let mut next = positive(b);
+    while !next.is_zero() {
+        budget.check()?;
+        let previous = &sequence[sequence.len() - 1];
+        let exponent = (previous.coeffs().len() + 1).saturating_sub(next.coeffs().len());
+        let flips = exponent % 2 == 1 && next.needs_negation();
+        let mut r = previous.pseudo_rem(&next);
+        // The pseudo-remainder is lc^exponent times the remainder.
+        if !flips {
+            r = r.negated();
+        }
+        sequence.push(next);
+        next = positive(r);
+    }
+    Ok(sequence)
+}
+
+fn sign_variations(signs: impl Iterator<Item = Sign>) -> usize {
+    let mut last = Ordering::Equal;
+    let mut variations = 0;
+    for sign in signs.filter(|s| *s != Ordering::Equal) {
+        if last != Ordering::Equal && sign != last {
+            variations += 1;
+        }
+        last = sign;
+    }
+    variations
+}
+
+/// Real roots of `g` between the ends, with multiplicity, by Sturm's theorem on its square-free factors.
+fn roots_with_multiplicity(g: &UniPoly, ends: [End; 2], budget: &Budget) -> Result<usize, Exhausted> {
+    let mut roots = 0;
+    for (factor, multiplicity) in g.square_free_decomposition() {
+        let derivative = factor.derivative();
+        let sequence = signed_remainder_sequence(factor, derivative, budget)?;
+        let [low, high] = ends.map(|end| sign_variations(sequence.iter().map(|s| end.sign(s))));
+        roots += multiplicity * (low - high);
+    }
+    Ok(roots)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn product(factors: &[&[i64]]) -> UniPoly {
+        factors.iter().fold(UniPoly::one(), |p, f| &p * &UniPoly::from_i64(f))
+    }
+
+    fn disc(factors: &[&[i64]]) -> (usize, usize, usize) {
+        let c = count_roots(&product(factors), Region::UnitDisc);
+        (c.inside, c.on, c.outside)
+    }
+
+    fn half_plane(factors: &[&[i64]]) -> (usize, usize, usize) {
+        let c = count_roots(&product(factors), Region::LeftHalfPlane);
+        (c.inside, c.on, c.outside)
+    }
+
+    #[test]
+    fn singular_cases_of_the_disc() {
+        assert_eq!(disc(&[&[7]]), (0, 0, 0));
+        assert_eq!(disc(&[&[0, 1]]), (1, 0, 0));
+        assert_eq!(disc(&[&[-1, 1]]), (0, 1, 0));
+        assert_eq!(disc(&[&[1, 1], &[1, 1], &[-1, 1]]), (0, 3, 0));
+        // A reciprocal real pair, a reciprocal pair on the circle, twice.
+        assert_eq!(disc(&[&[-2, 1], &[-1, 2]]), (1, 0, 1));
+        assert_eq!(disc(&[&[1, 1, 1], &[1, 1, 1], &[-2, 1], &[-1, 2]]), (1, 4, 1));
+        // A reciprocal complex quadruple: z^2 + z/2 + 1/2 and its mirror image.
+        assert_eq!(disc(&[&[1, 1, 2], &[2, 1, 1]]), (2, 0, 2));
+        assert_eq!(disc(&[&[0, 1], &[0, 1], &[1, 0, 0, 0, 1]]), (2, 4, 0));
+        assert_eq!(disc(&[&[-1, 2], &[-1, 3], &[-3, 1], &[0, 1], &[-1, 1]]), (3, 1, 1));
+        assert_eq!(disc(&[&[5, -6, 5], &[-1, 1], &[1, 1], &[-3, 1]]), (0, 4, 1));
+    }
+
+    #[test]
+    fn singular_cases_of_the_half_plane() {
+        assert_eq!(half_plane(&[&[-3]]), (0, 0, 0));
+        assert_eq!(half_plane(&[&[0, 1]]), (0, 1, 0));
+        assert_eq!(half_plane(&[&[1, 0, 1], &[1, 0, 1], &[1, 1]]), (1, 4, 0));
+        assert_eq!(half_plane(&[&[-1, 0, 1]]), (1, 0, 1));
+        assert_eq!(half_plane(&[&[1, 1, 1], &[1, -1, 1], &[0, 0, 1], &[-5, 1], &[-7, 1]]), (2, 2, 4));
+        assert_eq!(half_plane(&[&[1, 1], &[2, 1], &[3, 1], &[-4, -1]]), (4, 0, 0));
+    }
+}

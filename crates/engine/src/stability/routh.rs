@@ -1,0 +1,79 @@
+//! The Routh table, without fractions, numeric or symbolic.
+
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::poly::{Domain, Poly, UniPoly};
+
+/// The fraction-free Routh table: rows 0 and 1 hold the coefficients of even and odd distance from
+/// the leading one; the first entries of rows 1 to n are the Hurwitz determinants.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RouthTable<R> {
+    /// Row `i`, of `floor((n - i)/2) + 1` entries.
+    pub rows: Vec<Vec<R>>,
+}
+
+impl<R: Domain> RouthTable<R> {
+    /// The first column: the leading coefficient, then the Hurwitz determinants as far as the table
+    /// was built (a row that begins with zero ends it, unless it is the last).
+    pub fn first_column(&self) -> impl Iterator<Item = &R> {
+        self.rows.iter().map(|row| &row[0])
+    }
+}
+
+/// The table of `p` read with formal degree `n`: `n + 1` rows, with
+/// `r_k,j = (r_(k-1),0 r_(k-2),j+1 - r_(k-2),0 r_(k-1),j+1) / r_(k-3),0`, the division (from the
+/// fourth recursion on) being exact (Bareiss's identity; [Bistritz2013](jurist_algebra::bibliography#bistritz2013)).
+///
+/// A row whose first entry is (identically) zero ends the table, because the next would divide by it.
+/// `O(n^2)` operations.
+///
+/// # Panics
+/// When `n` is below the degree of `p`.
+pub fn routh_table<R: Domain>(p: &Poly<R>, n: usize) -> RouthTable<R> {
+    routh_table_within(p, n, &Budget::unlimited()).expect("the budget is unlimited")
+}
+
+/// [`routh_table`] within a budget, asked for each entry.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+///
+/// # Panics
+/// When `n` is below the degree of `p`.
+pub fn routh_table_within<R: Domain>(p: &Poly<R>, n: usize, budget: &Budget) -> Result<RouthTable<R>, Exhausted> {
+    assert!(p.coeffs().len() <= n + 1, "the formal degree is below the degree");
+    let line = |from: usize| -> Vec<R> { (from..=n).step_by(2).map(|i| p.coeff(n - i)).collect() };
+    let mut rows = vec![line(0)];
+    if n > 0 {
+        rows.push(line(1));
+    }
+    for k in 2..=n {
+        let (up2, up1) = (&rows[k - 2], &rows[k - 1]);
+        if up1[0].is_zero() || up2[0].is_zero() {
+            break;
+        }
+        let entry = |row: &Vec<R>, j: usize| row.get(j).cloned().unwrap_or_else(R::zero);
+        let length = (n - k) / 2 + 1;
+        let divisor = (k >= 4).then(|| &rows[k - 3][0]);
+        let mut row: Vec<R> = Vec::with_capacity(length);
+        for j in 0..length {
+            budget.check()?;
+            let entry = up1[0].times(&entry(up2, j + 1)).minus(&up2[0].times(&entry(up1, j + 1)));
+            row.push(match divisor {
+                Some(divisor) => entry.div_exact(divisor).expect("Bareiss's identity"),
+                None => entry,
+            });
+        }
+        rows.push(row);
+    }
+    Ok(RouthTable { rows })
+}
+
+/// Whether all roots of `p` lie in the open left half plane, by the Hurwitz determinants.
+///
+/// An oracle for [`super::count_roots`]; the zero polynomial is not stable, a constant is.
+pub fn is_hurwitz_routh(p: &UniPoly) -> bool {
+    let Some(n) = p.degree() else { return false };
+    let p = if p.needs_negation() { p.negated() } else { p.clone() };
+    let table = routh_table(&p, n);
+    table.rows.len() == n + 1 && table.first_column().all(|c| c.sign() == std::cmp::Ordering::Greater)
+}

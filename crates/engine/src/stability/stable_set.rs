@@ -1,0 +1,186 @@
+//! The exact set of stable parameter values.
+
+use super::interval_set::{cells, merge_points};
+use super::pair_location::complex_pair_at;
+use super::{
+    AlgebraicInterval, AtPoint, Boundary, Cause, Causes, ComplexPair, IntervalSet, ParametricPolynomial, Range, Region,
+    RootCount, boundary_polynomials,
+};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{RealAlgebraic, isolate_real_roots_in};
+
+/// One end of a stable interval.
+#[derive(Clone, Debug)]
+pub struct End {
+    /// The exact value.
+    pub value: RealAlgebraic,
+    /// Why stability ends here: all that holds.
+    pub causes: Causes,
+    /// The complex pair on the boundary, if there is one; the lowest frequency of several.
+    pub pair: Option<ComplexPair>,
+}
+
+/// An open interval of stable parameter values; `None` is an infinite end.
+#[derive(Clone, Debug)]
+pub struct StableInterval {
+    /// The lower end, never stable itself.
+    pub lower: Option<End>,
+    /// The upper end, never stable itself.
+    pub upper: Option<End>,
+}
+
+/// All parameter values of a range for which a loop is stable: a finite union of open intervals.
+///
+/// Two neighbouring intervals may share an end, where the loop is only marginally stable (the roots
+/// touch the boundary) or undefined.
+#[derive(Clone, Debug, Default)]
+pub struct StableSet {
+    intervals: Vec<StableInterval>,
+}
+
+impl StableSet {
+    /// The intervals, ascending and disjoint.
+    pub fn intervals(&self) -> &[StableInterval] {
+        &self.intervals
+    }
+
+    /// Every end, to take back a cause that belongs to the question's form and not to the loop.
+    pub(crate) fn ends_mut(&mut self) -> impl Iterator<Item = &mut End> {
+        self.intervals.iter_mut().flat_map(|i| [&mut i.lower, &mut i.upper]).flatten()
+    }
+
+    /// Whether no value is stable.
+    pub fn is_empty(&self) -> bool {
+        self.intervals.is_empty()
+    }
+
+    /// Whether a value is in the set.
+    pub fn contains(&self, value: &Rational) -> bool {
+        self.to_interval_set().contains(value)
+    }
+
+    /// The intervals without their causes.
+    pub fn to_interval_set(&self) -> IntervalSet {
+        let bare = |e: &Option<End>| e.as_ref().map(|e| e.value.clone());
+        self.intervals.iter().map(|i| AlgebraicInterval { lower: bare(&i.lower), upper: bare(&i.upper) }).collect()
+    }
+}
+
+/// The exact stable set of a loop with one parameter over an open range.
+///
+/// The real zeros of the [`boundary_polynomials`] cut the range into open cells; in each the root
+/// count is constant, so it is taken exactly at one rational sample. Ends of stable cells are then
+/// examined for all that happens there.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::{Poly, UniPoly};
+/// use jurist_engine::stability::{ParametricPolynomial, Range, Region, stable_set};
+/// // z - 1 + K: stable for 0 < K < 2
+/// let d = Poly::new(vec![UniPoly::from_i64(&[-1, 1]), UniPoly::from_i64(&[1])]);
+/// let p = ParametricPolynomial::from_integral(&d, 1);
+/// let set = stable_set(&p, &Range::all(), Region::UnitDisc, &Budget::unlimited()).unwrap();
+/// let ends = &set.intervals()[0];
+/// assert_eq!(ends.lower.as_ref().unwrap().causes.to_string(), "z=1");
+/// assert_eq!(ends.upper.as_ref().unwrap().causes.to_string(), "z=-1");
+/// ```
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn stable_set(
+    p: &ParametricPolynomial,
+    range: &Range,
+    region: Region,
+    budget: &Budget,
+) -> Result<StableSet, Exhausted> {
+    let Some(boundaries) = boundary_polynomials(p, region, budget)? else { return Ok(StableSet::default()) };
+    budget.step("isolating the boundaries' zeros");
+    let mut lists = Vec::new();
+    for boundary in &boundaries {
+        lists.push(isolate_real_roots_in(&boundary.polynomial, range.lower.as_ref(), range.upper.as_ref(), budget)?);
+    }
+    let points = merge_points(lists, budget)?;
+    budget.step("testing a sample of each cell");
+    let all = cells(range, &points);
+    let mut stable = Vec::with_capacity(all.len());
+    for (i, cell) in all.iter().enumerate() {
+        budget.check()?;
+        budget.advance(i as u64, all.len() as u64);
+        let at = p.at_within(&cell.sample(), region, budget)?;
+        let inside = |count: RootCount| count.inside == p.formal_degree();
+        stable.push(matches!(at, AtPoint::Defined { count, infinite: 0 } if inside(count)));
+    }
+    let examiner = EndExaminer { p, range, region, boundaries: &boundaries, budget };
+    let mut intervals: Vec<StableInterval> = Vec::new();
+    for (i, cell) in all.iter().enumerate().filter(|(i, _)| stable[*i]) {
+        let shared = (i > 0 && stable[i - 1]).then(|| intervals.last().and_then(|last| last.upper.clone())).flatten();
+        let lower = match (shared, &cell.lower) {
+            (Some(end), _) => Some(end),
+            (None, Some(value)) => Some(examiner.examine(value)?),
+            (None, None) => None,
+        };
+        let upper = cell.upper.as_ref().map(|value| examiner.examine(value)).transpose()?;
+        intervals.push(StableInterval { lower, upper });
+    }
+    Ok(StableSet { intervals })
+}
+
+/// What happens at an end of a stable interval that was found elsewhere; `None` when the loop is stable
+/// nowhere. For a value that is no limit of stable values the answer means nothing.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn end_at(
+    p: &ParametricPolynomial,
+    value: &RealAlgebraic,
+    range: &Range,
+    region: Region,
+    budget: &Budget,
+) -> Result<Option<End>, Exhausted> {
+    let Some(boundaries) = boundary_polynomials(p, region, budget)? else { return Ok(None) };
+    EndExaminer { p, range, region, boundaries: &boundaries, budget }.examine(value).map(Some)
+}
+
+/// Finds out what happens at an end of a stable cell.
+struct EndExaminer<'a> {
+    p: &'a ParametricPolynomial,
+    range: &'a Range,
+    region: Region,
+    boundaries: &'a [Boundary],
+    budget: &'a Budget,
+}
+
+impl EndExaminer<'_> {
+    fn examine(&self, value: &RealAlgebraic) -> Result<End, Exhausted> {
+        let vanishes =
+            |f: &jurist_algebra::poly::UniPoly| value.sign_of_within(f, self.budget).map(|sign| sign.is_eq());
+        let coefficients_defined = !vanishes(self.p.denominator())?;
+        // Where all coefficients vanish, or one is infinite, no root can be named.
+        let has_roots = coefficients_defined && !vanishes(self.p.content())?;
+        let mut causes = Causes::default();
+        for boundary in self.boundaries {
+            let counts = match boundary.cause {
+                Cause::RootAtOne | Cause::RootAtMinusOne | Cause::RootAtZero => has_roots,
+                Cause::ComplexPair => false,
+                _ => true,
+            };
+            if counts && vanishes(boundary.polynomial.poly())? {
+                causes.insert(boundary.cause);
+            }
+        }
+        let mut critical = false;
+        for boundary in self.boundaries.iter().filter(|b| b.cause == Cause::ComplexPair) {
+            critical |= vanishes(boundary.polynomial.poly())?;
+        }
+        let pair = if has_roots && critical { complex_pair_at(self.p, value, self.region, self.budget)? } else { None };
+        if pair.is_some() {
+            causes.insert(Cause::ComplexPair);
+        }
+        let is_end = |end: &Option<Rational>| end.is_some() && *end == value.exact();
+        if is_end(&self.range.lower) || is_end(&self.range.upper) {
+            causes.insert(Cause::Domain);
+        }
+        Ok(End { value: value.clone(), causes, pair })
+    }
+}

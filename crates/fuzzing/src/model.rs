@@ -1,0 +1,24 @@
+//! Model texts of any kind.
+
+use jurist_algebra::limits::Budget;
+use jurist_engine::model::{Loop, Question, source_from_bytes};
+use std::time::Duration;
+
+/// Reads bytes as a model and asks for its polynomial: whatever they are, nothing panics.
+pub fn model_parser(data: &[u8]) {
+    let Ok(source) = source_from_bytes("fuzz.toml", data) else { return };
+    match Loop::from_toml(&source) {
+        Ok((model, _)) => {
+            let budget = Budget::with_timeout(Duration::from_millis(200));
+            let keep = model.parameters().iter().take(2).map(|p| p.name.clone());
+            let question = Question::keeping(keep);
+            // The answer may be an error; it must not be a panic.
+            drop(model.characteristic_polynomial(&question, &budget));
+            drop(model.closed_loop(&Question::default(), &budget));
+        }
+        Err(error) => {
+            let drawn = jurist_engine::show::diagnostics::render_error(&error, false);
+            assert!(!drawn.is_empty());
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! The limits of stability by several ways: printed, proved, and seen in runs.
+
+use super::facts::{AMPLITUDE, PERIOD, PUBLISHED_LIMITS, SPEED_REFERENCE};
+use super::html::Table;
+use super::runs::at;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Rational, enclosed_decimal, parse_number};
+use jurist_algebra::poly::RealAlgebraic;
+use jurist_draw::simulate::{Pulse, SampledModel, SwitchedModel, growth_limit};
+use jurist_engine::analysis::{Failure, Intervals, Settings, intervals};
+use jurist_engine::model::Loop;
+use jurist_engine::show::real;
+use nalgebra::DVector;
+
+/// The ends of the stable interval around the nominal value (or of the first).
+pub(super) fn ends(answer: &Intervals) -> (Option<&RealAlgebraic>, Option<&RealAlgebraic>) {
+    let Some(set) = answer.stable.decided() else { return (None, None) };
+    let bare = set.to_interval_set();
+    let nominal = answer.question.nominal.as_ref();
+    let around = bare.intervals().iter().position(|i| nominal.is_some_and(|n| i.contains(n)));
+    match set.intervals().get(around.unwrap_or(0)) {
+        Some(i) => (i.lower.as_ref().map(|e| &e.value), i.upper.as_ref().map(|e| &e.value)),
+        None => (None, None),
+    }
+}
+
+/// The number to that many digits.
+pub(super) fn decimal(x: Option<&RealAlgebraic>, digits: usize) -> String {
+    x.map_or_else(|| "none".into(), |x| real::rounded(x, digits).decimal)
+}
+
+/// `1/x` of a positive number, correctly rounded.
+pub(super) fn reciprocal(x: Option<&RealAlgebraic>, digits: usize) -> String {
+    let Some(x) = x.filter(|x| x.sign().is_gt()) else { return "none".into() };
+    let mut accuracy = digits + 2;
+    loop {
+        let (lo, hi) = x.refined_to_digits(accuracy).enclosure();
+        if let (Some(a), Some(b)) = (hi.recip(), lo.recip())
+            && let Some(text) = enclosed_decimal(&a, &b, digits)
+        {
+            return text;
+        }
+        accuracy *= 2;
+    }
+}
+
+/// A way to see whether the loop is stable at an amplitude and a period: a factor per step, below 1
+/// where it is.
+type Seen<'a> = dyn Fn(f64, f64) -> Option<f64> + Sync + 'a;
+
+/// The limits by several ways.
+pub(super) fn limits(model: &Loop, blocks: &Loop, printed: [&Loop; 2], budget: &Budget) -> Result<Table, Failure> {
+    let head = ["way", "K_pwm / V, lower", "K_pwm / V, upper", "f / Hz, lower", "kind"];
+    let mut table = Table::new("Limits of stability at the nominal values of the other parameter", &head);
+    let mut row = |cells: [&str; 5]| table.rows.push(cells.iter().map(|c| (*c).to_owned()).collect());
+    for (way, [lower, upper, frequency]) in PUBLISHED_LIMITS {
+        row([way, lower, upper, frequency, "published"]);
+    }
+    let settings = Settings::default();
+    let exact = |lp: &Loop, name: &str| intervals(lp, &settings, name, budget);
+    for (way, in_amplitude, in_period) in
+        [("exact", model, model), ("printed coefficients, exact", printed[0], printed[1])]
+    {
+        let (k, t) = (exact(in_amplitude, "K_pwm")?, exact(in_period, "T")?);
+        let ((lower, upper), (shortest, longest)) = (ends(&k), ends(&t));
+        let mut f = reciprocal(longest, 16);
+        if shortest.is_some_and(|s| s.sign().is_gt()) {
+            f.push_str(&format!(" (and f < {})", reciprocal(shortest, 8)));
+        }
+        row([way, &decimal(lower, 16), &decimal(upper, 16), &f, "proved"]);
+    }
+    let growth = |k: f64, t: f64| {
+        let question = at(&rational(k)?, &rational(t)?);
+        let mut m = SampledModel::from_loop(model, &question, 1.0, budget).ok()?;
+        // Seen every 1024 samples: the same run, and the slow mode has time to show itself.
+        for _ in 0..10 {
+            m.transition = &m.transition * &m.transition;
+        }
+        m.observed_growth(600, 3000)
+    };
+    budget.step("limits by runs of the linear model");
+    let lower = bisected((0.06, 0.02), 2e-5, budget, |k| growth(k, PERIOD))?;
+    let [upper, f] = both(&growth, (545.0, 555.0), (2020.0, 2010.0), [0.002, 0.002], budget)?;
+    row(["linear model, runs", &shown(lower, 4), &shown(upper, 2), &shown(f, 2), "drawn"]);
+    let inputs = DVector::from_vec(vec![SPEED_REFERENCE, 0.0]);
+    let circuit =
+        |k: f64, t: f64, pulse| SwitchedModel::from_loop(blocks, &at(&rational(k)?, &rational(t)?), pulse, budget).ok();
+    for (pulse, word) in [(Pulse::Beginning, "beginning"), (Pulse::End, "end")] {
+        let eigenvalue =
+            |k: f64, t: f64| circuit(k, t, pulse)?.small_signal_eigenvalues(&inputs)?.first().map(|z| z.norm());
+        let run = |k: f64, t: f64| circuit(k, t, pulse)?.perturbed_growth(&inputs, 2_000, 8_000).map(|g| g.factor);
+        let ways: [(&str, &Seen<'_>, [f64; 2], usize); 2] =
+            [("eigenvalues", &eigenvalue, [1e-6, 1e-6], 3), ("disturbed runs", &run, [0.005, 0.02], 2)];
+        for (how, seen, width, digits) in ways {
+            budget.step(&format!("limits of the circuit by {how}, pulse at the {word}"));
+            let [upper, f] = both(seen, (550.0, 553.0), (2010.0, 2000.0), width, budget)?;
+            let way = format!("circuit, pulse at the {word}: {how}");
+            row([&way, "", &shown(upper, digits), &shown(f, digits - 1), "drawn"]);
+        }
+    }
+    Ok(table)
+}
+
+/// The upper limit of the amplitude at the paper's period, and the lower limit of the frequency at its amplitude,
+/// between a stable and an unstable value each.
+fn both(
+    seen: &Seen<'_>,
+    amplitude: (f64, f64),
+    frequency: (f64, f64),
+    width: [f64; 2],
+    budget: &Budget,
+) -> Result<[Option<f64>; 2], Exhausted> {
+    let (k, f) = rayon::join(
+        || bisected(amplitude, width[0], budget, |k| seen(k, PERIOD)),
+        || bisected(frequency, width[1], budget, |f| seen(AMPLITUDE, 1.0 / f)),
+    );
+    Ok([k?, f?])
+}
+
+/// Where what is seen passes from stable to unstable, to `width`.
+fn bisected(
+    (stable, unstable): (f64, f64),
+    width: f64,
+    budget: &Budget,
+    seen: impl Fn(f64) -> Option<f64>,
+) -> Result<Option<f64>, Exhausted> {
+    let limit = growth_limit(stable, unstable, width, |x| if budget.check().is_ok() { seen(x) } else { None });
+    budget.check()?;
+    Ok(limit)
+}
+
+fn shown(x: Option<f64>, digits: usize) -> String {
+    x.map_or_else(|| "none found".into(), |x| format!("{x:.digits$}"))
+}
+
+/// The rational that a float is, by its shortest decimal.
+fn rational(x: f64) -> Option<Rational> {
+    parse_number(&x.to_string()).ok()
+}

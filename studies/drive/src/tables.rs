@@ -1,0 +1,143 @@
+//! Tables of the report: errata and sensitivity.
+
+use super::coefficient;
+use super::errata::{Comparison, Match, compare_all};
+use super::html::Table;
+use super::limits::{decimal, ends, reciprocal};
+use super::printed::{EQUATION_23, EQUATION_37, LIST_AFTER_36, Printed};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_algebra::number::{Rational, to_decimal};
+use jurist_algebra::poly::RealAlgebraic;
+use jurist_engine::analysis::{Failure, Settings, intervals};
+use jurist_engine::error::Source;
+use jurist_engine::model::{Loop, Question};
+
+/// Constants whose influence the report shows.
+const CONSTANTS: [&str; 8] = ["J", "B_v", "R_a", "L_a", "K_pi", "K_ii", "K_ps", "K_is"];
+
+/// Eqs. 5 and 13 as the text has them: place, printed entry, the entry as it has to be.
+const ENTRIES: [(&str, &str, &str); 2] =
+    [("Eq. 5, entry (1,1)", "(L_a - R_a)/L_a", "(L_a - R_a*T)/L_a"), ("Eq. 13, entry (2,1)", "-K_a*T/J", "K_a*T/J")];
+
+/// The polynomial with one parameter kept.
+pub(super) fn polynomial(model: &Loop, name: &str, budget: &Budget) -> Result<CharacteristicPolynomial, Failure> {
+    Ok(model.characteristic_polynomial(&Question::keeping([name]), budget)?)
+}
+
+/// How many of the printed numbers are right to the last digit.
+fn right(printed: &[Printed], p: &CharacteristicPolynomial) -> usize {
+    let all = compare_all(printed, |z, k| coefficient(p, z, k));
+    all.iter().filter(|c| c.outcome == Match::Rounded).count()
+}
+
+/// Everything printed that is not what it should be, found by comparison.
+pub(super) fn errata(model: &Loop, budget: &Budget) -> Result<Table, Failure> {
+    let (eq_23, eq_37) = (polynomial(model, "K_pwm", budget)?, polynomial(model, "T", budget)?);
+    let mut table =
+        Table::new("Errata, found by comparison with the exact values", &["where", "printed", "exact", "what"]);
+    let total = EQUATION_23.len();
+    for (place, printed, entry) in ENTRIES {
+        let text = model.source().text.replacen(&format!("\"{entry}\""), &format!("\"{printed}\""), 1);
+        let (damaged, _) = Loop::from_toml(&Source::new("<as printed>", text))?;
+        let count = right(EQUATION_23, &polynomial(&damaged, "K_pwm", budget)?);
+        let what = format!(
+            "in the text as we have it: it gives {count} of the {total} numbers of Eq. 23, the exact entry {}",
+            right(EQUATION_23, &eq_23)
+        );
+        table.rows.push(vec![place.into(), printed.into(), entry.into(), what]);
+    }
+    for (list, p, name) in
+        [(EQUATION_23, &eq_23, "K_pwm"), (LIST_AFTER_36, &eq_23, "K_pwm"), (EQUATION_37, &eq_37, "T")]
+    {
+        let all = compare_all(list, |z, k| coefficient(p, z, k));
+        table.rows.extend(all.iter().filter(|c| c.outcome != Match::Rounded).map(|c| erratum(c, name)));
+    }
+    Ok(table)
+}
+
+fn erratum(c: &Comparison, parameter: &str) -> Vec<String> {
+    let Printed { place, power_of_z, power_of_parameter, digits } = c.printed;
+    let monomial = match power_of_parameter {
+        0 => String::new(),
+        1 => format!(", {parameter}"),
+        n => format!(", {parameter}^{n}"),
+    };
+    let significant = digits.split('e').next().map_or(0, |d| d.chars().filter(char::is_ascii_digit).count());
+    let exact = to_decimal(&c.exact, significant + 4);
+    vec![format!("{place}, a_{power_of_z}{monomial}"), digits.into(), exact, c.outcome.words().into()]
+}
+
+/// How the limits move when a constant changes by a tenth, each limit exact.
+pub(super) fn sensitivity(model: &Loop, budget: &Budget) -> Result<Table, Failure> {
+    let head = ["constant", "value", "K_pwm, lower", "change / %", "upper", "change / %", "f, lower", "change / %"];
+    let mut table = Table::new("The limits when one constant is 10 % smaller or larger: K_pwm in V, f in Hz", &head);
+    let limits = |settings: &Settings| -> Result<[Option<RealAlgebraic>; 3], Failure> {
+        let (k, t) = (intervals(model, settings, "K_pwm", budget)?, intervals(model, settings, "T", budget)?);
+        let ((lower, upper), (_, longest)) = (ends(&k), ends(&t));
+        Ok([lower.cloned(), upper.cloned(), longest.cloned()])
+    };
+    let base = limits(&Settings::default())?;
+    let cells = |now: &[Option<RealAlgebraic>; 3], first: [String; 2]| {
+        let mut row = first.to_vec();
+        for (k, (x, x0)) in now.iter().zip(&base).enumerate() {
+            let frequency = k == 2;
+            row.push(if frequency { reciprocal(x.as_ref(), 7) } else { decimal(x.as_ref(), 7) });
+            row.push(change(x.as_ref(), x0.as_ref(), frequency).unwrap_or_default());
+        }
+        row
+    };
+    table.rows.push(cells(&base, ["all".into(), "nominal".into()]));
+    for name in CONSTANTS {
+        budget.step("limits with other constants");
+        let Some(nominal) = model.constant(name).and_then(|c| c.number.clone()) else { continue };
+        for (percent, sign) in [(90, "−10 %"), (110, "+10 %")] {
+            let value = &nominal * &Rational::new(percent.into(), 100.into());
+            let mut settings = Settings::default();
+            settings.set.insert(name.into(), value.clone());
+            let text = format!("{}, {sign}", to_decimal(&value, 8));
+            table.rows.push(cells(&limits(&settings)?, [name.into(), text]));
+        }
+    }
+    Ok(table)
+}
+
+/// The relative change in percent to three digits; of the reciprocals for frequencies.
+fn change(x: Option<&RealAlgebraic>, base: Option<&RealAlgebraic>, reciprocal: bool) -> Option<String> {
+    let middle = |x: &RealAlgebraic| {
+        let (lo, hi) = x.refined_to_digits(20).enclosure();
+        lo.midpoint(&hi)
+    };
+    let (a, b) = (middle(x?), middle(base?));
+    let ratio = if reciprocal { b.checked_div(&a)? } else { a.checked_div(&b)? };
+    let percent = (&ratio - &Rational::ONE) * Rational::from(100);
+    let sign = if percent.sign().is_gt() { "+" } else { "" };
+    // The enclosures are far narrower than three digits ask for.
+    (!percent.is_zero()).then(|| format!("{sign}{}", three_digits(&percent)))
+}
+
+/// A number that is not zero to three digits, small ones with a power of ten.
+fn three_digits(value: &Rational) -> String {
+    let thousandth = Rational::new(1.into(), 1000.into());
+    if value.abs() >= thousandth {
+        return to_decimal(value, 3);
+    }
+    let (mut mantissa, mut power) = (value.clone(), 0);
+    while mantissa.abs() < Rational::ONE {
+        (mantissa, power) = (mantissa * Rational::from(10), power + 1);
+    }
+    format!("{}e-{power}", to_decimal(&mantissa, 3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_changes_have_powers_of_ten() {
+        let q = |n: i64, d: i64| Rational::new(n.into(), d.into());
+        assert_eq!(three_digits(&q(-1, 300)), "-0.00333");
+        assert_eq!(three_digits(&q(1, 1000)), "0.001");
+        assert_eq!(three_digits(&q(1, 3_000_000)), "3.33e-7");
+    }
+}
