@@ -61,7 +61,7 @@ pub use jurist_check as check;
 #[doc(inline)]
 pub use jurist_draw::{figures, page, simulate};
 #[doc(inline)]
-pub use jurist_engine::{analysis, error, model, prove, show, stability};
+pub use jurist_engine::{answer, error, model, problem, prove, show, stability};
 
 #[cfg(feature = "cli")]
 pub mod cli;

@@ -11,12 +11,12 @@ mod output;
 mod picture;
 mod progress;
 mod status;
-mod watch;
 
 use arguments::Arguments;
 use clap::Parser;
 use command_line::CommandLine;
 use commands::Context;
+use jurist_engine::error::Diagnostic;
 use jurist_engine::show::diagnostics::render_error;
 use status::{Failure, Status};
 use std::process::ExitCode;
@@ -52,9 +52,22 @@ fn run(line: &CommandLine) -> u8 {
             show(&error);
             Status::BadInput as u8
         }
-        Err(Failure::Undecided(exhausted)) => {
-            output::note(&format!("undecided: {exhausted}; reached: {}", context.reporter.reached()));
+        Err(Failure::Stopped(stopped)) => {
+            output::note(&format!("undecided: {stopped}"));
             Status::Undecided as u8
+        }
+        Err(Failure::Undefined(why)) => {
+            show(
+                &Diagnostic::error("E-undefined", format!("the model is undefined for these values: {why}"))
+                    .help("set the parameters to other values")
+                    .into(),
+            );
+            Status::BadInput as u8
+        }
+        // A way to have no answer that is not known here yet.
+        Err(failure) => {
+            output::note(&failure.to_string());
+            Status::BadInput as u8
         }
     }
 }

@@ -5,30 +5,11 @@ use jurist_engine::error::Diagnostic;
 use std::ffi::{OsStr, OsString};
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
 
 /// Writes an answer to the file, or to standard output if there is none.
 ///
 /// A reader that stops reading (`| head -1`) is no error.
 pub(super) fn write_answer(answer: &str, file: Option<&OsString>) -> Result<(), Failure> {
-    let mut answered = ANSWERED.lock().unwrap_or_else(PoisonError::into_inner);
-    *answered = true;
-    write_locked(answer, file)
-}
-
-/// Whether something has been written; held while it is, so that no answer is cut in the middle.
-static ANSWERED: Mutex<bool> = Mutex::new(false);
-
-/// Does something while no answer is written, unless one has been.
-pub(super) fn unless_answered(then: impl FnOnce()) {
-    let answered = ANSWERED.lock().unwrap_or_else(PoisonError::into_inner);
-    if !*answered {
-        then();
-    }
-}
-
-/// [`write_answer`] for one who has made sure to be alone.
-pub(super) fn write_locked(answer: &str, file: Option<&OsString>) -> Result<(), Failure> {
     let mut answer = answer.to_owned();
     if !answer.ends_with('\n') {
         answer.push('\n');

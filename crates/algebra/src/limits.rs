@@ -29,7 +29,16 @@ pub struct Budget {
     deadline: Option<(Instant, Duration)>,
     cancelled: Option<Arc<AtomicBool>>,
     progress: Option<Arc<dyn Progress>>,
-    reached: Arc<Mutex<String>>,
+    reached: Arc<Mutex<Reached>>,
+    silent: bool,
+}
+
+/// The step that began last, and how much of it is done.
+#[derive(Default)]
+struct Reached {
+    step: String,
+    done: u64,
+    total: u64,
 }
 
 impl Budget {
@@ -68,7 +77,7 @@ impl Budget {
 
     /// The same limits for a part of a step: what it begins is told to nobody.
     pub fn silent(&self) -> Self {
-        Budget { progress: None, reached: Arc::default(), ..self.clone() }
+        Budget { silent: true, ..self.clone() }
     }
 
     /// The same budget, also ended by setting `flag`.
@@ -85,22 +94,35 @@ impl Budget {
         if let Some((end, timeout)) = self.deadline
             && Instant::now() >= end
         {
-            return Err(Exhausted { budget: format!("time ({} s)", timeout.as_secs_f64()) });
+            return Err(self.exhausted(format!("time ({} s)", timeout.as_secs_f64())));
         }
         if self.cancelled.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)) {
-            return Err(Exhausted { budget: "cancelled".into() });
+            return Err(self.exhausted("cancelled".into()));
         }
         Ok(())
     }
 
-    /// The name of the last step that began: what an exhausted budget had reached.
+    fn exhausted(&self, budget: String) -> Exhausted {
+        Exhausted { budget, reached: self.reached() }
+    }
+
+    /// The last step that began and, where known, how much of it is done: what an exhausted budget had reached.
     pub fn reached(&self) -> String {
-        self.reached.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        let reached = self.reached.lock().unwrap_or_else(PoisonError::into_inner);
+        match (reached.step.as_str(), reached.total) {
+            ("", _) => "nothing was begun".to_owned(),
+            (step, 0) => step.to_owned(),
+            (step, total) => format!("{step} ({} of {total})", reached.done),
+        }
     }
 
     /// Notes that a step begins and tells the listener, if there is one.
     pub fn step(&self, name: &str) {
-        name.clone_into(&mut self.reached.lock().unwrap_or_else(PoisonError::into_inner));
+        if self.silent {
+            return;
+        }
+        *self.reached.lock().unwrap_or_else(PoisonError::into_inner) =
+            Reached { step: name.to_owned(), ..Reached::default() };
         if let Some(progress) = &self.progress {
             progress.step(name);
         }
@@ -108,6 +130,12 @@ impl Budget {
 
     /// Tells the listener, if there is one, how much of the step is done.
     pub fn advance(&self, done: u64, total: u64) {
+        if self.silent {
+            return;
+        }
+        let mut reached = self.reached.lock().unwrap_or_else(PoisonError::into_inner);
+        (reached.done, reached.total) = (done, total);
+        drop(reached);
         if let Some(progress) = &self.progress {
             progress.advance(done, total);
         }
@@ -125,11 +153,13 @@ impl fmt::Debug for Budget {
 pub struct Exhausted {
     /// Which budget, e.g. `time (2 s)`.
     pub budget: String,
+    /// The last step that began and, where known, how much of it was done.
+    pub reached: String,
 }
 
 impl fmt::Display for Exhausted {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the budget ran out: {}", self.budget)
+        write!(f, "the budget ran out: {}; reached: {}", self.budget, self.reached)
     }
 }
 

@@ -1,14 +1,13 @@
 //! `jurist verdict`: one point.
 
-use super::Context;
+use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::decision;
 use crate::cli::output::write_answer;
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
-use jurist_engine::analysis::{Point, Verdict, verdict};
-use jurist_engine::prove::emit::verdict_certificate;
-use jurist_engine::show::{verdict_json, verdict_text};
+use jurist_engine::answer::Verdict;
+use jurist_engine::show::verdict_json;
 use std::ffi::OsString;
 
 /// Options of `jurist verdict`.
@@ -21,25 +20,20 @@ pub(in crate::cli) struct Options {
     pub certificate: Option<OsString>,
 }
 
-/// The document's name.
-const SCHEMA: &str = "jurist/verdict/1";
-
 /// Answers on standard output or in a file; the status is 1 for anything but stable.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
-    let (model, settings) = decision(&options.decision, context)?;
-    let point = Point::of(&model, &settings, &[])?;
-    context.know_point(output, SCHEMA, "verdict", point.clone())?;
-    let answer = match verdict(&model, &settings, &context.budget) {
+    let problem = decision(&options.decision, context)?.1.problem()?;
+    let answer = match decided(problem.verdict(&context.budget))? {
         Ok(answer) => answer,
-        Err(failure) => {
-            return context.undecided_at_point(output, SCHEMA, "verdict", failure, &point);
+        Err(stopped) => {
+            return context.undecided(output, &stopped, || None, || verdict_json(&problem, Err(&stopped)));
         }
     };
-    context.warn(None, &answer.warnings);
+    context.warn(None, problem.warnings());
     if let Some(file) = &options.certificate {
-        write_answer(&verdict_certificate(&model, &settings, &answer, &context.budget)?, Some(file))?;
+        write_answer(&answer.certificate(&context.budget)?, Some(file))?;
     }
-    context.answer(output, || verdict_text(&answer), || verdict_json(&answer))?;
-    Ok(if answer.verdict == Verdict::Stable { Status::Holds } else { Status::DoesNotHold })
+    context.answer(output, || answer.text(), || answer.json())?;
+    Ok(if answer.value().verdict == Verdict::Stable { Status::Holds } else { Status::DoesNotHold })
 }

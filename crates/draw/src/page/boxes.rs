@@ -2,12 +2,11 @@
 
 use super::map::escaped;
 use crate::figures::Figure;
-use jurist_engine::analysis::MapBoxes;
-use jurist_engine::show::map_boxes_text;
+use jurist_engine::answer::{Answer, MapBoxes};
 
 /// The picture and the text as a page that stands alone.
-pub fn map_boxes_page(answer: &MapBoxes, figure: &Figure, digits: usize) -> String {
-    let title = escaped(answer.question.title.as_deref().unwrap_or("the loop"));
+pub fn map_boxes_page(answer: &Answer<MapBoxes>, figure: &Figure, digits: usize) -> String {
+    let title = escaped(answer.problem().title().unwrap_or("the loop"));
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>{title}</title>\
@@ -16,6 +15,6 @@ pub fn map_boxes_page(answer: &MapBoxes, figure: &Figure, digits: usize) -> Stri
          <p>Every verdict is proved for the whole box; positions in the picture are drawn in floating point.</p>\n\
          </body>\n</html>\n",
         figure.svg(),
-        escaped(&map_boxes_text(answer, digits)),
+        escaped(&answer.text(digits)),
     )
 }

@@ -1,4 +1,4 @@
-//! From model text to a [`Loop`], and from a loop and a [`Question`] to exact polynomials.
+//! From model text to a [`Loop`], and from a loop to exact polynomials.
 //!
 //! A model is a TOML text: constants, parameters, and the loop in one of four forms. Every number
 //! is read by its own text and stays exact; every mistake is reported with its place, several in
@@ -15,12 +15,12 @@ mod definition;
 mod evaluate;
 pub mod examples;
 mod expression;
+mod free;
 mod lexer;
 mod linear;
 mod names;
 mod parser;
 mod parts;
-mod question;
 mod read;
 mod read_block;
 mod read_loop;
@@ -35,13 +35,13 @@ mod transfer;
 mod zpoly;
 
 pub use builder::{BlockBuilder, LoopBuilder, ParameterBuilder};
-pub use closed_loop::{ClosedLoop, TransferFunction};
+pub use closed_loop::{ClosedLoop, Evaluated, TransferFunction};
 pub use definition::{
     Block, Constant, Diagram, Discretization, Dynamics, Form, Loop, Matrix, Method, Name, Output, Parameter, Ports,
     Pwm, Simulation, Time,
 };
 pub use expression::{Expression, Factor, Node, Sign};
 pub use names::nearest_name;
+pub(crate) use names::shorten;
 pub use parser::{MAX_DEPTH, MAX_EXPONENT};
-pub use question::{ModelError, Question, Resolved};
 pub use read_loop::{DRIVE, source_from_bytes};

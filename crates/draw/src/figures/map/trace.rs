@@ -5,7 +5,7 @@ use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::poly::algebraic::simplest_between;
-use jurist_engine::analysis::Map;
+use jurist_engine::answer::{Answer, Map};
 use jurist_engine::stability::plane::{StabilityMap, Strip};
 use rayon::prelude::*;
 
@@ -53,9 +53,9 @@ pub struct MapTrace {
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
-pub fn trace_map(answer: &Map, windows: [AxisWindow; 2], budget: &Budget) -> Result<MapTrace, Exhausted> {
+pub fn trace_map(answer: &Answer<Map>, windows: [AxisWindow; 2], budget: &Budget) -> Result<MapTrace, Exhausted> {
     budget.step("tracing the curves");
-    let Some(map) = answer.map.decided() else { return Ok(MapTrace { windows, strips: Vec::new() }) };
+    let map = &answer.value().decomposition;
     let mut strips = Vec::new();
     for (number, strip) in map.strips.iter().enumerate() {
         budget.check()?;
@@ -70,7 +70,7 @@ pub fn trace_map(answer: &Map, windows: [AxisWindow; 2], budget: &Budget) -> Res
 }
 
 struct Tracer<'a> {
-    answer: &'a Map,
+    answer: &'a Answer<Map>,
     map: &'a StabilityMap,
     strip: &'a Strip,
     windows: &'a [AxisWindow; 2],
@@ -163,7 +163,7 @@ impl Tracer<'_> {
 
     fn branches(&self, x: &Rational) -> Result<Vec<f64>, Exhausted> {
         let window = &self.windows[1];
-        let branches = self.map.branches(x, &self.answer.axes[1].domain, self.budget)?;
+        let branches = self.map.branches(x, &self.answer.problem().free()[1].domain, self.budget)?;
         let width = (&window.upper - &window.lower) * Rational::dyadic(&jurist_algebra::number::Integer::ONE, 14);
         let place = |value: &RealAlgebraic| {
             let fine = if window.logarithmic { value.refined_to_digits(DIGITS) } else { value.refined(&width) };

@@ -4,7 +4,7 @@ use super::curves::{Curve, PlanePolynomial, X, Y, boundary_curves};
 use super::glue::glue_stable_cells;
 use super::projection::projection;
 use crate::stability::interval_set::{cells, merge_points};
-use crate::stability::{AlgebraicInterval, AtPoint, Range, Region};
+use crate::stability::{AlgebraicInterval, AtPoint, Range, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
@@ -92,7 +92,7 @@ pub struct StabilityMap {
 pub fn stability_map(
     p: &PlanePolynomial,
     domain: &[Range; 2],
-    region: Region,
+    region: Shape,
     budget: &Budget,
 ) -> Result<StabilityMap, Exhausted> {
     budget.step("boundary curves");
@@ -189,7 +189,7 @@ fn decompose(
     p: &PlanePolynomial,
     curves: &[Curve],
     domain: &[Range; 2],
-    region: Region,
+    region: Shape,
     budget: &Budget,
 ) -> Result<Vec<Strip>, Exhausted> {
     budget.step("projecting the curves");
@@ -245,7 +245,7 @@ fn cells_at(
     curves: &[Curve],
     x: &Rational,
     y_domain: &Range,
-    region: Region,
+    region: Shape,
     budget: &Budget,
 ) -> Result<Vec<Cell>, Exhausted> {
     let branches = branches_at(curves, x, y_domain, budget)?;
