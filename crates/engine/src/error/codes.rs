@@ -12,14 +12,6 @@ parameters: the signals have no unique value.
 Remedy: change a gain, or put a delay or a filter into the loop."#,
     ),
     (
-        "E-certificate",
-        r#"A certificate cannot be written, or its file cannot be read.
-
-    jurist verify model.toml missing.json
-
-Remedy: correct the path; a certificate needs a decided answer, and `jurist verify` takes MODEL and CERTIFICATE."#,
-    ),
-    (
         "E-cycle",
         r#"Constants are defined by each other, so none of them has a value.
 
