@@ -62,8 +62,8 @@
 
 // The model, the question, the answer.
 pub use jurist_engine::answer::{
-    Analysis, Answer, BoxRequest, Frequency, Map, MapBoxes, MapLimit, MapMethod, MapOrBoxes, ParametricTable, PointTable,
-    PointVerdict, RegionExtent, Verdict,
+    Analysis, Answer, BoxRequest, Frequency, Map, MapBoxes, MapLimit, MapMethod, MapOrBoxes, ParametricTable,
+    PointTable, PointVerdict, RegionExtent, Verdict,
 };
 pub use jurist_engine::error::{Diagnostic, Error, Failure, Label, Severity, Source, Span};
 pub use jurist_engine::model::{
@@ -74,8 +74,9 @@ pub use jurist_engine::problem::{Algebra, Bound, Free, Problem, Question, Region
 pub use jurist_engine::show::notation::Notation;
 pub use jurist_engine::stability::{
     AlgebraicInterval, Boundary, Cause, Causes, ClassicalTest, ComplexPair, Condition, End, HalfSizePair, IntervalSet,
-    JuryTable, ParametricPolynomial, Range, RootCount, RouthTable, Shape, StableInterval, StableSet, boundary_polynomials,
-    classical_test, count_roots, is_hurwitz_routh, is_schur_jury, is_stable, jury_table, routh_table, stable_set,
+    JuryTable, ParametricPolynomial, Range, RootCount, RouthTable, Shape, StableInterval, StableSet,
+    boundary_polynomials, classical_test, count_roots, is_hurwitz_routh, is_schur_jury, is_stable, jury_table,
+    routh_table, stable_set,
 };
 // Budgets.
 pub use jurist_algebra::limits::{Budget, Exhausted, Progress};

@@ -54,9 +54,10 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
             return Ok(context.say_undecided(&stopped));
         }
     };
-    context.reporter.finish();
     let digits = options.output.digits.map(|d| d as usize);
-    write_answer(&report.write(notation, digits), file)?;
+    let text = context.budget.enter(|| report.write(notation, digits))?;
+    context.reporter.finish();
+    write_answer(&text, file)?;
     Ok(Status::Holds)
 }
 

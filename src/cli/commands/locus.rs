@@ -49,7 +49,8 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         None => default_range(&answer)?,
     };
     let scale = if options.log { Some(ParameterScale::Logarithmic) } else { None };
-    let picture = locus_of(&answer, &range, scale, &context.budget)?;
+    let budget = &context.budget;
+    let picture = budget.enter(|| locus_of(&answer, &range, scale, budget))??;
     context.reporter.finish();
     for crossing in &picture.crossings {
         crate::cli::output::note(&format!("crossing: {}", crossing.label));

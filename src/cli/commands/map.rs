@@ -99,7 +99,10 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         note(&format!("the regions are decided, what limits them is not: {stopped}"));
     }
     match picture {
-        Some(kind) => draw(&answer, kind, windows(options, &requests), options, context)?,
+        Some(kind) => {
+            let windows = windows(options, &requests);
+            context.budget.enter(|| draw(&answer, kind, windows, options, context))??;
+        }
         None => context.answer(&options.output, || answer.text(digits), || answer.json(digits))?,
     }
     Ok(Status::Holds)

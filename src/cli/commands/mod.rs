@@ -65,8 +65,9 @@ impl<'a> Context<'a> {
         text: impl FnOnce() -> String,
         document: impl FnOnce() -> Value,
     ) -> Result<(), Failure> {
+        let wants_json = self.wants_json(options)?;
+        let answer = self.budget.enter(|| if wants_json { json::to_text(&document()) } else { text() })?;
         self.reporter.finish();
-        let answer = if self.wants_json(options)? { json::to_text(&document()) } else { text() };
         write_answer(&answer, options.output.as_ref())
     }
 

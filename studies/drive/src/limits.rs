@@ -3,7 +3,7 @@
 use super::facts::{AMPLITUDE, PERIOD, PUBLISHED_LIMITS, SPEED_REFERENCE};
 use super::html::Table;
 use super::runs::at;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, join};
 use jurist_algebra::number::{Rational, enclosed_decimal, parse_number};
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_draw::simulate::{Pulse, SampledModel, SwitchedModel, growth_limit};
@@ -113,7 +113,7 @@ fn both(
     width: [f64; 2],
     budget: &Budget,
 ) -> Result<[Option<f64>; 2], Exhausted> {
-    let (k, f) = rayon::join(
+    let (k, f) = join(
         || bisected(amplitude, width[0], budget, |k| seen(k, PERIOD)),
         || bisected(frequency, width[1], budget, |f| seen(AMPLITUDE, 1.0 / f)),
     );

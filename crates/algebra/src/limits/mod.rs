@@ -82,7 +82,8 @@ impl Limits {
     fn spend(&self, units: u64) -> Result<(), Exhausted> {
         let mut out = None;
         for work in &self.work {
-            let rest = work.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| Some(left.saturating_sub(units)));
+            let rest =
+                work.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| Some(left.saturating_sub(units)));
             if rest.is_ok_and(|before| before < units) {
                 out = Some(work.units);
             }

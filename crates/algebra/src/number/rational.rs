@@ -396,7 +396,8 @@ mod tests {
         for x in &all {
             for y in &all {
                 let (a, b, c, d) = (&x.numerator, &x.denominator, &y.numerator, &y.denominator);
-                let equal = |z: Rational, n: Integer, q: Integer| lowest(&z) && &z.numerator * &q == &n * &z.denominator;
+                let equal =
+                    |z: Rational, n: Integer, q: Integer| lowest(&z) && &z.numerator * &q == &n * &z.denominator;
                 assert!(equal(x + y, &(a * d) + &(c * b), b * d), "{x} + {y}");
                 assert!(equal(x - y, &(a * d) - &(c * b), b * d), "{x} - {y}");
                 assert!(equal(x * y, a * c, b * d), "{x} * {y}");
@@ -414,7 +415,8 @@ mod tests {
 
     #[test]
     fn floating_point_numbers_come_back() {
-        let mut numbers = vec![0.0, 1.5, f64::MAX, f64::MIN_POSITIVE, f64::from_bits(1), f64::from_bits(0xf_ffff_ffff_ffff)];
+        let mut numbers =
+            vec![0.0, 1.5, f64::MAX, f64::MIN_POSITIVE, f64::from_bits(1), f64::from_bits(0xf_ffff_ffff_ffff)];
         let mut state = 1u64;
         for _ in 0..2000 {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);

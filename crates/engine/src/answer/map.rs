@@ -77,8 +77,10 @@ impl Problem {
     /// # Panics
     /// Unless two parameters are free.
     pub fn map(self: &Arc<Self>, digits: usize, budget: &Budget) -> Result<Answer<Map>, Failure> {
-        let decomposition = self.decomposed(budget)?;
-        self.described(decomposition, digits, budget)
+        budget.enter(|| {
+            let decomposition = self.decomposed(budget)?;
+            self.described(decomposition, digits, budget)
+        })?
     }
 
     /// The exact decomposition alone.

@@ -68,30 +68,32 @@ impl Problem {
         digits: usize,
         budget: &Budget,
     ) -> Result<MapOrBoxes, Failure> {
-        let exact = |part: &Budget| {
-            let map = self.described(self.decomposed(part)?, digits, budget)?;
-            Ok(MapOrBoxes::Exact(Box::new(map)))
-        };
-        let window = match (method, window_of(self, request)) {
-            (MapMethod::Exact, _) => return exact(budget),
-            (MapMethod::Boxes, Err(refusal)) => return Err(refusal),
-            (_, window) => window,
-        };
-        let plane = self.plane(budget)?;
-        let (Ok(window), Some(p)) = (window, plane) else {
-            // Without a window, or undefined everywhere: that needs no boxes.
-            return exact(budget);
-        };
-        if method == MapMethod::Auto {
-            match exact(&budget.share(1, 2)) {
-                Err(Failure::Stopped(_)) => {}
-                answered => return answered,
+        budget.enter(|| {
+            let exact = |part: &Budget| {
+                let map = self.described(self.decomposed(part)?, digits, budget)?;
+                Ok(MapOrBoxes::Exact(Box::new(map)))
+            };
+            let window = match (method, window_of(self, request)) {
+                (MapMethod::Exact, _) => return exact(budget),
+                (MapMethod::Boxes, Err(refusal)) => return Err(refusal),
+                (_, window) => window,
+            };
+            let plane = self.plane(budget)?;
+            let (Ok(window), Some(p)) = (window, plane) else {
+                // Without a window, or undefined everywhere: that needs no boxes.
+                return exact(budget);
+            };
+            if method == MapMethod::Auto {
+                match exact(&budget.share(1, 2)) {
+                    Err(Failure::Stopped(_)) => {}
+                    answered => return answered,
+                }
             }
-        }
-        let share = budget.share(SUBDIVISION.0, SUBDIVISION.1);
-        let boxes = stability_boxes(p, &window, self.shape(), &request.undecided, &share)?;
-        let value = MapBoxes { goal: request.undecided.clone(), boxes };
-        Ok(MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value))))
+            let share = budget.share(SUBDIVISION.0, SUBDIVISION.1);
+            let boxes = stability_boxes(p, &window, self.shape(), &request.undecided, &share)?;
+            let value = MapBoxes { goal: request.undecided.clone(), boxes };
+            Ok(MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value))))
+        })?
     }
 }
 

@@ -77,15 +77,17 @@ impl Answer<Map> {
         bits: u64,
         budget: &Budget,
     ) -> Result<Option<(End, Option<Frequency>)>, Failure> {
-        let line = self.problem.line(0, x, budget)?;
-        let domain = &line.parameter().domain;
-        let branches = self.value.decomposition.branches(x, domain, budget)?;
-        let (Some(p), Some((value, _))) = (line.parametric(budget)?, branches.get(number)) else { return Ok(None) };
-        let end = end_at(p, value, domain, line.shape(), &budget.silent())?;
-        Ok(end.map(|end| {
-            let frequency = line.frequency(&end, bits);
-            (end, frequency)
-        }))
+        budget.enter(|| {
+            let line = self.problem.line(0, x, budget)?;
+            let domain = &line.parameter().domain;
+            let branches = self.value.decomposition.branches(x, domain, budget)?;
+            let (Some(p), Some((value, _))) = (line.parametric(budget)?, branches.get(number)) else { return Ok(None) };
+            let end = end_at(p, value, domain, line.shape(), &budget.silent())?;
+            Ok(end.map(|end| {
+                let frequency = line.frequency(&end, bits);
+                (end, frequency)
+            }))
+        })?
     }
 
     /// The cells on the vertical line at a rational `x`, from below, also where it is a wall between strips: whether
@@ -94,32 +96,34 @@ impl Answer<Map> {
     /// # Errors
     /// [`Failure::Stopped`] when the budget runs out.
     pub fn fibre(&self, x: &Rational, budget: &Budget) -> Result<Option<Vec<(bool, usize)>>, Failure> {
-        let map = &self.value.decomposition;
-        let Some(p) = self.problem.plane(budget)? else { return Ok(None) };
-        if map.curves.iter().any(|c| c.polynomial.substitute(0, x).0.is_zero()) {
-            return Ok(None);
-        }
-        let domain = &self.problem.free()[1].domain;
-        let mut ends: Vec<Option<RealAlgebraic>> = vec![domain.lower.clone().map(RealAlgebraic::from_rational)];
-        for (value, _) in map.branches(x, domain, budget)? {
-            // Branches of several curves may meet on a wall.
-            if !ends.last().is_some_and(|last| last.as_ref().is_some_and(|l| l.compare(&value).is_eq())) {
-                ends.push(Some(value));
+        budget.enter(|| {
+            let map = &self.value.decomposition;
+            let Some(p) = self.problem.plane(budget)? else { return Ok(None) };
+            if map.curves.iter().any(|c| c.polynomial.substitute(0, x).0.is_zero()) {
+                return Ok(None);
             }
-        }
-        ends.push(domain.upper.clone().map(RealAlgebraic::from_rational));
-        let mut cells = Vec::with_capacity(ends.len());
-        for pair in ends.windows(2) {
-            budget.check()?;
-            let cell = AlgebraicInterval { lower: pair[0].clone(), upper: pair[1].clone() };
-            cells.push(match p.at(x, &cell.sample(), self.problem.shape()) {
-                AtPoint::Defined { count, infinite } => {
-                    (infinite == 0 && count.inside == p.formal_degree(), count.outside + infinite)
+            let domain = &self.problem.free()[1].domain;
+            let mut ends: Vec<Option<RealAlgebraic>> = vec![domain.lower.clone().map(RealAlgebraic::from_rational)];
+            for (value, _) in map.branches(x, domain, budget)? {
+                // Branches of several curves may meet on a wall.
+                if !ends.last().is_some_and(|last| last.as_ref().is_some_and(|l| l.compare(&value).is_eq())) {
+                    ends.push(Some(value));
                 }
-                AtPoint::Undefined | AtPoint::Zero => (false, p.formal_degree()),
-            });
-        }
-        Ok(Some(cells))
+            }
+            ends.push(domain.upper.clone().map(RealAlgebraic::from_rational));
+            let mut cells = Vec::with_capacity(ends.len());
+            for pair in ends.windows(2) {
+                budget.check()?;
+                let cell = AlgebraicInterval { lower: pair[0].clone(), upper: pair[1].clone() };
+                cells.push(match p.at(x, &cell.sample(), self.problem.shape()) {
+                    AtPoint::Defined { count, infinite } => {
+                        (infinite == 0 && count.inside == p.formal_degree(), count.outside + infinite)
+                    }
+                    AtPoint::Undefined | AtPoint::Zero => (false, p.formal_degree()),
+                });
+            }
+            Ok(Some(cells))
+        })?
     }
 
     /// The exact stable set on a line through the map: one parameter (0 for `x`) has a value, also that of a wall between
@@ -128,12 +132,14 @@ impl Answer<Map> {
     /// # Errors
     /// [`Failure::Stopped`] when the budget runs out.
     pub fn slice(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Answer<StableSet>, Failure> {
-        let line = Arc::new(self.problem.on_line(fixed, value, budget)?);
-        let inside = self.problem.free()[fixed].domain.contains(value);
-        let set = match line.parametric(budget)?.filter(|_| inside) {
-            None => StableSet::default(),
-            Some(p) => stable_set(p, &line.parameter().domain, line.shape(), budget)?,
-        };
-        Ok(Answer::new(line, set))
+        budget.enter(|| {
+            let line = Arc::new(self.problem.on_line(fixed, value, budget)?);
+            let inside = self.problem.free()[fixed].domain.contains(value);
+            let set = match line.parametric(budget)?.filter(|_| inside) {
+                None => StableSet::default(),
+                Some(p) => stable_set(p, &line.parameter().domain, line.shape(), budget)?,
+            };
+            Ok(Answer::new(line, set))
+        })?
     }
 }

@@ -37,11 +37,13 @@ impl Problem {
     /// # Panics
     /// Unless one parameter is free.
     pub fn stable_set(self: &Arc<Self>, budget: &Budget) -> Result<Answer<StableSet>, Failure> {
-        let set = match self.parametric(budget)? {
-            None => StableSet::default(),
-            Some(p) => own_causes(stable_set(p, &self.parameter().domain, self.shape(), budget)?, self),
-        };
-        Ok(Answer::new(Arc::clone(self), set))
+        budget.enter(|| {
+            let set = match self.parametric(budget)? {
+                None => StableSet::default(),
+                Some(p) => own_causes(stable_set(p, &self.parameter().domain, self.shape(), budget)?, self),
+            };
+            Ok(Answer::new(Arc::clone(self), set))
+        })?
     }
 }
 

@@ -60,21 +60,23 @@ impl Problem {
     /// # Errors
     /// [`Failure::Stopped`]; [`Failure::Refused`] where the two ways disagree (a defect of this program).
     pub fn parametric_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<ParametricTable>, Failure> {
-        let Some(p) = self.parametric(budget)? else {
-            return Ok(Answer::new(Arc::clone(self), ParametricTable { test: None, stable: StableSet::default() }));
-        };
-        let domain = &self.parameter().domain;
-        let stable = stable_set(p, domain, self.shape(), budget)?;
-        let test = classical_test(p, domain, self.shape(), budget)?;
-        if !test.intersection.same_as(&stable.to_interval_set()) {
-            return Err(Diagnostic::error(
-                "E-internal",
-                "the table's conditions and the boundary polynomials disagree",
-            )
-            .help("this is a defect of jurist: please report it with the model")
-            .into());
-        }
-        Ok(Answer::new(Arc::clone(self), ParametricTable { test: Some(test), stable }))
+        budget.enter(|| {
+            let Some(p) = self.parametric(budget)? else {
+                return Ok(Answer::new(Arc::clone(self), ParametricTable { test: None, stable: StableSet::default() }));
+            };
+            let domain = &self.parameter().domain;
+            let stable = stable_set(p, domain, self.shape(), budget)?;
+            let test = classical_test(p, domain, self.shape(), budget)?;
+            if !test.intersection.same_as(&stable.to_interval_set()) {
+                return Err(Diagnostic::error(
+                    "E-internal",
+                    "the table's conditions and the boundary polynomials disagree",
+                )
+                .help("this is a defect of jurist: please report it with the model")
+                .into());
+            }
+            Ok(Answer::new(Arc::clone(self), ParametricTable { test: Some(test), stable }))
+        })?
     }
 
     /// The table at the point that the values of all parameters are.
@@ -82,9 +84,11 @@ impl Problem {
     /// # Errors
     /// [`Failure::Stopped`] when the budget runs out.
     pub fn point_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointTable>, Failure> {
-        // A coefficient or a pole of a point is a number.
-        let defined = self.parametric(budget)?.filter(|p| !p.is_undefined_at(&Rational::ZERO));
-        let test = defined.map(|p| classical_test(p, &Range::all(), self.shape(), budget)).transpose()?;
-        Ok(Answer::new(Arc::clone(self), PointTable { test }))
+        budget.enter(|| {
+            // A coefficient or a pole of a point is a number.
+            let defined = self.parametric(budget)?.filter(|p| !p.is_undefined_at(&Rational::ZERO));
+            let test = defined.map(|p| classical_test(p, &Range::all(), self.shape(), budget)).transpose()?;
+            Ok(Answer::new(Arc::clone(self), PointTable { test }))
+        })?
     }
 }

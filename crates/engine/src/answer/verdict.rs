@@ -80,29 +80,31 @@ impl Problem {
     /// # Panics
     /// When a parameter is free.
     pub fn verdict(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointVerdict>, Failure> {
-        assert!(self.free().is_empty(), "a point has no free parameters");
-        let at = match self.parametric(budget)? {
-            None => AtPoint::Undefined,
-            Some(p) => {
-                budget.step("counting the roots");
-                p.at_within(&Rational::ZERO, self.shape(), budget)?
-            }
-        };
-        let algebra = self.algebra(budget)?;
-        let degree = algebra.formal_degree();
-        let (verdict, count, infinite) = match at {
-            AtPoint::Undefined => (Verdict::Undefined, None, 0),
-            AtPoint::Zero => (Verdict::Unstable, Some(RootCount::default()), degree),
-            AtPoint::Defined { count, infinite } => {
-                let verdict = match (count.outside + infinite, count.on) {
-                    (0, 0) => Verdict::Stable,
-                    (0, _) => Verdict::Marginal,
-                    _ => Verdict::Unstable,
-                };
-                (verdict, Some(count), infinite)
-            }
-        };
-        let undefined = algebra.undefined().map(str::to_owned);
-        Ok(Answer::new(Arc::clone(self), PointVerdict { verdict, undefined, degree, count, infinite }))
+        budget.enter(|| {
+            assert!(self.free().is_empty(), "a point has no free parameters");
+            let at = match self.parametric(budget)? {
+                None => AtPoint::Undefined,
+                Some(p) => {
+                    budget.step("counting the roots");
+                    p.at_within(&Rational::ZERO, self.shape(), budget)?
+                }
+            };
+            let algebra = self.algebra(budget)?;
+            let degree = algebra.formal_degree();
+            let (verdict, count, infinite) = match at {
+                AtPoint::Undefined => (Verdict::Undefined, None, 0),
+                AtPoint::Zero => (Verdict::Unstable, Some(RootCount::default()), degree),
+                AtPoint::Defined { count, infinite } => {
+                    let verdict = match (count.outside + infinite, count.on) {
+                        (0, 0) => Verdict::Stable,
+                        (0, _) => Verdict::Marginal,
+                        _ => Verdict::Unstable,
+                    };
+                    (verdict, Some(count), infinite)
+                }
+            };
+            let undefined = algebra.undefined().map(str::to_owned);
+            Ok(Answer::new(Arc::clone(self), PointVerdict { verdict, undefined, degree, count, infinite }))
+        })?
     }
 }

@@ -118,7 +118,7 @@ impl Problem {
         if let Some(algebra) = self.algebra.get() {
             return Ok(algebra);
         }
-        let algebra = Algebra::of(self, budget)?;
+        let algebra = budget.enter(|| Algebra::of(self, budget))??;
         Ok(self.algebra.get_or_init(|| algebra))
     }
 

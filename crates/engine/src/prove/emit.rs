@@ -31,43 +31,47 @@ impl Answer<StableSet> {
     /// # Errors
     /// [`Failure::Stopped`] when the budget runs out.
     pub fn certificate(&self, budget: &Budget) -> Result<String, Failure> {
-        budget.step("certificate");
-        let problem = self.problem();
-        let mut proof = Proof::default();
-        if let Some(p) = problem.parametric(budget)? {
-            let coefficients = primitive(with_content(p), p.formal_degree());
-            proof = Proof::of(&coefficients, p, self, budget)?;
-            proof.characteristic = coefficients;
-        }
-        let bound = |b: &Option<Rational>| b.as_ref().map_or(Value::Null, number);
-        let range = &problem.parameter().domain;
-        let domain = object([("lower", bound(&range.lower)), ("upper", bound(&range.upper))]);
-        let stable = proof.line.as_ref().map(|line| line.stable_intervals()).unwrap_or_default();
-        let stable = stable.iter().map(|(l, u)| object([("lower", end(l)), ("upper", end(u))]));
-        let statement = object([
-            ("kind", "intervals".into()),
-            ("time", problem.time().name().into()),
-            ("parameter", problem.parameter().name.as_str().into()),
-            ("set", set(problem.set())),
-            ("region", region(problem.region())),
-            ("domain", domain),
-            ("stable", stable.collect()),
-        ]);
-        let boundary = match &proof.identity {
-            None => Value::Null,
-            Some(i) => object([("u", polynomials(&i.u)), ("v", polynomials(&i.v)), ("value", polynomial(&i.value))]),
-        };
-        let line = proof.line.as_ref().map(line_json).unwrap_or_default();
-        let certificate = object([
-            ("schema", SCHEMA.into()),
-            ("model", about(problem)),
-            ("statement", statement),
-            ("characteristic", polynomials(&proof.characteristic)),
-            ("boundary", boundary),
-            ("factors", polynomials(&proof.factors)),
-            ("line", Value::Array(line)),
-        ]);
-        Ok(to_text(&certificate))
+        budget.enter(|| {
+            budget.step("certificate");
+            let problem = self.problem();
+            let mut proof = Proof::default();
+            if let Some(p) = problem.parametric(budget)? {
+                let coefficients = primitive(with_content(p), p.formal_degree());
+                proof = Proof::of(&coefficients, p, self, budget)?;
+                proof.characteristic = coefficients;
+            }
+            let bound = |b: &Option<Rational>| b.as_ref().map_or(Value::Null, number);
+            let range = &problem.parameter().domain;
+            let domain = object([("lower", bound(&range.lower)), ("upper", bound(&range.upper))]);
+            let stable = proof.line.as_ref().map(|line| line.stable_intervals()).unwrap_or_default();
+            let stable = stable.iter().map(|(l, u)| object([("lower", end(l)), ("upper", end(u))]));
+            let statement = object([
+                ("kind", "intervals".into()),
+                ("time", problem.time().name().into()),
+                ("parameter", problem.parameter().name.as_str().into()),
+                ("set", set(problem.set())),
+                ("region", region(problem.region())),
+                ("domain", domain),
+                ("stable", stable.collect()),
+            ]);
+            let boundary = match &proof.identity {
+                None => Value::Null,
+                Some(i) => {
+                    object([("u", polynomials(&i.u)), ("v", polynomials(&i.v)), ("value", polynomial(&i.value))])
+                }
+            };
+            let line = proof.line.as_ref().map(line_json).unwrap_or_default();
+            let certificate = object([
+                ("schema", SCHEMA.into()),
+                ("model", about(problem)),
+                ("statement", statement),
+                ("characteristic", polynomials(&proof.characteristic)),
+                ("boundary", boundary),
+                ("factors", polynomials(&proof.factors)),
+                ("line", Value::Array(line)),
+            ]);
+            Ok(to_text(&certificate))
+        })?
     }
 }
 
@@ -77,32 +81,34 @@ impl Answer<PointVerdict> {
     /// # Errors
     /// [`Failure::Stopped`] when the budget runs out.
     pub fn certificate(&self, budget: &Budget) -> Result<String, Failure> {
-        budget.step("certificate");
-        let (problem, verdict) = (self.problem(), self.value());
-        let characteristic = match problem.parametric(budget)? {
-            None => Vec::new(),
-            Some(p) => primitive(with_content(p), verdict.degree),
-        };
-        let counts = verdict.count.unwrap_or_default();
-        let statement = object([
-            ("kind", "verdict".into()),
-            ("time", problem.time().name().into()),
-            ("set", set(problem.set())),
-            ("region", region(problem.region())),
-            ("verdict", verdict.verdict.name().into()),
-            ("degree", verdict.degree.into()),
-            ("inside", counts.inside.into()),
-            ("on", counts.on.into()),
-            ("outside", counts.outside.into()),
-            ("infinite", verdict.infinite.into()),
-        ]);
-        let certificate = object([
-            ("schema", SCHEMA.into()),
-            ("model", about(problem)),
-            ("statement", statement),
-            ("characteristic", polynomials(&characteristic)),
-        ]);
-        Ok(to_text(&certificate))
+        budget.enter(|| {
+            budget.step("certificate");
+            let (problem, verdict) = (self.problem(), self.value());
+            let characteristic = match problem.parametric(budget)? {
+                None => Vec::new(),
+                Some(p) => primitive(with_content(p), verdict.degree),
+            };
+            let counts = verdict.count.unwrap_or_default();
+            let statement = object([
+                ("kind", "verdict".into()),
+                ("time", problem.time().name().into()),
+                ("set", set(problem.set())),
+                ("region", region(problem.region())),
+                ("verdict", verdict.verdict.name().into()),
+                ("degree", verdict.degree.into()),
+                ("inside", counts.inside.into()),
+                ("on", counts.on.into()),
+                ("outside", counts.outside.into()),
+                ("infinite", verdict.infinite.into()),
+            ]);
+            let certificate = object([
+                ("schema", SCHEMA.into()),
+                ("model", about(problem)),
+                ("statement", statement),
+                ("characteristic", polynomials(&characteristic)),
+            ]);
+            Ok(to_text(&certificate))
+        })?
     }
 }
 

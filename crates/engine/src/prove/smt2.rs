@@ -21,48 +21,50 @@ impl Answer<StableSet> {
     /// # Errors
     /// [`Failure::Stopped`] when the budget runs out.
     pub fn smt2(&self, budget: &Budget) -> Result<String, Failure> {
-        let problem = self.problem();
-        let (parameter, set) = (problem.parameter(), self.value());
-        let mut domain = Vec::new();
-        if let Some(lower) = &parameter.domain.lower {
-            domain.push(format!("(< {} p)", real(lower)));
-        }
-        if let Some(upper) = &parameter.domain.upper {
-            domain.push(format!("(< p {})", real(upper)));
-        }
-        let mut conditions = Vec::new();
-        match problem.parametric(budget)? {
-            None => conditions.push("false".to_owned()),
-            Some(p) => {
-                let not_zero = p.poles().iter().chain([p.denominator(), p.content()]);
-                let not_zero = not_zero.filter(|f| f.is_zero() || !f.is_constant());
-                conditions.extend(not_zero.map(|f| format!("(distinct {} 0.0)", horner(f))));
-                match problem.shape() {
-                    Shape::UnitDisc => jury(p.polynomial(), p.formal_degree(), &mut conditions),
-                    Shape::LeftHalfPlane => routh(p.polynomial(), p.formal_degree(), &mut conditions),
+        budget.enter(|| {
+            let problem = self.problem();
+            let (parameter, set) = (problem.parameter(), self.value());
+            let mut domain = Vec::new();
+            if let Some(lower) = &parameter.domain.lower {
+                domain.push(format!("(< {} p)", real(lower)));
+            }
+            if let Some(upper) = &parameter.domain.upper {
+                domain.push(format!("(< p {})", real(upper)));
+            }
+            let mut conditions = Vec::new();
+            match problem.parametric(budget)? {
+                None => conditions.push("false".to_owned()),
+                Some(p) => {
+                    let not_zero = p.poles().iter().chain([p.denominator(), p.content()]);
+                    let not_zero = not_zero.filter(|f| f.is_zero() || !f.is_constant());
+                    conditions.extend(not_zero.map(|f| format!("(distinct {} 0.0)", horner(f))));
+                    match problem.shape() {
+                        Shape::UnitDisc => jury(p.polynomial(), p.formal_degree(), &mut conditions),
+                        Shape::LeftHalfPlane => routh(p.polynomial(), p.formal_degree(), &mut conditions),
+                    }
                 }
             }
-        }
-        let mut claimed = Vec::new();
-        for interval in set.intervals() {
-            let lower = interval.lower.as_ref().map(|e| above(&e.value));
-            let upper = interval.upper.as_ref().map(|e| below(&e.value));
-            claimed.push(joined("and", lower.into_iter().chain(upper).collect(), "true"));
-        }
-        let mut out = String::new();
-        let _ = writeln!(out, "; p is the parameter '{}'", parameter.name.replace(['\n', '\r'], " "));
-        for (name, value) in problem.set() {
-            let _ = writeln!(out, "; {} = {value}", name.replace(['\n', '\r'], " "));
-        }
-        let _ = writeln!(out, "; unsat: the loop is stable exactly on the claimed set");
-        let _ = writeln!(out, "(set-logic QF_NRA)\n(declare-const p Real)");
-        for bound in domain {
-            let _ = writeln!(out, "(assert {bound})");
-        }
-        let _ = writeln!(out, "(define-fun stable () Bool {})", joined("and", conditions, "true"));
-        let _ = writeln!(out, "(define-fun claimed () Bool {})", joined("or", claimed, "false"));
-        let _ = writeln!(out, "(assert (distinct stable claimed))\n(check-sat)");
-        Ok(out)
+            let mut claimed = Vec::new();
+            for interval in set.intervals() {
+                let lower = interval.lower.as_ref().map(|e| above(&e.value));
+                let upper = interval.upper.as_ref().map(|e| below(&e.value));
+                claimed.push(joined("and", lower.into_iter().chain(upper).collect(), "true"));
+            }
+            let mut out = String::new();
+            let _ = writeln!(out, "; p is the parameter '{}'", parameter.name.replace(['\n', '\r'], " "));
+            for (name, value) in problem.set() {
+                let _ = writeln!(out, "; {} = {value}", name.replace(['\n', '\r'], " "));
+            }
+            let _ = writeln!(out, "; unsat: the loop is stable exactly on the claimed set");
+            let _ = writeln!(out, "(set-logic QF_NRA)\n(declare-const p Real)");
+            for bound in domain {
+                let _ = writeln!(out, "(assert {bound})");
+            }
+            let _ = writeln!(out, "(define-fun stable () Bool {})", joined("and", conditions, "true"));
+            let _ = writeln!(out, "(define-fun claimed () Bool {})", joined("or", claimed, "false"));
+            let _ = writeln!(out, "(assert (distinct stable claimed))\n(check-sat)");
+            Ok(out)
+        })?
     }
 }
 

@@ -2,14 +2,13 @@
 
 use super::lines::{Role, Wall, mechanism_words};
 use super::trace::approximate;
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, parallel_map};
 use jurist_algebra::number::{parse_number, to_decimal};
 use jurist_engine::answer::{Answer, Frequency, Map};
 use jurist_engine::error::Failure;
 use jurist_engine::model::Time;
 use jurist_engine::stability::Cause;
 use jurist_engine::stability::plane::StabilityMap;
-use rayon::prelude::*;
 
 /// Bits of a frequency in a picture.
 const BITS: u64 = 30;
@@ -136,15 +135,12 @@ pub(super) fn frequencies(
     if wall.role != Role::Stable || !causes.contains(Cause::ComplexPair) {
         return Ok(Vec::new());
     }
-    let found: Vec<Result<Option<FrequencyPoint>, Failure>> = points
-        .par_iter()
-        .map(|&point| {
-            let Some((x, number)) = wall.lines.get(point) else { return Ok(None) };
-            let end = answer.wall(x, *number, BITS, budget)?;
-            let value = end.and_then(|e| e.1).and_then(|f| frequency_value(&f, answer.problem().time()));
-            Ok(value.map(|value| FrequencyPoint { point, value }))
-        })
-        .collect();
+    let found: Vec<Result<Option<FrequencyPoint>, Failure>> = parallel_map(points, |&point| {
+        let Some((x, number)) = wall.lines.get(point) else { return Ok(None) };
+        let end = answer.wall(x, *number, BITS, budget)?;
+        let value = end.and_then(|e| e.1).and_then(|f| frequency_value(&f, answer.problem().time()));
+        Ok(value.map(|value| FrequencyPoint { point, value }))
+    });
     found.into_iter().filter_map(Result::transpose).collect()
 }
 

@@ -1,13 +1,12 @@
 //! Points of the boundary curves: isolated roots on a fine set of vertical lines in every strip.
 
 use super::window::AxisWindow;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::poly::algebraic::simplest_between;
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::stability::plane::{StabilityMap, Strip};
-use rayon::prelude::*;
 
 /// Lines per width of the picture before refinement.
 const LINES: f64 = 320.0;
@@ -141,23 +140,20 @@ impl Tracer<'_> {
 
     /// Lines at places, each at the simplest value of `x` near it.
     fn at_all(&self, wanted: Vec<(f64, Option<Rational>)>, spacing: f64) -> Result<Vec<TracedLine>, Exhausted> {
-        let found: Vec<Result<Option<TracedLine>, Exhausted>> = wanted
-            .into_par_iter()
-            .map(|(u, exact)| {
-                self.budget.check()?;
-                let x = match exact {
-                    Some(x) => Some(x),
-                    None => {
-                        let near = |d: f64| rational(self.windows[0].value(u + d * spacing));
-                        let range = near(-0.01).zip(near(0.01));
-                        range.and_then(|(a, b)| simplest_between(&a, &b)).filter(|x| self.strip.x.contains(x))
-                    }
-                };
-                let Some(x) = x else { return Ok(None) };
-                let v = self.branches(&x)?;
-                Ok(Some(TracedLine { u, x, v }))
-            })
-            .collect();
+        let found: Vec<Result<Option<TracedLine>, Exhausted>> = parallel_map(wanted, |(u, exact)| {
+            self.budget.check()?;
+            let x = match exact {
+                Some(x) => Some(x),
+                None => {
+                    let near = |d: f64| rational(self.windows[0].value(u + d * spacing));
+                    let range = near(-0.01).zip(near(0.01));
+                    range.and_then(|(a, b)| simplest_between(&a, &b)).filter(|x| self.strip.x.contains(x))
+                }
+            };
+            let Some(x) = x else { return Ok(None) };
+            let v = self.branches(&x)?;
+            Ok(Some(TracedLine { u, x, v }))
+        });
         found.into_iter().filter_map(Result::transpose).collect()
     }
 

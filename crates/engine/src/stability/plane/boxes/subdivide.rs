@@ -4,10 +4,9 @@ use super::patch::{Patch, PatchSign, Rows};
 use super::{Areas, Axis, BoxMap, BoxVerdict, PlaneBox, Window};
 use crate::stability::plane::curves::{PlanePolynomial, X, Y, boundary_curves};
 use crate::stability::{AtPoint, Shape};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
-use rayon::prelude::*;
 
 /// Boxes are halved together in groups of this size; between groups the budget is asked.
 const GROUP: usize = 64;
@@ -214,7 +213,7 @@ impl Search<'_> {
         };
         while stopped.is_none() && rest.len() > 0 {
             let group: Vec<Node> = rest.by_ref().take(GROUP).collect();
-            let halves: Vec<Result<[Tested; 2], (Node, Exhausted)>> = group.into_par_iter().map(halve).collect();
+            let halves: Vec<Result<[Tested; 2], (Node, Exhausted)>> = parallel_map(group, halve);
             for result in halves {
                 match result {
                     Ok(tested) => tested.into_iter().for_each(|t| self.sort_out(t, decided, &mut next)),
