@@ -10,6 +10,7 @@ mod input;
 mod output;
 mod picture;
 mod progress;
+mod replace;
 mod status;
 mod watch;
 

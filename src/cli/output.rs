@@ -1,5 +1,6 @@
 //! Where answers and remarks go: standard output or a file, and standard error.
 
+use super::replace::{Destination, replace};
 use super::status::Failure;
 use jurist_engine::error::Diagnostic;
 use std::ffi::{OsStr, OsString};
@@ -34,16 +35,23 @@ pub(super) fn write_locked(answer: &str, file: Option<&OsString>) -> Result<(), 
         answer.push('\n');
     }
     match file {
-        Some(path) if path != OsStr::new("-") => {
-            std::fs::write(Path::new(path), answer).map_err(|e| write_error(&path.to_string_lossy(), &e))
-        }
-        _ => {
-            let mut stdout = std::io::stdout().lock();
-            match stdout.write_all(answer.as_bytes()).and_then(|()| stdout.flush()) {
-                Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(write_error("standard output", &e)),
-                _ => Ok(()),
-            }
-        }
+        Some(path) if path != OsStr::new("-") => write_file(Path::new(path), answer.as_bytes()),
+        _ => write_standard(answer.as_bytes()).map_err(|e| write_error("standard output", &e)),
+    }
+}
+
+/// Makes the bytes the content of a file, as a whole or not at all.
+pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let written = Destination::of(path).and_then(|destination| replace(&destination, bytes));
+    written.map_err(|e| write_error(&path.to_string_lossy(), &e))
+}
+
+/// Writes to standard output; a reader that stops reading is no error.
+pub(super) fn write_standard(bytes: &[u8]) -> std::io::Result<()> {
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(e),
+        _ => Ok(()),
     }
 }
 

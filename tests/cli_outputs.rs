@@ -1,0 +1,144 @@
+//! Where answers go: files as a whole or not at all, each to a name of its own, and nothing lost in silence.
+#![cfg(unix)]
+
+mod program;
+
+use program::{Run, jurist};
+use std::fs::{Permissions, read_dir, read_to_string};
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+const DRIVE: &str = "examples/drive.toml";
+const OLD: &str = "what was there\n";
+
+/// A folder that is removed again.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let folder = std::env::temp_dir().join(format!("jurist-outputs-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        Folder(folder)
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.join(name).to_str().unwrap().to_owned()
+    }
+
+    /// A file with content to be lost.
+    fn old(&self, name: &str) -> String {
+        std::fs::write(self.path(name), OLD).unwrap();
+        self.path(name)
+    }
+
+    fn names(&self) -> Vec<String> {
+        let mut names: Vec<String> =
+            read_dir(&self.0).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The program run by a shell that does something first, or with its descriptors.
+fn shell(script: &str, arguments: &[&str]) -> Run {
+    let output = Command::new("sh")
+        .args(["-c", script, env!("CARGO_BIN_EXE_jurist")])
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    Run { status: output.status.code().expect("no signal"), stdout: text(output.stdout), stderr: text(output.stderr) }
+}
+
+#[test]
+fn a_write_that_fails_keeps_the_old_file() {
+    let folder = Folder::new("keeps");
+    let (map, certificate) = (folder.old("map.svg"), folder.old("k.json"));
+    for signal in ["", "trap '' XFSZ; "] {
+        // One block is shorter than either file.
+        let script = format!("{signal}ulimit -f 1; exec \"$0\" \"$@\"");
+        for arguments in [
+            &["map", DRIVE, "-x", "T", "-y", "K_pwm", "-o", &map][..],
+            &["intervals", DRIVE, "--param", "T", "--certificate", &certificate],
+        ] {
+            let run = shell(&script, arguments);
+            assert_eq!(run.status, 2, "{}", run.stderr);
+            assert!(run.stderr.contains("error[E-write]") && run.stderr.contains("too large"), "{}", run.stderr);
+        }
+    }
+    assert_eq!(read_to_string(&map).unwrap(), OLD);
+    assert_eq!(read_to_string(&certificate).unwrap(), OLD);
+    assert_eq!(folder.names(), ["k.json", "map.svg"]);
+    // Both are written where there is room.
+    assert_eq!(jurist(&["intervals", DRIVE, "--param", "T", "--certificate", &certificate]).status, 0);
+    assert!(read_to_string(&certificate).unwrap().contains("jurist/certificate/1"));
+    assert_eq!(folder.names(), ["k.json", "map.svg"]);
+}
+
+#[test]
+fn a_replaced_file_keeps_its_permissions_and_a_link_its_target() {
+    let folder = Folder::new("link");
+    let target = folder.old("target.json");
+    std::fs::set_permissions(&target, Permissions::from_mode(0o640)).unwrap();
+    symlink("target.json", folder.path("link.json")).unwrap();
+    symlink("new.json", folder.path("dangling.json")).unwrap();
+    for name in ["link.json", "dangling.json"] {
+        let run = jurist(&["verdict", DRIVE, "-o", &folder.path(name)]);
+        assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+        assert!(std::fs::symlink_metadata(folder.path(name)).unwrap().is_symlink());
+        assert!(read_to_string(folder.path(name)).unwrap().contains("jurist/verdict/1"));
+    }
+    assert_eq!(std::fs::metadata(&target).unwrap().permissions().mode() & 0o777, 0o640);
+    assert_eq!(folder.names(), ["dangling.json", "link.json", "new.json", "target.json"]);
+}
+
+#[test]
+fn what_is_no_file_is_written_as_it_stands() {
+    let folder = Folder::new("special");
+    let expected = jurist(&["verdict", DRIVE]).stdout;
+    for name in ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", "-"] {
+        if name != "-" && !std::path::Path::new(name).exists() {
+            continue;
+        }
+        let run = jurist(&["verdict", DRIVE, "-o", name]);
+        assert_eq!((run.status, run.stdout.as_str()), (0, expected.as_str()), "{name}: {}", run.stderr);
+        // A redirected output is a file with a name, but not to be replaced: more may come from others.
+        let file = folder.path("all");
+        let run =
+            shell("out=$1; shift; { echo before; \"$0\" \"$@\"; echo after; } >$out", &[&file, "verdict", DRIVE, "-o", name]);
+        assert_eq!(run.status, 0, "{name}: {}", run.stderr);
+        assert_eq!(read_to_string(&file).unwrap(), format!("before\n{expected}after\n"), "{name}");
+    }
+    assert_eq!(jurist(&["verdict", DRIVE, "-o", "/dev/null"]).status, 0);
+    assert!(!std::fs::metadata("/dev/null").unwrap().is_file());
+    let pipe = folder.path("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let reader = Command::new("cat").arg(&pipe).stdout(Stdio::piped()).spawn().unwrap();
+    assert_eq!(jurist(&["verdict", DRIVE, "-o", &pipe]).status, 0);
+    assert_eq!(String::from_utf8(reader.wait_with_output().unwrap().stdout).unwrap(), expected);
+}
+
+#[test]
+fn a_file_that_may_not_be_written_is_not_replaced() {
+    let folder = Folder::new("readonly");
+    let file = folder.old("answer.txt");
+    std::fs::set_permissions(&file, Permissions::from_mode(0o444)).unwrap();
+    if std::fs::OpenOptions::new().write(true).open(&file).is_ok() {
+        println!("skipped: the superuser may write everything");
+        return;
+    }
+    let run = jurist(&["verdict", DRIVE, "-o", &file]);
+    assert_eq!(run.status, 2);
+    assert!(run.stderr.contains("permission denied"), "{}", run.stderr);
+    assert_eq!(read_to_string(&file).unwrap(), OLD);
+    assert_eq!(folder.names(), ["answer.txt"]);
+}
