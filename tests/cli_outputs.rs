@@ -113,8 +113,10 @@ fn what_is_no_file_is_written_as_it_stands() {
         assert_eq!((run.status, run.stdout.as_str()), (0, expected.as_str()), "{name}: {}", run.stderr);
         // A redirected output is a file with a name, but not to be replaced: more may come from others.
         let file = folder.path("all");
-        let run =
-            shell("out=$1; shift; { echo before; \"$0\" \"$@\"; echo after; } >$out", &[&file, "verdict", DRIVE, "-o", name]);
+        let run = shell(
+            "out=$1; shift; { echo before; \"$0\" \"$@\"; echo after; } >$out",
+            &[&file, "verdict", DRIVE, "-o", name],
+        );
         assert_eq!(run.status, 0, "{name}: {}", run.stderr);
         assert_eq!(read_to_string(&file).unwrap(), format!("before\n{expected}after\n"), "{name}");
     }
@@ -141,4 +143,14 @@ fn a_file_that_may_not_be_written_is_not_replaced() {
     assert!(run.stderr.contains("permission denied"), "{}", run.stderr);
     assert_eq!(read_to_string(&file).unwrap(), OLD);
     assert_eq!(folder.names(), ["answer.txt"]);
+}
+
+#[test]
+fn a_parameter_called_by_an_underscore_is_escaped_in_latex() {
+    let folder = Folder::new("underscore");
+    let text = "time = \"discrete\"\n[parameters]\n_ = {}\n[loop]\ncharacteristic = \"z - 1 + _^2\"\n";
+    std::fs::write(folder.path("model.toml"), text).unwrap();
+    let run = jurist(&["charpoly", &folder.path("model.toml"), "--format", "latex"]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("\\mathrm{\\_}^{2}"), "{}", run.stdout);
 }
