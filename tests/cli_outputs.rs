@@ -145,6 +145,29 @@ fn a_file_that_may_not_be_written_is_not_replaced() {
     assert_eq!(folder.names(), ["answer.txt"]);
 }
 
+/// A short loop of one parameter and what it is asked, as a model file in the folder.
+fn integrator(folder: &Folder) -> String {
+    let text = "time = \"discrete\"\n[parameters]\nK = { nominal = 1 }\n[loop]\ncharacteristic = \"z - 1 + K/3\"\n";
+    std::fs::write(folder.path("model.toml"), text).unwrap();
+    folder.path("model.toml")
+}
+
+#[test]
+fn rounded_coefficients_are_marked() {
+    let folder = Folder::new("rounded");
+    let model = integrator(&folder);
+    for question in [&[][..], &["--root-locus-form", "K"]] {
+        let document = |more: &[&str]| program::json(&[&["charpoly", &model, "--json"], question, more].concat());
+        assert_eq!(document(&["--digits", "5"])["rounded_to_digits"], 5);
+        assert!(document(&[]).get("rounded_to_digits").is_none());
+    }
+    for format in ["latex", "matlab", "python", "rust"] {
+        let text = |more: &[&str]| jurist(&[&["charpoly", &model, "--format", format], more].concat()).stdout;
+        assert!(text(&["--digits", "5"]).contains("rounded to 5 digits"), "{format}");
+        assert!(!text(&[]).contains("rounded"), "{format}");
+    }
+}
+
 #[test]
 fn a_parameter_called_by_an_underscore_is_escaped_in_latex() {
     let folder = Folder::new("underscore");

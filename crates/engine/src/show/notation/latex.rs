@@ -23,7 +23,7 @@ pub(super) fn write(report: &PolynomialReport, digits: Option<usize>) -> String 
     for polynomial in &report.polynomials {
         lines.extend(equations(polynomial, report, digits));
     }
-    let mut out: String = report.remarks().iter().map(|r| format!("% {r}\n")).collect();
+    let mut out: String = report.remarks(digits).iter().map(|r| format!("% {r}\n")).collect();
     out.push_str("\\begin{align*}\n");
     out.push_str(&lines.join(" \\\\\n"));
     out.push_str("\n\\end{align*}\n");
