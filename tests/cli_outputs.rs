@@ -153,6 +153,35 @@ fn integrator(folder: &Folder) -> String {
 }
 
 #[test]
+fn an_answer_that_standard_output_does_not_take_is_an_error() {
+    let folder = Folder::new("closed");
+    let model = integrator(&folder);
+    let question = ["verdict", model.as_str()];
+    let mut redirections = vec![">&-", "1</dev/null", ">&- <&-"];
+    if std::path::Path::new("/dev/full").exists() {
+        redirections.push(">/dev/full");
+    }
+    for redirection in redirections {
+        let script = format!("exec \"$0\" \"$@\" {redirection}");
+        for arguments in [&question[..], &["--help"], &["--version"], &["explain"], &["completions", "bash"]] {
+            let run = shell(&script, arguments);
+            assert_eq!(run.status, 2, "{redirection} {arguments:?}");
+            assert!(run.stderr.contains("cannot write standard output: "), "{redirection}: {}", run.stderr);
+        }
+        // What goes to a file does not need it.
+        let run = shell(&script, &[&question[..], &["-o", &folder.path("x.json")]].concat());
+        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{redirection}");
+    }
+    for script in ["exec \"$0\" \"$@\" >/dev/null", "\"$0\" \"$@\" | true", "exec \"$0\" \"$@\" 1<>/dev/null"] {
+        let run = shell(script, &question);
+        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{script}");
+    }
+    // A reader that stops reading.
+    let run = shell("{ \"$0\" \"$@\"; echo $? >&2; } | true", &["explain"]);
+    assert_eq!(run.stderr, "0\n");
+}
+
+#[test]
 fn rounded_coefficients_are_marked() {
     let folder = Folder::new("rounded");
     let model = integrator(&folder);

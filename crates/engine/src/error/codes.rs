@@ -380,9 +380,10 @@ Remedy: write one of those the message names."#,
     ),
     (
         "E-write",
-        r#"A file could not be written.
+        r#"A file or standard output could not be written. What was in the file before is there still.
 
-Remedy: check the directory and its permissions."#,
+Remedy: check the directory, its permissions and the space that is left; a closed standard output takes no
+answer (`> /dev/null` does)."#,
     ),
     (
         "W-outside-domain",
