@@ -153,6 +153,101 @@ fn integrator(folder: &Folder) -> String {
 }
 
 #[test]
+fn two_outputs_with_one_name_are_refused_before_any_work() {
+    let folder = Folder::new("clash");
+    let model = integrator(&folder);
+    let (x, old) = (folder.path("x.json"), folder.old("old.json"));
+    symlink("old.json", folder.path("link.json")).unwrap();
+    std::fs::hard_link(&old, folder.path("hard.json")).unwrap();
+    let spelt = folder.path("./x.json");
+    let (link, hard) = (folder.path("link.json"), folder.path("hard.json"));
+    let csv = folder.path("x.csv");
+    let before = folder.names();
+    for arguments in [
+        &["intervals", &model, "--param", "K", "-o", &x, "--certificate", &x][..],
+        &["intervals", &model, "--param", "K", "-o", &x, "--certificate", &spelt],
+        &["intervals", &model, "--param", "K", "--smt2", &spelt, "--certificate", &x],
+        &["intervals", &model, "--param", "K", "--smt2", &x, "-o", &x],
+        &["verdict", &model, "-o", &old, "--certificate", &link],
+        &["verdict", &model, "-o", &old, "--certificate", &hard],
+        &["verdict", &model, "--certificate", "-"],
+        &["verdict", &model, "-o", "-", "--certificate", "-"],
+        &["verdict", &model, "--certificate", "/dev/stdout"],
+        &["locus", &model, "--param", "K", "--json", "--csv", "-o", &csv],
+    ] {
+        let run = jurist(arguments);
+        assert_eq!((run.status, run.stdout.as_str()), (2, ""), "{arguments:?}");
+        assert!(run.stderr.contains("error[E-output-name]") && run.stderr.contains("help: "), "{}", run.stderr);
+        assert!(run.stderr.contains("would both be written to"), "{}", run.stderr);
+        assert_eq!(read_to_string(&old).unwrap(), OLD);
+        assert_eq!(folder.names(), before);
+    }
+    // One of them may go to standard output, and both where nothing is kept.
+    for arguments in [
+        &["verdict", &model, "-o", &x, "--certificate", "-"][..],
+        &["verdict", &model, "-o", "/dev/null", "--certificate", "/dev/null"],
+    ] {
+        let run = jurist(arguments);
+        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{arguments:?}");
+    }
+    // Redirected, standard output is the file.
+    let run = shell("out=$1; shift; exec \"$0\" \"$@\" >>$out", &[&x, "verdict", &model, "--certificate", &x]);
+    assert_eq!(run.status, 2);
+}
+
+#[test]
+fn no_output_replaces_what_is_read() {
+    let folder = Folder::new("inputs");
+    let model = integrator(&folder);
+    let text = read_to_string(&model).unwrap();
+    symlink("model.toml", folder.path("link.txt")).unwrap();
+    std::fs::copy(&model, folder.path("model.csv")).unwrap();
+    let (link, spelt, table) = (folder.path("link.txt"), folder.path("../x/model.toml"), folder.path("model.csv"));
+    let spelt = spelt.replace("/x/", &format!("/{}/", folder.0.file_name().unwrap().to_str().unwrap()));
+    for arguments in [
+        &["analyze", &model, "-o", &link][..],
+        &["verdict", &model, "--certificate", &model],
+        &["verdict", &model, "--certificate", &spelt],
+        &["verdict", &link, "--certificate", &model],
+        &["intervals", &model, "--param", "K", "--smt2", &spelt],
+        &["charpoly", &model, "--format", "text", "-o", &spelt],
+        &["map", &model, "-x", "K", "-y", "K", "-o", &link],
+        &["locus", &table, "--param", "K", "-o", &folder.path("model.svg"), "--csv"],
+        &["simulate", &table, "-o", &folder.path("model.csv")],
+    ] {
+        let run = jurist(arguments);
+        assert_eq!((run.status, run.stdout.as_str()), (2, ""), "{arguments:?}");
+        assert!(run.stderr.contains("error[E-output-name]"), "{arguments:?}: {}", run.stderr);
+        assert!(run.stderr.contains("would replace the model itself"), "{}", run.stderr);
+    }
+    let run = shell("m=$1; shift; exec \"$0\" \"$@\" <$m", &[&model, "analyze", "-", "-o", &link]);
+    assert!(run.status == 2 && run.stderr.contains("standard input"), "{}", run.stderr);
+    let certificate = folder.path("k.json");
+    assert_eq!(jurist(&["verdict", &model, "--certificate", &certificate]).status, 0);
+    let run = shell("c=$1; shift; exec \"$0\" \"$@\" >>$c", &[&certificate, "verify", &model, &certificate]);
+    assert!(run.status == 2 && run.stderr.contains("the certificate itself"), "{}", run.stderr);
+    assert_eq!(read_to_string(&model).unwrap(), text);
+    assert_eq!(read_to_string(&table).unwrap(), text);
+}
+
+#[test]
+fn names_that_cannot_be_written_are_refused_before_any_work() {
+    let folder = Folder::new("names");
+    let model = integrator(&folder);
+    let missing = folder.path("no/such.json");
+    for name in ["", &folder.path("."), &missing, &format!("{model}/x")] {
+        for option in ["-o", "--certificate"] {
+            // Before the model is read: it is not there.
+            let run = jurist(&["verdict", "no-such-model.toml", option, name]);
+            assert_eq!((run.status, run.stdout.as_str()), (2, ""), "{option} '{name}'");
+            assert!(run.stderr.contains("error[E-write]"), "{option} '{name}': {}", run.stderr);
+        }
+    }
+    let run = jurist(&["locus", &model, "--param", "K", "--csv"]);
+    assert!(run.status == 2 && run.stderr.contains("error[E-usage]"), "{}", run.stderr);
+}
+
+#[test]
 fn an_answer_that_standard_output_does_not_take_is_an_error() {
     let folder = Folder::new("closed");
     let model = integrator(&folder);

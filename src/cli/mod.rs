@@ -6,6 +6,7 @@ mod arguments;
 mod assignments;
 mod command_line;
 mod commands;
+mod destinations;
 mod input;
 mod output;
 mod picture;
@@ -50,7 +51,7 @@ fn run(line: &CommandLine) -> u8 {
         }
     };
     let context = Context::new(line, &arguments);
-    let outcome = commands::run(&arguments, &context);
+    let outcome = destinations::check(&arguments, &context).and_then(|()| commands::run(&arguments, &context));
     context.reporter.finish();
     match outcome {
         Ok(status) => status as u8,

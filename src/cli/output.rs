@@ -85,7 +85,7 @@ pub(super) fn print_with(print: impl FnOnce() -> std::io::Result<()>) -> Result<
 }
 
 /// What is said where a write fails.
-fn write_error(what: &str, error: &std::io::Error) -> Failure {
+pub(super) fn write_error(what: &str, error: &std::io::Error) -> Failure {
     Failure::from(Diagnostic::error("E-write", format!("cannot write {what}: {}", plain(error))))
 }
 

@@ -200,6 +200,15 @@ Remedy: write the name, an equals sign, and a number or a range; a range has two
 Remedy: use one of the endings the message lists."#,
     ),
     (
+        "E-output-name",
+        r#"Two outputs have one name, or an output has the name of the model or certificate that is read: one would
+replace the other. Another spelling or a link of the same file is the same name.
+
+    jurist intervals model.toml --param K -o answer.json --certificate ./answer.json
+
+Remedy: give each output a name of its own."#,
+    ),
+    (
         "E-read",
         r#"A file cannot be read: it is not there, is no file, is closed to you, or is longer than a model may be.
 
