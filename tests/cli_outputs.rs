@@ -277,6 +277,30 @@ fn an_answer_that_standard_output_does_not_take_is_an_error() {
 }
 
 #[test]
+fn a_certificate_that_verify_refuses_is_not_written_in_silence() {
+    let folder = Folder::new("refused");
+    let zeros = "0".repeat(200_000);
+    let text = format!(
+        "time = \"discrete\"\n[parameters]\nK = {{ nominal = 1 }}\n[constants]\nc = \"1{zeros}\"\n[loop]\ncharacteristic = \"z - 1/2 + K/c\"\n"
+    );
+    let (model, certificate) = (folder.path("long.toml"), folder.path("k.json"));
+    std::fs::write(&model, text).unwrap();
+    for arguments in [&["intervals", &model, "--param", "K"][..], &["verdict", &model]] {
+        let run = jurist(&[arguments, &["--certificate", &certificate]].concat());
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        assert_eq!(jurist(&["verify", &model, &certificate]).status, 4);
+        assert!(run.stderr.contains("warning[W-certificate]") && run.stderr.contains("digits"), "{}", run.stderr);
+        assert!(run.stdout.contains("stable"), "the answer stands: {}", run.stdout);
+    }
+    // One that is accepted is said to be so where that is asked.
+    let model = integrator(&folder);
+    let run = jurist(&["verdict", &model, "--certificate", &certificate]);
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+    let run = jurist(&["verdict", &model, "--certificate", &certificate, "--verbose"]);
+    assert!(run.status == 0 && run.stderr.contains("checked: "), "{}", run.stderr);
+}
+
+#[test]
 fn rounded_coefficients_are_marked() {
     let folder = Folder::new("rounded");
     let model = integrator(&folder);

@@ -14,6 +14,7 @@ mod progress;
 mod replace;
 mod status;
 mod watch;
+mod written;
 
 use arguments::Arguments;
 use clap::Parser;

@@ -39,6 +39,11 @@ impl Reporter {
         budget.reporting_to(Arc::clone(self) as Arc<dyn Progress>)
     }
 
+    /// The time since the program began.
+    pub fn elapsed(&self) -> Duration {
+        self.begun.elapsed()
+    }
+
     /// How far the work came.
     pub fn reached(&self) -> String {
         let Ok(state) = self.state.lock() else { return String::new() };

@@ -5,6 +5,7 @@ use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::{decision, known_names};
 use crate::cli::output::write_answer;
 use crate::cli::status::{Outcome, Status};
+use crate::cli::written::check_certificate;
 use clap::Args;
 use jurist_engine::analysis::{DECAY, Decision, Intervals, RADIUS, asked, intervals};
 use jurist_engine::prove::emit::intervals_certificate;
@@ -45,16 +46,21 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     })?;
     let answer = intervals(&model, &settings, &options.param, &context.budget)?;
     context.warn(None, &answer.question.warnings);
+    let mut written = None;
     if let Decision::Decided(set) = &answer.stable {
         if let Some(file) = &options.certificate {
             let certificate = intervals_certificate(&model.source().text, &answer.question, &context.budget)?;
             write_answer(&certificate, Some(file))?;
+            written = Some((certificate, file));
         }
         if let Some(file) = &options.smt2 {
             write_answer(&intervals_smt2(&answer.question, set), Some(file))?;
         }
     }
     context.answer(output, || intervals_text(&answer, digits), || intervals_json(&answer, digits))?;
+    if let Some((text, file)) = written {
+        check_certificate(context, &output.run, &model.source().text, &text, file);
+    }
     Ok(match &answer.stable {
         Decision::Decided(_) => Status::Holds,
         Decision::Undecided { budget, reached } => context.say_undecided(budget, reached),

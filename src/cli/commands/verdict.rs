@@ -5,6 +5,7 @@ use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::decision;
 use crate::cli::output::write_answer;
 use crate::cli::status::{Outcome, Status};
+use crate::cli::written::check_certificate;
 use clap::Args;
 use jurist_engine::analysis::{Point, Verdict, verdict};
 use jurist_engine::prove::emit::verdict_certificate;
@@ -37,9 +38,15 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, &answer.warnings);
+    let mut written = None;
     if let Some(file) = &options.certificate {
-        write_answer(&verdict_certificate(&model, &settings, &answer, &context.budget)?, Some(file))?;
+        let certificate = verdict_certificate(&model, &settings, &answer, &context.budget)?;
+        write_answer(&certificate, Some(file))?;
+        written = Some((certificate, file));
     }
     context.answer(output, || verdict_text(&answer), || verdict_json(&answer))?;
+    if let Some((text, file)) = written {
+        check_certificate(context, &output.run, &model.source().text, &text, file);
+    }
     Ok(if answer.verdict == Verdict::Stable { Status::Holds } else { Status::DoesNotHold })
 }

@@ -395,6 +395,13 @@ Remedy: check the directory, its permissions and the space that is left; a close
 answer (`> /dev/null` does)."#,
     ),
     (
+        "W-certificate",
+        r#"A certificate has been written that the independent check does not accept, mostly because it has limits of its
+own (numbers of 100000 digits, time). The answer stands, but `jurist verify` does not prove it.
+
+Remedy: write the model with shorter numbers, or give `jurist verify` more time with --timeout."#,
+    ),
+    (
         "W-outside-domain",
         r#"A value lies outside the open domain of its parameter. It is used all the same.
 
