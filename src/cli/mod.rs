@@ -6,11 +6,14 @@ mod arguments;
 mod assignments;
 mod command_line;
 mod commands;
+mod destinations;
 mod input;
 mod output;
 mod picture;
 mod progress;
+mod replace;
 mod status;
+mod written;
 
 use arguments::Arguments;
 use clap::Parser;
@@ -21,9 +24,11 @@ use jurist_engine::show::diagnostics::render_error;
 use status::{Failure, Status};
 use std::process::ExitCode;
 
-/// Runs the program on the process's arguments.
-pub fn main() -> ExitCode {
+/// Runs the program on the process's arguments, given whether standard output was closed when it began: the
+/// runtime has replaced it by then with one that loses everything.
+pub fn main(output_closed: bool) -> ExitCode {
     quiet_panics();
+    output::note_closed(output_closed);
     let line = CommandLine::new(std::env::args_os());
     // A panic is a defect of this program; even then there is a message and no backtrace.
     let status = std::panic::catch_unwind(|| run(&line));
@@ -34,8 +39,11 @@ fn run(line: &CommandLine) -> u8 {
     let arguments = match Arguments::try_parse_from(line.arguments()) {
         Ok(arguments) => arguments,
         Err(answer) if !answer.use_stderr() => {
-            // Help and version; a reader that stops reading is no error.
-            let _ = answer.print();
+            // Help and version, in clap's colours on a terminal.
+            if let Err(Failure::Refused(error)) = output::print_with(|| answer.print()) {
+                show(&error);
+                return Status::BadInput as u8;
+            }
             return Status::Holds as u8;
         }
         Err(error) => {
@@ -44,7 +52,7 @@ fn run(line: &CommandLine) -> u8 {
         }
     };
     let context = Context::new(line, &arguments);
-    let outcome = commands::run(&arguments, &context);
+    let outcome = destinations::check(&arguments, &context).and_then(|()| commands::run(&arguments, &context));
     context.reporter.finish();
     match outcome {
         Ok(status) => status as u8,

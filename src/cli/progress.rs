@@ -39,6 +39,11 @@ impl Reporter {
         budget.reporting_to(Arc::clone(self) as Arc<dyn Progress>)
     }
 
+    /// The time since the program began.
+    pub fn elapsed(&self) -> Duration {
+        self.begun.elapsed()
+    }
+
     /// Takes the progress bar off the terminal.
     pub fn finish(&self) {
         if let Some(bar) = &self.bar {

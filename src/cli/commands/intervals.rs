@@ -5,6 +5,7 @@ use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::{decision, known_names};
 use crate::cli::output::write_answer;
 use crate::cli::status::{Outcome, Status};
+use crate::cli::written::check_certificate;
 use clap::Args;
 use jurist_engine::problem::{DECAY, RADIUS};
 use jurist_engine::show::{intervals_json, intervals_text};
@@ -45,12 +46,19 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, problem.warnings());
-    if let Some(file) = &options.certificate {
-        write_answer(&answer.certificate(&context.budget)?, Some(file))?;
+    let certificate = match &options.certificate {
+        Some(file) => Some((answer.certificate(&context.budget)?, file)),
+        None => None,
+    };
+    if let Some((text, file)) = &certificate {
+        write_answer(text, Some(file))?;
     }
     if let Some(file) = &options.smt2 {
         write_answer(&answer.smt2(&context.budget)?, Some(file))?;
     }
     context.answer(output, || answer.text(digits), || answer.json(digits))?;
+    if let Some((text, file)) = &certificate {
+        check_certificate(context, &output.run, &model.source().text, text, file);
+    }
     Ok(Status::Holds)
 }

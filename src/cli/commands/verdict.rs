@@ -5,6 +5,7 @@ use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::decision;
 use crate::cli::output::write_answer;
 use crate::cli::status::{Outcome, Status};
+use crate::cli::written::check_certificate;
 use clap::Args;
 use jurist_engine::answer::Verdict;
 use jurist_engine::show::verdict_json;
@@ -31,9 +32,16 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, problem.warnings());
-    if let Some(file) = &options.certificate {
-        write_answer(&answer.certificate(&context.budget)?, Some(file))?;
+    let certificate = match &options.certificate {
+        Some(file) => Some((answer.certificate(&context.budget)?, file)),
+        None => None,
+    };
+    if let Some((text, file)) = &certificate {
+        write_answer(text, Some(file))?;
     }
     context.answer(output, || answer.text(), || answer.json())?;
+    if let Some((text, file)) = &certificate {
+        check_certificate(context, &output.run, &problem.model().source().text, text, file);
+    }
     Ok(if answer.value().verdict == Verdict::Stable { Status::Holds } else { Status::DoesNotHold })
 }

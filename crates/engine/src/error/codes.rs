@@ -192,6 +192,15 @@ Remedy: write the name, an equals sign, and a number or a range; a range has two
 Remedy: use one of the endings the message lists."#,
     ),
     (
+        "E-output-name",
+        r#"Two outputs have one name, or an output has the name of the model or certificate that is read: one would
+replace the other. Another spelling or a link of the same file is the same name.
+
+    jurist intervals model.toml --param K -o answer.json --certificate ./answer.json
+
+Remedy: give each output a name of its own."#,
+    ),
+    (
         "E-read",
         r#"A file cannot be read: it is not there, is no file, is closed to you, or is longer than a model may be.
 
@@ -372,9 +381,17 @@ Remedy: write one of those the message names."#,
     ),
     (
         "E-write",
-        r#"A file could not be written.
+        r#"A file or standard output could not be written. What was in the file before is there still.
 
-Remedy: check the directory and its permissions."#,
+Remedy: check the directory, its permissions and the space that is left; a closed standard output takes no
+answer (`> /dev/null` does)."#,
+    ),
+    (
+        "W-certificate",
+        r#"A certificate has been written that the independent check does not accept, mostly because it has limits of its
+own (numbers of 100000 digits, time). The answer stands, but `jurist verify` does not prove it.
+
+Remedy: write the model with shorter numbers, or give `jurist verify` more time with --timeout."#,
     ),
     (
         "W-outside-domain",
