@@ -1,12 +1,12 @@
 //! From a loop and a question to polynomials and matrices.
 
+use super::connect::state_space::{Stop, assemble};
 use super::definition::{Loop, Time};
-use super::evaluate::Failure;
-use super::names::{did_you_mean, shorten};
+use super::evaluate::scalar::{Scope, Symbol};
+use super::evaluate::symbolic::{Values, Wiring, symbolic};
+use super::evaluate::walk::Failure;
 use super::question::{ModelError, Question, Resolved};
-use super::scalar::{Scope, Symbol};
-use super::state_space::{Stop, assemble};
-use super::symbolic::{Values, Wiring, symbolic};
+use super::text::names::{did_you_mean, known_names, shorten};
 use crate::error::{Diagnostic, Error};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
@@ -151,7 +151,7 @@ impl Loop {
                 let message = format!("the loop has no {what} '{}'", shorten(name));
                 let mut error = Diagnostic::error("E-unknown-signal", message);
                 let names = || names.iter().map(String::as_str);
-                error.help = did_you_mean(name, names()).or_else(|| super::read_loop::known_names(names()));
+                error.help = did_you_mean(name, names()).or_else(|| known_names(names()));
                 ModelError::Input(Error::new(Some(self.source().clone()), vec![error]))
             })
         };

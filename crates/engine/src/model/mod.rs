@@ -9,30 +9,15 @@
 //! depend on the values.
 
 mod builder;
-mod check;
 mod closed_loop;
+mod connect;
 mod definition;
 mod evaluate;
 pub mod examples;
-mod expression;
-mod lexer;
-mod linear;
-mod names;
-mod parser;
 mod parts;
 mod question;
 mod read;
-mod read_block;
-mod read_loop;
-mod scalar;
-mod simulation;
-mod state_space;
-mod symbolic;
 mod text;
-mod toml;
-mod toml_read;
-mod transfer;
-mod zpoly;
 
 pub use builder::{BlockBuilder, LoopBuilder, ParameterBuilder};
 pub use closed_loop::{ClosedLoop, TransferFunction};
@@ -40,8 +25,6 @@ pub use definition::{
     Block, Constant, Diagram, Discretization, Dynamics, Form, Loop, Matrix, Method, Name, Output, Parameter, Ports,
     Pwm, Simulation, Time,
 };
-pub use expression::{Expression, Factor, Node, Sign};
-pub use names::nearest_name;
-pub use parser::{MAX_DEPTH, MAX_EXPONENT};
 pub use question::{ModelError, Question, Resolved};
-pub use read_loop::{DRIVE, source_from_bytes};
+pub use read::{DRIVE, source_from_bytes};
+pub use text::{Expression, Factor, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};

@@ -1,8 +1,8 @@
 //! Parts of a model on their own: for questions that look inside the diagram.
 
 use super::definition::{Diagram, Form, Loop, Time};
-use super::expression::Expression;
 use super::question::{ModelError, Question};
+use super::text::Expression;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 

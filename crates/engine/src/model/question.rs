@@ -1,8 +1,7 @@
 //! What is asked of a loop: which names stay symbolic and which values the others take.
 
 use super::definition::{Constant, Loop, Parameter};
-use super::names::{did_you_mean, list, shorten};
-use super::read_loop::known_names;
+use super::text::names::{did_you_mean, known_names, list, shorten};
 use crate::error::{Diagnostic, Error};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;

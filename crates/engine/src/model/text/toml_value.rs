@@ -1,19 +1,19 @@
 //! The value tree of a TOML text, with a place for everything and numbers by their own text.
 
-use super::text::Text;
+use super::located::Text;
 use crate::error::Span;
 use std::collections::HashMap;
 
 /// A value and where it stands.
 #[derive(Clone, Debug)]
-pub(super) struct Value {
+pub(in crate::model) struct Value {
     pub span: Span,
     pub kind: Kind,
 }
 
 /// What a value is.
 #[derive(Clone, Debug)]
-pub(super) enum Kind {
+pub(in crate::model) enum Kind {
     /// A string, decoded.
     String(Text),
     /// A number by its text: sign, digits, point, exponent, without underscores.
@@ -44,7 +44,7 @@ impl Value {
 
 /// Keys in the order of the text.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Table {
+pub(in crate::model) struct Table {
     entries: Vec<Entry>,
     index: HashMap<String, usize>,
     /// How the table came to be, which decides what may still be added to it.
@@ -53,7 +53,7 @@ pub(super) struct Table {
 
 /// A key with its value.
 #[derive(Clone, Debug)]
-pub(super) struct Entry {
+pub(in crate::model) struct Entry {
     pub key: String,
     pub key_span: Span,
     pub value: Value,
@@ -61,7 +61,7 @@ pub(super) struct Entry {
 
 /// How a table came to be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Origin {
+pub(in crate::model) enum Origin {
     /// Named only as a part of a longer header; may still get its own header.
     #[default]
     Implicit,

@@ -3,9 +3,9 @@
 //! Its events carry places and leave numbers as text, so that no number passes through binary
 //! floating point and none is too long.
 
+use super::located::Text;
 use super::names::shorten;
-use super::text::Text;
-use super::toml::{Entry, Kind, Origin, Table, Value};
+use super::toml_value::{Entry, Kind, Origin, Table, Value};
 use crate::error::{Diagnostic, Span};
 use toml_parser::ParseError;
 use toml_parser::decoder::{IntegerRadix, ScalarKind, StringBuilder};
@@ -21,7 +21,7 @@ const MAX_SHOWN: usize = 8;
 const MAX_KEY_PARTS: usize = 32;
 
 /// Reads the whole text. Everything that is wrong with it is returned, not only the first.
-pub(super) fn read(text: &str) -> Result<Table, Vec<Diagnostic>> {
+pub(in crate::model) fn read(text: &str) -> Result<Table, Vec<Diagnostic>> {
     let source = toml_parser::Source::new(text);
     let tokens = source.lex().into_vec();
     let mut events: Vec<Event> = Vec::new();

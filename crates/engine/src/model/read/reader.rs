@@ -1,14 +1,14 @@
 //! TOML values to typed parts of a model, with an error for whatever does not fit.
 
-use super::definition::{Matrix, Name, Output};
-use super::evaluate::{Failure, evaluate};
-use super::expression::{Expression, Node};
-use super::lexer::is_name;
-use super::names::{did_you_mean, list, nearest_name, shorten};
-use super::scalar::Scope;
-use super::text::Text;
-use super::toml::{Entry, Kind, Table, Value};
 use crate::error::{Diagnostic, Span};
+use crate::model::definition::{Matrix, Name, Output};
+use crate::model::evaluate::scalar::Scope;
+use crate::model::evaluate::walk::{Failure, evaluate};
+use crate::model::text::Text;
+use crate::model::text::is_name;
+use crate::model::text::names::{did_you_mean, list, nearest_name, shorten};
+use crate::model::text::toml_value::{Entry, Kind, Table, Value};
+use crate::model::text::{Expression, Node};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, parse_number};
 use std::collections::HashSet;
@@ -115,7 +115,7 @@ impl Reader {
     /// A number or a string with an expression.
     pub fn expression(&mut self, value: &Value, what: &str) -> Option<Expression> {
         match &value.kind {
-            Kind::String(text) => match super::parser::parse(text) {
+            Kind::String(text) => match crate::model::text::parse(text) {
                 Ok(expression) => Some(expression),
                 Err(diagnostic) => {
                     self.report(diagnostic);

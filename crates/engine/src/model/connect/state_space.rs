@@ -3,18 +3,18 @@
 //! The controllable canonical form of a numerator and a denominator keeps every mode, common
 //! factors included: its characteristic polynomial is the denominator.
 
-use super::definition::{Dynamics, Form, Loop, Method};
-use super::evaluate::Failure;
-use super::names::shorten;
-use super::symbolic::{BlockValues, DynamicValues, PortValues, Row, Values, Wiring};
-use super::zpoly::ZPoly;
 use crate::error::{Diagnostic, Span};
+use crate::model::definition::{Dynamics, Form, Loop, Method};
+use crate::model::evaluate::symbolic::{BlockValues, DynamicValues, PortValues, Row, Values, Wiring};
+use crate::model::evaluate::walk::Failure;
+use crate::model::evaluate::zpoly::ZPoly;
+use crate::model::text::names::shorten;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
 
 /// Why there is no closed loop.
-pub(super) enum Stop {
+pub(in crate::model) enum Stop {
     /// The loop is undefined for these values of the parameters.
     Undefined(Box<Diagnostic>),
     /// The budget ran out.
@@ -37,11 +37,11 @@ impl From<Stop> for Failure {
 }
 
 /// Sets parameters to values; `None` where that divides by zero.
-pub(super) type Substitution<'s> = dyn Fn(&RationalFunction) -> Option<RationalFunction> + 's;
+pub(in crate::model) type Substitution<'s> = dyn Fn(&RationalFunction) -> Option<RationalFunction> + 's;
 
 /// A realised system; all parts have entries in the kept parameters only.
 #[derive(Clone, Debug)]
-pub(super) struct System {
+pub(in crate::model) struct System {
     pub a: RationalMatrix,
     pub b: RationalMatrix,
     pub c: RationalMatrix,
@@ -49,7 +49,7 @@ pub(super) struct System {
 }
 
 /// A closed loop and where it is undefined beyond its expressions.
-pub(super) struct Assembled {
+pub(in crate::model) struct Assembled {
     pub system: System,
     pub states: Vec<String>,
     pub poles: Vec<MultiPoly>,
@@ -74,7 +74,7 @@ fn substituted_matrix(m: &RationalMatrix, substitution: &Substitution<'_>) -> Re
 }
 
 /// Connects the parts of the model's form. `Characteristic` has no parts and gives order 0.
-pub(super) fn assemble(
+pub(in crate::model) fn assemble(
     model: &Loop,
     wiring: &Wiring<'_>,
     values: &Values,
@@ -219,7 +219,7 @@ fn discretised(
 
 /// `M^-1 R` and `det M` by elimination over the field of rational functions; `None` when `M` is
 /// singular. Zero entries cost nothing, so a sparse diagram stays cheap.
-pub(super) fn solve(
+pub(in crate::model) fn solve(
     m: &RationalMatrix,
     right: &RationalMatrix,
     budget: &Budget,
