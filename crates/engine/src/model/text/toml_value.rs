@@ -47,8 +47,6 @@ impl Value {
 pub(in crate::model) struct Table {
     entries: Vec<Entry>,
     index: HashMap<String, usize>,
-    /// How the table came to be, which decides what may still be added to it.
-    pub origin: Origin,
 }
 
 /// A key with its value.
@@ -59,23 +57,11 @@ pub(in crate::model) struct Entry {
     pub value: Value,
 }
 
-/// How a table came to be.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in crate::model) enum Origin {
-    /// Named only as a part of a longer header; may still get its own header.
-    #[default]
-    Implicit,
-    /// By its own header.
-    Header,
-    /// By dotted keys; closed to headers.
-    Dotted,
-    /// Inline; closed.
-    Inline,
-}
-
 impl Table {
-    pub fn new(origin: Origin) -> Self {
-        Table { origin, ..Table::default() }
+    /// The table of these entries, whose keys are distinct.
+    pub fn new(entries: Vec<Entry>) -> Self {
+        let index = entries.iter().enumerate().map(|(i, e)| (e.key.clone(), i)).collect();
+        Table { entries, index }
     }
 
     pub fn get(&self, key: &str) -> Option<&Value> {
@@ -84,16 +70,6 @@ impl Table {
 
     pub fn entry(&self, key: &str) -> Option<&Entry> {
         self.index.get(key).map(|&i| &self.entries[i])
-    }
-
-    pub fn entry_mut(&mut self, key: &str) -> Option<&mut Entry> {
-        self.index.get(key).map(|&i| &mut self.entries[i])
-    }
-
-    /// Adds a key that is not there yet.
-    pub fn insert(&mut self, entry: Entry) {
-        self.index.insert(entry.key.clone(), self.entries.len());
-        self.entries.push(entry);
     }
 
     pub fn iter(&self) -> impl Iterator<Item = &Entry> {
