@@ -1,0 +1,355 @@
+//! How a budget reaches the kernels: it is installed on the thread, and inner loops ask it now and then.
+
+use super::{Budget, Exhausted, Limits};
+use rayon::iter::{FromParallelIterator, IntoParallelIterator, ParallelIterator};
+use std::cell::{Cell, RefCell};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::Arc;
+
+/// Units of work between two looks at the limits: about a millisecond.
+const QUANTUM: u64 = 1 << 16;
+
+/// A limit that holds on this thread, and those around it.
+struct Frame {
+    limits: Arc<Limits>,
+    outer: Option<Arc<Frame>>,
+}
+
+thread_local! {
+    /// Units that may be used before the next look.
+    static LEFT: Cell<u64> = const { Cell::new(u64::MAX) };
+    /// What `LEFT` was at the last look.
+    static GRANTED: Cell<u64> = const { Cell::new(u64::MAX) };
+    static INNERMOST: RefCell<Option<Arc<Frame>>> = const { RefCell::new(None) };
+}
+
+/// What leaves a kernel: the message, and whose door it is to leave by.
+struct Stop {
+    exhausted: Exhausted,
+    limits: Arc<Limits>,
+}
+
+/// Counts work against the budgets that hold on this thread and leaves the computation, through the door
+/// [`Budget::enter`], when one of them has run out.
+///
+/// A unit is about ten nanoseconds: an operation on small integers, or a handful of operations on machine words. Loops
+/// in the kernels call this with an estimate; a call costs a subtraction and a comparison, and every 2^16 units a look
+/// at the clock and the flag of cancellation. Without a budget it does nothing.
+///
+/// The computation is left by unwinding, as a panic does, but without a message and without the panic hook; where
+/// programs are built to abort on panic (`wasm32-unknown-unknown`) it is not left: there budgets end between the
+/// steps of an algorithm.
+///
+/// ```
+/// use jurist_algebra::limits::{Budget, checkpoint};
+/// let endless = || -> u64 {
+///     loop {
+///         checkpoint(1)
+///     }
+/// };
+/// assert!(Budget::with_work(100_000).enter(endless).is_err());
+/// ```
+#[inline]
+pub fn checkpoint(units: u64) {
+    LEFT.with(|left| match left.get().checked_sub(units) {
+        Some(rest) => left.set(rest),
+        None => look(units),
+    });
+}
+
+/// Whether a budget holds on this thread, so that it pays to do work in pieces.
+#[inline]
+pub(crate) fn is_limited() -> bool {
+    GRANTED.with(Cell::get) != u64::MAX
+}
+
+#[cold]
+#[inline(never)]
+fn look(units: u64) {
+    let Some(frame) = INNERMOST.with_borrow(Option::clone) else {
+        return grant(u64::MAX);
+    };
+    let spent = GRANTED.with(Cell::get) - LEFT.with(Cell::get);
+    let stop = frame.charge(spent.saturating_add(units));
+    grant(frame.quantum());
+    if let (Some(stop), true) = (stop, cfg!(panic = "unwind")) {
+        resume_unwind(Box::new(stop));
+    }
+}
+
+fn grant(units: u64) {
+    GRANTED.set(units);
+    LEFT.set(units);
+}
+
+impl Frame {
+    /// Counts work; the first limit that has run out, from the inside.
+    fn charge(&self, units: u64) -> Option<Stop> {
+        let mut stop = None;
+        let mut next = Some(self);
+        while let Some(frame) = next {
+            if let Err(exhausted) = frame.limits.spend(units)
+                && stop.is_none()
+            {
+                stop = Some(Stop { exhausted, limits: Arc::clone(&frame.limits) });
+            }
+            next = frame.outer.as_deref();
+        }
+        stop
+    }
+
+    /// Units until the next look: fewer when a count is about to end.
+    fn quantum(&self) -> u64 {
+        let mut least = QUANTUM;
+        let mut next = Some(self);
+        while let Some(frame) = next {
+            least = least.min(frame.limits.work_left());
+            next = frame.outer.as_deref();
+        }
+        least
+    }
+
+    fn holds(&self, limits: &Arc<Limits>) -> bool {
+        Arc::ptr_eq(&self.limits, limits) || self.outer.as_ref().is_some_and(|outer| outer.holds(limits))
+    }
+}
+
+/// Puts back what held on the thread before, also when the computation is left.
+struct Installed {
+    before: Option<Arc<Frame>>,
+}
+
+impl Installed {
+    fn new(frame: Option<Arc<Frame>>) -> Installed {
+        settle();
+        let before = INNERMOST.replace(frame);
+        renew();
+        Installed { before }
+    }
+}
+
+impl Drop for Installed {
+    fn drop(&mut self) {
+        settle();
+        INNERMOST.set(self.before.take());
+        renew();
+    }
+}
+
+/// Counts what was used since the last look, without leaving.
+fn settle() {
+    let spent = GRANTED.get() - LEFT.get();
+    if spent > 0 {
+        INNERMOST.with_borrow(|frame| frame.as_ref().map(|frame| frame.charge(spent)));
+    }
+}
+
+fn renew() {
+    grant(INNERMOST.with_borrow(|frame| frame.as_ref().map_or(u64::MAX, |frame| frame.quantum())));
+}
+
+impl Budget {
+    /// Does work that this budget ends: the door through which kernels are left when it runs out.
+    ///
+    /// Inside, every [`checkpoint`] asks this budget and those entered before it; budgets in signatures further down
+    /// need not be passed on. Work on several threads has to be started by [`join`] or [`parallel_map`].
+    /// Entering costs some tens of nanoseconds. What the work has changed when it is left stays changed: it should
+    /// build values, not alter them.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_algebra::poly::{Domain, UniPoly};
+    /// let (a, b) = (UniPoly::from_i64(&[-1, 0, 1]), UniPoly::from_i64(&[1, 2, 1]));
+    /// let g = Budget::unlimited().enter(|| a.gcd(&b)).unwrap();
+    /// assert_eq!(g, UniPoly::from_i64(&[1, 1]));
+    /// ```
+    ///
+    /// # Errors
+    /// [`Exhausted`] when this budget runs out, also when its time is up before the work begins.
+    pub fn enter<T>(&self, work: impl FnOnce() -> T) -> Result<T, Exhausted> {
+        let Some(limits) = &self.limits else { return Ok(work()) };
+        limits.spend(0)?;
+        let frame = INNERMOST.with_borrow(|frame| match frame {
+            Some(frame) if frame.holds(limits) => Arc::clone(frame),
+            outer => Arc::new(Frame { limits: Arc::clone(limits), outer: outer.clone() }),
+        });
+        let work = || {
+            let _installed = Installed::new(Some(frame));
+            work()
+        };
+        // A value that was being altered is dropped with the closure or seen by a caller who was told so above.
+        catch_unwind(AssertUnwindSafe(work)).map_err(|payload| match payload.downcast::<Stop>() {
+            Ok(stop) if Arc::ptr_eq(&stop.limits, limits) => stop.exhausted,
+            Ok(stop) => resume_unwind(stop),
+            Err(panic) => resume_unwind(panic),
+        })
+    }
+}
+
+/// What holds on a thread, to be taken to another one.
+struct Ambient(Option<Arc<Frame>>);
+
+impl Ambient {
+    fn current() -> Ambient {
+        Ambient(INNERMOST.with_borrow(Option::clone))
+    }
+
+    fn run<T>(&self, work: impl FnOnce() -> T) -> T {
+        let _installed = Installed::new(self.0.clone());
+        work()
+    }
+}
+
+/// Does two pieces of work, on two threads where there are as many; the budgets that hold here hold for both.
+///
+/// ```
+/// use jurist_algebra::limits::{Budget, checkpoint, join};
+/// let endless = || -> u64 {
+///     loop {
+///         checkpoint(1)
+///     }
+/// };
+/// assert!(Budget::with_work(100_000).enter(|| join(endless, endless)).is_err());
+/// ```
+pub fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    let ambient = Ambient::current();
+    rayon::join(|| ambient.run(a), || ambient.run(b))
+}
+
+/// The images of all items in their order, computed on as many threads as there are; the budgets that hold here hold
+/// for all of them.
+///
+/// ```
+/// use jurist_algebra::limits::parallel_map;
+/// let squares: Vec<u64> = parallel_map(0..4u64, |x| x * x);
+/// assert_eq!(squares, [0, 1, 4, 9]);
+/// ```
+pub fn parallel_map<I, T, C>(items: I, f: impl Fn(I::Item) -> T + Send + Sync) -> C
+where
+    I: IntoParallelIterator,
+    T: Send,
+    C: FromParallelIterator<T>,
+{
+    let ambient = Ambient::current();
+    items.into_par_iter().map(|item| ambient.run(|| f(item))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::panic::panic_any;
+    use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+    fn endless() -> u64 {
+        loop {
+            checkpoint(7);
+        }
+    }
+
+    #[test]
+    fn counted_work_ends_at_its_count() {
+        for units in [1, 10, QUANTUM - 1, QUANTUM, 10 * QUANTUM + 3] {
+            let done = Cell::new(0);
+            let work = || {
+                loop {
+                    checkpoint(1);
+                    done.set(done.get() + 1);
+                }
+            };
+            let end: Result<(), Exhausted> = Budget::with_work(units).enter(work);
+            assert_eq!(end.unwrap_err().budget, format!("work ({units} units)"));
+            assert_eq!(done.get(), units);
+        }
+        let enough = Budget::with_work(100);
+        assert_eq!(enough.enter(|| checkpoint(100)), Ok(()));
+        assert!(enough.enter(|| checkpoint(1)).is_err());
+    }
+
+    #[test]
+    fn a_door_lets_out_only_its_own() {
+        let outer = Budget::with_work(1000);
+        let inner = Budget::with_work(1_000_000_000);
+        // The outer budget ends inside the inner door, and leaves by its own.
+        assert!(outer.enter(|| inner.enter(endless).is_ok()).is_err());
+        // The inner budget ends, and what is around it goes on.
+        let (outer, inner) = (Budget::with_work(1_000_000_000), Budget::with_work(1000));
+        assert_eq!(outer.enter(|| inner.enter(endless).is_err()), Ok(true));
+        // The same budget again: the inner door is as good as the outer.
+        let budget = Budget::with_work(1000);
+        assert_eq!(budget.enter(|| budget.enter(endless).is_err()), Ok(true));
+        assert!(Budget::unlimited().enter(|| outer.share(1, 1000).enter(endless).is_err()).unwrap());
+    }
+
+    #[test]
+    fn work_inside_counts_outside_once() {
+        let outer = Budget::with_work(1000);
+        let inner = outer.clone();
+        assert!(outer.enter(|| inner.enter(|| checkpoint(600))).is_ok());
+        assert!(outer.enter(|| checkpoint(300)).is_ok());
+        assert!(outer.enter(|| checkpoint(200)).is_err());
+    }
+
+    #[test]
+    fn panics_pass_through_and_the_thread_is_as_before() {
+        let budget = Budget::with_work(1000);
+        let panic = catch_unwind(AssertUnwindSafe(|| budget.enter(|| panic_any(42u8))));
+        assert_eq!(panic.unwrap_err().downcast_ref(), Some(&42u8));
+        assert!(!is_limited());
+        assert!(budget.enter(endless).is_err());
+        assert!(!is_limited());
+        checkpoint(u64::MAX);
+        checkpoint(u64::MAX);
+    }
+
+    #[test]
+    fn leaving_does_not_call_the_panic_hook() {
+        // The hook belongs to all tests of the process: it only counts, and asks whose thread it is.
+        static CALLS: AtomicU64 = AtomicU64::new(0);
+        let here = std::thread::current().id();
+        let before = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |info| {
+            if std::thread::current().id() == here {
+                CALLS.fetch_add(1, Ordering::Relaxed);
+            }
+            before(info);
+        }));
+        assert!(Budget::with_work(10).enter(endless).is_err());
+        assert_eq!(CALLS.load(Ordering::Relaxed), 0);
+    }
+
+    #[test]
+    fn other_threads_inherit_the_budget() {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("threads");
+        let budget = Budget::with_work(1_000_000);
+        let work = || pool.install(|| budget.enter(|| parallel_map::<_, _, Vec<u64>>(0..8, |_: i32| endless())));
+        assert!(work().is_err());
+        let flag = Arc::new(AtomicBool::new(false));
+        let cancelled = Budget::unlimited().cancelled_by(Arc::clone(&flag));
+        let begun = AtomicBool::new(false);
+        let wait = || {
+            begun.store(true, Ordering::SeqCst);
+            endless()
+        };
+        std::thread::scope(|scope| {
+            let end = scope.spawn(|| pool.install(|| cancelled.enter(|| join(wait, endless))));
+            while !begun.load(Ordering::SeqCst) {
+                std::thread::yield_now();
+            }
+            flag.store(true, Ordering::Relaxed);
+            assert_eq!(end.join().expect("no panic").unwrap_err().budget, "cancelled");
+        });
+    }
+
+    #[test]
+    fn work_of_all_threads_is_counted_to_the_unit() {
+        for threads in [1, 2, 4] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            let run = |units| {
+                let budget = Budget::with_work(units);
+                pool.install(|| budget.enter(|| parallel_map::<_, _, Vec<()>>(0..100, |_: i32| checkpoint(1000))))
+            };
+            assert!(run(100_000).is_ok());
+            assert!(run(99_000).is_err());
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! Budgets and progress: long work takes a [`Budget`] and asks it, step by step, whether to go on; what runs inside
+//! one that was [entered](Budget::enter) asks it by [`checkpoint`].
+//!
+//! A budget never changes an answer: work either ends with the exact result or stops with
+//! [`Exhausted`], which names the budget that ran out.
+
+mod ambient;
+mod clock;
+
+pub(crate) use ambient::is_limited;
+pub use ambient::{checkpoint, join, parallel_map};
+pub use clock::Clock;
+
+use std::fmt;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// Receives the name of the step that begins and, where known, its share done (0 to 1).
+pub trait Progress: Send + Sync {
+    /// A new step begins.
+    fn step(&self, name: &str);
+    /// `done` of `total` parts of the current step are finished.
+    fn advance(&self, done: u64, total: u64);
+}
+
+/// How much time or work a computation may take, and whom it tells how far it is.
+///
+/// Algorithms that name their steps take a budget and ask it between them; kernels (products, divisors, resultants,
+/// isolation) ask the one that was [entered](Budget::enter) on their thread.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use std::time::Duration;
+/// assert!(Budget::unlimited().check().is_ok());
+/// assert!(Budget::with_timeout(Duration::ZERO).check().is_err());
+/// ```
+#[derive(Clone, Default)]
+pub struct Budget {
+    /// `None` where there is no limit.
+    limits: Option<Arc<Limits>>,
+    progress: Option<Arc<dyn Progress>>,
+    reached: Arc<Mutex<String>>,
+}
+
+/// When a budget ends.
+#[derive(Clone, Default)]
+struct Limits {
+    deadline: Option<Deadline>,
+    /// The innermost share first: work counts for all of them.
+    work: Vec<Arc<Work>>,
+    cancelled: Option<Arc<AtomicBool>>,
+}
+
+#[derive(Clone)]
+struct Deadline {
+    clock: Arc<dyn Clock>,
+    end: Duration,
+    /// The whole time, for the message.
+    timeout: Duration,
+}
+
+/// A count of work.
+struct Work {
+    left: AtomicU64,
+    /// The whole, for the message.
+    units: u64,
+}
+
+impl Limits {
+    /// Counts work and asks whether more may be done.
+    fn spend(&self, units: u64) -> Result<(), Exhausted> {
+        let mut out = None;
+        for work in &self.work {
+            let rest = work.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| Some(left.saturating_sub(units)));
+            if rest.is_ok_and(|before| before < units) {
+                out = Some(work.units);
+            }
+        }
+        if let Some(units) = out {
+            return Err(Exhausted { budget: format!("work ({units} units)") });
+        }
+        if let Some(Deadline { clock, end, timeout }) = &self.deadline
+            && clock.now() >= *end
+        {
+            return Err(Exhausted { budget: format!("time ({} s)", timeout.as_secs_f64()) });
+        }
+        if self.cancelled.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+            return Err(Exhausted { budget: "cancelled".into() });
+        }
+        Ok(())
+    }
+
+    fn work_left(&self) -> u64 {
+        self.work.iter().map(|work| work.left.load(Ordering::Relaxed)).min().unwrap_or(u64::MAX)
+    }
+}
+
+impl Budget {
+    /// No limit of time or work, no progress reports.
+    pub fn unlimited() -> Self {
+        Budget::default()
+    }
+
+    fn limited(limits: Limits) -> Self {
+        Budget { limits: Some(Arc::new(limits)), ..Budget::default() }
+    }
+
+    /// Work may go on for `timeout` from now, by the clock of the system; without end where there is none that may be
+    /// read (`wasm32-unknown-unknown`: see [`Budget::with_timeout_on`]), and for a time beyond counting.
+    pub fn with_timeout(timeout: Duration) -> Self {
+        match clock::system() {
+            Some(clock) => Budget::with_timeout_on(clock, timeout),
+            None => Budget::unlimited(),
+        }
+    }
+
+    /// Work may go on for `timeout` from now, by the given clock.
+    pub fn with_timeout_on(clock: Arc<dyn Clock>, timeout: Duration) -> Self {
+        match clock.now().checked_add(timeout) {
+            Some(end) => {
+                Budget::limited(Limits { deadline: Some(Deadline { clock, end, timeout }), ..Limits::default() })
+            }
+            None => Budget::unlimited(),
+        }
+    }
+
+    /// So much work may be done, in the units of [`checkpoint`], and not more, however fast the machine is; each
+    /// [`check`](Budget::check) is a unit. On several threads the sum counts.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// let budget = Budget::with_work(2);
+    /// assert!(budget.check().is_ok() && budget.check().is_ok());
+    /// assert_eq!(budget.check().unwrap_err().to_string(), "the budget ran out: work (2 units)");
+    /// ```
+    pub fn with_work(units: u64) -> Self {
+        Budget::limited(Limits { work: vec![Arc::new(Work { left: units.into(), units })], ..Limits::default() })
+    }
+
+    /// A budget that ends when `part / of` of the time and of the work that are left are used up; without end where
+    /// there is no limit. When it runs out it names the whole. What it uses is used of the whole.
+    ///
+    /// # Panics
+    /// When `of` is 0.
+    pub fn share(&self, part: u32, of: u32) -> Self {
+        assert!(of > 0, "a share of nothing");
+        let mut share = self.clone();
+        if let Some(limits) = &self.limits {
+            let mut limits = Limits::clone(limits);
+            if let Some(Deadline { clock, end, .. }) = &mut limits.deadline {
+                let now = clock.now();
+                *end = now.saturating_add(end.saturating_sub(now) / of * part);
+            }
+            if let Some(whole) = limits.work.first() {
+                let left = u128::from(limits.work_left()) * u128::from(part) / u128::from(of);
+                let left = u64::try_from(left).unwrap_or(u64::MAX);
+                let units = whole.units;
+                limits.work.insert(0, Arc::new(Work { left: left.into(), units }));
+            }
+            share.limits = Some(Arc::new(limits));
+        }
+        share
+    }
+
+    /// The same budget, reporting to `progress`.
+    pub fn reporting_to(mut self, progress: Arc<dyn Progress>) -> Self {
+        self.progress = Some(progress);
+        self
+    }
+
+    /// The same limits for a part of a step: what it begins is told to nobody.
+    pub fn silent(&self) -> Self {
+        Budget { progress: None, reached: Arc::default(), limits: self.limits.clone() }
+    }
+
+    /// The same budget, also ended by setting `flag`: the way to cancel from another thread.
+    pub fn cancelled_by(mut self, flag: Arc<AtomicBool>) -> Self {
+        let limits = self.limits.as_deref().cloned().unwrap_or_default();
+        self.limits = Some(Arc::new(Limits { cancelled: Some(flag), ..limits }));
+        self
+    }
+
+    /// Whether work may go on.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the time is up, the work is done, or it was cancelled.
+    pub fn check(&self) -> Result<(), Exhausted> {
+        self.limits.as_ref().map_or(Ok(()), |limits| limits.spend(1))
+    }
+
+    /// The name of the last step that began: what an exhausted budget had reached.
+    pub fn reached(&self) -> String {
+        self.reached.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Notes that a step begins and tells the listener, if there is one.
+    pub fn step(&self, name: &str) {
+        name.clone_into(&mut self.reached.lock().unwrap_or_else(PoisonError::into_inner));
+        if let Some(progress) = &self.progress {
+            progress.step(name);
+        }
+    }
+
+    /// Tells the listener, if there is one, how much of the step is done.
+    pub fn advance(&self, done: u64, total: u64) {
+        if let Some(progress) = &self.progress {
+            progress.advance(done, total);
+        }
+    }
+}
+
+impl fmt::Debug for Budget {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let deadline = self.limits.as_ref().and_then(|limits| limits.deadline.as_ref());
+        f.debug_struct("Budget").field("timeout", &deadline.map(|d| d.timeout)).finish_non_exhaustive()
+    }
+}
+
+/// A budget ran out before the exact answer was reached.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exhausted {
+    /// Which budget, e.g. `time (2 s)`.
+    pub budget: String,
+}
+
+impl fmt::Display for Exhausted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the budget ran out: {}", self.budget)
+    }
+}
+
+impl std::error::Error for Exhausted {}
