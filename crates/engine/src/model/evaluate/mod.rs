@@ -7,4 +7,5 @@ pub(in crate::model) mod scalar;
 pub(in crate::model) mod symbolic;
 pub(in crate::model) mod transfer;
 pub(in crate::model) mod walk;
+pub(in crate::model) mod work;
 pub(in crate::model) mod zpoly;

@@ -1,6 +1,7 @@
 //! Values that depend on the parameters only.
 
 use super::walk::{Failure, Meaning, division_by_zero, evaluate, too_large};
+use super::work::count_work;
 use crate::error::{Diagnostic, Span};
 use crate::model::definition::{Constant, Parameter};
 use crate::model::text::{Expression, Sign};
@@ -99,7 +100,7 @@ fn fits(a: &MultiPoly, b: &MultiPoly) -> bool {
         && a.height_bits() + b.height_bits() <= MAX_BITS
 }
 
-/// `a + b` or `a - b`, unless it would grow beyond every use.
+/// `a + b` or `a - b`, unless it would grow beyond every use. Counts its work.
 pub(in crate::model) fn checked_sum(
     a: &RationalFunction,
     sign: Sign,
@@ -108,12 +109,15 @@ pub(in crate::model) fn checked_sum(
     let fits = fits(a.numerator(), b.denominator())
         && fits(b.numerator(), a.denominator())
         && fits(a.denominator(), b.denominator());
+    count_work(a, b);
     fits.then(|| if sign == Sign::Plus { a + b } else { a - b })
 }
 
-/// `a b`, unless it would grow beyond every use.
+/// `a b`, unless it would grow beyond every use. Counts its work.
 pub(in crate::model) fn checked_product(a: &RationalFunction, b: &RationalFunction) -> Option<RationalFunction> {
-    (fits(a.numerator(), b.numerator()) && fits(a.denominator(), b.denominator())).then(|| a * b)
+    let fits = fits(a.numerator(), b.numerator()) && fits(a.denominator(), b.denominator());
+    count_work(a, b);
+    fits.then(|| a * b)
 }
 
 impl Meaning for Scope<'_> {
@@ -167,6 +171,8 @@ impl Meaning for Scope<'_> {
             }
             self.divides_by(vec![base.numerator().clone()]);
         }
-        base.pow(exponent).ok_or_else(|| too_large(span))
+        let power = base.pow(exponent).ok_or_else(|| too_large(span))?;
+        count_work(&power, &base);
+        Ok(power)
     }
 }

@@ -3,7 +3,7 @@
 
 use super::reader::Reader;
 use crate::error::Diagnostic;
-use crate::model::connect::state_space::{Stop, assemble};
+use crate::model::connect::state_space::assemble;
 use crate::model::definition::Loop;
 use crate::model::evaluate::scalar::{Scope, Symbol};
 use crate::model::evaluate::symbolic::{Wiring, symbolic};
@@ -12,28 +12,27 @@ use crate::model::text::names::shorten;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use std::collections::HashSet;
-use std::time::Duration;
 
-/// How long the check of values may take; what is not found by then shows when a question is asked.
-const CHECK_TIME: Duration = Duration::from_millis(300);
+/// Units of work that one evaluation for the check may take: about a second on an idle machine. It is counted, not
+/// timed, so that the same text is accepted or refused everywhere; what is not found within it shows when a question
+/// is asked.
+const CHECK_WORK: u64 = 100_000_000;
 
 /// Evaluates everything with numbers for the parameters. What is not zero at one point is not
 /// identically zero, so this acquits; what looks wrong there is evaluated again with symbols.
 pub(super) fn values(model: &Loop, reader: &mut Reader) {
     for attempt in 0..3u64 {
-        let budget = Budget::with_timeout(CHECK_TIME);
         let mut position = 0;
         let mut symbol = |_: &str, constant: bool| {
             position += 1;
             (!constant).then(|| Symbol::Value(probe(attempt, position)))
         };
-        let Some(found) = problems(model, &mut symbol, &budget) else { return };
+        let Some(found) = problems(model, &mut symbol) else { return };
         if found.is_empty() {
             return;
         }
     }
-    let budget = Budget::with_timeout(CHECK_TIME);
-    let found = problems(model, &mut |_, constant| (!constant).then_some(Symbol::Variable), &budget);
+    let found = problems(model, &mut |_, constant| (!constant).then_some(Symbol::Variable));
     found.into_iter().flatten().for_each(|d| reader.report(d));
 }
 
@@ -49,11 +48,14 @@ pub(super) fn sample_time(model: &Loop, reader: &mut Reader) {
     if model.parameters.iter().any(|p| needed.contains(p.name.as_str())) {
         return;
     }
-    let budget = Budget::with_timeout(CHECK_TIME);
+    let budget = Budget::with_work(CHECK_WORK);
     let constants = model.ordered_constants().filter(|c| needed.contains(c.name.as_str()));
-    let mut scope = Scope::new(std::iter::empty(), constants, |_, _| None, &budget, &mut |_| {});
+    let value = budget.enter(|| {
+        let mut scope = Scope::new(std::iter::empty(), constants, |_, _| None, &budget, &mut |_| {});
+        scope.scalar(e).ok()?.as_constant()
+    });
     // Whatever else is wrong with it has been reported with the other values.
-    if let Some(value) = scope.scalar(e).ok().and_then(|t| t.as_constant())
+    if let Ok(Some(value)) = value
         && !value.sign().is_gt()
     {
         let error = Diagnostic::error("E-value", "the sample time must be positive");
@@ -67,29 +69,26 @@ fn probe(attempt: u64, position: u64) -> Rational {
     Rational::new(Integer::from(mixed + 1009), Integer::from(7919 + 2 * attempt))
 }
 
-/// Everything that is wrong with the values; `None` when the budget ran out first.
-fn problems(
-    model: &Loop,
-    symbol: &mut dyn FnMut(&str, bool) -> Option<Symbol>,
-    budget: &Budget,
-) -> Option<Vec<Diagnostic>> {
+/// Everything that is wrong with the values; `None` when that takes too much work to find.
+fn problems(model: &Loop, symbol: &mut dyn FnMut(&str, bool) -> Option<Symbol>) -> Option<Vec<Diagnostic>> {
+    let budget = Budget::with_work(CHECK_WORK);
     let mut found = Vec::new();
-    let mut exhausted = false;
+    let mut is_exhausted = false;
     let mut report = |failure| match failure {
         Failure::Wrong(diagnostic) => found.push(*diagnostic),
-        Failure::Exhausted(_) => exhausted = true,
+        Failure::Exhausted(_) => is_exhausted = true,
         Failure::Poisoned => {}
     };
-    let mut scope = Scope::new(model.parameters.iter(), model.ordered_constants(), symbol, budget, &mut report);
-    let wiring = Wiring::of(model);
-    let form = symbolic(model, &wiring, &mut scope, &mut report);
-    if let Some(form) = form
-        && let Err(failure) = assemble(model, &wiring, &form, &|f| Some(f.clone()), budget)
-    {
-        match failure {
-            Stop::Exhausted(_) => exhausted = true,
-            Stop::Undefined(diagnostic) => found.push(*diagnostic),
+    let left = budget.enter(|| {
+        let mut scope = Scope::new(model.parameters.iter(), model.ordered_constants(), symbol, &budget, &mut report);
+        let wiring = Wiring::of(model);
+        let form = symbolic(model, &wiring, &mut scope, &mut report);
+        if let Some(form) = form
+            && let Err(stop) = assemble(model, &wiring, &form, &|f| Some(f.clone()), &budget)
+        {
+            report(stop.into());
         }
-    }
-    if exhausted && found.is_empty() { None } else { Some(found) }
+    });
+    let is_exhausted = is_exhausted || left.is_err() || budget.check().is_err();
+    if is_exhausted && found.is_empty() { None } else { Some(found) }
 }

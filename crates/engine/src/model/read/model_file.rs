@@ -1,11 +1,12 @@
 //! A whole model file.
 
 use super::loop_forms::read_form;
-use super::reader::{Meant, Reader, constant_value};
+use super::reader::{Meant, Reader};
 use super::simulation;
 use super::{check_names, check_values};
 use crate::error::{Diagnostic, Error, Severity, Source, Span};
 use crate::model::definition::{Constant, Diagram, Form, Loop, Name, Parameter, Time};
+use crate::model::evaluate::work::constant_value;
 use crate::model::text::names::{did_you_mean, shorten};
 use crate::model::text::toml_reader;
 use crate::model::text::toml_value::{Kind, Table};

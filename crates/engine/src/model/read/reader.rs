@@ -2,20 +2,14 @@
 
 use crate::error::{Diagnostic, Span};
 use crate::model::definition::{Matrix, Name, Output};
-use crate::model::evaluate::scalar::Scope;
-use crate::model::evaluate::walk::{Failure, evaluate};
+use crate::model::evaluate::work::constant_value;
+use crate::model::text::Expression;
 use crate::model::text::Text;
 use crate::model::text::is_name;
 use crate::model::text::names::{did_you_mean, list, nearest_name, shorten};
 use crate::model::text::toml_value::{Entry, Kind, Table, Value};
-use crate::model::text::{Expression, Node};
-use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, parse_number};
 use std::collections::HashSet;
-use std::time::Duration;
-
-/// How long a single number of the file may take to evaluate.
-const NUMBER_TIME: Duration = Duration::from_millis(300);
 
 /// Collects what is wrong while it reads on.
 #[derive(Default)]
@@ -262,23 +256,4 @@ impl Reader {
 /// `1 entry`, `2 entries`.
 pub(super) fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
-}
-
-/// The value of an expression without names; `Err(None)` when it has names.
-pub(super) fn constant_value(e: &Expression) -> Result<Rational, Option<Diagnostic>> {
-    if let Node::Number(value) = &e.node {
-        return Ok(value.clone());
-    }
-    if !e.is_constant() {
-        return Err(None);
-    }
-    let budget = Budget::with_timeout(NUMBER_TIME);
-    let mut scope = Scope::new(std::iter::empty(), std::iter::empty(), |_, _| None, &budget, &mut |_| {});
-    match evaluate(e, &mut scope) {
-        Ok(value) => value.as_constant().ok_or(None),
-        Err(Failure::Wrong(diagnostic)) => Err(Some(*diagnostic)),
-        Err(Failure::Exhausted(_) | Failure::Poisoned) => {
-            Err(Some(Diagnostic::error("E-too-large", "the number takes too long to compute").at(e.span, "too large")))
-        }
-    }
 }

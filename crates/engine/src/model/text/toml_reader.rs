@@ -172,3 +172,85 @@ fn inside_header(text: &str, span: Span) -> Span {
     let name = inner.trim_end_matches(']').trim_end();
     if written.starts_with('[') { Span::new(start, start + name.len()) } else { span }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Codes, places as source text, and second places of all mistakes.
+    fn mistakes(text: &str) -> Vec<String> {
+        let at = |span: Span| format!("{}@{}", text[span.start..span.end].escape_debug(), span.start);
+        let show = |d: &Diagnostic| {
+            let places = d.primary.iter().chain(&d.secondary).map(|l| at(l.span));
+            format!("{} {}", d.code, places.collect::<Vec<_>>().join(" "))
+        };
+        read(text).err().unwrap_or_default().iter().map(show).collect()
+    }
+
+    #[test]
+    fn every_mistake_is_reported_in_one_run() {
+        let text = "a = 'open\nb = 1.\nc = 01 # leading\nd = 2021-02-30\na = 3\nn = 0x1F\n[t]\nk = tru\n";
+        assert_eq!(
+            mistakes(text),
+            [
+                "E-toml @9",
+                "E-toml @16",
+                "E-toml 0@21",
+                "E-toml 2021-02-30@38",
+                "E-duplicate-key a@49 a@0",
+                "E-number 0x1F@59",
+                "E-toml tru@72"
+            ]
+        );
+    }
+
+    #[test]
+    fn both_places_of_a_key_that_stands_twice_are_known() {
+        for (text, expected) in [
+            ("a = 1\na = 2", "E-duplicate-key a@6 a@0"),
+            ("\"a\" = 1\n'a' = 2", "E-duplicate-key 'a'@8 \\\"a\\\"@0"),
+            ("K = 0\n[c]\nK = 1\n[p]\nK = 2\nx = { K = 1, K = 2 }\n", "E-duplicate-key K@39 K@32"),
+            ("K = 0\n[c]\nK = 1\n[p]\nK = 2\n[[b]]\n[[b]]\nK = 1\nK = 2\n", "E-duplicate-key K@44 K@38"),
+            ("[t]\nx = 1\n[t]\ny = 1", "E-duplicate-key t@11 t@1"),
+            ("[a.t]\n[b.t]\n[a.t]\n", "E-duplicate-key t@15 t@3"),
+            ("[[a]]\n[a]\n", "E-duplicate-key a@7 a@2"),
+            ("a = [1]\n[[a]]\n", "E-duplicate-key a@10 a@0"),
+            ("a.b = 1\na.b = 2\n", "E-duplicate-key b@10 b@2"),
+        ] {
+            assert_eq!(mistakes(text), [expected], "{text}");
+        }
+    }
+
+    #[test]
+    fn a_bracket_that_is_never_closed_is_one_mistake_at_its_place() {
+        let text = "a = 1.\nm = [['x', 'y'], ['z'\nb = 1\nc = 2.\n[t]\nd = 3\n";
+        assert_eq!(mistakes(text), ["E-toml @6", "E-toml [@11"]);
+        assert_eq!(mistakes("a = { b = [1, 2], c = 3\nd = 4\n"), ["E-toml {@4"]);
+        assert_eq!(mistakes(&"[".repeat(1000)).len(), 1);
+        assert_eq!(mistakes(&format!("a = {}", "[".repeat(1000))), ["E-toml [@4"]);
+    }
+
+    #[test]
+    fn nesting_and_keys_end_somewhere() {
+        let nested = format!("a = {}{}", "[".repeat(100), "]".repeat(100));
+        assert!(mistakes(&nested)[0].starts_with("E-too-deep"), "{:?}", mistakes(&nested));
+        let dotted = format!("{} = 1", ["a"; 100].join("."));
+        assert!(mistakes(&dotted)[0].starts_with("E-too-deep"), "{:?}", mistakes(&dotted));
+    }
+
+    #[test]
+    fn keys_come_in_the_order_of_the_text() {
+        let table = read("z = 1\na = 2\n[m]\n[b]\n[[l]]\nx = 1").unwrap();
+        assert_eq!(table.iter().map(|e| e.key.as_str()).collect::<Vec<_>>(), ["z", "a", "m", "b", "l"]);
+    }
+
+    #[test]
+    fn numbers_keep_their_text() {
+        let table = read("a = 1_000\nb = +1_0.5e-3\nc = -0\nd = 99999999999999999999999999\n").unwrap();
+        let number = |key: &str| match &table.get(key).unwrap().kind {
+            Kind::Number(text) => text.clone(),
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(["a", "b", "c", "d"].map(number), ["1000", "+10.5e-3", "-0", "99999999999999999999999999"]);
+    }
+}
