@@ -70,8 +70,12 @@ pub(super) fn prepare(lp: &Loop, question: &Question, budget: &Budget) -> Result
 /// The degree where the values set leave the loop undefined: that of the polynomial before any was set.
 fn symbolic_degree(lp: &Loop, question: &Question, budget: &Budget) -> Result<usize, Failure> {
     let parameters = lp.parameters().iter().map(|p| p.name.clone());
-    let constants = question.set.keys().chain(&question.keep).filter(|n| lp.parameter(n).is_none()).cloned();
-    let question = Question::keeping(parameters.chain(constants).collect::<Vec<_>>());
+    let freed = question.keep.iter().filter(|name| lp.parameter(name).is_none()).cloned();
+    let mut symbolic = Question::keeping(parameters.chain(freed));
+    let is_constant = |name: &String| lp.parameter(name).is_none();
+    symbolic.set =
+        question.set.iter().filter(|(name, _)| is_constant(name)).map(|(n, v)| (n.clone(), v.clone())).collect();
+    let question = symbolic;
     Ok(lp.characteristic_polynomial(&question, budget)?.formal_degree)
 }
 

@@ -20,7 +20,7 @@ pub const DECAY: &str = "decay";
 /// What is asked besides the parameter itself.
 #[derive(Clone, Debug, Default)]
 pub struct Settings {
-    /// Values of parameters and freed constants, in place of their nominal values.
+    /// Values of parameters in place of their nominal values, and numbers of constants in place of the model's.
     pub set: BTreeMap<String, Rational>,
     /// Domains in place of the model's.
     pub domain: BTreeMap<String, Range>,

@@ -179,10 +179,14 @@ impl Loop {
         let Resolved { kept, values: given, .. } = self.resolve(question)?;
         let mut failures = Vec::new();
         let mut report = |failure| failures.push(failure);
-        let freed = |name: &str| question.keep.iter().any(|k| k == name) || question.set.contains_key(name);
-        // Everything stays symbolic until it is evaluated: only so the degree and the points of
-        // division by zero do not depend on the values set.
-        let symbol = |name: &str, constant: bool| (!constant || freed(name)).then_some(Symbol::Variable);
+        let kept_constant = |name: &str| question.keep.iter().any(|k| k == name).then_some(Symbol::Variable);
+        // Parameters stay symbolic until everything is evaluated: only so the degree and the points of
+        // division by zero do not depend on the values set. A constant that is set has another number.
+        let symbol = |name: &str, constant: bool| match question.set.get(name) {
+            _ if !constant => Some(Symbol::Variable),
+            Some(value) => Some(Symbol::Value(value.clone())),
+            None => kept_constant(name),
+        };
         let mut scope = Scope::new(self.parameters().iter(), self.ordered_constants(), symbol, budget, &mut report);
         let wiring = Wiring::of(self);
         let values = symbolic(self, &wiring, &mut scope, &mut report);

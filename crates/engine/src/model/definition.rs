@@ -42,7 +42,8 @@ pub struct Name {
     pub span: Span,
 }
 
-/// A named value that does not change unless it is freed.
+/// A named value that does not change. One that is given as a number can be replaced by another number or freed:
+/// see [`Question`](super::Question).
 #[derive(Clone, Debug)]
 pub struct Constant {
     /// The name.

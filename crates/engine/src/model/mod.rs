@@ -11,6 +11,8 @@
 mod builder;
 mod closed_loop;
 mod connect;
+#[cfg(test)]
+mod constants_set;
 mod definition;
 mod evaluate;
 pub mod examples;

@@ -10,8 +10,13 @@ use std::fmt;
 
 /// The names that stay symbolic, and values for others.
 ///
-/// A parameter that is neither kept nor set takes its nominal value. A constant that is given as a
-/// number can be kept or set too; its number is then its nominal value, its domain unbounded.
+/// A parameter that is neither kept nor set takes its nominal value; one that is set keeps its part in
+/// the degree that counts and in the points of division by zero, which are those of the model with all
+/// parameters symbolic.
+///
+/// A constant that is given as a number can be kept or set too. Set, it has another number and nothing
+/// else changes: the answer is that of a model file with this number in it. Kept, it is freed: a parameter with
+/// its number as nominal value and an unbounded domain, symbolic like every other parameter.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Question {
     /// The names that stay symbolic: variables 0, 1, ... of the answer.
