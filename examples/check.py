@@ -421,11 +421,12 @@ def characteristic_polynomial(text, kept, values):
     names = ([kept] if kept is not None else []) + list(values)
     need(len(set(names)) == len(names), "a parameter has two values")
     need(declared <= set(names), "a parameter has no value")
-    for name in set(names) - declared:  # a constant given as a number may be freed
+    for name in set(names) - declared:  # a constant given as a number may be the parameter or have another number
         need(name in constants, f"the model has no parameter {name}")
         evaluate(str(constants.pop(name)), no_names, Scope({}, {}).inverse)
+    constants |= {name: str(value) for name, value in values.items() if name not in declared}
     need(z not in names and z not in constants, f"{z} is the loop's variable")
-    scope = Scope(constants, {name: v for v, name in enumerate(values, 2)} | {kept: 1})
+    scope = Scope(constants, {name: v for v, name in enumerate(values, 2) if name in declared} | {kept: 1})
     for name in list(constants):
         scope.constant(name)
     if "sample_time" in root:

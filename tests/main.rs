@@ -21,7 +21,6 @@ mod models {
     mod damaged;
     mod diagrams;
     mod drive;
-    mod error_codes;
     mod errors;
     mod expressions;
     mod root_causes;

@@ -8,7 +8,7 @@ use super::number::{Clock, Q, Z, shorten};
 use super::toml::{self, Toml};
 use super::univariate::{Uni, common_denominator};
 use num_traits::{One, Signed, Zero};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A polynomial in `z` or `s` whose coefficients are polynomials in the parameter.
 pub(super) struct Characteristic {
@@ -74,11 +74,20 @@ pub(super) fn read(
     let mut parameters = HashMap::new();
     let mut numbers = vec![Q::zero(), Q::zero()];
     let mut scope = Scope::new(constants, HashMap::new(), clock);
+    let mut replaced = HashSet::new();
     for (name, value) in kept.map(|k| (k, None)).into_iter().chain(values.iter().map(|(n, v)| (n.as_str(), Some(v)))) {
         if !declared.iter().any(|d| *d == name) {
             let text = texts.iter().find(|(n, _)| n == name).map(|(_, text)| text);
             if !text.is_some_and(|text| scope.is_number(text)) {
                 return Err(format!("the model has no parameter '{}'", shorten(name)));
+            }
+            if let Some(value) = value {
+                // A constant that is set has another number; nothing else changes.
+                if parameters.contains_key(name) || !replaced.insert(name) {
+                    return Err(format!("'{}' has two values", shorten(name)));
+                }
+                scope.constants.insert(name.to_owned(), Constant::Text(value.to_string()));
+                continue;
             }
             scope.constants.remove(name);
         }

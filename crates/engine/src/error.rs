@@ -9,7 +9,7 @@ mod failure;
 #[doc = include_str!("error/codes.md")]
 pub mod code_list {}
 
-pub use codes::CODES;
+pub use codes::codes;
 pub use failure::Failure;
 
 use std::fmt;
@@ -86,7 +86,7 @@ pub enum Severity {
 pub struct Diagnostic {
     /// Error or warning.
     pub severity: Severity,
-    /// Stable code such as `E-unknown-name`; every code is listed in [`crate::error::CODES`].
+    /// Stable code such as `E-unknown-name`; every code is listed in [`code_list`].
     pub code: &'static str,
     /// One sentence, no full stop.
     pub message: String,

@@ -3,7 +3,7 @@
 use crate::cli::output::write_answer;
 use crate::cli::status::{Failure, Outcome, Status};
 use clap::Args;
-use jurist_engine::error::{CODES, Diagnostic};
+use jurist_engine::error::{Diagnostic, codes};
 
 /// Options of `jurist explain`.
 #[derive(Args, Debug)]
@@ -16,9 +16,9 @@ pub(in crate::cli) struct Options {
 /// Prints the explanation of one code, or the list of all.
 pub(in crate::cli) fn run(options: &Options) -> Outcome {
     let Some(code) = &options.code else {
-        let width = CODES.iter().map(|(c, _)| c.len()).max().unwrap_or(0);
-        let first = |text: &'static str| text.lines().find(|l| !l.trim().is_empty()).unwrap_or_default();
-        let lines: Vec<String> = CODES.iter().map(|(code, text)| format!("{code:width$}  {}", first(text))).collect();
+        let width = codes().map(|(c, _)| c.len()).max().unwrap_or(0);
+        let line = |(code, text): (&str, String)| format!("{code:width$}  {}", text.lines().next().unwrap_or_default());
+        let lines: Vec<String> = codes().map(line).collect();
         write_answer(&lines.join("\n"), None)?;
         return Ok(Status::Holds);
     };
@@ -27,9 +27,9 @@ pub(in crate::cli) fn run(options: &Options) -> Outcome {
         known.eq_ignore_ascii_case(wanted)
             || known.split_once('-').is_some_and(|(_, name)| name.eq_ignore_ascii_case(wanted))
     };
-    match CODES.iter().find(|(known, _)| same(known)) {
+    match codes().find(|(known, _)| same(known)) {
         Some((known, text)) => {
-            write_answer(&format!("{known}\n\n{}", text.trim()), None)?;
+            write_answer(&format!("{known}\n\n{text}"), None)?;
             Ok(Status::Holds)
         }
         None => Err(unknown(wanted)),
@@ -39,7 +39,7 @@ pub(in crate::cli) fn run(options: &Options) -> Outcome {
 fn unknown(wanted: &str) -> Failure {
     let shown: String = wanted.chars().take(60).collect();
     let diagnostic = Diagnostic::error("E-unknown-code", format!("there is no error code '{shown}'"));
-    let near = CODES.iter().map(|(c, _)| *c).max_by(|a, b| {
+    let near = codes().map(|(c, _)| c).max_by(|a, b| {
         let likeness_for_display = |c: &str| strsim::jaro_winkler(c, &shown);
         likeness_for_display(a).total_cmp(&likeness_for_display(b))
     });

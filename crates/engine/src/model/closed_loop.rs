@@ -1,12 +1,12 @@
 //! From a loop and a question to polynomials and matrices.
 
+use super::connect::state_space::{Stop, assemble};
 use super::definition::{Loop, Time};
-use super::evaluate::Failure as Wrong;
-use super::expression::Expression;
-use super::names::{did_you_mean, shorten};
-use super::scalar::{Scope, Symbol};
-use super::state_space::{Stop, assemble};
-use super::symbolic::{Values, Wiring, symbolic};
+use super::evaluate::scalar::{Scope, Symbol};
+use super::evaluate::symbolic::{Values, Wiring, symbolic};
+use super::evaluate::walk::Failure as Wrong;
+use super::text::Expression;
+use super::text::names::{did_you_mean, known_names, shorten};
 use crate::error::{Diagnostic, Error, Failure};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
@@ -159,19 +159,11 @@ impl Loop {
     ) -> Result<Rational, Failure> {
         let mut failures = Vec::new();
         let mut report = |failure| failures.push(failure);
-        let given = |name: &str| values.iter().any(|(n, _)| n == name);
-        let symbol = |name: &str, constant: bool| (!constant || given(name)).then_some(Symbol::Variable);
+        let given = |name: &str| values.iter().find(|(n, _)| n == name).map(|(_, value)| value.clone());
+        let symbol = |name: &str, _: bool| given(name).map(Symbol::Value);
         let mut scope = Scope::new(self.parameters().iter(), self.ordered_constants(), symbol, budget, &mut report);
         let value = scope.scalar(expression).map_err(&mut report).ok();
-        let variables = scope.variables;
-        let Some(mut value) = value.filter(|_| failures.is_empty()) else { return Err(self.failed(failures)) };
-        for (i, name) in variables.iter().enumerate() {
-            if let Some((_, given)) = values.iter().find(|(n, _)| n == name) {
-                value = value
-                    .substitute(i, given)
-                    .ok_or_else(|| Failure::Undefined("an expression divides by zero".into()))?;
-            }
-        }
+        let Some(value) = value.filter(|_| failures.is_empty()) else { return Err(self.failed(failures)) };
         value.as_constant().ok_or_else(|| Failure::Undefined("a parameter has no value".into()))
     }
 
@@ -185,10 +177,13 @@ impl Loop {
     fn answer(&self, kept: &[String], given: &[(String, Rational)], budget: &Budget) -> Result<Answer<'_>, Failure> {
         let mut failures = Vec::new();
         let mut report = |failure| failures.push(failure);
-        let freed = |name: &str| kept.iter().any(|k| k == name) || given.iter().any(|(n, _)| n == name);
-        // Everything stays symbolic until it is evaluated: only so the degree and the points of
-        // division by zero do not depend on the values set.
-        let symbol = |name: &str, constant: bool| (!constant || freed(name)).then_some(Symbol::Variable);
+        // Parameters stay symbolic until everything is evaluated: only so the degree and the points of
+        // division by zero do not depend on the values set. A constant that is set has another number.
+        let symbol = |name: &str, constant: bool| match given.iter().find(|(n, _)| n == name) {
+            _ if !constant => Some(Symbol::Variable),
+            Some((_, value)) => Some(Symbol::Value(value.clone())),
+            None => kept.iter().any(|k| k == name).then_some(Symbol::Variable),
+        };
         let mut scope = Scope::new(self.parameters().iter(), self.ordered_constants(), symbol, budget, &mut report);
         let wiring = Wiring::of(self);
         let values = symbolic(self, &wiring, &mut scope, &mut report);
@@ -287,7 +282,7 @@ impl ClosedLoop {
                 let message = format!("the loop has no {what} '{}'", shorten(name));
                 let mut error = Diagnostic::error("E-unknown-signal", message);
                 let names = || names.iter().map(String::as_str);
-                error.help = did_you_mean(name, names()).or_else(|| super::read_loop::known_names(names()));
+                error.help = did_you_mean(name, names()).or_else(|| known_names(names()));
                 Failure::from(error)
             })
         };

@@ -1,6 +1,6 @@
 //! What a model says, as plain data.
 
-use super::expression::Expression;
+use super::text::Expression;
 use crate::error::{Source, Span};
 use jurist_algebra::number::Rational;
 use std::collections::HashMap;
@@ -42,7 +42,8 @@ pub struct Name {
     pub span: Span,
 }
 
-/// A named value that does not change unless it is freed.
+/// A named value that does not change. One that is given as a number can be replaced by another number or freed:
+/// see [`Question`](super::Question).
 #[derive(Clone, Debug)]
 pub struct Constant {
     /// The name.
@@ -162,6 +163,13 @@ pub struct Diagram {
     pub outputs: Vec<Output>,
     /// The blocks.
     pub blocks: Vec<Block>,
+}
+
+impl Diagram {
+    /// The signals that blocks drive, in order, each with its block.
+    pub(super) fn driven(&self) -> impl Iterator<Item = (&Name, &Block)> {
+        self.blocks.iter().flat_map(|b| b.outputs.iter().map(move |o| (o, b)))
+    }
 }
 
 /// A block of a diagram.

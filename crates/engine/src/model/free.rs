@@ -1,8 +1,7 @@
 //! Which names of a model may vary.
 
 use super::definition::{Constant, Loop, Parameter};
-use super::names::{did_you_mean, list, shorten};
-use super::read_loop::known_names;
+use super::text::names::{did_you_mean, known_names, list, shorten};
 use crate::error::{Diagnostic, Error};
 
 impl Loop {

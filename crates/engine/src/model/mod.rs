@@ -9,30 +9,17 @@
 //! depend on the values.
 
 mod builder;
-mod check;
 mod closed_loop;
+mod connect;
+#[cfg(test)]
+mod constants_set;
 mod definition;
 mod evaluate;
 pub mod examples;
-mod expression;
 mod free;
-mod lexer;
-mod linear;
-mod names;
-mod parser;
 mod parts;
 mod read;
-mod read_block;
-mod read_loop;
-mod scalar;
-mod simulation;
-mod state_space;
-mod symbolic;
 mod text;
-mod toml;
-mod toml_read;
-mod transfer;
-mod zpoly;
 
 pub use builder::{BlockBuilder, LoopBuilder, ParameterBuilder};
 pub use closed_loop::{ClosedLoop, Evaluated, TransferFunction};
@@ -40,8 +27,6 @@ pub use definition::{
     Block, Constant, Diagram, Discretization, Dynamics, Form, Loop, Matrix, Method, Name, Output, Parameter, Ports,
     Pwm, Simulation, Time,
 };
-pub use expression::{Expression, Factor, Node, Sign};
-pub use names::nearest_name;
-pub(crate) use names::shorten;
-pub use parser::{MAX_DEPTH, MAX_EXPONENT};
-pub use read_loop::{DRIVE, source_from_bytes};
+pub use read::{DRIVE, source_from_bytes};
+pub(crate) use text::names::shorten;
+pub use text::{Expression, Factor, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};

@@ -33,7 +33,7 @@ impl Algebra {
         let evaluated = match model.evaluate(&kept, problem.set(), budget) {
             Ok(evaluated) => evaluated,
             Err(Failure::Undefined(why)) => {
-                let formal_degree = symbolic_degree(model, &kept, budget)?;
+                let formal_degree = symbolic_degree(model, &kept, problem.set(), budget)?;
                 let undefined = Some(why);
                 return Ok(Algebra {
                     polynomial: None,
@@ -161,9 +161,15 @@ fn shifted(f: &RationalFunction, at: usize) -> RationalFunction {
 }
 
 /// The degree where the values set leave the loop undefined: that of the polynomial before any was set.
-fn symbolic_degree(model: &Loop, kept: &[String], budget: &Budget) -> Result<usize, Failure> {
+fn symbolic_degree(
+    model: &Loop,
+    kept: &[String],
+    set: &[(String, Rational)],
+    budget: &Budget,
+) -> Result<usize, Failure> {
+    let is_parameter = |name: &String| model.parameter(name).is_some();
     let parameters = model.parameters().iter().map(|p| p.name.clone());
-    let constants = kept.iter().filter(|n| model.parameter(n).is_none()).cloned();
-    let all: Vec<String> = parameters.chain(constants).collect();
-    Ok(model.evaluate(&all, &[], budget)?.polynomial.formal_degree)
+    let all: Vec<String> = parameters.chain(kept.iter().filter(|n| !is_parameter(n)).cloned()).collect();
+    let constants: Vec<_> = set.iter().filter(|(name, _)| !is_parameter(name)).cloned().collect();
+    Ok(model.evaluate(&all, &constants, budget)?.polynomial.formal_degree)
 }

@@ -45,7 +45,12 @@ impl Loop {
 }
 
 impl Question {
-    /// Gives a parameter, or a constant given as a number, another value.
+    /// Gives a parameter another value than its nominal one, or a constant another number.
+    ///
+    /// A parameter that is set keeps its part in the degree that counts and in the points of division by zero, which are
+    /// those of the model with all parameters symbolic. A constant that is set has another number and nothing else changes:
+    /// the answer is that of a model with this number in its text. Only a constant that is left [free](Question::free)
+    /// becomes a parameter.
     pub fn set(mut self, name: impl Into<String>, value: impl Into<Rational>) -> Self {
         self.set.insert(name.into(), value.into());
         self

@@ -1,26 +1,14 @@
 //! Whether the names and values of a model make sense.
 
-use super::definition::{
+use super::reader::Reader;
+use super::simulation;
+use crate::error::{Diagnostic, Span};
+use crate::model::definition::{
     Block, Constant, Discretization, Dynamics, Form, Loop, Matrix, Name, Output, Parameter, Ports, Position, Time,
 };
-use super::evaluate::Failure;
-use super::expression::Expression;
-use super::names::{did_you_mean, nearest_name, shorten};
-use super::read::Reader;
-use super::read_block::driven;
-use super::read_loop::known_names;
-use super::scalar::{Scope, Symbol};
-use super::simulation;
-use super::state_space::assemble;
-use super::symbolic::{Wiring, symbolic};
-use crate::error::{Diagnostic, Span};
-use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{Integer, Rational};
+use crate::model::text::Expression;
+use crate::model::text::names::{did_you_mean, known_names, nearest_name, shorten};
 use std::collections::{HashMap, HashSet};
-use std::time::Duration;
-
-/// How long the check of values may take; what is not found by then shows when a question is asked.
-const CHECK_TIME: Duration = Duration::from_millis(300);
 
 /// Names with a meaning of their own.
 const RESERVED: [(&str, &str); 2] =
@@ -242,7 +230,7 @@ pub(super) fn names(model: &Loop, form_is_broken: bool, reader: &mut Reader) {
             let mut once = HashSet::new();
             let inputs = diagram.inputs.iter().filter(|n| once.insert(n.name.as_str()));
             let external = inputs.map(|n| (n, "an external input"));
-            for (name, what) in external.chain(driven(diagram).map(|(n, _)| (n, "driven by a block"))) {
+            for (name, what) in external.chain(diagram.driven().map(|(n, _)| (n, "driven by a block"))) {
                 if what != "an external input" {
                     own_name(&mut names, name);
                 }
@@ -360,81 +348,4 @@ fn check_block<'m>(names: &mut Names<'m, '_>, block: &'m Block, signals: &HashSe
     if let Some(pwm) = &block.pwm {
         [&pwm.amplitude, &pwm.carrier, &pwm.period].into_iter().for_each(|e| names.expression(e, &none, ""));
     }
-}
-
-/// Evaluates everything with numbers for the parameters. What is not zero at one point is not
-/// identically zero, so this acquits; what looks wrong there is evaluated again with symbols.
-pub(super) fn values(model: &Loop, reader: &mut Reader) {
-    for attempt in 0..3u64 {
-        let budget = Budget::with_timeout(CHECK_TIME);
-        let mut position = 0;
-        let mut symbol = |_: &str, constant: bool| {
-            position += 1;
-            (!constant).then(|| Symbol::Value(probe(attempt, position)))
-        };
-        let Some(found) = problems(model, &mut symbol, &budget) else { return };
-        if found.is_empty() {
-            return;
-        }
-    }
-    let budget = Budget::with_timeout(CHECK_TIME);
-    let found = problems(model, &mut |_, constant| (!constant).then_some(Symbol::Variable), &budget);
-    found.into_iter().flatten().for_each(|d| reader.report(d));
-}
-
-/// Refuses a sample time that is not positive whatever the parameters are.
-pub(super) fn sample_time(model: &Loop, reader: &mut Reader) {
-    let Some(e) = &model.sample_time else { return };
-    let mut needed: HashSet<&str> = e.names().into_iter().collect();
-    for constant in model.ordered_constants().collect::<Vec<_>>().into_iter().rev() {
-        if needed.contains(constant.name.as_str()) {
-            needed.extend(constant.expression.names());
-        }
-    }
-    if model.parameters.iter().any(|p| needed.contains(p.name.as_str())) {
-        return;
-    }
-    let budget = Budget::with_timeout(CHECK_TIME);
-    let constants = model.ordered_constants().filter(|c| needed.contains(c.name.as_str()));
-    let mut scope = Scope::new(std::iter::empty(), constants, |_, _| None, &budget, &mut |_| {});
-    // Whatever else is wrong with it has been reported with the other values.
-    if let Some(value) = scope.scalar(e).ok().and_then(|t| t.as_constant())
-        && !value.sign().is_gt()
-    {
-        let error = Diagnostic::error("E-value", "the sample time must be positive");
-        reader.report(error.at(e.span, format!("this is {}", shorten(&value.to_string()))));
-    }
-}
-
-/// A number that no formula expects.
-fn probe(attempt: u64, position: u64) -> Rational {
-    let mixed = (attempt * 1_000_003 + position).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40;
-    Rational::new(Integer::from(mixed + 1009), Integer::from(7919 + 2 * attempt))
-}
-
-/// Everything that is wrong with the values; `None` when the budget ran out first.
-fn problems(
-    model: &Loop,
-    symbol: &mut dyn FnMut(&str, bool) -> Option<Symbol>,
-    budget: &Budget,
-) -> Option<Vec<Diagnostic>> {
-    let mut found = Vec::new();
-    let mut exhausted = false;
-    let mut report = |failure| match failure {
-        Failure::Wrong(diagnostic) => found.push(*diagnostic),
-        Failure::Exhausted(_) => exhausted = true,
-        Failure::Poisoned => {}
-    };
-    let mut scope = Scope::new(model.parameters.iter(), model.ordered_constants(), symbol, budget, &mut report);
-    let wiring = Wiring::of(model);
-    let form = symbolic(model, &wiring, &mut scope, &mut report);
-    if let Some(form) = form
-        && let Err(failure) = assemble(model, &wiring, &form, &|f| Some(f.clone()), budget)
-    {
-        match failure {
-            super::state_space::Stop::Exhausted(_) => exhausted = true,
-            super::state_space::Stop::Undefined(diagnostic) => found.push(*diagnostic),
-        }
-    }
-    if exhausted && found.is_empty() { None } else { Some(found) }
 }

@@ -1,16 +1,16 @@
 //! Linear expressions in signals or states.
 
-use super::evaluate::{Failure, Meaning, evaluate};
-use super::expression::{Expression, Sign};
 use super::scalar::{Scope, checked_product, checked_sum};
+use super::walk::{Failure, Meaning, evaluate};
 use crate::error::{Diagnostic, Span};
+use crate::model::text::{Expression, Sign};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 use std::collections::{BTreeMap, HashMap};
 
 /// A constant part and the coefficient of each signal, by its number.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Linear {
+pub(in crate::model) struct Linear {
     constant: RationalFunction,
     /// The coefficients; a signal that is written is listed even when its coefficient is zero.
     pub coefficients: BTreeMap<usize, RationalFunction>,
@@ -22,7 +22,7 @@ struct InSignals<'s, 'a> {
 }
 
 /// The coefficients of a linear expression without a constant term.
-pub(super) fn linear(
+pub(in crate::model) fn linear(
     e: &Expression,
     signals: &HashMap<&str, usize>,
     scope: &mut Scope<'_>,
@@ -45,7 +45,7 @@ fn not_linear(message: &str, span: Span) -> Failure {
 }
 
 fn too_large(span: Span) -> Failure {
-    super::evaluate::too_large(span)
+    super::walk::too_large(span)
 }
 
 impl Linear {

@@ -5,7 +5,7 @@
 
 use super::expression::{Expression, Factor, Node, Sign};
 use super::lexer::{Token, TokenKind, lex};
-use super::text::Text;
+use super::located::Text;
 use crate::error::{Diagnostic, Error, Source, Span};
 use jurist_algebra::number::{Integer, Rational};
 
@@ -34,7 +34,7 @@ impl Expression {
 }
 
 /// Reads an expression out of a file.
-pub(super) fn parse(text: &Text) -> Result<Expression, Diagnostic> {
+pub(in crate::model) fn parse(text: &Text) -> Result<Expression, Diagnostic> {
     let tokens = lex(text)?;
     if tokens.len() == 1 {
         let error = Diagnostic::error("E-syntax", "an expression is missing").at(text.span(), "empty");

@@ -1,26 +1,26 @@
 //! Rational expressions in z (or s): sums use the least common denominator, products and
 //! quotients never cancel.
 
-use super::evaluate::{Failure, Meaning, division_by_zero, evaluate, too_large};
-use super::expression::{Expression, Sign};
 use super::scalar::Scope;
+use super::walk::{Failure, Meaning, division_by_zero, evaluate, too_large};
 use super::zpoly::ZPoly;
 use crate::error::{Diagnostic, Span};
+use crate::model::text::{Expression, Sign};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 
 /// Orders beyond this are refused.
-pub(super) const MAX_ORDER: usize = 2000;
+pub(in crate::model) const MAX_ORDER: usize = 2000;
 
 /// A numerator and a denominator as they stand, common factors included.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Fraction {
+pub(in crate::model) struct Fraction {
     pub numerator: ZPoly,
     pub denominator: ZPoly,
 }
 
 /// Evaluates expressions in the polynomial variable.
-pub(super) struct InVariable<'s, 'a> {
+pub(in crate::model) struct InVariable<'s, 'a> {
     pub scope: &'s mut Scope<'a>,
     /// `z` or `s`.
     pub variable: &'s str,
@@ -29,12 +29,12 @@ pub(super) struct InVariable<'s, 'a> {
 }
 
 /// A transfer expression.
-pub(super) fn fraction(e: &Expression, variable: &str, scope: &mut Scope<'_>) -> Result<Fraction, Failure> {
+pub(in crate::model) fn fraction(e: &Expression, variable: &str, scope: &mut Scope<'_>) -> Result<Fraction, Failure> {
     evaluate(e, &mut InVariable { scope, variable, rational: true })
 }
 
 /// An expression that is a polynomial in the variable.
-pub(super) fn polynomial(e: &Expression, variable: &str, scope: &mut Scope<'_>) -> Result<ZPoly, Failure> {
+pub(in crate::model) fn polynomial(e: &Expression, variable: &str, scope: &mut Scope<'_>) -> Result<ZPoly, Failure> {
     let Fraction { numerator, denominator } = evaluate(e, &mut InVariable { scope, variable, rational: false })?;
     debug_assert!(denominator.is_one());
     Ok(numerator)

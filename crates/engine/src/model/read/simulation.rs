@@ -1,13 +1,12 @@
 //! What `[simulation]` says: defaults of a time response and units for its axes. Nothing here enters
 //! the algebra.
 
-use super::definition::{Block, Dynamics, Form, Loop, Name, Simulation};
-use super::names::{did_you_mean, shorten};
-use super::read::Reader;
-use super::read_block::driven;
-use super::read_loop::{known_names, section};
-use super::toml::{Entry, Table};
+use super::model_file::section;
+use super::reader::Reader;
 use crate::error::Diagnostic;
+use crate::model::definition::{Block, Dynamics, Form, Loop, Name, Simulation};
+use crate::model::text::names::{did_you_mean, known_names, shorten};
+use crate::model::text::toml_value::{Entry, Table};
 
 /// Reads the section, if there is one.
 pub(super) fn read(root: &Table, reader: &mut Reader) -> Simulation {
@@ -35,7 +34,7 @@ fn entries<T>(
     table: &Table,
     key: &str,
     reader: &mut Reader,
-    read: impl Fn(&mut Reader, &super::toml::Value, &str) -> Option<T>,
+    read: impl Fn(&mut Reader, &crate::model::text::toml_value::Value, &str) -> Option<T>,
 ) -> Vec<(Name, T)> {
     let Some(values) = section(table, key, reader) else { return Vec::new() };
     let one = |entry: &Entry| {
@@ -55,11 +54,11 @@ pub(super) fn check(model: &Loop, reader: &mut Reader) {
         }
         Form::Blocks(diagram) => {
             let own = |b: &Block| matches!(b.dynamics, Dynamics::StateSpace { c: None, .. });
-            driven(diagram).filter(|(_, b)| own(b)).map(|(n, _)| n.name.as_str()).collect()
+            diagram.driven().filter(|(_, b)| own(b)).map(|(n, _)| n.name.as_str()).collect()
         }
     };
     let signals: Vec<&str> = match &model.form {
-        Form::Blocks(diagram) => inputs.iter().copied().chain(driven(diagram).map(|(n, _)| n.name.as_str())).collect(),
+        Form::Blocks(diagram) => inputs.iter().copied().chain(diagram.driven().map(|(n, _)| n.name.as_str())).collect(),
         _ => inputs.iter().chain(&states).copied().collect(),
     };
     let outputs = model.outputs().iter().map(|o| o.name.name.as_str());

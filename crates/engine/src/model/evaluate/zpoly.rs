@@ -1,13 +1,13 @@
 //! Polynomials in z (or s) whose coefficients are rational functions of the parameters.
 
-use super::expression::Sign;
 use super::scalar::{checked_product, checked_sum};
+use crate::model::text::Sign;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::poly::RationalFunction;
 
 /// Coefficients from the constant term up, no zero at the top.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct ZPoly(Vec<RationalFunction>);
+pub(in crate::model) struct ZPoly(Vec<RationalFunction>);
 
 impl ZPoly {
     pub fn new(mut coefficients: Vec<RationalFunction>) -> Self {

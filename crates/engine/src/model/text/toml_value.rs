@@ -1,19 +1,19 @@
 //! The value tree of a TOML text, with a place for everything and numbers by their own text.
 
-use super::text::Text;
+use super::located::Text;
 use crate::error::Span;
 use std::collections::HashMap;
 
 /// A value and where it stands.
 #[derive(Clone, Debug)]
-pub(super) struct Value {
+pub(in crate::model) struct Value {
     pub span: Span,
     pub kind: Kind,
 }
 
 /// What a value is.
 #[derive(Clone, Debug)]
-pub(super) enum Kind {
+pub(in crate::model) enum Kind {
     /// A string, decoded.
     String(Text),
     /// A number by its text: sign, digits, point, exponent, without underscores.
@@ -44,38 +44,24 @@ impl Value {
 
 /// Keys in the order of the text.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Table {
+pub(in crate::model) struct Table {
     entries: Vec<Entry>,
     index: HashMap<String, usize>,
-    /// How the table came to be, which decides what may still be added to it.
-    pub origin: Origin,
 }
 
 /// A key with its value.
 #[derive(Clone, Debug)]
-pub(super) struct Entry {
+pub(in crate::model) struct Entry {
     pub key: String,
     pub key_span: Span,
     pub value: Value,
 }
 
-/// How a table came to be.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Origin {
-    /// Named only as a part of a longer header; may still get its own header.
-    #[default]
-    Implicit,
-    /// By its own header.
-    Header,
-    /// By dotted keys; closed to headers.
-    Dotted,
-    /// Inline; closed.
-    Inline,
-}
-
 impl Table {
-    pub fn new(origin: Origin) -> Self {
-        Table { origin, ..Table::default() }
+    /// The table of these entries, whose keys are distinct.
+    pub fn new(entries: Vec<Entry>) -> Self {
+        let index = entries.iter().enumerate().map(|(i, e)| (e.key.clone(), i)).collect();
+        Table { entries, index }
     }
 
     pub fn get(&self, key: &str) -> Option<&Value> {
@@ -84,16 +70,6 @@ impl Table {
 
     pub fn entry(&self, key: &str) -> Option<&Entry> {
         self.index.get(key).map(|&i| &self.entries[i])
-    }
-
-    pub fn entry_mut(&mut self, key: &str) -> Option<&mut Entry> {
-        self.index.get(key).map(|&i| &mut self.entries[i])
-    }
-
-    /// Adds a key that is not there yet.
-    pub fn insert(&mut self, entry: Entry) {
-        self.index.insert(entry.key.clone(), self.entries.len());
-        self.entries.push(entry);
     }
 
     pub fn iter(&self) -> impl Iterator<Item = &Entry> {

@@ -1,6 +1,7 @@
 //! Names in messages: suggestions, shortening, lists.
 
 use std::borrow::Cow;
+use std::collections::HashSet;
 
 /// Names longer than this are cut in messages.
 const SHOWN: usize = 60;
@@ -44,16 +45,23 @@ pub fn nearest_name<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str
 }
 
 /// The help that goes with a name that is not known.
-pub(super) fn did_you_mean<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
+pub(in crate::model) fn did_you_mean<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     nearest_name(name, candidates).map(|c| format!("did you mean '{c}'?"))
 }
 
 /// `'a', 'b' and 'c'`.
-pub(super) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+pub(in crate::model) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let quoted: Vec<String> = names.into_iter().map(|n| format!("'{}'", shorten(n))).collect();
     match quoted.split_last() {
         None => String::new(),
         Some((only, [])) => only.clone(),
         Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
     }
+}
+
+/// The names of a list for a message, each once.
+pub(in crate::model) fn known_names<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    let mut seen = HashSet::new();
+    let names: Vec<&str> = names.into_iter().filter(|n| seen.insert(*n)).take(8).collect();
+    (!names.is_empty()).then(|| format!("known here: {}", list(names)))
 }

@@ -1,9 +1,10 @@
 //! Values that depend on the parameters only.
 
-use super::definition::{Constant, Parameter};
-use super::evaluate::{Failure, Meaning, division_by_zero, evaluate, too_large};
-use super::expression::{Expression, Sign};
+use super::walk::{Failure, Meaning, division_by_zero, evaluate, too_large};
+use super::work::count_work;
 use crate::error::{Diagnostic, Span};
+use crate::model::definition::{Constant, Parameter};
+use crate::model::text::{Expression, Sign};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
@@ -13,7 +14,7 @@ use std::collections::{HashMap, HashSet};
 const MAX_BITS: u64 = 1 << 23;
 
 /// What every name of a model stands for, and what has been divided by so far.
-pub(super) struct Scope<'a> {
+pub(in crate::model) struct Scope<'a> {
     values: HashMap<&'a str, Option<RationalFunction>>,
     /// The names of the variables of all values.
     pub variables: Vec<String>,
@@ -24,7 +25,7 @@ pub(super) struct Scope<'a> {
 }
 
 /// What a parameter stands for.
-pub(super) enum Symbol {
+pub(in crate::model) enum Symbol {
     /// Itself, under its own name.
     Variable,
     /// A number.
@@ -99,17 +100,24 @@ fn fits(a: &MultiPoly, b: &MultiPoly) -> bool {
         && a.height_bits() + b.height_bits() <= MAX_BITS
 }
 
-/// `a + b` or `a - b`, unless it would grow beyond every use.
-pub(super) fn checked_sum(a: &RationalFunction, sign: Sign, b: &RationalFunction) -> Option<RationalFunction> {
+/// `a + b` or `a - b`, unless it would grow beyond every use. Counts its work.
+pub(in crate::model) fn checked_sum(
+    a: &RationalFunction,
+    sign: Sign,
+    b: &RationalFunction,
+) -> Option<RationalFunction> {
     let fits = fits(a.numerator(), b.denominator())
         && fits(b.numerator(), a.denominator())
         && fits(a.denominator(), b.denominator());
+    count_work(a, b);
     fits.then(|| if sign == Sign::Plus { a + b } else { a - b })
 }
 
-/// `a b`, unless it would grow beyond every use.
-pub(super) fn checked_product(a: &RationalFunction, b: &RationalFunction) -> Option<RationalFunction> {
-    (fits(a.numerator(), b.numerator()) && fits(a.denominator(), b.denominator())).then(|| a * b)
+/// `a b`, unless it would grow beyond every use. Counts its work.
+pub(in crate::model) fn checked_product(a: &RationalFunction, b: &RationalFunction) -> Option<RationalFunction> {
+    let fits = fits(a.numerator(), b.numerator()) && fits(a.denominator(), b.denominator());
+    count_work(a, b);
+    fits.then(|| a * b)
 }
 
 impl Meaning for Scope<'_> {
@@ -126,7 +134,7 @@ impl Meaning for Scope<'_> {
             Some(Some(value)) => Ok(value.clone()),
             Some(None) => Err(Failure::Poisoned),
             None => {
-                let message = format!("unknown name '{}'", super::names::shorten(name));
+                let message = format!("unknown name '{}'", crate::model::text::names::shorten(name));
                 Err(Diagnostic::error("E-unknown-name", message).at(span, "not defined").into())
             }
         }
@@ -163,6 +171,8 @@ impl Meaning for Scope<'_> {
             }
             self.divides_by(vec![base.numerator().clone()]);
         }
-        base.pow(exponent).ok_or_else(|| too_large(span))
+        let power = base.pow(exponent).ok_or_else(|| too_large(span))?;
+        count_work(&power, &base);
+        Ok(power)
     }
 }

@@ -1,24 +1,23 @@
 //! Every expression of a model as a value.
 
-use super::definition::{Block, Dynamics, Form, Loop, Matrix, Method, Output, Ports};
-use super::evaluate::{Failure, division_by_zero};
-use super::expression::Expression;
 use super::linear::linear;
-use super::names::shorten;
-use super::read_block::driven;
 use super::scalar::Scope;
 use super::transfer::{Fraction, fraction, polynomial};
+use super::walk::{Failure, division_by_zero};
 use super::zpoly::ZPoly;
 use crate::error::{Diagnostic, Span};
+use crate::model::definition::{Block, Dynamics, Form, Loop, Matrix, Method, Output, Ports};
+use crate::model::text::Expression;
+use crate::model::text::names::shorten;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::poly::RationalFunction;
 use std::collections::{BTreeMap, HashMap};
 
 /// The coefficients of a linear expression by signal.
-pub(super) type Row = BTreeMap<usize, RationalFunction>;
+pub(in crate::model) type Row = BTreeMap<usize, RationalFunction>;
 
 /// The numbers of signals or states: those that are driven first, then the external ones.
-pub(super) struct Wiring<'m> {
+pub(in crate::model) struct Wiring<'m> {
     pub numbers: HashMap<&'m str, usize>,
     /// How many are driven.
     pub driven: usize,
@@ -32,7 +31,7 @@ impl<'m> Wiring<'m> {
             Form::Matrix { ports, .. } | Form::OutputFeedback { ports, .. } => {
                 ports.states.iter().map(|n| n.name.as_str()).collect()
             }
-            Form::Blocks(diagram) => driven(diagram).map(|(n, _)| n.name.as_str()).collect(),
+            Form::Blocks(diagram) => diagram.driven().map(|(n, _)| n.name.as_str()).collect(),
         };
         let inputs: Vec<&str> = model.inputs().iter().map(|n| n.name.as_str()).collect();
         let mut numbers: HashMap<&str, usize> = own.iter().enumerate().map(|(i, n)| (*n, i)).collect();
@@ -44,19 +43,19 @@ impl<'m> Wiring<'m> {
 }
 
 /// The values of everything in a model's form.
-pub(super) enum Values {
+pub(in crate::model) enum Values {
     Characteristic(ZPoly),
     Matrix { matrix: RationalMatrix, ports: PortValues },
     Feedback { a: RationalMatrix, b: RationalMatrix, c: RationalMatrix, k: RationalMatrix, ports: PortValues },
     Blocks { blocks: Vec<BlockValues>, outputs: Vec<Row> },
 }
 
-pub(super) struct PortValues {
+pub(in crate::model) struct PortValues {
     pub input_matrix: Option<RationalMatrix>,
     pub outputs: Vec<Row>,
 }
 
-pub(super) struct BlockValues {
+pub(in crate::model) struct BlockValues {
     pub name: String,
     pub span: Span,
     pub inputs: Vec<Row>,
@@ -65,7 +64,7 @@ pub(super) struct BlockValues {
     pub discretization: Option<(Method, RationalFunction)>,
 }
 
-pub(super) enum DynamicValues {
+pub(in crate::model) enum DynamicValues {
     /// Numerator and denominator, of which the denominator's degree is the order.
     Ratio(Fraction),
     StateSpace {
@@ -247,7 +246,7 @@ impl Evaluator<'_, '_> {
 }
 
 /// Evaluates the form; `None` when something was reported.
-pub(super) fn symbolic(
+pub(in crate::model) fn symbolic(
     model: &Loop,
     wiring: &Wiring<'_>,
     scope: &mut Scope<'_>,

@@ -1,11 +1,11 @@
 //! `[[block]]` entries.
 
-use super::definition::{Block, Diagram, Discretization, Dynamics, Method, Name, Pwm, Time};
-use super::names::{did_you_mean, shorten};
-use super::read::{Meant, Reader, count};
-use super::toml::{Entry, Kind, Table, Value};
-use super::transfer::MAX_ORDER;
+use super::reader::{Meant, Reader, count};
 use crate::error::{Diagnostic, Span};
+use crate::model::definition::{Block, Diagram, Discretization, Dynamics, Method, Pwm, Time};
+use crate::model::evaluate::transfer::MAX_ORDER;
+use crate::model::text::names::{did_you_mean, shorten};
+use crate::model::text::toml_value::{Entry, Kind, Table, Value};
 use std::collections::HashMap;
 
 const DYNAMICS: [&str; 9] = ["transfer", "num", "den", "gain", "delay", "A", "B", "C", "D"];
@@ -345,9 +345,4 @@ fn pwm(entry: &Entry, reader: &mut Reader) -> Option<Pwm> {
     };
     let (amplitude, carrier, period) = (part("amplitude"), part("carrier"), part("period"));
     Some(Pwm { amplitude: amplitude?, carrier: carrier?, period: period? })
-}
-
-/// Signals driven by blocks, in order.
-pub(super) fn driven(diagram: &Diagram) -> impl Iterator<Item = (&Name, &Block)> {
-    diagram.blocks.iter().flat_map(|b| b.outputs.iter().map(move |o| (o, b)))
 }

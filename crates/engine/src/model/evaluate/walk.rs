@@ -1,13 +1,13 @@
 //! Walking an expression with a meaning for each of its operations.
 
-use super::expression::{Expression, Factor, Node, Sign};
 use crate::error::{Diagnostic, Span};
+use crate::model::text::{Expression, Factor, Node, Sign};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;
 
 /// Why an expression has no value.
 #[derive(Clone, Debug)]
-pub(super) enum Failure {
+pub(in crate::model) enum Failure {
     /// The text is wrong.
     Wrong(Box<Diagnostic>),
     /// The budget ran out.
@@ -29,7 +29,7 @@ impl From<Exhausted> for Failure {
 }
 
 /// What the operations of an expression mean.
-pub(super) trait Meaning {
+pub(in crate::model) trait Meaning {
     /// What an expression evaluates to.
     type Value;
     fn number(&mut self, value: &Rational) -> Result<Self::Value, Failure>;
@@ -44,7 +44,7 @@ pub(super) trait Meaning {
 }
 
 /// The value of `e`. Recursion is as deep as the nesting of the text, which the parser limits.
-pub(super) fn evaluate<M: Meaning>(e: &Expression, meaning: &mut M) -> Result<M::Value, Failure> {
+pub(in crate::model) fn evaluate<M: Meaning>(e: &Expression, meaning: &mut M) -> Result<M::Value, Failure> {
     match &e.node {
         Node::Number(value) => meaning.number(value),
         Node::Name(name) => meaning.name(name, e.span),
@@ -88,14 +88,14 @@ pub(super) fn evaluate<M: Meaning>(e: &Expression, meaning: &mut M) -> Result<M:
 }
 
 /// The error of a division by something that is zero whatever the parameters are.
-pub(super) fn division_by_zero(span: Span) -> Failure {
+pub(in crate::model) fn division_by_zero(span: Span) -> Failure {
     Diagnostic::error("E-division-by-zero", "division by an expression that is identically zero")
         .at(span, "zero for all values of the parameters")
         .into()
 }
 
 /// The error of a value that grows beyond every use.
-pub(super) fn too_large(span: Span) -> Failure {
+pub(in crate::model) fn too_large(span: Span) -> Failure {
     Diagnostic::error("E-too-large", "the expression is too large to be multiplied out")
         .at(span, "becomes too large here")
         .help("lower the exponents or the number of parameters")

@@ -3,18 +3,19 @@
 //! The controllable canonical form of a numerator and a denominator keeps every mode, common
 //! factors included: its characteristic polynomial is the denominator.
 
-use super::definition::{Dynamics, Form, Loop, Method};
-use super::evaluate::Failure;
-use super::names::shorten;
-use super::symbolic::{BlockValues, DynamicValues, PortValues, Row, Values, Wiring};
-use super::zpoly::ZPoly;
 use crate::error::{Diagnostic, Span};
+use crate::model::definition::{Dynamics, Form, Loop, Method};
+use crate::model::evaluate::symbolic::{BlockValues, DynamicValues, PortValues, Row, Values, Wiring};
+use crate::model::evaluate::walk::Failure;
+use crate::model::evaluate::work::count_work;
+use crate::model::evaluate::zpoly::ZPoly;
+use crate::model::text::names::shorten;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
 
 /// Why there is no closed loop.
-pub(super) enum Stop {
+pub(in crate::model) enum Stop {
     /// The loop is undefined for these values of the parameters.
     Undefined(Box<Diagnostic>),
     /// The budget ran out.
@@ -37,11 +38,11 @@ impl From<Stop> for Failure {
 }
 
 /// Sets parameters to values; `None` where that divides by zero.
-pub(super) type Substitution<'s> = dyn Fn(&RationalFunction) -> Option<RationalFunction> + 's;
+pub(in crate::model) type Substitution<'s> = dyn Fn(&RationalFunction) -> Option<RationalFunction> + 's;
 
 /// A realised system; all parts have entries in the kept parameters only.
 #[derive(Clone, Debug)]
-pub(super) struct System {
+pub(in crate::model) struct System {
     pub a: RationalMatrix,
     pub b: RationalMatrix,
     pub c: RationalMatrix,
@@ -49,7 +50,7 @@ pub(super) struct System {
 }
 
 /// A closed loop and where it is undefined beyond its expressions.
-pub(super) struct Assembled {
+pub(in crate::model) struct Assembled {
     pub system: System,
     pub states: Vec<String>,
     pub poles: Vec<MultiPoly>,
@@ -74,7 +75,7 @@ fn substituted_matrix(m: &RationalMatrix, substitution: &Substitution<'_>) -> Re
 }
 
 /// Connects the parts of the model's form. `Characteristic` has no parts and gives order 0.
-pub(super) fn assemble(
+pub(in crate::model) fn assemble(
     model: &Loop,
     wiring: &Wiring<'_>,
     values: &Values,
@@ -109,7 +110,11 @@ pub(super) fn assemble(
         Values::Matrix { matrix, ports } => with_ports(set(matrix)?, ports),
         Values::Feedback { a, b, c, k, ports } => {
             let (a, b, c, k) = (set(a)?, set(b)?, set(c)?, set(k)?);
-            let closed = if a.rows() == 0 || b.columns() == 0 || c.rows() == 0 { a } else { &a - &(&(&b * &k) * &c) };
+            let closed = if a.rows() == 0 || b.columns() == 0 || c.rows() == 0 {
+                a
+            } else {
+                &a - &product(&product(&b, &k), &c)
+            };
             with_ports(closed, ports)
         }
         Values::Blocks { blocks, outputs } => connect(model, wiring, blocks, outputs, substitution, budget),
@@ -200,17 +205,17 @@ fn discretised(
         return Err(undefined(message, block.span));
     };
     poles.push(determinant.numerator().clone());
-    let through = &inverse * &s.b;
+    let through = product(&inverse, &s.b);
     Ok(match method {
         Method::Tustin => System {
-            a: &inverse * &(&identity.scaled(value) + &s.a),
-            d: &s.d + &(&s.c * &through),
-            c: (&s.c * &inverse).scaled(&(value + value)),
+            a: product(&inverse, &(&identity.scaled(value) + &s.a)),
+            d: &s.d + &product(&s.c, &through),
+            c: product(&s.c, &inverse).scaled(&(value + value)),
             b: through,
         },
         _ => System {
-            d: &s.d + &(&s.c * &through).scaled(value),
-            c: &s.c * &inverse,
+            d: &s.d + &product(&s.c, &through).scaled(value),
+            c: product(&s.c, &inverse),
             b: through.scaled(value),
             a: inverse,
         },
@@ -219,7 +224,7 @@ fn discretised(
 
 /// `M^-1 R` and `det M` by elimination over the field of rational functions; `None` when `M` is
 /// singular. Zero entries cost nothing, so a sparse diagram stays cheap.
-pub(super) fn solve(
+pub(in crate::model) fn solve(
     m: &RationalMatrix,
     right: &RationalMatrix,
     budget: &Budget,
@@ -244,6 +249,7 @@ pub(super) fn solve(
         let Some(inverse) = rows[k][k].recip() else { return Ok(None) };
         if !inverse.is_one() {
             for f in rows[k].iter_mut().filter(|f| !f.is_zero()) {
+                count_work(f, &inverse);
                 *f = &*f * &inverse;
             }
         }
@@ -255,12 +261,24 @@ pub(super) fn solve(
             let factor = row[k].clone();
             debug_assert!(i != k);
             for (f, p) in row.iter_mut().zip(&pivot_row).filter(|(_, p)| !p.is_zero()) {
+                count_work(&factor, p);
                 *f = &*f - &(&factor * p);
             }
         }
     }
     let solution = RationalMatrix::from_fn(n, columns, |i, j| rows[i][n + j].clone());
     Ok(Some((solution, determinant)))
+}
+
+/// `left * right`, whose work is counted.
+fn product(left: &RationalMatrix, right: &RationalMatrix) -> RationalMatrix {
+    for (i, k) in (0..left.rows()).flat_map(|i| (0..left.columns()).map(move |k| (i, k))) {
+        let a = &left[(i, k)];
+        if !a.is_zero() {
+            (0..right.columns()).map(|j| &right[(k, j)]).filter(|b| !b.is_zero()).for_each(|b| count_work(a, b));
+        }
+    }
+    left * right
 }
 
 fn block_diagonal(parts: &[&RationalMatrix]) -> RationalMatrix {
@@ -320,8 +338,8 @@ fn connect(
     let l = part(&rows, 0, wiring.driven, set)?;
     let m = part(&rows, wiring.driven, wiring.inputs.len(), set)?;
     let n = a.rows();
-    let left = &RationalMatrix::identity(rows.len()) - &(&l * &d);
-    let lc = &l * &c;
+    let left = &RationalMatrix::identity(rows.len()) - &product(&l, &d);
+    let lc = product(&l, &c);
     let right = beside(&lc, &m);
     let Some((u, determinant)) = solve(&left, &right, budget)? else {
         return Err(algebraic_loop(blocks, &systems));
@@ -330,15 +348,15 @@ fn connect(
     let from_states = RationalMatrix::from_fn(rows.len(), n, |i, j| u[(i, j)].clone());
     let from_inputs = RationalMatrix::from_fn(rows.len(), m.columns(), |i, j| u[(i, n + j)].clone());
     // All signals, the external ones last.
-    let y_states = &c + &(&d * &from_states);
-    let y_inputs = &d * &from_inputs;
+    let y_states = &c + &product(&d, &from_states);
+    let y_inputs = product(&d, &from_inputs);
     let s = part(outputs, 0, wiring.driven, set)?;
     let direct = part(outputs, wiring.driven, wiring.inputs.len(), set)?;
     let system = System {
-        a: &a + &(&b * &from_states),
-        b: &b * &from_inputs,
-        c: &s * &y_states,
-        d: &(&s * &y_inputs) + &direct,
+        a: &a + &product(&b, &from_states),
+        b: product(&b, &from_inputs),
+        c: product(&s, &y_states),
+        d: &product(&s, &y_inputs) + &direct,
     };
     Ok(Assembled { system, states, poles })
 }

@@ -1,18 +1,18 @@
 //! Expression text to tokens.
 
-use super::text::Text;
+use super::located::Text;
 use crate::error::{Diagnostic, Span};
 use jurist_algebra::number::{Rational, parse_decimal_literal, scan_decimal_literal};
 
 /// A token and its place in the source text.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Token {
+pub(in crate::model) struct Token {
     pub kind: TokenKind,
     pub span: Span,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum TokenKind {
+pub(in crate::model) enum TokenKind {
     Number(Rational),
     Name(String),
     Plus,
@@ -44,22 +44,22 @@ impl TokenKind {
 }
 
 /// Whether `c` may begin a name.
-pub(super) fn begins_name(c: char) -> bool {
+pub(in crate::model) fn begins_name(c: char) -> bool {
     c == '_' || c.is_alphabetic()
 }
 
 /// Whether `c` may stand in a name.
-pub(super) fn continues_name(c: char) -> bool {
+pub(in crate::model) fn continues_name(c: char) -> bool {
     c == '_' || c.is_alphanumeric()
 }
 
 /// Whether `text` is a name as expressions know them.
-pub(super) fn is_name(text: &str) -> bool {
+pub(in crate::model) fn is_name(text: &str) -> bool {
     text.chars().next().is_some_and(begins_name) && text.chars().all(continues_name)
 }
 
 /// All tokens of `text`, ending with [`TokenKind::End`].
-pub(super) fn lex(text: &Text) -> Result<Vec<Token>, Diagnostic> {
+pub(in crate::model) fn lex(text: &Text) -> Result<Vec<Token>, Diagnostic> {
     let source = text.as_str();
     let mut tokens = Vec::new();
     let mut at = 0;

@@ -1,21 +1,15 @@
 //! TOML values to typed parts of a model, with an error for whatever does not fit.
 
-use super::definition::{Matrix, Name, Output};
-use super::evaluate::{Failure, evaluate};
-use super::expression::{Expression, Node};
-use super::lexer::is_name;
-use super::names::{did_you_mean, list, nearest_name, shorten};
-use super::scalar::Scope;
-use super::text::Text;
-use super::toml::{Entry, Kind, Table, Value};
 use crate::error::{Diagnostic, Span};
-use jurist_algebra::limits::Budget;
+use crate::model::definition::{Matrix, Name, Output};
+use crate::model::evaluate::work::constant_value;
+use crate::model::text::Expression;
+use crate::model::text::Text;
+use crate::model::text::is_name;
+use crate::model::text::names::{did_you_mean, list, nearest_name, shorten};
+use crate::model::text::toml_value::{Entry, Kind, Table, Value};
 use jurist_algebra::number::{Rational, parse_number};
 use std::collections::HashSet;
-use std::time::Duration;
-
-/// How long a single number of the file may take to evaluate.
-const NUMBER_TIME: Duration = Duration::from_millis(300);
 
 /// Collects what is wrong while it reads on.
 #[derive(Default)]
@@ -115,7 +109,7 @@ impl Reader {
     /// A number or a string with an expression.
     pub fn expression(&mut self, value: &Value, what: &str) -> Option<Expression> {
         match &value.kind {
-            Kind::String(text) => match super::parser::parse(text) {
+            Kind::String(text) => match crate::model::text::parse(text) {
                 Ok(expression) => Some(expression),
                 Err(diagnostic) => {
                     self.report(diagnostic);
@@ -262,23 +256,4 @@ impl Reader {
 /// `1 entry`, `2 entries`.
 pub(super) fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
-}
-
-/// The value of an expression without names; `Err(None)` when it has names.
-pub(super) fn constant_value(e: &Expression) -> Result<Rational, Option<Diagnostic>> {
-    if let Node::Number(value) = &e.node {
-        return Ok(value.clone());
-    }
-    if !e.is_constant() {
-        return Err(None);
-    }
-    let budget = Budget::with_timeout(NUMBER_TIME);
-    let mut scope = Scope::new(std::iter::empty(), std::iter::empty(), |_, _| None, &budget, &mut |_| {});
-    match evaluate(e, &mut scope) {
-        Ok(value) => value.as_constant().ok_or(None),
-        Err(Failure::Wrong(diagnostic)) => Err(Some(*diagnostic)),
-        Err(Failure::Exhausted(_) | Failure::Poisoned) => {
-            Err(Some(Diagnostic::error("E-too-large", "the number takes too long to compute").at(e.span, "too large")))
-        }
-    }
 }

@@ -1,0 +1,127 @@
+//! A constant that is set has another number, and nothing else changes; a constant that is kept is a parameter.
+
+use super::Loop;
+use crate::error::{Failure, Source};
+use crate::problem::Question;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_algebra::number::{Rational, parse_number};
+use std::path::Path;
+
+fn number(text: &str) -> Rational {
+    parse_number(text).unwrap()
+}
+
+/// The polynomial, or the code of what is wrong.
+fn ask(question: Question) -> Result<CharacteristicPolynomial, String> {
+    let budget = Budget::unlimited();
+    let asked = question.problem().and_then(|problem| {
+        let algebra = problem.algebra(&budget)?;
+        algebra.polynomial().cloned().ok_or_else(|| Failure::Undefined(algebra.undefined().unwrap_or_default().into()))
+    });
+    asked.map_err(|failure| match failure {
+        Failure::Refused(error) => error.code().to_owned(),
+        other => other.to_string(),
+    })
+}
+
+/// The question with these names free.
+fn free<'n>(model: &Loop, names: impl IntoIterator<Item = &'n str>) -> Question {
+    names.into_iter().fold(model.ask(), Question::free)
+}
+
+fn examples() -> Vec<Loop> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let mut models = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|e| e == "toml") {
+            models.push(Loop::from_bytes("model.toml", &std::fs::read(&path).unwrap()).unwrap().0);
+        }
+    }
+    assert!(models.len() > 10);
+    models
+}
+
+#[test]
+fn a_constant_set_to_its_own_number_changes_no_answer_of_the_examples() {
+    let mut constants = 0;
+    for model in examples() {
+        let nominal = |p: &&super::Parameter| p.nominal.is_some();
+        let without = model.parameters().iter().filter(|p| !nominal(p)).map(|p| p.name.as_str());
+        let one = model.parameters().iter().find(nominal).map(|p| p.name.as_str());
+        let plain = free(&model, without.chain(one));
+        let time = |question: Question| {
+            let problem = question.problem().unwrap();
+            problem.algebra(&Budget::unlimited()).unwrap().sample_time().cloned()
+        };
+        let expected = ask(plain.clone()).unwrap();
+        for constant in model.constants() {
+            let Some(value) = &constant.number else { continue };
+            constants += 1;
+            let set = plain.clone().set(constant.name.as_str(), value.clone());
+            assert_eq!(ask(set.clone()).unwrap(), expected, "{:?}: {}", model.title(), constant.name);
+            assert_eq!(time(set), time(plain.clone()));
+        }
+    }
+    assert!(constants > 20, "{constants}");
+}
+
+#[test]
+fn a_constant_that_is_set_is_another_number_in_the_text() {
+    let model = |form: &str, c: &str| {
+        let text = format!(
+            "time = 'discrete'\n[parameters]\nK = {{ nominal = 1 }}\n[constants]\nc = '{c}'\nd = 'c + K'\n[loop]\n{form}\n"
+        );
+        Loop::from_toml(&Source::new("model.toml", text)).map(|(model, _)| model)
+    };
+    let mut refused = 0;
+    for form in [
+        "characteristic = 'c*z^2 + K*z + d/2'",
+        "characteristic = 'z^2 + K/c*z + d'",
+        "characteristic = 'z - K/(c - 3)'",
+        "matrix = [['c', 'K'], [1, 'd/c']]",
+        "inputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'r - K*y'\noutput = 'y'\ntransfer = '(z + d)/(c*z^2 + z)'",
+    ] {
+        let written = model(form, "1").unwrap();
+        for value in ["-2", "0", "1/3", "3"] {
+            let expected = match model(form, value) {
+                Ok(model) => ask(free(&model, ["K"])),
+                Err(error) => {
+                    refused += 1;
+                    Err(error.code().to_owned())
+                }
+            };
+            let found = ask(free(&written, ["K"]).set("c", number(value)));
+            assert_eq!(found, expected, "{form} with c = {value}");
+        }
+    }
+    assert!(refused > 0, "some numbers are refused in the text and by the question alike");
+}
+
+#[test]
+fn the_degree_that_counts_is_that_of_the_number_set() {
+    let text =
+        "time = 'discrete'\n[constants]\nc = 1\n[parameters]\nK = {}\n[loop]\ncharacteristic = 'c*z^2 + K*z + 1'\n";
+    let (model, _) = Loop::from_toml(&Source::new("model.toml", text)).unwrap();
+    let degree = |question: Question| ask(question).unwrap().formal_degree;
+    assert_eq!(degree(free(&model, ["K"])), 2);
+    assert_eq!(degree(free(&model, ["K"]).set("c", number("0"))), 1);
+    assert_eq!(degree(free(&model, ["K", "c"])), 2);
+}
+
+#[test]
+fn a_constant_that_is_kept_is_a_parameter_with_its_number_as_nominal_value() {
+    let (model, _) = Loop::from_toml(&Source::new(
+        "model.toml",
+        "time = 'discrete'\n[constants]\nc = '1/3'\n[loop]\ncharacteristic = 'z - 1/c'\n",
+    ))
+    .unwrap();
+    let freed = model.free("c").unwrap();
+    assert_eq!((freed.nominal, freed.min, freed.max), (Some(number("1/3")), None, None));
+    let kept = ask(free(&model, ["c"])).unwrap();
+    assert_eq!(kept.poles.len(), 1);
+    // Given as a number, it divides by nothing that could vanish.
+    assert_eq!(ask(model.ask()).unwrap().poles.len(), 0);
+    assert_eq!(ask(model.ask().set("c", number("5"))).unwrap().poles.len(), 0);
+}

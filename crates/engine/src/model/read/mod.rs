@@ -1,0 +1,12 @@
+//! From the tables of a model file to a checked [`Loop`](super::Loop): what every key means, and whether names and
+//! values make sense. Nothing below imports this.
+
+mod blocks;
+mod check_names;
+mod check_values;
+mod loop_forms;
+mod model_file;
+mod reader;
+mod simulation;
+
+pub use model_file::{DRIVE, source_from_bytes};

@@ -1,0 +1,227 @@
+//! A whole model file.
+
+use super::loop_forms::read_form;
+use super::reader::{Meant, Reader};
+use super::simulation;
+use super::{check_names, check_values};
+use crate::error::{Diagnostic, Error, Severity, Source, Span};
+use crate::model::definition::{Constant, Diagram, Form, Loop, Name, Parameter, Time};
+use crate::model::evaluate::work::constant_value;
+use crate::model::text::names::{did_you_mean, shorten};
+use crate::model::text::toml_reader;
+use crate::model::text::toml_value::{Kind, Table};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Errors shown of one file.
+const MAX_SHOWN: usize = 20;
+
+impl Loop {
+    /// Reads a model file. Warnings come with the loop; errors come all together.
+    ///
+    /// ```
+    /// use jurist_engine::error::Source;
+    /// use jurist_engine::model::Loop;
+    /// let text = "time = 'discrete'\nparameters.K = {}\nloop.characteristic = 'z - k'";
+    /// let error = Loop::from_toml(&Source::new("model.toml", text)).unwrap_err();
+    /// assert_eq!(error.to_string(), "model.toml:3:28: error[E-unknown-name]: unknown name 'k'");
+    /// assert_eq!(error.diagnostics()[0].help.as_deref(), Some("did you mean 'K'?"));
+    /// ```
+    ///
+    /// # Errors
+    /// Everything that is wrong with the text, up to twenty diagnostics, each with its place.
+    pub fn from_toml(source: &Arc<Source>) -> Result<(Loop, Vec<Diagnostic>), Error> {
+        let fail = |diagnostics| Error::new(Some(Arc::clone(source)), diagnostics);
+        let root = toml_reader::read(&source.text).map_err(fail)?;
+        let mut reader = Reader::default();
+        let model = read_model(&root, source, &mut reader);
+        let mut diagnostics = reader.diagnostics;
+        diagnostics.sort_by_key(|d| d.primary.as_ref().map_or(0, |l| l.span.start));
+        let errors = diagnostics.iter().any(|d| d.severity == Severity::Error);
+        match model {
+            Some(model) if !errors => Ok((model, diagnostics)),
+            _ => {
+                diagnostics.retain(|d| d.severity == Severity::Error);
+                diagnostics.truncate(MAX_SHOWN);
+                if diagnostics.is_empty() {
+                    // Parts are left out only together with an error.
+                    diagnostics.push(Diagnostic::error("E-missing", "the model is not complete"));
+                }
+                Err(fail(diagnostics))
+            }
+        }
+    }
+
+    /// Reads a model file from bytes, which must be UTF-8.
+    ///
+    /// # Errors
+    /// As [`Loop::from_toml`], and `E-utf8`.
+    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<(Loop, Vec<Diagnostic>), Error> {
+        Loop::from_toml(&source_from_bytes(name, bytes)?)
+    }
+
+    /// The drive of Gürbüz and Akpınar (2002), from `examples/drive.toml`.
+    pub fn drive() -> Loop {
+        let source = Source::new("<built-in drive>", DRIVE);
+        let (drive, _) = Loop::from_toml(&source).expect("the built-in model is tested to be correct");
+        drive
+    }
+}
+
+/// The text of the built-in model.
+pub const DRIVE: &str = include_str!("../../../../../examples/drive.toml");
+
+/// A source text from bytes.
+///
+/// # Errors
+/// `E-utf8` with the line, when the bytes are not UTF-8.
+pub fn source_from_bytes(name: &str, bytes: &[u8]) -> Result<Arc<Source>, Error> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok(Source::new(name, text)),
+        Err(error) => {
+            let offset = error.valid_up_to();
+            let text = String::from_utf8_lossy(bytes).into_owned();
+            let length = text[offset..].chars().next().map_or(0, char::len_utf8);
+            let diagnostic = Diagnostic::error("E-utf8", format!("byte {} is not valid UTF-8", offset + 1))
+                .at(Span::new(offset, offset + length), "not UTF-8")
+                .help("save the file as UTF-8");
+            Err(Error::new(Some(Source::new(name, text)), vec![diagnostic]))
+        }
+    }
+}
+
+fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option<Loop> {
+    let known = ["title", "time", "sample_time", "constants", "parameters", "loop", "block", "simulation"];
+    let meant = reader.unknown_keys(root, &known, "the model");
+    let title = reader.plain_string(root, "title");
+    let time = read_time(root, &meant, reader);
+    let sample_time = root.get("sample_time").and_then(|v| reader.expression(v, "'sample_time'"));
+    let constants = read_constants(root, reader);
+    let parameters = read_parameters(root, reader);
+    let form = read_form(root, &meant, time.unwrap_or(Time::Discrete), reader);
+    let simulation = simulation::read(root, reader);
+    let mut index = HashMap::new();
+    check_names::definitions(&constants, &parameters, time.unwrap_or(Time::Discrete), &mut index, reader);
+    let constant_order = check_names::constant_order(&constants, &index, reader);
+    let mut model = Loop {
+        source: Arc::clone(source),
+        title,
+        time: time?,
+        sample_time,
+        constants,
+        constant_order,
+        parameters,
+        // With a broken form the names are checked all the same.
+        form: form.clone().unwrap_or(Form::Blocks(Diagram { inputs: vec![], outputs: vec![], blocks: vec![] })),
+        simulation,
+        index,
+    };
+    let form_is_broken = form.is_none();
+    check_names::names(&model, form_is_broken, reader);
+    let broken = reader.diagnostics.iter().any(|d| d.severity == Severity::Error);
+    if !broken {
+        check_values::values(&model, reader);
+        check_values::sample_time(&model, reader);
+    }
+    model.form = form?;
+    Some(model)
+}
+
+fn read_time(root: &Table, meant: &Meant, reader: &mut Reader) -> Option<Time> {
+    let Some(value) = root.get("time") else {
+        if meant.includes("time") {
+            return None;
+        }
+        let error = Diagnostic::error("E-missing", "the model does not say whether time is discrete or continuous");
+        reader.report(error.help("add a line: time = \"discrete\" or time = \"continuous\""));
+        return None;
+    };
+    let text = reader.string(value, "'time'")?;
+    match text.as_str() {
+        "discrete" => Some(Time::Discrete),
+        "continuous" => Some(Time::Continuous),
+        other => {
+            let mut error = Diagnostic::error("E-value", format!("unknown kind of time '{}'", shorten(other)))
+                .at(value.span, "neither \"discrete\" nor \"continuous\"");
+            error.help = did_you_mean(other, ["discrete", "continuous"]);
+            reader.report(error);
+            None
+        }
+    }
+}
+
+pub(super) fn section<'t>(root: &'t Table, key: &str, reader: &mut Reader) -> Option<&'t Table> {
+    root.entry(key).and_then(|entry| reader.table(entry))
+}
+
+fn read_constants(root: &Table, reader: &mut Reader) -> Vec<Constant> {
+    let mut constants = Vec::new();
+    for entry in section(root, "constants", reader).into_iter().flat_map(Table::iter) {
+        let Some(name) = reader.name(&entry.key, entry.key_span, "a constant") else { continue };
+        let what = format!("the constant '{}'", shorten(&entry.key));
+        let Some(expression) = reader.expression(&entry.value, &what) else {
+            reader.refused.insert(name.name);
+            continue;
+        };
+        let number = match constant_value(&expression) {
+            Ok(number) => Some(number),
+            Err(Some(diagnostic)) => {
+                reader.report(diagnostic);
+                reader.refused.insert(name.name);
+                continue;
+            }
+            Err(None) => None,
+        };
+        constants.push(Constant { name: name.name, span: name.span, expression, number });
+    }
+    constants
+}
+
+fn read_parameters(root: &Table, reader: &mut Reader) -> Vec<Parameter> {
+    let mut parameters = Vec::new();
+    for entry in section(root, "parameters", reader).into_iter().flat_map(Table::iter) {
+        let Some(Name { name, span }) = reader.name(&entry.key, entry.key_span, "a parameter") else { continue };
+        let mut parameter =
+            Parameter { name, span, nominal: None, min: None, max: None, unit: None, description: None };
+        match &entry.value.kind {
+            Kind::Table(table) => read_parameter(table, &mut parameter, reader),
+            Kind::Number(_) | Kind::String(_) => parameter.nominal = reader.number(&entry.value, "a nominal value"),
+            _ => reader.wrong_type(&entry.value, "a parameter", "a table or a number"),
+        }
+        parameters.push(parameter);
+    }
+    parameters
+}
+
+fn read_parameter(table: &Table, parameter: &mut Parameter, reader: &mut Reader) {
+    reader.unknown_keys(table, &["nominal", "min", "max", "unit", "description"], "a parameter");
+    let mut number = |key: &str| {
+        let value = table.get(key)?;
+        reader.number(value, &format!("'{key}'"))
+    };
+    parameter.nominal = number("nominal");
+    parameter.min = number("min");
+    parameter.max = number("max");
+    parameter.unit = reader.plain_string(table, "unit");
+    parameter.description = reader.plain_string(table, "description");
+    let span = |key: &str| table.get(key).map_or(parameter.span, |v| v.span);
+    if let (Some(min), Some(max)) = (&parameter.min, &parameter.max)
+        && min >= max
+    {
+        let message = format!("the domain of '{}' is empty", shorten(&parameter.name));
+        reader.report(
+            Diagnostic::error("E-empty-domain", message)
+                .at(span("max"), "the upper bound")
+                .also(span("min"), "is not above this lower bound")
+                .help("'min' must be less than 'max'; both are open bounds"),
+        );
+    } else if let Some(nominal) = &parameter.nominal
+        && !parameter.contains(nominal)
+    {
+        let message = format!("the nominal value of '{}' is outside its domain", shorten(&parameter.name));
+        let outside_below = parameter.min.as_ref().is_some_and(|min| nominal <= min);
+        let bound = if outside_below { span("min") } else { span("max") };
+        let warning = Diagnostic::warning("W-outside-domain", message).at(span("nominal"), "not in the open domain");
+        reader.report(warning.also(bound, "which ends here"));
+    }
+}

@@ -1,0 +1,17 @@
+//! Text to trees: TOML to tables with places, expressions to their structure. What the names mean is
+//! decided elsewhere.
+
+mod expression;
+mod lexer;
+mod located;
+pub(in crate::model) mod names;
+mod parser;
+pub(in crate::model) mod toml_reader;
+pub(in crate::model) mod toml_value;
+
+pub use expression::{Expression, Factor, Node, Sign};
+pub(in crate::model) use lexer::is_name;
+pub(in crate::model) use located::Text;
+pub use names::nearest_name;
+pub(in crate::model) use parser::parse;
+pub use parser::{MAX_DEPTH, MAX_EXPONENT};
