@@ -4,8 +4,6 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
 use jurist_check::format::{Json, MAX_DEPTH};
 use jurist_check::{Limits, Step, check};
-use jurist_engine::analysis::{Settings, intervals};
-use jurist_engine::prove::emit::intervals_certificate;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
@@ -131,12 +129,11 @@ fn every_example_is_certified_faster_than_ten_times_its_proof() {
     for file in files {
         let model = std::fs::read_to_string(&file).unwrap();
         let lp = read(&model);
-        let settings = Settings::default();
-        checkers::accept_verdict_of(&lp, &settings);
+        checkers::certified_verdict_of(lp.ask());
         for parameter in lp.parameters().iter().map(|p| p.name.as_str()) {
             let start = Instant::now();
-            let answer = intervals(&lp, &settings, parameter, &Budget::unlimited()).unwrap();
-            let certificate = intervals_certificate(&model, &answer.question, &Budget::unlimited()).unwrap();
+            let answer = lp.ask().free(parameter).stable_set(&Budget::unlimited()).unwrap();
+            let certificate = answer.certificate(&Budget::unlimited()).unwrap();
             proving += start.elapsed();
             let start = Instant::now();
             check(&model, &certificate, &limits()).unwrap_or_else(|e| panic!("{}: {e}", file.display()));

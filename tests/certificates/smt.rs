@@ -3,14 +3,12 @@
 use crate::helpers::certificates::MODELS;
 use crate::helpers::model::{example_text, read};
 use jurist_algebra::limits::Budget;
-use jurist_engine::analysis::{Settings, intervals};
-use jurist_engine::prove::smt2::intervals_smt2;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
 fn script(model: &str, parameter: &str) -> String {
-    let answer = intervals(&read(model), &Settings::default(), parameter, &Budget::unlimited()).unwrap();
-    intervals_smt2(&answer.question, answer.stable.decided().unwrap())
+    let budget = Budget::unlimited();
+    read(model).ask().free(parameter).stable_set(&budget).unwrap().smt2(&budget).unwrap()
 }
 
 /// The same script with a claimed set that holds another interval too.

@@ -1,30 +1,22 @@
 //! Stable sets of whole loops, and what they are expected to be, in words.
 
-use super::certificates::checkers::accept_intervals_of;
+use super::certificates::checkers::certified_set_of;
 use super::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{RealAlgebraic, UniPoly};
-use jurist_engine::analysis::{Settings, intervals};
 use jurist_engine::model::Loop;
+use jurist_engine::problem::Question;
 use jurist_engine::stability::{End, StableSet};
 
-/// Values in place of nominal ones.
-pub fn set(values: &[(&str, &str)]) -> Settings {
-    let set = values.iter().map(|(name, value)| ((*name).to_string(), number(value))).collect();
-    Settings { set, ..Settings::default() }
+/// A question with values in place of nominal ones.
+pub fn with(lp: &Loop, values: &[(&str, &str)]) -> Question {
+    lp.ask().set_all(values.iter().map(|(name, value)| (*name, number(value))))
 }
 
 /// The exact stable set.
-pub fn stable_set_of(lp: &Loop, parameter: &str, settings: &Settings) -> StableSet {
-    let answer = intervals(lp, settings, parameter, &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}"));
-    answer.stable.decided().expect("there is no budget").clone()
-}
-
-/// The exact stable set, whose certificate both checkers accept.
-pub fn certified_set_of(lp: &Loop, parameter: &str, settings: &Settings) -> StableSet {
-    accept_intervals_of(lp, settings, parameter);
-    stable_set_of(lp, parameter, settings)
+pub fn stable_set_of(question: Question) -> StableSet {
+    question.stable_set(&Budget::unlimited()).unwrap_or_else(|e| panic!("{e}")).into_value()
 }
 
 /// Asserts that the stable set is the list of intervals, each end in words:
@@ -34,8 +26,8 @@ pub fn certified_set_of(lp: &Loop, parameter: &str, settings: &Settings) -> Stab
 /// * `root 1 -10 10 near 0.1127: complex pair`: an irrational root of 1 - 10 k + 10 k^2 with these digits;
 ///
 /// and that both checkers accept the set's certificate.
-pub fn assert_stable(lp: &Loop, parameter: &str, settings: &Settings, expected: &[(&str, &str)]) {
-    let found = certified_set_of(lp, parameter, settings);
+pub fn assert_stable(question: Question, expected: &[(&str, &str)]) {
+    let found = certified_set_of(question);
     let shown: Vec<_> = found.intervals().iter().map(|i| (words(&i.lower, "-inf"), words(&i.upper, "inf"))).collect();
     assert_eq!(found.intervals().len(), expected.len(), "found {shown:?}");
     for ((interval, expected), shown) in found.intervals().iter().zip(expected).zip(&shown) {

@@ -1,7 +1,10 @@
 //! Models from text, from files, and from one polynomial.
 
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_engine::error::Source;
 use jurist_engine::model::Loop;
+use jurist_engine::problem::Question;
 use std::path::PathBuf;
 
 /// A model that loads, with or without warnings.
@@ -44,4 +47,16 @@ pub fn continuous(characteristic: &str, parameter: &str) -> Loop {
     load(&format!(
         "time = 'continuous'\n[parameters]\nk = {{ {parameter} }}\n[loop]\ncharacteristic = '{characteristic}'"
     ))
+}
+
+/// A question with several names free.
+pub fn keeping(lp: &Loop, names: &[&str]) -> Question {
+    names.iter().fold(lp.ask(), |question, name| question.free(*name))
+}
+
+/// The characteristic polynomial in what is free.
+pub fn characteristic(question: Question) -> CharacteristicPolynomial {
+    let problem = question.problem().unwrap_or_else(|e| panic!("{e}"));
+    let algebra = problem.algebra(&Budget::unlimited()).unwrap_or_else(|e| panic!("{e}"));
+    algebra.polynomial().unwrap_or_else(|| panic!("{:?}", algebra.undefined())).clone()
 }

@@ -8,7 +8,7 @@ use jurist_algebra::poly::{MultiPoly, RationalFunction, RealAlgebraic};
 use jurist_engine::stability::plane::{
     Limit, PlanePolynomial, RegionLimits, StabilityMap, region_limits, stability_map,
 };
-use jurist_engine::stability::{AlgebraicInterval, AtPoint, Range, Region};
+use jurist_engine::stability::{AlgebraicInterval, AtPoint, Range, Shape};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -60,15 +60,15 @@ pub fn plane() -> [Range; 2] {
     [Range::all(), Range::all()]
 }
 
-pub fn map(p: &PlanePolynomial, domain: &[Range; 2], region: Region) -> StabilityMap {
+pub fn map(p: &PlanePolynomial, domain: &[Range; 2], region: Shape) -> StabilityMap {
     stability_map(p, domain, region, &Budget::unlimited()).unwrap()
 }
 
 pub fn disc(p: &PlanePolynomial) -> StabilityMap {
-    map(p, &plane(), Region::UnitDisc)
+    map(p, &plane(), Shape::UnitDisc)
 }
 
-pub fn limits(m: &StabilityMap, p: &PlanePolynomial, domain: &[Range; 2], region: Region) -> Vec<RegionLimits> {
+pub fn limits(m: &StabilityMap, p: &PlanePolynomial, domain: &[Range; 2], region: Shape) -> Vec<RegionLimits> {
     region_limits(m, p, domain, region, 12, &Budget::unlimited()).unwrap()
 }
 
@@ -92,7 +92,7 @@ pub fn says(value: &str, causes: &str) -> Option<(String, String)> {
 }
 
 /// Whether all roots are strictly inside at a point, by the exact count.
-pub fn is_stable(p: &PlanePolynomial, x: &Rational, y: &Rational, region: Region) -> bool {
+pub fn is_stable(p: &PlanePolynomial, x: &Rational, y: &Rational, region: Shape) -> bool {
     matches!(p.at(x, y, region), AtPoint::Defined { count, infinite: 0 } if count.inside == p.formal_degree())
 }
 
@@ -103,7 +103,7 @@ pub fn cell_agrees(
     x: &Rational,
     y: &Rational,
     domain: &[Range; 2],
-    region: Region,
+    region: Shape,
 ) -> Option<bool> {
     let (s, k) = m.locate(x, y, &domain[1], &Budget::unlimited()).unwrap()?;
     let cell = &m.strips[s].cells[k];

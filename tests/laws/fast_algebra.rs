@@ -12,7 +12,7 @@ use jurist_algebra::poly::{
     Domain, MultiPoly, Poly, RationalFunction, UniPoly, discriminant, resultant, resultant_formal,
     resultant_formal_subresultant, resultant_subresultant,
 };
-use jurist_engine::stability::{HalfSizePair, Region};
+use jurist_engine::stability::{HalfSizePair, Shape};
 use proptest::prelude::*;
 
 /// Zero, small, word-size, and 500-digit integers of either sign.
@@ -117,7 +117,7 @@ proptest! {
     ) {
         let (d, n) = (Poly::new(c.clone()), c.len() - 1);
         prop_assume!(n > 0);
-        let region = if continuous { Region::LeftHalfPlane } else { Region::UnitDisc };
+        let region = if continuous { Shape::LeftHalfPlane } else { Shape::UnitDisc };
         let pair = HalfSizePair::new(&d, n, region);
         let expected = resultant_formal_subresultant(&pair.a, pair.degree_a, &pair.b, pair.degree_b, &Budget::unlimited());
         prop_assert_eq!(pair.critical_constraint(&Budget::unlimited()), expected);

@@ -8,8 +8,8 @@ use jurist_engine::stability::*;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-const DISC: Region = Region::UnitDisc;
-const HALF_PLANE: Region = Region::LeftHalfPlane;
+const DISC: Shape = Shape::UnitDisc;
+const HALF_PLANE: Shape = Shape::LeftHalfPlane;
 
 /// `(1 - s)^n p((1 + s)/(1 - s))`: the unit disc onto the left half plane; a root at -1 goes to infinity.
 fn bilinear(p: &UniPoly) -> UniPoly {

@@ -1,42 +1,39 @@
 //! The continuous loops of `examples/`: their answers against those derived by hand in each test.
 
-use crate::helpers::loops::{assert_stable, set, stable_set_of};
+use crate::helpers::loops::{assert_stable, stable_set_of, with};
 use crate::helpers::model::{continuous, example};
 use crate::helpers::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_engine::analysis::{DECAY, Intervals, Settings, frequency, intervals};
-use jurist_engine::stability::End;
+use jurist_engine::answer::Answer;
+use jurist_engine::problem::{DECAY, Region};
+use jurist_engine::stability::{End, StableSet};
 
-fn nominal() -> Settings {
-    Settings::default()
-}
-
-fn asked(name: &str, parameter: &str) -> Intervals {
-    intervals(&example(name), &nominal(), parameter, &Budget::unlimited()).unwrap()
+fn asked(name: &str, parameter: &str) -> Answer<StableSet> {
+    example(name).ask().free(parameter).stable_set(&Budget::unlimited()).unwrap()
 }
 
 /// The square of the angular frequency at an end lies in the enclosure.
-fn assert_frequency_squared(answer: &Intervals, end: &End, expected: &Rational) {
-    let rate = frequency(end, &answer.question, 60).unwrap().radians_per_second.unwrap();
+fn assert_frequency_squared(answer: &Answer<StableSet>, end: &End, expected: &Rational) {
+    let rate = answer.problem().frequency(end, 60).unwrap().radians_per_second.unwrap();
     assert!(rate.lower() * rate.lower() <= *expected && *expected <= rate.upper() * rate.upper());
 }
 
 /// s^4 + 3 s^3 + 3 s^2 + 2 s + K: Routh's first column 1, 3, 7/3, 2 - 9 K/7, K. At K = 14/9 the row of s^2 is 7/3 s^2 + 14/9.
 #[test]
 fn ogata_hurwitz() {
-    assert_stable(&example("ogata-hurwitz"), "K", &nominal(), &[("0: s=0", "14/9: complex pair")]);
+    assert_stable(example("ogata-hurwitz").ask().free("K"), &[("0: s=0", "14/9: complex pair")]);
     let answer = asked("ogata-hurwitz", "K");
-    let end = answer.stable.decided().unwrap().intervals()[0].upper.clone().unwrap();
+    let end = answer.value().intervals()[0].upper.clone().unwrap();
     assert_frequency_squared(&answer, &end, &number("2/3"));
 }
 
 /// s^3 + 5 s^2 + (K - 6) s + K: 5 (K - 6) > K.
 #[test]
 fn franklin_hurwitz() {
-    assert_stable(&example("franklin-hurwitz"), "K", &nominal(), &[("15/2: complex pair", "inf")]);
+    assert_stable(example("franklin-hurwitz").ask().free("K"), &[("15/2: complex pair", "inf")]);
     let answer = asked("franklin-hurwitz", "K");
-    let end = answer.stable.decided().unwrap().intervals()[0].lower.clone().unwrap();
+    let end = answer.value().intervals()[0].lower.clone().unwrap();
     assert_frequency_squared(&answer, &end, &number("3/2"));
 }
 
@@ -44,13 +41,13 @@ fn franklin_hurwitz() {
 #[test]
 fn lcl_grid_current() {
     let lp = example("lcl-grid-current");
-    assert_stable(&lp, "K_p", &nominal(), &[("0: s=0", "30: complex pair")]);
-    assert_stable(&lp, "K_ad", &nominal(), &[("20/3: complex pair", "inf")]);
-    assert_stable(&lp, "K_p", &set(&[("L_1", "1e-3")]), &[("0: s=0", "40: complex pair")]);
+    assert_stable(lp.ask().free("K_p"), &[("0: s=0", "30: complex pair")]);
+    assert_stable(lp.ask().free("K_ad"), &[("20/3: complex pair", "inf")]);
+    assert_stable(with(&lp, &[("L_1", "1e-3")]).free("K_p"), &[("0: s=0", "40: complex pair")]);
     // Degree is lost at L_1 = 0 only in a polynomial; here the model divides by L_1.
-    assert_stable(&lp, "L_1", &nominal(), &[("0: pole", "inf")]);
+    assert_stable(lp.ask().free("L_1"), &[("0: pole", "inf")]);
     let answer = asked("lcl-grid-current", "K_p");
-    let end = answer.stable.decided().unwrap().intervals()[0].upper.clone().unwrap();
+    let end = answer.value().intervals()[0].upper.clone().unwrap();
     assert_frequency_squared(&answer, &end, &number("1.5e8"));
 }
 
@@ -65,7 +62,7 @@ fn acc_benchmark() {
         format!("root {polynomial} near 0.351684783595: complex pair"),
         format!("root {polynomial} near 3.2540351909: complex pair"),
     );
-    assert_stable(&lp, "k", &nominal(), &[(&ends.0, &ends.1)]);
+    assert_stable(lp.ask().free("k"), &[(&ends.0, &ends.1)]);
 
     let n = |v: i64| Rational::from(v);
     let mut a = vec![n(1), n(6)];
@@ -81,7 +78,7 @@ fn acc_benchmark() {
         let even = &l0 + &l2 * x;
         -(x * x * &even / (n(2) * x * &even + &k0 + &k2 * x))
     };
-    let interval = stable_set_of(&lp, "k", &nominal()).intervals()[0].clone();
+    let interval = stable_set_of(lp.ask().free("k")).intervals()[0].clone();
     // omega^2 of each end, bracketed from the quadratic's roots -22.22... and -0.447...
     for (end, bracket) in [(interval.lower.unwrap(), ["-1/2", "-2/5"]), (interval.upper.unwrap(), ["-23", "-22"])] {
         let [mut lo, mut hi] = bracket.map(number);
@@ -100,9 +97,8 @@ fn acc_benchmark() {
 #[test]
 fn decay_rate() {
     let lp = continuous("s^2 + 2*s + k", "nominal = 2");
-    assert_stable(&lp, DECAY, &nominal(), &[("0: domain", "1: complex pair")]);
-    assert_stable(&lp, DECAY, &set(&[("k", "3/4")]), &[("0: domain", "1/2: s=0")]);
-    assert_stable(&lp, DECAY, &set(&[("k", "1")]), &[("0: domain", "1: s=0")]);
-    let half = Settings { decay: Some(number("1/2")), ..Settings::default() };
-    assert_stable(&lp, "k", &half, &[("3/4: s=0", "inf")]);
+    assert_stable(lp.ask().free(DECAY), &[("0: domain", "1: complex pair")]);
+    assert_stable(with(&lp, &[("k", "3/4")]).free(DECAY), &[("0: domain", "1/2: s=0")]);
+    assert_stable(with(&lp, &[("k", "1")]).free(DECAY), &[("0: domain", "1: s=0")]);
+    assert_stable(lp.ask().free("k").within(Region::half_plane(number("1/2"))), &[("3/4: s=0", "inf")]);
 }

@@ -1,8 +1,7 @@
 //! Loops of high order: they answer, or they stop when their time is up and say what they had reached.
 
 use jurist_algebra::limits::Budget;
-use jurist_engine::analysis::{Decision, Settings, intervals};
-use jurist_engine::error::Source;
+use jurist_engine::error::{Failure, Source};
 use jurist_engine::model::Loop;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -51,8 +50,8 @@ fn filtered_drive(filters: usize) -> Loop {
 
 #[test]
 fn without_filters_it_is_the_drive() {
-    let answer = intervals(&filtered_drive(0), &Settings::default(), "K", &Budget::unlimited()).unwrap();
-    let set = answer.stable.decided().unwrap();
+    let answer = filtered_drive(0).ask().free("K").stable_set(&Budget::unlimited()).unwrap();
+    let set = answer.value();
     assert_eq!(set.intervals()[0].lower.as_ref().unwrap().value.decimal(12), "0.0381005333483");
     assert_eq!(set.intervals()[0].upper.as_ref().unwrap().value.decimal(12), "550.941166687");
 }
@@ -61,14 +60,15 @@ fn without_filters_it_is_the_drive() {
 fn order_twenty_with_two_parameters() {
     let lp = filtered_drive(14);
     for parameter in ["K", "T"] {
-        let answer = intervals(&lp, &Settings::default(), parameter, &Budget::unlimited()).unwrap();
-        let set = answer.stable.decided().unwrap();
+        let budget = Budget::unlimited();
+        let answer = lp.ask().free(parameter).stable_set(&budget).unwrap();
+        let (problem, set) = (answer.problem(), answer.value());
         assert_eq!(set.intervals().len(), 1, "{parameter}");
         // The sample in the middle is stable, the ends are not, by the exact count.
-        let p = answer.question.polynomial.as_ref().unwrap();
+        let p = problem.parametric(&budget).unwrap().unwrap();
         let bare = set.to_interval_set();
         let i = &bare.intervals()[0];
-        assert!(p.is_stable_at(&i.sample(), answer.question.region));
+        assert!(p.is_stable_at(&i.sample(), problem.shape()));
     }
 }
 
@@ -77,12 +77,9 @@ fn order_two_hundred_keeps_its_time() {
     let lp = filtered_drive(194);
     let start = Instant::now();
     let budget = Budget::with_timeout(Duration::from_secs(2));
-    match intervals(&lp, &Settings::default(), "K", &budget) {
-        Ok(answer) => match answer.stable {
-            Decision::Decided(set) => assert!(!set.is_empty()),
-            Decision::Undecided { budget, reached } => assert!(budget.starts_with("time") && !reached.is_empty()),
-        },
-        Err(jurist_engine::analysis::Failure::Undecided(_)) => assert!(!budget.reached().is_empty()),
+    match lp.ask().free("K").stable_set(&budget) {
+        Ok(answer) => assert!(!answer.value().is_empty()),
+        Err(Failure::Stopped(why)) => assert!(why.budget.starts_with("time") && !why.reached.is_empty()),
         Err(refused) => panic!("{refused}"),
     }
     assert!(start.elapsed() < Duration::from_secs(40), "the time limit was not kept");

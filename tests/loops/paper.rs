@@ -1,9 +1,10 @@
 //! The derivation of the paper (Gürbüz and Akpınar 2002), step by step, with every gain symbolic.
 
-use crate::helpers::model::load;
+use crate::helpers::model::{characteristic, keeping, load};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::poly::RationalFunction;
-use jurist_engine::model::{Loop, Question};
+use jurist_engine::model::Loop;
+use jurist_engine::problem::Problem;
 
 fn product(a: &[RationalFunction], b: &[RationalFunction]) -> Vec<RationalFunction> {
     let mut out = vec![RationalFunction::zero(); a.len() + b.len() - 1];
@@ -41,14 +42,15 @@ C = [["K_p", "K_i"]]
 #[test]
 fn equations_7_and_10_are_the_transfer_functions_of_8_9_and_11_12() {
     let lp = load(CONTROLLER);
-    let question = Question::keeping(["K_p", "K_i", "k", "T"]);
+    let (problem, budget) = (keeping(&lp, &["K_p", "K_i", "k", "T"]).problem().unwrap(), Budget::unlimited());
+    let closed = problem.closed_loop(&budget).unwrap();
     let [kp, ki, k, t] = [0, 1, 2, 3].map(RationalFunction::variable);
     let half_ki_t = (&ki * &t).checked_div(&2.into()).unwrap();
     // K_p/z + K_i/z T/2 (z + 1)/(z - 1) over the denominator z (z - 1).
     let numerator = [&half_ki_t - &kp, &half_ki_t + &kp];
     let denominator = [0.into(), -&RationalFunction::one(), RationalFunction::one()];
     for (input, factor) in [("reference", RationalFunction::one()), ("measured", -&k)] {
-        let tf = lp.transfer_function(input, "out", &question, &Budget::unlimited()).unwrap();
+        let tf = closed.transfer_function(input, "out", &budget).unwrap();
         let expected: Vec<_> = numerator.iter().map(|c| c * &factor).collect();
         assert_eq!(product(&tf.numerator, &denominator), product(&tf.denominator.coefficients, &expected), "{input}");
     }
@@ -89,23 +91,18 @@ fn equations_13_to_20_give_equation_21() {
     let gains = ["K_pwm", "T", "R_a", "L_a", "J", "B_v", "K_a", "E_sw", "K_pi", "K_ii", "K_ps", "K_is", "k_1", "k_2"];
     let budget = Budget::unlimited();
     // As matrices, with every quantity symbolic.
-    let tracker = Loop::drive().closed_loop(&Question::keeping(gains), &budget).unwrap();
-    let by_hand = load(MULTIPLIED_OUT).closed_loop(&Question::keeping(gains), &budget).unwrap();
-    assert_eq!(tracker.a, by_hand.a);
-    let question = Question::keeping(["K_pwm", "T"]);
-    let [drive, hand] = [Loop::drive(), load(MULTIPLIED_OUT)]
-        .map(|lp| lp.characteristic_polynomial(&question, &budget).unwrap().coefficients);
+    let [tracker, by_hand] = [Loop::drive(), load(MULTIPLIED_OUT)].map(|lp| keeping(&lp, &gains).problem().unwrap());
+    let of = |problem: &Problem| problem.closed_loop(&budget).unwrap().a.clone();
+    assert_eq!(of(&tracker), of(&by_hand));
+    let [drive, hand] =
+        [Loop::drive(), load(MULTIPLIED_OUT)].map(|lp| characteristic(keeping(&lp, &["K_pwm", "T"])).coefficients);
     assert_eq!(drive, hand);
 }
 
 #[test]
 fn equation_24_is_linear_in_the_amplitude() {
-    let budget = Budget::unlimited();
-    let whole = Loop::drive().characteristic_polynomial(&Question::keeping(["K_pwm", "T"]), &budget).unwrap();
-    let at = |k: i64| {
-        let question = Question::keeping(["T"]).with("K_pwm", k);
-        Loop::drive().characteristic_polynomial(&question, &budget).unwrap().coefficients
-    };
+    let whole = characteristic(keeping(&Loop::drive(), &["K_pwm", "T"]));
+    let at = |k: i64| characteristic(Loop::drive().ask().free("T").set("K_pwm", k)).coefficients;
     let (den, one, two) = (at(0), at(1), at(2));
     for (k, c) in whole.coefficients.iter().enumerate() {
         assert!(c.numerator().degree_in(0) <= 1 && c.denominator().degree_in(0) == 0);

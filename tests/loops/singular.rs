@@ -1,31 +1,24 @@
 //! Singular models, read from text and decided: each with its answer derived by hand. Every answer has a certificate that both
 //! checkers accept.
 
-use crate::helpers::certificates::checkers::{accept_intervals_of, accept_verdict_of};
-use crate::helpers::loops::{assert_stable, certified_set_of as stable_set_of, set};
+use crate::helpers::certificates::checkers::{certified_set_of, certified_verdict_of};
+use crate::helpers::loops::{assert_stable, with};
 use crate::helpers::model::{continuous, discrete, load};
 use crate::helpers::number::number;
-use jurist_algebra::limits::Budget;
-use jurist_engine::analysis::{PointVerdict, Settings, Verdict, verdict};
+use jurist_engine::answer::{PointVerdict, Verdict};
 use jurist_engine::model::Loop;
 use jurist_engine::stability::Range;
 
-fn nominal() -> Settings {
-    Settings::default()
-}
-
 fn assert_discrete(characteristic: &str, parameter: &str, expected: &[(&str, &str)]) {
-    assert_stable(&discrete(characteristic, parameter), "k", &nominal(), expected);
+    assert_stable(discrete(characteristic, parameter).ask().free("k"), expected);
 }
 
 fn assert_continuous(characteristic: &str, parameter: &str, expected: &[(&str, &str)]) {
-    assert_stable(&continuous(characteristic, parameter), "k", &nominal(), expected);
+    assert_stable(continuous(characteristic, parameter).ask().free("k"), expected);
 }
 
 fn at(lp: &Loop, k: &str) -> PointVerdict {
-    let settings = set(&[("k", k)]);
-    accept_verdict_of(lp, &settings);
-    verdict(lp, &settings, &Budget::unlimited()).unwrap()
+    certified_verdict_of(with(lp, &[("k", k)]))
 }
 
 /// (verdict, inside, on, outside, infinite)
@@ -152,7 +145,7 @@ fn leading_coefficient_vanishes_discrete() {
     // The degree is that with all parameters symbolic, before any --set.
     let lp =
         load("time = 'discrete'\n[parameters]\nk = {}\nm = { nominal = 0 }\n[loop]\ncharacteristic = 'm*z^2 + z - k'");
-    assert_stable(&lp, "k", &nominal(), &[]);
+    assert_stable(lp.ask().free("k"), &[]);
     assert_eq!(counted(&lp, "0"), (Unstable, 1, 0, 0, 1));
 }
 
@@ -200,16 +193,16 @@ fn cancelled_poles_stay_undefined() {
     assert_discrete("z - (k - 1)*(k - 1)^(-1)/2", "", &[("-inf", "1: pole"), ("1: pole", "inf")]);
     let lp =
         load("time = 'discrete'\n[constants]\ng = '1/k'\n[parameters]\nk = {}\n[loop]\ncharacteristic = 'z - g*k/2'");
-    assert_stable(&lp, "k", &nominal(), &[("-inf", "0: pole"), ("0: pole", "inf")]);
+    assert_stable(lp.ask().free("k"), &[("-inf", "0: pole"), ("0: pole", "inf")]);
 }
 
 #[test]
 fn undefined_everywhere_for_the_values_set() {
     let lp =
         load("time = 'discrete'\n[parameters]\nk = {}\nm = { nominal = 1 }\n[loop]\ncharacteristic = 'z - k/(m - 1)'");
-    assert_stable(&lp, "k", &nominal(), &[]);
+    assert_stable(lp.ask().free("k"), &[]);
     assert_eq!((at(&lp, "0").verdict, at(&lp, "0").degree), (Undefined, 1));
-    assert_stable(&lp, "k", &set(&[("m", "3")]), &[("-2: z=-1", "2: z=1")]);
+    assert_stable(with(&lp, &[("m", "3")]).free("k"), &[("-2: z=-1", "2: z=1")]);
 }
 
 #[test]
@@ -220,14 +213,14 @@ fn algebraic_loop_that_is_ill_posed_at_one_value() {
         "time = 'discrete'\n[parameters]\nk = {}\n[loop]\n[[block]]\nname = 'g'\ninput = 'u'\noutput = 'y'\n\
          transfer = '(z + 1)/(z - 1/2)'\n[[block]]\nname = 'c'\ninput = '-y'\noutput = 'u'\ngain = 'k'",
     );
-    assert_stable(&lp, "k", &nominal(), &[("-1/4: z=1", "inf")]);
+    assert_stable(lp.ask().free("k"), &[("-1/4: z=1", "inf")]);
     assert_eq!(at(&lp, "-1").verdict, Undefined);
     // y = u, u = -k y + z^-1...: two gains only, the loop 1 + k has no state; defined but at k = -1.
     let lp = load(
         "time = 'discrete'\n[parameters]\nk = {}\n[loop]\n[[block]]\nname = 'g'\ninput = 'u'\noutput = 'y'\ngain = 2\n\
          [[block]]\nname = 'c'\ninput = '-y'\noutput = 'u'\ngain = 'k'",
     );
-    assert_stable(&lp, "k", &nominal(), &[("-inf", "-1/2: pole"), ("-1/2: pole", "inf")]);
+    assert_stable(lp.ask().free("k"), &[("-inf", "-1/2: pole"), ("-1/2: pole", "inf")]);
 }
 
 // ---- tangency, several intervals, shared ends
@@ -301,8 +294,8 @@ fn several_causes_at_one_end() {
     assert_discrete("(z - k)^2", "", &[("-1: z=-1", "1: z=1")]);
     // A double complex pair: the lowest frequency of two pairs at k = 1, angles pi/3 and 2 pi/3.
     let lp = discrete("(z^2 - z + k)*(z^2 + z + k)", "");
-    assert_stable(&lp, "k", &nominal(), &[("0: z=1+z=-1", "1: complex pair")]);
-    let x = stable_set_of(&lp, "k", &nominal()).intervals()[0].upper.clone().unwrap().pair.unwrap().half_size_root(60);
+    assert_stable(lp.ask().free("k"), &[("0: z=1+z=-1", "1: complex pair")]);
+    let x = certified_set_of(lp.ask().free("k")).intervals()[0].upper.clone().unwrap().pair.unwrap().half_size_root(60);
     assert!(*x.lower() <= number("1") && number("1") <= *x.upper());
     // s = 0 and a pair together.
     assert_continuous("(s + k)*(s^2 + k*s + 1)", "", &[("0: complex pair+s=0", "inf")]);
@@ -336,7 +329,7 @@ fn irrational_end_with_several_causes() {
 #[test]
 fn ends_1e_minus_30_apart() {
     // z - 1 + (k - 1)(k - 1 - 1e-30): outside between 1 and 1 + 1e-30 only.
-    let found = stable_set_of(&discrete("z - 1 + (k - 1)*(k - 1 - 1e-30)", "min = 0, max = 2"), "k", &nominal());
+    let found = certified_set_of(discrete("z - 1 + (k - 1)*(k - 1 - 1e-30)", "min = 0, max = 2").ask().free("k"));
     assert_eq!(found.intervals().len(), 2);
     let end = |e: &Option<jurist_engine::stability::End>| e.as_ref().unwrap().value.exact().unwrap();
     assert_eq!(end(&found.intervals()[0].upper), number("1"));
@@ -348,7 +341,7 @@ fn ends_1e_minus_30_apart() {
         &[("1: z=1", "1000000000000000000000000000001/1000000000000000000000000000000: z=1")],
     );
     // Irrational: z - 1 + (k^2 - 2)^2 - 1e-60 is outside within about 3.5e-31 of sqrt 2.
-    let found = stable_set_of(&discrete("z - 1 + (k^2 - 2)^2 - 1e-60", "min = 0"), "k", &nominal());
+    let found = certified_set_of(discrete("z - 1 + (k^2 - 2)^2 - 1e-60", "min = 0").ask().free("k"));
     assert_eq!(found.intervals().len(), 2);
     let (a, b) = (found.intervals()[0].upper.clone().unwrap(), found.intervals()[1].lower.clone().unwrap());
     let gap = b.value.refined(&number("1e-60")).enclosure().0 - a.value.refined(&number("1e-60")).enclosure().1;
@@ -375,7 +368,7 @@ fn order_twenty() {
     // z^20 - k: modulus |k|^(1/20).
     assert_discrete("z^20 - k", "", &[("-1: complex pair", "1: z=1+z=-1+complex pair")]);
     // z^19 (z - 1) + k, the delayed integrator: stable for 0 < k < 2 sin(pi/78), an algebraic number of high degree.
-    let found = stable_set_of(&discrete("z^19*(z - 1) + k", ""), "k", &nominal());
+    let found = certified_set_of(discrete("z^19*(z - 1) + k", "").ask().free("k"));
     assert_eq!(found.intervals().len(), 1);
     let (lower, upper) = (found.intervals()[0].lower.clone().unwrap(), found.intervals()[0].upper.clone().unwrap());
     assert_eq!((lower.value.exact(), lower.causes.to_string().as_str()), (Some(number("0")), "z=1"));
@@ -383,7 +376,7 @@ fn order_twenty() {
     assert_eq!(upper.causes.to_string(), "complex pair");
     assert!(upper.value.decimal(12).starts_with("0.0805"), "{}", upper.value.decimal(12));
     // (s + 1)^20 + k leaves at the pair nearest the axis.
-    let found = stable_set_of(&continuous("(s + 1)^20 + k", ""), "k", &nominal());
+    let found = certified_set_of(continuous("(s + 1)^20 + k", "").ask().free("k"));
     assert_eq!(found.intervals().len(), 1);
     assert_eq!(found.intervals()[0].lower.as_ref().unwrap().causes.to_string(), "s=0");
 }
@@ -422,11 +415,8 @@ fn roots_exactly_at_the_ends_of_the_domain() {
 #[test]
 fn negative_radii_are_never_the_answer() {
     let lp = discrete("z^2 - z + k", "nominal = 0.25");
-    let mut settings = Settings::default();
-    settings.domain.insert("radius".into(), Range::between(Some(number("-1")), Some(number("2"))));
-    accept_intervals_of(&lp, &settings, "radius");
-    let answer = jurist_engine::analysis::intervals(&lp, &settings, "radius", &Budget::unlimited()).unwrap();
-    let set = answer.stable.decided().unwrap();
+    let domain = Range::between(Some(number("-1")), Some(number("2")));
+    let set = certified_set_of(lp.ask().free("radius").domain("radius", domain));
     assert_eq!(set.intervals().len(), 1);
     assert_eq!(set.intervals()[0].lower.as_ref().unwrap().value.decimal(5), "0.5");
 }
@@ -435,8 +425,6 @@ fn negative_radii_are_never_the_answer() {
 #[test]
 fn radius_zero_is_the_end_of_the_domain_only() {
     let lp = load("time = 'discrete'\n[loop]\ncharacteristic = 'z^2'");
-    accept_intervals_of(&lp, &Settings::default(), "radius");
-    let answer = jurist_engine::analysis::intervals(&lp, &Settings::default(), "radius", &Budget::unlimited()).unwrap();
-    let set = answer.stable.decided().unwrap();
+    let set = certified_set_of(lp.ask().free("radius"));
     assert_eq!(set.intervals()[0].lower.as_ref().unwrap().causes.to_string(), "domain");
 }

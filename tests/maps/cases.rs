@@ -9,7 +9,7 @@ use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 use jurist_engine::stability::plane::{PlanePolynomial, vanishing_boundary};
-use jurist_engine::stability::{Cause, Range, Region};
+use jurist_engine::stability::{Cause, Range, Shape};
 
 #[test]
 fn the_triangle_of_second_order() {
@@ -19,7 +19,7 @@ fn the_triangle_of_second_order() {
     assert_eq!(m.regions.len(), 1);
     assert_eq!(ends(&m.regions[0].x), some("-2", "2"));
     assert_eq!(ends(&m.regions[0].y), some("-1", "1"));
-    let all = limits(&m, &p, &plane(), Region::UnitDisc);
+    let all = limits(&m, &p, &plane(), Shape::UnitDisc);
     assert_eq!(said(&all[0].x[0]), says("-2", "z=1+complex pair"));
     assert_eq!(said(&all[0].x[1]), says("2", "z=-1+complex pair"));
     assert_eq!(said(&all[0].y[0]), says("-1", "z=1+z=-1"));
@@ -32,7 +32,7 @@ fn the_triangle_of_second_order() {
         for j in -8..=8 {
             let (x, y) = (Rational::from(i) / Rational::from(5), Rational::from(j) / Rational::from(6));
             let expected = y.abs() < Rational::ONE && x.abs() < Rational::ONE + &y;
-            assert_eq!(is_stable(&p, &x, &y, Region::UnitDisc), expected);
+            assert_eq!(is_stable(&p, &x, &y, Shape::UnitDisc), expected);
         }
     }
 }
@@ -87,26 +87,26 @@ fn identically_vanishing_boundaries() {
     let m = disc(&p);
     assert!(m.never_stable && m.regions.is_empty());
     let why = |p: &PlanePolynomial, region| vanishing_boundary(p, region, &Budget::unlimited()).unwrap();
-    assert_eq!(why(&p, Region::UnitDisc), Some(Cause::RootAtOne));
+    assert_eq!(why(&p, Shape::UnitDisc), Some(Cause::RootAtOne));
     // (z + 1)(z - x); (z - 2)(z - 1/2); 0 z + x.
     let p = polynomial(vec![-&x(), &c("1") - &x(), c("1")]);
-    assert_eq!(why(&p, Region::UnitDisc), Some(Cause::RootAtMinusOne));
+    assert_eq!(why(&p, Shape::UnitDisc), Some(Cause::RootAtMinusOne));
     let p = polynomial(vec![c("1"), c("-5/2"), c("1")]);
-    assert_eq!(why(&p, Region::UnitDisc), Some(Cause::ComplexPair));
+    assert_eq!(why(&p, Shape::UnitDisc), Some(Cause::ComplexPair));
     assert!(disc(&p).never_stable);
     let p = polynomial(vec![x(), RationalFunction::zero()]);
-    assert_eq!(why(&p, Region::UnitDisc), Some(Cause::DegreeLost));
+    assert_eq!(why(&p, Shape::UnitDisc), Some(Cause::DegreeLost));
     // s (s + x).
     let p = polynomial(vec![RationalFunction::zero(), x(), c("1")]);
-    assert_eq!(why(&p, Region::LeftHalfPlane), Some(Cause::RootAtZero));
-    assert_eq!(why(&polynomial(vec![y(), x(), c("1")]), Region::LeftHalfPlane), None);
+    assert_eq!(why(&p, Shape::LeftHalfPlane), Some(Cause::RootAtZero));
+    assert_eq!(why(&polynomial(vec![y(), x(), c("1")]), Shape::LeftHalfPlane), None);
 }
 
 #[test]
 fn continuous_time() {
     // s^2 + x s + y: the open first quadrant.
     let p = polynomial(vec![y(), x(), c("1")]);
-    let m = map(&p, &plane(), Region::LeftHalfPlane);
+    let m = map(&p, &plane(), Shape::LeftHalfPlane);
     assert_eq!(m.regions.len(), 1);
     assert_eq!(ends(&m.regions[0].x), (Some("0".into()), None));
     assert_eq!(ends(&m.regions[0].y), (Some("0".into()), None));
@@ -122,7 +122,7 @@ fn a_curve_that_is_only_touched_splits_the_region() {
     assert_eq!(ends(&m.regions[0].x), (None, None));
     assert_eq!(ends(&m.regions[0].y), (Some("-1.4142136".into()), None));
     assert_eq!(ends(&m.regions[1].y), (Some("0".into()), None));
-    let all = limits(&m, &p, &plane(), Region::UnitDisc);
+    let all = limits(&m, &p, &plane(), Shape::UnitDisc);
     assert_eq!(said(&all[0].y[0]), says("-1.4142136", "z=1"));
     assert_eq!(said(&all[1].y[0]), says("0", "z=-1"));
     assert!(all[1].y[0].as_ref().unwrap().at[0][0].contains(&number("0")));
@@ -139,7 +139,7 @@ fn curves_that_touch_do_not_split_the_region() {
     assert_eq!(m.regions.len(), 1);
     assert_eq!(ends(&m.regions[0].x), some("-1.4142136", "1.4142136"));
     assert_eq!(ends(&m.regions[0].y), some("0", "2"));
-    let all = limits(&m, &p, &plane(), Region::UnitDisc);
+    let all = limits(&m, &p, &plane(), Shape::UnitDisc);
     assert_eq!(said(&all[0].x[1]), says("1.4142136", "z=1"));
     // At (0, 0) y = 0 is touched from above by the parabola; there the roots are 1 and -1.
     assert_eq!(said(&all[0].y[0]), says("0", "z=1+z=-1"));
@@ -147,7 +147,7 @@ fn curves_that_touch_do_not_split_the_region() {
         let (x, y) = (Rational::from(i) / Rational::from(10), Rational::from(j) / Rational::from(11));
         let above = &y - &x * &x;
         let expected = above.sign().is_gt() && above < number("2") && y.sign().is_gt() && y < number("2");
-        assert_eq!(is_stable(&p, &x, &y, Region::UnitDisc), expected);
+        assert_eq!(is_stable(&p, &x, &y, Shape::UnitDisc), expected);
     }
 }
 
@@ -165,7 +165,7 @@ fn an_isolated_point_is_not_stable_and_does_not_split() {
     assert!(m.strips[s].cells[k].stable);
     // x = 0 is a wall between strips: there the exact set in y has a hole.
     let set =
-        jurist_engine::stability::stable_set(&p.at_x(&number("0")).unwrap(), &Range::all(), Region::UnitDisc, &budget);
+        jurist_engine::stability::stable_set(&p.at_x(&number("0")).unwrap(), &Range::all(), Shape::UnitDisc, &budget);
     let set = set.unwrap().to_interval_set();
     assert_eq!(set.intervals().len(), 2);
     assert!(!set.contains(&number("0")) && set.contains(&number("1e-9")));
@@ -179,7 +179,7 @@ fn vertical_lines_are_curves() {
     assert_eq!(m.regions.len(), 1);
     assert_eq!(ends(&m.regions[0].x), some("0", "2"));
     assert_eq!(ends(&m.regions[0].y), (None, None));
-    let all = limits(&m, &p, &plane(), Region::UnitDisc);
+    let all = limits(&m, &p, &plane(), Shape::UnitDisc);
     assert_eq!(said(&all[0].x[0]), says("0", "z=1"));
     assert_eq!(said(&all[0].x[1]), says("2", "z=-1"));
     assert!(all[0].x[1].as_ref().unwrap().along_line);
@@ -207,12 +207,12 @@ fn a_region_without_bounds() {
     let m = disc(&p);
     assert_eq!(m.regions.len(), 1);
     assert_eq!((ends(&m.regions[0].x), ends(&m.regions[0].y)), ((None, None), (None, None)));
-    let all = limits(&m, &p, &plane(), Region::UnitDisc);
+    let all = limits(&m, &p, &plane(), Shape::UnitDisc);
     assert!(all[0].x.iter().chain(&all[0].y).all(Option::is_none));
     // In the open first quadrant it ends at both axes, which are edges and no walls.
     let quadrant = [Range::between(Some(number("0")), None), Range::between(Some(number("0")), None)];
-    let m = map(&p, &quadrant, Region::UnitDisc);
-    let all = limits(&m, &p, &quadrant, Region::UnitDisc);
+    let m = map(&p, &quadrant, Shape::UnitDisc);
+    let all = limits(&m, &p, &quadrant, Shape::UnitDisc);
     assert_eq!((m.regions.len(), said(&all[0].x[0])), (1, says("0", "domain")));
 }
 
@@ -222,7 +222,7 @@ fn regions_that_touch_in_a_point_are_two() {
     let p = first_order(&(&square(&y()) - &square(&x())) - &c("1"));
     let m = disc(&p);
     assert_eq!(m.regions.len(), 2);
-    let all = limits(&m, &p, &plane(), Region::UnitDisc);
+    let all = limits(&m, &p, &plane(), Shape::UnitDisc);
     assert_eq!(said(&all[0].y[1]), says("0", "z=1"));
     assert_eq!(said(&all[1].y[0]), says("0", "z=1"));
     assert_eq!(ends(&m.regions[1].x), (None, None));
@@ -236,7 +236,7 @@ fn an_extreme_value_at_infinity_of_the_other_parameter() {
     let p = first_order(&(&x() - &hump) - &c("1"));
     let m = disc(&p);
     assert_eq!(ends(&m.regions[0].x), some("0", "3"));
-    let all = limits(&m, &p, &plane(), Region::UnitDisc);
+    let all = limits(&m, &p, &plane(), Shape::UnitDisc);
     let least = all[0].x[0].as_ref().unwrap();
     assert!(least.at.is_empty() && !least.along_line, "{least:?}");
     assert_eq!(said(&all[0].x[1]), says("3", "z=-1"));

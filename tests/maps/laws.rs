@@ -5,12 +5,12 @@ use crate::helpers::plane::{cell_agrees, ends, is_stable, map, plane, small_loop
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{SquareFree, isolate_real_roots};
-use jurist_engine::stability::{Range, Region, stable_set};
+use jurist_engine::stability::{Range, Shape, stable_set};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-fn region() -> impl Strategy<Value = Region> {
-    prop_oneof![2 => Just(Region::UnitDisc), 1 => Just(Region::LeftHalfPlane)]
+fn region() -> impl Strategy<Value = Shape> {
+    prop_oneof![2 => Just(Shape::UnitDisc), 1 => Just(Shape::LeftHalfPlane)]
 }
 
 /// A rational number of modest size, round ones often.

@@ -1,9 +1,9 @@
 //! The methods of `jurist map`: exact, boxes, and the choice between them; loops of high order.
 
+use crate::helpers::model::keeping;
 use crate::helpers::number::number;
 use crate::helpers::program::{json, jurist, number_in, refused};
 use jurist_algebra::limits::Budget;
-use jurist_engine::analysis::{Settings, map};
 use jurist_engine::error::Source;
 use jurist_engine::model::Loop;
 use serde_json::Value;
@@ -29,12 +29,13 @@ fn boxes_of_pairs_of_the_drive_agree_with_the_exact_map() {
         assert!(of("undecided") / of("window") <= number_in(&answer["goal"]), "{x} {y}");
         let names = [x, y].map(|text| text.split('=').next().unwrap());
         let budget = Budget::unlimited();
-        let exact = map(&Loop::drive(), &Settings::default(), names, &budget).unwrap();
-        let exact_map = exact.map.decided().unwrap();
+        let exact = keeping(&Loop::drive(), &names).map(12, &budget).unwrap();
+        let exact_map = &exact.value().decomposition;
         let mut seen = [0; 2];
         for b in answer["boxes"].as_array().unwrap().iter().filter(|b| b["verdict"] != "undecided").step_by(5) {
             let middle = |side: &str| number_in(&b[side][0]).midpoint(&number_in(&b[side][1]));
-            let place = exact_map.locate(&middle("x"), &middle("y"), &exact.axes[1].domain, &budget).unwrap();
+            let place =
+                exact_map.locate(&middle("x"), &middle("y"), &exact.problem().axes()[1].domain, &budget).unwrap();
             let Some((strip, cell)) = place else { continue };
             let cell = &exact_map.strips[strip].cells[cell];
             assert_eq!(b["verdict"] == "stable", cell.stable, "{x} {y}: {b}");
@@ -128,16 +129,16 @@ fn exact_maps_of_filtered_drives() {
     ] {
         let read = |text: &str| Loop::from_toml(&Source::new("filters.toml", text.to_owned())).unwrap().0;
         let (lp, generated) = (read(text), read(&filtered_drive(filters)));
-        let answer = map(&lp, &Settings::default(), ["T", "K_pwm"], &budget).unwrap();
-        let exact = answer.map.decided().unwrap();
-        assert_eq!(answer.polynomial.as_ref().unwrap().formal_degree(), 6 + filters);
+        let answer = keeping(&lp, &["T", "K_pwm"]).map(12, &budget).unwrap();
+        let (problem, exact) = (answer.problem(), &answer.value().decomposition);
+        assert_eq!(problem.plane(&budget).unwrap().unwrap().formal_degree(), 6 + filters);
         assert_eq!(exact.regions.len(), 1);
         assert_eq!(exact.regions[0].x.upper.as_ref().unwrap().decimal(10), tip);
         assert_eq!(exact.regions[0].y.lower.as_ref().unwrap().decimal(10), low);
         let at = number("1e-4");
-        let slice = exact.slice(&at, &answer.axes[1].domain, &budget).unwrap().unwrap();
-        let one = jurist_engine::analysis::intervals(&generated, &Settings::default(), "K_pwm", &budget).unwrap();
-        assert!(slice.same_as(&one.stable.decided().unwrap().to_interval_set()));
+        let slice = exact.slice(&at, &problem.axes()[1].domain, &budget).unwrap().unwrap();
+        let one = generated.ask().free("K_pwm").stable_set(&budget).unwrap();
+        assert!(slice.same_as(&one.value().to_interval_set()));
     }
 }
 

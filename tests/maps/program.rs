@@ -1,23 +1,24 @@
 //! The map of two parameters of the built-in drive, against answers in one parameter and root counts.
 
+use crate::helpers::model::keeping;
 use crate::helpers::number::number;
 use crate::helpers::plane::cell_agrees;
 use crate::helpers::program::{command, json, jurist, jurist_with_input, refused};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_engine::analysis::{Map, Settings, intervals, map};
+use jurist_engine::answer::{Answer, Map};
 use jurist_engine::model::Loop;
 use jurist_engine::stability::plane::StabilityMap;
 use proptest::prelude::*;
 
 const TIP: &str = "0.0620651373";
 
-fn drive(x: &str, y: &str) -> Map {
-    map(&Loop::drive(), &Settings::default(), [x, y], &Budget::unlimited()).unwrap()
+fn drive(x: &str, y: &str) -> Answer<Map> {
+    keeping(&Loop::drive(), &[x, y]).map(10, &Budget::unlimited()).unwrap()
 }
 
-fn decided(answer: &Map) -> &StabilityMap {
-    answer.map.decided().unwrap()
+fn decided(answer: &Answer<Map>) -> &StabilityMap {
+    &answer.value().decomposition
 }
 
 #[test]
@@ -51,9 +52,9 @@ fn slices_are_the_stable_sets_of_one_parameter() {
     let budget = Budget::unlimited();
     for (x, y, at) in [("T", "K_pwm", "1e-4"), ("K_pwm", "T", "110")] {
         let answer = drive(x, y);
-        let slice = decided(&answer).slice(&number(at), &answer.axes[1].domain, &budget).unwrap().unwrap();
-        let one = intervals(&Loop::drive(), &Settings::default(), y, &budget).unwrap();
-        assert!(slice.same_as(&one.stable.decided().unwrap().to_interval_set()), "{y} at {x} = {at}");
+        let slice = decided(&answer).slice(&number(at), &answer.problem().axes()[1].domain, &budget).unwrap().unwrap();
+        let one = Loop::drive().ask().free(y).stable_set(&budget).unwrap();
+        assert!(slice.same_as(&one.value().to_interval_set()), "{y} at {x} = {at}");
     }
 }
 
@@ -72,10 +73,11 @@ proptest! {
     ) {
         let (answer, swapped) = (drive("T", "K_pwm"), drive("K_pwm", "T"));
         let (one, other) = (decided(&answer), decided(&swapped));
-        let p = answer.polynomial.as_ref().unwrap();
-        let domain = [answer.axes[0].domain.clone(), answer.axes[1].domain.clone()];
+        let problem = answer.problem();
+        let p = problem.plane(&Budget::unlimited()).unwrap().unwrap();
+        let domain = problem.axes().map(|axis| axis.domain.clone());
         for (x, y) in &points {
-            prop_assert_ne!(cell_agrees(one, p, x, y, &domain, answer.region), Some(false));
+            prop_assert_ne!(cell_agrees(one, p, x, y, &domain, problem.shape()), Some(false));
             let place = one.locate(x, y, &domain[1], &Budget::unlimited()).unwrap();
             let there = other.locate(y, x, &domain[0], &Budget::unlimited()).unwrap();
             if let (Some((s, c)), Some((t, d))) = (place, there) {
@@ -89,13 +91,11 @@ proptest! {
     fn slices_of_the_drive_are_what_intervals_says(x in over_decades(-6, 0), y in over_decades(-3, 4)) {
         let (answer, budget) = (drive("T", "K_pwm"), Budget::unlimited());
         for (fixed, at, name, other) in [(0, &x, "T", "K_pwm"), (1, &y, "K_pwm", "T")] {
-            let mut settings = Settings::default();
-            settings.set.insert(name.into(), at.clone());
-            let one = intervals(&Loop::drive(), &settings, other, &budget).unwrap();
-            let expected = one.stable.decided().unwrap().to_interval_set();
+            let one = Loop::drive().ask().set(name, at.clone()).free(other).stable_set(&budget).unwrap();
+            let expected = one.value().to_interval_set();
             let slice = answer.slice(fixed, at, &budget).unwrap();
-            prop_assert!(slice.stable.decided().unwrap().to_interval_set().same_as(&expected));
-            if fixed == 0 && let Some(cut) = decided(&answer).slice(at, &answer.axes[1].domain, &budget).unwrap() {
+            prop_assert!(slice.value().to_interval_set().same_as(&expected));
+            if fixed == 0 && let Some(cut) = decided(&answer).slice(at, &answer.problem().axes()[1].domain, &budget).unwrap() {
                 prop_assert!(cut.same_as(&expected));
             }
         }
@@ -262,11 +262,11 @@ fn a_wall_between_strips_has_its_own_cells() {
     // T = 1/25 is a critical value of the drive's map; there and beside the exact counts decide.
     let (answer, budget) = (drive("T", "K_pwm"), Budget::unlimited());
     let wall = number("1/25");
-    assert!(decided(&answer).slice(&wall, &answer.axes[1].domain, &budget).unwrap().is_none());
+    assert!(decided(&answer).slice(&wall, &answer.problem().axes()[1].domain, &budget).unwrap().is_none());
     let cells = answer.fibre(&wall, &budget).unwrap().unwrap();
     assert_eq!(cells, [(false, 2), (true, 0), (false, 2)]);
     let slice = answer.slice(0, &wall, &budget).unwrap();
-    assert_eq!(slice.stable.decided().unwrap().intervals().len(), 1);
+    assert_eq!(slice.value().intervals().len(), 1);
     // Off the walls a line has the cells of its strip.
     let strip = decided(&answer).strips.iter().find(|s| s.x.contains(&number("1/3"))).unwrap();
     let cells = answer.fibre(&number("1/3"), &budget).unwrap().unwrap();
@@ -317,10 +317,10 @@ fn drawn_points_lie_on_the_curves() {
     use jurist_draw::figures::map::{WindowRequest, choose_windows, trace_map};
     let budget = Budget::unlimited();
     let answer = drive("T", "K_pwm");
-    let limits = answer.limits(10, &budget).unwrap();
-    let windows = choose_windows(&answer, &limits, &[], &[], &[WindowRequest::default(), WindowRequest::default()]);
+    assert!(answer.value().limits.is_ok());
+    let windows = choose_windows(&answer, &[], &[WindowRequest::default(), WindowRequest::default()]);
     let trace = trace_map(&answer, windows, &budget).unwrap();
-    let (p, m) = (answer.polynomial.as_ref().unwrap(), decided(&answer));
+    let (p, m) = (answer.problem().plane(&budget).unwrap().unwrap(), decided(&answer));
     let mut seen = 0;
     for strip in &trace.strips {
         for line in strip.lines.iter().step_by(17) {
@@ -332,7 +332,8 @@ fn drawn_points_lie_on_the_curves() {
                         continue;
                     }
                     let y = number(&format!("{:e}", trace.windows[1].value(v + away)));
-                    let jurist_engine::stability::AtPoint::Defined { count, .. } = p.at(&line.x, &y, answer.region)
+                    let jurist_engine::stability::AtPoint::Defined { count, .. } =
+                        p.at(&line.x, &y, answer.problem().shape())
                     else {
                         panic!()
                     };

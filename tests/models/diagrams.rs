@@ -1,14 +1,12 @@
 //! Laws of the model room: a diagram's polynomial against its determinant and its realisation; continuous
 //! against discrete answers through the bilinear map.
 
-use crate::helpers::certificates::checkers::accept_intervals_of;
-use crate::helpers::loops::certified_set_of as stable_set_of;
+use crate::helpers::certificates::checkers::certified_set_of;
 use crate::helpers::model::{continuous, discrete};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_engine::analysis::Settings;
-use jurist_engine::error::Source;
-use jurist_engine::model::{Loop, ModelError, Question};
+use jurist_engine::error::{Failure, Source};
+use jurist_engine::model::Loop;
 use jurist_engine::stability::{Cause, End};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -166,19 +164,23 @@ proptest! {
                 return Ok(());
             }
         };
-        let (question, budget) = (Question::keeping(["k"]), Budget::unlimited());
-        let polynomial = match lp.characteristic_polynomial(&question, &budget) {
-            Ok(polynomial) => polynomial,
-            Err(ModelError::Exhausted(e)) => panic!("{e}"),
-            Err(_) => {
+        let (problem, budget) = (lp.ask().free("k").problem().unwrap(), Budget::unlimited());
+        let polynomial = match problem.algebra(&budget) {
+            Ok(algebra) => algebra.polynomial(),
+            Err(Failure::Stopped(e)) => panic!("{e}"),
+            Err(_) => None,
+        };
+        let polynomial = match polynomial {
+            Some(polynomial) => polynomial,
+            None => {
                 prop_assert!(values.iter().all(|k| lead(k).is_zero()), "refused, though well posed");
                 return Ok(());
             }
         };
         // Both checkers read the diagram's text in their own way, and compare the polynomial.
-        accept_intervals_of(&lp, &Settings::default(), "k");
+        certified_set_of(lp.ask().free("k"));
         prop_assert_eq!(polynomial.formal_degree, blocks.iter().map(Kind::order).sum::<usize>());
-        let closed = lp.closed_loop(&question, &budget).unwrap();
+        let closed = problem.closed_loop(&budget).unwrap();
         for k in &values {
             let Some(coefficients) = polynomial.at(std::slice::from_ref(k)) else {
                 prop_assert!(lead(k).is_zero(), "undefined at {}", k);
@@ -223,7 +225,7 @@ proptest! {
         };
         let in_s = continuous(&text(&|i| format!("s^{i}")), "");
         let in_z = discrete(&text(&|i| format!("(z - 1)^{i}*(z + 1)^{}", n - i)), "");
-        let (a, b) = (stable_set_of(&in_s, "k", &Settings::default()), stable_set_of(&in_z, "k", &Settings::default()));
+        let (a, b) = (certified_set_of(in_s.ask().free("k")), certified_set_of(in_z.ask().free("k")));
         prop_assert!(a.to_interval_set().same_as(&b.to_interval_set()), "{:?}\n{:?}", a, b);
         let ends = |set: &jurist_engine::stability::StableSet| -> Vec<End> {
             set.intervals().iter().flat_map(|i| [i.lower.clone(), i.upper.clone()]).flatten().collect()

@@ -1,8 +1,9 @@
 //! Whatever is wrong with a model is said with its code and its place, several things in one run.
 
+use crate::helpers::model::characteristic as polynomial_of;
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::Source;
-use jurist_engine::model::{Loop, ModelError, Question, source_from_bytes};
+use jurist_engine::model::{Loop, source_from_bytes};
 use jurist_engine::show::diagnostics::{render, render_error};
 use std::time::{Duration, Instant};
 
@@ -260,8 +261,10 @@ fn warnings_come_with_the_loop() {
 fn undefined_is_no_error_of_the_text() {
     let text = "time = 'discrete'\n[parameters]\na = { nominal = 1 }\nb = { nominal = 1 }\n[loop]\ncharacteristic = 'z - 1/(a - b)'\n";
     let (model, _) = Loop::from_toml(&Source::new("m.toml", text)).unwrap();
-    let ask = |question: &Question| model.characteristic_polynomial(question, &Budget::unlimited());
-    assert!(matches!(ask(&Question::default()), Err(ModelError::Undefined(_))));
-    let p = ask(&Question::keeping(["a"])).unwrap();
+    let budget = Budget::unlimited();
+    let nominal = model.ask().problem().unwrap();
+    let algebra = nominal.algebra(&budget).unwrap();
+    assert!(algebra.polynomial().is_none() && algebra.undefined().is_some());
+    let p = polynomial_of(model.ask().free("a"));
     assert_eq!(p.poles[0].display(&p.variables).to_string(), "a - 1");
 }

@@ -1,8 +1,9 @@
 //! Expressions against exact evaluation at points, and back through their printed text.
 
+use crate::helpers::model::characteristic;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_engine::model::{BlockBuilder, Expression, Loop, ParameterBuilder, Question, Time};
+use jurist_engine::model::{BlockBuilder, Expression, Loop, ParameterBuilder, Time};
 use proptest::prelude::*;
 
 /// A text and its value where a = 2/3 and b = -5.
@@ -35,7 +36,8 @@ fn value(text: &str) -> Option<Rational> {
         .parameter(ParameterBuilder::new("b").nominal("-5"))
         .characteristic(&format!("z - ({text}) + 0*a*b"));
     let (model, _) = model.build().ok()?;
-    let p = model.characteristic_polynomial(&Question::default(), &Budget::unlimited()).ok()?;
+    let problem = model.ask().problem().ok()?;
+    let p = problem.algebra(&Budget::unlimited()).ok()?.polynomial()?;
     p.coefficients[0].as_constant().map(|c| -c)
 }
 
@@ -75,7 +77,7 @@ fn precedence() {
 fn unity_feedback(block: BlockBuilder) -> Vec<String> {
     let model = Loop::builder(Time::Discrete).parameter(ParameterBuilder::new("T")).outputs(["y + 0*T*y"]).block(block);
     let (model, _) = model.build().unwrap_or_else(|e| panic!("{e}"));
-    let p = model.characteristic_polynomial(&Question::keeping(["T"]), &Budget::unlimited()).unwrap();
+    let p = characteristic(model.ask().free("T"));
     p.coefficients.iter().map(|c| c.display(&p.variables).to_string()).collect()
 }
 

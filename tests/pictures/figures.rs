@@ -7,8 +7,9 @@ use jurist_algebra::number::Rational;
 use jurist_draw::figures::{Curve, DrawnLocus, Figure, Panel, locus_of};
 use jurist_draw::simulate::{Excitation, Pulse, SampledModel, SwitchedModel};
 use jurist_drive::{chopper, drive_blocks, pwm_signal, tracker};
-use jurist_engine::analysis::{Settings, Verdict, intervals, verdict};
-use jurist_engine::model::{Loop, Question, Time};
+use jurist_engine::answer::Verdict;
+use jurist_engine::error::Failure;
+use jurist_engine::model::{Loop, Time};
 use nalgebra::dvector;
 
 fn small_panel() -> Panel {
@@ -72,7 +73,7 @@ fn a_small_locus_looks_as_it_did() {
                 loop.characteristic = 'z^2 - z + k'\n";
     let (model, _) = Loop::from_toml(&jurist_engine::error::Source::new("model.toml", text)).unwrap();
     let budget = Budget::unlimited();
-    let answer = intervals(&model, &Settings::default(), "k", &budget).unwrap();
+    let answer = model.ask().free("k").stable_set(&budget).unwrap();
     let drawn = locus_of(&answer, &(ratio(1, 100), ratio(2, 1)), None, &budget).unwrap();
     // The curves are followed elsewhere; here it is axes, marks and labels that are looked at.
     let svg: String = line_by_line(&drawn.parts[0].svg())
@@ -108,7 +109,7 @@ fn diagrams_are_drawn() {
 #[test]
 fn the_locus_of_the_drive_shows_every_certified_crossing() {
     let budget = Budget::unlimited();
-    let answer = intervals(&Loop::drive(), &Settings::default(), "K_pwm", &budget).unwrap();
+    let answer = Loop::drive().ask().free("K_pwm").stable_set(&budget).unwrap();
     let range = (ratio(1, 1000), ratio(1000, 1));
     let drawn = locus_of(&answer, &range, None, &budget).unwrap();
     let labels: Vec<&str> = drawn.crossings.iter().map(|c| c.label.as_str()).collect();
@@ -124,8 +125,9 @@ fn the_locus_of_the_drive_shows_every_certified_crossing() {
 fn the_block_model_gives_the_circuit_and_the_matrix_model_the_sampled_loop() {
     let text = include_str!("../../examples/drive-blocks.toml");
     let (blocks, _) = Loop::from_toml(&jurist_engine::error::Source::new("drive-blocks.toml", text)).unwrap();
-    let (question, budget) = (Question::default(), Budget::unlimited());
-    let circuit = SwitchedModel::from_loop(&blocks, &question, Pulse::Beginning, &budget).unwrap();
+    let budget = Budget::unlimited();
+    let [blocks, drive] = [blocks, Loop::drive()].map(|model| model.ask().problem().unwrap());
+    let circuit = SwitchedModel::from_loop(&blocks, Pulse::Beginning, &budget).unwrap();
     let expected = switched_drive(110.0, 1e-4, Pulse::Beginning);
     let r = dvector![80.0, 0.0];
     let (a, b) = (circuit.periodic_steady_state(&r).unwrap(), expected.periodic_steady_state(&r).unwrap());
@@ -135,8 +137,8 @@ fn the_block_model_gives_the_circuit_and_the_matrix_model_the_sampled_loop() {
     for z in x.iter().filter(|z| z.norm() > 1e-6) {
         assert!(y.iter().any(|w| (z - w).norm() < 1e-7), "{z} {y:?}");
     }
-    assert!(SwitchedModel::from_loop(&Loop::drive(), &question, Pulse::End, &budget).is_err());
-    let sampled = SampledModel::from_loop(&Loop::drive(), &question, 1.0, &budget).unwrap();
+    assert!(SwitchedModel::from_loop(&drive, Pulse::End, &budget).is_err());
+    let sampled = SampledModel::from_loop(&drive, 1.0, &budget).unwrap();
     let fixture = sampled_drive(110.0, 1e-4);
     assert!((&sampled.transition - &fixture.transition).norm() < 1e-15);
     assert_eq!(sampled.sample_time, 1e-4);
@@ -157,14 +159,17 @@ fn pictures(mut see: impl FnMut(&str, &Loop, &str, &DrawnLocus)) {
         let text = std::fs::read_to_string(&path).unwrap();
         let (model, _) = Loop::from_toml(&jurist_engine::error::Source::new(name.as_str(), text)).unwrap();
         for p in model.parameters() {
-            let Ok(answer) = intervals(&model, &Settings::default(), &p.name, &budget) else { continue };
-            let Some(set) = answer.stable.decided() else { panic!("{name}: undecided") };
-            let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
+            let answer = match model.ask().free(&p.name).stable_set(&budget) {
+                Ok(answer) => answer,
+                Err(Failure::Refused(_)) => continue,
+                Err(other) => panic!("{name}: {other}"),
+            };
+            let ends = answer.value().intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
             let values: Vec<Rational> = ends.map(|e| e.value.refined_to_digits(6).enclosure().0.clone()).collect();
             let (Some(low), Some(high)) = (values.iter().min(), values.iter().max()) else { continue };
             let width = if low < high { high - low } else { high.abs() + ratio(1, 10) };
             let mut from = low - &(&width * &ratio(1, 5));
-            if answer.question.domain.lower.as_ref().is_some_and(|l| from <= *l) {
+            if answer.problem().parameter().domain.lower.as_ref().is_some_and(|l| from <= *l) {
                 from = low + &(&width * &ratio(1, 1000));
             }
             let range = (from, high + &(&width * &ratio(1, 5)));
@@ -191,9 +196,8 @@ fn pictures_show_every_certified_crossing_and_contradict_no_certified_answer() {
             if drawn.crossings.iter().any(|c| (c.parameter - value).abs() <= 1e-9 * value.abs()) {
                 continue;
             }
-            let question = Question::default().with(parameter, sample.parameter.clone());
-            let settings = Settings { set: question.set, ..Settings::default() };
-            let certified = verdict(model, &settings, &Budget::unlimited()).unwrap().verdict == Verdict::Stable;
+            let point = model.ask().set(parameter, sample.parameter.clone());
+            let certified = point.verdict(&Budget::unlimited()).unwrap().value().verdict == Verdict::Stable;
             let discrete = model.time() == Time::Discrete;
             let excess = sample.roots.iter().map(|z| if discrete { z.norm() - 1.0 } else { z.re });
             let farthest = excess.fold(f64::NEG_INFINITY, f64::max);

@@ -3,9 +3,9 @@
 use super::python::Python;
 use jurist_algebra::limits::Budget;
 use jurist_check::{Limits, Step, check};
-use jurist_engine::analysis::{Settings, one_parameter, verdict};
-use jurist_engine::model::Loop;
-use jurist_engine::prove::emit::{intervals_certificate, verdict_certificate};
+use jurist_engine::answer::PointVerdict;
+use jurist_engine::problem::Question;
+use jurist_engine::stability::StableSet;
 use std::sync::{Mutex, OnceLock};
 
 /// What the Python checker says; `None` where Python is not there. One process serves a whole test program.
@@ -34,17 +34,18 @@ pub fn reject(model: &str, certificate: &str, step: Step) {
     }
 }
 
-/// Asserts that the stable set of a loop has a certificate that both checkers accept.
-pub fn accept_intervals_of(lp: &Loop, settings: &Settings, parameter: &str) {
+/// The stable set, whose certificate both checkers accept.
+pub fn certified_set_of(question: Question) -> StableSet {
     let budget = Budget::unlimited();
-    let question = one_parameter(lp, settings, parameter, &budget).unwrap_or_else(|e| panic!("{e}"));
-    let model = &lp.source().text;
-    accept(model, &intervals_certificate(model, &question, &budget).expect("no limit"));
+    let answer = question.stable_set(&budget).unwrap_or_else(|e| panic!("{e}"));
+    accept(&answer.problem().model().source().text, &answer.certificate(&budget).expect("no limit"));
+    answer.into_value()
 }
 
-/// Asserts that the verdict at a point has a certificate that both checkers accept.
-pub fn accept_verdict_of(lp: &Loop, settings: &Settings) {
+/// The verdict at a point, whose certificate both checkers accept.
+pub fn certified_verdict_of(question: Question) -> PointVerdict {
     let budget = Budget::unlimited();
-    let answer = verdict(lp, settings, &budget).unwrap_or_else(|e| panic!("{e}"));
-    accept(&lp.source().text, &verdict_certificate(lp, settings, &answer, &budget).expect("no limit"));
+    let answer = question.verdict(&budget).unwrap_or_else(|e| panic!("{e}"));
+    accept(&answer.problem().model().source().text, &answer.certificate(&budget).expect("no limit"));
+    answer.into_value()
 }

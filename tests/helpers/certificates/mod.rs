@@ -5,12 +5,12 @@ pub mod forgeries;
 pub mod python;
 
 use super::model::read;
+use super::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
 use jurist_check::format::Json;
-use jurist_engine::analysis::{Settings, one_parameter, verdict};
-use jurist_engine::prove::emit::{intervals_certificate, verdict_certificate};
-use jurist_engine::stability::{Range, stable_set};
+use jurist_engine::problem::Region;
+use jurist_engine::stability::Range;
 
 /// Name, text, parameter.
 pub const MODELS: &[(&str, &str, &str)] = &[
@@ -89,16 +89,15 @@ pub const MODELS: &[(&str, &str, &str)] = &[
 /// The engine's certificate for the stable set.
 pub fn emitted(model: &str, parameter: &str) -> String {
     let budget = Budget::unlimited();
-    let question = one_parameter(&read(model), &Settings::default(), parameter, &budget).expect(model);
-    intervals_certificate(model, &question, &budget).expect("no limit")
+    let answer = read(model).ask().free(parameter).stable_set(&budget).expect(model);
+    answer.certificate(&budget).expect("no limit")
 }
 
 /// The engine's certificate for the verdict at a value.
 pub fn verdict_emitted(model: &str, parameter: &str, value: &str) -> String {
-    let (lp, budget, mut settings) = (read(model), Budget::unlimited(), Settings::default());
-    settings.set.insert(parameter.into(), parse_number(value).unwrap());
-    let answer = verdict(&lp, &settings, &budget).expect(model);
-    verdict_certificate(&lp, &settings, &answer, &budget).expect(model)
+    let budget = Budget::unlimited();
+    let answer = read(model).ask().set(parameter, number(value)).verdict(&budget).expect(model);
+    answer.certificate(&budget).expect(model)
 }
 
 /// One count of a verdict's statement raised by one.
@@ -191,17 +190,27 @@ pub fn is_true(model: &str, certificate: &Json) -> bool {
         Json::Text(text) => Some(text.clone()),
         _ => None,
     };
-    let number = |json: &Json| text(json).map(|t| parse_number(&t).unwrap());
-    let mut settings = Settings::default();
+    let number = |json: &Json| text(json).map(|t| number(&t));
+    let mut question = read(model).ask();
     if let Some(Json::Object(pairs)) = statement.get("set") {
-        settings.set.extend(pairs.iter().map(|(name, value)| (name.clone(), number(value).unwrap())));
+        question = question.set_all(pairs.iter().map(|(name, value)| (name, number(value).unwrap())));
     }
     if let Some(region) = statement.get("region") {
-        settings.radius = region.get("radius").and_then(number);
-        settings.decay = region.get("decay").and_then(number);
+        let bound = |name: &str| region.get(name).and_then(number);
+        question = match (bound("radius"), bound("decay")) {
+            (Some(radius), None) => match Region::disc(radius) {
+                Ok(disc) => question.within(disc),
+                Err(_) => return false,
+            },
+            (None, Some(decay)) => question.within(Region::half_plane(decay)),
+            (None, None) => question,
+            (Some(_), Some(_)) => return false,
+        };
     }
+    let budget = Budget::unlimited();
     if statement.get("kind").and_then(text).as_deref() == Some("verdict") {
-        let Ok(answer) = verdict(&read(model), &settings, &Budget::unlimited()) else { return false };
+        let Ok(answer) = question.verdict(&budget) else { return false };
+        let (time, answer) = (answer.problem().time(), answer.value());
         let found = answer.count.unwrap_or_default();
         let counts = [
             ("degree", answer.degree),
@@ -210,19 +219,15 @@ pub fn is_true(model: &str, certificate: &Json) -> bool {
             ("outside", found.outside),
             ("infinite", answer.infinite),
         ];
-        return statement.get("time").and_then(text).as_deref() == Some(answer.time.name())
+        return statement.get("time").and_then(text).as_deref() == Some(time.name())
             && statement.get("verdict").and_then(text).as_deref() == Some(answer.verdict.name())
             && counts.iter().all(|(key, n)| statement.get(key) == Some(&Json::Count(*n as u32)));
     }
     let Some(parameter) = statement.get("parameter").and_then(text) else { return false };
     let bound = |key: &str| statement.get("domain").and_then(|d| d.get(key)).and_then(number);
-    settings.domain.insert(parameter.clone(), Range::between(bound("lower"), bound("upper")));
-    let budget = Budget::unlimited();
-    let Ok(question) = one_parameter(&read(model), &settings, &parameter, &budget) else { return false };
-    let Some(p) = &question.polynomial else {
-        return matches!(statement.get("stable"), Some(Json::List(l)) if l.is_empty());
-    };
-    let set = stable_set(p, &question.domain, question.region, &budget).unwrap();
+    let domain = Range::between(bound("lower"), bound("upper"));
+    let Ok(answer) = question.domain(&parameter, domain).free(&parameter).stable_set(&budget) else { return false };
+    let set = answer.value();
     let Some(Json::List(claimed)) = statement.get("stable") else { return false };
     let matches_end = |json: Option<&Json>, end: Option<&jurist_engine::stability::End>| match (json, end) {
         (Some(Json::Null), None) => true,
