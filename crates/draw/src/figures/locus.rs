@@ -7,6 +7,7 @@ use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_engine::analysis::{Decision, Intervals, frequency};
 use jurist_engine::model::Time;
+use jurist_engine::show::layout::visible;
 use jurist_engine::stability::{Cause, End};
 use nalgebra::Complex;
 
@@ -95,7 +96,7 @@ pub fn locus_of(
     }
     let options = LocusOptions { lower: range.0.clone(), upper: range.1.clone(), scale, focus, through, reach };
     let locus = trace_root_locus(of, &options, budget)?;
-    let unit = question.unit.as_deref().map(|u| format!(" {u}")).unwrap_or_default();
+    let unit = question.unit.as_deref().map(|u| format!(" {}", visible(u))).unwrap_or_default();
     let title = format!(
         "{} from {}{unit} (×) to {}{unit} (○)",
         question.parameter,

@@ -3,11 +3,12 @@
 use super::map::escaped;
 use crate::figures::Figure;
 use jurist_engine::analysis::MapBoxes;
+use jurist_engine::show::layout::called;
 use jurist_engine::show::map_boxes_text;
 
 /// The picture and the text as a page that stands alone.
 pub fn map_boxes_page(answer: &MapBoxes, figure: &Figure, digits: usize) -> String {
-    let title = escaped(answer.question.title.as_deref().unwrap_or("the loop"));
+    let title = escaped(&called(answer.question.title.as_deref()));
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>{title}</title>\

@@ -8,7 +8,7 @@ use jurist_algebra::number::Integer;
 use jurist_algebra::poly::{Monomial, RealAlgebraic};
 use jurist_engine::analysis::{Axis, Map};
 use jurist_engine::show::json;
-use jurist_engine::show::layout::{named_values, short};
+use jurist_engine::show::layout::{named_values, short, visible};
 use jurist_engine::show::region::map_goal;
 use jurist_engine::stability::plane::{Curve, Strip};
 use serde_json::{Value, json};
@@ -77,7 +77,7 @@ pub fn map_page(
 }
 
 pub(super) fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    visible(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// What the script needs: the exact strips, and the walls as they are drawn.

@@ -2,7 +2,7 @@
 
 use super::intervals::{answer_lines, intervals_json};
 use super::json;
-use super::layout::{named_values, short};
+use super::layout::{called, named_values, short};
 use super::verdict::{verdict_json, verdict_line};
 use crate::analysis::{Analysis, Decision};
 use serde_json::{Value, json};
@@ -24,7 +24,7 @@ pub fn analysis_json(answer: &Analysis, digits: usize) -> Value {
 pub fn analysis_text(answer: &Analysis, digits: usize) -> String {
     let mut out = String::new();
     if let (Some(verdict), Some(point)) = (&answer.verdict, &answer.point) {
-        let title = point.title.as_deref().unwrap_or("the loop");
+        let title = called(point.title.as_deref());
         out.push_str(&format!("{title}, {} time\n", point.time.name()));
         if !point.set.is_empty() {
             out.push_str(&format!("at {}\n", named_values(&point.set)));
@@ -37,7 +37,7 @@ pub fn analysis_text(answer: &Analysis, digits: usize) -> String {
         };
         out.push_str(&format!("    {line}\n"));
     } else if let Some(first) = answer.intervals.first() {
-        let title = first.question.title.as_deref().unwrap_or("the loop");
+        let title = called(first.question.title.as_deref());
         out.push_str(&format!("{title}, {} time\n", first.question.time.name()));
         // One parameter alone may be without a value: the one that is asked about.
         let name = &first.question.parameter;

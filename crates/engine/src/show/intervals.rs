@@ -1,6 +1,6 @@
 //! The stable set of one parameter.
 
-use super::layout::{Columns, fraction, named_values, short};
+use super::layout::{Columns, called, fraction, named_values, short, visible};
 use super::margins::margin;
 use super::{json, real, region};
 use crate::analysis::{Decision, Intervals, OneParameter, frequency};
@@ -34,7 +34,7 @@ pub fn intervals_text(answer: &Intervals, digits: usize) -> String {
 
 /// The model and the values of the other parameters.
 fn heading(question: &OneParameter) -> String {
-    let title = question.title.as_deref().unwrap_or("the loop");
+    let title = called(question.title.as_deref());
     let mut line = format!("{title}, {} time", question.time.name());
     if !question.set.is_empty() {
         line.push_str(&format!(", {}", named_values(&question.set)));
@@ -49,7 +49,7 @@ pub fn answer_lines(answer: &Intervals, digits: usize) -> String {
     let goal = region::goal(question).unwrap_or_else(|| "stable".to_owned());
     let mut asked = name.clone();
     if let Some(unit) = &question.unit {
-        asked.push_str(&format!(" in {unit}"));
+        asked.push_str(&format!(" in {}", visible(unit)));
     }
     let domain = domain_text(name, &question.domain);
     if domain != "all" {

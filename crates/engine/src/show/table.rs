@@ -2,7 +2,7 @@
 
 use super::intervals::{domain_text, set_lines};
 use super::json;
-use super::layout::{Columns, named_values, wrapped};
+use super::layout::{Columns, called, named_values, wrapped};
 use super::notation::{Coefficient, coefficient_text};
 use super::region;
 use crate::analysis::{Decision, OneParameter, PointTable, TableAnswer};
@@ -214,7 +214,7 @@ pub fn table_text(answer: &TableAnswer, digits: usize) -> String {
 }
 
 fn heading(question: &OneParameter) -> String {
-    let title = question.title.as_deref().unwrap_or("the loop");
+    let title = called(question.title.as_deref());
     let region = region::goal(question).map(|goal| relative(question.time, &goal)).unwrap_or_default();
     let mut line = format!("{} table of {title}{region} in {}", table_name(question.time), question.parameter);
     if !question.set.is_empty() {
@@ -255,7 +255,7 @@ fn conditions_text(test: &ClassicalTest, name: &str, digits: usize) -> String {
 
 /// The table at a point for people.
 pub fn point_table_text(answer: &PointTable, digits: usize) -> String {
-    let title = answer.title.as_deref().unwrap_or("the loop");
+    let title = called(answer.title.as_deref());
     let goal = region::point_goal(answer.radius.as_ref(), answer.decay.as_ref());
     let region = goal.map(|goal| relative(answer.time, &goal)).unwrap_or_default();
     let mut out = format!("{} table of {title}{}", table_name(answer.time), region.trim_end_matches(','));

@@ -1,7 +1,7 @@
 //! The verdict at one point.
 
 use super::json;
-use super::layout::{named_values, short};
+use super::layout::{called, named_values, short};
 use crate::analysis::{PointVerdict, Verdict};
 use crate::model::Time;
 use serde_json::{Map, Value};
@@ -26,7 +26,7 @@ pub fn verdict_json(answer: &PointVerdict) -> Value {
 
 /// The verdict for people: two lines.
 pub fn verdict_text(answer: &PointVerdict) -> String {
-    let title = answer.title.as_deref().unwrap_or("the loop");
+    let title = called(answer.title.as_deref());
     let mut point = format!("{title}, {} time", answer.time.name());
     if !answer.set.is_empty() {
         point.push_str(&format!(", {}", named_values(&answer.set)));

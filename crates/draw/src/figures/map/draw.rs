@@ -10,6 +10,7 @@ use super::trace::MapTrace;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_engine::analysis::{Axis, Intervals, Map, RegionExtent};
+use jurist_engine::show::layout::visible;
 use jurist_engine::show::region::map_goal;
 use jurist_engine::stability::plane::StabilityMap;
 use kuva::render::color::Color;
@@ -132,7 +133,7 @@ impl<'a> Drawing<'a> {
         let asked = map_goal(answer);
         let what = if asked == "stable" { "Stable region".to_owned() } else { format!("Region of {asked}") };
         match answer.title.as_deref().filter(|t| !t.is_empty()) {
-            Some(title) => format!("{what}: {title}"),
+            Some(title) => format!("{what}: {}", visible(title)),
             None => what,
         }
     }
@@ -308,7 +309,7 @@ impl<'a> Drawing<'a> {
 /// `K_pwm / V`.
 pub(super) fn axis_name(axis: &Axis) -> String {
     match axis.unit.as_deref().filter(|u| !u.is_empty()) {
-        Some(unit) => format!("{} / {unit}", axis.name),
+        Some(unit) => format!("{} / {}", axis.name, visible(unit)),
         None => axis.name.clone(),
     }
 }

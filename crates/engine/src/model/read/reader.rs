@@ -201,7 +201,8 @@ impl Reader {
         for item in self.items(value) {
             let Some(text) = self.string(item, "an output") else { continue };
             if let Some(expression) = self.expression(item, "an output") {
-                let name = text.as_str().trim().to_owned();
+                // A name is one line, however the expression is broken.
+                let name = text.as_str().trim().replace(char::is_control, " ");
                 outputs.push(Output { name: Name { name, span: expression.span }, expression });
             }
         }

@@ -8,7 +8,7 @@
 //! the goal). All numbers are exact. `boxes` is `null` with `undecided` where not even the curves were found.
 
 use super::super::json;
-use super::super::layout::named_values;
+use super::super::layout::{called, named_values};
 use super::super::region::map_goal;
 use super::document::{curve_json, question_fields};
 use super::text::axis_text;
@@ -65,7 +65,7 @@ fn box_json(b: &PlaneBox) -> Value {
 /// The answer for people: areas by verdict, and the extent of the stable boxes.
 pub fn map_boxes_text(answer: &MapBoxes, digits: usize) -> String {
     let question = &answer.question;
-    let mut out = format!("{}, {} time", question.title.as_deref().unwrap_or("the loop"), question.time.name());
+    let mut out = format!("{}, {} time", called(question.title.as_deref()), question.time.name());
     if !question.set.is_empty() {
         out.push_str(&format!(", {}", named_values(&question.set)));
     }

@@ -1,7 +1,7 @@
 //! The answer for people: each region, how far it reaches, and what limits it there.
 
 use super::super::intervals::{domain_text, set_lines};
-use super::super::layout::{Columns, named_values, short};
+use super::super::layout::{Columns, called, named_values, short, visible};
 use super::super::real;
 use super::super::region::{map_causes_text, map_goal};
 use crate::analysis::{Axis, Decision, Intervals, Map, MapLimit, RegionExtent};
@@ -16,7 +16,7 @@ const FREQUENCY_DIGITS: usize = 7;
 /// The answer for people. `limits` holds what limits each region, `slices` the stable sets on the two lines
 /// through the nominal point, as far as they are known.
 pub fn map_text(answer: &Map, limits: &[RegionExtent], slices: &[Intervals], digits: usize) -> String {
-    let mut out = format!("{}, {} time", answer.title.as_deref().unwrap_or("the loop"), answer.time.name());
+    let mut out = format!("{}, {} time", called(answer.title.as_deref()), answer.time.name());
     if !answer.set.is_empty() {
         out.push_str(&format!(", {}", named_values(&answer.set)));
     }
@@ -51,7 +51,7 @@ pub fn map_text(answer: &Map, limits: &[RegionExtent], slices: &[Intervals], dig
 pub(super) fn axis_text(axis: &Axis) -> String {
     let mut text = axis.name.clone();
     if let Some(unit) = &axis.unit {
-        text.push_str(&format!(" in {unit}"));
+        text.push_str(&format!(" in {}", visible(unit)));
     }
     match domain_text(&axis.name, &axis.domain).as_str() {
         "all" => text,
