@@ -57,7 +57,7 @@ pub(super) fn read_form(root: &Table, meant: &Meant, time: Time, reader: &mut Re
             "characteristic" => {
                 for entry in table.iter().filter(|e| ["states", "inputs", "E", "outputs"].contains(&e.key.as_str())) {
                     let message = format!("'{}' says nothing beside 'characteristic'", entry.key);
-                    reader.report(Diagnostic::warning("W-unused", message).at(entry.key_span, "not used"));
+                    reader.unused(message, entry.key_span);
                 }
                 reader.expression(table.get("characteristic")?, "'characteristic'").map(Form::Characteristic)
             }

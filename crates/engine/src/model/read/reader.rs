@@ -1,6 +1,6 @@
 //! TOML values to typed parts of a model, with an error for whatever does not fit.
 
-use crate::error::{Diagnostic, Span};
+use crate::error::{Diagnostic, Severity, Span};
 use crate::model::definition::{Matrix, Name, Output};
 use crate::model::evaluate::work::constant_value;
 use crate::model::text::Expression;
@@ -32,6 +32,16 @@ impl Meant {
 impl Reader {
     pub fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
+    }
+
+    /// A part of the model that has no effect.
+    pub fn unused(&mut self, message: impl Into<String>, span: Span) {
+        self.report(Diagnostic::warning("W-unused", message).at(span, "not used"));
+    }
+
+    /// How many errors there are so far; warnings do not count.
+    pub fn errors(&self) -> usize {
+        self.diagnostics.iter().filter(|d| d.severity == Severity::Error).count()
     }
 
     /// A value of another kind than was expected.
