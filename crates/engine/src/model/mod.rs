@@ -28,5 +28,5 @@ pub use definition::{
     Pwm, Simulation, Time,
 };
 pub use question::{ModelError, Question, Resolved};
-pub use read::{DRIVE, source_from_bytes};
+pub use read::{DRIVE, schema, source_from_bytes};
 pub use text::{Expression, Factor, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};

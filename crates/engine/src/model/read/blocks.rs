@@ -1,5 +1,6 @@
 //! `[[block]]` entries.
 
+use super::keys;
 use super::reader::{Meant, Reader, count};
 use crate::error::{Diagnostic, Span};
 use crate::model::definition::{Block, Diagram, Discretization, Dynamics, Method, Pwm, Time};
@@ -50,9 +51,7 @@ fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
         reader.wrong_type(value, "a block", "a table");
         return None;
     };
-    let mut known = vec!["name", "input", "output", "discretize", "pwm"];
-    known.extend(DYNAMICS);
-    let meant = reader.unknown_keys(table, &known, "a block");
+    let meant = reader.unknown_keys(table, &keys::BLOCK, "a block");
     let name = reader.plain_string(table, "name").unwrap_or_else(|| "block".into());
     let missing = |key: &str, reader: &mut Reader| {
         if meant.includes(key) {
@@ -285,7 +284,7 @@ fn discretize(entry: &Entry, reader: &mut Reader) -> Option<Discretization> {
         ));
         return None;
     }
-    let meant = reader.unknown_keys(table, &["method", "T", "c"], "'discretize'");
+    let meant = reader.unknown_keys(table, &keys::DISCRETIZE, "'discretize'");
     let Some(method) = table.get("method") else {
         if meant.includes("method") {
             return None;
@@ -295,7 +294,6 @@ fn discretize(entry: &Entry, reader: &mut Reader) -> Option<Discretization> {
         return None;
     };
     let text = reader.string(method, "'method'")?;
-    let methods = ["forward", "backward", "tustin"];
     let rule = match text.as_str() {
         "forward" => Method::Forward,
         "backward" => Method::Backward,
@@ -311,7 +309,8 @@ fn discretize(entry: &Entry, reader: &mut Reader) -> Option<Discretization> {
         }
         other => {
             let message = format!("unknown method '{}'", shorten(other));
-            let help = did_you_mean(other, methods).unwrap_or_else(|| "known: 'forward', 'backward', 'tustin'".into());
+            let help =
+                did_you_mean(other, keys::METHODS).unwrap_or_else(|| "known: 'forward', 'backward', 'tustin'".into());
             reader.report(wrong(&message, method.span, "not known", &help));
             return None;
         }
@@ -341,7 +340,7 @@ fn discretize(entry: &Entry, reader: &mut Reader) -> Option<Discretization> {
 
 fn pwm(entry: &Entry, reader: &mut Reader) -> Option<Pwm> {
     let table = reader.table(entry)?;
-    let meant = reader.unknown_keys(table, &["amplitude", "carrier", "period"], "'pwm'");
+    let meant = reader.unknown_keys(table, &keys::PWM, "'pwm'");
     let mut part = |key: &str| {
         let Some(value) = table.get(key) else {
             if !meant.includes(key) {

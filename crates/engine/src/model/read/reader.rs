@@ -1,5 +1,6 @@
 //! TOML values to typed parts of a model, with an error for whatever does not fit.
 
+use super::keys::Key;
 use crate::error::{Diagnostic, Severity, Span};
 use crate::model::definition::{Matrix, Name, Output};
 use crate::model::evaluate::work::constant_value;
@@ -51,7 +52,8 @@ impl Reader {
     }
 
     /// Reports every key that is not among `known`.
-    pub fn unknown_keys(&mut self, table: &Table, known: &[&str], place: &str) -> Meant {
+    pub fn unknown_keys(&mut self, table: &Table, known: &[Key], place: &str) -> Meant {
+        let known: Vec<&str> = known.iter().map(|key| key.name).collect();
         let mut meant = Meant::default();
         for entry in table.iter().filter(|e| !known.contains(&e.key.as_str())) {
             let message = format!("unknown key '{}' in {place}", shorten(&entry.key));
