@@ -15,6 +15,7 @@ use jurist_draw::simulate::{Excitation, Pulse, Record, SampledModel, SwitchedMod
 use jurist_engine::error::{Diagnostic, Source};
 use jurist_engine::model::Loop;
 use jurist_engine::problem::Problem;
+use jurist_engine::show::layout::called;
 
 /// The built-in drive as blocks, which is what a switched simulation reads.
 const DRIVE_BLOCKS: &str = include_str!("../../../examples/drive-blocks.toml");
@@ -115,7 +116,7 @@ fn figure(model: &Loop, answer: &SimulationAnswer) -> Figure {
         None if outputs.is_empty() => (all().collect(), "sampled linear model"),
         None => (outputs, "sampled linear model"),
     };
-    let title = format!("{}, {kind}", model.title().unwrap_or("the loop"));
+    let title = format!("{}, {kind}", called(model.title()));
     let unit = time_unit(model, answer.sample_time);
     stacked(&response_panels(&title, unit, &answer.trace, &shown), 760.0, 240.0)
 }

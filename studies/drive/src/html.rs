@@ -2,6 +2,7 @@
 
 use super::words::{Token, is_variable, tokens};
 use jurist_draw::figures::Figure;
+use jurist_engine::show::layout::visible;
 
 /// A table of plain text; names such as `K_pwm` in it are set as mathematics.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -39,7 +40,7 @@ impl Table {
 
 /// Text with the characters that mean something in HTML replaced.
 pub(super) fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    visible(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Text with names, powers and products set as mathematics: `K_pwm*T^2` with an index and a power.

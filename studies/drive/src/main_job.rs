@@ -8,7 +8,7 @@ use jurist_engine::answer::{Answer, ParametricTable};
 use jurist_engine::error::{Failure, Source};
 use jurist_engine::model::Loop;
 use jurist_engine::show::intervals::{domain_text, set_lines};
-use jurist_engine::show::layout::{Columns, short, wrapped};
+use jurist_engine::show::layout::{Columns, short, visible, wrapped};
 use jurist_engine::show::notation::Coefficient;
 use jurist_engine::show::{json, real};
 use jurist_engine::stability::{AlgebraicInterval, ClassicalTest, End, IntervalSet, StableInterval, StableSet};
@@ -117,16 +117,21 @@ fn model_text(job: &MainJob) -> String {
     let model = job.amplitude.problem().model();
     let mut out = format!(
         "{}: {} time, order {}\n",
-        model.title().unwrap_or("the drive"),
+        visible(model.title().unwrap_or("the drive")),
         model.time().name(),
         equation(&job.amplitude).formal_degree
     );
     let mut columns = Columns::new("  ");
     for p in model.parameters() {
-        let unit = p.unit.as_deref().unwrap_or_default();
+        let unit = visible(p.unit.as_deref().unwrap_or_default());
         let nominal = p.nominal.as_ref().map(|n| format!("{} {unit}", short(n))).unwrap_or_default();
         let domain = domain_text(&p.name, &jurist_engine::stability::Range::between(p.min.clone(), p.max.clone()));
-        columns.row([p.name.clone(), nominal, domain, p.description.clone().unwrap_or_default()]);
+        columns.row([
+            p.name.clone(),
+            nominal,
+            domain,
+            visible(p.description.as_deref().unwrap_or_default()).into_owned(),
+        ]);
     }
     out.push_str(&columns.to_string());
     let constants =

@@ -9,6 +9,7 @@ use jurist_engine::answer::Answer;
 use jurist_engine::error::Failure;
 use jurist_engine::model::Time;
 use jurist_engine::problem::Problem;
+use jurist_engine::show::layout::visible;
 use jurist_engine::stability::{Cause, End, StableSet};
 use nalgebra::Complex;
 
@@ -97,7 +98,7 @@ pub fn locus_of(
     }
     let options = LocusOptions { lower: range.0.clone(), upper: range.1.clone(), scale, focus, through, reach };
     let locus = trace_root_locus(of, &options, budget)?;
-    let unit = problem.parameter().unit.as_deref().map(|u| format!(" {u}")).unwrap_or_default();
+    let unit = problem.parameter().unit.as_deref().map(|u| format!(" {}", visible(u))).unwrap_or_default();
     let title = format!(
         "{} from {}{unit} (×) to {}{unit} (○)",
         problem.parameter().name,

@@ -3,6 +3,7 @@
 use super::COLOURS;
 use super::panel::{Corner, Curve, Panel, tick_step};
 use crate::simulate::Trace;
+use jurist_engine::show::layout::visible;
 
 /// Longest list of points a curve keeps; more would only make the file larger.
 const MOST_POINTS: usize = 2400;
@@ -57,8 +58,9 @@ pub fn response_panel(title: &str, time_unit: &str, y_label: &str, curves: &[Res
 
 /// A quantity with its unit as on an axis: `omega / (rad/s)`; the name alone where no unit is known.
 pub fn axis_label(name: &str, unit: &str) -> String {
-    match unit {
-        "" => name.to_string(),
+    let (name, unit) = (visible(name), visible(unit));
+    match unit.as_ref() {
+        "" => name.into_owned(),
         u if u.contains(['/', ' ', '*', '·']) => format!("{name} / ({u})"),
         u => format!("{name} / {u}"),
     }

@@ -3,10 +3,11 @@
 use super::map::escaped;
 use crate::figures::Figure;
 use jurist_engine::answer::{Answer, MapBoxes};
+use jurist_engine::show::layout::called;
 
 /// The picture and the text as a page that stands alone.
 pub fn map_boxes_page(answer: &Answer<MapBoxes>, figure: &Figure, digits: usize) -> String {
-    let title = escaped(answer.problem().title().unwrap_or("the loop"));
+    let title = escaped(&called(answer.problem().title()));
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>{title}</title>\

@@ -10,7 +10,7 @@ use jurist_engine::answer::{Answer, Map};
 use jurist_engine::error::Failure;
 use jurist_engine::problem::Free;
 use jurist_engine::show::json;
-use jurist_engine::show::layout::{named_values, short};
+use jurist_engine::show::layout::{named_values, short, visible};
 use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::{Curve, Strip};
 use serde_json::{Value, json};
@@ -83,7 +83,7 @@ pub fn map_page(
 }
 
 pub(super) fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    visible(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// What the script needs: the exact strips, and the walls as they are drawn.

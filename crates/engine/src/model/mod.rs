@@ -27,6 +27,6 @@ pub use definition::{
     Block, Constant, Diagram, Discretization, Dynamics, Form, Loop, Matrix, Method, Name, Output, Parameter, Ports,
     Pwm, Simulation, Time,
 };
-pub use read::{DRIVE, source_from_bytes};
+pub use read::{DRIVE, schema, source_from_bytes};
 pub(crate) use text::names::shorten;
 pub use text::{Expression, Factor, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};

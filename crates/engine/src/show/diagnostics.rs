@@ -1,5 +1,6 @@
 //! Diagnostics with the source line, carets and help, as compilers draw them.
 
+use super::layout::is_unseen;
 use crate::error::{Diagnostic, Error, Severity, Source, Span};
 use annotate_snippets::{Annotation, AnnotationKind, Level, Origin, Renderer, Snippet};
 use std::borrow::Cow;
@@ -124,14 +125,14 @@ fn visible(c: char) -> Cow<'static, str> {
     match c {
         '\n' => "\n".into(),
         '\t' => "\t".into(),
-        c if c.is_control() => " ".repeat(c.len_utf8()).into(),
+        c if is_unseen(c) => " ".repeat(c.len_utf8()).into(),
         c => c.to_string().into(),
     }
 }
 
 /// One line of text without control characters, not longer than is shown.
 fn plain(text: &str) -> String {
-    let visible = |c: char| if c.is_control() { ' ' } else { c };
+    let visible = |c: char| if is_unseen(c) { ' ' } else { c };
     let mut out: String = text.chars().take(MAX_TEXT).map(visible).collect();
     if text.chars().nth(MAX_TEXT).is_some() {
         out.push_str("...");

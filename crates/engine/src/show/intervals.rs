@@ -1,6 +1,6 @@
 //! The stable set of one parameter.
 
-use super::layout::{Columns, fraction, named_values, short};
+use super::layout::{Columns, called, fraction, named_values, short, visible};
 use super::margins::margin;
 use super::{json, real, region};
 use crate::answer::{Answer, Frequency};
@@ -42,7 +42,7 @@ pub fn intervals_text(problem: &Problem, set: Result<&StableSet, &Exhausted>, di
 
 /// The model and the values of the other parameters.
 pub fn heading(problem: &Problem) -> String {
-    let title = problem.title().unwrap_or("the loop");
+    let title = called(problem.title());
     let mut line = format!("{title}, {} time", problem.time().name());
     if !problem.set().is_empty() {
         line.push_str(&format!(", {}", named_values(problem.set())));
@@ -62,7 +62,7 @@ pub fn answer_lines(problem: &Problem, set: Result<&StableSet, &Exhausted>, digi
     let goal = region::goal_or_stable(problem);
     let mut asked = name.clone();
     if let Some(unit) = &free.unit {
-        asked.push_str(&format!(" in {unit}"));
+        asked.push_str(&format!(" in {}", visible(unit)));
     }
     let domain = domain_text(name, &free.domain);
     if domain != "all" {

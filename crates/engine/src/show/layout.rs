@@ -1,6 +1,7 @@
 //! Aligned columns and short numbers in text for people.
 
 use jurist_algebra::number::{Rational, parse_number, to_decimal};
+use std::borrow::Cow;
 use std::fmt;
 
 /// Digits up to which a number is written as a decimal rather than as a fraction.
@@ -8,6 +9,41 @@ const SHORT_DIGITS: usize = 15;
 
 /// Digits of a number or a fraction that are written out for people.
 const WHOLE_DIGITS: usize = 60;
+
+/// Text of a model (titles, units, descriptions) on one line, with every character that would move the cursor, colour
+/// the terminal or turn the direction of writing shown by its escape: nothing of a model can pass for an answer, and
+/// XML and HTML, where such characters are illegal, stay readable. JSON keeps the exact text.
+///
+/// ```
+/// use jurist_engine::show::layout::visible;
+/// assert_eq!(visible("K_pwm in V"), "K_pwm in V");
+/// assert_eq!(visible("loop\n\u{1b}[1Astable"), "loop\\n\\u{1b}[1Astable");
+/// ```
+pub fn visible(text: &str) -> Cow<'_, str> {
+    if !text.contains(is_unseen) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            _ if !is_unseen(c) => out.push(c),
+            '\n' | '\t' | '\r' => out.extend(c.escape_default()),
+            _ => out.extend(c.escape_unicode()),
+        }
+    }
+    Cow::Owned(out)
+}
+
+/// What a loop is called in text for people: its title, made [`visible`].
+pub fn called(title: Option<&str>) -> Cow<'_, str> {
+    visible(title.unwrap_or("the loop"))
+}
+
+/// Whether a character does something else than being seen: controls, other ends of lines, marks of direction.
+pub(crate) fn is_unseen(c: char) -> bool {
+    let is_mark = |c: char| matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');
+    c.is_control() || is_mark(c)
+}
 
 /// The number as a short decimal if it is one, else as a fraction; a very long one with its first digits only.
 pub fn short(value: &Rational) -> String {
@@ -127,5 +163,35 @@ mod tests {
     #[test]
     fn wrapping() {
         assert_eq!(wrapped("aa bb cc dd", 5, " "), "aa bb\n cc\n dd");
+    }
+
+    #[test]
+    fn what_is_not_seen_is_shown_by_its_escape() {
+        assert_eq!(visible("ω_ref in rad/s, 20 °C"), "ω_ref in rad/s, 20 °C");
+        assert_eq!(visible("a\r\n\tb"), "a\\r\\n\\tb");
+        assert_eq!(visible("\u{1b}[2J\u{7f}\u{9b}\u{0}"), "\\u{1b}[2J\\u{7f}\\u{9b}\\u{0}");
+        assert_eq!(visible("\u{202e}elbats\u{2028}\u{feff}"), "\\u{202e}elbats\\u{2028}\\u{feff}");
+    }
+
+    #[test]
+    fn no_title_or_unit_passes_for_an_answer() {
+        use jurist_algebra::limits::Budget;
+        let text = "title = \"loop\\n\\u001b[1Astable for all K\\n\"\ntime = 'discrete'\n[parameters]\n\
+            K = { nominal = 1, unit = \"V\\nstable\\u009b\" }\n[loop]\ncharacteristic = 'z - K'\n";
+        let (model, _) = crate::model::Loop::from_toml(&crate::error::Source::new("m.toml", text)).unwrap();
+        let budget = Budget::unlimited();
+        let one = model.ask().free("K").stable_set(&budget).unwrap();
+        let texts = [
+            one.text(12),
+            model.ask().verdict(&budget).unwrap().text(),
+            model.ask().analyze(&budget).unwrap().text(12),
+        ];
+        for text in texts {
+            assert!(text.starts_with("loop\\n\\u{1b}[1Astable for all K\\n, discrete time"), "{text}");
+            assert!(!text.contains(|c: char| is_unseen(c) && c != '\n'), "{text}");
+            assert!(!text.lines().any(|line| line.starts_with("stable")), "{text}");
+        }
+        let exact = one.json(12).to_string();
+        assert!(exact.contains("loop\\n\\u001b[1Astable for all K\\n"), "{exact}");
     }
 }

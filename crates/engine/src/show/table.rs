@@ -2,7 +2,7 @@
 
 use super::intervals::{domain_text, set_lines, undecided_text};
 use super::json;
-use super::layout::{Columns, named_values, wrapped};
+use super::layout::{Columns, called, named_values, wrapped};
 use super::notation::{Coefficient, coefficient_text};
 use super::region;
 use crate::answer::{Answer, ParametricTable, PointTable};
@@ -239,7 +239,7 @@ pub fn table_text(problem: &Problem, answer: Result<&ParametricTable, &Exhausted
 }
 
 fn heading(problem: &Problem) -> String {
-    let (title, free) = (problem.title().unwrap_or("the loop"), problem.parameter());
+    let (title, free) = (called(problem.title()), problem.parameter());
     let region = region::goal(problem).map(|goal| relative(problem.time(), &goal)).unwrap_or_default();
     let mut line = format!("{} table of {title}{region} in {}", table_name(problem.time()), free.name);
     if !problem.set().is_empty() {
@@ -280,7 +280,7 @@ fn conditions_text(test: &ClassicalTest, name: &str, digits: usize) -> String {
 
 /// The table at a point for people.
 fn point_table_text(problem: &Problem, answer: &PointTable, digits: usize) -> String {
-    let title = problem.title().unwrap_or("the loop");
+    let title = called(problem.title());
     let region = region::goal(problem).map(|goal| relative(problem.time(), &goal)).unwrap_or_default();
     let mut out = format!("{} table of {title}{}", table_name(problem.time()), region.trim_end_matches(','));
     if !problem.set().is_empty() {

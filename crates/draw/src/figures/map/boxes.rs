@@ -7,6 +7,7 @@ use super::draw::{FAINT, INK, PAPER, REGION, axis_name};
 use super::window::AxisWindow;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_engine::answer::{Answer, MapBoxes};
+use jurist_engine::show::layout::called;
 use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::boxes::{BoxMap, BoxVerdict};
 use kuva::render::color::Color;
@@ -30,8 +31,8 @@ pub fn boxes_figure(answer: &Answer<MapBoxes>, width: f64, height: f64) -> Figur
         height: height - top - 50.0,
     };
     let mut scene = Scene::new(width, height);
-    let title = answer.problem().title().unwrap_or("the loop");
-    scene.add(text((width / 2.0, 20.0), title, 14, TextAnchor::Middle, None));
+    let title = called(answer.problem().title());
+    scene.add(text((width / 2.0, 20.0), &title, 14, TextAnchor::Middle, None));
     legend(&mut scene, map, &goal_or_stable(answer.problem()), (left, 40.0));
     for (verdict, fill, edge) in [
         (BoxVerdict::Unstable { outside: None }, UNSTABLE, PAPER),

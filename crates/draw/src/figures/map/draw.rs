@@ -12,6 +12,7 @@ use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::error::Failure;
 use jurist_engine::problem::Free;
+use jurist_engine::show::layout::visible;
 use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::StabilityMap;
 use kuva::render::color::Color;
@@ -131,7 +132,7 @@ impl<'a> Drawing<'a> {
         let asked = goal_or_stable(answer.problem());
         let what = if asked == "stable" { "Stable region".to_owned() } else { format!("Region of {asked}") };
         match answer.problem().title().filter(|t| !t.is_empty()) {
-            Some(title) => format!("{what}: {title}"),
+            Some(title) => format!("{what}: {}", visible(title)),
             None => what,
         }
     }
@@ -309,7 +310,7 @@ impl<'a> Drawing<'a> {
 /// `K_pwm / V`.
 pub(super) fn axis_name(axis: &Free) -> String {
     match axis.unit.as_deref().filter(|u| !u.is_empty()) {
-        Some(unit) => format!("{} / {unit}", axis.name),
+        Some(unit) => format!("{} / {}", axis.name, visible(unit)),
         None => axis.name.clone(),
     }
 }

@@ -1,5 +1,6 @@
 //! `[[block]]` entries.
 
+use super::keys;
 use super::reader::{Meant, Reader, count};
 use crate::error::{Diagnostic, Span};
 use crate::model::definition::{Block, Diagram, Discretization, Dynamics, Method, Pwm, Time};
@@ -25,10 +26,10 @@ pub(super) fn diagram(table: &Table, blocks: &Entry, time: Time, reader: &mut Re
         reader.report(error.at(blocks.key_span, "not an array of tables").help("write [[block]] with two brackets"));
         return None;
     };
-    let before = reader.diagnostics.len();
+    let before = reader.errors();
     distinct_names(items, reader);
     let blocks: Vec<Block> = items.iter().filter_map(|item| block(item, time, reader)).collect();
-    (reader.diagnostics.len() == before || blocks.len() == items.len()).then_some(Diagram { inputs, outputs, blocks })
+    (reader.errors() == before || blocks.len() == items.len()).then_some(Diagram { inputs, outputs, blocks })
 }
 
 /// Reports blocks that have the name of an earlier one; without a name they are as many as one likes.
@@ -50,9 +51,7 @@ fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
         reader.wrong_type(value, "a block", "a table");
         return None;
     };
-    let mut known = vec!["name", "input", "output", "discretize", "pwm"];
-    known.extend(DYNAMICS);
-    let meant = reader.unknown_keys(table, &known, "a block");
+    let meant = reader.unknown_keys(table, &keys::BLOCK, "a block");
     let name = reader.plain_string(table, "name").unwrap_or_else(|| "block".into());
     let missing = |key: &str, reader: &mut Reader| {
         if meant.includes(key) {
@@ -67,7 +66,7 @@ fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
         return None;
     }
     let span = table.get("name").map_or(value.span, |v| v.span);
-    let before = reader.diagnostics.len();
+    let before = reader.errors();
     let inputs = match table.get("input") {
         Some(v) => Some(reader.expressions(v, "an input")),
         None => {
@@ -93,8 +92,14 @@ fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
     let dynamics = dynamics(table, &meant, value, &name, time, continuous, reader);
     let pwm = table.entry("pwm").and_then(|entry| pwm(entry, reader));
     let (inputs, outputs, dynamics) = (inputs?, outputs?, dynamics?);
-    if reader.diagnostics.len() > before || (continuous && discretization.is_none()) {
+    if reader.errors() > before || (continuous && discretization.is_none()) {
         return None;
+    }
+    if let Some(entry) = table.entry("discretize")
+        && matches!(dynamics, Dynamics::Gain(_) | Dynamics::Static(_))
+    {
+        let message = format!("the block '{}' has no states: there is nothing to discretise", shorten(&name));
+        reader.unused(message, entry.key_span);
     }
     let block = Block { name, span, inputs, outputs, dynamics, discretization, pwm };
     let in_span = table.get("input").map_or(value.span, |v| v.span);
@@ -279,7 +284,7 @@ fn discretize(entry: &Entry, reader: &mut Reader) -> Option<Discretization> {
         ));
         return None;
     }
-    let meant = reader.unknown_keys(table, &["method", "T", "c"], "'discretize'");
+    let meant = reader.unknown_keys(table, &keys::DISCRETIZE, "'discretize'");
     let Some(method) = table.get("method") else {
         if meant.includes("method") {
             return None;
@@ -289,7 +294,6 @@ fn discretize(entry: &Entry, reader: &mut Reader) -> Option<Discretization> {
         return None;
     };
     let text = reader.string(method, "'method'")?;
-    let methods = ["forward", "backward", "tustin"];
     let rule = match text.as_str() {
         "forward" => Method::Forward,
         "backward" => Method::Backward,
@@ -305,7 +309,8 @@ fn discretize(entry: &Entry, reader: &mut Reader) -> Option<Discretization> {
         }
         other => {
             let message = format!("unknown method '{}'", shorten(other));
-            let help = did_you_mean(other, methods).unwrap_or_else(|| "known: 'forward', 'backward', 'tustin'".into());
+            let help =
+                did_you_mean(other, keys::METHODS).unwrap_or_else(|| "known: 'forward', 'backward', 'tustin'".into());
             reader.report(wrong(&message, method.span, "not known", &help));
             return None;
         }
@@ -327,12 +332,15 @@ fn discretize(entry: &Entry, reader: &mut Reader) -> Option<Discretization> {
         ));
         return None;
     }
+    if let (Some(time), Some(_)) = (table.entry("T"), &factor) {
+        reader.unused("'T' says nothing beside 'c': the rule is s = c (z-1)/(z+1)", time.key_span);
+    }
     Some(Discretization { method: rule, sample_time, factor, span: entry.key_span })
 }
 
 fn pwm(entry: &Entry, reader: &mut Reader) -> Option<Pwm> {
     let table = reader.table(entry)?;
-    let meant = reader.unknown_keys(table, &["amplitude", "carrier", "period"], "'pwm'");
+    let meant = reader.unknown_keys(table, &keys::PWM, "'pwm'");
     let mut part = |key: &str| {
         let Some(value) = table.get(key) else {
             if !meant.includes(key) {
@@ -345,4 +353,33 @@ fn pwm(entry: &Entry, reader: &mut Reader) -> Option<Pwm> {
     };
     let (amplitude, carrier, period) = (part("amplitude"), part("carrier"), part("period"));
     Some(Pwm { amplitude: amplitude?, carrier: carrier?, period: period? })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::error::Source;
+    use crate::model::Loop;
+
+    /// Code and source text of all warnings of a discrete loop whose plant has this line.
+    fn warnings(plant: &str) -> Vec<(&'static str, String)> {
+        let text = format!(
+            "time = 'discrete'\n[parameters]\nT = {{ nominal = 1, min = 0 }}\nc = {{ nominal = 2 }}\n[loop]\ninputs = ['r']\n\
+             [[block]]\ninput = 'r - T*c*y'\noutput = 'e'\ngain = 1\n[[block]]\ninput = 'e'\noutput = 'y'\n{plant}\n"
+        );
+        let (_, warnings) = Loop::from_toml(&Source::new("model.toml", text.as_str())).unwrap();
+        let place = |span: crate::error::Span| text[span.start..span.end].to_owned();
+        warnings.iter().map(|w| (w.code, w.primary.as_ref().map_or(String::new(), |l| place(l.span)))).collect()
+    }
+
+    #[test]
+    fn keys_without_effect_are_warned_about() {
+        let unused = |key: &str| vec![("W-unused", key.to_owned())];
+        let continuous = |rule: &str| format!("transfer = '1/(s + 1)'\ndiscretize = {rule}");
+        assert_eq!(warnings(&continuous("{ method = 'tustin', T = 'T', c = '2/T' }")), unused("T"));
+        assert_eq!(warnings(&continuous("{ method = 'tustin', c = '2/T' }")), []);
+        assert_eq!(warnings(&continuous("{ method = 'tustin', T = 'T' }")), []);
+        assert_eq!(warnings("gain = 1\ndiscretize = { method = 'forward', T = 'T' }"), unused("discretize"));
+        assert_eq!(warnings("D = [[1]]\ndiscretize = { method = 'forward', T = 'T' }"), unused("discretize"));
+        assert_eq!(warnings("A = [[0]]\nB = [[1]]\ndiscretize = { method = 'forward', T = 'T' }"), []);
+    }
 }

@@ -208,7 +208,7 @@ pub(super) fn names(model: &Loop, form_is_broken: bool, reader: &mut Reader) {
         names.expression(e, &none, "");
         if model.time == Time::Continuous {
             let message = "a sample time says nothing in continuous time";
-            names.reader.report(Diagnostic::warning("W-unused", message).at(e.span, "not used"));
+            names.reader.unused(message, e.span);
         }
     }
     if form_is_broken {
@@ -247,7 +247,7 @@ pub(super) fn names(model: &Loop, form_is_broken: bool, reader: &mut Reader) {
             outputs(&mut names, &diagram.outputs, &signals);
             for input in diagram.inputs.iter().filter(|n| !names.used.contains(n.name.as_str())) {
                 let message = format!("the external input '{}' enters nowhere", shorten(&input.name));
-                names.reader.report(Diagnostic::warning("W-unused", message).at(input.span, "not used"));
+                names.reader.unused(message, input.span);
             }
         }
     }
@@ -257,7 +257,7 @@ pub(super) fn names(model: &Loop, form_is_broken: bool, reader: &mut Reader) {
     let parameters = model.parameters.iter().map(|p| (&p.name, p.span, "parameter"));
     for (name, span, what) in constants.chain(parameters).filter(|(name, ..)| !used.contains(name.as_str())) {
         let message = format!("the {what} '{}' is not used", shorten(name));
-        reader.report(Diagnostic::warning("W-unused", message).at(span, "not used"));
+        reader.unused(message, span);
     }
 }
 

@@ -1,6 +1,7 @@
 //! The forms of `[loop]`: a characteristic polynomial, a matrix, output feedback, or blocks.
 
 use super::blocks;
+use super::keys;
 use super::reader::{Meant, Reader, count};
 use crate::error::{Diagnostic, Span};
 use crate::model::definition::{Form, Matrix, Ports, Time};
@@ -29,10 +30,8 @@ pub(super) fn read_form(root: &Table, meant: &Meant, time: Time, reader: &mut Re
         return None;
     };
     let table = reader.table(entry)?;
-    let mut known = FORM_KEYS.to_vec();
-    known.extend(["states", "inputs", "E", "outputs"]);
     let before = reader.diagnostics.len();
-    let meant_in_loop = reader.unknown_keys(table, &known, "[loop]");
+    let meant_in_loop = reader.unknown_keys(table, &keys::LOOP, "[loop]");
     let misspelt = reader.diagnostics.len() > before || meant.includes("block");
     let given: Vec<&Entry> = table.iter().filter(|e| FORM_KEYS.contains(&e.key.as_str())).collect();
     let feedback = |e: &&&Entry| matches!(e.key.as_str(), "A" | "B" | "C" | "K");
@@ -57,7 +56,7 @@ pub(super) fn read_form(root: &Table, meant: &Meant, time: Time, reader: &mut Re
             "characteristic" => {
                 for entry in table.iter().filter(|e| ["states", "inputs", "E", "outputs"].contains(&e.key.as_str())) {
                     let message = format!("'{}' says nothing beside 'characteristic'", entry.key);
-                    reader.report(Diagnostic::warning("W-unused", message).at(entry.key_span, "not used"));
+                    reader.unused(message, entry.key_span);
                 }
                 reader.expression(table.get("characteristic")?, "'characteristic'").map(Form::Characteristic)
             }

@@ -4,9 +4,12 @@
 mod blocks;
 mod check_names;
 mod check_values;
+mod keys;
 mod loop_forms;
 mod model_file;
 mod reader;
+mod schema;
 mod simulation;
 
 pub use model_file::{DRIVE, source_from_bytes};
+pub use schema::schema;

@@ -1,5 +1,6 @@
 //! A whole model file.
 
+use super::keys;
 use super::loop_forms::read_form;
 use super::reader::{Meant, Reader};
 use super::simulation;
@@ -91,8 +92,7 @@ pub fn source_from_bytes(name: &str, bytes: &[u8]) -> Result<Arc<Source>, Error>
 }
 
 fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option<Loop> {
-    let known = ["title", "time", "sample_time", "constants", "parameters", "loop", "block", "simulation"];
-    let meant = reader.unknown_keys(root, &known, "the model");
+    let meant = reader.unknown_keys(root, &keys::MODEL, "the model");
     let title = reader.plain_string(root, "title");
     let time = read_time(root, &meant, reader);
     let sample_time = root.get("sample_time").and_then(|v| reader.expression(v, "'sample_time'"));
@@ -143,7 +143,7 @@ fn read_time(root: &Table, meant: &Meant, reader: &mut Reader) -> Option<Time> {
         other => {
             let mut error = Diagnostic::error("E-value", format!("unknown kind of time '{}'", shorten(other)))
                 .at(value.span, "neither \"discrete\" nor \"continuous\"");
-            error.help = did_you_mean(other, ["discrete", "continuous"]);
+            error.help = did_you_mean(other, keys::TIMES);
             reader.report(error);
             None
         }
@@ -194,7 +194,7 @@ fn read_parameters(root: &Table, reader: &mut Reader) -> Vec<Parameter> {
 }
 
 fn read_parameter(table: &Table, parameter: &mut Parameter, reader: &mut Reader) {
-    reader.unknown_keys(table, &["nominal", "min", "max", "unit", "description"], "a parameter");
+    reader.unknown_keys(table, &keys::PARAMETER, "a parameter");
     let mut number = |key: &str| {
         let value = table.get(key)?;
         reader.number(value, &format!("'{key}'"))

@@ -1,6 +1,7 @@
 //! TOML values to typed parts of a model, with an error for whatever does not fit.
 
-use crate::error::{Diagnostic, Span};
+use super::keys::Key;
+use crate::error::{Diagnostic, Severity, Span};
 use crate::model::definition::{Matrix, Name, Output};
 use crate::model::evaluate::work::constant_value;
 use crate::model::text::Expression;
@@ -34,6 +35,16 @@ impl Reader {
         self.diagnostics.push(diagnostic);
     }
 
+    /// A part of the model that has no effect.
+    pub fn unused(&mut self, message: impl Into<String>, span: Span) {
+        self.report(Diagnostic::warning("W-unused", message).at(span, "not used"));
+    }
+
+    /// How many errors there are so far; warnings do not count.
+    pub fn errors(&self) -> usize {
+        self.diagnostics.iter().filter(|d| d.severity == Severity::Error).count()
+    }
+
     /// A value of another kind than was expected.
     pub fn wrong_type(&mut self, value: &Value, what: &str, expected: &str) {
         let error = Diagnostic::error("E-type", format!("{what} must be {expected}"));
@@ -41,7 +52,8 @@ impl Reader {
     }
 
     /// Reports every key that is not among `known`.
-    pub fn unknown_keys(&mut self, table: &Table, known: &[&str], place: &str) -> Meant {
+    pub fn unknown_keys(&mut self, table: &Table, known: &[Key], place: &str) -> Meant {
+        let known: Vec<&str> = known.iter().map(|key| key.name).collect();
         let mut meant = Meant::default();
         for entry in table.iter().filter(|e| !known.contains(&e.key.as_str())) {
             let message = format!("unknown key '{}' in {place}", shorten(&entry.key));
@@ -201,7 +213,8 @@ impl Reader {
         for item in self.items(value) {
             let Some(text) = self.string(item, "an output") else { continue };
             if let Some(expression) = self.expression(item, "an output") {
-                let name = text.as_str().trim().to_owned();
+                // A name is one line, however the expression is broken.
+                let name = text.as_str().trim().replace(char::is_control, " ");
                 outputs.push(Output { name: Name { name, span: expression.span }, expression });
             }
         }

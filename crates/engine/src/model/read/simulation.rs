@@ -1,6 +1,7 @@
 //! What `[simulation]` says: defaults of a time response and units for its axes. Nothing here enters
 //! the algebra.
 
+use super::keys;
 use super::model_file::section;
 use super::reader::Reader;
 use crate::error::Diagnostic;
@@ -11,7 +12,7 @@ use crate::model::text::toml_value::{Entry, Table};
 /// Reads the section, if there is one.
 pub(super) fn read(root: &Table, reader: &mut Reader) -> Simulation {
     let Some(table) = section(root, "simulation", reader) else { return Simulation::default() };
-    reader.unknown_keys(table, &["inputs", "initial", "duration", "units"], "[simulation]");
+    reader.unknown_keys(table, &keys::SIMULATION, "[simulation]");
     let inputs = entries(table, "inputs", reader, Reader::number);
     let initial = entries(table, "initial", reader, Reader::number);
     let units = entries(table, "units", reader, |reader, value, what| {

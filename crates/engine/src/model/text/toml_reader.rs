@@ -179,7 +179,7 @@ mod tests {
 
     /// Codes, places as source text, and second places of all mistakes.
     fn mistakes(text: &str) -> Vec<String> {
-        let at = |span: Span| format!("{}@{}", text[span.start..span.end].escape_debug(), span.start);
+        let at = |span: Span| format!("{}@{}", &text[span.start..span.end], span.start);
         let show = |d: &Diagnostic| {
             let places = d.primary.iter().chain(&d.secondary).map(|l| at(l.span));
             format!("{} {}", d.code, places.collect::<Vec<_>>().join(" "))
@@ -208,7 +208,7 @@ mod tests {
     fn both_places_of_a_key_that_stands_twice_are_known() {
         for (text, expected) in [
             ("a = 1\na = 2", "E-duplicate-key a@6 a@0"),
-            ("\"a\" = 1\n'a' = 2", "E-duplicate-key 'a'@8 \\\"a\\\"@0"),
+            ("\"a\" = 1\n'a' = 2", "E-duplicate-key 'a'@8 \"a\"@0"),
             ("K = 0\n[c]\nK = 1\n[p]\nK = 2\nx = { K = 1, K = 2 }\n", "E-duplicate-key K@39 K@32"),
             ("K = 0\n[c]\nK = 1\n[p]\nK = 2\n[[b]]\n[[b]]\nK = 1\nK = 2\n", "E-duplicate-key K@44 K@38"),
             ("[t]\nx = 1\n[t]\ny = 1", "E-duplicate-key t@11 t@1"),
@@ -227,7 +227,7 @@ mod tests {
         assert_eq!(mistakes(text), ["E-toml @6", "E-toml [@11"]);
         assert_eq!(mistakes("a = { b = [1, 2], c = 3\nd = 4\n"), ["E-toml {@4"]);
         assert_eq!(mistakes(&"[".repeat(1000)).len(), 1);
-        assert_eq!(mistakes(&format!("a = {}", "[".repeat(1000))), ["E-toml [@4"]);
+        assert!(mistakes(&format!("a = {}", "[".repeat(1000)))[0].starts_with("E-too-deep"));
     }
 
     #[test]

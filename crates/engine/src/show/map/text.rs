@@ -1,7 +1,7 @@
 //! The answer for people: each region, how far it reaches, and what limits it there.
 
 use super::super::intervals::{domain_text, heading, set_lines, undecided_text};
-use super::super::layout::{Columns, named_values, short};
+use super::super::layout::{Columns, named_values, short, visible};
 use super::super::real;
 use super::super::region::{causes_text, goal_or_stable};
 use crate::answer::{Answer, Map, MapLimit, RegionExtent};
@@ -58,7 +58,7 @@ pub fn map_text(problem: &Problem, answer: Result<&Map, &Exhausted>, digits: usi
 pub(super) fn axis_text(axis: &Free) -> String {
     let mut text = axis.name.clone();
     if let Some(unit) = &axis.unit {
-        text.push_str(&format!(" in {unit}"));
+        text.push_str(&format!(" in {}", visible(unit)));
     }
     match domain_text(&axis.name, &axis.domain).as_str() {
         "all" => text,

@@ -11,6 +11,7 @@ mod rust;
 mod terms;
 mod text;
 
+use super::layout::is_unseen;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 
@@ -162,6 +163,6 @@ impl PolynomialReport {
 
 /// Text on one line, without characters that end comments.
 fn one_line(text: &str) -> String {
-    let cleaned: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let cleaned: String = text.chars().map(|c| if is_unseen(c) { ' ' } else { c }).collect();
     cleaned.replace("\"\"\"", "'''")
 }

@@ -1,5 +1,6 @@
 //! For people: a line per coefficient.
 
+use super::super::layout::visible;
 use super::terms::{Syntax, plain_number};
 use super::{Coefficient, PolynomialReport};
 use jurist_algebra::number::Rational;
@@ -8,7 +9,7 @@ pub(super) fn write(report: &PolynomialReport, digits: Option<usize>) -> String 
     let mut out = format!("{}\n", report.headline());
     let mut about = Vec::new();
     if !report.title.is_empty() {
-        about.push(super::one_line(&report.title));
+        about.push(visible(&report.title).into_owned());
     }
     if !report.set.is_empty() {
         let number = |v: &Rational| plain_number(v, digits);

@@ -1,0 +1,138 @@
+//! The keys of a model file: what the reader knows, and what its JSON schema says.
+
+/// A key of a table.
+pub(super) struct Key {
+    pub name: &'static str,
+    pub shape: Shape,
+    /// Whether the table has no meaning without it.
+    pub is_needed: bool,
+    /// What it says, for people.
+    pub about: &'static str,
+}
+
+/// What a value looks like.
+pub(super) enum Shape {
+    /// Any text.
+    Text,
+    /// One of these words.
+    OneOf(&'static [&'static str]),
+    /// A number, or a formula of numbers.
+    Number,
+    /// A number, or an expression in constants and parameters.
+    Expression,
+    /// One expression or an array of them.
+    Expressions,
+    /// One name or an array of names.
+    Names,
+    /// An array of rows.
+    Matrix,
+    /// A parameter: its table, or its nominal value alone.
+    Parameter,
+    /// A table of names with values of one shape.
+    Named(&'static Shape),
+    /// A table with these keys.
+    Table(&'static [Key]),
+    /// An array of tables with these keys.
+    Tables(&'static [Key]),
+}
+
+const fn key(name: &'static str, shape: Shape, about: &'static str) -> Key {
+    Key { name, shape, is_needed: false, about }
+}
+
+const fn needed(name: &'static str, shape: Shape, about: &'static str) -> Key {
+    Key { name, shape, is_needed: true, about }
+}
+
+/// The words of `time`.
+pub(super) const TIMES: [&str; 2] = ["discrete", "continuous"];
+
+/// The rules of `discretize`.
+pub(super) const METHODS: [&str; 3] = ["forward", "backward", "tustin"];
+
+/// The whole file.
+pub(super) const MODEL: [Key; 8] = [
+    key("title", Shape::Text, "what the loop is, for people"),
+    needed(
+        "time",
+        Shape::OneOf(&TIMES),
+        "discrete: in z, stable inside the unit circle; continuous: in s, stable in the left half plane",
+    ),
+    key("sample_time", Shape::Expression, "turns angles into frequencies (discrete time)"),
+    key(
+        "constants",
+        Shape::Named(&Shape::Expression),
+        "named values, in any order, in terms of each other and of parameters",
+    ),
+    key("parameters", Shape::Named(&Shape::Parameter), "what stays free"),
+    needed("loop", Shape::Table(&LOOP), "the loop, in exactly one form: characteristic, matrix, A B C K, or blocks"),
+    key("block", Shape::Tables(&BLOCK), "the blocks of a diagram, wired by the names of their signals"),
+    key("simulation", Shape::Table(&SIMULATION), "defaults of a time response"),
+];
+
+/// A parameter.
+pub(super) const PARAMETER: [Key; 5] = [
+    key("nominal", Shape::Number, "the value it has when nothing else is said"),
+    key("min", Shape::Number, "the open lower bound of its domain"),
+    key("max", Shape::Number, "the open upper bound of its domain"),
+    key("unit", Shape::Text, "its unit, for people"),
+    key("description", Shape::Text, "what it is, for people"),
+];
+
+/// The table `[loop]`.
+pub(super) const LOOP: [Key; 10] = [
+    key("characteristic", Shape::Expression, "the characteristic polynomial in z or s, as it is written"),
+    key("matrix", Shape::Matrix, "the matrix of the closed loop"),
+    key("A", Shape::Matrix, "state matrix of output feedback: the closed loop is A - B*K*C"),
+    key("B", Shape::Matrix, "input matrix of output feedback"),
+    key("C", Shape::Matrix, "output matrix of output feedback"),
+    key("K", Shape::Matrix, "feedback matrix: u = -K y"),
+    key("states", Shape::Names, "names of the states"),
+    key("inputs", Shape::Names, "the external signals"),
+    key("E", Shape::Matrix, "how the inputs enter: a row for each state, a column for each input"),
+    key("outputs", Shape::Expressions, "the responses: states, signals, or linear expressions in them"),
+];
+
+/// An entry `[[block]]`.
+pub(super) const BLOCK: [Key; 14] = [
+    key("name", Shape::Text, "its name, for people"),
+    needed("input", Shape::Expressions, "linear expressions in signals"),
+    needed("output", Shape::Names, "the signals it drives"),
+    key("discretize", Shape::Table(&DISCRETIZE), "how a continuous block is made discrete"),
+    key("pwm", Shape::Table(&PWM), "what a switched simulation needs to know of a pulse-width modulator"),
+    key("transfer", Shape::Expression, "a proper rational expression in z or s"),
+    key("num", Shape::Expressions, "coefficients of the numerator, highest power first"),
+    key("den", Shape::Expressions, "coefficients of the denominator, highest power first"),
+    key("gain", Shape::Expression, "a factor"),
+    key("delay", Shape::Number, "a whole number of samples"),
+    key("A", Shape::Matrix, "state matrix"),
+    key("B", Shape::Matrix, "input matrix"),
+    key("C", Shape::Matrix, "output matrix, the identity when missing"),
+    key("D", Shape::Matrix, "direct matrix, zero when missing"),
+];
+
+/// The table `discretize` of a block.
+pub(super) const DISCRETIZE: [Key; 3] = [
+    needed(
+        "method",
+        Shape::OneOf(&METHODS),
+        "forward: s = (z-1)/T; backward: s = (z-1)/(T z); tustin: s = c (z-1)/(z+1)",
+    ),
+    key("T", Shape::Expression, "the sample time"),
+    key("c", Shape::Expression, "the factor of tustin, 2/T when missing"),
+];
+
+/// The table `pwm` of a block.
+pub(super) const PWM: [Key; 3] = [
+    needed("amplitude", Shape::Expression, "the height of the pulses"),
+    needed("carrier", Shape::Expression, "the height of the carrier"),
+    needed("period", Shape::Expression, "the period"),
+];
+
+/// The table `[simulation]`.
+pub(super) const SIMULATION: [Key; 4] = [
+    key("inputs", Shape::Named(&Shape::Number), "constant values of inputs; others are zero"),
+    key("initial", Shape::Named(&Shape::Number), "initial values of states; others are zero"),
+    key("duration", Shape::Number, "seconds, or samples when the loop has no sample time"),
+    key("units", Shape::Named(&Shape::Text), "units of inputs, states, signals and outputs, for people"),
+];
