@@ -6,7 +6,6 @@ use jurist_algebra::limits::Budget;
 use jurist_engine::analysis::{Settings, intervals};
 use jurist_engine::prove::smt2::intervals_smt2;
 use std::process::{Command, Stdio};
-use std::time::Instant;
 
 fn script(model: &str, parameter: &str) -> String {
     let answer = intervals(&read(model), &Settings::default(), parameter, &Budget::unlimited()).unwrap();
@@ -54,10 +53,9 @@ fn answer(solver: &[String], what: &str, script: &str) -> String {
     let thread = std::thread::current().id();
     let file = std::env::temp_dir().join(format!("jurist-{}-{thread:?}.smt2", std::process::id()));
     std::fs::write(&file, script).unwrap();
-    let start = Instant::now();
     let output = Command::new(&solver[0]).args(&solver[1..]).arg(&file).output().unwrap();
     let _ = std::fs::remove_file(&file);
-    println!("{}: {what}: {:?}", solver[0], start.elapsed());
+    println!("{}: {what}", solver[0]);
     String::from_utf8_lossy(&output.stdout).trim().to_owned()
 }
 

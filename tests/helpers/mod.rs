@@ -1,5 +1,6 @@
 //! What several rooms of the tests share.
 
+pub mod budget;
 pub mod certificates;
 pub mod drive;
 pub mod loops;

@@ -1,11 +1,12 @@
-//! Loops of high order: they answer, or they stop when their time is up and say what they had reached.
+//! Loops of high order: they answer, or they stop when they are told to and say what they had reached.
 
+use crate::helpers::budget::{cancelled_at, endless_model};
+use crate::helpers::model::load;
 use jurist_algebra::limits::Budget;
-use jurist_engine::analysis::{Decision, Settings, intervals};
+use jurist_engine::analysis::{Decision, Failure, Settings, intervals};
 use jurist_engine::error::Source;
 use jurist_engine::model::Loop;
 use std::fmt::Write;
-use std::time::{Duration, Instant};
 
 /// The drive with `filters` first-order filters in its current feedback, as one matrix: order `6 + filters`.
 fn filtered_drive(filters: usize) -> Loop {
@@ -72,18 +73,30 @@ fn order_twenty_with_two_parameters() {
     }
 }
 
+/// Stopped when a step begins: the answer says which.
 #[test]
-fn order_two_hundred_keeps_its_time() {
+fn order_two_hundred_stops_where_it_is_cancelled() {
     let lp = filtered_drive(194);
-    let start = Instant::now();
-    let budget = Budget::with_timeout(Duration::from_secs(2));
+    let step = "characteristic polynomial";
+    let budget = cancelled_at(step);
     match intervals(&lp, &Settings::default(), "K", &budget) {
-        Ok(answer) => match answer.stable {
-            Decision::Decided(set) => assert!(!set.is_empty()),
-            Decision::Undecided { budget, reached } => assert!(budget.starts_with("time") && !reached.is_empty()),
-        },
-        Err(jurist_engine::analysis::Failure::Undecided(_)) => assert!(!budget.reached().is_empty()),
+        Err(Failure::Undecided(exhausted)) => assert_eq!(exhausted.budget, "cancelled"),
         Err(refused) => panic!("{refused}"),
+        Ok(answer) => match answer.stable {
+            Decision::Decided(set) => panic!("{set:?}"),
+            Decision::Undecided { budget, .. } => assert_eq!(budget, "cancelled"),
+        },
     }
-    assert!(start.elapsed() < Duration::from_secs(40), "the time limit was not kept");
+    assert_eq!(budget.reached(), step);
+}
+
+#[test]
+fn work_without_end_stops_where_it_is_cancelled() {
+    let lp = load(&endless_model());
+    let step = "boundary polynomials";
+    let answer = intervals(&lp, &Settings::default(), "K", &cancelled_at(step)).unwrap();
+    match answer.stable {
+        Decision::Decided(set) => panic!("{set:?}"),
+        Decision::Undecided { budget, reached } => assert_eq!((budget.as_str(), reached.as_str()), ("cancelled", step)),
+    }
 }
