@@ -2,6 +2,7 @@
 
 pub mod budget;
 pub mod certificates;
+pub mod corpus;
 pub mod drive;
 pub mod loops;
 pub mod model;
