@@ -5,7 +5,7 @@
 //! a finite union of open intervals whose ends are algebraic numbers, each with its cause.
 //!
 //! ```
-//! use jurist::{Budget, Loop, Source};
+//! use jurist::{Budget, Model, Source};
 //!
 //! let text = r#"
 //!     time = "discrete"
@@ -14,18 +14,18 @@
 //!     [loop]
 //!     characteristic = "z^2 - z + K/2"
 //! "#;
-//! let (model, _warnings) = Loop::from_toml(&Source::new("model.toml", text))?;
+//! let (model, _warnings) = Model::from_toml(&Source::new("model.toml", text))?;
 //! let answer = model.ask().free("K").stable_set(&Budget::unlimited())?;
 //! let upper = answer.value().intervals()[0].upper.as_ref().unwrap();
 //! assert_eq!(upper.value.decimal(12), "2");
 //! assert_eq!(upper.causes.to_string(), "complex pair");
-//! # Ok::<(), jurist::Failure>(())
+//! # Ok::<(), jurist::Error>(())
 //! ```
 //!
 //! # The way from text to answer
 //!
-//! A [`Loop`] is what the loop is: read from a text ([`Loop::from_toml`]) or built in code ([`Loop::builder`]). A
-//! [`Question`] begins with [`Loop::ask`]: values ([`Question::set`]), what is free ([`Question::free`]), the region in which
+//! A [`Model`] is what the loop is: read from a text ([`Model::from_toml`]) or built in code ([`Model::builder`]). A
+//! [`Question`] begins with [`Model::ask`]: values ([`Question::set`]), what is free ([`Question::free`]), the region in which
 //! all roots have to lie ([`Question::within`]). Resolved it is a [`Problem`], whose algebra is computed once. Each way of
 //! asking gives an [`Answer`]:
 //!
@@ -65,9 +65,9 @@ pub use jurist_engine::answer::{
     Analysis, Answer, BoxRequest, Frequency, Map, MapBoxes, MapLimit, MapMethod, MapOrBoxes, ParametricTable,
     PointTable, PointVerdict, RegionExtent, Verdict,
 };
-pub use jurist_engine::error::{Diagnostic, Error, Failure, Label, Severity, Source, Span};
+pub use jurist_engine::error::{Diagnostic, Diagnostics, Error, Label, Severity, Source, Span};
 pub use jurist_engine::model::{
-    BlockBuilder, ClosedLoop, Constant, Expression, Loop, LoopBuilder, Parameter, ParameterBuilder, Time,
+    BlockBuilder, ClosedLoop, Constant, Expression, Model, ModelBuilder, Parameter, ParameterBuilder, Time,
     TransferFunction,
 };
 pub use jurist_engine::problem::{Algebra, Bound, Free, Problem, Question, Region};

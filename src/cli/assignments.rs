@@ -2,7 +2,7 @@
 
 use super::command_line::{CommandLine, Place};
 use jurist_algebra::number::{ParseNumberErrorKind, Rational, parse_number};
-use jurist_engine::error::{Diagnostic, Error, Span};
+use jurist_engine::error::{Diagnostic, Diagnostics, Span};
 use std::sync::Arc;
 
 /// A name with its value.
@@ -25,7 +25,7 @@ pub(super) struct DomainChange {
 }
 
 /// Reads all values of an option such as `--set`; every mistake is reported.
-pub(super) fn assignments(line: &CommandLine, option: &str, values: &[String]) -> Result<Vec<Assignment>, Error> {
+pub(super) fn assignments(line: &CommandLine, option: &str, values: &[String]) -> Result<Vec<Assignment>, Diagnostics> {
     let mut out: Vec<Assignment> = Vec::new();
     let mut wrong = Vec::new();
     for text in values {
@@ -51,7 +51,7 @@ pub(super) fn assignments(line: &CommandLine, option: &str, values: &[String]) -
 }
 
 /// Reads all values of `--domain`; every mistake is reported.
-pub(super) fn domains(line: &CommandLine, values: &[String]) -> Result<Vec<DomainChange>, Error> {
+pub(super) fn domains(line: &CommandLine, values: &[String]) -> Result<Vec<DomainChange>, Diagnostics> {
     let mut out: Vec<DomainChange> = Vec::new();
     let mut wrong = Vec::new();
     for text in values {
@@ -82,7 +82,7 @@ pub(super) struct AxisRequest {
 }
 
 /// Reads `NAME` or `NAME=LO..HI`; an end that is left out or infinite is chosen later.
-pub(super) fn axis(line: &CommandLine, option: &str, text: &str) -> Result<AxisRequest, Error> {
+pub(super) fn axis(line: &CommandLine, option: &str, text: &str) -> Result<AxisRequest, Diagnostics> {
     let place = line.option_value(option, text);
     let Some(equals) = text.find('=') else {
         return Ok(AxisRequest { name: text.trim().to_owned(), lower: None, upper: None, name_span: place.span });
@@ -96,17 +96,17 @@ pub(super) fn axis(line: &CommandLine, option: &str, text: &str) -> Result<AxisR
 }
 
 /// Reads a plain number, such as that of `--radius`.
-pub(super) fn plain_number(line: &CommandLine, option: &str, text: &str) -> Result<Rational, Error> {
+pub(super) fn plain_number(line: &CommandLine, option: &str, text: &str) -> Result<Rational, Diagnostics> {
     let place = line.option_value(option, text);
     number(text, 0, place).map_err(|d| in_line(line, vec![d]))
 }
 
 /// An error about the command line.
-pub(super) fn in_line(line: &CommandLine, diagnostics: Vec<Diagnostic>) -> Error {
-    Error::new(Some(Arc::clone(line.source())), diagnostics)
+pub(super) fn in_line(line: &CommandLine, diagnostics: Vec<Diagnostic>) -> Diagnostics {
+    Diagnostics::new(Some(Arc::clone(line.source())), diagnostics)
 }
 
-fn refuse(line: &CommandLine, wrong: Vec<Diagnostic>) -> Result<(), Error> {
+fn refuse(line: &CommandLine, wrong: Vec<Diagnostic>) -> Result<(), Diagnostics> {
     if wrong.is_empty() { Ok(()) } else { Err(in_line(line, wrong)) }
 }
 
@@ -196,17 +196,17 @@ mod tests {
         CommandLine::new(std::iter::once("jurist").chain(arguments.iter().copied()).map(OsString::from))
     }
 
-    fn set(values: &[&str]) -> Result<Vec<Assignment>, Error> {
+    fn set(values: &[&str]) -> Result<Vec<Assignment>, Diagnostics> {
         let arguments: Vec<&str> = values.iter().flat_map(|v| ["--set", v]).collect();
         assignments(&line(&arguments), "--set", &values.iter().map(|v| (*v).to_owned()).collect::<Vec<_>>())
     }
 
-    fn domain_of(value: &str) -> Result<DomainChange, Error> {
+    fn domain_of(value: &str) -> Result<DomainChange, Diagnostics> {
         domains(&line(&["--domain", value]), &[value.to_owned()]).map(|mut d| d.remove(0))
     }
 
     /// The text under the first caret.
-    fn marked(error: &Error) -> String {
+    fn marked(error: &Diagnostics) -> String {
         let source = error.source_text().unwrap();
         let span = error.diagnostics()[0].primary.as_ref().unwrap().span;
         source.text[span.start..span.end].to_owned()

@@ -3,7 +3,7 @@
 use super::arguments::Arguments;
 use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use jurist_engine::error::{Diagnostic, Error, Source, Span};
+use jurist_engine::error::{Diagnostic, Diagnostics, Source, Span};
 use std::ffi::OsString;
 use std::sync::Arc;
 
@@ -95,7 +95,7 @@ impl CommandLine {
     }
 
     /// clap's remark on the arguments as a diagnostic of this program.
-    pub fn usage_error(&self, error: &clap::Error) -> Error {
+    pub fn usage_error(&self, error: &clap::Error) -> Diagnostics {
         let rendered = error.render().to_string();
         let mut paragraphs = rendered.split("\n\n").map(str::trim_end);
         let message = paragraphs.next().unwrap_or("the command line is not understood");
@@ -137,7 +137,7 @@ impl CommandLine {
         if let Some(span) = self.place_of(error) {
             diagnostic = diagnostic.at(span, "");
         }
-        Error::new(Some(Arc::clone(&self.source)), vec![diagnostic])
+        Diagnostics::new(Some(Arc::clone(&self.source)), vec![diagnostic])
     }
 
     /// Which commands take what was given without one: an option of theirs, or a model file.

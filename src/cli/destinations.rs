@@ -5,7 +5,7 @@ use super::assignments::in_line;
 use super::commands::Context;
 use super::output::{ending, write_error};
 use super::replace::Destination;
-use super::status::Failure;
+use super::status::Error;
 use jurist_engine::error::Diagnostic;
 use std::ffi::{OsStr, OsString};
 use std::fs::{Metadata, OpenOptions};
@@ -19,9 +19,9 @@ struct Names<'a> {
 }
 
 /// Refuses two outputs with one name, an output that would replace an input, and names that cannot be written.
-pub(super) fn check(arguments: &Arguments, context: &Context) -> Result<(), Failure> {
+pub(super) fn check(arguments: &Arguments, context: &Context) -> Result<(), Error> {
     let names = Names::of(arguments)?;
-    let refuse = |diagnostic: Diagnostic, name: &OsStr| -> Failure {
+    let refuse = |diagnostic: Diagnostic, name: &OsStr| -> Error {
         let place = context.line.argument(&name.to_string_lossy()).filter(|_| !is_standard(name));
         let diagnostic = match place {
             Some(span) => diagnostic.at(span, ""),
@@ -58,7 +58,7 @@ fn is_standard(name: &OsStr) -> bool {
 }
 
 impl<'a> Names<'a> {
-    fn of(arguments: &'a Arguments) -> Result<Self, Failure> {
+    fn of(arguments: &'a Arguments) -> Result<Self, Error> {
         let mut names = Names::default();
         match &arguments.command {
             None => names.answer(arguments.main_job.output.output.as_ref()),
@@ -96,7 +96,7 @@ impl<'a> Names<'a> {
     }
 
     /// A picture and the table that is written beside it.
-    fn picture(&mut self, model: &'a Option<OsString>, options: &PictureOptions) -> Result<(), Failure> {
+    fn picture(&mut self, model: &'a Option<OsString>, options: &PictureOptions) -> Result<(), Error> {
         self.question(model, &options.output);
         if !options.csv {
             return Ok(());
@@ -129,7 +129,7 @@ enum Identity {
 
 impl Identity {
     /// Of a name to be written; `None` for what takes any number of outputs, such as `/dev/null`.
-    fn of_output(name: &OsStr) -> Result<Option<Identity>, Failure> {
+    fn of_output(name: &OsStr) -> Result<Option<Identity>, Error> {
         if name.is_empty() {
             return Err(Diagnostic::error("E-write", "the name of an output file is empty")
                 .help("name a file, or '-' for standard output")

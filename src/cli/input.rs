@@ -4,8 +4,8 @@ use super::arguments::{DecisionOptions, ModelOptions, RegionOptions};
 use super::assignments::{assignments, domains, in_line, plain_number};
 use super::commands::Context;
 use super::output::plain;
-use jurist_engine::error::{Diagnostic, Error, Failure, Span};
-use jurist_engine::model::Loop;
+use jurist_engine::error::{Diagnostic, Diagnostics, Error, Span};
+use jurist_engine::model::Model;
 use jurist_engine::problem::{DECAY, Question, RADIUS, Region};
 use jurist_engine::stability::Range;
 use std::ffi::OsString;
@@ -16,8 +16,8 @@ use std::io::Read;
 const MAX_MODEL_BYTES: u64 = 64 << 20;
 
 /// Reads the model and shows its warnings.
-pub(super) fn load(model: Option<&OsString>, context: &Context) -> Result<Loop, Failure> {
-    let Some(path) = model else { return Ok(Loop::drive()) };
+pub(super) fn load(model: Option<&OsString>, context: &Context) -> Result<Model, Error> {
+    let Some(path) = model else { return Ok(Model::drive()) };
     let (name, bytes) = if path == "-" {
         ("<stdin>".to_owned(), read_all(std::io::stdin().lock()))
     } else {
@@ -28,7 +28,7 @@ pub(super) fn load(model: Option<&OsString>, context: &Context) -> Result<Loop, 
         let message = format!("{name} is longer than {} megabytes", MAX_MODEL_BYTES >> 20);
         return Err(Diagnostic::error("E-read", message).into());
     }
-    let (model, warnings) = Loop::from_bytes(&name, &bytes)?;
+    let (model, warnings) = Model::from_bytes(&name, &bytes)?;
     context.warn(Some(model.source()), &warnings);
     Ok(model)
 }
@@ -59,7 +59,7 @@ pub(super) const CERTIFICATE: Wanted = Wanted {
     help: "CERTIFICATE is a file that '--certificate FILE' of 'jurist intervals' or 'jurist verdict' wrote, '-' for standard input",
 };
 
-fn unreadable(context: &Context, path: &OsString, name: &str, error: &std::io::Error, wanted: &Wanted) -> Failure {
+fn unreadable(context: &Context, path: &OsString, name: &str, error: &std::io::Error, wanted: &Wanted) -> Error {
     let diagnostic = Diagnostic::error("E-read", format!("cannot read {name}: {}", plain(error)));
     let diagnostic = match context.line.argument(&path.to_string_lossy()) {
         Some(span) => diagnostic.at(span, format!("no {} can be read from here", wanted.noun)),
@@ -69,7 +69,7 @@ fn unreadable(context: &Context, path: &OsString, name: &str, error: &std::io::E
 }
 
 /// The model and the question of a command that decides; a wrong file ending is refused before any work.
-pub(super) fn decision(options: &DecisionOptions, context: &Context) -> Result<(Loop, Question), Failure> {
+pub(super) fn decision(options: &DecisionOptions, context: &Context) -> Result<(Model, Question), Error> {
     context.check_output(&options.output)?;
     let model = load(options.model.model.as_ref(), context)?;
     let question = question(context, &model, &options.model, &options.region)?;
@@ -79,10 +79,10 @@ pub(super) fn decision(options: &DecisionOptions, context: &Context) -> Result<(
 /// A question with the values, domains and regions on the command line, all of whose names the model knows.
 pub(super) fn question(
     context: &Context,
-    model: &Loop,
+    model: &Model,
     options: &ModelOptions,
     region: &RegionOptions,
-) -> Result<Question, Failure> {
+) -> Result<Question, Error> {
     let mut question = model.ask();
     let mut wrong = Vec::new();
     for assignment in assignments(context.line, "--set", &options.set)? {
@@ -111,7 +111,7 @@ pub(super) fn question(
 }
 
 /// Refuses names that cannot vary; the caret points into the command line.
-pub(super) fn known_names(context: &Context, model: &Loop, option: &str, names: &[String]) -> Result<(), Failure> {
+pub(super) fn known_names(context: &Context, model: &Model, option: &str, names: &[String]) -> Result<(), Error> {
     let mut wrong = Vec::new();
     for name in names {
         check_name(model, name, context.line.option_value(option, name).span, &mut wrong)?;
@@ -120,7 +120,7 @@ pub(super) fn known_names(context: &Context, model: &Loop, option: &str, names: 
 }
 
 /// Refuses a name that cannot vary; the caret points at its place in the command line.
-pub(super) fn known_name(context: &Context, model: &Loop, name: &str, span: Span) -> Result<(), Failure> {
+pub(super) fn known_name(context: &Context, model: &Model, name: &str, span: Span) -> Result<(), Error> {
     let mut wrong = Vec::new();
     check_name(model, name, span, &mut wrong)?;
     if wrong.is_empty() { Ok(()) } else { Err(in_line(context.line, wrong).into()) }
@@ -128,7 +128,7 @@ pub(super) fn known_name(context: &Context, model: &Loop, name: &str, span: Span
 
 /// An unknown name is added to what is wrong with the command line; a name that the model fixes is an
 /// error about the model.
-fn check_name(model: &Loop, name: &str, span: Span, wrong: &mut Vec<Diagnostic>) -> Result<(), Error> {
+fn check_name(model: &Model, name: &str, span: Span, wrong: &mut Vec<Diagnostic>) -> Result<(), Diagnostics> {
     let Err(error) = model.free(name) else { return Ok(()) };
     match error.diagnostics() {
         [diagnostic] if diagnostic.primary.is_none() => {
@@ -145,7 +145,7 @@ pub(super) fn read_text(
     path: &OsString,
     most: u64,
     wanted: &Wanted,
-) -> Result<Result<String, String>, Failure> {
+) -> Result<Result<String, String>, Error> {
     let name = path.to_string_lossy().into_owned();
     let mut bytes = Vec::new();
     let read = if path == "-" {

@@ -21,7 +21,7 @@ use command_line::CommandLine;
 use commands::Context;
 use jurist_engine::error::Diagnostic;
 use jurist_engine::show::diagnostics::render_error;
-use status::{Failure, Status};
+use status::{Error, Status};
 use std::process::ExitCode;
 
 /// Runs the program on the process's arguments, given whether standard output was closed when it began: the
@@ -40,7 +40,7 @@ fn run(line: &CommandLine) -> u8 {
         Ok(arguments) => arguments,
         Err(answer) if !answer.use_stderr() => {
             // Help and version, in clap's colours on a terminal.
-            if let Err(Failure::Refused(error)) = output::print_with(|| answer.print()) {
+            if let Err(Error::Refused(error)) = output::print_with(|| answer.print()) {
                 show(&error);
                 return Status::BadInput as u8;
             }
@@ -56,15 +56,15 @@ fn run(line: &CommandLine) -> u8 {
     context.reporter.finish();
     match outcome {
         Ok(status) => status as u8,
-        Err(Failure::Refused(error)) => {
+        Err(Error::Refused(error)) => {
             show(&error);
             Status::BadInput as u8
         }
-        Err(Failure::Stopped(stopped)) => {
+        Err(Error::Stopped(stopped)) => {
             output::note(&format!("undecided: {stopped}"));
             Status::Undecided as u8
         }
-        Err(Failure::Undefined(why)) => {
+        Err(Error::Undefined(why)) => {
             show(
                 &Diagnostic::error("E-undefined", format!("the model is undefined for these values: {why}"))
                     .help("set the parameters to other values")
@@ -81,7 +81,7 @@ fn run(line: &CommandLine) -> u8 {
 }
 
 /// Draws an error or warnings on standard error, in colour if it is a terminal that wants it.
-fn show(error: &jurist_engine::error::Error) {
+fn show(error: &jurist_engine::error::Diagnostics) {
     output::note(render_error(error, output::colored_errors()).trim_end());
 }
 

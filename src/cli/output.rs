@@ -1,7 +1,7 @@
 //! Where answers and remarks go: standard output or a file, and standard error.
 
 use super::replace::{Destination, replace};
-use super::status::Failure;
+use super::status::Error;
 use jurist_engine::error::Diagnostic;
 use std::ffi::{OsStr, OsString};
 use std::io::{ErrorKind, IsTerminal, Write};
@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Writes an answer to the file, or to standard output if there is none.
 ///
 /// A reader that stops reading (`| head -1`) is no error.
-pub(super) fn write_answer(answer: &str, file: Option<&OsString>) -> Result<(), Failure> {
+pub(super) fn write_answer(answer: &str, file: Option<&OsString>) -> Result<(), Error> {
     let mut answer = answer.to_owned();
     if !answer.ends_with('\n') {
         answer.push('\n');
@@ -23,7 +23,7 @@ pub(super) fn write_answer(answer: &str, file: Option<&OsString>) -> Result<(), 
 }
 
 /// Makes the bytes the content of a file, as a whole or not at all.
-pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let written = Destination::of(path).and_then(|destination| replace(&destination, bytes));
     written.map_err(|e| write_error(&path.to_string_lossy(), &e))
 }
@@ -57,7 +57,7 @@ pub(super) fn write_standard(bytes: &[u8]) -> std::io::Result<()> {
 }
 
 /// Has something else print to standard output, with the same errors as an answer.
-pub(super) fn print_with(print: impl FnOnce() -> std::io::Result<()>) -> Result<(), Failure> {
+pub(super) fn print_with(print: impl FnOnce() -> std::io::Result<()>) -> Result<(), Error> {
     let printed = write_standard(&[]).and_then(|()| print()).and_then(|()| std::io::stdout().flush());
     match printed {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(write_error("standard output", &e)),
@@ -66,8 +66,8 @@ pub(super) fn print_with(print: impl FnOnce() -> std::io::Result<()>) -> Result<
 }
 
 /// What is said where a write fails.
-pub(super) fn write_error(what: &str, error: &std::io::Error) -> Failure {
-    Failure::from(Diagnostic::error("E-write", format!("cannot write {what}: {}", plain(error))))
+pub(super) fn write_error(what: &str, error: &std::io::Error) -> Error {
+    Error::from(Diagnostic::error("E-write", format!("cannot write {what}: {}", plain(error))))
 }
 
 /// The system's message without its number.

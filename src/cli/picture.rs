@@ -3,7 +3,7 @@
 use super::arguments::PictureOptions;
 pub(super) use super::output::write_file as write;
 use super::output::{ending, unknown_ending, write_answer};
-use super::status::Failure;
+use super::status::Error;
 use jurist_draw::figures::Figure;
 use jurist_engine::error::Diagnostic;
 use jurist_engine::show::json;
@@ -36,7 +36,7 @@ pub(super) struct Picture<'a> {
 }
 
 /// What the output option asks for, before any work is done.
-pub(super) fn wanted(options: &PictureOptions) -> Result<Kind, Failure> {
+pub(super) fn wanted(options: &PictureOptions) -> Result<Kind, Error> {
     if options.json {
         return Ok(Kind::Json);
     }
@@ -51,7 +51,7 @@ pub(super) fn wanted(options: &PictureOptions) -> Result<Kind, Failure> {
 }
 
 /// Writes the picture.
-pub(super) fn deliver(picture: &Picture<'_>, kind: Kind, file: Option<&OsString>) -> Result<(), Failure> {
+pub(super) fn deliver(picture: &Picture<'_>, kind: Kind, file: Option<&OsString>) -> Result<(), Error> {
     if kind == Kind::Json {
         write_answer(&json::to_text(&(picture.json)()), file)?;
     }
@@ -86,6 +86,6 @@ fn terminal_columns() -> usize {
 }
 
 /// The PNG's bytes.
-pub(super) fn png(figure: &Figure) -> Result<Vec<u8>, Failure> {
+pub(super) fn png(figure: &Figure) -> Result<Vec<u8>, Error> {
     figure.png(PNG_SCALE).map_err(|e| Diagnostic::error("E-write", format!("cannot draw the picture: {e}")).into())
 }

@@ -1,6 +1,6 @@
 //! Exit statuses.
 
-pub(super) use jurist_engine::error::Failure;
+pub(super) use jurist_engine::error::Error;
 
 /// What the program tells its caller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,4 +18,4 @@ pub(super) enum Status {
 }
 
 /// How a command ends.
-pub(super) type Outcome = Result<Status, Failure>;
+pub(super) type Outcome = Result<Status, Error>;

@@ -4,12 +4,12 @@ use super::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RealAlgebraic;
-use jurist_engine::model::Loop;
+use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
 use jurist_engine::stability::StableSet;
 
 /// A question with values in place of nominal ones.
-pub fn with(lp: &Loop, values: &[(&str, &str)]) -> Question {
+pub fn with(lp: &Model, values: &[(&str, &str)]) -> Question {
     lp.ask().set_all(values.iter().map(|(name, value)| (*name, number(value))))
 }
 

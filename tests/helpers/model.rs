@@ -3,18 +3,19 @@
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_engine::error::Source;
-use jurist_engine::model::Loop;
+use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
 use std::path::PathBuf;
 
 /// A model that loads, with or without warnings.
-pub fn read(text: &str) -> Loop {
-    Loop::from_toml(&Source::new("model.toml", text)).unwrap_or_else(|e| panic!("{e}\n{text}")).0
+pub fn read(text: &str) -> Model {
+    Model::from_toml(&Source::new("model.toml", text)).unwrap_or_else(|e| panic!("{e}\n{text}")).0
 }
 
 /// A model that loads without a warning.
-pub fn load(text: &str) -> Loop {
-    let (model, warnings) = Loop::from_toml(&Source::new("model.toml", text)).unwrap_or_else(|e| panic!("{e}\n{text}"));
+pub fn load(text: &str) -> Model {
+    let (model, warnings) =
+        Model::from_toml(&Source::new("model.toml", text)).unwrap_or_else(|e| panic!("{e}\n{text}"));
     assert_eq!(warnings, []);
     model
 }
@@ -31,26 +32,26 @@ pub fn example_text(name: &str) -> String {
 }
 
 /// A file of `examples/`.
-pub fn example(name: &str) -> Loop {
+pub fn example(name: &str) -> Model {
     load(&example_text(name))
 }
 
 /// A discrete loop given by its polynomial, with one parameter `k` whose table entry is `parameter`.
-pub fn discrete(characteristic: &str, parameter: &str) -> Loop {
+pub fn discrete(characteristic: &str, parameter: &str) -> Model {
     load(&format!(
         "time = 'discrete'\n[parameters]\nk = {{ {parameter} }}\n[loop]\ncharacteristic = '{characteristic}'"
     ))
 }
 
 /// As [`discrete`], in continuous time.
-pub fn continuous(characteristic: &str, parameter: &str) -> Loop {
+pub fn continuous(characteristic: &str, parameter: &str) -> Model {
     load(&format!(
         "time = 'continuous'\n[parameters]\nk = {{ {parameter} }}\n[loop]\ncharacteristic = '{characteristic}'"
     ))
 }
 
 /// A question with several names free.
-pub fn keeping(lp: &Loop, names: &[&str]) -> Question {
+pub fn keeping(lp: &Model, names: &[&str]) -> Question {
     names.iter().fold(lp.ask(), |question, name| question.free(*name))
 }
 

@@ -3,12 +3,12 @@
 use crate::helpers::budget::{cancelled_at, endless_model};
 use crate::helpers::model::load;
 use jurist_algebra::limits::Budget;
-use jurist_engine::error::{Failure, Source};
-use jurist_engine::model::Loop;
+use jurist_engine::error::{Error, Source};
+use jurist_engine::model::Model;
 use std::fmt::Write;
 
 /// The drive with `filters` first-order filters in its current feedback, as one matrix: order `6 + filters`.
-fn filtered_drive(filters: usize) -> Loop {
+fn filtered_drive(filters: usize) -> Model {
     let n = 6 + filters;
     let mut m = vec![vec!["0".to_string(); n]; n];
     let feedback = if filters == 0 { 0 } else { n - 1 };
@@ -46,7 +46,7 @@ fn filtered_drive(filters: usize) -> Loop {
         let _ = writeln!(text, "  [{}],", row.iter().map(|e| format!("'{e}'")).collect::<Vec<_>>().join(", "));
     }
     text += "]\n";
-    Loop::from_toml(&Source::new("filters.toml", text)).unwrap_or_else(|e| panic!("{e}")).0
+    Model::from_toml(&Source::new("filters.toml", text)).unwrap_or_else(|e| panic!("{e}")).0
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn order_two_hundred_stops_where_it_is_cancelled() {
     let step = "characteristic polynomial";
     let budget = cancelled_at(step);
     match lp.ask().free("K").stable_set(&budget) {
-        Err(Failure::Stopped(stopped)) => {
+        Err(Error::Stopped(stopped)) => {
             assert_eq!((stopped.budget.as_str(), stopped.reached.as_str()), ("cancelled", step))
         }
         Err(refused) => panic!("{refused}"),
@@ -93,7 +93,7 @@ fn work_without_end_stops_where_it_is_cancelled() {
     let lp = load(&endless_model());
     let step = "boundary polynomials";
     match lp.ask().free("K").stable_set(&cancelled_at(step)) {
-        Err(Failure::Stopped(stopped)) => {
+        Err(Error::Stopped(stopped)) => {
             assert_eq!((stopped.budget.as_str(), stopped.reached.as_str()), ("cancelled", step));
         }
         other => panic!("{other:?}"),

@@ -3,7 +3,7 @@
 use crate::helpers::model::{characteristic, keeping, load};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::poly::RationalFunction;
-use jurist_engine::model::Loop;
+use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
 
 fn product(a: &[RationalFunction], b: &[RationalFunction]) -> Vec<RationalFunction> {
@@ -91,18 +91,18 @@ fn equations_13_to_20_give_equation_21() {
     let gains = ["K_pwm", "T", "R_a", "L_a", "J", "B_v", "K_a", "E_sw", "K_pi", "K_ii", "K_ps", "K_is", "k_1", "k_2"];
     let budget = Budget::unlimited();
     // As matrices, with every quantity symbolic.
-    let [tracker, by_hand] = [Loop::drive(), load(MULTIPLIED_OUT)].map(|lp| keeping(&lp, &gains).problem().unwrap());
+    let [tracker, by_hand] = [Model::drive(), load(MULTIPLIED_OUT)].map(|lp| keeping(&lp, &gains).problem().unwrap());
     let of = |problem: &Problem| problem.closed_loop(&budget).unwrap().a.clone();
     assert_eq!(of(&tracker), of(&by_hand));
     let [drive, hand] =
-        [Loop::drive(), load(MULTIPLIED_OUT)].map(|lp| characteristic(keeping(&lp, &["K_pwm", "T"])).coefficients);
+        [Model::drive(), load(MULTIPLIED_OUT)].map(|lp| characteristic(keeping(&lp, &["K_pwm", "T"])).coefficients);
     assert_eq!(drive, hand);
 }
 
 #[test]
 fn equation_24_is_linear_in_the_amplitude() {
-    let whole = characteristic(keeping(&Loop::drive(), &["K_pwm", "T"]));
-    let at = |k: i64| characteristic(Loop::drive().ask().free("T").set("K_pwm", k)).coefficients;
+    let whole = characteristic(keeping(&Model::drive(), &["K_pwm", "T"]));
+    let at = |k: i64| characteristic(Model::drive().ask().free("T").set("K_pwm", k)).coefficients;
     let (den, one, two) = (at(0), at(1), at(2));
     for (k, c) in whole.coefficients.iter().enumerate() {
         assert!(c.numerator().degree_in(0) <= 1 && c.denominator().degree_in(0) == 0);

@@ -5,7 +5,7 @@ use crate::helpers::number::number;
 use crate::helpers::program::{json, jurist, number_in, refused};
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::Source;
-use jurist_engine::model::Loop;
+use jurist_engine::model::Model;
 use serde_json::Value;
 
 /// Pairs of the drive's quantities, with windows that show the bounded part of the stable region.
@@ -29,7 +29,7 @@ fn boxes_of_pairs_of_the_drive_agree_with_the_exact_map() {
         assert!(of("undecided") / of("window") <= number_in(&answer["goal"]), "{x} {y}");
         let names = [x, y].map(|text| text.split('=').next().unwrap());
         let budget = Budget::unlimited();
-        let exact = keeping(&Loop::drive(), &names).map(12, &budget).unwrap();
+        let exact = keeping(&Model::drive(), &names).map(12, &budget).unwrap();
         let exact_map = &exact.value().decomposition;
         let mut seen = [0; 2];
         for b in answer["boxes"].as_array().unwrap().iter().filter(|b| b["verdict"] != "undecided").step_by(5) {
@@ -134,7 +134,7 @@ fn exact_maps_of_filtered_drives() {
         (2, include_str!("../../examples/drive-filters-2.toml"), "0.02915692109", "0.03791842924"),
         (4, include_str!("../../examples/drive-filters-4.toml"), "0.02215130685", "0.03791842924"),
     ] {
-        let read = |text: &str| Loop::from_toml(&Source::new("filters.toml", text.to_owned())).unwrap().0;
+        let read = |text: &str| Model::from_toml(&Source::new("filters.toml", text.to_owned())).unwrap().0;
         let (lp, generated) = (read(text), read(&filtered_drive(filters)));
         let answer = keeping(&lp, &["T", "K_pwm"]).map(12, &budget).unwrap();
         let (problem, exact) = (answer.problem(), &answer.value().decomposition);

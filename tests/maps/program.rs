@@ -7,14 +7,14 @@ use crate::helpers::program::{command, json, jurist, jurist_with_input, refused}
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, Map};
-use jurist_engine::model::Loop;
+use jurist_engine::model::Model;
 use jurist_engine::stability::plane::StabilityMap;
 use proptest::prelude::*;
 
 const TIP: &str = "0.0620651373";
 
 fn drive(x: &str, y: &str) -> Answer<Map> {
-    keeping(&Loop::drive(), &[x, y]).map(10, &Budget::unlimited()).unwrap()
+    keeping(&Model::drive(), &[x, y]).map(10, &Budget::unlimited()).unwrap()
 }
 
 fn decided(answer: &Answer<Map>) -> &StabilityMap {
@@ -53,7 +53,7 @@ fn slices_are_the_stable_sets_of_one_parameter() {
     for (x, y, at) in [("T", "K_pwm", "1e-4"), ("K_pwm", "T", "110")] {
         let answer = drive(x, y);
         let slice = decided(&answer).slice(&number(at), &answer.problem().axes()[1].domain, &budget).unwrap().unwrap();
-        let one = Loop::drive().ask().free(y).stable_set(&budget).unwrap();
+        let one = Model::drive().ask().free(y).stable_set(&budget).unwrap();
         assert!(slice.same_as(&one.value().to_interval_set()), "{y} at {x} = {at}");
     }
 }
@@ -91,7 +91,7 @@ proptest! {
     fn slices_of_the_drive_are_what_intervals_says(x in over_decades(-6, 0), y in over_decades(-3, 4)) {
         let (answer, budget) = (drive("T", "K_pwm"), Budget::unlimited());
         for (fixed, at, name, other) in [(0, &x, "T", "K_pwm"), (1, &y, "K_pwm", "T")] {
-            let one = Loop::drive().ask().set(name, at.clone()).free(other).stable_set(&budget).unwrap();
+            let one = Model::drive().ask().set(name, at.clone()).free(other).stable_set(&budget).unwrap();
             let expected = one.value().to_interval_set();
             let slice = answer.slice(fixed, at, &budget).unwrap();
             prop_assert!(slice.value().to_interval_set().same_as(&expected));

@@ -5,8 +5,8 @@ use crate::helpers::certificates::checkers::certified_set_of;
 use crate::helpers::model::{continuous, discrete};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_engine::error::{Failure, Source};
-use jurist_engine::model::Loop;
+use jurist_engine::error::{Error, Source};
+use jurist_engine::model::Model;
 use jurist_engine::stability::{Cause, End};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -156,7 +156,7 @@ proptest! {
         };
         let values: Vec<Rational> = (-3i64..=4).map(|v| Rational::from(v) / Rational::from(2)).collect();
         // An unused parameter is only a warning.
-        let lp = match Loop::from_toml(&Source::new("diagram.toml", diagram_text(&blocks, &wires))) {
+        let lp = match Model::from_toml(&Source::new("diagram.toml", diagram_text(&blocks, &wires))) {
             Ok((lp, _)) => lp,
             Err(error) => {
                 prop_assert_eq!(error.code(), "E-algebraic-loop");
@@ -167,7 +167,7 @@ proptest! {
         let (problem, budget) = (lp.ask().free("k").problem().unwrap(), Budget::unlimited());
         let polynomial = match problem.algebra(&budget) {
             Ok(algebra) => algebra.polynomial(),
-            Err(Failure::Stopped(e)) => panic!("{e}"),
+            Err(Error::Stopped(e)) => panic!("{e}"),
             Err(_) => None,
         };
         let polynomial = match polynomial {

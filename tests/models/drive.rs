@@ -5,8 +5,8 @@ use crate::helpers::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::faddeev_leverrier;
 use jurist_algebra::poly::RationalFunction;
-use jurist_engine::error::Failure;
-use jurist_engine::model::{DRIVE, Loop};
+use jurist_engine::error::Error;
+use jurist_engine::model::{DRIVE, Model};
 use jurist_engine::problem::Question;
 
 const DRIVE_BLOCKS: &str = include_str!("../../examples/drive-blocks.toml");
@@ -36,7 +36,7 @@ fn expected() -> Vec<RationalFunction> {
 
 #[test]
 fn symbolic_coefficients() {
-    let p = characteristic(keeping(&Loop::drive(), &["K_pwm", "T"]));
+    let p = characteristic(keeping(&Model::drive(), &["K_pwm", "T"]));
     assert_eq!(p.coefficients, expected());
     assert_eq!((p.formal_degree, p.monic, p.poles.len()), (6, true, 0));
     assert_eq!(p.variables, ["K_pwm", "T"]);
@@ -53,7 +53,7 @@ fn block_diagram_has_the_identical_polynomial() {
 #[test]
 fn transfer_functions_agree_with_the_adjugate_and_between_the_forms() {
     let budget = Budget::unlimited();
-    let [drive, blocks] = [Loop::drive(), load(DRIVE_BLOCKS)].map(|lp| lp.ask().free("K_pwm").problem().unwrap());
+    let [drive, blocks] = [Model::drive(), load(DRIVE_BLOCKS)].map(|lp| lp.ask().free("K_pwm").problem().unwrap());
     let (drive, blocks) = (drive.closed_loop(&budget).unwrap(), blocks.closed_loop(&budget).unwrap());
     for input in ["omega_ref", "T_L"] {
         for output in ["omega", "i_a"] {
@@ -102,14 +102,14 @@ fn discretised_motor_is_equation_4() {
 
 #[test]
 fn questions() {
-    let drive = Loop::drive();
+    let drive = Model::drive();
     let set = drive.ask().free("T").set("K_pwm", 555).problem().unwrap();
     assert_eq!(set.set(), [("K_pwm".to_owned(), number("555"))]);
     let p = characteristic(drive.ask().free("J").set("L_a", number("1/20")));
     assert_eq!(p.poles.len(), 1);
     assert_eq!(p.poles[0].display(&p.variables).to_string(), "J");
     let code = |question: Question| match question.problem() {
-        Err(Failure::Refused(error)) => error.code().to_owned(),
+        Err(Error::Refused(error)) => error.code().to_owned(),
         other => panic!("{other:?}"),
     };
     assert_eq!(code(drive.ask().free("T").set("T", 1)), "E-kept-and-set");

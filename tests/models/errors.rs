@@ -3,7 +3,7 @@
 use crate::helpers::model::characteristic as polynomial_of;
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::Source;
-use jurist_engine::model::{Loop, source_from_bytes};
+use jurist_engine::model::{Model, source_from_bytes};
 use jurist_engine::show::diagnostics::{render, render_error};
 
 const HEAD: &str = "time = 'discrete'\n[parameters]\nK = { nominal = 1 }\n";
@@ -11,7 +11,7 @@ const HEAD: &str = "time = 'discrete'\n[parameters]\nK = { nominal = 1 }\n";
 /// Codes and places of all errors, as `code@line:column`.
 fn errors(text: &str) -> Vec<String> {
     let source = Source::new("model.toml", text);
-    let result = Loop::from_toml(&source);
+    let result = Model::from_toml(&source);
     match &result {
         Ok(_) => Vec::new(),
         Err(error) => {
@@ -74,7 +74,7 @@ fn expressions() {
 fn three_typos_in_one_run() {
     let text = "time = 'discrete'\n[constants]\ng = '1/(L_b*12)'\nL_a = 46e-3\n[parameters]\nK_pwm = { nominal = 110, mim = 0 }\n\
         [loop]\ncharacteristic = 'z^2 + K_pmw*z + g*L_a'\n";
-    let error = Loop::from_toml(&Source::new("drive.toml", text)).unwrap_err();
+    let error = Model::from_toml(&Source::new("drive.toml", text)).unwrap_err();
     insta::assert_snapshot!(render_error(&error, false), @r"
     error[E-unknown-name]: unknown name 'L_b'
      --> drive.toml:3:9
@@ -105,7 +105,7 @@ fn three_typos_in_one_run() {
 #[test]
 fn second_places() {
     let twice = format!("{HEAD}K = 3\n[loop]\ncharacteristic = 'z - K'\n");
-    let error = Loop::from_toml(&Source::new("m.toml", twice)).unwrap_err();
+    let error = Model::from_toml(&Source::new("m.toml", twice)).unwrap_err();
     insta::assert_snapshot!(render_error(&error, false), @r"
     error[E-duplicate-key]: 'K' is defined twice
      --> m.toml:4:1
@@ -118,7 +118,7 @@ fn second_places() {
       = help: keep one of the two
     ");
     let cycle = "time = 'discrete'\n[constants]\na = 'b + 1'\nb = '2*c'\nc = 'a'\n[loop]\ncharacteristic = 'z - a'\n";
-    let error = Loop::from_toml(&Source::new("m.toml", cycle)).unwrap_err();
+    let error = Model::from_toml(&Source::new("m.toml", cycle)).unwrap_err();
     insta::assert_snapshot!(render_error(&error, false), @r"
     error[E-cycle]: constants are defined by each other: a -> b -> c -> a
      --> m.toml:3:1
@@ -233,7 +233,7 @@ fn warnings_come_with_the_loop() {
     let text = "time = 'discrete'\n[constants]\nc = 1\n[parameters]\nK = { nominal = 3, min = 0, max = 2 }\n\
         [loop]\ncharacteristic = 'z - K'\n";
     let source = Source::new("m.toml", text);
-    let (_, warnings) = Loop::from_toml(&source).unwrap();
+    let (_, warnings) = Model::from_toml(&source).unwrap();
     let codes: Vec<&str> = warnings.iter().map(|w| w.code).collect();
     assert_eq!(codes, ["W-unused", "W-outside-domain"]);
     insta::assert_snapshot!(render(&warnings, Some(&source), false), @r"
@@ -256,7 +256,7 @@ fn warnings_come_with_the_loop() {
 #[test]
 fn undefined_is_no_error_of_the_text() {
     let text = "time = 'discrete'\n[parameters]\na = { nominal = 1 }\nb = { nominal = 1 }\n[loop]\ncharacteristic = 'z - 1/(a - b)'\n";
-    let (model, _) = Loop::from_toml(&Source::new("m.toml", text)).unwrap();
+    let (model, _) = Model::from_toml(&Source::new("m.toml", text)).unwrap();
     let budget = Budget::unlimited();
     let nominal = model.ask().problem().unwrap();
     let algebra = nominal.algebra(&budget).unwrap();

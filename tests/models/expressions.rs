@@ -3,7 +3,7 @@
 use crate::helpers::model::characteristic;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_engine::model::{BlockBuilder, Expression, Loop, ParameterBuilder, Time};
+use jurist_engine::model::{BlockBuilder, Expression, Model, ParameterBuilder, Time};
 use proptest::prelude::*;
 
 /// A text and its value where a = 2/3 and b = -5.
@@ -31,7 +31,7 @@ fn expression() -> impl Strategy<Value = (String, Rational)> {
 }
 
 fn value(text: &str) -> Option<Rational> {
-    let model = Loop::builder(Time::Discrete)
+    let model = Model::builder(Time::Discrete)
         .parameter(ParameterBuilder::new("a").nominal("2/3"))
         .parameter(ParameterBuilder::new("b").nominal("-5"))
         .characteristic(&format!("z - ({text}) + 0*a*b"));
@@ -75,7 +75,8 @@ fn precedence() {
 
 /// The coefficients of a loop `y = G u`, `u = -y`, as text.
 fn unity_feedback(block: BlockBuilder) -> Vec<String> {
-    let model = Loop::builder(Time::Discrete).parameter(ParameterBuilder::new("T")).outputs(["y + 0*T*y"]).block(block);
+    let model =
+        Model::builder(Time::Discrete).parameter(ParameterBuilder::new("T")).outputs(["y + 0*T*y"]).block(block);
     let (model, _) = model.build().unwrap_or_else(|e| panic!("{e}"));
     let p = characteristic(model.ask().free("T"));
     p.coefficients.iter().map(|c| c.display(&p.variables).to_string()).collect()

@@ -1,13 +1,13 @@
 //! One mistake is one error, the most helpful one; what makes no sense is refused where it stands.
 
 use jurist_engine::error::{Diagnostic, Source};
-use jurist_engine::model::Loop;
+use jurist_engine::model::Model;
 use jurist_engine::show::diagnostics::render_error;
 
 /// Every error: code, line and column of the caret, line of the second place, help.
 fn errors(text: &str) -> Vec<String> {
     let source = Source::new("model.toml", text);
-    let Err(error) = Loop::from_toml(&source) else { return Vec::new() };
+    let Err(error) = Model::from_toml(&source) else { return Vec::new() };
     assert!(render_error(&error, false).contains("error["));
     let line = |d: &Diagnostic| {
         let place = d.primary.as_ref().map(|l| source.line_column(l.span.start));
@@ -129,7 +129,7 @@ fn a_sample_time_is_positive() {
 #[test]
 fn a_sample_time_in_continuous_time_is_remarked_upon() {
     let text = "time = 'continuous'\nsample_time = 1\nparameters.K = 1\nloop.characteristic = 's + K'\n";
-    let (_, warnings) = Loop::from_toml(&Source::new("model.toml", text)).unwrap();
+    let (_, warnings) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
     assert_eq!(warnings.iter().map(|w| w.code).collect::<Vec<_>>(), ["W-unused"]);
 }
 

@@ -8,8 +8,8 @@ use jurist_draw::figures::{Curve, DrawnLocus, Figure, Panel, locus_of};
 use jurist_draw::simulate::{Excitation, Pulse, SampledModel, SwitchedModel};
 use jurist_drive::{chopper, drive_blocks, pwm_signal, tracker};
 use jurist_engine::answer::Verdict;
-use jurist_engine::error::Failure;
-use jurist_engine::model::{Loop, Time};
+use jurist_engine::error::Error;
+use jurist_engine::model::{Model, Time};
 use nalgebra::dvector;
 
 fn small_panel() -> Panel {
@@ -71,7 +71,7 @@ fn a_small_locus_looks_as_it_did() {
     // z^2 - z + k: two real roots meet at k = 1/4, leave as a pair, and cross the circle at k = 1, 1/6 of a turn.
     let text = "time = 'discrete'\nsample_time = 1\nparameters.k = { nominal = 0.5, min = 0 }\n\
                 loop.characteristic = 'z^2 - z + k'\n";
-    let (model, _) = Loop::from_toml(&jurist_engine::error::Source::new("model.toml", text)).unwrap();
+    let (model, _) = Model::from_toml(&jurist_engine::error::Source::new("model.toml", text)).unwrap();
     let budget = Budget::unlimited();
     let answer = model.ask().free("k").stable_set(&budget).unwrap();
     let drawn = locus_of(&answer, &(ratio(1, 100), ratio(2, 1)), None, &budget).unwrap();
@@ -109,7 +109,7 @@ fn diagrams_are_drawn() {
 #[test]
 fn the_locus_of_the_drive_shows_every_certified_crossing() {
     let budget = Budget::unlimited();
-    let answer = Loop::drive().ask().free("K_pwm").stable_set(&budget).unwrap();
+    let answer = Model::drive().ask().free("K_pwm").stable_set(&budget).unwrap();
     let range = (ratio(1, 1000), ratio(1000, 1));
     let drawn = locus_of(&answer, &range, None, &budget).unwrap();
     let labels: Vec<&str> = drawn.crossings.iter().map(|c| c.label.as_str()).collect();
@@ -124,9 +124,9 @@ fn the_locus_of_the_drive_shows_every_certified_crossing() {
 #[test]
 fn the_block_model_gives_the_circuit_and_the_matrix_model_the_sampled_loop() {
     let text = include_str!("../../examples/drive-blocks.toml");
-    let (blocks, _) = Loop::from_toml(&jurist_engine::error::Source::new("drive-blocks.toml", text)).unwrap();
+    let (blocks, _) = Model::from_toml(&jurist_engine::error::Source::new("drive-blocks.toml", text)).unwrap();
     let budget = Budget::unlimited();
-    let [blocks, drive] = [blocks, Loop::drive()].map(|model| model.ask().problem().unwrap());
+    let [blocks, drive] = [blocks, Model::drive()].map(|model| model.ask().problem().unwrap());
     let circuit = SwitchedModel::from_loop(&blocks, Pulse::Beginning, &budget).unwrap();
     let expected = switched_drive(110.0, 1e-4, Pulse::Beginning);
     let r = dvector![80.0, 0.0];
@@ -147,7 +147,7 @@ fn the_block_model_gives_the_circuit_and_the_matrix_model_the_sampled_loop() {
 }
 
 /// Every parameter of every example with its certified answer, and the picture around it.
-fn pictures(mut see: impl FnMut(&str, &Loop, &str, &DrawnLocus)) {
+fn pictures(mut see: impl FnMut(&str, &Model, &str, &DrawnLocus)) {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let mut names: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
     names.retain(|p| p.extension().is_some_and(|e| e == "toml"));
@@ -157,11 +157,11 @@ fn pictures(mut see: impl FnMut(&str, &Loop, &str, &DrawnLocus)) {
     for path in names {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let text = std::fs::read_to_string(&path).unwrap();
-        let (model, _) = Loop::from_toml(&jurist_engine::error::Source::new(name.as_str(), text)).unwrap();
+        let (model, _) = Model::from_toml(&jurist_engine::error::Source::new(name.as_str(), text)).unwrap();
         for p in model.parameters() {
             let answer = match model.ask().free(&p.name).stable_set(&budget) {
                 Ok(answer) => answer,
-                Err(Failure::Refused(_)) => continue,
+                Err(Error::Refused(_)) => continue,
                 Err(other) => panic!("{name}: {other}"),
             };
             let ends = answer.value().intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();

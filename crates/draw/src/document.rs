@@ -5,7 +5,7 @@ use crate::figures::DrawnLocus;
 use crate::simulate::{Operating, SwitchedModel, Trace};
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Answer;
-use jurist_engine::model::{Loop, Time};
+use jurist_engine::model::{Model, Time};
 use jurist_engine::problem::Problem;
 use jurist_engine::show::json;
 use jurist_engine::stability::StableSet;
@@ -49,7 +49,7 @@ impl CircuitAnswer {
 }
 
 /// The unit of a loop's time: seconds, or samples where a discrete loop names no sample time.
-pub fn time_unit(model: &Loop, sample_time: Option<f64>) -> &'static str {
+pub fn time_unit(model: &Model, sample_time: Option<f64>) -> &'static str {
     if model.time() == Time::Continuous || sample_time.is_some() { "s" } else { "samples" }
 }
 

@@ -1,16 +1,16 @@
-//! The one error type: diagnostics with a stable code, a place in the text, and help.
+//! The one error type, in three forms ([`Error`]); what is wrong with an input are diagnostics with a stable code, a place in the text, and help.
 //!
-//! An [`Error`] holds one or more [`Diagnostic`]s about one [`Source`] text. How they look on a
+//! [`Diagnostics`] are one or more [`Diagnostic`]s about one [`Source`] text. How they look on a
 //! terminal is decided elsewhere (the command line draws them with carets); `Display` gives one
 //! line each.
 
 mod codes;
-mod failure;
+mod kinds;
 #[doc = include_str!("error/codes.md")]
 pub mod code_list {}
 
 pub use codes::codes;
-pub use failure::Failure;
+pub use kinds::Error;
 
 use std::fmt;
 use std::sync::Arc;
@@ -147,16 +147,16 @@ impl fmt::Display for Diagnostic {
 
 /// Why an input was refused: at least one diagnostic, and the text they point into.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Error {
+pub struct Diagnostics {
     source: Option<Arc<Source>>,
     diagnostics: Vec<Diagnostic>,
 }
 
-impl Error {
+impl Diagnostics {
     /// An error about `source`, or about no text.
     pub fn new(source: Option<Arc<Source>>, diagnostics: Vec<Diagnostic>) -> Self {
         debug_assert!(!diagnostics.is_empty());
-        Error { source, diagnostics }
+        Diagnostics { source, diagnostics }
     }
 
     /// The text the spans refer to.
@@ -181,13 +181,13 @@ impl Error {
     }
 }
 
-impl From<Diagnostic> for Error {
+impl From<Diagnostic> for Diagnostics {
     fn from(diagnostic: Diagnostic) -> Self {
-        Error::new(None, vec![diagnostic])
+        Diagnostics::new(None, vec![diagnostic])
     }
 }
 
-impl fmt::Display for Error {
+impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, d) in self.diagnostics.iter().enumerate() {
             if i > 0 {
@@ -203,4 +203,4 @@ impl fmt::Display for Error {
     }
 }
 
-impl std::error::Error for Error {}
+impl std::error::Error for Diagnostics {}

@@ -3,7 +3,7 @@
 use jurist_algebra::limits::Budget;
 use jurist_check::{Limits, check};
 use jurist_engine::error::Source;
-use jurist_engine::model::Loop;
+use jurist_engine::model::Model;
 use std::time::Duration;
 
 /// Small models with their true certificates are mutated by the bytes, or the bytes are the certificate.
@@ -57,6 +57,6 @@ fn true_verdict(model: &str) -> String {
     answer.certificate(&budget).expect("no limit")
 }
 
-fn read(model: &str) -> Loop {
-    Loop::from_toml(&Source::new("model", model)).expect("a correct model").0
+fn read(model: &str) -> Model {
+    Model::from_toml(&Source::new("model", model)).expect("a correct model").0
 }

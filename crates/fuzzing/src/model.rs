@@ -1,13 +1,13 @@
 //! Model texts of any kind.
 
 use jurist_algebra::limits::Budget;
-use jurist_engine::model::{Loop, source_from_bytes};
+use jurist_engine::model::{Model, source_from_bytes};
 use std::time::Duration;
 
 /// Reads bytes as a model and asks for its polynomial: whatever they are, nothing panics.
 pub fn model_parser(data: &[u8]) {
     let Ok(source) = source_from_bytes("fuzz.toml", data) else { return };
-    match Loop::from_toml(&source) {
+    match Model::from_toml(&source) {
         Ok((model, _)) => {
             let budget = Budget::with_timeout(Duration::from_millis(200));
             let keep = model.parameters().iter().take(2).map(|p| p.name.clone());

@@ -5,12 +5,12 @@ use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_names, load, question};
 use crate::cli::output::{ending, unknown_ending, write_answer};
-use crate::cli::status::{Failure, Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use clap::{Args, ValueEnum};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::matrix::CharacteristicPolynomial;
-use jurist_engine::error::{Diagnostic, Error};
-use jurist_engine::model::Loop;
+use jurist_engine::error::{Diagnostic, Diagnostics};
+use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
 use jurist_engine::show::json;
 use jurist_engine::show::notation::{NamedPolynomial, Notation, PolynomialReport, Relation, root_locus_form};
@@ -62,7 +62,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
 }
 
 /// The notation asked for: by `--format`, by `--json`, or by the file's ending.
-fn notation(options: &Options) -> Result<Notation, Failure> {
+fn notation(options: &Options) -> Result<Notation, Error> {
     const ENDINGS: [(&str, Notation); 7] = [
         ("txt", Notation::Text),
         ("json", Notation::Json),
@@ -91,7 +91,7 @@ fn notation(options: &Options) -> Result<Notation, Failure> {
     let by_ending = |file: &OsString| {
         let Some(e) = ending(file) else { return Ok(Notation::Text) };
         let found = ENDINGS.iter().find(|(known, _)| *known == e).map(|(_, notation)| *notation);
-        found.ok_or_else(|| Failure::from(unknown_ending(file, &ENDINGS.map(|(e, _)| e))))
+        found.ok_or_else(|| Error::from(unknown_ending(file, &ENDINGS.map(|(e, _)| e))))
     };
     match (by_option, &options.output.output) {
         (Some(notation), _) => Ok(notation),
@@ -101,7 +101,7 @@ fn notation(options: &Options) -> Result<Notation, Failure> {
 }
 
 /// What stays symbolic and what is set.
-fn problem(options: &Options, context: &Context, model: &Loop) -> Result<Arc<Problem>, Failure> {
+fn problem(options: &Options, context: &Context, model: &Model) -> Result<Arc<Problem>, Error> {
     let mut question = question(context, model, &options.model, &RegionOptions::default())?;
     known_names(context, model, "--keep", &options.keep)?;
     let mut keep = options.keep.clone();
@@ -119,7 +119,7 @@ fn problem(options: &Options, context: &Context, model: &Loop) -> Result<Arc<Pro
         question = question.free(name);
     }
     let problem = question.problem().map_err(|failure| match failure {
-        Failure::Refused(error) => about_line(context, error).into(),
+        Error::Refused(error) => about_line(context, error).into(),
         other => other,
     })?;
     context.warn(None, problem.warnings());
@@ -145,14 +145,14 @@ fn parameters(problem: &Problem) -> Vec<String> {
 }
 
 /// An error about the question that points into no text is about the command line.
-fn about_line(context: &Context, error: Error) -> Error {
+fn about_line(context: &Context, error: Diagnostics) -> Diagnostics {
     if error.diagnostics().iter().all(|d| d.primary.is_none()) {
         return in_line(context.line, error.diagnostics().to_vec());
     }
     error
 }
 
-fn report(options: &Options, context: &Context, problem: &Problem) -> Result<PolynomialReport, Failure> {
+fn report(options: &Options, context: &Context, problem: &Problem) -> Result<PolynomialReport, Error> {
     let mut report = PolynomialReport {
         title: problem.title().unwrap_or_default().to_owned(),
         variable: problem.time().variable().to_owned(),
@@ -173,7 +173,7 @@ fn report(options: &Options, context: &Context, problem: &Problem) -> Result<Pol
     }
     let algebra = problem.algebra(&context.budget)?;
     let Some(polynomial) = algebra.polynomial().cloned() else {
-        return Err(Failure::Undefined(algebra.undefined().unwrap_or_default().to_owned()));
+        return Err(Error::Undefined(algebra.undefined().unwrap_or_default().to_owned()));
     };
     match &options.root_locus_form {
         None => report.polynomials = vec![NamedPolynomial::new("Q", "a", polynomial.coefficients)],
@@ -190,7 +190,7 @@ fn root_locus(
     context: &Context,
     polynomial: &CharacteristicPolynomial,
     name: &str,
-) -> Result<(NamedPolynomial, NamedPolynomial), Failure> {
+) -> Result<(NamedPolynomial, NamedPolynomial), Error> {
     let split = polynomial.variable(name).and_then(|i| root_locus_form(polynomial, i));
     let Some((num, den)) = split else {
         let span = context.line.option_value("--root-locus-form", name).span;
@@ -204,8 +204,8 @@ fn root_locus(
 }
 
 /// A signal's name that the loop does not know is marked on the command line.
-fn unknown_signal(context: &Context, failure: Failure, names: [&String; 2]) -> Failure {
-    if let Failure::Refused(error) = &failure
+fn unknown_signal(context: &Context, failure: Error, names: [&String; 2]) -> Error {
+    if let Error::Refused(error) = &failure
         && let [diagnostic] = error.diagnostics()
         && diagnostic.primary.is_none()
     {

@@ -1,7 +1,7 @@
 //! `jurist explain`: what an error code means.
 
 use crate::cli::output::write_answer;
-use crate::cli::status::{Failure, Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_engine::error::{Diagnostic, codes};
 
@@ -36,7 +36,7 @@ pub(in crate::cli) fn run(options: &Options) -> Outcome {
     }
 }
 
-fn unknown(wanted: &str) -> Failure {
+fn unknown(wanted: &str) -> Error {
     let shown: String = wanted.chars().take(60).collect();
     let diagnostic = Diagnostic::error("E-unknown-code", format!("there is no error code '{shown}'"));
     let near = codes().map(|(c, _)| c).max_by(|a, b| {
@@ -47,5 +47,5 @@ fn unknown(wanted: &str) -> Failure {
         Some(near) if strsim::jaro_winkler(near, &shown) > 0.8 => format!("did you mean '{near}'?"),
         _ => "'jurist explain' lists all codes".to_owned(),
     };
-    Failure::from(diagnostic.help(help))
+    Error::from(diagnostic.help(help))
 }

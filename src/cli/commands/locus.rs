@@ -5,7 +5,7 @@ use crate::cli::arguments::{ModelOptions, PictureOptions, RunOptions};
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_names, load, question};
 use crate::cli::picture::{Picture, deliver, wanted};
-use crate::cli::status::{Failure, Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_draw::document::locus_json;
@@ -62,11 +62,11 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     Ok(Status::Holds)
 }
 
-fn range_of(text: &str, context: &Context) -> Result<(Rational, Rational), Failure> {
+fn range_of(text: &str, context: &Context) -> Result<(Rational, Rational), Error> {
     let wrong = |what: &str| {
         let place = context.line.option_value("--range", text).span;
         let error = Diagnostic::error("E-option-value", "--range expects LO..HI with LO below HI");
-        Failure::from(in_line(context.line, vec![error.at(place, what).help("for example --range 0.001..1000")]))
+        Error::from(in_line(context.line, vec![error.at(place, what).help("for example --range 0.001..1000")]))
     };
     let Some((lo, hi)) = text.split_once("..") else { return Err(wrong("there is no '..'")) };
     let number = |part: &str| parse_number(part.trim()).map_err(|_| wrong("not two numbers"));
@@ -76,7 +76,7 @@ fn range_of(text: &str, context: &Context) -> Result<(Rational, Rational), Failu
 
 /// Around every end of the stable set and the nominal value, a third more on both sides, within the
 /// domain.
-fn default_range(answer: &Answer<StableSet>) -> Result<(Rational, Rational), Failure> {
+fn default_range(answer: &Answer<StableSet>) -> Result<(Rational, Rational), Error> {
     let free = answer.problem().parameter();
     let mut values: Vec<Rational> = free.nominal.iter().cloned().collect();
     for end in answer.value().intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {

@@ -5,7 +5,7 @@ use crate::cli::arguments::OutputOptions;
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
 use jurist_drive::{main_job, main_job_json, main_job_text, main_job_undecided};
-use jurist_engine::model::Loop;
+use jurist_engine::model::Model;
 
 /// Options of `jurist` without a command.
 #[derive(Args, Debug)]
@@ -17,7 +17,7 @@ pub(in crate::cli) struct Options {
 /// Answers on standard output or in a file.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     context.check_output(&options.output)?;
-    let job = match decided(main_job(&Loop::drive(), &context.budget))? {
+    let job = match decided(main_job(&Model::drive(), &context.budget))? {
         Ok(job) => job,
         Err(stopped) => {
             return context.undecided(&options.output, &stopped, || None, || main_job_undecided(&stopped));

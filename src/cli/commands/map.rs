@@ -7,7 +7,7 @@ use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, question};
 use crate::cli::output::{ending, note, unknown_ending};
 use crate::cli::picture::{png, write};
-use crate::cli::status::{Failure, Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
 use jurist_draw::page::map_page;
@@ -124,7 +124,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
 }
 
 /// The kind of picture that the output file's ending asks for, if it asks for one.
-fn picture_of(options: &Options) -> Result<Option<Picture>, Failure> {
+fn picture_of(options: &Options) -> Result<Option<Picture>, Error> {
     let Some(file) = options.output.output.as_ref().filter(|f| *f != "-" && !options.output.json) else {
         return Ok(None);
     };
@@ -157,7 +157,7 @@ fn draw(
     requests: [WindowRequest; 2],
     options: &Options,
     context: &Context,
-) -> Result<(), Failure> {
+) -> Result<(), Error> {
     let Some(file) = &options.output.output else { return Ok(()) };
     let built_in = options.model.model.is_none();
     let published = if built_in { published_limits(answer.problem()) } else { Vec::new() };

@@ -5,7 +5,7 @@ use crate::cli::arguments::OutputOptions;
 use crate::cli::assignments::{AxisRequest, in_line, plain_number};
 use crate::cli::output::ending;
 use crate::cli::picture::{png, write};
-use crate::cli::status::{Failure, Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use clap::{Args, ValueEnum};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;
@@ -60,7 +60,7 @@ impl MethodOptions {
     }
 
     /// What boxes are to cover.
-    pub fn request(&self, axes: &[AxisRequest; 2], context: &Context) -> Result<BoxRequest, Failure> {
+    pub fn request(&self, axes: &[AxisRequest; 2], context: &Context) -> Result<BoxRequest, Error> {
         let undecided = match &self.undecided {
             None => Rational::from(1) / Rational::from(100),
             Some(text) => {

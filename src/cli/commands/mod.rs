@@ -20,9 +20,9 @@ use super::command_line::CommandLine;
 use super::output::{ending, unknown_ending, write_answer};
 use super::progress::Reporter;
 use super::show;
-use super::status::{Failure, Outcome, Status};
+use super::status::{Error, Outcome, Status};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_engine::error::{Diagnostic, Error, Source};
+use jurist_engine::error::{Diagnostic, Diagnostics, Source};
 use jurist_engine::show::json;
 use serde_json::Value;
 use std::sync::Arc;
@@ -54,7 +54,7 @@ impl<'a> Context<'a> {
     /// Shows warnings, unless they are not wanted.
     pub fn warn(&self, source: Option<&Arc<Source>>, warnings: &[Diagnostic]) {
         if !self.quiet && !warnings.is_empty() {
-            show(&Error::new(source.cloned(), warnings.to_vec()));
+            show(&Diagnostics::new(source.cloned(), warnings.to_vec()));
         }
     }
 
@@ -64,7 +64,7 @@ impl<'a> Context<'a> {
         options: &OutputOptions,
         text: impl FnOnce() -> String,
         document: impl FnOnce() -> Value,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         let wants_json = self.wants_json(options)?;
         let answer = self.budget.enter(|| if wants_json { json::to_text(&document()) } else { text() })?;
         self.reporter.finish();
@@ -72,7 +72,7 @@ impl<'a> Context<'a> {
     }
 
     /// Whether JSON is asked for, by the option or by the file's ending.
-    fn wants_json(&self, options: &OutputOptions) -> Result<bool, Failure> {
+    fn wants_json(&self, options: &OutputOptions) -> Result<bool, Error> {
         let Some(file) = options.output.as_ref().filter(|_| !options.json) else { return Ok(options.json) };
         match ending(file).as_deref() {
             Some("json") => Ok(true),
@@ -82,7 +82,7 @@ impl<'a> Context<'a> {
     }
 
     /// Refuses a file ending before any work is done.
-    pub fn check_output(&self, options: &OutputOptions) -> Result<(), Failure> {
+    pub fn check_output(&self, options: &OutputOptions) -> Result<(), Error> {
         self.wants_json(options).map(|_| ())
     }
 
@@ -110,7 +110,7 @@ impl<'a> Context<'a> {
 }
 
 /// What stopped the work; any other reason for having no answer is passed on.
-pub(super) fn decided<T>(result: Result<T, Failure>) -> Result<Result<T, Exhausted>, Failure> {
+pub(super) fn decided<T>(result: Result<T, Error>) -> Result<Result<T, Exhausted>, Error> {
     match result {
         Ok(value) => Ok(Ok(value)),
         Err(failure) => failure.stopped().map(Err),

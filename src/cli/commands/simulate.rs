@@ -6,14 +6,14 @@ use crate::cli::assignments::{in_line, plain_number};
 use crate::cli::input::{load, question};
 use crate::cli::output::note;
 use crate::cli::picture::{Picture, deliver, wanted};
-use crate::cli::status::{Failure, Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use clap::{Args, ValueEnum};
 use jurist_algebra::number::parse_number;
 use jurist_draw::document::{CircuitAnswer, SimulationAnswer, simulation_json, time_unit};
 use jurist_draw::figures::{Figure, response_panels, stacked};
 use jurist_draw::simulate::{Excitation, Pulse, Record, SampledModel, SwitchedModel, excitation, signal_unit};
 use jurist_engine::error::{Diagnostic, Source};
-use jurist_engine::model::Loop;
+use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
 use jurist_engine::show::layout::called;
 
@@ -85,7 +85,7 @@ struct Course {
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let kind = wanted(&options.picture)?;
     let model = match (&options.model.model, options.switched) {
-        (None, true) => Loop::from_toml(&Source::new("<built-in drive>", DRIVE_BLOCKS))?.0,
+        (None, true) => Model::from_toml(&Source::new("<built-in drive>", DRIVE_BLOCKS))?.0,
         (path, _) => load(path.as_ref(), context)?,
     };
     let problem = question(context, &model, &options.model, &Default::default())?.problem()?;
@@ -108,7 +108,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
 }
 
 /// The outputs over time, one panel each; of the circuit all but the duty ratios.
-fn figure(model: &Loop, answer: &SimulationAnswer) -> Figure {
+fn figure(model: &Model, answer: &SimulationAnswer) -> Figure {
     let all = || answer.trace.signals.iter().map(|s| s.name.clone());
     let outputs: Vec<String> = model.outputs().iter().map(|o| o.name.name.clone()).collect();
     let (shown, kind) = match &answer.circuit {
@@ -122,7 +122,7 @@ fn figure(model: &Loop, answer: &SimulationAnswer) -> Figure {
 }
 
 impl Course {
-    fn of(options: &Options, model: &Loop, context: &Context) -> Result<Course, Failure> {
+    fn of(options: &Options, model: &Model, context: &Context) -> Result<Course, Error> {
         let defaults = model.simulation();
         let duration = match &options.duration {
             Some(text) => plain_number(context.line, "--duration", text)?,
@@ -171,7 +171,7 @@ impl Course {
         self.inputs.iter().map(|(name, t, v)| (name.clone(), sample(*t), *v)).collect()
     }
 
-    fn samples(&self, period: f64) -> Result<usize, Failure> {
+    fn samples(&self, period: f64) -> Result<usize, Error> {
         let count = (self.duration / period).round().max(self.least_samples);
         if count > MOST_SAMPLES {
             let message = format!("{count:e} samples are too many for a simulation");
@@ -181,17 +181,17 @@ impl Course {
     }
 }
 
-fn input_step(text: &str, context: &Context) -> Result<(String, f64, f64), Failure> {
+fn input_step(text: &str, context: &Context) -> Result<(String, f64, f64), Error> {
     let (name, value, time) = parsed("--input", text, context)?;
     Ok((name, time, value))
 }
 
 /// Name, value, time of `NAME=VALUE[@TIME]`.
-fn parsed(option: &str, text: &str, context: &Context) -> Result<(String, f64, f64), Failure> {
+fn parsed(option: &str, text: &str, context: &Context) -> Result<(String, f64, f64), Error> {
     let wrong = |what: &str| {
         let place = context.line.option_value(option, text).span;
         let error = Diagnostic::error("E-option-value", format!("{option} expects NAME=VALUE"));
-        Failure::from(in_line(context.line, vec![error.at(place, what).help("for example T_L=5@1 after one second")]))
+        Error::from(in_line(context.line, vec![error.at(place, what).help("for example T_L=5@1 after one second")]))
     };
     let (name, rest) = text.split_once('=').ok_or_else(|| wrong("there is no '='"))?;
     let (value, time) = rest.split_once('@').unwrap_or((rest, "0"));
@@ -202,7 +202,7 @@ fn parsed(option: &str, text: &str, context: &Context) -> Result<(String, f64, f
     }
 }
 
-fn sampled(problem: &Problem, course: &Course, context: &Context) -> Result<SimulationAnswer, Failure> {
+fn sampled(problem: &Problem, course: &Course, context: &Context) -> Result<SimulationAnswer, Error> {
     let step = course.duration / CONTINUOUS_SAMPLES;
     let system = SampledModel::from_loop(problem, step, &context.budget)?;
     let at = |name: &str| system.state_named(name);
@@ -223,7 +223,7 @@ fn switched(
     problem: &Problem,
     course: &Course,
     context: &Context,
-) -> Result<SimulationAnswer, Failure> {
+) -> Result<SimulationAnswer, Error> {
     let pulse = match options.pulse {
         PulsePlace::Beginning => Pulse::Beginning,
         PulsePlace::End => Pulse::End,

@@ -88,11 +88,11 @@ mod tests {
     use super::super::printed::{EQUATION_23, EQUATION_37, LIST_AFTER_36};
     use super::*;
     use jurist_algebra::limits::Budget;
-    use jurist_engine::model::Loop;
+    use jurist_engine::model::Model;
 
     /// Coefficients of the drive in one parameter.
     fn drive(parameter: &str) -> impl Fn(usize, usize) -> Rational {
-        let p = crate::tables::polynomial(&Loop::drive(), parameter, &Budget::unlimited()).unwrap();
+        let p = crate::tables::polynomial(&Model::drive(), parameter, &Budget::unlimited()).unwrap();
         move |z, k| super::super::coefficient(&p, z, k)
     }
 

@@ -1,7 +1,7 @@
 //! What the paper says in numbers besides its equations, each with its place. The motor's and the
 //! controllers' constants are those of the drive's model file.
 
-use jurist_engine::model::Loop;
+use jurist_engine::model::Model;
 
 /// Reference speed in rad/s (Section 3, list of parameters); the load torque is 0.
 pub(super) const SPEED_REFERENCE: f64 = 80.0;
@@ -42,7 +42,7 @@ pub(super) const TEST_POINTS: [TestPoint; 4] = [
 ];
 
 /// A constant of the drive, rounded; NaN for a name that it does not have.
-pub(super) fn constant(model: &Loop, name: &str) -> f64 {
+pub(super) fn constant(model: &Model, name: &str) -> f64 {
     model.constant(name).and_then(|c| c.number.as_ref()).map_or(f64::NAN, |n| n.to_f64_approximate())
 }
 
@@ -53,7 +53,7 @@ mod tests {
 
     #[test]
     fn the_models_nominal_values_and_gains_are_the_papers() {
-        let drive = Loop::drive();
+        let drive = Model::drive();
         for (name, value) in [("T", PERIOD), ("K_pwm", AMPLITUDE)] {
             let nominal = drive.parameter(name).and_then(|p| p.nominal.clone()).unwrap();
             assert_eq!(to_decimal(&nominal, 6).parse::<f64>().unwrap(), value, "{name}");

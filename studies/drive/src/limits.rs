@@ -8,8 +8,8 @@ use jurist_algebra::number::{Rational, enclosed_decimal, parse_number};
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_draw::simulate::{Pulse, SampledModel, SwitchedModel, growth_limit};
 use jurist_engine::answer::Answer;
-use jurist_engine::error::Failure;
-use jurist_engine::model::Loop;
+use jurist_engine::error::Error;
+use jurist_engine::model::Model;
 use jurist_engine::show::real;
 use jurist_engine::stability::StableSet;
 use nalgebra::DVector;
@@ -51,14 +51,14 @@ pub(super) fn reciprocal(x: Option<&RealAlgebraic>, digits: usize) -> String {
 type Seen<'a> = dyn Fn(f64, f64) -> Option<f64> + Sync + 'a;
 
 /// The limits by several ways.
-pub(super) fn limits(model: &Loop, blocks: &Loop, printed: [&Loop; 2], budget: &Budget) -> Result<Table, Failure> {
+pub(super) fn limits(model: &Model, blocks: &Model, printed: [&Model; 2], budget: &Budget) -> Result<Table, Error> {
     let head = ["way", "K_pwm / V, lower", "K_pwm / V, upper", "f / Hz, lower", "kind"];
     let mut table = Table::new("Limits of stability at the nominal values of the other parameter", &head);
     let mut row = |cells: [&str; 5]| table.rows.push(cells.iter().map(|c| (*c).to_owned()).collect());
     for (way, [lower, upper, frequency]) in PUBLISHED_LIMITS {
         row([way, lower, upper, frequency, "published"]);
     }
-    let exact = |lp: &Loop, name: &str| lp.ask().free(name).stable_set(budget);
+    let exact = |lp: &Model, name: &str| lp.ask().free(name).stable_set(budget);
     for (way, in_amplitude, in_period) in
         [("exact", model, model), ("printed coefficients, exact", printed[0], printed[1])]
     {

@@ -5,8 +5,8 @@ use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, enclosed_decimal, to_decimal};
 use jurist_algebra::poly::{RationalFunction, RealAlgebraic};
 use jurist_engine::answer::{Answer, ParametricTable};
-use jurist_engine::error::{Failure, Source};
-use jurist_engine::model::Loop;
+use jurist_engine::error::{Error, Source};
+use jurist_engine::model::Model;
 use jurist_engine::show::intervals::{domain_text, set_lines};
 use jurist_engine::show::layout::{Columns, short, visible, wrapped};
 use jurist_engine::show::notation::Coefficient;
@@ -47,9 +47,9 @@ pub struct MainJob {
 /// Does the main job on the drive.
 ///
 /// # Errors
-/// [`Failure::Stopped`] when the budget runs out.
-pub fn main_job(model: &Loop, budget: &Budget) -> Result<MainJob, Failure> {
-    let (printed, _) = Loop::from_toml(&Source::new("<Eq. 23 as printed>", PRINTED_23))?;
+/// [`Error::Stopped`] when the budget runs out.
+pub fn main_job(model: &Model, budget: &Budget) -> Result<MainJob, Error> {
+    let (printed, _) = Model::from_toml(&Source::new("<Eq. 23 as printed>", PRINTED_23))?;
     Ok(MainJob {
         amplitude: model.ask().free(AMPLITUDE).parametric_table(budget)?,
         period: model.ask().free(PERIOD).parametric_table(budget)?,

@@ -12,8 +12,8 @@ use jurist_algebra::number::{Rational, to_decimal};
 use jurist_algebra::poly::RationalFunction;
 use jurist_draw::figures::{Figure, locus_of};
 use jurist_engine::answer::{Answer, ParametricTable};
-use jurist_engine::error::{Failure, Source};
-use jurist_engine::model::{Form, Loop, Matrix};
+use jurist_engine::error::{Error, Source};
+use jurist_engine::model::{Form, Matrix, Model};
 use jurist_engine::show::intervals::set_lines;
 use jurist_engine::show::notation::{Coefficient, coefficient_text, root_locus_form};
 
@@ -49,10 +49,10 @@ pub struct PaperReport {
 /// Computes everything that the paper says about its drive once more, and writes it down.
 ///
 /// # Errors
-/// [`Failure`] when the budget runs out.
-pub fn paper_report(budget: &Budget) -> Result<PaperReport, Failure> {
-    let model = Loop::drive();
-    let read = |name: &str, text: &str| Loop::from_toml(&Source::new(name, text)).map(|(model, _)| model);
+/// [`Error`] when the budget runs out.
+pub fn paper_report(budget: &Budget) -> Result<PaperReport, Error> {
+    let model = Model::drive();
+    let read = |name: &str, text: &str| Model::from_toml(&Source::new(name, text)).map(|(model, _)| model);
     let blocks = read("<drive as blocks>", BLOCKS)?;
     let printed = [read("<Eq. 23 as printed>", PRINTED_23)?, read("<Eq. 37 as printed>", PRINTED_37)?];
     let mut figures = Vec::new();
@@ -99,11 +99,11 @@ pub fn paper_report(budget: &Budget) -> Result<PaperReport, Failure> {
 }
 
 fn drive_section(
-    model: &Loop,
-    blocks: &Loop,
+    model: &Model,
+    blocks: &Model,
     figures: &mut Vec<NamedFigure>,
     budget: &Budget,
-) -> Result<String, Failure> {
+) -> Result<String, Error> {
     let mut html = paragraph(
         "A separately excited DC motor, fed by a class-C chopper, with a PI speed controller around a PI current \
          controller. Figs. 1 to 6 are drawn anew.",
@@ -146,7 +146,7 @@ fn drive_section(
 }
 
 /// The entries of a matrix as the model's text has them.
-fn entries(model: &Loop, m: &Matrix) -> Vec<Vec<String>> {
+fn entries(model: &Model, m: &Matrix) -> Vec<Vec<String>> {
     let text = &model.source().text;
     let entry = |e: &jurist_engine::model::Expression| {
         text.get(e.span.start..e.span.end).unwrap_or_default().trim_matches('"').to_owned()
@@ -154,7 +154,7 @@ fn entries(model: &Loop, m: &Matrix) -> Vec<Vec<String>> {
     m.rows.iter().map(|r| r.iter().map(entry).collect()).collect()
 }
 
-fn model_section(model: &Loop) -> String {
+fn model_section(model: &Model) -> String {
     let mut html = paragraph(
         "Eqs. 13 to 21: <i>x</i>(<i>n</i>+1) = <i>A x</i>(<i>n</i>) + <i>B u</i>(<i>n</i>) + <i>E r</i>(<i>n</i>), \
          <i>u</i> = −<i>K y</i>, <i>y</i> = <i>C x</i>, so that <i>x</i>(<i>n</i>+1) = [<i>A</i> − <i>BKC</i>] \
@@ -248,7 +248,7 @@ fn jury_section(tables: &[Table; 2], answers: [&Answer<ParametricTable>; 2]) -> 
     html
 }
 
-fn locus_section(model: &Loop, figures: &mut Vec<NamedFigure>, budget: &Budget) -> Result<String, Failure> {
+fn locus_section(model: &Model, figures: &mut Vec<NamedFigure>, budget: &Budget) -> Result<String, Error> {
     let answer = model.ask().free("K_pwm").stable_set(budget)?;
     let range = (Rational::new(1.into(), 1000.into()), Rational::from(1000));
     let drawn = locus_of(&answer, &range, None, budget)?;
@@ -312,7 +312,7 @@ mod tests {
 
     #[test]
     fn the_exact_value_at_one_is_a_multiple_of_the_amplitude() {
-        let p = polynomial(&Loop::drive(), "K_pwm", &Budget::unlimited()).unwrap();
+        let p = polynomial(&Model::drive(), "K_pwm", &Budget::unlimited()).unwrap();
         let sum = |k| (0..=6).fold(Rational::ZERO, |s, z| s + coefficient(&p, z, k));
         assert!(sum(0).is_zero() && sum(1).sign().is_gt());
     }

@@ -7,8 +7,8 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_draw::figures::{ResponseCurve, response_panel};
 use jurist_draw::simulate::{Excitation, Pulse, Record, SampledModel, Step, SwitchedModel, Trace, eigenvalues};
-use jurist_engine::error::Failure;
-use jurist_engine::model::Loop;
+use jurist_engine::error::Error;
+use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
 use nalgebra::DVector;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 const DISTURBANCE: f64 = 0.01;
 
 /// The point that both parameters are set to.
-pub(super) fn at(model: &Loop, amplitude: &Rational, period: &Rational) -> Result<Arc<Problem>, Failure> {
+pub(super) fn at(model: &Model, amplitude: &Rational, period: &Rational) -> Result<Arc<Problem>, Error> {
     model.ask().set("K_pwm", amplitude.clone()).set("T", period.clone()).problem()
 }
 
@@ -36,11 +36,11 @@ fn window(trace: &Trace, signal: &str, settled: f64) -> f64 {
 
 /// The HTML of the section; the figures are appended to `figures`.
 pub(super) fn section(
-    model: &Loop,
-    blocks: &Loop,
+    model: &Model,
+    blocks: &Model,
     figures: &mut Vec<NamedFigure>,
     budget: &Budget,
-) -> Result<String, Failure> {
+) -> Result<String, Error> {
     let mut html = paragraph(
         "The paper's figures are runs of the linear model, which no voltage limits. Beside each: the circuit with its \
          switches, its duty ratio clamped to 0 .. 1, once from rest and once from its periodic steady state, disturbed by \
@@ -63,7 +63,7 @@ fn one_case(
     [sampled, blocks]: &[Arc<Problem>; 2],
     figures: &mut Vec<NamedFigure>,
     budget: &Budget,
-) -> Result<String, Failure> {
+) -> Result<String, Error> {
     let linear = SampledModel::from_loop(sampled, 1.0, budget)?;
     let model = sampled.model();
     let circuit = SwitchedModel::from_loop(blocks, Pulse::Beginning, budget)?;
@@ -131,7 +131,7 @@ fn one_case(
 
 /// The largest output of the current controller in the linear model's first tenth of a second, V:
 /// Eq. 9 with the gains of the model.
-fn largest_control(model: &Loop, trace: &Trace) -> f64 {
+fn largest_control(model: &Model, trace: &Trace) -> f64 {
     let early = trace.between(0.0, 0.1);
     let (Some(a), Some(b)) = (early.signal("eps_1i"), early.signal("eps_2i")) else { return f64::NAN };
     let (proportional, integral) = (constant(model, "K_pi"), constant(model, "K_ii"));
@@ -139,7 +139,7 @@ fn largest_control(model: &Loop, trace: &Trace) -> f64 {
 }
 
 /// The ripple of the current over four periods of the nominal steady state.
-pub(super) fn ripple(blocks: &Loop, budget: &Budget) -> Result<Option<NamedFigure>, Failure> {
+pub(super) fn ripple(blocks: &Model, budget: &Budget) -> Result<Option<NamedFigure>, Error> {
     let circuit = SwitchedModel::from_loop(&*blocks.ask().problem()?, Pulse::Beginning, budget)?;
     let inputs = DVector::from_vec(vec![SPEED_REFERENCE, 0.0]);
     Ok(circuit.periodic_steady_state(&inputs).map(|operating| {

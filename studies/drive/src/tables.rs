@@ -9,8 +9,8 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_algebra::poly::RealAlgebraic;
-use jurist_engine::error::{Failure, Source};
-use jurist_engine::model::Loop;
+use jurist_engine::error::{Error, Source};
+use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
 
 /// Constants whose influence the report shows.
@@ -21,10 +21,10 @@ const ENTRIES: [(&str, &str, &str); 2] =
     [("Eq. 5, entry (1,1)", "(L_a - R_a)/L_a", "(L_a - R_a*T)/L_a"), ("Eq. 13, entry (2,1)", "-K_a*T/J", "K_a*T/J")];
 
 /// The polynomial with one parameter free.
-pub(super) fn polynomial(model: &Loop, name: &str, budget: &Budget) -> Result<CharacteristicPolynomial, Failure> {
+pub(super) fn polynomial(model: &Model, name: &str, budget: &Budget) -> Result<CharacteristicPolynomial, Error> {
     let problem = model.ask().free(name).problem()?;
     let algebra = problem.algebra(budget)?;
-    algebra.polynomial().cloned().ok_or_else(|| Failure::Undefined(algebra.undefined().unwrap_or_default().to_owned()))
+    algebra.polynomial().cloned().ok_or_else(|| Error::Undefined(algebra.undefined().unwrap_or_default().to_owned()))
 }
 
 /// How many of the printed numbers are right to the last digit.
@@ -34,14 +34,14 @@ fn right(printed: &[Printed], p: &CharacteristicPolynomial) -> usize {
 }
 
 /// Everything printed that is not what it should be, found by comparison.
-pub(super) fn errata(model: &Loop, budget: &Budget) -> Result<Table, Failure> {
+pub(super) fn errata(model: &Model, budget: &Budget) -> Result<Table, Error> {
     let (eq_23, eq_37) = (polynomial(model, "K_pwm", budget)?, polynomial(model, "T", budget)?);
     let mut table =
         Table::new("Errata, found by comparison with the exact values", &["where", "printed", "exact", "what"]);
     let total = EQUATION_23.len();
     for (place, printed, entry) in ENTRIES {
         let text = model.source().text.replacen(&format!("\"{entry}\""), &format!("\"{printed}\""), 1);
-        let (damaged, _) = Loop::from_toml(&Source::new("<as printed>", text))?;
+        let (damaged, _) = Model::from_toml(&Source::new("<as printed>", text))?;
         let count = right(EQUATION_23, &polynomial(&damaged, "K_pwm", budget)?);
         let what = format!(
             "in the text as we have it: it gives {count} of the {total} numbers of Eq. 23, the exact entry {}",
@@ -71,10 +71,10 @@ fn erratum(c: &Comparison, parameter: &str) -> Vec<String> {
 }
 
 /// How the limits move when a constant changes by a tenth, each limit exact.
-pub(super) fn sensitivity(model: &Loop, budget: &Budget) -> Result<Table, Failure> {
+pub(super) fn sensitivity(model: &Model, budget: &Budget) -> Result<Table, Error> {
     let head = ["constant", "value", "K_pwm, lower", "change / %", "upper", "change / %", "f, lower", "change / %"];
     let mut table = Table::new("The limits when one constant is 10 % smaller or larger: K_pwm in V, f in Hz", &head);
-    let limits = |question: Question| -> Result<[Option<RealAlgebraic>; 3], Failure> {
+    let limits = |question: Question| -> Result<[Option<RealAlgebraic>; 3], Error> {
         let k = question.clone().free("K_pwm").stable_set(budget)?;
         let t = question.free("T").stable_set(budget)?;
         let ((lower, upper), (_, longest)) = (ends(&k), ends(&t));

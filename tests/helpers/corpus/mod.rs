@@ -10,7 +10,7 @@ pub use expected::{Expected, ExpectedEnd, ExpectedValue};
 pub use read::cases;
 
 use super::number::number;
-use jurist_engine::model::Loop;
+use jurist_engine::model::Model;
 use jurist_engine::problem::{Question, Region};
 use jurist_engine::stability::Range;
 
@@ -37,7 +37,7 @@ pub struct Expectation {
 
 impl Expectation {
     /// The question for the library.
-    pub fn question(&self, model: &Loop) -> Question {
+    pub fn question(&self, model: &Model) -> Question {
         let mut question = model.ask().set_all(self.set.iter().map(|(name, value)| (name, number(value))));
         for (name, range) in &self.domain {
             let (lower, upper) = range.split_once("..").expect("LO..HI");

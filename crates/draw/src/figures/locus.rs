@@ -6,7 +6,7 @@ use crate::simulate::{Crossing, LocusOptions, ParameterScale, RootLocus, trace_r
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_engine::answer::Answer;
-use jurist_engine::error::Failure;
+use jurist_engine::error::Error;
 use jurist_engine::model::Time;
 use jurist_engine::problem::Problem;
 use jurist_engine::show::layout::visible;
@@ -51,13 +51,13 @@ const PICTURE_BITS: u64 = 60;
 /// The locus of the parameter of a decided question over a range, with all certified ends in it.
 ///
 /// # Errors
-/// [`Failure::Stopped`] when the budget runs out.
+/// [`Error::Stopped`] when the budget runs out.
 pub fn locus_of(
     answer: &Answer<StableSet>,
     range: &(Rational, Rational),
     scale: Option<ParameterScale>,
     budget: &Budget,
-) -> Result<DrawnLocus, Failure> {
+) -> Result<DrawnLocus, Error> {
     let problem = answer.problem();
     let discrete = problem.time() == Time::Discrete;
     let focus = Complex::new(if discrete { 1.0 } else { 0.0 }, 0.0);

@@ -7,7 +7,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Integer;
 use jurist_algebra::poly::{Monomial, RealAlgebraic};
 use jurist_engine::answer::{Answer, Map};
-use jurist_engine::error::Failure;
+use jurist_engine::error::Error;
 use jurist_engine::problem::Free;
 use jurist_engine::show::json;
 use jurist_engine::show::layout::{named_values, short, visible};
@@ -25,7 +25,7 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 
 /// `text` below it, and a script that looks a point up in the exact strips with integers of any size.
 ///
 /// # Errors
-/// [`Failure::Stopped`] when the budget runs out.
+/// [`Error::Stopped`] when the budget runs out.
 pub fn map_page(
     answer: &Answer<Map>,
     contents: &MapContents<'_>,
@@ -33,7 +33,7 @@ pub fn map_page(
     figures: &[MapFigure; 2],
     text: &str,
     budget: &Budget,
-) -> Result<String, Failure> {
+) -> Result<String, Error> {
     let [x, y] = answer.problem().axes();
     let title = match answer.problem().title().filter(|t| !t.is_empty()) {
         Some(title) => format!("Stability map: {title}"),
@@ -93,7 +93,7 @@ fn data(
     trace: &MapTrace,
     figures: &[MapFigure; 2],
     budget: &Budget,
-) -> Result<Value, Failure> {
+) -> Result<Value, Error> {
     let axis = |k: usize| {
         let (axis, window) = (&answer.problem().free()[k], &trace.windows[k]);
         let (from, to) = window.ends();
@@ -133,7 +133,7 @@ fn curve(curve: &Curve, answer: &Answer<Map>) -> Value {
     })
 }
 
-fn strip(strip: &Strip, answer: &Answer<Map>, budget: &Budget) -> Result<Value, Failure> {
+fn strip(strip: &Strip, answer: &Answer<Map>, budget: &Budget) -> Result<Value, Error> {
     let end = |value: &Option<RealAlgebraic>| {
         value.as_ref().map_or(Value::Null, |value| {
             let (lo, hi) = value.enclosure();

@@ -5,14 +5,14 @@ use super::switched::{Controller, Plant, Pulse, Pwm, SwitchedModel, SwitchedStat
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
-use jurist_engine::error::{Error, Failure, Span};
-use jurist_engine::model::{Block, ClosedLoop, Diagram, Discretization, Form, Loop, Name, Output, Time};
+use jurist_engine::error::{Diagnostics, Error, Span};
+use jurist_engine::model::{Block, ClosedLoop, Diagram, Discretization, Form, Model, Name, Output, Time};
 use jurist_engine::problem::Problem;
 use nalgebra::DMatrix;
 
 /// Entries of a matrix without symbols, rounded.
-fn rounded(matrix: &RationalMatrix) -> Result<DMatrix<f64>, Failure> {
-    let undefined = || Failure::Undefined("an entry of the closed loop divides by zero".into());
+fn rounded(matrix: &RationalMatrix) -> Result<DMatrix<f64>, Error> {
+    let undefined = || Error::Undefined("an entry of the closed loop divides by zero".into());
     let mut values = Vec::with_capacity(matrix.entries().len());
     for entry in matrix.entries() {
         values.push(entry.as_constant().ok_or_else(undefined)?.to_f64_approximate());
@@ -27,8 +27,8 @@ impl SampledModel {
     /// sampled every `step` seconds, exactly for inputs that are constant in between.
     ///
     /// # Errors
-    /// [`Failure`] as for the closed loop; `E-simulation` when the step is not positive.
-    pub fn from_loop(problem: &Problem, step: f64, budget: &Budget) -> Result<SampledModel, Failure> {
+    /// [`Error`] as for the closed loop; `E-simulation` when the step is not positive.
+    pub fn from_loop(problem: &Problem, step: f64, budget: &Budget) -> Result<SampledModel, Error> {
         let ClosedLoop { a, e, c, d, states, inputs, outputs, .. } = problem.closed_loop(budget)?;
         let (mut transition, mut input) = (rounded(a)?, rounded(e)?);
         let mut sample_time = 1.0;
@@ -89,7 +89,7 @@ pub fn excitation(
     inputs: &[String],
     initial: &[(String, f64)],
     steps: &[(String, usize, f64)],
-) -> Result<Excitation, Error> {
+) -> Result<Excitation, Diagnostics> {
     let mut out = Excitation { initial: vec![0.0; order], steps: Vec::new() };
     for (name, value) in initial {
         let unknown = || simulation_error(format!("'{name}' is no state that an initial value can be given"));
@@ -105,7 +105,7 @@ pub fn excitation(
 
 /// The unit of a signal of a simulation, where the model names it: `NAME.control` of a modulator has
 /// the unit of the signal that drives it, `NAME.duty` is a number.
-pub fn signal_unit(model: &Loop, signal: &str) -> Option<String> {
+pub fn signal_unit(model: &Model, signal: &str) -> Option<String> {
     if let Some(unit) = model.unit(signal) {
         return Some(unit.to_owned());
     }
@@ -130,9 +130,9 @@ impl SwitchedModel {
     /// all other blocks run once per period.
     ///
     /// # Errors
-    /// [`Failure`]; `E-simulation` where the model has no such parts, where a continuous block is
+    /// [`Error`]; `E-simulation` where the model has no such parts, where a continuous block is
     /// driven by a sampled one without a modulator between, or where periods differ.
-    pub fn from_loop(problem: &Problem, pulse: Pulse, budget: &Budget) -> Result<SwitchedModel, Failure> {
+    pub fn from_loop(problem: &Problem, pulse: Pulse, budget: &Budget) -> Result<SwitchedModel, Error> {
         let model = problem.model();
         let Form::Blocks(diagram) = model.form() else {
             return Err(simulation_error("a switched simulation needs a model made of blocks").into());
@@ -154,7 +154,7 @@ impl SwitchedModel {
                 pulse,
             });
         }
-        let period = period.ok_or_else(|| Failure::from(simulation_error("no block has a 'pwm' entry")))?;
+        let period = period.ok_or_else(|| Error::from(simulation_error("no block has a 'pwm' entry")))?;
         let sample_time = |e| model.value(e, problem.set(), budget);
         if let Some(time) = model.sample_time_expression().map(sample_time).transpose()?
             && time != period
@@ -219,7 +219,7 @@ impl SwitchedModel {
 }
 
 impl<'m> Parts<'m> {
-    fn of(diagram: &'m Diagram) -> Result<Self, Error> {
+    fn of(diagram: &'m Diagram) -> Result<Self, Diagnostics> {
         let mut parts = Parts { sources: Vec::new(), continuous: Vec::new(), sampled: Vec::new() };
         for block in &diagram.blocks {
             if block.pwm.is_some() {

@@ -2,7 +2,7 @@
 
 use super::trace::Trace;
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_engine::error::{Diagnostic, Error};
+use jurist_engine::error::{Diagnostic, Diagnostics};
 use nalgebra::{DMatrix, DVector};
 
 /// How many samples are computed between two looks at the clock.
@@ -78,7 +78,7 @@ impl SampledModel {
     ///
     /// # Errors
     /// `E-simulation` names the first shape that does not fit, or a sample time that is not positive.
-    pub fn checked(self) -> Result<SampledModel, Error> {
+    pub fn checked(self) -> Result<SampledModel, Diagnostics> {
         let (n, m, p) = (self.states.len(), self.inputs.len(), self.outputs.len());
         let shapes = [
             ("A", self.transition.shape(), (n, n)),
@@ -213,7 +213,7 @@ impl SampledModel {
 }
 
 /// An error of this module.
-pub(super) fn simulation_error(message: impl Into<String>) -> Error {
+pub(super) fn simulation_error(message: impl Into<String>) -> Diagnostics {
     Diagnostic::error("E-simulation", message).into()
 }
 

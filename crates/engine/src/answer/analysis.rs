@@ -1,7 +1,7 @@
 //! Everything that can be said about a loop one parameter at a time.
 
 use super::{Answer, PointVerdict};
-use crate::error::Failure;
+use crate::error::Error;
 use crate::problem::{Problem, Question};
 use crate::stability::StableSet;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -30,11 +30,11 @@ impl Question {
     /// The verdict with every parameter at its set or nominal value, and the stable set of each that is not set.
     ///
     /// # Errors
-    /// [`Failure::Refused`] when a question is refused. What the budget does not allow is noted in its place.
+    /// [`Error::Refused`] when a question is refused. What the budget does not allow is noted in its place.
     ///
     /// # Panics
     /// When a name is free.
-    pub fn analyze(self, budget: &Budget) -> Result<Analysis, Failure> {
+    pub fn analyze(self, budget: &Budget) -> Result<Analysis, Error> {
         assert!(self.free_names().is_empty(), "an analysis frees one parameter after the other");
         let model = Arc::clone(self.model());
         let open = model.parameters().iter().filter(|p| !self.values_set().contains_key(&p.name));
@@ -63,7 +63,7 @@ impl Question {
     }
 }
 
-fn stopped<T>(result: Result<T, Failure>) -> Result<Result<T, Exhausted>, Failure> {
+fn stopped<T>(result: Result<T, Error>) -> Result<Result<T, Exhausted>, Error> {
     match result {
         Ok(value) => Ok(Ok(value)),
         Err(failure) => failure.stopped().map(Err),

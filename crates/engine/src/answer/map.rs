@@ -1,7 +1,7 @@
 //! The stable region in two parameters.
 
 use super::{Answer, MapLimit, RegionExtent};
-use crate::error::{Diagnostic, Failure};
+use crate::error::{Diagnostic, Error};
 use crate::problem::{Problem, Question};
 use crate::stability::plane::{StabilityMap, stability_map, vanishing_boundary};
 use crate::stability::{Range, StableSet};
@@ -41,8 +41,8 @@ impl Question {
     /// Places and frequencies of what limits the regions are enclosed to about so many digits.
     ///
     /// # Errors
-    /// [`Failure`]: refused as [`Question::problem`], or stopped.
-    pub fn map(self, digits: usize, budget: &Budget) -> Result<Answer<Map>, Failure> {
+    /// [`Error`]: refused as [`Question::problem`], or stopped.
+    pub fn map(self, digits: usize, budget: &Budget) -> Result<Answer<Map>, Error> {
         Problem::map(&self.plane_problem()?, digits, budget)
     }
 
@@ -50,7 +50,7 @@ impl Question {
     ///
     /// # Errors
     /// As [`Question::problem`]; `E-usage` where the same name is on both axes.
-    pub fn plane_problem(self) -> Result<Arc<Problem>, Failure> {
+    pub fn plane_problem(self) -> Result<Arc<Problem>, Error> {
         if let [x, y] = self.free_names()
             && x == y
         {
@@ -72,11 +72,11 @@ impl Problem {
     /// stable nowhere.
     ///
     /// # Errors
-    /// [`Failure::Stopped`] when the budget runs out before the decomposition.
+    /// [`Error::Stopped`] when the budget runs out before the decomposition.
     ///
     /// # Panics
     /// Unless two parameters are free.
-    pub fn map(self: &Arc<Self>, digits: usize, budget: &Budget) -> Result<Answer<Map>, Failure> {
+    pub fn map(self: &Arc<Self>, digits: usize, budget: &Budget) -> Result<Answer<Map>, Error> {
         budget.enter(|| {
             let decomposition = self.decomposed(budget)?;
             self.described(decomposition, digits, budget)
@@ -84,7 +84,7 @@ impl Problem {
     }
 
     /// The exact decomposition alone.
-    pub(super) fn decomposed(&self, budget: &Budget) -> Result<StabilityMap, Failure> {
+    pub(super) fn decomposed(&self, budget: &Budget) -> Result<StabilityMap, Error> {
         Ok(match self.plane(budget)? {
             None => StabilityMap::never_stable(),
             Some(p) => stability_map(p, &self.domains(), self.shape(), budget)?,
@@ -97,7 +97,7 @@ impl Problem {
         decomposition: StabilityMap,
         digits: usize,
         budget: &Budget,
-    ) -> Result<Answer<Map>, Failure> {
+    ) -> Result<Answer<Map>, Error> {
         let never_stable_cause = match self.plane(budget)? {
             _ if !decomposition.never_stable => None,
             None => Some("undefined"),

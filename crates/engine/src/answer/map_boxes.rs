@@ -1,7 +1,7 @@
 //! The stable region in two parameters by boxes, and the choice between that and the exact decomposition.
 
 use super::{Answer, Map};
-use crate::error::{Diagnostic, Failure};
+use crate::error::{Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::Range;
 use crate::stability::plane::boxes::{BoxMap, Window, stability_boxes};
@@ -62,7 +62,7 @@ impl Problem {
     /// The stable region in the plane of the two free parameters by a method of choice.
     ///
     /// # Errors
-    /// [`Failure::Refused`] for boxes of a window that is not bounded, [`Failure::Stopped`] when the budget runs out.
+    /// [`Error::Refused`] for boxes of a window that is not bounded, [`Error::Stopped`] when the budget runs out.
     ///
     /// # Panics
     /// Unless two parameters are free.
@@ -72,7 +72,7 @@ impl Problem {
         request: &BoxRequest,
         digits: usize,
         budget: &Budget,
-    ) -> Result<MapOrBoxes, Failure> {
+    ) -> Result<MapOrBoxes, Error> {
         budget.enter(|| {
             let exact = |part: &Budget| {
                 let map = self.described(part.enter(|| self.decomposed(part))??, digits, budget)?;
@@ -90,7 +90,7 @@ impl Problem {
             };
             if method == MapMethod::Auto {
                 match exact(&budget.share(1, 2)) {
-                    Err(Failure::Stopped(_)) => {}
+                    Err(Error::Stopped(_)) => {}
                     answered => return answered,
                 }
             }
@@ -103,7 +103,7 @@ impl Problem {
 }
 
 /// The part of the domain that the boxes are to cover.
-fn window_of(question: &Problem, request: &BoxRequest) -> Result<Window, Failure> {
+fn window_of(question: &Problem, request: &BoxRequest) -> Result<Window, Error> {
     let side = |k: usize| {
         let (domain, wanted) = (&question.free()[k].domain, &request.windows[k]);
         let lower = wanted.lower.clone().max(domain.lower.clone());

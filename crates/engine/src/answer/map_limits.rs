@@ -1,7 +1,7 @@
 //! What limits the regions of a map, and what the map says on a line through it.
 
 use super::{Answer, Frequency, Map};
-use crate::error::Failure;
+use crate::error::Error;
 use crate::problem::Problem;
 use crate::stability::plane::{Limit, multi_value, region_limits};
 use crate::stability::{AlgebraicInterval, AtPoint, End, Shape, StableSet, end_at, stable_set};
@@ -69,14 +69,14 @@ impl Answer<Map> {
     /// inside a strip; with the frequency of its complex pair to about `bits`.
     ///
     /// # Errors
-    /// [`Failure::Stopped`] when the budget runs out.
+    /// [`Error::Stopped`] when the budget runs out.
     pub fn wall(
         &self,
         x: &Rational,
         number: usize,
         bits: u64,
         budget: &Budget,
-    ) -> Result<Option<(End, Option<Frequency>)>, Failure> {
+    ) -> Result<Option<(End, Option<Frequency>)>, Error> {
         budget.enter(|| {
             let line = self.problem.line(0, x, budget)?;
             let domain = &line.parameter().domain;
@@ -94,8 +94,8 @@ impl Answer<Map> {
     /// the loop is stable, and how many roots are outside. `None` where a curve contains the line.
     ///
     /// # Errors
-    /// [`Failure::Stopped`] when the budget runs out.
-    pub fn fibre(&self, x: &Rational, budget: &Budget) -> Result<Option<Vec<(bool, usize)>>, Failure> {
+    /// [`Error::Stopped`] when the budget runs out.
+    pub fn fibre(&self, x: &Rational, budget: &Budget) -> Result<Option<Vec<(bool, usize)>>, Error> {
         budget.enter(|| {
             let map = &self.value.decomposition;
             let Some(p) = self.problem.plane(budget)? else { return Ok(None) };
@@ -130,8 +130,8 @@ impl Answer<Map> {
     /// strips.
     ///
     /// # Errors
-    /// [`Failure::Stopped`] when the budget runs out.
-    pub fn slice(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Answer<StableSet>, Failure> {
+    /// [`Error::Stopped`] when the budget runs out.
+    pub fn slice(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Answer<StableSet>, Error> {
         budget.enter(|| {
             let line = Arc::new(self.problem.on_line(fixed, value, budget)?);
             let inside = self.problem.free()[fixed].domain.contains(value);

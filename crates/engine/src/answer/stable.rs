@@ -1,7 +1,7 @@
 //! The exact stable set of one parameter.
 
 use super::Answer;
-use crate::error::Failure;
+use crate::error::Error;
 use crate::problem::{Problem, Question, Region};
 use crate::stability::{Cause, StableSet, stable_set};
 use jurist_algebra::limits::Budget;
@@ -12,18 +12,18 @@ impl Question {
     ///
     /// ```
     /// use jurist_algebra::limits::Budget;
-    /// use jurist_engine::model::Loop;
-    /// let answer = Loop::drive().ask().free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
+    /// use jurist_engine::model::Model;
+    /// let answer = Model::drive().ask().free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
     /// let lower = answer.value().intervals()[0].lower.as_ref().unwrap();
     /// assert_eq!(lower.value.decimal(10), "0.03810053335");
     /// ```
     ///
     /// # Errors
-    /// [`Failure`]: refused as [`Question::problem`], or stopped.
+    /// [`Error`]: refused as [`Question::problem`], or stopped.
     ///
     /// # Panics
     /// Unless one name is free.
-    pub fn stable_set(self, budget: &Budget) -> Result<Answer<StableSet>, Failure> {
+    pub fn stable_set(self, budget: &Budget) -> Result<Answer<StableSet>, Error> {
         Problem::stable_set(&self.problem()?, budget)
     }
 }
@@ -32,11 +32,11 @@ impl Problem {
     /// The exact stable set of the one free parameter. A loop that is undefined for all values is stable nowhere.
     ///
     /// # Errors
-    /// [`Failure::Stopped`] when the budget runs out.
+    /// [`Error::Stopped`] when the budget runs out.
     ///
     /// # Panics
     /// Unless one parameter is free.
-    pub fn stable_set(self: &Arc<Self>, budget: &Budget) -> Result<Answer<StableSet>, Failure> {
+    pub fn stable_set(self: &Arc<Self>, budget: &Budget) -> Result<Answer<StableSet>, Error> {
         budget.enter(|| {
             let set = match self.parametric(budget)? {
                 None => StableSet::default(),

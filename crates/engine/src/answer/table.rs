@@ -1,7 +1,7 @@
 //! The classical table: numeric at a point, or in one parameter with its conditions solved.
 
 use super::Answer;
-use crate::error::{Diagnostic, Failure};
+use crate::error::{Diagnostic, Error};
 use crate::problem::{Problem, Question};
 use crate::stability::{ClassicalTest, Range, StableSet, classical_test, stable_set};
 use jurist_algebra::limits::Budget;
@@ -39,16 +39,16 @@ impl Question {
     /// The table with polynomial entries in the one free parameter and each condition's own exact solution set.
     ///
     /// # Errors
-    /// [`Failure`]: refused as [`Question::problem`], or stopped.
-    pub fn parametric_table(self, budget: &Budget) -> Result<Answer<ParametricTable>, Failure> {
+    /// [`Error`]: refused as [`Question::problem`], or stopped.
+    pub fn parametric_table(self, budget: &Budget) -> Result<Answer<ParametricTable>, Error> {
         Problem::parametric_table(&self.problem()?, budget)
     }
 
     /// The table with every parameter at its set or nominal value.
     ///
     /// # Errors
-    /// [`Failure`]: refused as [`Question::problem`], or stopped.
-    pub fn point_table(self, budget: &Budget) -> Result<Answer<PointTable>, Failure> {
+    /// [`Error`]: refused as [`Question::problem`], or stopped.
+    pub fn point_table(self, budget: &Budget) -> Result<Answer<PointTable>, Error> {
         Problem::point_table(&self.problem()?, budget)
     }
 }
@@ -58,8 +58,8 @@ impl Problem {
     /// boundary polynomials, each time.
     ///
     /// # Errors
-    /// [`Failure::Stopped`]; [`Failure::Refused`] where the two ways disagree (a defect of this program).
-    pub fn parametric_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<ParametricTable>, Failure> {
+    /// [`Error::Stopped`]; [`Error::Refused`] where the two ways disagree (a defect of this program).
+    pub fn parametric_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<ParametricTable>, Error> {
         budget.enter(|| {
             let Some(p) = self.parametric(budget)? else {
                 return Ok(Answer::new(Arc::clone(self), ParametricTable { test: None, stable: StableSet::default() }));
@@ -82,8 +82,8 @@ impl Problem {
     /// The table at the point that the values of all parameters are.
     ///
     /// # Errors
-    /// [`Failure::Stopped`] when the budget runs out.
-    pub fn point_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointTable>, Failure> {
+    /// [`Error::Stopped`] when the budget runs out.
+    pub fn point_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointTable>, Error> {
         budget.enter(|| {
             // A coefficient or a pole of a point is a number.
             let defined = self.parametric(budget)?.filter(|p| !p.is_undefined_at(&Rational::ZERO));

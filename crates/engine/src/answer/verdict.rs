@@ -1,7 +1,7 @@
 //! Verdicts at a point.
 
 use super::Answer;
-use crate::error::Failure;
+use crate::error::Error;
 use crate::problem::{Problem, Question};
 use crate::stability::{AtPoint, RootCount};
 use jurist_algebra::limits::Budget;
@@ -55,18 +55,18 @@ impl Question {
     /// ```
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::answer::Verdict;
-    /// use jurist_engine::model::Loop;
-    /// let answer = Loop::drive().ask().set("K_pwm", 551).verdict(&Budget::unlimited()).unwrap();
+    /// use jurist_engine::model::Model;
+    /// let answer = Model::drive().ask().set("K_pwm", 551).verdict(&Budget::unlimited()).unwrap();
     /// assert_eq!(answer.value().verdict, Verdict::Unstable);
     /// assert_eq!(answer.value().count.unwrap().outside, 2);
     /// ```
     ///
     /// # Errors
-    /// [`Failure`]: refused as [`Question::problem`], or stopped.
+    /// [`Error`]: refused as [`Question::problem`], or stopped.
     ///
     /// # Panics
     /// When a name is free.
-    pub fn verdict(self, budget: &Budget) -> Result<Answer<PointVerdict>, Failure> {
+    pub fn verdict(self, budget: &Budget) -> Result<Answer<PointVerdict>, Error> {
         Problem::verdict(&self.problem()?, budget)
     }
 }
@@ -75,11 +75,11 @@ impl Problem {
     /// The verdict at the point that the values of all parameters are.
     ///
     /// # Errors
-    /// [`Failure::Stopped`] when the budget runs out.
+    /// [`Error::Stopped`] when the budget runs out.
     ///
     /// # Panics
     /// When a parameter is free.
-    pub fn verdict(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointVerdict>, Failure> {
+    pub fn verdict(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointVerdict>, Error> {
         budget.enter(|| {
             assert!(self.free().is_empty(), "a point has no free parameters");
             let at = match self.parametric(budget)? {

@@ -3,17 +3,17 @@
 //! A builder writes the model file that says the same. So both ways mean the same by
 //! construction, errors point into readable text, and every built loop can be saved.
 
-use super::definition::{Loop, Time};
-use crate::error::{Diagnostic, Error, Source};
+use super::definition::{Model, Time};
+use crate::error::{Diagnostic, Diagnostics, Source};
 use std::fmt::Write;
 
 /// A loop in the making.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
-/// use jurist_engine::model::{BlockBuilder, Loop, ParameterBuilder, Question, Time};
+/// use jurist_engine::model::{BlockBuilder, Model, ParameterBuilder, Question, Time};
 ///
-/// let (model, _) = Loop::builder(Time::Discrete)
+/// let (model, _) = Model::builder(Time::Discrete)
 ///     .title("integrator under proportional control")
 ///     .parameter(ParameterBuilder::new("K").nominal("1/2").min("0"))
 ///     .inputs(["r"])
@@ -27,7 +27,7 @@ use std::fmt::Write;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct LoopBuilder {
+pub struct ModelBuilder {
     time: Time,
     title: Option<String>,
     sample_time: Option<String>,
@@ -77,10 +77,10 @@ fn matrix(rows: &[&[&str]]) -> String {
     format!("[{}]", rows.join(", "))
 }
 
-impl Loop {
+impl Model {
     /// Begins a loop.
-    pub fn builder(time: Time) -> LoopBuilder {
-        LoopBuilder {
+    pub fn builder(time: Time) -> ModelBuilder {
+        ModelBuilder {
             time,
             title: None,
             sample_time: None,
@@ -92,7 +92,7 @@ impl Loop {
     }
 }
 
-impl LoopBuilder {
+impl ModelBuilder {
     /// The title.
     pub fn title(mut self, title: &str) -> Self {
         self.title = Some(title.into());
@@ -186,9 +186,9 @@ impl LoopBuilder {
     /// The loop, with warnings.
     ///
     /// # Errors
-    /// As [`Loop::from_toml`], pointing into the text of [`LoopBuilder::to_toml`].
-    pub fn build(&self) -> Result<(Loop, Vec<Diagnostic>), Error> {
-        Loop::from_toml(&Source::new("<built loop>", self.to_toml()))
+    /// As [`Model::from_toml`], pointing into the text of [`ModelBuilder::to_toml`].
+    pub fn build(&self) -> Result<(Model, Vec<Diagnostic>), Diagnostics> {
+        Model::from_toml(&Source::new("<built loop>", self.to_toml()))
     }
 }
 

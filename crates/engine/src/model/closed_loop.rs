@@ -1,13 +1,13 @@
 //! From a loop and a question to polynomials and matrices.
 
 use super::connect::state_space::{Stop, assemble};
-use super::definition::{Loop, Time};
+use super::definition::{Model, Time};
 use super::evaluate::scalar::{Scope, Symbol};
 use super::evaluate::symbolic::{Values, Wiring, symbolic};
 use super::evaluate::walk::Failure as Wrong;
 use super::text::Expression;
 use super::text::names::{did_you_mean, known_names, shorten};
-use crate::error::{Diagnostic, Error, Failure};
+use crate::error::{Diagnostic, Diagnostics, Error};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
 use jurist_algebra::number::Rational;
@@ -95,7 +95,7 @@ impl Answer<'_> {
     }
 }
 
-impl Loop {
+impl Model {
     /// The characteristic polynomial, closed loop and sample time, symbolic in the kept names, which become the variables
     /// 0, 1, ...; `values` has the value of every other parameter and may replace the number of constants.
     ///
@@ -103,18 +103,18 @@ impl Loop {
     /// written. The formal degree is that with all parameters symbolic, before any was set.
     ///
     /// # Errors
-    /// [`Failure::Undefined`] at values for which the model is undefined whatever is kept, [`Failure::Stopped`] when the
-    /// budget runs out, [`Failure::Refused`] where the model is not complete.
+    /// [`Error::Undefined`] at values for which the model is undefined whatever is kept, [`Error::Stopped`] when the
+    /// budget runs out, [`Error::Refused`] where the model is not complete.
     pub fn evaluate(
         &self,
         kept: &[String],
         values: &[(String, Rational)],
         budget: &Budget,
-    ) -> Result<Evaluated, Failure> {
+    ) -> Result<Evaluated, Error> {
         let answer = self.answer(kept, values, budget)?;
         let sample_time = answer.sample_time.as_ref().and_then(|t| answer.substituted(t));
         if let Values::Characteristic(p) = &answer.values {
-            let undefined = || Failure::Undefined("a coefficient divides by zero".into());
+            let undefined = || Error::Undefined("a coefficient divides by zero".into());
             let mut coefficients = Vec::with_capacity(p.coefficients().len());
             for c in p.coefficients() {
                 coefficients.push(answer.substituted(c).ok_or_else(undefined)?);
@@ -140,12 +140,12 @@ impl Loop {
     /// The value of an expression in constants and parameters, all of which have values.
     ///
     /// # Errors
-    /// As [`Loop::evaluate`].
+    /// As [`Model::evaluate`].
     ///
     /// ```
     /// use jurist_algebra::limits::Budget;
-    /// use jurist_engine::model::{Expression, Loop};
-    /// let drive = Loop::drive();
+    /// use jurist_engine::model::{Expression, Model};
+    /// let drive = Model::drive();
     /// let problem = drive.ask().problem().unwrap();
     /// let inductance = Expression::parse("1/L_a").unwrap();
     /// let value = drive.value(&inductance, problem.set(), &Budget::unlimited()).unwrap();
@@ -156,7 +156,7 @@ impl Loop {
         expression: &Expression,
         values: &[(String, Rational)],
         budget: &Budget,
-    ) -> Result<Rational, Failure> {
+    ) -> Result<Rational, Error> {
         let mut failures = Vec::new();
         let mut report = |failure| failures.push(failure);
         let given = |name: &str| values.iter().find(|(n, _)| n == name).map(|(_, value)| value.clone());
@@ -164,17 +164,17 @@ impl Loop {
         let mut scope = Scope::new(self.parameters().iter(), self.ordered_constants(), symbol, budget, &mut report);
         let value = scope.scalar(expression).map_err(&mut report).ok();
         let Some(value) = value.filter(|_| failures.is_empty()) else { return Err(self.failed(failures)) };
-        value.as_constant().ok_or_else(|| Failure::Undefined("a parameter has no value".into()))
+        value.as_constant().ok_or_else(|| Error::Undefined("a parameter has no value".into()))
     }
 
     /// That a model given by its characteristic polynomial has no states.
-    pub fn has_no_states(&self) -> Failure {
+    pub fn has_no_states(&self) -> Error {
         let error = Diagnostic::error("E-no-states", "a model given by its characteristic polynomial has no states");
         let error = error.help("give the loop by matrices or blocks");
-        Error::new(Some(self.source().clone()), vec![error]).into()
+        Diagnostics::new(Some(self.source().clone()), vec![error]).into()
     }
 
-    fn answer(&self, kept: &[String], given: &[(String, Rational)], budget: &Budget) -> Result<Answer<'_>, Failure> {
+    fn answer(&self, kept: &[String], given: &[(String, Rational)], budget: &Budget) -> Result<Answer<'_>, Error> {
         let mut failures = Vec::new();
         let mut report = |failure| failures.push(failure);
         // Parameters stay symbolic until everything is evaluated: only so the degree and the points of
@@ -203,18 +203,18 @@ impl Loop {
             let parts: Vec<MultiPoly> = divisor.iter().map(|p| answer.substituted_polynomial(p)).collect();
             let pole = parts.iter().fold(MultiPoly::zero(), |g, p| g.gcd(p));
             if pole.is_zero() {
-                return Err(Failure::Undefined("division by zero at these values of the parameters".into()));
+                return Err(Error::Undefined("division by zero at these values of the parameters".into()));
             }
             add_pole(&mut answer.poles, &pole);
         }
         Ok(answer)
     }
 
-    fn failed(&self, failures: Vec<Wrong>) -> Failure {
+    fn failed(&self, failures: Vec<Wrong>) -> Error {
         let mut diagnostics = Vec::new();
         for failure in failures {
             match failure {
-                Wrong::Exhausted(exhausted) => return Failure::Stopped(exhausted),
+                Wrong::Exhausted(exhausted) => return Error::Stopped(exhausted),
                 Wrong::Wrong(diagnostic) => diagnostics.push(*diagnostic),
                 Wrong::Poisoned => {}
             }
@@ -223,15 +223,15 @@ impl Loop {
             diagnostics.push(Diagnostic::error("E-missing", "the model is not complete"));
         }
         diagnostics.dedup();
-        Failure::Refused(Error::new(Some(self.source().clone()), diagnostics))
+        Error::Refused(Diagnostics::new(Some(self.source().clone()), diagnostics))
     }
 
-    fn connected(&self, answer: Answer<'_>, budget: &Budget) -> Result<ClosedLoop, Failure> {
+    fn connected(&self, answer: Answer<'_>, budget: &Budget) -> Result<ClosedLoop, Error> {
         let substitution = |f: &RationalFunction| answer.substituted(f);
         let assembled = match assemble(self, &answer.wiring, &answer.values, &substitution, budget) {
             Ok(assembled) => assembled,
             Err(Stop::Exhausted(exhausted)) => return Err(exhausted.into()),
-            Err(Stop::Undefined(diagnostic)) => return Err(Failure::Undefined(diagnostic.message)),
+            Err(Stop::Undefined(diagnostic)) => return Err(Error::Undefined(diagnostic.message)),
         };
         let mut poles = answer.poles;
         for pole in &assembled.poles {
@@ -263,8 +263,8 @@ impl ClosedLoop {
     /// `det(zI - A)`.
     ///
     /// # Errors
-    /// [`Failure::Stopped`].
-    pub fn characteristic_polynomial(&self, budget: &Budget) -> Result<CharacteristicPolynomial, Failure> {
+    /// [`Error::Stopped`].
+    pub fn characteristic_polynomial(&self, budget: &Budget) -> Result<CharacteristicPolynomial, Error> {
         let mut p = self.a.characteristic_polynomial(self.variables.clone(), budget)?;
         let mut poles = self.poles.clone();
         p.poles.iter().for_each(|pole| add_pole(&mut poles, pole));
@@ -275,15 +275,15 @@ impl ClosedLoop {
     /// The transfer function from an input to an output of the closed loop, nothing cancelled.
     ///
     /// # Errors
-    /// `E-unknown-signal`; [`Failure::Stopped`].
-    pub fn transfer_function(&self, input: &str, output: &str, budget: &Budget) -> Result<TransferFunction, Failure> {
+    /// `E-unknown-signal`; [`Error::Stopped`].
+    pub fn transfer_function(&self, input: &str, output: &str, budget: &Budget) -> Result<TransferFunction, Error> {
         let find = |names: &[String], name: &str, what: &str| {
             names.iter().position(|n| n == name).ok_or_else(|| {
                 let message = format!("the loop has no {what} '{}'", shorten(name));
                 let mut error = Diagnostic::error("E-unknown-signal", message);
                 let names = || names.iter().map(String::as_str);
                 error.help = did_you_mean(name, names()).or_else(|| known_names(names()));
-                Failure::from(error)
+                Error::from(error)
             })
         };
         let j = find(&self.inputs, input, "input")?;
@@ -298,11 +298,11 @@ impl ClosedLoop {
     /// `c adj(zI - A) e + d det(zI - A)`.
     ///
     /// # Errors
-    /// [`Failure::Stopped`].
+    /// [`Error::Stopped`].
     ///
     /// # Panics
     /// When there is no such input or output.
-    pub fn transfer_function_at(&self, i: usize, j: usize, budget: &Budget) -> Result<TransferFunction, Failure> {
+    pub fn transfer_function_at(&self, i: usize, j: usize, budget: &Budget) -> Result<TransferFunction, Error> {
         let denominator = self.characteristic_polynomial(budget)?;
         let n = self.a.rows();
         let changed = RationalMatrix::from_fn(n, n, |r, k| &self.a[(r, k)] - &(&self.e[(r, j)] * &self.c[(i, k)]));

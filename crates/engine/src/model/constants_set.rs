@@ -1,7 +1,7 @@
 //! A constant that is set has another number, and nothing else changes; a constant that is kept is a parameter.
 
-use super::Loop;
-use crate::error::{Failure, Source};
+use super::Model;
+use crate::error::{Error, Source};
 use crate::problem::Question;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
@@ -17,26 +17,26 @@ fn ask(question: Question) -> Result<CharacteristicPolynomial, String> {
     let budget = Budget::unlimited();
     let asked = question.problem().and_then(|problem| {
         let algebra = problem.algebra(&budget)?;
-        algebra.polynomial().cloned().ok_or_else(|| Failure::Undefined(algebra.undefined().unwrap_or_default().into()))
+        algebra.polynomial().cloned().ok_or_else(|| Error::Undefined(algebra.undefined().unwrap_or_default().into()))
     });
     asked.map_err(|failure| match failure {
-        Failure::Refused(error) => error.code().to_owned(),
+        Error::Refused(error) => error.code().to_owned(),
         other => other.to_string(),
     })
 }
 
 /// The question with these names free.
-fn free<'n>(model: &Loop, names: impl IntoIterator<Item = &'n str>) -> Question {
+fn free<'n>(model: &Model, names: impl IntoIterator<Item = &'n str>) -> Question {
     names.into_iter().fold(model.ask(), Question::free)
 }
 
-fn examples() -> Vec<Loop> {
+fn examples() -> Vec<Model> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
     let mut models = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|e| e == "toml") {
-            models.push(Loop::from_bytes("model.toml", &std::fs::read(&path).unwrap()).unwrap().0);
+            models.push(Model::from_bytes("model.toml", &std::fs::read(&path).unwrap()).unwrap().0);
         }
     }
     assert!(models.len() > 10);
@@ -73,7 +73,7 @@ fn a_constant_that_is_set_is_another_number_in_the_text() {
         let text = format!(
             "time = 'discrete'\n[parameters]\nK = {{ nominal = 1 }}\n[constants]\nc = '{c}'\nd = 'c + K'\n[loop]\n{form}\n"
         );
-        Loop::from_toml(&Source::new("model.toml", text)).map(|(model, _)| model)
+        Model::from_toml(&Source::new("model.toml", text)).map(|(model, _)| model)
     };
     let mut refused = 0;
     for form in [
@@ -103,7 +103,7 @@ fn a_constant_that_is_set_is_another_number_in_the_text() {
 fn the_degree_that_counts_is_that_of_the_number_set() {
     let text =
         "time = 'discrete'\n[constants]\nc = 1\n[parameters]\nK = {}\n[loop]\ncharacteristic = 'c*z^2 + K*z + 1'\n";
-    let (model, _) = Loop::from_toml(&Source::new("model.toml", text)).unwrap();
+    let (model, _) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
     let degree = |question: Question| ask(question).unwrap().formal_degree;
     assert_eq!(degree(free(&model, ["K"])), 2);
     assert_eq!(degree(free(&model, ["K"]).set("c", number("0"))), 1);
@@ -112,7 +112,7 @@ fn the_degree_that_counts_is_that_of_the_number_set() {
 
 #[test]
 fn a_constant_that_is_kept_is_a_parameter_with_its_number_as_nominal_value() {
-    let (model, _) = Loop::from_toml(&Source::new(
+    let (model, _) = Model::from_toml(&Source::new(
         "model.toml",
         "time = 'discrete'\n[constants]\nc = '1/3'\n[loop]\ncharacteristic = 'z - 1/c'\n",
     ))

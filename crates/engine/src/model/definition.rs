@@ -263,7 +263,7 @@ pub struct Pwm {
 ///
 /// ```
 /// use jurist_engine::error::Source;
-/// use jurist_engine::model::Loop;
+/// use jurist_engine::model::Model;
 /// let text = "
 ///     time = 'discrete'
 ///     [parameters]
@@ -278,10 +278,10 @@ pub struct Pwm {
 ///     duration = 20
 ///     units = { speed = 'rad/s' }
 /// ";
-/// let (model, _) = Loop::from_toml(&Source::new("model.toml", text))?;
+/// let (model, _) = Model::from_toml(&Source::new("model.toml", text))?;
 /// assert_eq!(model.unit("speed"), Some("rad/s"));
 /// assert_eq!(model.unit("reference"), None);
-/// # Ok::<(), jurist_engine::error::Error>(())
+/// # Ok::<(), jurist_engine::error::Diagnostics>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Simulation {
@@ -298,9 +298,9 @@ pub struct Simulation {
 /// A model: what its text says, checked.
 ///
 /// ```
-/// use jurist_engine::model::{Loop, Question};
+/// use jurist_engine::model::{Model, Question};
 /// use jurist_algebra::limits::Budget;
-/// let drive = Loop::drive();
+/// let drive = Model::drive();
 /// let question = Question::keeping(["K_pwm"]);
 /// let p = drive.characteristic_polynomial(&question, &Budget::unlimited())?;
 /// assert_eq!(p.formal_degree, 6);
@@ -308,7 +308,7 @@ pub struct Simulation {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Loop {
+pub struct Model {
     pub(super) source: Arc<Source>,
     pub(super) title: Option<String>,
     pub(super) time: Time,
@@ -331,7 +331,7 @@ pub(super) enum Position {
     Parameter(usize),
 }
 
-impl Loop {
+impl Model {
     /// The text the model was read from.
     pub fn source(&self) -> &Arc<Source> {
         &self.source

@@ -1,17 +1,17 @@
 //! Which names of a model may vary.
 
-use super::definition::{Constant, Loop, Parameter};
+use super::definition::{Constant, Model, Parameter};
 use super::text::names::{did_you_mean, known_names, list, shorten};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Diagnostic, Diagnostics};
 
-impl Loop {
+impl Model {
     /// What a name that is to be varied is: the parameter, or the constant as a parameter.
     ///
     /// # Errors
     /// `E-unknown-parameter`, `E-not-a-number`.
-    pub fn free(&self, name: &str) -> Result<Parameter, Error> {
+    pub fn free(&self, name: &str) -> Result<Parameter, Diagnostics> {
         if let Some(diagnostic) = self.not_free(name) {
-            return Err(Error::new(Some(self.source().clone()), vec![diagnostic]));
+            return Err(Diagnostics::new(Some(self.source().clone()), vec![diagnostic]));
         }
         let constant = |c: &Constant| Parameter {
             name: c.name.clone(),
@@ -43,7 +43,7 @@ impl Loop {
     }
 }
 
-fn unknown_parameter(model: &Loop, name: &str) -> Diagnostic {
+fn unknown_parameter(model: &Model, name: &str) -> Diagnostic {
     let numbers = model.constants().iter().filter(|c| c.number.is_some()).map(|c| c.name.as_str());
     let names = || model.parameters().iter().map(|p| p.name.as_str()).chain(numbers.clone());
     let mut error = Diagnostic::error("E-unknown-parameter", format!("the model has no parameter '{}'", shorten(name)));

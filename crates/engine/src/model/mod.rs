@@ -1,4 +1,4 @@
-//! From model text to a [`Loop`], and from a loop to exact polynomials.
+//! From model text to a [`Model`], and from a loop to exact polynomials.
 //!
 //! A model is a TOML text: constants, parameters, and the loop in one of four forms. Every number
 //! is read by its own text and stays exact; every mistake is reported with its place, several in
@@ -21,10 +21,10 @@ mod parts;
 mod read;
 mod text;
 
-pub use builder::{BlockBuilder, LoopBuilder, ParameterBuilder};
+pub use builder::{BlockBuilder, ModelBuilder, ParameterBuilder};
 pub use closed_loop::{ClosedLoop, Evaluated, TransferFunction};
 pub use definition::{
-    Block, Constant, Diagram, Discretization, Dynamics, Form, Loop, Matrix, Method, Name, Output, Parameter, Ports,
+    Block, Constant, Diagram, Discretization, Dynamics, Form, Matrix, Method, Model, Name, Output, Parameter, Ports,
     Pwm, Simulation, Time,
 };
 pub use read::{DRIVE, schema, source_from_bytes};

@@ -3,8 +3,8 @@
 use super::region::{Bound, Region};
 use super::resolved::Problem;
 use super::substitution::{scaled_by_radius, shifted_by_decay};
-use crate::error::Failure;
-use crate::model::{ClosedLoop, Evaluated, Loop, Time};
+use crate::error::Error;
+use crate::model::{ClosedLoop, Evaluated, Model, Time};
 use crate::stability::ParametricPolynomial;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
@@ -23,7 +23,7 @@ pub struct Algebra {
 
 impl Algebra {
     /// Evaluates the model for a question. The polynomial's variables are what is free.
-    pub(super) fn of(problem: &Problem, budget: &Budget) -> Result<Algebra, Failure> {
+    pub(super) fn of(problem: &Problem, budget: &Budget) -> Result<Algebra, Error> {
         budget.step("characteristic polynomial");
         let model = problem.model();
         let bound =
@@ -32,7 +32,7 @@ impl Algebra {
             problem.free().iter().enumerate().filter(|(i, _)| Some(*i) != bound).map(|(_, f)| f.name.clone()).collect();
         let evaluated = match model.evaluate(&kept, problem.set(), budget) {
             Ok(evaluated) => evaluated,
-            Err(Failure::Undefined(why)) => {
+            Err(Error::Undefined(why)) => {
                 let formal_degree = symbolic_degree(model, &kept, problem.set(), budget)?;
                 let undefined = Some(why);
                 return Ok(Algebra {
@@ -85,10 +85,10 @@ impl Algebra {
         self.sample_time.as_ref()
     }
 
-    pub(super) fn closed_loop(&self, model: &Loop) -> Result<&ClosedLoop, Failure> {
+    pub(super) fn closed_loop(&self, model: &Model) -> Result<&ClosedLoop, Error> {
         match (&self.closed_loop, &self.undefined) {
             (Some(closed_loop), _) => Ok(closed_loop),
-            (None, Some(why)) => Err(Failure::Undefined(why.clone())),
+            (None, Some(why)) => Err(Error::Undefined(why.clone())),
             (None, None) => Err(model.has_no_states()),
         }
     }
@@ -162,11 +162,11 @@ fn shifted(f: &RationalFunction, at: usize) -> RationalFunction {
 
 /// The degree where the values set leave the loop undefined: that of the polynomial before any was set.
 fn symbolic_degree(
-    model: &Loop,
+    model: &Model,
     kept: &[String],
     set: &[(String, Rational)],
     budget: &Budget,
-) -> Result<usize, Failure> {
+) -> Result<usize, Error> {
     let is_parameter = |name: &String| model.parameter(name).is_some();
     let parameters = model.parameters().iter().map(|p| p.name.clone());
     let all: Vec<String> = parameters.chain(kept.iter().filter(|n| !is_parameter(n)).cloned()).collect();

@@ -2,8 +2,8 @@
 
 use super::resolved::{Free, Problem};
 use super::{Bound, DECAY, RADIUS, Region};
-use crate::error::{Diagnostic, Error, Failure};
-use crate::model::{Loop, Parameter};
+use crate::error::{Diagnostic, Diagnostics, Error};
+use crate::model::{Model, Parameter};
 use crate::stability::Range;
 use jurist_algebra::number::Rational;
 use std::collections::BTreeMap;
@@ -14,8 +14,8 @@ use std::sync::Arc;
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_algebra::number::parse_number;
-/// use jurist_engine::model::Loop;
-/// let drive = Loop::drive();
+/// use jurist_engine::model::Model;
+/// let drive = Model::drive();
 /// let answer = drive.ask().set("T", parse_number("1e-4")?).free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
 /// let upper = answer.value().intervals()[0].upper.as_ref().unwrap();
 /// assert_eq!(upper.value.decimal(12), "550.941166687");
@@ -24,14 +24,14 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 #[must_use]
 pub struct Question {
-    model: Arc<Loop>,
+    model: Arc<Model>,
     set: BTreeMap<String, Rational>,
     domain: BTreeMap<String, Range>,
     free: Vec<String>,
     region: Option<Region>,
 }
 
-impl Loop {
+impl Model {
     /// Begins a question about this model: everything at its nominal value, plain stability.
     pub fn ask(&self) -> Question {
         Question {
@@ -82,7 +82,7 @@ impl Question {
     }
 
     /// The model.
-    pub fn model(&self) -> &Arc<Loop> {
+    pub fn model(&self) -> &Arc<Model> {
         &self.model
     }
 
@@ -99,9 +99,9 @@ impl Question {
     /// The question with every name known and every value in its place. No algebra is done.
     ///
     /// # Errors
-    /// [`Failure::Refused`] for names the model does not know or that cannot vary, values that are missing, a region that
+    /// [`Error::Refused`] for names the model does not know or that cannot vary, values that are missing, a region that
     /// does not fit the kind of time, an empty domain, a name that is both free and set; all that apply.
-    pub fn problem(self) -> Result<Arc<Problem>, Failure> {
+    pub fn problem(self) -> Result<Arc<Problem>, Error> {
         let (free, region) = self.region_and_free()?;
         let set = resolve(&self.model, &free, &self.set)?;
         let mut described = Vec::with_capacity(free.len() + 1);
@@ -133,7 +133,7 @@ impl Question {
     }
 
     /// The region with its bound freed where `radius` or `decay` is asked for, and the other free names.
-    fn region_and_free(&self) -> Result<(Vec<String>, Region), Failure> {
+    fn region_and_free(&self) -> Result<(Vec<String>, Region), Error> {
         let time = self.model.time();
         let mut region = self.region.clone().unwrap_or_else(|| Region::of(time));
         region.fits(time)?;
@@ -177,7 +177,11 @@ impl Question {
 }
 
 /// The value of every parameter that is not free, and of every constant that was set, in the order of the model.
-fn resolve(model: &Loop, free: &[String], set: &BTreeMap<String, Rational>) -> Result<Vec<(String, Rational)>, Error> {
+fn resolve(
+    model: &Model,
+    free: &[String],
+    set: &BTreeMap<String, Rational>,
+) -> Result<Vec<(String, Rational)>, Diagnostics> {
     let mut errors = Vec::new();
     for name in free.iter().chain(set.keys()) {
         errors.extend(model.not_free(name));
@@ -203,7 +207,7 @@ fn resolve(model: &Loop, free: &[String], set: &BTreeMap<String, Rational>) -> R
             values.push((constant.name.clone(), value.clone()));
         }
     }
-    if errors.is_empty() { Ok(values) } else { Err(Error::new(Some(model.source().clone()), errors)) }
+    if errors.is_empty() { Ok(values) } else { Err(Diagnostics::new(Some(model.source().clone()), errors)) }
 }
 
 fn no_value(parameter: &Parameter) -> Diagnostic {

@@ -2,8 +2,8 @@
 
 use super::Region;
 use super::evaluation::{Algebra, parametric};
-use crate::error::{Diagnostic, Failure};
-use crate::model::{ClosedLoop, Loop, Time};
+use crate::error::{Diagnostic, Error};
+use crate::model::{ClosedLoop, Model, Time};
 use crate::stability::plane::PlanePolynomial;
 use crate::stability::{ParametricPolynomial, Range, Shape};
 use jurist_algebra::limits::Budget;
@@ -30,7 +30,7 @@ pub struct Free {
 /// The algebra is computed when it is first needed, once; whoever needs it again is given the same.
 #[derive(Debug)]
 pub struct Problem {
-    model: Arc<Loop>,
+    model: Arc<Model>,
     set: Vec<(String, Rational)>,
     free: Vec<Free>,
     region: Region,
@@ -42,7 +42,7 @@ pub struct Problem {
 
 impl Problem {
     pub(super) fn new(
-        model: Arc<Loop>,
+        model: Arc<Model>,
         set: Vec<(String, Rational)>,
         free: Vec<Free>,
         region: Region,
@@ -53,7 +53,7 @@ impl Problem {
     }
 
     /// The model.
-    pub fn model(&self) -> &Arc<Loop> {
+    pub fn model(&self) -> &Arc<Model> {
         &self.model
     }
 
@@ -112,9 +112,9 @@ impl Problem {
     /// The characteristic polynomial and what goes with it; computed on the first call.
     ///
     /// # Errors
-    /// [`Failure::Refused`] where the model is not complete, [`Failure::Stopped`] when the budget runs out. A model that is
+    /// [`Error::Refused`] where the model is not complete, [`Error::Stopped`] when the budget runs out. A model that is
     /// undefined at the values set has algebra without a polynomial.
-    pub fn algebra(&self, budget: &Budget) -> Result<&Algebra, Failure> {
+    pub fn algebra(&self, budget: &Budget) -> Result<&Algebra, Error> {
         if let Some(algebra) = self.algebra.get() {
             return Ok(algebra);
         }
@@ -130,8 +130,8 @@ impl Problem {
     /// The closed loop in state space.
     ///
     /// # Errors
-    /// As [`Problem::algebra`]; `E-no-states` for a model given by its characteristic polynomial, [`Failure::Undefined`].
-    pub fn closed_loop(&self, budget: &Budget) -> Result<&ClosedLoop, Failure> {
+    /// As [`Problem::algebra`]; `E-no-states` for a model given by its characteristic polynomial, [`Error::Undefined`].
+    pub fn closed_loop(&self, budget: &Budget) -> Result<&ClosedLoop, Error> {
         self.algebra(budget)?.closed_loop(&self.model)
     }
 
@@ -143,7 +143,7 @@ impl Problem {
     ///
     /// # Panics
     /// When more than one parameter is free.
-    pub fn parametric(&self, budget: &Budget) -> Result<Option<&ParametricPolynomial>, Failure> {
+    pub fn parametric(&self, budget: &Budget) -> Result<Option<&ParametricPolynomial>, Error> {
         assert!(self.free.len() <= 1, "one parameter is free");
         let algebra = self.algebra(budget)?;
         Ok(self.parametric.get_or_init(|| algebra.polynomial().map(parametric)).as_ref())
@@ -156,7 +156,7 @@ impl Problem {
     ///
     /// # Panics
     /// Unless two parameters are free.
-    pub fn plane(&self, budget: &Budget) -> Result<Option<&PlanePolynomial>, Failure> {
+    pub fn plane(&self, budget: &Budget) -> Result<Option<&PlanePolynomial>, Error> {
         assert_eq!(self.free.len(), 2, "two parameters are free");
         let algebra = self.algebra(budget)?;
         Ok(self.plane.get_or_init(|| algebra.polynomial().map(PlanePolynomial::new)).as_ref())
@@ -177,18 +177,18 @@ impl Problem {
     ///
     /// # Panics
     /// Unless two parameters are free.
-    pub fn on_line(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Failure> {
+    pub fn on_line(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Error> {
         let algebra = self.algebra(budget)?.on_line(fixed, value);
         self.line_with(algebra, fixed, value, budget)
     }
 
     /// [`Problem::on_line`] for one who needs the polynomial only in the form that is decided.
-    pub(crate) fn line(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Failure> {
+    pub(crate) fn line(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Error> {
         let algebra = self.algebra(budget)?.beside_polynomial(fixed, value);
         self.line_with(algebra, fixed, value, budget)
     }
 
-    fn line_with(&self, algebra: Algebra, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Failure> {
+    fn line_with(&self, algebra: Algebra, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Error> {
         let plane = self.plane(budget)?;
         let polynomial = plane.and_then(|p| if fixed == 0 { p.at_x(value) } else { p.swapped().at_x(value) });
         let mut set = self.set.clone();

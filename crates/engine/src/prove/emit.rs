@@ -4,7 +4,7 @@ use super::cofactors::{Identity, identity};
 use super::line::{Line, Separator};
 use super::text::to_text;
 use crate::answer::{Answer, PointVerdict};
-use crate::error::Failure;
+use crate::error::Error;
 use crate::problem::{Bound, Problem, Region};
 use crate::stability::{HalfSizePair, ParametricPolynomial, Shape, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -21,16 +21,16 @@ impl Answer<StableSet> {
     /// ```
     /// use jurist_algebra::limits::Budget;
     /// use jurist_check::{Limits, check};
-    /// use jurist_engine::model::Loop;
-    /// let (drive, budget) = (Loop::drive(), Budget::unlimited());
+    /// use jurist_engine::model::Model;
+    /// let (drive, budget) = (Model::drive(), Budget::unlimited());
     /// let answer = drive.ask().free("K_pwm").stable_set(&budget).unwrap();
     /// let certificate = answer.certificate(&budget).unwrap();
     /// assert!(check(&drive.source().text, &certificate, &Limits::default()).is_ok());
     /// ```
     ///
     /// # Errors
-    /// [`Failure::Stopped`] when the budget runs out.
-    pub fn certificate(&self, budget: &Budget) -> Result<String, Failure> {
+    /// [`Error::Stopped`] when the budget runs out.
+    pub fn certificate(&self, budget: &Budget) -> Result<String, Error> {
         budget.enter(|| {
             budget.step("certificate");
             let problem = self.problem();
@@ -79,8 +79,8 @@ impl Answer<PointVerdict> {
     /// A certificate of this verdict.
     ///
     /// # Errors
-    /// [`Failure::Stopped`] when the budget runs out.
-    pub fn certificate(&self, budget: &Budget) -> Result<String, Failure> {
+    /// [`Error::Stopped`] when the budget runs out.
+    pub fn certificate(&self, budget: &Budget) -> Result<String, Error> {
         budget.enter(|| {
             budget.step("certificate");
             let (problem, verdict) = (self.problem(), self.value());

@@ -1,7 +1,7 @@
 //! The statement about one parameter in the language of SMT solvers.
 
 use crate::answer::Answer;
-use crate::error::Failure;
+use crate::error::Error;
 use crate::stability::{Shape, StableSet, jury_table_with, routh_table};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
@@ -19,8 +19,8 @@ impl Answer<StableSet> {
     /// addition: `|first| > |last|` of a row stands as "`first - last` and `first + last` have the same sign".
     ///
     /// # Errors
-    /// [`Failure::Stopped`] when the budget runs out.
-    pub fn smt2(&self, budget: &Budget) -> Result<String, Failure> {
+    /// [`Error::Stopped`] when the budget runs out.
+    pub fn smt2(&self, budget: &Budget) -> Result<String, Error> {
         budget.enter(|| {
             let problem = self.problem();
             let (parameter, set) = (problem.parameter(), self.value());

@@ -1,7 +1,7 @@
 //! Diagnostics with the source line, carets and help, as compilers draw them.
 
 use super::layout::is_unseen;
-use crate::error::{Diagnostic, Error, Severity, Source, Span};
+use crate::error::{Diagnostic, Diagnostics, Severity, Source, Span};
 use annotate_snippets::{Annotation, AnnotationKind, Level, Origin, Renderer, Snippet};
 use std::borrow::Cow;
 
@@ -21,17 +21,17 @@ const MAX_TEXT: usize = 600;
 ///
 /// ```
 /// use jurist_engine::error::Source;
-/// use jurist_engine::model::Loop;
+/// use jurist_engine::model::Model;
 /// use jurist_engine::show::diagnostics::render_error;
 /// let text = "time = 'discrete'\nparameters.K_pwm = {}\nloop.characteristic = 'z - K_pmw'";
-/// let error = Loop::from_toml(&Source::new("model.toml", text)).unwrap_err();
+/// let error = Model::from_toml(&Source::new("model.toml", text)).unwrap_err();
 /// let drawn = render_error(&error, false);
 /// assert!(drawn.starts_with("error[E-unknown-name]: unknown name 'K_pmw'"));
 /// assert!(drawn.contains("model.toml:3:28"));
 /// assert!(drawn.contains("^^^^^ not defined"));
 /// assert!(drawn.contains("help: did you mean 'K_pwm'?"));
 /// ```
-pub fn render_error(error: &Error, color: bool) -> String {
+pub fn render_error(error: &Diagnostics, color: bool) -> String {
     render(error.diagnostics(), error.source_text().map(AsRef::as_ref), color)
 }
 

@@ -178,7 +178,7 @@ mod tests {
         use jurist_algebra::limits::Budget;
         let text = "title = \"loop\\n\\u001b[1Astable for all K\\n\"\ntime = 'discrete'\n[parameters]\n\
             K = { nominal = 1, unit = \"V\\nstable\\u009b\" }\n[loop]\ncharacteristic = 'z - K'\n";
-        let (model, _) = crate::model::Loop::from_toml(&crate::error::Source::new("m.toml", text)).unwrap();
+        let (model, _) = crate::model::Model::from_toml(&crate::error::Source::new("m.toml", text)).unwrap();
         let budget = Budget::unlimited();
         let one = model.ask().free("K").stable_set(&budget).unwrap();
         let texts = [

@@ -10,7 +10,7 @@ use super::trace::MapTrace;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, Map};
-use jurist_engine::error::Failure;
+use jurist_engine::error::Error;
 use jurist_engine::problem::Free;
 use jurist_engine::show::layout::visible;
 use jurist_engine::show::region::goal_or_stable;
@@ -57,13 +57,13 @@ impl<'a> MapContents<'a> {
     /// Walls and frequencies of a traced map.
     ///
     /// # Errors
-    /// [`Failure::Stopped`] when the budget runs out.
+    /// [`Error::Stopped`] when the budget runs out.
     pub fn new(
         answer: &'a Answer<Map>,
         trace: &'a MapTrace,
         published: Vec<(f64, f64)>,
         budget: &Budget,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let map = &answer.value().decomposition;
         let walls = walls(answer, map, trace);
         budget.step("frequencies along the walls");

@@ -5,7 +5,7 @@ use super::trace::approximate;
 use jurist_algebra::limits::{Budget, parallel_map};
 use jurist_algebra::number::{parse_number, to_decimal};
 use jurist_engine::answer::{Answer, Frequency, Map};
-use jurist_engine::error::Failure;
+use jurist_engine::error::Error;
 use jurist_engine::model::Time;
 use jurist_engine::stability::Cause;
 use jurist_engine::stability::plane::StabilityMap;
@@ -130,12 +130,12 @@ pub(super) fn frequencies(
     wall: &Wall,
     points: &[usize],
     budget: &Budget,
-) -> Result<Vec<FrequencyPoint>, Failure> {
+) -> Result<Vec<FrequencyPoint>, Error> {
     let causes = &map.curves[wall.curve].causes;
     if wall.role != Role::Stable || !causes.contains(Cause::ComplexPair) {
         return Ok(Vec::new());
     }
-    let found: Vec<Result<Option<FrequencyPoint>, Failure>> = parallel_map(points, |&point| {
+    let found: Vec<Result<Option<FrequencyPoint>, Error>> = parallel_map(points, |&point| {
         let Some((x, number)) = wall.lines.get(point) else { return Ok(None) };
         let end = answer.wall(x, *number, BITS, budget)?;
         let value = end.and_then(|e| e.1).and_then(|f| frequency_value(&f, answer.problem().time()));

@@ -16,7 +16,7 @@ pub use run::{Record, SwitchedRun};
 
 use super::exponential::Exponential;
 use super::sampled::simulation_error;
-use jurist_engine::error::Error;
+use jurist_engine::error::Diagnostics;
 use nalgebra::{DMatrix, DVector};
 
 /// Where in the period the pulse lies.
@@ -135,7 +135,7 @@ impl SwitchedModel {
         sources: Vec<Pwm>,
         controller: Controller,
         names: [Vec<String>; 3],
-    ) -> Result<SwitchedModel, Error> {
+    ) -> Result<SwitchedModel, Diagnostics> {
         let [plant_states, controller_states, inputs] = names;
         let (n, q, r, m) = (plant_states.len(), controller_states.len(), inputs.len(), sources.len());
         let shapes = [

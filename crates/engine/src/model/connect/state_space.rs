@@ -4,7 +4,7 @@
 //! factors included: its characteristic polynomial is the denominator.
 
 use crate::error::{Diagnostic, Span};
-use crate::model::definition::{Dynamics, Form, Loop, Method};
+use crate::model::definition::{Dynamics, Form, Method, Model};
 use crate::model::evaluate::symbolic::{BlockValues, DynamicValues, PortValues, Row, Values, Wiring};
 use crate::model::evaluate::walk::Failure;
 use crate::model::evaluate::work::count_work;
@@ -76,7 +76,7 @@ fn substituted_matrix(m: &RationalMatrix, substitution: &Substitution<'_>) -> Re
 
 /// Connects the parts of the model's form. `Characteristic` has no parts and gives order 0.
 pub(in crate::model) fn assemble(
-    model: &Loop,
+    model: &Model,
     wiring: &Wiring<'_>,
     values: &Values,
     substitution: &Substitution<'_>,
@@ -299,7 +299,7 @@ fn block_diagonal(parts: &[&RationalMatrix]) -> RationalMatrix {
 }
 
 fn connect(
-    model: &Loop,
+    model: &Model,
     wiring: &Wiring<'_>,
     blocks: &[BlockValues],
     outputs: &[Row],
@@ -368,7 +368,7 @@ fn beside(left: &RationalMatrix, right: &RationalMatrix) -> RationalMatrix {
 }
 
 /// States that are outputs have their names; others are numbered.
-fn state_names(model: &Loop, i: usize, values: &BlockValues, n: usize) -> Vec<String> {
+fn state_names(model: &Model, i: usize, values: &BlockValues, n: usize) -> Vec<String> {
     if let Form::Blocks(diagram) = &model.form
         && let Some(block) = diagram.blocks.get(i)
         && matches!(block.dynamics, Dynamics::StateSpace { c: None, .. })

@@ -6,7 +6,7 @@ use super::transfer::{Fraction, fraction, polynomial};
 use super::walk::{Failure, division_by_zero};
 use super::zpoly::ZPoly;
 use crate::error::{Diagnostic, Span};
-use crate::model::definition::{Block, Dynamics, Form, Loop, Matrix, Method, Output, Ports};
+use crate::model::definition::{Block, Dynamics, Form, Matrix, Method, Model, Output, Ports};
 use crate::model::text::Expression;
 use crate::model::text::names::shorten;
 use jurist_algebra::matrix::RationalMatrix;
@@ -25,7 +25,7 @@ pub(in crate::model) struct Wiring<'m> {
 }
 
 impl<'m> Wiring<'m> {
-    pub fn of(model: &'m Loop) -> Self {
+    pub fn of(model: &'m Model) -> Self {
         let own: Vec<&str> = match &model.form {
             Form::Characteristic(_) => Vec::new(),
             Form::Matrix { ports, .. } | Form::OutputFeedback { ports, .. } => {
@@ -247,7 +247,7 @@ impl Evaluator<'_, '_> {
 
 /// Evaluates the form; `None` when something was reported.
 pub(in crate::model) fn symbolic(
-    model: &Loop,
+    model: &Model,
     wiring: &Wiring<'_>,
     scope: &mut Scope<'_>,
     report: &mut dyn FnMut(Failure),

@@ -55,7 +55,7 @@ pub(in crate::model) fn constant_value(e: &Expression) -> Result<Rational, Optio
 mod tests {
     use super::*;
     use crate::error::Source;
-    use crate::model::Loop;
+    use crate::model::Model;
     use std::path::Path;
 
     /// A number of this many digits.
@@ -114,7 +114,7 @@ mod tests {
                 "time = 'discrete'\n[parameters]\nK = {{ nominal = 1 }}\n[constants]\nc0 = {number}\n{chain}\
                  [loop]\ncharacteristic = 'z - c{constants}/(K - K)'\n"
             );
-            match Loop::from_toml(&Source::new("model.toml", text)) {
+            match Model::from_toml(&Source::new("model.toml", text)) {
                 Ok(_) => true,
                 Err(error) => {
                     assert_eq!(error.code(), "E-division-by-zero");

@@ -358,7 +358,7 @@ fn pwm(entry: &Entry, reader: &mut Reader) -> Option<Pwm> {
 #[cfg(test)]
 mod tests {
     use crate::error::Source;
-    use crate::model::Loop;
+    use crate::model::Model;
 
     /// Code and source text of all warnings of a discrete loop whose plant has this line.
     fn warnings(plant: &str) -> Vec<(&'static str, String)> {
@@ -366,7 +366,7 @@ mod tests {
             "time = 'discrete'\n[parameters]\nT = {{ nominal = 1, min = 0 }}\nc = {{ nominal = 2 }}\n[loop]\ninputs = ['r']\n\
              [[block]]\ninput = 'r - T*c*y'\noutput = 'e'\ngain = 1\n[[block]]\ninput = 'e'\noutput = 'y'\n{plant}\n"
         );
-        let (_, warnings) = Loop::from_toml(&Source::new("model.toml", text.as_str())).unwrap();
+        let (_, warnings) = Model::from_toml(&Source::new("model.toml", text.as_str())).unwrap();
         let place = |span: crate::error::Span| text[span.start..span.end].to_owned();
         warnings.iter().map(|w| (w.code, w.primary.as_ref().map_or(String::new(), |l| place(l.span)))).collect()
     }

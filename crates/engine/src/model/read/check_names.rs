@@ -4,7 +4,7 @@ use super::reader::Reader;
 use super::simulation;
 use crate::error::{Diagnostic, Span};
 use crate::model::definition::{
-    Block, Constant, Discretization, Dynamics, Form, Loop, Matrix, Name, Output, Parameter, Ports, Position, Time,
+    Block, Constant, Discretization, Dynamics, Form, Matrix, Model, Name, Output, Parameter, Ports, Position, Time,
 };
 use crate::model::text::Expression;
 use crate::model::text::names::{did_you_mean, known_names, nearest_name, shorten};
@@ -125,14 +125,14 @@ fn cycle_error(cycle: &[&Constant]) -> Diagnostic {
 
 /// The names of one kind of place.
 struct Allowed<'m> {
-    model: &'m Loop,
+    model: &'m Model,
     /// Signals or states; the polynomial variable.
     further: Vec<&'m str>,
     what: &'static str,
 }
 
 struct Names<'m, 'r> {
-    model: &'m Loop,
+    model: &'m Model,
     used: HashSet<&'m str>,
     reported: HashSet<&'m str>,
     /// Whether a signal has the name of something else: then another signal is probably missing.
@@ -198,7 +198,7 @@ fn unknown(name: &str, span: Span, allowed: &Allowed<'_>) -> Diagnostic {
 }
 
 /// Reports every name that is not known, used twice, or not used.
-pub(super) fn names(model: &Loop, form_is_broken: bool, reader: &mut Reader) {
+pub(super) fn names(model: &Model, form_is_broken: bool, reader: &mut Reader) {
     let none = HashSet::new();
     let mut names = Names { model, used: HashSet::new(), reported: HashSet::new(), misnamed: false, reader };
     for c in &model.constants {

@@ -4,7 +4,7 @@
 use super::reader::Reader;
 use crate::error::Diagnostic;
 use crate::model::connect::state_space::assemble;
-use crate::model::definition::Loop;
+use crate::model::definition::Model;
 use crate::model::evaluate::scalar::{Scope, Symbol};
 use crate::model::evaluate::symbolic::{Wiring, symbolic};
 use crate::model::evaluate::walk::Failure;
@@ -20,7 +20,7 @@ const CHECK_WORK: u64 = 100_000_000;
 
 /// Evaluates everything with numbers for the parameters. What is not zero at one point is not
 /// identically zero, so this acquits; what looks wrong there is evaluated again with symbols.
-pub(super) fn values(model: &Loop, reader: &mut Reader) {
+pub(super) fn values(model: &Model, reader: &mut Reader) {
     for attempt in 0..3u64 {
         let mut position = 0;
         let mut symbol = |_: &str, constant: bool| {
@@ -37,7 +37,7 @@ pub(super) fn values(model: &Loop, reader: &mut Reader) {
 }
 
 /// Refuses a sample time that is not positive whatever the parameters are.
-pub(super) fn sample_time(model: &Loop, reader: &mut Reader) {
+pub(super) fn sample_time(model: &Model, reader: &mut Reader) {
     let Some(e) = &model.sample_time else { return };
     let mut needed: HashSet<&str> = e.names().into_iter().collect();
     for constant in model.ordered_constants().collect::<Vec<_>>().into_iter().rev() {
@@ -70,7 +70,7 @@ fn probe(attempt: u64, position: u64) -> Rational {
 }
 
 /// Everything that is wrong with the values; `None` when that takes too much work to find.
-fn problems(model: &Loop, symbol: &mut dyn FnMut(&str, bool) -> Option<Symbol>) -> Option<Vec<Diagnostic>> {
+fn problems(model: &Model, symbol: &mut dyn FnMut(&str, bool) -> Option<Symbol>) -> Option<Vec<Diagnostic>> {
     let budget = Budget::with_work(CHECK_WORK);
     let mut found = Vec::new();
     let mut is_exhausted = false;

@@ -1,4 +1,4 @@
-//! From the tables of a model file to a checked [`Loop`](super::Loop): what every key means, and whether names and
+//! From the tables of a model file to a checked [`Model`](super::Model): what every key means, and whether names and
 //! values make sense. Nothing below imports this.
 
 mod blocks;

@@ -5,8 +5,8 @@ use super::loop_forms::read_form;
 use super::reader::{Meant, Reader};
 use super::simulation;
 use super::{check_names, check_values};
-use crate::error::{Diagnostic, Error, Severity, Source, Span};
-use crate::model::definition::{Constant, Diagram, Form, Loop, Name, Parameter, Time};
+use crate::error::{Diagnostic, Diagnostics, Severity, Source, Span};
+use crate::model::definition::{Constant, Diagram, Form, Model, Name, Parameter, Time};
 use crate::model::evaluate::work::constant_value;
 use crate::model::text::names::{did_you_mean, shorten};
 use crate::model::text::toml_reader;
@@ -17,22 +17,22 @@ use std::sync::Arc;
 /// Errors shown of one file.
 const MAX_SHOWN: usize = 20;
 
-impl Loop {
+impl Model {
     /// Reads a model file. Warnings come with the loop; errors come all together.
     ///
     /// ```
     /// use jurist_engine::error::Source;
-    /// use jurist_engine::model::Loop;
+    /// use jurist_engine::model::Model;
     /// let text = "time = 'discrete'\nparameters.K = {}\nloop.characteristic = 'z - k'";
-    /// let error = Loop::from_toml(&Source::new("model.toml", text)).unwrap_err();
+    /// let error = Model::from_toml(&Source::new("model.toml", text)).unwrap_err();
     /// assert_eq!(error.to_string(), "model.toml:3:28: error[E-unknown-name]: unknown name 'k'");
     /// assert_eq!(error.diagnostics()[0].help.as_deref(), Some("did you mean 'K'?"));
     /// ```
     ///
     /// # Errors
     /// Everything that is wrong with the text, up to twenty diagnostics, each with its place.
-    pub fn from_toml(source: &Arc<Source>) -> Result<(Loop, Vec<Diagnostic>), Error> {
-        let fail = |diagnostics| Error::new(Some(Arc::clone(source)), diagnostics);
+    pub fn from_toml(source: &Arc<Source>) -> Result<(Model, Vec<Diagnostic>), Diagnostics> {
+        let fail = |diagnostics| Diagnostics::new(Some(Arc::clone(source)), diagnostics);
         let root = toml_reader::read(&source.text).map_err(fail)?;
         let mut reader = Reader::default();
         let model = read_model(&root, source, &mut reader);
@@ -56,15 +56,15 @@ impl Loop {
     /// Reads a model file from bytes, which must be UTF-8.
     ///
     /// # Errors
-    /// As [`Loop::from_toml`], and `E-utf8`.
-    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<(Loop, Vec<Diagnostic>), Error> {
-        Loop::from_toml(&source_from_bytes(name, bytes)?)
+    /// As [`Model::from_toml`], and `E-utf8`.
+    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<(Model, Vec<Diagnostic>), Diagnostics> {
+        Model::from_toml(&source_from_bytes(name, bytes)?)
     }
 
     /// The drive of Gürbüz and Akpınar (2002), from `examples/drive.toml`.
-    pub fn drive() -> Loop {
+    pub fn drive() -> Model {
         let source = Source::new("<built-in drive>", DRIVE);
-        let (drive, _) = Loop::from_toml(&source).expect("the built-in model is tested to be correct");
+        let (drive, _) = Model::from_toml(&source).expect("the built-in model is tested to be correct");
         drive
     }
 }
@@ -76,7 +76,7 @@ pub const DRIVE: &str = include_str!("../../../../../examples/drive.toml");
 ///
 /// # Errors
 /// `E-utf8` with the line, when the bytes are not UTF-8.
-pub fn source_from_bytes(name: &str, bytes: &[u8]) -> Result<Arc<Source>, Error> {
+pub fn source_from_bytes(name: &str, bytes: &[u8]) -> Result<Arc<Source>, Diagnostics> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok(Source::new(name, text)),
         Err(error) => {
@@ -86,12 +86,12 @@ pub fn source_from_bytes(name: &str, bytes: &[u8]) -> Result<Arc<Source>, Error>
             let diagnostic = Diagnostic::error("E-utf8", format!("byte {} is not valid UTF-8", offset + 1))
                 .at(Span::new(offset, offset + length), "not UTF-8")
                 .help("save the file as UTF-8");
-            Err(Error::new(Some(Source::new(name, text)), vec![diagnostic]))
+            Err(Diagnostics::new(Some(Source::new(name, text)), vec![diagnostic]))
         }
     }
 }
 
-fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option<Loop> {
+fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option<Model> {
     let meant = reader.unknown_keys(root, &keys::MODEL, "the model");
     let title = reader.plain_string(root, "title");
     let time = read_time(root, &meant, reader);
@@ -103,7 +103,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
     let mut index = HashMap::new();
     check_names::definitions(&constants, &parameters, time.unwrap_or(Time::Discrete), &mut index, reader);
     let constant_order = check_names::constant_order(&constants, &index, reader);
-    let mut model = Loop {
+    let mut model = Model {
         source: Arc::clone(source),
         title,
         time: time?,

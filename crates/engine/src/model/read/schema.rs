@@ -71,7 +71,7 @@ fn object(value: Value) -> Map<String, Value> {
 mod tests {
     use super::*;
     use crate::error::Source;
-    use crate::model::Loop;
+    use crate::model::Model;
     use std::path::Path;
 
     #[test]
@@ -140,7 +140,7 @@ mod tests {
         let good = "time = 'discrete'\n[parameters]\nT = { nominal = 1, min = 0 }\nK = 2\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
             [[block]]\ninput = 'r - K*y'\noutput = 'y'\ntransfer = '1/s'\ndiscretize = { method = 'tustin', T = 'T' }\n\
             pwm = { amplitude = 1, carrier = 1, period = 'T' }\n";
-        let read = |text: &str| Loop::from_toml(&Source::new("model.toml", text)).is_ok();
+        let read = |text: &str| Model::from_toml(&Source::new("model.toml", text)).is_ok();
         assert!(text_fits(good) && read(good));
         for (part, other) in [
             ("time = 'discrete'\n", ""),

@@ -5,7 +5,7 @@ use super::keys;
 use super::model_file::section;
 use super::reader::Reader;
 use crate::error::Diagnostic;
-use crate::model::definition::{Block, Dynamics, Form, Loop, Name, Simulation};
+use crate::model::definition::{Block, Dynamics, Form, Model, Name, Simulation};
 use crate::model::text::names::{did_you_mean, known_names, shorten};
 use crate::model::text::toml_value::{Entry, Table};
 
@@ -46,7 +46,7 @@ fn entries<T>(
 }
 
 /// Reports names that the loop does not have.
-pub(super) fn check(model: &Loop, reader: &mut Reader) {
+pub(super) fn check(model: &Model, reader: &mut Reader) {
     let inputs: Vec<&str> = model.inputs().iter().map(|n| n.name.as_str()).collect();
     let states: Vec<&str> = match &model.form {
         Form::Characteristic(_) => Vec::new(),

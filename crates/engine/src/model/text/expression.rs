@@ -16,7 +16,7 @@ use std::fmt;
 /// let e = Expression::parse("-a^2 + 0.5*(b - 1)/c")?;
 /// assert_eq!(e.to_string(), "-a^2 + 1/2*(b - 1)/c");
 /// assert_eq!(e.names().into_iter().collect::<Vec<_>>(), ["a", "b", "c"]);
-/// # Ok::<(), jurist_engine::error::Error>(())
+/// # Ok::<(), jurist_engine::error::Diagnostics>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Expression {

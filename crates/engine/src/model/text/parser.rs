@@ -6,7 +6,7 @@
 use super::expression::{Expression, Factor, Node, Sign};
 use super::lexer::{Token, TokenKind, lex};
 use super::located::Text;
-use crate::error::{Diagnostic, Error, Source, Span};
+use crate::error::{Diagnostic, Diagnostics, Source, Span};
 use jurist_algebra::number::{Integer, Rational};
 
 /// Parentheses, signs and powers may nest this deep. The parser recurses a few frames per level
@@ -27,9 +27,9 @@ impl Expression {
     ///
     /// # Errors
     /// `E-syntax`, `E-number`, `E-exponent` or `E-too-deep`, pointing into `text`.
-    pub fn parse(text: &str) -> Result<Expression, Error> {
+    pub fn parse(text: &str) -> Result<Expression, Diagnostics> {
         let source = Source::new("<expression>", text);
-        parse(&Text::verbatim(text, 0)).map_err(|d| Error::new(Some(source), vec![d]))
+        parse(&Text::verbatim(text, 0)).map_err(|d| Diagnostics::new(Some(source), vec![d]))
     }
 }
 
