@@ -43,6 +43,12 @@ pub fn jurist_with_input(arguments: &[&str], input: &[u8]) -> Run {
     finished(child.wait_with_output().expect("the program ends"))
 }
 
+/// The first answer from `run`, given 1 second, then 2, 4 and so on: a machine may be as slow as it likes, and where there
+/// is never an answer, the test never ends.
+pub fn given_time<T>(run: impl Fn(&str) -> Option<T>) -> T {
+    (0..).find_map(|doublings| run(&(1u64 << doublings).to_string())).expect("at some time")
+}
+
 /// Runs the program and reads its JSON.
 pub fn json(arguments: &[&str]) -> Value {
     let run = jurist(arguments);
