@@ -1,14 +1,11 @@
 //! Exact stability limits of control loops.
 //!
-//! For which parameter values is this control loop stable? `jurist` answers with exact arithmetic from
-//! the model's text to the verdict: no tolerance, no sampling and no rounding in between. An answer is a
-//! finite union of open intervals whose ends are algebraic numbers, each with its cause.
+//! For which parameter values is this control loop stable, and how far is it from not being so? `jurist` answers with
+//! exact arithmetic from the model's text to the verdict: no tolerance, no sampling and no rounding in between. An answer is
+//! a finite union of open intervals whose ends are algebraic numbers, each with its cause.
 //!
 //! ```
-//! use jurist::analysis::{Settings, intervals};
-//! use jurist::error::Source;
-//! use jurist::limits::Budget;
-//! use jurist::model::Loop;
+//! use jurist::{Budget, Loop, Source};
 //!
 //! let text = r#"
 //!     time = "discrete"
@@ -17,53 +14,105 @@
 //!     [loop]
 //!     characteristic = "z^2 - z + K/2"
 //! "#;
-//! let (lp, _warnings) = Loop::from_toml(&Source::new("model.toml", text)).unwrap();
-//! let answer = intervals(&lp, &Settings::default(), "K", &Budget::unlimited()).unwrap();
-//! let set = answer.stable.decided().unwrap();
-//! let upper = set.intervals()[0].upper.as_ref().unwrap();
+//! let (model, _warnings) = Loop::from_toml(&Source::new("model.toml", text))?;
+//! let answer = model.ask().free("K").stable_set(&Budget::unlimited())?;
+//! let upper = answer.value().intervals()[0].upper.as_ref().unwrap();
 //! assert_eq!(upper.value.decimal(12), "2");
 //! assert_eq!(upper.causes.to_string(), "complex pair");
+//! # Ok::<(), jurist::Failure>(())
 //! ```
 //!
 //! # The way from text to answer
 //!
-//! | room | what it does |
-//! |---|---|
-//! | [`error`], [`limits`] | diagnostics with places and stable codes; budgets and progress |
-//! | [`number`] | exact integers and rationals, parsing, correctly rounded printing, certified enclosures |
-//! | [`poly`] | polynomials in one and many variables, gcd, resultants, real root isolation, real algebraic numbers |
-//! | [`matrix`] | polynomial matrices, the Faddeev-LeVerrier recursion |
-//! | [`stability`] | exact root count, tables of Jury and Routh, boundary polynomials, stable sets, two parameters |
-//! | [`model`] | expressions, model files, block diagrams, discretisation |
-//! | [`analysis`] | the questions asked of a loop, answered as plain values |
-//! | [`simulate`] | responses and root loci in floating point: observations, never verdicts |
-//! | [`report`], [`cli`] | text, JSON, code, figures; the command line |
+//! A [`Loop`] is what the loop is: read from a text ([`Loop::from_toml`]) or built in code ([`Loop::builder`]). A
+//! [`Question`] begins with [`Loop::ask`]: values ([`Question::set`]), what is free ([`Question::free`]), the region in which
+//! all roots have to lie ([`Question::within`]). Resolved it is a [`Problem`], whose algebra is computed once. Each way of
+//! asking gives an [`Answer`]:
+//!
+//! | asked by | answer | what it is |
+//! |---|---|---|
+//! | [`Question::verdict`] | [`PointVerdict`] | one point: stable, marginal, unstable or undefined, roots counted exactly |
+//! | [`Question::stable_set`] | [`StableSet`] | for which values of one parameter the loop is stable |
+//! | [`Question::parametric_table`], [`Question::point_table`] | [`ParametricTable`], [`PointTable`] | the table of Jury or Routh, each condition solved for itself |
+//! | [`Question::map`] | [`Map`] | the stable regions in the plane of two parameters |
+//! | [`Question::analyze`] | [`Analysis`] | the verdict, and the stable set of each parameter |
+//!
+//! An answer writes itself for people (`text`), for programs (`json`) and for checkers (`certificate`, `smt2`); [`check()`]
+//! re-checks a certificate with code that shares nothing with the engine. Everything that takes long takes a [`Budget`].
 //!
 //! # Why an answer is right
 //!
-//! The number of stable roots changes only where a root crosses the boundary of the region: at the real
-//! zeros of `D(1)`, `D(-1)` and the resultant of the half-size pair in discrete time; of `D(0)`, the
-//! resultant and the leading coefficient in continuous time ([`stability::boundary_polynomials`]). These
-//! zeros are isolated exactly, one rational number between two neighbours is tested exactly, and the whole
-//! gap has its verdict. A second way, the conditions of the Jury or Routh table each solved for itself,
-//! is compared with the first whenever a table is asked for.
+//! The number of stable roots changes only where a root crosses the boundary of the region: at the real zeros of `D(1)`,
+//! `D(-1)` and the resultant of the half-size pair in discrete time; of `D(0)`, the resultant and the leading coefficient in
+//! continuous time ([`boundary_polynomials`]). These zeros are isolated exactly, one rational number between two neighbours
+//! is tested exactly, and the whole gap has its verdict. A second way, the conditions of the Jury or Routh table each
+//! solved for itself, is compared with the first whenever a table is asked for.
 //!
-//! Cited works are listed in the [`bibliography`]; times beside another program in [`performance`].
+//! # Features
+//!
+//! `cli` (default): the program. `png` (default): figures as PNG. `strategies`: proptest generators of polynomials, matrices
+//! and loops with exactly known verdicts, for your tests. Without default features the library pulls neither the command
+//! line nor the figures.
+//!
+//! Cited works are listed in the [`bibliography`](_documentation::bibliography); times beside another program in
+//! [`performance`](_documentation::performance).
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-#[doc(inline)]
-pub use jurist_algebra::{bibliography, limits, matrix, number, poly};
-#[doc(inline)]
-pub use jurist_check as check;
-#[cfg(feature = "cli")]
-#[doc(inline)]
-pub use jurist_draw::{figures, page, simulate};
-#[doc(inline)]
-pub use jurist_engine::{analysis, error, model, prove, show, stability};
+// The model, the question, the answer.
+pub use jurist_engine::answer::{
+    Analysis, Answer, BoxRequest, Frequency, Map, MapBoxes, MapLimit, MapMethod, MapOrBoxes, ParametricTable,
+    PointTable, PointVerdict, RegionExtent, Verdict,
+};
+pub use jurist_engine::error::{Diagnostic, Error, Failure, Label, Severity, Source, Span};
+pub use jurist_engine::model::{
+    BlockBuilder, ClosedLoop, Constant, Expression, Loop, LoopBuilder, Parameter, ParameterBuilder, Time,
+    TransferFunction,
+};
+pub use jurist_engine::problem::{Algebra, Bound, Free, Problem, Question, Region};
+pub use jurist_engine::show::notation::Notation;
+pub use jurist_engine::stability::{
+    AlgebraicInterval, Boundary, Cause, Causes, ClassicalTest, ComplexPair, Condition, End, HalfSizePair, IntervalSet,
+    JuryTable, ParametricPolynomial, Range, RootCount, RouthTable, Shape, StableInterval, StableSet,
+    boundary_polynomials, classical_test, count_roots, is_hurwitz_routh, is_schur_jury, is_stable, jury_table,
+    routh_table, stable_set,
+};
+// Budgets.
+pub use jurist_algebra::limits::{Budget, Exhausted, Progress};
+// Exact algebra, as far as questions and answers are made of it.
+pub use jurist_algebra::matrix::{
+    CharacteristicPolynomial, FaddeevLeVerrier, PolyMatrix, RationalMatrix, faddeev_leverrier,
+};
+pub use jurist_algebra::number::{Enclosure, Integer, ParseNumberError, Rational, parse_number, to_decimal};
+pub use jurist_algebra::poly::{
+    Domain, Monomial, MultiPoly, Poly, RationalFunction, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots,
+    isolate_real_roots_in,
+};
+// Certificates, checked by code of their own.
+pub use jurist_check::{Limits, Proved, Rejection, Step, check};
 
 #[cfg(feature = "cli")]
 pub mod cli;
-#[doc = include_str!("performance.md")]
-pub mod performance {}
+
+/// Pages of documentation.
+pub mod _documentation {
+    #[doc(inline)]
+    pub use jurist_algebra::bibliography;
+    #[doc(inline)]
+    pub use jurist_check::{grammar, proved};
+    #[doc(inline)]
+    pub use jurist_engine::error::code_list;
+    #[doc(inline)]
+    pub use jurist_engine::model::examples;
+
+    #[doc = include_str!("performance.md")]
+    pub mod performance {}
+}
+
+/// Generators of polynomials, matrices and loops with exactly known verdicts, for property tests.
+#[cfg(feature = "strategies")]
+pub mod strategies {
+    pub use jurist_algebra::{matrix::strategies as matrix, number::strategies as number, poly::strategies as poly};
+    pub use jurist_engine::stability::strategies as stability;
+}

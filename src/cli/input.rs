@@ -4,9 +4,9 @@ use super::arguments::{DecisionOptions, ModelOptions, RegionOptions};
 use super::assignments::{assignments, domains, in_line, plain_number};
 use super::commands::Context;
 use super::output::plain;
-use jurist_engine::analysis::{DECAY, Failure, RADIUS, Settings};
-use jurist_engine::error::{Diagnostic, Error, Span};
+use jurist_engine::error::{Diagnostic, Error, Failure, Span};
 use jurist_engine::model::Loop;
+use jurist_engine::problem::{DECAY, Question, RADIUS, Region};
 use jurist_engine::stability::Range;
 use std::ffi::OsString;
 use std::fs::File;
@@ -28,7 +28,7 @@ pub(super) fn load(model: Option<&OsString>, context: &Context) -> Result<Loop, 
         let message = format!("{name} is longer than {} megabytes", MAX_MODEL_BYTES >> 20);
         return Err(Diagnostic::error("E-read", message).into());
     }
-    let (model, warnings) = Loop::from_bytes(&name, &bytes)?;
+    let (model, warnings) = context.budget.enter(|| Loop::from_bytes(&name, &bytes))??;
     context.warn(Some(model.source()), &warnings);
     Ok(model)
 }
@@ -68,32 +68,32 @@ fn unreadable(context: &Context, path: &OsString, name: &str, error: &std::io::E
     in_line(context.line, vec![diagnostic.help(wanted.help)]).into()
 }
 
-/// The model and the settings of a command that decides; a wrong file ending is refused before any work.
-pub(super) fn decision(options: &DecisionOptions, context: &Context) -> Result<(Loop, Settings), Failure> {
+/// The model and the question of a command that decides; a wrong file ending is refused before any work.
+pub(super) fn decision(options: &DecisionOptions, context: &Context) -> Result<(Loop, Question), Failure> {
     context.check_output(&options.output)?;
     let model = load(options.model.model.as_ref(), context)?;
-    let settings = settings(context, &model, &options.model, &options.region)?;
-    Ok((model, settings))
+    let question = question(context, &model, &options.model, &options.region)?;
+    Ok((model, question))
 }
 
-/// The values, domains and regions on the command line, with names that the model knows.
-pub(super) fn settings(
+/// A question with the values, domains and regions on the command line, all of whose names the model knows.
+pub(super) fn question(
     context: &Context,
     model: &Loop,
     options: &ModelOptions,
     region: &RegionOptions,
-) -> Result<Settings, Failure> {
-    let mut settings = Settings::default();
+) -> Result<Question, Failure> {
+    let mut question = model.ask();
     let mut wrong = Vec::new();
     for assignment in assignments(context.line, "--set", &options.set)? {
         check_name(model, &assignment.name, assignment.name_span, &mut wrong)?;
-        settings.set.insert(assignment.name, assignment.value);
+        question = question.set(assignment.name, assignment.value);
     }
     for change in domains(context.line, &options.domain)? {
         if change.name != RADIUS && change.name != DECAY {
             check_name(model, &change.name, change.name_span, &mut wrong)?;
         }
-        settings.domain.insert(change.name, Range::between(change.lower, change.upper));
+        question = question.domain(change.name, Range::between(change.lower, change.upper));
     }
     if !wrong.is_empty() {
         return Err(in_line(context.line, wrong).into());
@@ -101,9 +101,13 @@ pub(super) fn settings(
     let number = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| plain_number(context.line, option, text)).transpose()
     };
-    settings.radius = number("--radius", &region.radius)?;
-    settings.decay = number("--decay", &region.decay)?;
-    Ok(settings)
+    if let Some(radius) = number("--radius", &region.radius)? {
+        question = question.within(Region::disc(radius)?);
+    }
+    if let Some(decay) = number("--decay", &region.decay)? {
+        question = question.within(Region::half_plane(decay));
+    }
+    Ok(question)
 }
 
 /// Refuses names that cannot vary; the caret points into the command line.

@@ -6,24 +6,29 @@ mod arguments;
 mod assignments;
 mod command_line;
 mod commands;
+mod destinations;
 mod input;
 mod output;
 mod picture;
 mod progress;
+mod replace;
 mod status;
-mod watch;
+mod written;
 
 use arguments::Arguments;
 use clap::Parser;
 use command_line::CommandLine;
 use commands::Context;
+use jurist_engine::error::Diagnostic;
 use jurist_engine::show::diagnostics::render_error;
 use status::{Failure, Status};
 use std::process::ExitCode;
 
-/// Runs the program on the process's arguments.
-pub fn main() -> ExitCode {
+/// Runs the program on the process's arguments, given whether standard output was closed when it began: the
+/// runtime has replaced it by then with one that loses everything.
+pub fn main(output_closed: bool) -> ExitCode {
     quiet_panics();
+    output::note_closed(output_closed);
     let line = CommandLine::new(std::env::args_os());
     // A panic is a defect of this program; even then there is a message and no backtrace.
     let status = std::panic::catch_unwind(|| run(&line));
@@ -34,8 +39,11 @@ fn run(line: &CommandLine) -> u8 {
     let arguments = match Arguments::try_parse_from(line.arguments()) {
         Ok(arguments) => arguments,
         Err(answer) if !answer.use_stderr() => {
-            // Help and version; a reader that stops reading is no error.
-            let _ = answer.print();
+            // Help and version, in clap's colours on a terminal.
+            if let Err(Failure::Refused(error)) = output::print_with(|| answer.print()) {
+                show(&error);
+                return Status::BadInput as u8;
+            }
             return Status::Holds as u8;
         }
         Err(error) => {
@@ -44,7 +52,7 @@ fn run(line: &CommandLine) -> u8 {
         }
     };
     let context = Context::new(line, &arguments);
-    let outcome = commands::run(&arguments, &context);
+    let outcome = destinations::check(&arguments, &context).and_then(|()| commands::run(&arguments, &context));
     context.reporter.finish();
     match outcome {
         Ok(status) => status as u8,
@@ -52,9 +60,22 @@ fn run(line: &CommandLine) -> u8 {
             show(&error);
             Status::BadInput as u8
         }
-        Err(Failure::Undecided(exhausted)) => {
-            output::note(&format!("undecided: {exhausted}; reached: {}", context.reporter.reached()));
+        Err(Failure::Stopped(stopped)) => {
+            output::note(&format!("undecided: {stopped}"));
             Status::Undecided as u8
+        }
+        Err(Failure::Undefined(why)) => {
+            show(
+                &Diagnostic::error("E-undefined", format!("the model is undefined for these values: {why}"))
+                    .help("set the parameters to other values")
+                    .into(),
+            );
+            Status::BadInput as u8
+        }
+        // A way to have no answer that is not known here yet.
+        Err(failure) => {
+            output::note(&failure.to_string());
+            Status::BadInput as u8
         }
     }
 }

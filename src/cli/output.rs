@@ -1,53 +1,72 @@
 //! Where answers and remarks go: standard output or a file, and standard error.
 
+use super::replace::{Destination, replace};
 use super::status::Failure;
 use jurist_engine::error::Diagnostic;
 use std::ffi::{OsStr, OsString};
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Writes an answer to the file, or to standard output if there is none.
 ///
 /// A reader that stops reading (`| head -1`) is no error.
 pub(super) fn write_answer(answer: &str, file: Option<&OsString>) -> Result<(), Failure> {
-    let mut answered = ANSWERED.lock().unwrap_or_else(PoisonError::into_inner);
-    *answered = true;
-    write_locked(answer, file)
-}
-
-/// Whether something has been written; held while it is, so that no answer is cut in the middle.
-static ANSWERED: Mutex<bool> = Mutex::new(false);
-
-/// Does something while no answer is written, unless one has been.
-pub(super) fn unless_answered(then: impl FnOnce()) {
-    let answered = ANSWERED.lock().unwrap_or_else(PoisonError::into_inner);
-    if !*answered {
-        then();
-    }
-}
-
-/// [`write_answer`] for one who has made sure to be alone.
-pub(super) fn write_locked(answer: &str, file: Option<&OsString>) -> Result<(), Failure> {
     let mut answer = answer.to_owned();
     if !answer.ends_with('\n') {
         answer.push('\n');
     }
     match file {
-        Some(path) if path != OsStr::new("-") => {
-            std::fs::write(Path::new(path), answer).map_err(|e| write_error(&path.to_string_lossy(), &e))
-        }
-        _ => {
-            let mut stdout = std::io::stdout().lock();
-            match stdout.write_all(answer.as_bytes()).and_then(|()| stdout.flush()) {
-                Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(write_error("standard output", &e)),
-                _ => Ok(()),
-            }
-        }
+        Some(path) if path != OsStr::new("-") => write_file(Path::new(path), answer.as_bytes()),
+        _ => write_standard(answer.as_bytes()).map_err(|e| write_error("standard output", &e)),
     }
 }
 
-fn write_error(what: &str, error: &std::io::Error) -> Failure {
+/// Makes the bytes the content of a file, as a whole or not at all.
+pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let written = Destination::of(path).and_then(|destination| replace(&destination, bytes));
+    written.map_err(|e| write_error(&path.to_string_lossy(), &e))
+}
+
+/// Whether standard output was closed when the program began.
+static CLOSED: AtomicBool = AtomicBool::new(false);
+
+/// Notes whether standard output was closed when the program began.
+pub(super) fn note_closed(closed: bool) {
+    CLOSED.store(closed, Ordering::Relaxed);
+}
+
+/// Writes to standard output; a reader that stops reading is no error.
+pub(super) fn write_standard(bytes: &[u8]) -> std::io::Result<()> {
+    if CLOSED.load(Ordering::Relaxed) {
+        return Err(std::io::Error::other("it is closed"));
+    }
+    let mut stdout = std::io::stdout().lock();
+    // The library's own writer takes a descriptor that is not open for writing for one that swallows everything.
+    #[cfg(unix)]
+    let mut file = std::fs::File::from(std::os::fd::AsFd::as_fd(&stdout).try_clone_to_owned()?);
+    #[cfg(unix)]
+    // Nothing at all is written too: even that needs a descriptor that is open for writing.
+    let written = stdout.flush().and_then(|()| file.write(&[])).and_then(|_| file.write_all(bytes));
+    #[cfg(not(unix))]
+    let written = stdout.write_all(bytes).and_then(|()| stdout.flush());
+    match written {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(e),
+        _ => Ok(()),
+    }
+}
+
+/// Has something else print to standard output, with the same errors as an answer.
+pub(super) fn print_with(print: impl FnOnce() -> std::io::Result<()>) -> Result<(), Failure> {
+    let printed = write_standard(&[]).and_then(|()| print()).and_then(|()| std::io::stdout().flush());
+    match printed {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(write_error("standard output", &e)),
+        _ => Ok(()),
+    }
+}
+
+/// What is said where a write fails.
+pub(super) fn write_error(what: &str, error: &std::io::Error) -> Failure {
     Failure::from(Diagnostic::error("E-write", format!("cannot write {what}: {}", plain(error))))
 }
 

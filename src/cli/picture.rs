@@ -1,6 +1,7 @@
 //! Pictures to files and to the terminal.
 
 use super::arguments::PictureOptions;
+pub(super) use super::output::write_file as write;
 use super::output::{ending, unknown_ending, write_answer};
 use super::status::Failure;
 use jurist_draw::figures::Figure;
@@ -87,12 +88,4 @@ fn terminal_columns() -> usize {
 /// The PNG's bytes.
 pub(super) fn png(figure: &Figure) -> Result<Vec<u8>, Failure> {
     figure.png(PNG_SCALE).map_err(|e| Diagnostic::error("E-write", format!("cannot draw the picture: {e}")).into())
-}
-
-/// Writes bytes to a file.
-pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    std::fs::write(path, bytes).map_err(|e| {
-        let message = format!("cannot write {}: {}", path.display(), super::output::plain(&e));
-        Diagnostic::error("E-write", message).into()
-    })
 }

@@ -39,14 +39,9 @@ impl Reporter {
         budget.reporting_to(Arc::clone(self) as Arc<dyn Progress>)
     }
 
-    /// How far the work came.
-    pub fn reached(&self) -> String {
-        let Ok(state) = self.state.lock() else { return String::new() };
-        match (state.step.as_str(), state.total) {
-            ("", _) => "nothing was begun".to_owned(),
-            (step, 0) => step.to_owned(),
-            (step, total) => format!("{step} ({} of {total})", state.done),
-        }
+    /// The time since the program began.
+    pub fn elapsed(&self) -> Duration {
+        self.begun.elapsed()
     }
 
     /// Takes the progress bar off the terminal.

@@ -1,6 +1,6 @@
 //! Exit statuses.
 
-pub(super) use jurist_engine::analysis::Failure;
+pub(super) use jurist_engine::error::Failure;
 
 /// What the program tells its caller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

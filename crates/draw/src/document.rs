@@ -4,9 +4,11 @@
 use crate::figures::DrawnLocus;
 use crate::simulate::{Operating, SwitchedModel, Trace};
 use jurist_algebra::number::Rational;
-use jurist_engine::analysis::Intervals;
+use jurist_engine::answer::Answer;
 use jurist_engine::model::{Loop, Time};
+use jurist_engine::problem::Problem;
 use jurist_engine::show::json;
+use jurist_engine::stability::StableSet;
 use nalgebra::Complex;
 use serde_json::{Map, Value, json};
 
@@ -55,12 +57,13 @@ pub fn time_unit(model: &Loop, sample_time: Option<f64>) -> &'static str {
 ///
 /// `time` are the instants in `time_unit`, `signals` have as many values; instants repeat where a
 /// signal jumps. A unit that the model does not name is `null`.
-pub fn simulation_json(model: &Loop, set: &[(String, Rational)], answer: &SimulationAnswer) -> Value {
+pub fn simulation_json(problem: &Problem, answer: &SimulationAnswer) -> Value {
+    let model = problem.model();
     let signal = |s: &crate::simulate::Signal| {
         let unit = if s.unit.is_empty() { Value::Null } else { s.unit.as_str().into() };
         json!({ "name": s.name, "unit": unit, "values": s.values })
     };
-    let mut out = head("jurist/simulate/1", model.title(), set);
+    let mut out = head("jurist/simulate/1", model.title(), problem.set());
     out.insert("kind".into(), if answer.circuit.is_some() { "switched" } else { "sampled" }.into());
     out.insert("sample_time".into(), answer.sample_time.map_or(Value::Null, Value::from));
     out.insert("time_unit".into(), time_unit(model, answer.sample_time).into());
@@ -79,12 +82,13 @@ pub fn simulation_json(model: &Loop, set: &[(String, Rational)], answer: &Simula
 }
 
 /// `jurist/locus/1`: the roots, branch by branch, and the certified crossings.
-pub fn locus_json(answer: &Intervals, drawn: &DrawnLocus) -> Value {
-    let question = &answer.question;
-    let mut out = head("jurist/locus/1", question.title.as_deref(), &question.set);
-    out.insert("time".into(), question.time.name().into());
-    out.insert("parameter".into(), question.parameter.as_str().into());
-    out.insert("unit".into(), question.unit.as_deref().map_or(Value::Null, Value::from));
+pub fn locus_json(answer: &Answer<StableSet>, drawn: &DrawnLocus) -> Value {
+    let problem = answer.problem();
+    let free = problem.parameter();
+    let mut out = head("jurist/locus/1", problem.title(), problem.set());
+    out.insert("time".into(), problem.time().name().into());
+    out.insert("parameter".into(), free.name.as_str().into());
+    out.insert("unit".into(), free.unit.as_deref().map_or(Value::Null, Value::from));
     let crossing =
         |c: &crate::simulate::Crossing| json!({ "value": c.parameter, "at": complex(&c.at), "label": c.label });
     out.insert("crossings".into(), drawn.crossings.iter().map(crossing).collect::<Vec<_>>().into());

@@ -5,10 +5,12 @@
 //! line each.
 
 mod codes;
+mod failure;
 #[doc = include_str!("error/codes.md")]
 pub mod code_list {}
 
 pub use codes::codes;
+pub use failure::Failure;
 
 use std::fmt;
 use std::sync::Arc;

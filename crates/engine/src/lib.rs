@@ -12,9 +12,10 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod analysis;
+pub mod answer;
 pub mod error;
 pub mod model;
+pub mod problem;
 pub mod prove;
 pub mod show;
 pub mod stability;

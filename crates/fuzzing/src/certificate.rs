@@ -1,12 +1,9 @@
 //! The check of certificates on arbitrary bytes.
 
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::Rational;
 use jurist_check::{Limits, check};
-use jurist_engine::analysis::{Settings, one_parameter, verdict};
 use jurist_engine::error::Source;
 use jurist_engine::model::Loop;
-use jurist_engine::prove::emit::{intervals_certificate, verdict_certificate};
 use std::time::Duration;
 
 /// Small models with their true certificates are mutated by the bytes, or the bytes are the certificate.
@@ -48,15 +45,14 @@ pub fn certificate_check(data: &[u8]) {
 
 fn true_certificate(model: &str) -> String {
     let budget = Budget::unlimited();
-    let question = one_parameter(&read(model), &Settings::default(), "K", &budget).expect("a good question");
-    intervals_certificate(model, &question, &budget).expect("no limit")
+    let answer = read(model).ask().free("K").stable_set(&budget).expect("a good question");
+    answer.certificate(&budget).expect("no limit")
 }
 
 fn true_verdict(model: &str) -> String {
-    let (lp, budget, mut settings) = (read(model), Budget::unlimited(), Settings::default());
-    settings.set.insert("K".into(), Rational::from(1));
-    let answer = verdict(&lp, &settings, &budget).expect("a good question");
-    verdict_certificate(&lp, &settings, &answer, &budget).expect("no limit")
+    let budget = Budget::unlimited();
+    let answer = read(model).ask().set("K", 1).verdict(&budget).expect("a good question");
+    answer.certificate(&budget).expect("no limit")
 }
 
 fn read(model: &str) -> Loop {

@@ -1,7 +1,7 @@
 //! Model texts of any kind.
 
 use jurist_algebra::limits::Budget;
-use jurist_engine::model::{Loop, Question, source_from_bytes};
+use jurist_engine::model::{Loop, source_from_bytes};
 use std::time::Duration;
 
 /// Reads bytes as a model and asks for its polynomial: whatever they are, nothing panics.
@@ -11,10 +11,10 @@ pub fn model_parser(data: &[u8]) {
         Ok((model, _)) => {
             let budget = Budget::with_timeout(Duration::from_millis(200));
             let keep = model.parameters().iter().take(2).map(|p| p.name.clone());
-            let question = Question::keeping(keep);
             // The answer may be an error; it must not be a panic.
-            drop(model.characteristic_polynomial(&question, &budget));
-            drop(model.closed_loop(&Question::default(), &budget));
+            let free = keep.fold(model.ask(), jurist_engine::problem::Question::free);
+            drop(free.problem().map(|problem| problem.algebra(&budget).is_ok()));
+            drop(model.ask().problem().map(|problem| problem.closed_loop(&budget).is_ok()));
         }
         Err(error) => {
             let drawn = jurist_engine::show::diagnostics::render_error(&error, false);

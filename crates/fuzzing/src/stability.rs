@@ -4,7 +4,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, UniPoly};
 use jurist_engine::stability::{
-    ParametricPolynomial, Range, Region, classical_test, count_roots, is_hurwitz_routh, is_schur_jury, is_stable,
+    ParametricPolynomial, Range, Shape, classical_test, count_roots, is_hurwitz_routh, is_schur_jury, is_stable,
     stable_set,
 };
 use std::time::Duration;
@@ -24,12 +24,12 @@ pub fn jury_against_count(data: &[u8]) {
         p = p.times(&p.reversed(n));
     }
     let Some(n) = p.degree() else { return };
-    let disc = count_roots(&p, Region::UnitDisc);
+    let disc = count_roots(&p, Shape::UnitDisc);
     assert_eq!(disc.total(), n);
-    assert_eq!(is_schur_jury(&p), is_stable(&p, Region::UnitDisc));
-    assert_eq!(is_hurwitz_routh(&p), is_stable(&p, Region::LeftHalfPlane));
+    assert_eq!(is_schur_jury(&p), is_stable(&p, Shape::UnitDisc));
+    assert_eq!(is_hurwitz_routh(&p), is_stable(&p, Shape::LeftHalfPlane));
     if !p.coeff(0).is_zero() {
-        let mirrored = count_roots(&p.reversed(n), Region::UnitDisc);
+        let mirrored = count_roots(&p.reversed(n), Shape::UnitDisc);
         assert_eq!((disc.inside, disc.on, disc.outside), (mirrored.outside, mirrored.on, mirrored.inside));
     }
 }
@@ -41,7 +41,7 @@ pub fn jury_against_count(data: &[u8]) {
 /// When two ways disagree.
 pub fn interval_answer(data: &[u8]) {
     let [kind, degree, rest @ ..] = data else { return };
-    let region = if kind & 1 == 0 { Region::UnitDisc } else { Region::LeftHalfPlane };
+    let region = if kind & 1 == 0 { Shape::UnitDisc } else { Shape::LeftHalfPlane };
     let n = usize::from(degree % 6);
     let (coefficients, values) = rest.split_at(rest.len().min(3 * (n + 1)));
     let rows = coefficients.chunks(3).map(|c| c.iter().map(|&b| i64::from(b as i8)).collect::<Vec<_>>());

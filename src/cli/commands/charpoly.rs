@@ -1,19 +1,22 @@
 //! `jurist charpoly`: the characteristic polynomial.
 
-use super::Context;
+use super::{Context, decided};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::in_line;
-use crate::cli::input::{known_names, load, settings};
+use crate::cli::input::{known_names, load, question};
 use crate::cli::output::{ending, unknown_ending, write_answer};
 use crate::cli::status::{Failure, Outcome, Status};
 use clap::{Args, ValueEnum};
+use jurist_algebra::limits::Exhausted;
 use jurist_algebra::matrix::CharacteristicPolynomial;
-use jurist_engine::analysis::{Point, Settings};
 use jurist_engine::error::{Diagnostic, Error};
-use jurist_engine::model::{Loop, ModelError, Question};
+use jurist_engine::model::Loop;
+use jurist_engine::problem::Problem;
 use jurist_engine::show::json;
 use jurist_engine::show::notation::{NamedPolynomial, Notation, PolynomialReport, Relation, root_locus_form};
+use serde_json::Value;
 use std::ffi::OsString;
+use std::sync::Arc;
 
 /// Options of `jurist charpoly`.
 #[derive(Args, Debug)]
@@ -40,24 +43,21 @@ pub(in crate::cli) struct Options {
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let notation = notation(options)?;
     let model = load(options.model.model.as_ref(), context)?;
-    let question = question(options, context, &model)?;
+    let problem = problem(options, context, &model)?;
     let file = options.output.output.as_ref();
-    if notation == Notation::Json {
-        let document = undecided(options, &model, &question)?;
-        context.watch.know(file, move |budget, reached| Some(document(&budget, &reached)));
-    }
-    let report = match report(options, context, &model, &question) {
+    let report = match decided(report(options, context, &problem))? {
         Ok(report) => report,
-        Err(Failure::Undecided(exhausted)) if notation == Notation::Json => {
-            let document = undecided(options, &model, &question)?;
-            write_answer(&document(&exhausted.budget, &context.reporter.reached()), file)?;
-            return Err(exhausted.into());
+        Err(stopped) => {
+            if notation == Notation::Json {
+                write_answer(&json::to_text(&undecided(options, &problem, &stopped)), file)?;
+            }
+            return Ok(context.say_undecided(&stopped));
         }
-        Err(failure) => return Err(failure),
     };
-    context.reporter.finish();
     let digits = options.output.digits.map(|d| d as usize);
-    write_answer(&report.write(notation, digits), file)?;
+    let text = context.budget.enter(|| report.write(notation, digits))?;
+    context.reporter.finish();
+    write_answer(&text, file)?;
     Ok(Status::Holds)
 }
 
@@ -101,13 +101,13 @@ fn notation(options: &Options) -> Result<Notation, Failure> {
 }
 
 /// What stays symbolic and what is set.
-fn question(options: &Options, context: &Context, model: &Loop) -> Result<Question, Failure> {
-    let settings = settings(context, model, &options.model, &RegionOptions::default())?;
+fn problem(options: &Options, context: &Context, model: &Loop) -> Result<Arc<Problem>, Failure> {
+    let mut question = question(context, model, &options.model, &RegionOptions::default())?;
     known_names(context, model, "--keep", &options.keep)?;
     let mut keep = options.keep.clone();
     if keep.is_empty() {
         let free = model.parameters().iter().map(|p| p.name.clone());
-        keep.extend(free.filter(|name| !settings.set.contains_key(name)));
+        keep.extend(free.filter(|name| !question.values_set().contains_key(name)));
     }
     if let Some(name) = &options.root_locus_form {
         known_names(context, model, "--root-locus-form", std::slice::from_ref(name))?;
@@ -115,32 +115,33 @@ fn question(options: &Options, context: &Context, model: &Loop) -> Result<Questi
             keep.push(name.clone());
         }
     }
-    let warnings = settings.warnings(model, &keep);
-    let question = Question { keep, set: settings.set };
-    model.resolve(&question).map_err(|e| about_line(context, e))?;
-    context.warn(None, &warnings);
-    Ok(question)
+    for name in keep {
+        question = question.free(name);
+    }
+    let problem = question.problem().map_err(|failure| match failure {
+        Failure::Refused(error) => about_line(context, error).into(),
+        other => other,
+    })?;
+    context.warn(None, problem.warnings());
+    Ok(problem)
 }
 
-/// Writes a document, given the budget and how far the work came.
-type Document = Box<dyn FnOnce(&str, &str) -> String + Send>;
-
 /// The document of a polynomial that the budget does not allow.
-fn undecided(options: &Options, model: &Loop, question: &Question) -> Result<Document, Failure> {
+fn undecided(options: &Options, problem: &Problem, stopped: &Exhausted) -> Value {
     let (schema, key) = match (&options.root_locus_form, &options.transfer) {
         (Some(_), _) => ("jurist/root-locus-form/1", "numerator"),
         (None, Some(_)) => ("jurist/transfer/1", "numerator"),
         (None, None) => ("jurist/charpoly/1", "coefficients"),
     };
-    let settings = Settings { set: question.set.clone(), ..Settings::default() };
-    let point = Point::of(model, &settings, &question.keep)?;
-    let (variable, parameters) = (model.time().variable(), question.keep.clone());
-    Ok(Box::new(move |budget, reached| {
-        let mut document = json::undecided_at_point(schema, key, budget, reached, &point);
-        document["variable"] = variable.into();
-        document["parameters"] = parameters.into();
-        json::to_text(&document)
-    }))
+    let mut document = json::undecided_point(schema, key, problem, stopped);
+    document["variable"] = problem.time().variable().into();
+    document["parameters"] = parameters(problem).into();
+    document
+}
+
+/// The names of what is free.
+fn parameters(problem: &Problem) -> Vec<String> {
+    problem.free().iter().map(|f| f.name.clone()).collect()
 }
 
 /// An error about the question that points into no text is about the command line.
@@ -151,24 +152,17 @@ fn about_line(context: &Context, error: Error) -> Error {
     error
 }
 
-fn report(
-    options: &Options,
-    context: &Context,
-    model: &Loop,
-    question: &Question,
-) -> Result<PolynomialReport, Failure> {
-    context.budget.step("characteristic polynomial");
-    let set = model.resolve(question).map_err(|e| about_line(context, e))?.values;
+fn report(options: &Options, context: &Context, problem: &Problem) -> Result<PolynomialReport, Failure> {
     let mut report = PolynomialReport {
-        title: model.title().unwrap_or_default().to_owned(),
-        variable: model.time().variable().to_owned(),
-        parameters: question.keep.clone(),
-        set,
+        title: problem.title().unwrap_or_default().to_owned(),
+        variable: problem.time().variable().to_owned(),
+        parameters: parameters(problem),
+        set: problem.set().to_vec(),
         relation: Relation::Characteristic,
         polynomials: Vec::new(),
     };
     if let Some([input, output]) = options.transfer.as_deref() {
-        let transfer = model.transfer_function(input, output, question, &context.budget);
+        let transfer = problem.closed_loop(&context.budget)?.transfer_function(input, output, &context.budget);
         let transfer = transfer.map_err(|e| unknown_signal(context, e, [input, output]))?;
         report.relation = Relation::Transfer { input: input.clone(), output: output.clone() };
         report.polynomials = vec![
@@ -177,7 +171,10 @@ fn report(
         ];
         return Ok(report);
     }
-    let polynomial = model.characteristic_polynomial(question, &context.budget).map_err(|e| refused(context, e))?;
+    let algebra = problem.algebra(&context.budget)?;
+    let Some(polynomial) = algebra.polynomial().cloned() else {
+        return Err(Failure::Undefined(algebra.undefined().unwrap_or_default().to_owned()));
+    };
     match &options.root_locus_form {
         None => report.polynomials = vec![NamedPolynomial::new("Q", "a", polynomial.coefficients)],
         Some(name) => {
@@ -207,8 +204,8 @@ fn root_locus(
 }
 
 /// A signal's name that the loop does not know is marked on the command line.
-fn unknown_signal(context: &Context, error: ModelError, names: [&String; 2]) -> Failure {
-    if let ModelError::Input(error) = &error
+fn unknown_signal(context: &Context, failure: Failure, names: [&String; 2]) -> Failure {
+    if let Failure::Refused(error) = &failure
         && let [diagnostic] = error.diagnostics()
         && diagnostic.primary.is_none()
     {
@@ -217,19 +214,7 @@ fn unknown_signal(context: &Context, error: ModelError, names: [&String; 2]) -> 
             return in_line(context.line, vec![diagnostic.clone().at(span, "not in the model")]).into();
         }
     }
-    refused(context, error)
-}
-
-/// A model that gives no polynomial.
-fn refused(context: &Context, error: ModelError) -> Failure {
-    match error {
-        ModelError::Input(error) => about_line(context, error).into(),
-        ModelError::Exhausted(exhausted) => exhausted.into(),
-        ModelError::Undefined(what) => {
-            let message = format!("the model is undefined for these values: {what}");
-            Diagnostic::error("E-undefined", message).help("set the parameters to other values").into()
-        }
-    }
+    failure
 }
 
 /// The notations a polynomial is written in.

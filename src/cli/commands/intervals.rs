@@ -1,15 +1,13 @@
 //! `jurist intervals`: the exact stable set of one parameter.
 
-use super::Context;
+use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::{decision, known_names};
 use crate::cli::output::write_answer;
 use crate::cli::status::{Outcome, Status};
+use crate::cli::written::check_certificate;
 use clap::Args;
-use jurist_engine::analysis::{DECAY, Decision, Intervals, RADIUS, asked, intervals};
-use jurist_engine::prove::emit::intervals_certificate;
-use jurist_engine::prove::smt2::intervals_smt2;
-use jurist_engine::show::json::to_text;
+use jurist_engine::problem::{DECAY, RADIUS};
 use jurist_engine::show::{intervals_json, intervals_text};
 use std::ffi::OsString;
 use std::slice::from_ref;
@@ -33,30 +31,34 @@ pub(in crate::cli) struct Options {
 /// Answers on standard output or in a file.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
-    let (model, settings) = decision(&options.decision, context)?;
+    let (model, question) = decision(&options.decision, context)?;
     if options.param != RADIUS && options.param != DECAY {
         known_names(context, &model, "--param", from_ref(&options.param))?;
     }
     let digits = output.digits() as usize;
-    let question = asked(&model, &settings, &options.param)?;
-    context.know(output, move |wants_json, budget, reached| {
-        let answer = Intervals { question, stable: Decision::Undecided { budget, reached } };
-        Some(if wants_json { to_text(&intervals_json(&answer, digits)) } else { intervals_text(&answer, digits) })
-    })?;
-    let answer = intervals(&model, &settings, &options.param, &context.budget)?;
-    context.warn(None, &answer.question.warnings);
-    if let Decision::Decided(set) = &answer.stable {
-        if let Some(file) = &options.certificate {
-            let certificate = intervals_certificate(&model.source().text, &answer.question, &context.budget)?;
-            write_answer(&certificate, Some(file))?;
+    let problem = question.free(&options.param).problem()?;
+    let answer = match decided(problem.stable_set(&context.budget))? {
+        Ok(answer) => answer,
+        Err(stopped) => {
+            let known = Err(&stopped);
+            let text = || Some(intervals_text(&problem, known, digits));
+            return context.undecided(output, &stopped, text, || intervals_json(&problem, known, digits));
         }
-        if let Some(file) = &options.smt2 {
-            write_answer(&intervals_smt2(&answer.question, set), Some(file))?;
-        }
+    };
+    context.warn(None, problem.warnings());
+    let certificate = match &options.certificate {
+        Some(file) => Some((answer.certificate(&context.budget)?, file)),
+        None => None,
+    };
+    if let Some((text, file)) = &certificate {
+        write_answer(text, Some(file))?;
     }
-    context.answer(output, || intervals_text(&answer, digits), || intervals_json(&answer, digits))?;
-    Ok(match &answer.stable {
-        Decision::Decided(_) => Status::Holds,
-        Decision::Undecided { budget, reached } => context.say_undecided(budget, reached),
-    })
+    if let Some(file) = &options.smt2 {
+        write_answer(&answer.smt2(&context.budget)?, Some(file))?;
+    }
+    context.answer(output, || answer.text(digits), || answer.json(digits))?;
+    if let Some((text, file)) = &certificate {
+        check_certificate(context, &output.run, &model.source().text, text, file);
+    }
+    Ok(Status::Holds)
 }

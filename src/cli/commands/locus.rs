@@ -3,7 +3,7 @@
 use super::Context;
 use crate::cli::arguments::{ModelOptions, PictureOptions, RunOptions};
 use crate::cli::assignments::in_line;
-use crate::cli::input::{known_names, load, settings};
+use crate::cli::input::{known_names, load, question};
 use crate::cli::picture::{Picture, deliver, wanted};
 use crate::cli::status::{Failure, Outcome, Status};
 use clap::Args;
@@ -11,8 +11,9 @@ use jurist_algebra::number::{Rational, parse_number};
 use jurist_draw::document::locus_json;
 use jurist_draw::figures::locus_of;
 use jurist_draw::simulate::ParameterScale;
-use jurist_engine::analysis::{Decision, Intervals, intervals};
+use jurist_engine::answer::Answer;
 use jurist_engine::error::Diagnostic;
+use jurist_engine::stability::StableSet;
 use std::slice::from_ref;
 
 /// Options of `jurist locus`.
@@ -39,19 +40,17 @@ pub(in crate::cli) struct Options {
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let kind = wanted(&options.picture)?;
     let model = load(options.model.model.as_ref(), context)?;
-    let settings = settings(context, &model, &options.model, &Default::default())?;
+    let question = question(context, &model, &options.model, &Default::default())?;
     known_names(context, &model, "--param", from_ref(&options.param))?;
-    let answer = intervals(&model, &settings, &options.param, &context.budget)?;
-    context.warn(None, &answer.question.warnings);
-    if let Decision::Undecided { budget, reached } = &answer.stable {
-        return Ok(context.say_undecided(budget, reached));
-    }
+    let answer = question.free(&options.param).stable_set(&context.budget)?;
+    context.warn(None, answer.problem().warnings());
     let range = match &options.range {
         Some(text) => range_of(text, context)?,
         None => default_range(&answer)?,
     };
     let scale = if options.log { Some(ParameterScale::Logarithmic) } else { None };
-    let picture = locus_of(&answer, &range, scale, &context.budget)?;
+    let budget = &context.budget;
+    let picture = budget.enter(|| locus_of(&answer, &range, scale, budget))??;
     context.reporter.finish();
     for crossing in &picture.crossings {
         crate::cli::output::note(&format!("crossing: {}", crossing.label));
@@ -77,13 +76,12 @@ fn range_of(text: &str, context: &Context) -> Result<(Rational, Rational), Failu
 
 /// Around every end of the stable set and the nominal value, a third more on both sides, within the
 /// domain.
-fn default_range(answer: &Intervals) -> Result<(Rational, Rational), Failure> {
-    let mut values: Vec<Rational> = answer.question.nominal.iter().cloned().collect();
-    if let Decision::Decided(set) = &answer.stable {
-        for end in set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
-            let (lo, hi) = end.value.refined_to_digits(4).enclosure();
-            values.extend([lo, hi]);
-        }
+fn default_range(answer: &Answer<StableSet>) -> Result<(Rational, Rational), Failure> {
+    let free = answer.problem().parameter();
+    let mut values: Vec<Rational> = free.nominal.iter().cloned().collect();
+    for end in answer.value().intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
+        let (lo, hi) = end.value.refined_to_digits(4).enclosure();
+        values.extend([lo, hi]);
     }
     values.sort();
     let (Some(low), Some(high)) = (values.first().cloned(), values.last().cloned()) else {
@@ -101,7 +99,7 @@ fn default_range(answer: &Intervals) -> Result<(Rational, Rational), Failure> {
         high.abs()
     };
     let (mut from, mut to) = (&low - &(&width * &third), &high + &(&width * &third));
-    let domain = &answer.question.domain;
+    let domain = &free.domain;
     let inside = |edge: &Rational, direction: i64| edge + &width * Rational::new(direction.into(), 1000.into());
     if let Some(lower) = domain.lower.as_ref().filter(|l| from <= **l) {
         from = inside(lower, 1);

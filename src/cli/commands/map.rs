@@ -1,19 +1,18 @@
 //! `jurist map`: the stable region in two parameters.
 
-use super::Context;
 use super::map_boxes::{self, MethodOptions};
+use super::{Context, decided};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis};
-use crate::cli::input::{known_name, load, settings};
+use crate::cli::input::{known_name, load, question};
 use crate::cli::output::{ending, note, unknown_ending};
 use crate::cli::picture::{png, write};
 use crate::cli::status::{Failure, Outcome, Status};
 use clap::Args;
-use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
 use jurist_draw::page::map_page;
 use jurist_drive::published_limits;
-use jurist_engine::analysis::{Decision, Intervals, Map, MapAnswer, RegionExtent, Settings, map_by};
+use jurist_engine::answer::{Answer, Map, MapOrBoxes};
 use jurist_engine::show::{map_json, map_text};
 use std::path::Path;
 
@@ -70,63 +69,43 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let [x, y] = axes.map(|(option, text)| axis(context.line, option, text));
     let requests = [x?, y?];
     let model = load(options.model.model.as_ref(), context)?;
-    let settings = settings(context, &model, &options.model, &options.region)?;
+    let mut question = question(context, &model, &options.model, &options.region)?;
     for request in &requests {
         known_name(context, &model, &request.name, request.name_span)?;
+        question = question.free(&request.name);
     }
     let boxes = options.method.request(&requests, context)?;
-    let names = [requests[0].name.as_str(), requests[1].name.as_str()];
-    let answer = match map_by(&model, &settings, names, options.method.method(), &boxes, &context.budget) {
-        Ok(MapAnswer::Exact(answer)) => *answer,
-        Ok(MapAnswer::Boxes(boxes)) => {
-            context.warn(None, &boxes.question.warnings);
+    let problem = question.plane_problem()?;
+    let digits = options.output.digits() as usize;
+    let places = digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1);
+    let answer = match decided(problem.map_by(options.method.method(), &boxes, places, &context.budget))? {
+        Ok(MapOrBoxes::Exact(answer)) => *answer,
+        Ok(MapOrBoxes::Boxes(boxes)) => {
+            context.warn(None, problem.warnings());
             return map_boxes::answer(&boxes, &options.output, context);
         }
-        Err(failure) => return context.undecided(&options.output, "jurist/map/1", "regions", failure),
-    };
-    context.warn(None, &answer.warnings);
-    let digits = options.output.digits() as usize;
-    let limits = answer.limits(digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1), &context.budget);
-    let limits = limits.unwrap_or_else(|exhausted| {
-        note(&format!("the regions are decided, what limits them is not: {exhausted}"));
-        Vec::new()
-    });
-    let slices = nominal_slices(&answer, &context.budget);
-    let shown = Shown { answer: &answer, limits: &limits, slices: &slices, digits };
-    match picture {
-        Some(kind) if answer.map.decided().is_some() => {
-            let built_in = options.model.model.is_none();
-            if let Err(exhausted) =
-                draw(&shown, kind, windows(options, &requests), built_in, &settings, options, context)?
-            {
-                return Ok(context.say_undecided(&exhausted.budget, &context.budget.reached()));
-            }
-        }
-        Some(_) => {}
-        None => context.answer(
-            &options.output,
-            || map_text(&answer, &limits, &slices, digits),
-            || map_json(&answer, &limits, digits),
-        )?,
-    }
-    Ok(match &answer.map {
-        Decision::Decided(_) => Status::Holds,
-        Decision::Undecided { budget, reached } => {
-            let status = context.say_undecided(budget, reached);
+        Err(stopped) => {
+            let known = Err(&stopped);
+            let text = || picture.is_none().then(|| map_text(&problem, known, digits));
+            let status = context.undecided(&options.output, &stopped, text, || map_json(&problem, known, digits))?;
             if let Some(hint) = options.method.hint(&boxes) {
                 note(&hint);
             }
-            status
+            return Ok(status);
         }
-    })
-}
-
-/// The answer with what is said beside it.
-struct Shown<'a> {
-    answer: &'a Map,
-    limits: &'a [RegionExtent],
-    slices: &'a [Intervals],
-    digits: usize,
+    };
+    context.warn(None, problem.warnings());
+    if let Err(stopped) = &answer.value().limits {
+        note(&format!("the regions are decided, what limits them is not: {stopped}"));
+    }
+    match picture {
+        Some(kind) => {
+            let windows = windows(options, &requests);
+            context.budget.enter(|| draw(&answer, kind, windows, options, context))??;
+        }
+        None => context.answer(&options.output, || answer.text(digits), || answer.json(digits))?,
+    }
+    Ok(Status::Holds)
 }
 
 /// The kind of picture that the output file's ending asks for, if it asks for one.
@@ -156,46 +135,30 @@ fn windows(options: &Options, requests: &[AxisRequest; 2]) -> [WindowRequest; 2]
     ]
 }
 
-/// Draws the picture to the file; the inner error says that the budget ran out.
+/// Draws the picture to the file.
 fn draw(
-    shown: &Shown<'_>,
+    answer: &Answer<Map>,
     kind: Picture,
     requests: [WindowRequest; 2],
-    built_in: bool,
-    settings: &Settings,
     options: &Options,
     context: &Context,
-) -> Result<Result<(), Exhausted>, Failure> {
-    let Some(file) = &options.output.output else { return Ok(Ok(())) };
-    let published = if built_in { published_limits(shown.answer, settings) } else { Vec::new() };
-    let windows = choose_windows(shown.answer, shown.limits, shown.slices, &published, &requests);
-    let trace = match trace_map(shown.answer, windows, &context.budget) {
-        Ok(trace) => trace,
-        Err(exhausted) => return Ok(Err(exhausted)),
-    };
-    let contents = match MapContents::new(shown.answer, &trace, shown.slices, shown.limits, published, &context.budget)
-    {
-        Ok(Some(contents)) => contents,
-        Ok(None) => return Ok(Ok(())),
-        Err(exhausted) => return Ok(Err(exhausted)),
-    };
-    context.reporter.finish();
+) -> Result<(), Failure> {
+    let Some(file) = &options.output.output else { return Ok(()) };
+    let built_in = options.model.model.is_none();
+    let published = if built_in { published_limits(answer.problem()) } else { Vec::new() };
+    let windows = choose_windows(answer, &published, &requests);
+    let trace = trace_map(answer, windows, &context.budget)?;
+    let contents = MapContents::new(answer, &trace, published, &context.budget)?;
     let wide = contents.draw(WIDE.0, WIDE.1, kind != Picture::Page);
-    let path = Path::new(file);
-    match kind {
-        Picture::Svg => write(path, wide.figure.svg().as_bytes())?,
-        Picture::Png => write(path, &png(&wide.figure)?)?,
+    let bytes = match kind {
+        Picture::Svg => wide.figure.svg().into_bytes(),
+        Picture::Png => png(&wide.figure)?,
         Picture::Page => {
             let narrow = contents.draw(NARROW.0, NARROW.1, false);
-            let text = map_text(shown.answer, shown.limits, shown.slices, shown.digits);
-            write(path, map_page(shown.answer, &contents, &trace, &[wide, narrow], &text).as_bytes())?;
+            let text = answer.text(options.output.digits() as usize);
+            map_page(answer, &contents, &trace, &[wide, narrow], &text, &context.budget)?.into_bytes()
         }
-    }
-    Ok(Ok(()))
-}
-
-/// The stable sets on the two lines through the nominal point, as far as the budget allows.
-fn nominal_slices(answer: &Map, budget: &Budget) -> Vec<Intervals> {
-    let on = |fixed: usize| answer.axes[fixed].nominal.as_ref().and_then(|v| answer.slice(fixed, v, budget).ok());
-    [on(0), on(1)].into_iter().flatten().collect()
+    };
+    context.reporter.finish();
+    write(Path::new(file), &bytes)
 }

@@ -7,12 +7,12 @@ use crate::cli::output::ending;
 use crate::cli::picture::{png, write};
 use crate::cli::status::{Failure, Outcome, Status};
 use clap::{Args, ValueEnum};
+use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;
 use jurist_draw::figures::map::boxes_figure;
 use jurist_draw::page::map_boxes_page;
-use jurist_engine::analysis::{BoxRequest, Decision, MapBoxes, MapMethod};
+use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod};
 use jurist_engine::error::Diagnostic;
-use jurist_engine::show::{map_boxes_json, map_boxes_text};
 use jurist_engine::stability::Range;
 use std::path::Path;
 
@@ -83,29 +83,27 @@ impl MethodOptions {
 const SIZE: (f64, f64) = (860.0, 600.0);
 
 /// Writes the answer by boxes, as a picture where the output file's ending asks for one.
-pub(super) fn answer(boxes: &MapBoxes, output: &OutputOptions, context: &Context) -> Outcome {
+pub(super) fn answer(boxes: &Answer<MapBoxes>, output: &OutputOptions, context: &Context) -> Outcome {
     let digits = output.digits() as usize;
     let file = output.output.as_ref().filter(|_| !output.json);
     let kind = file.and_then(|f| ending(f)).filter(|e| ["svg", "png", "html", "htm"].contains(&e.as_str()));
-    match (file, kind.as_deref(), boxes_figure(boxes, SIZE.0, SIZE.1)) {
-        (Some(file), Some(kind), Some(figure)) => {
-            context.reporter.finish();
-            let bytes = match kind {
-                "svg" => figure.svg().into_bytes(),
-                "png" => png(&figure)?,
-                _ => map_boxes_page(boxes, &figure, digits).into_bytes(),
-            };
-            write(Path::new(file), &bytes)?;
-        }
-        // There is nothing to draw.
-        (_, Some(_), None) => {}
-        _ => context.answer(output, || map_boxes_text(boxes, digits), || map_boxes_json(boxes))?,
+    if let (Some(file), Some(kind)) = (file, kind) {
+        let figure = boxes_figure(boxes, SIZE.0, SIZE.1);
+        context.reporter.finish();
+        let bytes = match kind.as_str() {
+            "svg" => figure.svg().into_bytes(),
+            "png" => png(&figure)?,
+            _ => map_boxes_page(boxes, &figure, digits).into_bytes(),
+        };
+        write(Path::new(file), &bytes)?;
+    } else {
+        context.answer(output, || boxes.text(digits), || boxes.json())?;
     }
-    Ok(match &boxes.boxes {
-        Decision::Decided(map) => match &map.stopped {
-            None => Status::Holds,
-            Some(budget) => context.say_undecided(budget, "subdividing the window"),
-        },
-        Decision::Undecided { budget, reached } => context.say_undecided(budget, reached),
+    Ok(match &boxes.value().boxes.stopped {
+        None => Status::Holds,
+        Some(budget) => {
+            let reached = "subdividing the window".to_owned();
+            context.say_undecided(&Exhausted { budget: budget.clone(), reached })
+        }
     })
 }

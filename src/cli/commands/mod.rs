@@ -21,9 +21,7 @@ use super::output::{ending, unknown_ending, write_answer};
 use super::progress::Reporter;
 use super::show;
 use super::status::{Failure, Outcome, Status};
-use super::watch::Watch;
-use jurist_algebra::limits::Budget;
-use jurist_engine::analysis::Point;
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_engine::error::{Diagnostic, Error, Source};
 use jurist_engine::show::json;
 use serde_json::Value;
@@ -39,8 +37,6 @@ pub(super) struct Context<'a> {
     pub budget: Budget,
     /// Whether warnings are left out.
     pub quiet: bool,
-    /// Who speaks when a step runs on after the time is up.
-    pub watch: Watch,
 }
 
 impl<'a> Context<'a> {
@@ -52,35 +48,7 @@ impl<'a> Context<'a> {
         }
         let reporter = Reporter::new(options);
         let budget = reporter.budget(options);
-        // The check of a certificate keeps its own time: too late is rejected, not undecided.
-        let checks = matches!(arguments.command, Some(Command::Verify(_)));
-        let watch = Watch::after(options.timeout.filter(|_| !checks), &reporter);
-        Context { line, reporter, budget, quiet: options.quiet, watch }
-    }
-
-    /// Has this written when the time is up in the middle of a step: from whether JSON is wanted, the budget
-    /// and how far the work came.
-    pub fn know(
-        &self,
-        options: &OutputOptions,
-        document: impl FnOnce(bool, String, String) -> Option<String> + Send + 'static,
-    ) -> Result<(), Failure> {
-        let wants_json = self.wants_json(options)?;
-        self.watch.know(options.output.as_ref(), move |budget, reached| document(wants_json, budget, reached));
-        Ok(())
-    }
-
-    /// The same for a question at a point, of which only JSON says what is known.
-    pub fn know_point(
-        &self,
-        options: &OutputOptions,
-        schema: &'static str,
-        key: &'static str,
-        point: Point,
-    ) -> Result<(), Failure> {
-        self.know(options, move |wants_json, budget, reached| {
-            wants_json.then(|| json::to_text(&json::undecided_at_point(schema, key, &budget, &reached, &point)))
-        })
+        Context { line, reporter, budget, quiet: options.quiet }
     }
 
     /// Shows warnings, unless they are not wanted.
@@ -97,8 +65,9 @@ impl<'a> Context<'a> {
         text: impl FnOnce() -> String,
         document: impl FnOnce() -> Value,
     ) -> Result<(), Failure> {
+        let wants_json = self.wants_json(options)?;
+        let answer = self.budget.enter(|| if wants_json { json::to_text(&document()) } else { text() })?;
         self.reporter.finish();
-        let answer = if self.wants_json(options)? { json::to_text(&document()) } else { text() };
         write_answer(&answer, options.output.as_ref())
     }
 
@@ -117,40 +86,34 @@ impl<'a> Context<'a> {
         self.wants_json(options).map(|_| ())
     }
 
-    /// Writes the document of an answer that the budget did not allow; its `key` is `null`.
-    pub fn undecided(&self, options: &OutputOptions, schema: &str, key: &str, failure: Failure) -> Outcome {
-        if let Failure::Undecided(exhausted) = &failure
-            && self.wants_json(options)?
-        {
-            let document = json::undecided_document(schema, key, &exhausted.budget, &self.reporter.reached());
-            write_answer(&json::to_text(&document), options.output.as_ref())?;
-        }
-        Err(failure)
-    }
-
-    /// The same about a point, with all that is known of it.
-    pub fn undecided_at_point(
+    /// Writes what is known of an answer that the budget did not allow, and says so on standard error.
+    pub fn undecided(
         &self,
         options: &OutputOptions,
-        schema: &str,
-        key: &str,
-        failure: Failure,
-        point: &Point,
+        stopped: &Exhausted,
+        text: impl FnOnce() -> Option<String>,
+        document: impl FnOnce() -> Value,
     ) -> Outcome {
-        if let Failure::Undecided(exhausted) = &failure
-            && self.wants_json(options)?
-        {
-            let document = json::undecided_at_point(schema, key, &exhausted.budget, &self.reporter.reached(), point);
-            write_answer(&json::to_text(&document), options.output.as_ref())?;
+        let known = if self.wants_json(options)? { Some(json::to_text(&document())) } else { text() };
+        if let Some(known) = known {
+            write_answer(&known, options.output.as_ref())?;
         }
-        Err(failure)
+        Ok(self.say_undecided(stopped))
     }
 
     /// Says on standard error that there is no answer.
-    pub fn say_undecided(&self, budget: &str, reached: &str) -> Status {
+    pub fn say_undecided(&self, stopped: &Exhausted) -> Status {
         self.reporter.finish();
-        super::output::note(&format!("undecided: the budget ran out: {budget}; reached: {reached}"));
+        super::output::note(&format!("undecided: {stopped}"));
         Status::Undecided
+    }
+}
+
+/// What stopped the work; any other reason for having no answer is passed on.
+pub(super) fn decided<T>(result: Result<T, Failure>) -> Result<Result<T, Exhausted>, Failure> {
+    match result {
+        Ok(value) => Ok(Ok(value)),
+        Err(failure) => failure.stopped().map(Err),
     }
 }
 

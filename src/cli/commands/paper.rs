@@ -30,7 +30,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     std::fs::create_dir_all(folder).map_err(|e| {
         Diagnostic::error("E-write", format!("cannot make the folder {}: {}", folder.display(), plain(&e)))
     })?;
-    let report = paper_report(&context.budget)?;
+    let report = context.budget.enter(|| paper_report(&context.budget))??;
     context.budget.step("writing");
     write(&folder.join("report.html"), report.html.as_bytes())?;
     for figure in &report.figures {

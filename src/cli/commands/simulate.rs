@@ -3,7 +3,7 @@
 use super::Context;
 use crate::cli::arguments::{ModelOptions, PictureOptions, RunOptions};
 use crate::cli::assignments::{in_line, plain_number};
-use crate::cli::input::{load, settings};
+use crate::cli::input::{load, question};
 use crate::cli::output::note;
 use crate::cli::picture::{Picture, deliver, wanted};
 use crate::cli::status::{Failure, Outcome, Status};
@@ -13,7 +13,8 @@ use jurist_draw::document::{CircuitAnswer, SimulationAnswer, simulation_json, ti
 use jurist_draw::figures::{Figure, response_panels, stacked};
 use jurist_draw::simulate::{Excitation, Pulse, Record, SampledModel, SwitchedModel, excitation, signal_unit};
 use jurist_engine::error::{Diagnostic, Source};
-use jurist_engine::model::{Loop, Question};
+use jurist_engine::model::Loop;
+use jurist_engine::problem::Problem;
 use jurist_engine::show::layout::called;
 
 /// The built-in drive as blocks, which is what a switched simulation reads.
@@ -87,22 +88,20 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         (None, true) => Loop::from_toml(&Source::new("<built-in drive>", DRIVE_BLOCKS))?.0,
         (path, _) => load(path.as_ref(), context)?,
     };
-    let settings = settings(context, &model, &options.model, &Default::default())?;
-    context.warn(None, &settings.warnings(&model, &[]));
-    let question = Question { keep: Vec::new(), set: settings.set.clone() };
+    let problem = question(context, &model, &options.model, &Default::default())?.problem()?;
+    context.warn(None, problem.warnings());
     let course = Course::of(options, &model, context)?;
     context.budget.step("simulating");
     let mut answer = if options.switched {
-        switched(options, &model, &question, &course, context)?
+        switched(options, &problem, &course, context)?
     } else {
-        sampled(&model, &question, &course, context)?
+        sampled(&problem, &course, context)?
     };
     answer.trace = answer.trace.with_units(|name| signal_unit(&model, name));
     context.reporter.finish();
     let figure = figure(&model, &answer);
     let table = || answer.trace.to_csv();
-    let set = model.resolve(&question)?.values;
-    let document = || simulation_json(&model, &set, &answer);
+    let document = || simulation_json(&problem, &answer);
     let out = Picture { figure: &figure, csv: &table, json: &document, csv_beside: options.picture.csv };
     deliver(&out, kind, options.picture.output.as_ref())?;
     Ok(Status::Holds)
@@ -203,9 +202,9 @@ fn parsed(option: &str, text: &str, context: &Context) -> Result<(String, f64, f
     }
 }
 
-fn sampled(model: &Loop, question: &Question, course: &Course, context: &Context) -> Result<SimulationAnswer, Failure> {
+fn sampled(problem: &Problem, course: &Course, context: &Context) -> Result<SimulationAnswer, Failure> {
     let step = course.duration / CONTINUOUS_SAMPLES;
-    let system = SampledModel::from_loop(model, question, step, &context.budget)?;
+    let system = SampledModel::from_loop(problem, step, &context.budget)?;
     let at = |name: &str| system.state_named(name);
     let steps = course.steps(system.sample_time);
     let drive = excitation(at, system.states.len(), &system.inputs, &course.initial, &steps)?;
@@ -215,14 +214,13 @@ fn sampled(model: &Loop, question: &Question, course: &Course, context: &Context
         let last = trace.time.last().copied().unwrap_or(0.0);
         note(&format!("the response leaves the range of floating point after t = {last} s"));
     }
-    let sampled = model.sample_time(question, &context.budget)?.is_some();
+    let sampled = problem.algebra(&context.budget)?.sample_time().is_some();
     Ok(SimulationAnswer { trace, sample_time: sampled.then_some(system.sample_time), circuit: None })
 }
 
 fn switched(
     options: &Options,
-    model: &Loop,
-    question: &Question,
+    problem: &Problem,
     course: &Course,
     context: &Context,
 ) -> Result<SimulationAnswer, Failure> {
@@ -231,7 +229,7 @@ fn switched(
         PulsePlace::End => Pulse::End,
         PulsePlace::Centre => Pulse::Centre,
     };
-    let system = SwitchedModel::from_loop(model, question, pulse, &context.budget)?;
+    let system = SwitchedModel::from_loop(problem, pulse, &context.budget)?;
     let at = |name: &str| system.state_named(name);
     let steps = course.steps(system.period());
     let initial: &[(String, f64)] = if options.steady { &[] } else { &course.initial };

@@ -1,14 +1,14 @@
 //! `jurist verdict`: one point.
 
-use super::Context;
+use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::decision;
 use crate::cli::output::write_answer;
 use crate::cli::status::{Outcome, Status};
+use crate::cli::written::check_certificate;
 use clap::Args;
-use jurist_engine::analysis::{Point, Verdict, verdict};
-use jurist_engine::prove::emit::verdict_certificate;
-use jurist_engine::show::{verdict_json, verdict_text};
+use jurist_engine::answer::Verdict;
+use jurist_engine::show::verdict_json;
 use std::ffi::OsString;
 
 /// Options of `jurist verdict`.
@@ -21,25 +21,27 @@ pub(in crate::cli) struct Options {
     pub certificate: Option<OsString>,
 }
 
-/// The document's name.
-const SCHEMA: &str = "jurist/verdict/1";
-
 /// Answers on standard output or in a file; the status is 1 for anything but stable.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
-    let (model, settings) = decision(&options.decision, context)?;
-    let point = Point::of(&model, &settings, &[])?;
-    context.know_point(output, SCHEMA, "verdict", point.clone())?;
-    let answer = match verdict(&model, &settings, &context.budget) {
+    let problem = decision(&options.decision, context)?.1.problem()?;
+    let answer = match decided(problem.verdict(&context.budget))? {
         Ok(answer) => answer,
-        Err(failure) => {
-            return context.undecided_at_point(output, SCHEMA, "verdict", failure, &point);
+        Err(stopped) => {
+            return context.undecided(output, &stopped, || None, || verdict_json(&problem, Err(&stopped)));
         }
     };
-    context.warn(None, &answer.warnings);
-    if let Some(file) = &options.certificate {
-        write_answer(&verdict_certificate(&model, &settings, &answer, &context.budget)?, Some(file))?;
+    context.warn(None, problem.warnings());
+    let certificate = match &options.certificate {
+        Some(file) => Some((answer.certificate(&context.budget)?, file)),
+        None => None,
+    };
+    if let Some((text, file)) = &certificate {
+        write_answer(text, Some(file))?;
     }
-    context.answer(output, || verdict_text(&answer), || verdict_json(&answer))?;
-    Ok(if answer.verdict == Verdict::Stable { Status::Holds } else { Status::DoesNotHold })
+    context.answer(output, || answer.text(), || answer.json())?;
+    if let Some((text, file)) = &certificate {
+        check_certificate(context, &output.run, &problem.model().source().text, text, file);
+    }
+    Ok(if answer.value().verdict == Verdict::Stable { Status::Holds } else { Status::DoesNotHold })
 }

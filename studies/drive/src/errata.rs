@@ -88,12 +88,11 @@ mod tests {
     use super::super::printed::{EQUATION_23, EQUATION_37, LIST_AFTER_36};
     use super::*;
     use jurist_algebra::limits::Budget;
-    use jurist_engine::model::{Loop, Question};
+    use jurist_engine::model::Loop;
 
     /// Coefficients of the drive in one parameter.
     fn drive(parameter: &str) -> impl Fn(usize, usize) -> Rational {
-        let question = Question::keeping([parameter]);
-        let p = Loop::drive().characteristic_polynomial(&question, &Budget::unlimited()).unwrap();
+        let p = crate::tables::polynomial(&Loop::drive(), parameter, &Budget::unlimited()).unwrap();
         move |z, k| super::super::coefficient(&p, z, k)
     }
 

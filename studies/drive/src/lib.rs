@@ -20,7 +20,7 @@ mod words;
 pub use diagrams::{chopper, current_controller, drive_blocks, pwm_signal, speed_controller, tracker};
 pub use errata::{Comparison, Match, compare, compare_all};
 pub use html::Table;
-pub use main_job::{MainJob, main_job_json, main_job_text};
+pub use main_job::{MainJob, main_job, main_job_json, main_job_text, main_job_undecided};
 pub use printed::{EQUATION_23, EQUATION_37, LIST_AFTER_36, Printed};
 pub use published::published_limits;
 pub use report::{NamedFigure, PaperReport, paper_report};

@@ -3,20 +3,22 @@
 use super::facts::{AMPLITUDE, PERIOD, PUBLISHED_LIMITS, SPEED_REFERENCE};
 use super::html::Table;
 use super::runs::at;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, join};
 use jurist_algebra::number::{Rational, enclosed_decimal, parse_number};
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_draw::simulate::{Pulse, SampledModel, SwitchedModel, growth_limit};
-use jurist_engine::analysis::{Failure, Intervals, Settings, intervals};
+use jurist_engine::answer::Answer;
+use jurist_engine::error::Failure;
 use jurist_engine::model::Loop;
 use jurist_engine::show::real;
+use jurist_engine::stability::StableSet;
 use nalgebra::DVector;
 
 /// The ends of the stable interval around the nominal value (or of the first).
-pub(super) fn ends(answer: &Intervals) -> (Option<&RealAlgebraic>, Option<&RealAlgebraic>) {
-    let Some(set) = answer.stable.decided() else { return (None, None) };
+pub(super) fn ends(answer: &Answer<StableSet>) -> (Option<&RealAlgebraic>, Option<&RealAlgebraic>) {
+    let set = answer.value();
     let bare = set.to_interval_set();
-    let nominal = answer.question.nominal.as_ref();
+    let nominal = answer.problem().parameter().nominal.as_ref();
     let around = bare.intervals().iter().position(|i| nominal.is_some_and(|n| i.contains(n)));
     match set.intervals().get(around.unwrap_or(0)) {
         Some(i) => (i.lower.as_ref().map(|e| &e.value), i.upper.as_ref().map(|e| &e.value)),
@@ -56,8 +58,7 @@ pub(super) fn limits(model: &Loop, blocks: &Loop, printed: [&Loop; 2], budget: &
     for (way, [lower, upper, frequency]) in PUBLISHED_LIMITS {
         row([way, lower, upper, frequency, "published"]);
     }
-    let settings = Settings::default();
-    let exact = |lp: &Loop, name: &str| intervals(lp, &settings, name, budget);
+    let exact = |lp: &Loop, name: &str| lp.ask().free(name).stable_set(budget);
     for (way, in_amplitude, in_period) in
         [("exact", model, model), ("printed coefficients, exact", printed[0], printed[1])]
     {
@@ -70,8 +71,8 @@ pub(super) fn limits(model: &Loop, blocks: &Loop, printed: [&Loop; 2], budget: &
         row([way, &decimal(lower, 16), &decimal(upper, 16), &f, "proved"]);
     }
     let growth = |k: f64, t: f64| {
-        let question = at(&rational(k)?, &rational(t)?);
-        let mut m = SampledModel::from_loop(model, &question, 1.0, budget).ok()?;
+        let problem = at(model, &rational(k)?, &rational(t)?).ok()?;
+        let mut m = SampledModel::from_loop(&problem, 1.0, budget).ok()?;
         // Seen every 1024 samples: the same run, and the slow mode has time to show itself.
         for _ in 0..10 {
             m.transition = &m.transition * &m.transition;
@@ -83,8 +84,10 @@ pub(super) fn limits(model: &Loop, blocks: &Loop, printed: [&Loop; 2], budget: &
     let [upper, f] = both(&growth, (545.0, 555.0), (2020.0, 2010.0), [0.002, 0.002], budget)?;
     row(["linear model, runs", &shown(lower, 4), &shown(upper, 2), &shown(f, 2), "drawn"]);
     let inputs = DVector::from_vec(vec![SPEED_REFERENCE, 0.0]);
-    let circuit =
-        |k: f64, t: f64, pulse| SwitchedModel::from_loop(blocks, &at(&rational(k)?, &rational(t)?), pulse, budget).ok();
+    let circuit = |k: f64, t: f64, pulse| {
+        let problem = at(blocks, &rational(k)?, &rational(t)?).ok()?;
+        SwitchedModel::from_loop(&problem, pulse, budget).ok()
+    };
     for (pulse, word) in [(Pulse::Beginning, "beginning"), (Pulse::End, "end")] {
         let eigenvalue =
             |k: f64, t: f64| circuit(k, t, pulse)?.small_signal_eigenvalues(&inputs)?.first().map(|z| z.norm());
@@ -110,7 +113,7 @@ fn both(
     width: [f64; 2],
     budget: &Budget,
 ) -> Result<[Option<f64>; 2], Exhausted> {
-    let (k, f) = rayon::join(
+    let (k, f) = join(
         || bisected(amplitude, width[0], budget, |k| seen(k, PERIOD)),
         || bisected(frequency, width[1], budget, |f| seen(AMPLITUDE, 1.0 / f)),
     );

@@ -1,16 +1,26 @@
 //! The main job: the paper's drive on one page, each limit beside the paper's.
 
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, enclosed_decimal, to_decimal};
 use jurist_algebra::poly::{RationalFunction, RealAlgebraic};
-use jurist_engine::analysis::{Decision, Intervals, TableAnswer, frequency};
+use jurist_engine::answer::{Answer, ParametricTable};
+use jurist_engine::error::{Failure, Source};
 use jurist_engine::model::Loop;
 use jurist_engine::show::intervals::{domain_text, set_lines};
 use jurist_engine::show::layout::{Columns, short, visible, wrapped};
 use jurist_engine::show::notation::Coefficient;
-use jurist_engine::show::{intervals_json, json, real, table_json};
-use jurist_engine::stability::{AlgebraicInterval, ClassicalTest, End, IntervalSet, StableInterval};
+use jurist_engine::show::{json, real};
+use jurist_engine::stability::{AlgebraicInterval, ClassicalTest, End, IntervalSet, StableInterval, StableSet};
 use serde_json::{Map, Value, json};
+
+/// Eq. 23 with the digits that the paper prints.
+const PRINTED_23: &str = include_str!("../../../examples/equation-23-as-printed.toml");
+
+/// The amplitude of the PWM wave, in which Eq. 23 is written.
+const AMPLITUDE: &str = "K_pwm";
+/// The chopping period, in which Eq. 37 is written.
+const PERIOD: &str = "T";
 
 /// Characters per line.
 const WIDTH: usize = 100;
@@ -24,21 +34,33 @@ const PAPER: [(&str, &str, &str); 3] =
 
 /// Everything the main job shows.
 #[derive(Debug)]
-pub struct MainJob<'a> {
-    /// The drive.
-    pub model: &'a Loop,
-    /// Its characteristic polynomial in the amplitude, the period nominal: Eq. 23.
-    pub equation_23: CharacteristicPolynomial,
-    /// Its characteristic polynomial in the period, the amplitude nominal: Eq. 37.
-    pub equation_37: CharacteristicPolynomial,
-    /// The Jury test in the amplitude.
-    pub amplitude: TableAnswer,
-    /// The Jury test in the period.
-    pub period: TableAnswer,
-    /// Eq. 23 with the digits printed in the paper.
-    pub printed_equation: CharacteristicPolynomial,
-    /// The exact stable set of the printed polynomial.
-    pub printed: Intervals,
+#[non_exhaustive]
+pub struct MainJob {
+    /// The Jury test in the amplitude; its problem has Eq. 23.
+    pub amplitude: Answer<ParametricTable>,
+    /// The Jury test in the period; its problem has Eq. 37.
+    pub period: Answer<ParametricTable>,
+    /// The exact stable set of Eq. 23 with the digits printed in the paper.
+    pub printed: Answer<StableSet>,
+}
+
+/// Does the main job on the drive.
+///
+/// # Errors
+/// [`Failure::Stopped`] when the budget runs out.
+pub fn main_job(model: &Loop, budget: &Budget) -> Result<MainJob, Failure> {
+    let (printed, _) = Loop::from_toml(&Source::new("<Eq. 23 as printed>", PRINTED_23))?;
+    Ok(MainJob {
+        amplitude: model.ask().free(AMPLITUDE).parametric_table(budget)?,
+        period: model.ask().free(PERIOD).parametric_table(budget)?,
+        printed: printed.ask().free(AMPLITUDE).stable_set(budget)?,
+    })
+}
+
+/// The characteristic polynomial behind an answer.
+fn equation<T>(answer: &Answer<T>) -> &CharacteristicPolynomial {
+    let algebra = answer.problem().evaluated();
+    algebra.and_then(|a| a.polynomial()).expect("the drive is defined, and its answers evaluated it")
 }
 
 /// The document `jurist/main/1`.
@@ -50,17 +72,25 @@ pub fn main_job_json(job: &MainJob, digits: usize) -> Value {
         .collect();
     json!({
         "schema": "jurist/main/1",
-        "title": job.model.title().unwrap_or_default(),
-        "jury": [table_json(&job.amplitude, digits), table_json(&job.period, digits)],
+        "title": job.amplitude.problem().title().unwrap_or_default(),
+        "jury": [job.amplitude.json(digits), job.period.json(digits)],
         "frequency_limit_hz": period_end(job).map(|end| reciprocal(&end.value, digits)),
         "paper": paper,
         "rounding": {
-            "exact_value_at_one": at_one(&job.equation_23),
-            "printed_value_at_one": at_one(&job.printed_equation),
+            "exact_value_at_one": at_one(equation(&job.amplitude)),
+            "printed_value_at_one": at_one(equation(&job.printed)),
             "printed_zero": json::exact(printed_zero(job).as_ref()),
-            "printed_polynomial": intervals_json(&job.printed, digits),
+            "printed_polynomial": job.printed.json(digits),
         },
     })
+}
+
+/// The document `jurist/main/1` of a job that the budget did not allow.
+pub fn main_job_undecided(stopped: &Exhausted) -> Value {
+    let mut out = Map::new();
+    out.insert("schema".into(), "jurist/main/1".into());
+    json::undecided(&mut out, &["jury"], stopped);
+    Value::Object(out)
 }
 
 /// The page.
@@ -70,10 +100,10 @@ pub fn main_job_text(job: &MainJob, digits: usize) -> String {
         let at: Vec<String> = set.iter().map(|(name, v)| format!("{name} = {}", short(v))).collect();
         format!("Q(z) = a_{} z^{} + ... + a_1 z + a_0 at {}", p.formal_degree, p.formal_degree, at.join(", "))
     };
-    out.push_str(&format!("\nEq. 23  {}\n", title(&job.equation_23, &job.amplitude.question.set)));
-    out.push_str(&equation_text(&job.equation_23, digits, true));
-    out.push_str(&format!("\nEq. 37  {}\n", title(&job.equation_37, &job.period.question.set)));
-    out.push_str(&equation_text(&job.equation_37, digits, false));
+    out.push_str(&format!("\nEq. 23  {}\n", title(equation(&job.amplitude), job.amplitude.problem().set())));
+    out.push_str(&equation_text(equation(&job.amplitude), digits, true));
+    out.push_str(&format!("\nEq. 37  {}\n", title(equation(&job.period), job.period.problem().set())));
+    out.push_str(&equation_text(equation(&job.period), digits, false));
     out.push_str("\nJury's conditions, each solved exactly ('jurist jury --param NAME' shows all)\n");
     out.push_str(&conditions_text(job, digits));
     out.push_str("\nLimits of stability\n");
@@ -84,12 +114,12 @@ pub fn main_job_text(job: &MainJob, digits: usize) -> String {
 
 /// Title, parameters and constants.
 fn model_text(job: &MainJob) -> String {
-    let model = job.model;
+    let model = job.amplitude.problem().model();
     let mut out = format!(
         "{}: {} time, order {}\n",
         visible(model.title().unwrap_or("the drive")),
         model.time().name(),
-        job.equation_23.formal_degree
+        equation(&job.amplitude).formal_degree
     );
     let mut columns = Columns::new("  ");
     for p in model.parameters() {
@@ -168,13 +198,13 @@ fn powers_of_parameter(c: &RationalFunction) -> Vec<Rational> {
 /// around the nominal value is shown.
 fn conditions_text(job: &MainJob, digits: usize) -> String {
     let (Some(a), Some(b)) = (test(&job.amplitude), test(&job.period)) else { return String::new() };
-    let piece = |answer: &TableAnswer, set: &IntervalSet| {
-        let question = &answer.question;
-        let around = |i: &&AlgebraicInterval| question.nominal.as_ref().is_some_and(|n| i.contains(n));
+    let piece = |answer: &Answer<ParametricTable>, set: &IntervalSet| {
+        let free = answer.problem().parameter();
+        let around = |i: &&AlgebraicInterval| free.nominal.as_ref().is_some_and(|n| i.contains(n));
         let intervals = set.intervals();
         let Some(shown) = intervals.iter().find(around).or(intervals.first()) else { return "nowhere".to_owned() };
         // Alone, so that its ends need not be told apart from others that are not shown.
-        let line = set_lines(&question.parameter, &IntervalSet::from_iter([shown.clone()]), digits.min(9)).remove(0);
+        let line = set_lines(&free.name, &IntervalSet::from_iter([shown.clone()]), digits.min(9)).remove(0);
         match intervals.len() {
             1 => line,
             n => format!("{line} (and {} more)", n - 1),
@@ -189,13 +219,13 @@ fn conditions_text(job: &MainJob, digits: usize) -> String {
     columns.to_string()
 }
 
-fn test(answer: &TableAnswer) -> Option<&ClassicalTest> {
-    answer.test.decided()?.as_ref()
+fn test(answer: &Answer<ParametricTable>) -> Option<&ClassicalTest> {
+    answer.value().test.as_ref()
 }
 
 /// The certified limits beside the paper's.
 fn limits_text(job: &MainJob, digits: usize) -> String {
-    let name = &job.amplitude.question.parameter;
+    let name = &job.amplitude.problem().parameter().name;
     let mut columns = Columns::new("  ");
     columns.row(["", "certified", "", "paper: Jury", "root locus"].map(String::from));
     let ends = main_interval(&job.amplitude);
@@ -210,7 +240,7 @@ fn limits_text(job: &MainJob, digits: usize) -> String {
     }
     if let Some(end) = period_end(job) {
         let value = real::rounded(&end.value, digits).decimal;
-        let name = &job.period.question.parameter;
+        let name = &job.period.problem().parameter().name;
         let at = hertz(end, &job.period).map(|f| format!("{} at {f} Hz", end.causes)).unwrap_or_default();
         columns.row([format!("{name} <"), format!("{value} s"), at, String::new(), String::new()]);
         let frequency = format!("{} Hz", reciprocal(&end.value, digits));
@@ -227,19 +257,16 @@ fn cause(end: &End, job: &MainJob) -> String {
 }
 
 /// The frequency of the pair at an end, to seven digits.
-fn hertz(end: &End, answer: &TableAnswer) -> Option<String> {
-    real::enclosed(7, |bits| frequency(end, &answer.question, bits)?.hertz)
+fn hertz(end: &End, answer: &Answer<ParametricTable>) -> Option<String> {
+    real::enclosed(7, |bits| answer.problem().frequency(end, bits)?.hertz)
 }
 
 /// The first stable interval.
-fn main_interval(answer: &TableAnswer) -> Option<&StableInterval> {
-    match &answer.stable {
-        Decision::Decided(set) => set.intervals().first(),
-        Decision::Undecided { .. } => None,
-    }
+fn main_interval(answer: &Answer<ParametricTable>) -> Option<&StableInterval> {
+    answer.value().stable.intervals().first()
 }
 
-fn period_end<'a>(job: &'a MainJob) -> Option<&'a End> {
+fn period_end(job: &MainJob) -> Option<&End> {
     main_interval(&job.period)?.upper.as_ref()
 }
 
@@ -264,16 +291,16 @@ fn value_at_one(p: &CharacteristicPolynomial) -> RationalFunction {
 
 /// Where `Q(1)` of the printed polynomial, which is linear, vanishes.
 fn printed_zero(job: &MainJob) -> Option<Rational> {
-    let line = powers_of_parameter(&value_at_one(&job.printed_equation));
+    let line = powers_of_parameter(&value_at_one(equation(&job.printed)));
     (-line.first()?).checked_div(line.get(1)?)
 }
 
 /// In two sentences, why the paper's lower limit is an effect of rounding.
 fn rounding_text(job: &MainJob, digits: usize) -> String {
-    let name = &job.amplitude.question.parameter;
+    let name = &job.amplitude.problem().parameter().name;
     let (Some(zero), Some(printed), Some(limit)) = (
         printed_zero(job),
-        job.printed.stable.decided().and_then(|set| set.intervals().first()),
+        job.printed.value().intervals().first(),
         main_interval(&job.amplitude).and_then(|i| i.lower.as_ref()),
     ) else {
         return String::new();
@@ -295,11 +322,11 @@ fn rounding_text(job: &MainJob, digits: usize) -> String {
          Q(1) = {}, positive for every {name} > 0, so what ends stability below is not a root at z = 1 but the {} of the \
          table above, at a {name} {factor} times smaller.",
         PAPER[0].2,
-        at_one(&job.printed_equation).replace(' ', "\u{a0}"),
+        at_one(equation(&job.printed)).replace(' ', "\u{a0}"),
         to_decimal(&zero, digits),
         end(&printed.lower),
         end(&printed.upper),
-        at_one(&job.equation_23),
+        at_one(equation(&job.amplitude)),
         limit.causes,
     )
 }

@@ -1,6 +1,6 @@
 //! The published limits of the built-in drive, to be compared with the map.
 
-use jurist_engine::analysis::{Map, Settings};
+use jurist_engine::problem::{Problem, Region};
 
 /// The drive's parameters: chopping period in s and amplitude in V.
 const NAMES: [&str; 2] = ["T", "K_pwm"];
@@ -9,11 +9,11 @@ const NAMES: [&str; 2] = ["T", "K_pwm"];
 /// (1/2012.47 Hz) at the nominal amplitude.
 const PUBLISHED: [(f64, f64); 3] = [(1e-4, 2.9853), (1e-4, 549.7), (1.0 / 2012.47, 110.0)];
 
-/// The published limits as points of a map of the built-in drive; none where other values are set or another
-/// question is asked.
-pub fn published_limits(answer: &Map, settings: &Settings) -> Vec<(f64, f64)> {
-    let names = [answer.axes[0].name.as_str(), answer.axes[1].name.as_str()];
-    if !settings.set.is_empty() || answer.radius.is_some() || answer.decay.is_some() {
+/// The published limits as points of a map of the built-in drive; none where another question is asked or constants have
+/// other values.
+pub fn published_limits(problem: &Problem) -> Vec<(f64, f64)> {
+    let names = problem.axes().map(|axis| axis.name.as_str());
+    if !problem.set().is_empty() || *problem.region() != Region::of(problem.time()) {
         return Vec::new();
     }
     match names {

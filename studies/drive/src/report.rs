@@ -11,12 +11,11 @@ use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_algebra::poly::RationalFunction;
 use jurist_draw::figures::{Figure, locus_of};
-use jurist_engine::analysis::{Failure, Settings, TableAnswer, intervals, parametric_table};
-use jurist_engine::error::Source;
+use jurist_engine::answer::{Answer, ParametricTable};
+use jurist_engine::error::{Failure, Source};
 use jurist_engine::model::{Form, Loop, Matrix};
 use jurist_engine::show::intervals::set_lines;
 use jurist_engine::show::notation::{Coefficient, coefficient_text, root_locus_form};
-use jurist_engine::show::table_text;
 
 /// The drive as blocks, for the circuit with switches.
 const BLOCKS: &str = include_str!("../../../examples/drive-blocks.toml");
@@ -63,9 +62,8 @@ pub fn paper_report(budget: &Budget) -> Result<PaperReport, Failure> {
     let equations = equations(&eq_23, &eq_37);
     let errata = errata(&model, budget)?;
     budget.step("Jury table");
-    let settings = Settings::default();
-    let in_amplitude = parametric_table(&model, &settings, "K_pwm", budget)?;
-    let in_period = parametric_table(&model, &settings, "T", budget)?;
+    let in_amplitude = model.ask().free("K_pwm").parametric_table(budget)?;
+    let in_period = model.ask().free("T").parametric_table(budget)?;
     let jury = jury_tables(&in_amplitude, &in_period);
     budget.step("root locus");
     let locus = locus_section(&model, &mut figures, budget)?;
@@ -212,7 +210,7 @@ fn errata_intro() -> String {
 }
 
 /// Table 1, and its conditions with their solution sets.
-fn jury_tables(amplitude: &TableAnswer, period: &TableAnswer) -> [Table; 2] {
+fn jury_tables(amplitude: &Answer<ParametricTable>, period: &Answer<ParametricTable>) -> [Table; 2] {
     let head = ["z^0", "z^1", "z^2", "z^3", "z^4", "z^5", "z^6"];
     let mut scheme = Table::new("Table 1: each row of letters follows from the one above by Eqs. 26 to 29", &head);
     for (letter, top) in [("a", 6), ("b", 5), ("c", 4), ("d", 3)] {
@@ -222,7 +220,7 @@ fn jury_tables(amplitude: &TableAnswer, period: &TableAnswer) -> [Table; 2] {
     scheme.rows.push((0..=2).map(|k| format!("e_{k}")).collect());
     let head = ["condition", "holds for K_pwm / V (T = 0.0001 s)", "holds for T / s (K_pwm = 110 V)"];
     let mut table = Table::new("Conditions 30 to 36, each with its exact solution set", &head);
-    let (Some(Some(a)), Some(Some(b))) = (amplitude.test.decided(), period.test.decided()) else {
+    let (Some(a), Some(b)) = (&amplitude.value().test, &period.value().test) else {
         return [scheme, table];
     };
     let solution = |name: &str, set| match set_lines(name, set, 12).join(" or ") {
@@ -237,21 +235,21 @@ fn jury_tables(amplitude: &TableAnswer, period: &TableAnswer) -> [Table; 2] {
     [scheme, table]
 }
 
-fn jury_section(tables: &[Table; 2], answers: [&TableAnswer; 2]) -> String {
+fn jury_section(tables: &[Table; 2], answers: [&Answer<ParametricTable>; 2]) -> String {
     let mut html: String = tables.iter().map(Table::html).collect();
     html.push_str(&paragraph(
         "The sets were found twice: from the conditions, and from the boundary polynomials without the table. They agree.",
     ));
     for answer in answers {
-        let summary = math(&format!("The table's entries in {}", answer.question.parameter));
-        let text = escaped(&table_text(answer, 9));
+        let summary = math(&format!("The table's entries in {}", answer.problem().parameter().name));
+        let text = escaped(&answer.text(9));
         html.push_str(&format!("<details><summary>{summary}</summary><pre>{text}</pre></details>\n"));
     }
     html
 }
 
 fn locus_section(model: &Loop, figures: &mut Vec<NamedFigure>, budget: &Budget) -> Result<String, Failure> {
-    let answer = intervals(model, &Settings::default(), "K_pwm", budget)?;
+    let answer = model.ask().free("K_pwm").stable_set(budget)?;
     let range = (Rational::new(1.into(), 1000.into()), Rational::from(1000));
     let drawn = locus_of(&answer, &range, None, budget)?;
     let caption = "Roots of Eq. 24; colours and crossings are those of the exact answer, not of the drawn roots";

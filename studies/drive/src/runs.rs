@@ -7,17 +7,18 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_draw::figures::{ResponseCurve, response_panel};
 use jurist_draw::simulate::{Excitation, Pulse, Record, SampledModel, Step, SwitchedModel, Trace, eigenvalues};
-use jurist_engine::analysis::Failure;
-use jurist_engine::model::{Loop, Question};
+use jurist_engine::error::Failure;
+use jurist_engine::model::Loop;
+use jurist_engine::problem::Problem;
 use nalgebra::DVector;
+use std::sync::Arc;
 
 /// Current in A that disturbs the steady state.
 const DISTURBANCE: f64 = 0.01;
 
-/// The question with both parameters set.
-pub(super) fn at(amplitude: &Rational, period: &Rational) -> Question {
-    let set = [("K_pwm".to_owned(), amplitude.clone()), ("T".to_owned(), period.clone())];
-    Question { keep: Vec::new(), set: set.into_iter().collect() }
+/// The point that both parameters are set to.
+pub(super) fn at(model: &Loop, amplitude: &Rational, period: &Rational) -> Result<Arc<Problem>, Failure> {
+    model.ask().set("K_pwm", amplitude.clone()).set("T", period.clone()).problem()
 }
 
 /// The reference steps to 80 rad/s at the beginning.
@@ -50,22 +51,22 @@ pub(super) fn section(
         budget.advance(k as u64, TEST_POINTS.len() as u64);
         budget.check()?;
         let period = Rational::new(1.into(), case.frequency.into());
-        let question = at(&Rational::from(case.amplitude), &period);
-        html.push_str(&one_case(case, model, blocks, &question, figures, budget)?);
+        let amplitude = Rational::from(case.amplitude);
+        let problems = [at(model, &amplitude, &period)?, at(blocks, &amplitude, &period)?];
+        html.push_str(&one_case(case, &problems, figures, budget)?);
     }
     Ok(html)
 }
 
 fn one_case(
     case: &TestPoint,
-    model: &Loop,
-    blocks: &Loop,
-    question: &Question,
+    [sampled, blocks]: &[Arc<Problem>; 2],
     figures: &mut Vec<NamedFigure>,
     budget: &Budget,
 ) -> Result<String, Failure> {
-    let linear = SampledModel::from_loop(model, question, 1.0, budget)?;
-    let circuit = SwitchedModel::from_loop(blocks, question, Pulse::Beginning, budget)?;
+    let linear = SampledModel::from_loop(sampled, 1.0, budget)?;
+    let model = sampled.model();
+    let circuit = SwitchedModel::from_loop(blocks, Pulse::Beginning, budget)?;
     let period = linear.sample_time;
     let growth = eigenvalues(&linear.transition).and_then(|v| v.first().map(|z| z.norm())).unwrap_or(f64::NAN);
     let trace = linear.simulate(&reference(), (2.0f64.max(case.duration) / period).round() as usize);
@@ -139,7 +140,7 @@ fn largest_control(model: &Loop, trace: &Trace) -> f64 {
 
 /// The ripple of the current over four periods of the nominal steady state.
 pub(super) fn ripple(blocks: &Loop, budget: &Budget) -> Result<Option<NamedFigure>, Failure> {
-    let circuit = SwitchedModel::from_loop(blocks, &Question::default(), Pulse::Beginning, budget)?;
+    let circuit = SwitchedModel::from_loop(&*blocks.ask().problem()?, Pulse::Beginning, budget)?;
     let inputs = DVector::from_vec(vec![SPEED_REFERENCE, 0.0]);
     Ok(circuit.periodic_steady_state(&inputs).map(|operating| {
         let run = circuit.simulate(&operating.state, &reference(), 4, Record::Waveform(3));

@@ -9,9 +9,9 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_algebra::poly::RealAlgebraic;
-use jurist_engine::analysis::{Failure, Settings, intervals};
-use jurist_engine::error::Source;
-use jurist_engine::model::{Loop, Question};
+use jurist_engine::error::{Failure, Source};
+use jurist_engine::model::Loop;
+use jurist_engine::problem::Question;
 
 /// Constants whose influence the report shows.
 const CONSTANTS: [&str; 8] = ["J", "B_v", "R_a", "L_a", "K_pi", "K_ii", "K_ps", "K_is"];
@@ -20,9 +20,11 @@ const CONSTANTS: [&str; 8] = ["J", "B_v", "R_a", "L_a", "K_pi", "K_ii", "K_ps", 
 const ENTRIES: [(&str, &str, &str); 2] =
     [("Eq. 5, entry (1,1)", "(L_a - R_a)/L_a", "(L_a - R_a*T)/L_a"), ("Eq. 13, entry (2,1)", "-K_a*T/J", "K_a*T/J")];
 
-/// The polynomial with one parameter kept.
+/// The polynomial with one parameter free.
 pub(super) fn polynomial(model: &Loop, name: &str, budget: &Budget) -> Result<CharacteristicPolynomial, Failure> {
-    Ok(model.characteristic_polynomial(&Question::keeping([name]), budget)?)
+    let problem = model.ask().free(name).problem()?;
+    let algebra = problem.algebra(budget)?;
+    algebra.polynomial().cloned().ok_or_else(|| Failure::Undefined(algebra.undefined().unwrap_or_default().to_owned()))
 }
 
 /// How many of the printed numbers are right to the last digit.
@@ -72,12 +74,13 @@ fn erratum(c: &Comparison, parameter: &str) -> Vec<String> {
 pub(super) fn sensitivity(model: &Loop, budget: &Budget) -> Result<Table, Failure> {
     let head = ["constant", "value", "K_pwm, lower", "change / %", "upper", "change / %", "f, lower", "change / %"];
     let mut table = Table::new("The limits when one constant is 10 % smaller or larger: K_pwm in V, f in Hz", &head);
-    let limits = |settings: &Settings| -> Result<[Option<RealAlgebraic>; 3], Failure> {
-        let (k, t) = (intervals(model, settings, "K_pwm", budget)?, intervals(model, settings, "T", budget)?);
+    let limits = |question: Question| -> Result<[Option<RealAlgebraic>; 3], Failure> {
+        let k = question.clone().free("K_pwm").stable_set(budget)?;
+        let t = question.free("T").stable_set(budget)?;
         let ((lower, upper), (_, longest)) = (ends(&k), ends(&t));
         Ok([lower.cloned(), upper.cloned(), longest.cloned()])
     };
-    let base = limits(&Settings::default())?;
+    let base = limits(model.ask())?;
     let cells = |now: &[Option<RealAlgebraic>; 3], first: [String; 2]| {
         let mut row = first.to_vec();
         for (k, (x, x0)) in now.iter().zip(&base).enumerate() {
@@ -93,10 +96,8 @@ pub(super) fn sensitivity(model: &Loop, budget: &Budget) -> Result<Table, Failur
         let Some(nominal) = model.constant(name).and_then(|c| c.number.clone()) else { continue };
         for (percent, sign) in [(90, "−10 %"), (110, "+10 %")] {
             let value = &nominal * &Rational::new(percent.into(), 100.into());
-            let mut settings = Settings::default();
-            settings.set.insert(name.into(), value.clone());
             let text = format!("{}, {sign}", to_decimal(&value, 8));
-            table.rows.push(cells(&limits(&settings)?, [name.into(), text]));
+            table.rows.push(cells(&limits(model.ask().set(name, value.clone()))?, [name.into(), text]));
         }
     }
     Ok(table)

@@ -168,7 +168,7 @@ impl Budget {
     /// [`Exhausted`] when this budget runs out, also when its time is up before the work begins.
     pub fn enter<T>(&self, work: impl FnOnce() -> T) -> Result<T, Exhausted> {
         let Some(limits) = &self.limits else { return Ok(work()) };
-        limits.spend(0)?;
+        limits.spend(0).map_err(|e| self.at_step(e))?;
         let frame = INNERMOST.with_borrow(|frame| match frame {
             Some(frame) if frame.holds(limits) => Arc::clone(frame),
             outer => Arc::new(Frame { limits: Arc::clone(limits), outer: outer.clone() }),
@@ -179,7 +179,7 @@ impl Budget {
         };
         // A value that was being altered is dropped with the closure or seen by a caller who was told so above.
         catch_unwind(AssertUnwindSafe(work)).map_err(|payload| match payload.downcast::<Stop>() {
-            Ok(stop) if Arc::ptr_eq(&stop.limits, limits) => stop.exhausted,
+            Ok(stop) if Arc::ptr_eq(&stop.limits, limits) => self.at_step(stop.exhausted),
             Ok(stop) => resume_unwind(stop),
             Err(panic) => resume_unwind(panic),
         })

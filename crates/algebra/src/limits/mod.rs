@@ -40,7 +40,17 @@ pub struct Budget {
     /// `None` where there is no limit.
     limits: Option<Arc<Limits>>,
     progress: Option<Arc<dyn Progress>>,
-    reached: Arc<Mutex<String>>,
+    reached: Arc<Mutex<Reached>>,
+    /// Steps are told to nobody.
+    silent: bool,
+}
+
+/// The step that began last, and how much of it is done.
+#[derive(Default)]
+struct Reached {
+    step: String,
+    done: u64,
+    total: u64,
 }
 
 /// When a budget ends.
@@ -72,21 +82,22 @@ impl Limits {
     fn spend(&self, units: u64) -> Result<(), Exhausted> {
         let mut out = None;
         for work in &self.work {
-            let rest = work.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| Some(left.saturating_sub(units)));
+            let rest =
+                work.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| Some(left.saturating_sub(units)));
             if rest.is_ok_and(|before| before < units) {
                 out = Some(work.units);
             }
         }
         if let Some(units) = out {
-            return Err(Exhausted { budget: format!("work ({units} units)") });
+            return Err(Exhausted::of(format!("work ({units} units)")));
         }
         if let Some(Deadline { clock, end, timeout }) = &self.deadline
             && clock.now() >= *end
         {
-            return Err(Exhausted { budget: format!("time ({} s)", timeout.as_secs_f64()) });
+            return Err(Exhausted::of(format!("time ({} s)", timeout.as_secs_f64())));
         }
         if self.cancelled.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)) {
-            return Err(Exhausted { budget: "cancelled".into() });
+            return Err(Exhausted::of("cancelled".into()));
         }
         Ok(())
     }
@@ -132,7 +143,7 @@ impl Budget {
     /// use jurist_algebra::limits::Budget;
     /// let budget = Budget::with_work(2);
     /// assert!(budget.check().is_ok() && budget.check().is_ok());
-    /// assert_eq!(budget.check().unwrap_err().to_string(), "the budget ran out: work (2 units)");
+    /// assert_eq!(budget.check().unwrap_err().to_string(), "the budget ran out: work (2 units); reached: nothing was begun");
     /// ```
     pub fn with_work(units: u64) -> Self {
         Budget::limited(Limits { work: vec![Arc::new(Work { left: units.into(), units })], ..Limits::default() })
@@ -171,7 +182,7 @@ impl Budget {
 
     /// The same limits for a part of a step: what it begins is told to nobody.
     pub fn silent(&self) -> Self {
-        Budget { progress: None, reached: Arc::default(), limits: self.limits.clone() }
+        Budget { silent: true, ..self.clone() }
     }
 
     /// The same budget, also ended by setting `flag`: the way to cancel from another thread.
@@ -186,17 +197,31 @@ impl Budget {
     /// # Errors
     /// [`Exhausted`] when the time is up, the work is done, or it was cancelled.
     pub fn check(&self) -> Result<(), Exhausted> {
-        self.limits.as_ref().map_or(Ok(()), |limits| limits.spend(1))
+        self.limits.as_ref().map_or(Ok(()), |limits| limits.spend(1)).map_err(|e| self.at_step(e))
     }
 
-    /// The name of the last step that began: what an exhausted budget had reached.
+    /// What ran out, and how far the work came.
+    fn at_step(&self, exhausted: Exhausted) -> Exhausted {
+        Exhausted { reached: self.reached(), ..exhausted }
+    }
+
+    /// The last step that began and, where known, how much of it is done: what an exhausted budget had reached.
     pub fn reached(&self) -> String {
-        self.reached.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        let reached = self.reached.lock().unwrap_or_else(PoisonError::into_inner);
+        match (reached.step.as_str(), reached.total) {
+            ("", _) => "nothing was begun".to_owned(),
+            (step, 0) => step.to_owned(),
+            (step, total) => format!("{step} ({} of {total})", reached.done),
+        }
     }
 
     /// Notes that a step begins and tells the listener, if there is one.
     pub fn step(&self, name: &str) {
-        name.clone_into(&mut self.reached.lock().unwrap_or_else(PoisonError::into_inner));
+        if self.silent {
+            return;
+        }
+        *self.reached.lock().unwrap_or_else(PoisonError::into_inner) =
+            Reached { step: name.to_owned(), ..Reached::default() };
         if let Some(progress) = &self.progress {
             progress.step(name);
         }
@@ -204,6 +229,12 @@ impl Budget {
 
     /// Tells the listener, if there is one, how much of the step is done.
     pub fn advance(&self, done: u64, total: u64) {
+        if self.silent {
+            return;
+        }
+        let mut reached = self.reached.lock().unwrap_or_else(PoisonError::into_inner);
+        (reached.done, reached.total) = (done, total);
+        drop(reached);
         if let Some(progress) = &self.progress {
             progress.advance(done, total);
         }
@@ -222,11 +253,20 @@ impl fmt::Debug for Budget {
 pub struct Exhausted {
     /// Which budget, e.g. `time (2 s)`.
     pub budget: String,
+    /// The last step that began and, where known, how much of it was done.
+    pub reached: String,
+}
+
+impl Exhausted {
+    /// A budget that ran out at a step that is not known here.
+    fn of(budget: String) -> Self {
+        Exhausted { budget, reached: String::new() }
+    }
 }
 
 impl fmt::Display for Exhausted {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the budget ran out: {}", self.budget)
+        write!(f, "the budget ran out: {}; reached: {}", self.budget, self.reached)
     }
 }
 

@@ -1,8 +1,10 @@
 //! Integers of any size.
 
+use super::huge;
+use crate::limits::{checkpoint, is_limited};
 use malachite_base::num::arithmetic::traits::{
     Abs, AddMulAssign, DivExact, DivMod, DivisibleBy, FloorRoot, FloorSqrt, Gcd, Lcm, Parity, Pow, Sign as _,
-    SubMulAssign, UnsignedAbs,
+    SubMulAssign,
 };
 use malachite_base::num::conversion::traits::RoundingFrom;
 use malachite_base::num::logic::traits::SignificantBits;
@@ -12,6 +14,59 @@ use malachite_nz::natural::Natural;
 use std::cmp::Ordering;
 use std::fmt;
 use std::ops::{Add, AddAssign, Mul, MulAssign, Neg, Shl, Shr, Sub, SubAssign};
+
+/// Operands of at least so many limbs count as work of their own; loops count operations on smaller ones.
+const COUNTED_LIMBS: u64 = 64;
+
+#[inline]
+fn limbs_of(x: &Inner) -> u64 {
+    x.unsigned_abs_ref().limb_count()
+}
+
+/// Whether one of two operands is so large that an operation counts as work of its own.
+#[inline]
+fn is_counted(a: &Inner, b: &Inner) -> bool {
+    limbs_of(a) | limbs_of(b) >= COUNTED_LIMBS
+}
+
+/// Counts a product; whether it is to be done in pieces.
+#[cold]
+fn counted_product(a: &Inner, b: &Inner) -> bool {
+    let (n, m) = (limbs_of(a), limbs_of(b));
+    let huge = n.min(m) > 1 && 64 * n.max(m) > huge::PRODUCT_BITS && is_limited();
+    if !huge {
+        checkpoint(huge::work_of_product(n, m));
+    }
+    huge
+}
+
+/// Counts a quotient; whether it is to be done in pieces.
+#[cold]
+fn counted_quotient(a: &Inner, b: &Inner) -> bool {
+    let (n, m) = (limbs_of(a), limbs_of(b));
+    let huge = m > 1 && 64 * n > huge::PRODUCT_BITS && is_limited();
+    if !huge {
+        checkpoint(2 * huge::work_of_product(n.saturating_sub(m) + 1, m));
+    }
+    huge
+}
+
+#[cold]
+fn counted_sum(a: &Inner, b: &Inner) {
+    checkpoint((limbs_of(a) + limbs_of(b)) / 32);
+}
+
+/// In pieces.
+fn product(a: &Inner, b: &Inner) -> Inner {
+    let magnitude = huge::product(a.unsigned_abs_ref(), b.unsigned_abs_ref(), huge::PRODUCT_BITS);
+    Inner::from_sign_and_abs((*a < 0) == (*b < 0), magnitude)
+}
+
+/// Quotient rounded towards zero and remainder with the sign of the dividend, in pieces.
+fn div_rem(a: &Inner, b: &Inner) -> (Inner, Inner) {
+    let (q, r) = huge::div_rem(a.unsigned_abs_ref(), b.unsigned_abs_ref(), huge::PRODUCT_BITS);
+    (Inner::from_sign_and_abs((*a < 0) == (*b < 0), q), Inner::from_sign_and_abs(*a >= 0, r))
+}
 
 /// An integer of any size; values below 2^64 in magnitude do not allocate.
 ///
@@ -62,12 +117,24 @@ impl Integer {
 
     /// The non-negative greatest common divisor; `gcd(0, 0) = 0`.
     pub fn gcd(&self, other: &Integer) -> Integer {
-        Integer(Inner::from((&self.0).unsigned_abs().gcd((&other.0).unsigned_abs())))
+        let (a, b) = (self.0.unsigned_abs_ref(), other.0.unsigned_abs_ref());
+        if is_counted(&self.0, &other.0) {
+            let (n, m) = (a.limb_count(), b.limb_count());
+            if 64 * n.max(m) > huge::GCD_BITS && n.min(m) > 0 && is_limited() {
+                return Integer(Inner::from(huge::gcd(a, b, huge::GCD_BITS)));
+            }
+            checkpoint(huge::work_of_gcd(n, m));
+        }
+        Integer(Inner::from(a.gcd(b)))
     }
 
     /// The non-negative least common multiple; 0 if either is 0.
     pub fn lcm(&self, other: &Integer) -> Integer {
-        Integer(Inner::from((&self.0).unsigned_abs().lcm((&other.0).unsigned_abs())))
+        if is_counted(&self.0, &other.0) {
+            let g = self.gcd(other);
+            return if g.is_zero() { g } else { (self.div_exact(&g) * other).abs() };
+        }
+        Integer(Inner::from(self.0.unsigned_abs_ref().lcm(other.0.unsigned_abs_ref())))
     }
 
     /// The quotient by a divisor; the result is unspecified when `other` does not divide `self`.
@@ -75,11 +142,17 @@ impl Integer {
     /// # Panics
     /// When `other` is zero.
     pub fn div_exact(&self, other: &Integer) -> Integer {
+        if is_counted(&self.0, &other.0) && counted_quotient(&self.0, &other.0) {
+            return Integer(div_rem(&self.0, &other.0).0);
+        }
         Integer((&self.0).div_exact(&other.0))
     }
 
     /// Whether `other` divides this; 0 is divisible by everything, only 0 is divisible by 0.
     pub fn divisible_by(&self, other: &Integer) -> bool {
+        if is_counted(&self.0, &other.0) && counted_quotient(&self.0, &other.0) {
+            return div_rem(&self.0, &other.0).1 == 0;
+        }
         (&self.0).divisible_by(&other.0)
     }
 
@@ -88,12 +161,25 @@ impl Integer {
     /// # Panics
     /// When `other` is zero.
     pub fn div_mod_floor(&self, other: &Integer) -> (Integer, Integer) {
+        if is_counted(&self.0, &other.0) && counted_quotient(&self.0, &other.0) {
+            let (q, r) = div_rem(&self.0, &other.0);
+            let up = r != 0 && (r < 0) != (other.0 < 0);
+            return if up { (Integer(q) - Integer::ONE, Integer(r + &other.0)) } else { (Integer(q), Integer(r)) };
+        }
         let (q, r) = (&self.0).div_mod(&other.0);
         (Integer(q), Integer(r))
     }
 
     /// The power; `0^0 = 1`.
     pub fn pow(&self, exponent: u64) -> Integer {
+        let bits = self.bit_length().saturating_mul(exponent);
+        if bits >= 64 * COUNTED_LIMBS && self.bit_length() > 1 {
+            if bits > huge::PRODUCT_BITS && is_limited() {
+                let magnitude = huge::power(self.0.unsigned_abs_ref(), exponent, huge::PRODUCT_BITS);
+                return Integer(Inner::from_sign_and_abs(!self.is_negative() || exponent % 2 == 0, magnitude));
+            }
+            checkpoint(huge::work_of_product(bits / 64, bits / 64));
+        }
         Integer((&self.0).pow(exponent))
     }
 
@@ -126,11 +212,19 @@ impl Integer {
 
     /// `self += a * b` without an intermediate copy.
     pub fn add_mul_assign(&mut self, a: &Integer, b: &Integer) {
+        if is_counted(&a.0, &b.0) && counted_product(&a.0, &b.0) {
+            self.0 += product(&a.0, &b.0);
+            return;
+        }
         self.0.add_mul_assign(&a.0, &b.0);
     }
 
     /// `self -= a * b` without an intermediate copy.
     pub fn sub_mul_assign(&mut self, a: &Integer, b: &Integer) {
+        if is_counted(&a.0, &b.0) && counted_product(&a.0, &b.0) {
+            self.0 -= product(&a.0, &b.0);
+            return;
+        }
         self.0.sub_mul_assign(&a.0, &b.0);
     }
 
@@ -182,7 +276,11 @@ impl Integer {
         if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
             return None;
         }
-        let magnitude: Inner = digits.parse().ok()?;
+        let magnitude = if 4 * digits.len() as u64 > huge::DIGITS_BITS && is_limited() {
+            Inner::from(huge::from_digits(digits, huge::DIGITS_BITS))
+        } else {
+            digits.parse().ok()?
+        };
         Some(Integer(if text.starts_with('-') { -magnitude } else { magnitude }))
     }
 }
@@ -199,46 +297,89 @@ macro_rules! from_primitive {
 from_primitive!(i32, i64, i128, u32, u64, u128, usize);
 
 macro_rules! binary {
-    ($trait:ident, $method:ident, $assign_trait:ident, $assign:ident) => {
+    ($trait:ident, $method:ident, $assign_trait:ident, $assign:ident, $in_pieces:expr) => {
         impl $trait for Integer {
             type Output = Integer;
             fn $method(self, other: Integer) -> Integer {
+                if is_counted(&self.0, &other.0)
+                    && let Some(value) = $in_pieces(&self.0, &other.0)
+                {
+                    return Integer(value);
+                }
                 Integer($trait::$method(self.0, other.0))
             }
         }
         impl $trait<&Integer> for Integer {
             type Output = Integer;
             fn $method(self, other: &Integer) -> Integer {
+                if is_counted(&self.0, &other.0)
+                    && let Some(value) = $in_pieces(&self.0, &other.0)
+                {
+                    return Integer(value);
+                }
                 Integer($trait::$method(self.0, &other.0))
             }
         }
         impl $trait<Integer> for &Integer {
             type Output = Integer;
             fn $method(self, other: Integer) -> Integer {
+                if is_counted(&self.0, &other.0)
+                    && let Some(value) = $in_pieces(&self.0, &other.0)
+                {
+                    return Integer(value);
+                }
                 Integer($trait::$method(&self.0, other.0))
             }
         }
         impl $trait for &Integer {
             type Output = Integer;
             fn $method(self, other: &Integer) -> Integer {
+                if is_counted(&self.0, &other.0)
+                    && let Some(value) = $in_pieces(&self.0, &other.0)
+                {
+                    return Integer(value);
+                }
                 Integer($trait::$method(&self.0, &other.0))
             }
         }
         impl $assign_trait<&Integer> for Integer {
             fn $assign(&mut self, other: &Integer) {
+                if is_counted(&self.0, &other.0)
+                    && let Some(value) = $in_pieces(&self.0, &other.0)
+                {
+                    self.0 = value;
+                    return;
+                }
                 $assign_trait::$assign(&mut self.0, &other.0);
             }
         }
         impl $assign_trait for Integer {
             fn $assign(&mut self, other: Integer) {
+                if is_counted(&self.0, &other.0)
+                    && let Some(value) = $in_pieces(&self.0, &other.0)
+                {
+                    self.0 = value;
+                    return;
+                }
                 $assign_trait::$assign(&mut self.0, other.0);
             }
         }
     };
 }
-binary!(Add, add, AddAssign, add_assign);
-binary!(Sub, sub, SubAssign, sub_assign);
-binary!(Mul, mul, MulAssign, mul_assign);
+
+/// Sums are done at once.
+fn no_pieces(a: &Inner, b: &Inner) -> Option<Inner> {
+    counted_sum(a, b);
+    None
+}
+
+fn product_in_pieces(a: &Inner, b: &Inner) -> Option<Inner> {
+    counted_product(a, b).then(|| product(a, b))
+}
+
+binary!(Add, add, AddAssign, add_assign, no_pieces);
+binary!(Sub, sub, SubAssign, sub_assign, no_pieces);
+binary!(Mul, mul, MulAssign, mul_assign, product_in_pieces);
 
 impl Neg for Integer {
     type Output = Integer;
@@ -286,6 +427,10 @@ impl Shr<u64> for Integer {
 
 impl fmt::Display for Integer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.bit_length() > huge::DIGITS_BITS && is_limited() {
+            let digits = huge::to_digits(self.0.unsigned_abs_ref(), huge::DIGITS_BITS);
+            return f.pad_integral(!self.is_negative(), "", &digits);
+        }
         fmt::Display::fmt(&self.0, f)
     }
 }

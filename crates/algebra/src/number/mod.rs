@@ -7,6 +7,7 @@
 mod convert;
 mod decimal;
 mod enclosure;
+mod huge;
 mod integer;
 mod parse;
 mod rational;

@@ -3,12 +3,14 @@
 use super::panel::{Corner, Curve, Mark, Panel, Shape, Text, side_by_side};
 use super::{COLOURS, Figure};
 use crate::simulate::{Crossing, LocusOptions, ParameterScale, RootLocus, trace_root_locus};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, to_decimal};
-use jurist_engine::analysis::{Decision, Intervals, frequency};
+use jurist_engine::answer::Answer;
+use jurist_engine::error::Failure;
 use jurist_engine::model::Time;
+use jurist_engine::problem::Problem;
 use jurist_engine::show::layout::visible;
-use jurist_engine::stability::{Cause, End};
+use jurist_engine::stability::{Cause, End, StableSet};
 use nalgebra::Complex;
 
 /// What a locus figure shows.
@@ -49,19 +51,19 @@ const PICTURE_BITS: u64 = 60;
 /// The locus of the parameter of a decided question over a range, with all certified ends in it.
 ///
 /// # Errors
-/// [`Exhausted`] when the budget runs out.
+/// [`Failure::Stopped`] when the budget runs out.
 pub fn locus_of(
-    answer: &Intervals,
+    answer: &Answer<StableSet>,
     range: &(Rational, Rational),
     scale: Option<ParameterScale>,
     budget: &Budget,
-) -> Result<DrawnLocus, Exhausted> {
-    let question = &answer.question;
-    let discrete = question.time == Time::Discrete;
+) -> Result<DrawnLocus, Failure> {
+    let problem = answer.problem();
+    let discrete = problem.time() == Time::Discrete;
     let focus = Complex::new(if discrete { 1.0 } else { 0.0 }, 0.0);
     let (mut through, mut crossings, mut stable) = (Vec::new(), Vec::new(), Vec::new());
-    if let Decision::Decided(set) = &answer.stable {
-        for interval in set.intervals() {
+    {
+        for interval in answer.value().intervals() {
             let mut ends = [range.0.to_f64_approximate(), range.1.to_f64_approximate()];
             for (end, slot) in [(&interval.lower, 0), (&interval.upper, 1)] {
                 let Some(end) = end else { continue };
@@ -71,7 +73,7 @@ pub fn locus_of(
                 if value < range.0 || value > range.1 {
                     continue;
                 }
-                crossings.extend(crossing(end, &value, answer));
+                crossings.extend(crossing(end, &value, problem));
                 through.push(value);
             }
             stable.push((ends[0], ends[1]));
@@ -82,7 +84,7 @@ pub fn locus_of(
         a > 0.0 && b / a > 100.0
     };
     let scale = scale.unwrap_or(if wide { ParameterScale::Logarithmic } else { ParameterScale::Linear });
-    let polynomial = question.polynomial.as_ref();
+    let polynomial = problem.parametric(budget)?;
     let of = |value: &Rational| {
         let p = polynomial?;
         (!p.is_undefined_at(value)).then(|| p.specialised(value))
@@ -96,17 +98,17 @@ pub fn locus_of(
     }
     let options = LocusOptions { lower: range.0.clone(), upper: range.1.clone(), scale, focus, through, reach };
     let locus = trace_root_locus(of, &options, budget)?;
-    let unit = question.unit.as_deref().map(|u| format!(" {}", visible(u))).unwrap_or_default();
+    let unit = problem.parameter().unit.as_deref().map(|u| format!(" {}", visible(u))).unwrap_or_default();
     let title = format!(
         "{} from {}{unit} (×) to {}{unit} (○)",
-        question.parameter,
+        problem.parameter().name,
         to_decimal(&range.0, 4),
         to_decimal(&range.1, 4)
     );
     let panels = locus_panels(&LocusFigure {
-        time: question.time,
+        time: problem.time(),
         title: &title,
-        parameter: &question.parameter,
+        parameter: &problem.parameter().name,
         locus: &locus,
         stable: &stable,
         crossings: &crossings,
@@ -119,9 +121,8 @@ pub fn locus_of(
 
 /// Where on the boundary the roots are at an end, and its label; nothing for ends without a root
 /// there (degree lost, undefined, end of the domain).
-fn crossing(end: &End, value: &Rational, answer: &Intervals) -> Option<Crossing> {
-    let question = &answer.question;
-    let rate = frequency(end, question, PICTURE_BITS);
+fn crossing(end: &End, value: &Rational, problem: &Problem) -> Option<Crossing> {
+    let rate = problem.frequency(end, PICTURE_BITS);
     let mut at = Vec::new();
     let approximate = |e: &jurist_algebra::number::Enclosure| e.lower().midpoint(e.upper()).to_f64_approximate();
     if let Some(rate) = &rate {
@@ -142,7 +143,7 @@ fn crossing(end: &End, value: &Rational, answer: &Intervals) -> Option<Crossing>
         format!(" ({} Hz)", to_decimal(&f, digits))
     });
     let digits = if value.abs() < Rational::from(1) { 3 } else { 5 };
-    let label = format!("{} = {}{}", question.parameter, to_decimal(value, digits), hertz.unwrap_or_default());
+    let label = format!("{} = {}{}", problem.parameter().name, to_decimal(value, digits), hertz.unwrap_or_default());
     (!at.is_empty()).then(|| Crossing { parameter: value.to_f64_approximate(), at, label })
 }
 

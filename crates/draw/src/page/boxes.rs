@@ -2,13 +2,12 @@
 
 use super::map::escaped;
 use crate::figures::Figure;
-use jurist_engine::analysis::MapBoxes;
+use jurist_engine::answer::{Answer, MapBoxes};
 use jurist_engine::show::layout::called;
-use jurist_engine::show::map_boxes_text;
 
 /// The picture and the text as a page that stands alone.
-pub fn map_boxes_page(answer: &MapBoxes, figure: &Figure, digits: usize) -> String {
-    let title = escaped(&called(answer.question.title.as_deref()));
+pub fn map_boxes_page(answer: &Answer<MapBoxes>, figure: &Figure, digits: usize) -> String {
+    let title = escaped(&called(answer.problem().title()));
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>{title}</title>\
@@ -17,6 +16,6 @@ pub fn map_boxes_page(answer: &MapBoxes, figure: &Figure, digits: usize) -> Stri
          <p>Every verdict is proved for the whole box; positions in the picture are drawn in floating point.</p>\n\
          </body>\n</html>\n",
         figure.svg(),
-        escaped(&map_boxes_text(answer, digits)),
+        escaped(&answer.text(digits)),
     )
 }

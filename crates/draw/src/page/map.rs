@@ -6,10 +6,12 @@ use crate::figures::map::{
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Integer;
 use jurist_algebra::poly::{Monomial, RealAlgebraic};
-use jurist_engine::analysis::{Axis, Map};
+use jurist_engine::answer::{Answer, Map};
+use jurist_engine::error::Failure;
+use jurist_engine::problem::Free;
 use jurist_engine::show::json;
 use jurist_engine::show::layout::{named_values, short, visible};
-use jurist_engine::show::region::map_goal;
+use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::{Curve, Strip};
 use serde_json::{Value, json};
 
@@ -21,32 +23,36 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 
 
 /// The map as an HTML page that needs nothing from outside: the picture for wide and for narrow screens,
 /// `text` below it, and a script that looks a point up in the exact strips with integers of any size.
+///
+/// # Errors
+/// [`Failure::Stopped`] when the budget runs out.
 pub fn map_page(
-    answer: &Map,
+    answer: &Answer<Map>,
     contents: &MapContents<'_>,
     trace: &MapTrace,
     figures: &[MapFigure; 2],
     text: &str,
-) -> String {
-    let [x, y] = &answer.axes;
-    let title = match answer.title.as_deref().filter(|t| !t.is_empty()) {
+    budget: &Budget,
+) -> Result<String, Failure> {
+    let [x, y] = answer.problem().axes();
+    let title = match answer.problem().title().filter(|t| !t.is_empty()) {
         Some(title) => format!("Stability map: {title}"),
         None => "Stability map".to_owned(),
     };
-    let others = if answer.set.is_empty() {
+    let others = if answer.problem().set().is_empty() {
         "Every other quantity has its value in the model.".to_owned()
     } else {
-        format!("With {}.", named_values(&answer.set))
+        format!("With {}.", named_values(answer.problem().set()))
     };
-    let field = |id: &str, axis: &Axis| {
+    let field = |id: &str, axis: &Free| {
         format!(
             "<label for=\"{id}\">{}</label><input id=\"{id}\" autocomplete=\"off\" spellcheck=\"false\"><span>{}</span>\n",
             escaped(&axis.name),
             escaped(axis.unit.as_deref().unwrap_or_default()),
         )
     };
-    let data = data(answer, contents, trace, figures).to_string().replace('<', "\\u003c");
-    format!(
+    let data = data(answer, contents, trace, figures, budget)?.to_string().replace('<', "\\u003c");
+    Ok(format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{title}</title>\n\
@@ -73,7 +79,7 @@ pub fn map_page(
         x_field = field("x", x),
         y_field = field("y", y),
         text = escaped(text),
-    )
+    ))
 }
 
 pub(super) fn escaped(text: &str) -> String {
@@ -81,9 +87,15 @@ pub(super) fn escaped(text: &str) -> String {
 }
 
 /// What the script needs: the exact strips, and the walls as they are drawn.
-fn data(answer: &Map, contents: &MapContents<'_>, trace: &MapTrace, figures: &[MapFigure; 2]) -> Value {
+fn data(
+    answer: &Answer<Map>,
+    contents: &MapContents<'_>,
+    trace: &MapTrace,
+    figures: &[MapFigure; 2],
+    budget: &Budget,
+) -> Result<Value, Failure> {
     let axis = |k: usize| {
-        let (axis, window) = (&answer.axes[k], &trace.windows[k]);
+        let (axis, window) = (&answer.problem().free()[k], &trace.windows[k]);
         let (from, to) = window.ends();
         json!({
             "name": axis.name,
@@ -95,27 +107,25 @@ fn data(answer: &Map, contents: &MapContents<'_>, trace: &MapTrace, figures: &[M
             "log": window.logarithmic,
         })
     };
-    let (curves, strips, never) = match answer.map.decided() {
-        Some(map) => (&map.curves[..], &map.strips[..], map.never_stable),
-        None => (&[][..], &[][..], true),
-    };
+    let map = &answer.value().decomposition;
+    let strips = map.strips.iter().map(|s| strip(s, answer, budget)).collect::<Result<Vec<_>, _>>()?;
     let walls = contents.walls.iter().zip(&contents.frequencies).filter(|(w, _)| w.role != Role::Nothing);
     let plot = |f: &MapFigure| json!([f.plot.0, f.plot.1, f.plot.2, f.plot.3]);
-    json!({
-        "label": format!("stable region of {} and {}", answer.axes[0].name, answer.axes[1].name),
-        "goal": map_goal(answer),
+    Ok(json!({
+        "label": format!("stable region of {} and {}", answer.problem().free()[0].name, answer.problem().free()[1].name),
+        "goal": goal_or_stable(answer.problem()),
         "unit": frequency_unit(answer),
-        "degree": answer.polynomial.as_ref().map_or(0, |p| p.formal_degree()),
-        "never": never,
+        "degree": answer.problem().evaluated().map_or(0, |a| a.formal_degree()),
+        "never": map.never_stable,
         "axes": [axis(0), axis(1)],
         "plots": figures.iter().map(plot).collect::<Vec<_>>(),
-        "curves": curves.iter().map(|c| curve(c, answer)).collect::<Vec<_>>(),
-        "strips": strips.iter().map(|s| strip(s, answer)).collect::<Vec<_>>(),
+        "curves": map.curves.iter().map(|c| curve(c, answer)).collect::<Vec<_>>(),
+        "strips": strips,
         "walls": walls.flat_map(|(w, f)| wall(w, f)).collect::<Vec<_>>(),
-    })
+    }))
 }
 
-fn curve(curve: &Curve, answer: &Map) -> Value {
+fn curve(curve: &Curve, answer: &Answer<Map>) -> Value {
     let term = |(m, c): &(Monomial, Integer)| json!([m.exponent(0), m.exponent(1), c.to_string()]);
     json!({
         "words": mechanism_words(&curve.causes, answer),
@@ -123,7 +133,7 @@ fn curve(curve: &Curve, answer: &Map) -> Value {
     })
 }
 
-fn strip(strip: &Strip, answer: &Map) -> Value {
+fn strip(strip: &Strip, answer: &Answer<Map>, budget: &Budget) -> Result<Value, Failure> {
     let end = |value: &Option<RealAlgebraic>| {
         value.as_ref().map_or(Value::Null, |value| {
             let (lo, hi) = value.enclosure();
@@ -134,9 +144,9 @@ fn strip(strip: &Strip, answer: &Map) -> Value {
     let cells: Vec<Value> = strip.cells.iter().map(|c| json!([u8::from(c.stable), c.outside])).collect();
     // On a wall that a user can type the cells are others than beside it.
     let wall = strip.x.upper.as_ref().and_then(RealAlgebraic::exact);
-    let fibre = wall.and_then(|x| answer.fibre(&x, &Budget::unlimited()).ok().flatten());
+    let fibre = wall.map(|x| answer.fibre(&x, budget)).transpose()?.flatten();
     let fibre = fibre.map(|cells| cells.iter().map(|c| json!([u8::from(c.0), c.1])).collect::<Vec<_>>());
-    json!({ "lower": end(&strip.x.lower), "upper": end(&strip.x.upper), "cells": cells, "wall": fibre })
+    Ok(json!({ "lower": end(&strip.x.lower), "upper": end(&strip.x.upper), "cells": cells, "wall": fibre }))
 }
 
 /// Rounded to four significant digits.

@@ -5,15 +5,14 @@ use super::switched::{Controller, Plant, Pulse, Pwm, SwitchedModel, SwitchedStat
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
-use jurist_engine::error::{Error, Span};
-use jurist_engine::model::{
-    Block, ClosedLoop, Diagram, Discretization, Form, Loop, ModelError, Name, Output, Question, Time,
-};
+use jurist_engine::error::{Error, Failure, Span};
+use jurist_engine::model::{Block, ClosedLoop, Diagram, Discretization, Form, Loop, Name, Output, Time};
+use jurist_engine::problem::Problem;
 use nalgebra::DMatrix;
 
 /// Entries of a matrix without symbols, rounded.
-fn rounded(matrix: &RationalMatrix) -> Result<DMatrix<f64>, ModelError> {
-    let undefined = || ModelError::Undefined("an entry of the closed loop divides by zero".into());
+fn rounded(matrix: &RationalMatrix) -> Result<DMatrix<f64>, Failure> {
+    let undefined = || Failure::Undefined("an entry of the closed loop divides by zero".into());
     let mut values = Vec::with_capacity(matrix.entries().len());
     for entry in matrix.entries() {
         values.push(entry.as_constant().ok_or_else(undefined)?.to_f64_approximate());
@@ -21,29 +20,19 @@ fn rounded(matrix: &RationalMatrix) -> Result<DMatrix<f64>, ModelError> {
     Ok(DMatrix::from_row_slice(matrix.rows(), matrix.columns(), &values))
 }
 
-fn without_symbols(question: &Question) -> Question {
-    Question { keep: Vec::new(), set: question.set.clone() }
-}
-
 impl SampledModel {
-    /// The closed loop with every parameter set or nominal, entries rounded to `f64`.
+    /// The closed loop of a problem at a point, entries rounded to `f64`.
     ///
     /// Discrete loops come with their sample time, or 1 if they have none. A continuous loop is
     /// sampled every `step` seconds, exactly for inputs that are constant in between.
     ///
     /// # Errors
-    /// [`ModelError`] as for the closed loop; `E-simulation` when the step is not positive.
-    pub fn from_loop(
-        model: &Loop,
-        question: &Question,
-        step: f64,
-        budget: &Budget,
-    ) -> Result<SampledModel, ModelError> {
-        let question = without_symbols(question);
-        let ClosedLoop { a, e, c, d, states, inputs, outputs, .. } = model.closed_loop(&question, budget)?;
-        let (mut transition, mut input) = (rounded(&a)?, rounded(&e)?);
+    /// [`Failure`] as for the closed loop; `E-simulation` when the step is not positive.
+    pub fn from_loop(problem: &Problem, step: f64, budget: &Budget) -> Result<SampledModel, Failure> {
+        let ClosedLoop { a, e, c, d, states, inputs, outputs, .. } = problem.closed_loop(budget)?;
+        let (mut transition, mut input) = (rounded(a)?, rounded(e)?);
         let mut sample_time = 1.0;
-        if model.time() == Time::Continuous {
+        if problem.time() == Time::Continuous {
             let (n, m) = (transition.nrows(), input.ncols());
             let mut bordered = DMatrix::zeros(n + m, n + m);
             bordered.view_mut((0, 0), (n, n)).copy_from(&(&transition * step));
@@ -52,17 +41,17 @@ impl SampledModel {
             transition = flow.view((0, 0), (n, n)).into_owned();
             input = flow.view((0, n), (n, m)).into_owned();
             sample_time = step;
-        } else if let Some(time) = model.sample_time(&question, budget)? {
+        } else if let Some(time) = problem.algebra(budget)?.sample_time() {
             sample_time = time.as_constant().map_or(1.0, |t| t.to_f64_approximate());
         }
         let model = SampledModel {
             transition,
             input,
-            output: rounded(&c)?,
-            feedthrough: rounded(&d)?,
-            states,
-            inputs,
-            outputs,
+            output: rounded(c)?,
+            feedthrough: rounded(d)?,
+            states: states.clone(),
+            inputs: inputs.clone(),
+            outputs: outputs.clone(),
             sample_time,
         };
         Ok(model.checked()?)
@@ -141,20 +130,15 @@ impl SwitchedModel {
     /// all other blocks run once per period.
     ///
     /// # Errors
-    /// [`ModelError`]; `E-simulation` where the model has no such parts, where a continuous block is
+    /// [`Failure`]; `E-simulation` where the model has no such parts, where a continuous block is
     /// driven by a sampled one without a modulator between, or where periods differ.
-    pub fn from_loop(
-        model: &Loop,
-        question: &Question,
-        pulse: Pulse,
-        budget: &Budget,
-    ) -> Result<SwitchedModel, ModelError> {
-        let question = without_symbols(question);
+    pub fn from_loop(problem: &Problem, pulse: Pulse, budget: &Budget) -> Result<SwitchedModel, Failure> {
+        let model = problem.model();
         let Form::Blocks(diagram) = model.form() else {
             return Err(simulation_error("a switched simulation needs a model made of blocks").into());
         };
         let parts = Parts::of(diagram)?;
-        let value = |e: &jurist_engine::model::Expression| model.value(e, &question, budget);
+        let value = |e: &jurist_engine::model::Expression| model.value(e, problem.set(), budget);
         let (mut period, mut sources): (Option<Rational>, Vec<Pwm>) = (None, Vec::new());
         for block in &parts.sources {
             let Some(pwm) = &block.pwm else { continue };
@@ -170,15 +154,20 @@ impl SwitchedModel {
                 pulse,
             });
         }
-        let period = period.ok_or_else(|| ModelError::from(simulation_error("no block has a 'pwm' entry")))?;
-        if let Some(time) = model.sample_time(&question, budget)?.and_then(|t| t.as_constant())
+        let period = period.ok_or_else(|| Failure::from(simulation_error("no block has a 'pwm' entry")))?;
+        let sample_time = |e| model.value(e, problem.set(), budget);
+        if let Some(time) = model.sample_time_expression().map(sample_time).transpose()?
             && time != period
         {
             return Err(simulation_error("the modulators' period is not the sample time").into());
         }
         let (r, m) = (diagram.inputs.len(), sources.len());
-        let plant = model.with_diagram(parts.plant(diagram), Time::Continuous).closed_loop(&question, budget)?;
-        let sampled = model.with_diagram(parts.controller(diagram), Time::Discrete).closed_loop(&question, budget)?;
+        let part = |diagram: Diagram, time: Time| {
+            let part = model.with_diagram(diagram, time);
+            part.evaluate(&[], problem.set(), budget)?.closed_loop.ok_or_else(|| part.has_no_states())
+        };
+        let plant = part(parts.plant(diagram), Time::Continuous)?;
+        let sampled = part(parts.controller(diagram), Time::Discrete)?;
         let signals = plant.outputs.len();
         let (a, e, c, d) = (rounded(&plant.a)?, rounded(&plant.e)?, rounded(&plant.c)?, rounded(&plant.d)?);
         let held = e.ncols() - r - m;

@@ -4,10 +4,10 @@ use super::connect::state_space::{Stop, assemble};
 use super::definition::{Loop, Time};
 use super::evaluate::scalar::{Scope, Symbol};
 use super::evaluate::symbolic::{Values, Wiring, symbolic};
-use super::evaluate::walk::Failure;
-use super::question::{ModelError, Question, Resolved};
+use super::evaluate::walk::Failure as Wrong;
+use super::text::Expression;
 use super::text::names::{did_you_mean, known_names, shorten};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Diagnostic, Error, Failure};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
 use jurist_algebra::number::Rational;
@@ -48,7 +48,19 @@ pub struct TransferFunction {
     pub denominator: CharacteristicPolynomial,
 }
 
-/// The evaluated model with values set for what is not kept.
+/// A model evaluated with values for everything that is not kept.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Evaluated {
+    /// The characteristic polynomial, symbolic in the kept names.
+    pub polynomial: CharacteristicPolynomial,
+    /// The closed loop in state space; `None` for the form `characteristic`.
+    pub closed_loop: Option<ClosedLoop>,
+    /// The sample time as a function of the kept names; `None` when the model has none or it divides by zero.
+    pub sample_time: Option<RationalFunction>,
+}
+
+/// The expressions of the model with values set for what is not kept.
 struct Answer<'m> {
     wiring: Wiring<'m>,
     values: Values,
@@ -84,22 +96,25 @@ impl Answer<'_> {
 }
 
 impl Loop {
-    /// The characteristic polynomial, symbolic in the kept names.
+    /// The characteristic polynomial, closed loop and sample time, symbolic in the kept names, which become the variables
+    /// 0, 1, ...; `values` has the value of every other parameter and may replace the number of constants.
     ///
-    /// Matrices and blocks give `det(zI - A)` of the closed loop, monic, with every mode; a
-    /// `characteristic` stays as it is written. The formal degree is that with all parameters
-    /// symbolic, before any was set.
+    /// Matrices and blocks give `det(zI - A)` of the closed loop, monic, with every mode; a `characteristic` stays as it is
+    /// written. The formal degree is that with all parameters symbolic, before any was set.
     ///
     /// # Errors
-    /// [`ModelError`]: a wrong question, values for which the model is undefined, or a budget that ran out.
-    pub fn characteristic_polynomial(
+    /// [`Failure::Undefined`] at values for which the model is undefined whatever is kept, [`Failure::Stopped`] when the
+    /// budget runs out, [`Failure::Refused`] where the model is not complete.
+    pub fn evaluate(
         &self,
-        question: &Question,
+        kept: &[String],
+        values: &[(String, Rational)],
         budget: &Budget,
-    ) -> Result<CharacteristicPolynomial, ModelError> {
-        let answer = self.answer(question, budget)?;
+    ) -> Result<Evaluated, Failure> {
+        let answer = self.answer(kept, values, budget)?;
+        let sample_time = answer.sample_time.as_ref().and_then(|t| answer.substituted(t));
         if let Values::Characteristic(p) = &answer.values {
-            let undefined = || ModelError::Undefined("a coefficient divides by zero".into());
+            let undefined = || Failure::Undefined("a coefficient divides by zero".into());
             let mut coefficients = Vec::with_capacity(p.coefficients().len());
             for c in p.coefficients() {
                 coefficients.push(answer.substituted(c).ok_or_else(undefined)?);
@@ -108,84 +123,66 @@ impl Loop {
             if coefficients.is_empty() {
                 coefficients.push(RationalFunction::zero());
             }
-            return Ok(CharacteristicPolynomial {
+            let polynomial = CharacteristicPolynomial {
                 variables: answer.kept,
                 coefficients,
                 formal_degree,
                 poles: answer.poles,
                 monic: false,
-            });
+            };
+            return Ok(Evaluated { polynomial, closed_loop: None, sample_time });
         }
-        self.connected(answer, budget)?.characteristic_polynomial(budget)
+        let closed_loop = self.connected(answer, budget)?;
+        let polynomial = closed_loop.characteristic_polynomial(budget)?;
+        Ok(Evaluated { polynomial, closed_loop: Some(closed_loop), sample_time })
     }
 
-    /// The closed loop in state space, with entries in the kept names.
+    /// The value of an expression in constants and parameters, all of which have values.
     ///
     /// # Errors
-    /// As [`Loop::characteristic_polynomial`]; `E-no-states` for the form `characteristic`.
-    pub fn closed_loop(&self, question: &Question, budget: &Budget) -> Result<ClosedLoop, ModelError> {
-        let answer = self.answer(question, budget)?;
-        if matches!(answer.values, Values::Characteristic(_)) {
-            let error =
-                Diagnostic::error("E-no-states", "a model given by its characteristic polynomial has no states");
-            let error = error.help("give the loop by matrices or blocks");
-            return Err(Error::new(Some(self.source().clone()), vec![error]).into());
-        }
-        self.connected(answer, budget)
-    }
-
-    /// The transfer function from an input to an output of the closed loop.
+    /// As [`Loop::evaluate`].
     ///
-    /// # Errors
-    /// As [`Loop::closed_loop`]; `E-unknown-signal`.
-    pub fn transfer_function(
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::model::{Expression, Loop};
+    /// let drive = Loop::drive();
+    /// let problem = drive.ask().problem().unwrap();
+    /// let inductance = Expression::parse("1/L_a").unwrap();
+    /// let value = drive.value(&inductance, problem.set(), &Budget::unlimited()).unwrap();
+    /// assert_eq!(value.to_string(), "500/23");
+    /// ```
+    pub fn value(
         &self,
-        input: &str,
-        output: &str,
-        question: &Question,
+        expression: &Expression,
+        values: &[(String, Rational)],
         budget: &Budget,
-    ) -> Result<TransferFunction, ModelError> {
-        let closed_loop = self.closed_loop(question, budget)?;
-        let find = |names: &[String], name: &str, what: &str| {
-            names.iter().position(|n| n == name).ok_or_else(|| {
-                let message = format!("the loop has no {what} '{}'", shorten(name));
-                let mut error = Diagnostic::error("E-unknown-signal", message);
-                let names = || names.iter().map(String::as_str);
-                error.help = did_you_mean(name, names()).or_else(|| known_names(names()));
-                ModelError::Input(Error::new(Some(self.source().clone()), vec![error]))
-            })
-        };
-        let j = find(&closed_loop.inputs, input, "input")?;
-        let i = find(&closed_loop.outputs, output, "output")?;
-        closed_loop.transfer_function(i, j, budget)
-    }
-
-    /// The sample time as a function of the kept names; `None` when the model has none.
-    ///
-    /// # Errors
-    /// As [`Loop::characteristic_polynomial`].
-    pub fn sample_time(&self, question: &Question, budget: &Budget) -> Result<Option<RationalFunction>, ModelError> {
-        let answer = self.answer(question, budget)?;
-        match &answer.sample_time {
-            None => Ok(None),
-            Some(value) => match answer.substituted(value) {
-                Some(value) => Ok(Some(value)),
-                None => Err(ModelError::Undefined("the sample time divides by zero".into())),
-            },
-        }
-    }
-
-    fn answer(&self, question: &Question, budget: &Budget) -> Result<Answer<'_>, ModelError> {
-        let Resolved { kept, values: given, .. } = self.resolve(question)?;
+    ) -> Result<Rational, Failure> {
         let mut failures = Vec::new();
         let mut report = |failure| failures.push(failure);
-        let kept_constant = |name: &str| question.keep.iter().any(|k| k == name).then_some(Symbol::Variable);
+        let given = |name: &str| values.iter().find(|(n, _)| n == name).map(|(_, value)| value.clone());
+        let symbol = |name: &str, _: bool| given(name).map(Symbol::Value);
+        let mut scope = Scope::new(self.parameters().iter(), self.ordered_constants(), symbol, budget, &mut report);
+        let value = scope.scalar(expression).map_err(&mut report).ok();
+        let Some(value) = value.filter(|_| failures.is_empty()) else { return Err(self.failed(failures)) };
+        value.as_constant().ok_or_else(|| Failure::Undefined("a parameter has no value".into()))
+    }
+
+    /// That a model given by its characteristic polynomial has no states.
+    pub fn has_no_states(&self) -> Failure {
+        let error = Diagnostic::error("E-no-states", "a model given by its characteristic polynomial has no states");
+        let error = error.help("give the loop by matrices or blocks");
+        Error::new(Some(self.source().clone()), vec![error]).into()
+    }
+
+    fn answer(&self, kept: &[String], given: &[(String, Rational)], budget: &Budget) -> Result<Answer<'_>, Failure> {
+        let mut failures = Vec::new();
+        let mut report = |failure| failures.push(failure);
         // Parameters stay symbolic until everything is evaluated: only so the degree and the points of
         // division by zero do not depend on the values set. A constant that is set has another number.
-        let symbol = |name: &str, constant: bool| match question.set.get(name) {
+        let symbol = |name: &str, constant: bool| match given.iter().find(|(n, _)| n == name) {
             _ if !constant => Some(Symbol::Variable),
-            Some(value) => Some(Symbol::Value(value.clone())),
-            None => kept_constant(name),
+            Some((_, value)) => Some(Symbol::Value(value.clone())),
+            None => kept.iter().any(|k| k == name).then_some(Symbol::Variable),
         };
         let mut scope = Scope::new(self.parameters().iter(), self.ordered_constants(), symbol, budget, &mut report);
         let wiring = Wiring::of(self);
@@ -199,42 +196,42 @@ impl Loop {
         let set: Vec<Option<Rational>> = scope.variables.iter().map(value).collect();
         let number = |name: &String| kept.iter().position(|k| k == name).unwrap_or(0);
         let numbers = scope.variables.iter().map(number).collect();
-        let mut answer = Answer { wiring, values, set, numbers, kept, poles: Vec::new(), sample_time };
+        let mut answer = Answer { wiring, values, set, numbers, kept: kept.to_vec(), poles: Vec::new(), sample_time };
         let divisors = std::mem::take(&mut scope.divisors);
         for divisor in divisors {
             budget.check()?;
             let parts: Vec<MultiPoly> = divisor.iter().map(|p| answer.substituted_polynomial(p)).collect();
             let pole = parts.iter().fold(MultiPoly::zero(), |g, p| g.gcd(p));
             if pole.is_zero() {
-                return Err(ModelError::Undefined("division by zero at these values of the parameters".into()));
+                return Err(Failure::Undefined("division by zero at these values of the parameters".into()));
             }
             add_pole(&mut answer.poles, &pole);
         }
         Ok(answer)
     }
 
-    fn failed(&self, failures: Vec<Failure>) -> ModelError {
+    fn failed(&self, failures: Vec<Wrong>) -> Failure {
         let mut diagnostics = Vec::new();
         for failure in failures {
             match failure {
-                Failure::Exhausted(exhausted) => return ModelError::Exhausted(exhausted),
-                Failure::Wrong(diagnostic) => diagnostics.push(*diagnostic),
-                Failure::Poisoned => {}
+                Wrong::Exhausted(exhausted) => return Failure::Stopped(exhausted),
+                Wrong::Wrong(diagnostic) => diagnostics.push(*diagnostic),
+                Wrong::Poisoned => {}
             }
         }
         if diagnostics.is_empty() {
             diagnostics.push(Diagnostic::error("E-missing", "the model is not complete"));
         }
         diagnostics.dedup();
-        ModelError::Input(Error::new(Some(self.source().clone()), diagnostics))
+        Failure::Refused(Error::new(Some(self.source().clone()), diagnostics))
     }
 
-    fn connected(&self, answer: Answer<'_>, budget: &Budget) -> Result<ClosedLoop, ModelError> {
+    fn connected(&self, answer: Answer<'_>, budget: &Budget) -> Result<ClosedLoop, Failure> {
         let substitution = |f: &RationalFunction| answer.substituted(f);
         let assembled = match assemble(self, &answer.wiring, &answer.values, &substitution, budget) {
             Ok(assembled) => assembled,
             Err(Stop::Exhausted(exhausted)) => return Err(exhausted.into()),
-            Err(Stop::Undefined(diagnostic)) => return Err(ModelError::Undefined(diagnostic.message)),
+            Err(Stop::Undefined(diagnostic)) => return Err(Failure::Undefined(diagnostic.message)),
         };
         let mut poles = answer.poles;
         for pole in &assembled.poles {
@@ -266,13 +263,32 @@ impl ClosedLoop {
     /// `det(zI - A)`.
     ///
     /// # Errors
-    /// [`ModelError::Exhausted`].
-    pub fn characteristic_polynomial(&self, budget: &Budget) -> Result<CharacteristicPolynomial, ModelError> {
+    /// [`Failure::Stopped`].
+    pub fn characteristic_polynomial(&self, budget: &Budget) -> Result<CharacteristicPolynomial, Failure> {
         let mut p = self.a.characteristic_polynomial(self.variables.clone(), budget)?;
         let mut poles = self.poles.clone();
         p.poles.iter().for_each(|pole| add_pole(&mut poles, pole));
         p.poles = poles;
         Ok(p)
+    }
+
+    /// The transfer function from an input to an output of the closed loop, nothing cancelled.
+    ///
+    /// # Errors
+    /// `E-unknown-signal`; [`Failure::Stopped`].
+    pub fn transfer_function(&self, input: &str, output: &str, budget: &Budget) -> Result<TransferFunction, Failure> {
+        let find = |names: &[String], name: &str, what: &str| {
+            names.iter().position(|n| n == name).ok_or_else(|| {
+                let message = format!("the loop has no {what} '{}'", shorten(name));
+                let mut error = Diagnostic::error("E-unknown-signal", message);
+                let names = || names.iter().map(String::as_str);
+                error.help = did_you_mean(name, names()).or_else(|| known_names(names()));
+                Failure::from(error)
+            })
+        };
+        let j = find(&self.inputs, input, "input")?;
+        let i = find(&self.outputs, output, "output")?;
+        self.transfer_function_at(i, j, budget)
     }
 
     /// The transfer function from input `j` to output `i`, nothing cancelled.
@@ -282,11 +298,11 @@ impl ClosedLoop {
     /// `c adj(zI - A) e + d det(zI - A)`.
     ///
     /// # Errors
-    /// [`ModelError::Exhausted`].
+    /// [`Failure::Stopped`].
     ///
     /// # Panics
     /// When there is no such input or output.
-    pub fn transfer_function(&self, i: usize, j: usize, budget: &Budget) -> Result<TransferFunction, ModelError> {
+    pub fn transfer_function_at(&self, i: usize, j: usize, budget: &Budget) -> Result<TransferFunction, Failure> {
         let denominator = self.characteristic_polynomial(budget)?;
         let n = self.a.rows();
         let changed = RationalMatrix::from_fn(n, n, |r, k| &self.a[(r, k)] - &(&self.e[(r, j)] * &self.c[(i, k)]));

@@ -1,7 +1,8 @@
 //! A constant that is set has another number, and nothing else changes; a constant that is kept is a parameter.
 
-use super::{Loop, ModelError, Question};
-use crate::error::Source;
+use super::Loop;
+use crate::error::{Failure, Source};
+use crate::problem::Question;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, parse_number};
@@ -12,11 +13,21 @@ fn number(text: &str) -> Rational {
 }
 
 /// The polynomial, or the code of what is wrong.
-fn ask(model: &Loop, question: &Question) -> Result<CharacteristicPolynomial, String> {
-    model.characteristic_polynomial(question, &Budget::unlimited()).map_err(|error| match error {
-        ModelError::Input(error) => error.code().to_owned(),
+fn ask(question: Question) -> Result<CharacteristicPolynomial, String> {
+    let budget = Budget::unlimited();
+    let asked = question.problem().and_then(|problem| {
+        let algebra = problem.algebra(&budget)?;
+        algebra.polynomial().cloned().ok_or_else(|| Failure::Undefined(algebra.undefined().unwrap_or_default().into()))
+    });
+    asked.map_err(|failure| match failure {
+        Failure::Refused(error) => error.code().to_owned(),
         other => other.to_string(),
     })
+}
+
+/// The question with these names free.
+fn free<'n>(model: &Loop, names: impl IntoIterator<Item = &'n str>) -> Question {
+    names.into_iter().fold(model.ask(), Question::free)
 }
 
 fn examples() -> Vec<Loop> {
@@ -37,17 +48,20 @@ fn a_constant_set_to_its_own_number_changes_no_answer_of_the_examples() {
     let mut constants = 0;
     for model in examples() {
         let nominal = |p: &&super::Parameter| p.nominal.is_some();
-        let without = model.parameters().iter().filter(|p| !nominal(p)).map(|p| p.name.clone());
-        let one = model.parameters().iter().find(nominal).map(|p| p.name.clone());
-        let plain = Question::keeping(without.chain(one));
-        let expected = ask(&model, &plain).unwrap();
-        let time = model.sample_time(&plain, &Budget::unlimited()).unwrap();
+        let without = model.parameters().iter().filter(|p| !nominal(p)).map(|p| p.name.as_str());
+        let one = model.parameters().iter().find(nominal).map(|p| p.name.as_str());
+        let plain = free(&model, without.chain(one));
+        let time = |question: Question| {
+            let problem = question.problem().unwrap();
+            problem.algebra(&Budget::unlimited()).unwrap().sample_time().cloned()
+        };
+        let expected = ask(plain.clone()).unwrap();
         for constant in model.constants() {
             let Some(value) = &constant.number else { continue };
             constants += 1;
-            let set = plain.clone().with(constant.name.as_str(), value.clone());
-            assert_eq!(ask(&model, &set).unwrap(), expected, "{:?}: {}", model.title(), constant.name);
-            assert_eq!(model.sample_time(&set, &Budget::unlimited()).unwrap(), time);
+            let set = plain.clone().set(constant.name.as_str(), value.clone());
+            assert_eq!(ask(set.clone()).unwrap(), expected, "{:?}: {}", model.title(), constant.name);
+            assert_eq!(time(set), time(plain.clone()));
         }
     }
     assert!(constants > 20, "{constants}");
@@ -71,15 +85,14 @@ fn a_constant_that_is_set_is_another_number_in_the_text() {
     ] {
         let written = model(form, "1").unwrap();
         for value in ["-2", "0", "1/3", "3"] {
-            let question = Question::keeping(["K"]);
             let expected = match model(form, value) {
-                Ok(model) => ask(&model, &question),
+                Ok(model) => ask(free(&model, ["K"])),
                 Err(error) => {
                     refused += 1;
                     Err(error.code().to_owned())
                 }
             };
-            let found = ask(&written, &question.with("c", number(value)));
+            let found = ask(free(&written, ["K"]).set("c", number(value)));
             assert_eq!(found, expected, "{form} with c = {value}");
         }
     }
@@ -91,10 +104,10 @@ fn the_degree_that_counts_is_that_of_the_number_set() {
     let text =
         "time = 'discrete'\n[constants]\nc = 1\n[parameters]\nK = {}\n[loop]\ncharacteristic = 'c*z^2 + K*z + 1'\n";
     let (model, _) = Loop::from_toml(&Source::new("model.toml", text)).unwrap();
-    let degree = |question: &Question| ask(&model, question).unwrap().formal_degree;
-    assert_eq!(degree(&Question::keeping(["K"])), 2);
-    assert_eq!(degree(&Question::keeping(["K"]).with("c", number("0"))), 1);
-    assert_eq!(degree(&Question::keeping(["K", "c"])), 2);
+    let degree = |question: Question| ask(question).unwrap().formal_degree;
+    assert_eq!(degree(free(&model, ["K"])), 2);
+    assert_eq!(degree(free(&model, ["K"]).set("c", number("0"))), 1);
+    assert_eq!(degree(free(&model, ["K", "c"])), 2);
 }
 
 #[test]
@@ -104,11 +117,11 @@ fn a_constant_that_is_kept_is_a_parameter_with_its_number_as_nominal_value() {
         "time = 'discrete'\n[constants]\nc = '1/3'\n[loop]\ncharacteristic = 'z - 1/c'\n",
     ))
     .unwrap();
-    let free = model.free("c").unwrap();
-    assert_eq!((free.nominal, free.min, free.max), (Some(number("1/3")), None, None));
-    let kept = ask(&model, &Question::keeping(["c"])).unwrap();
+    let freed = model.free("c").unwrap();
+    assert_eq!((freed.nominal, freed.min, freed.max), (Some(number("1/3")), None, None));
+    let kept = ask(free(&model, ["c"])).unwrap();
     assert_eq!(kept.poles.len(), 1);
     // Given as a number, it divides by nothing that could vanish.
-    assert_eq!(ask(&model, &Question::default()).unwrap().poles.len(), 0);
-    assert_eq!(ask(&model, &Question::default().with("c", number("5"))).unwrap().poles.len(), 0);
+    assert_eq!(ask(model.ask()).unwrap().poles.len(), 0);
+    assert_eq!(ask(model.ask().set("c", number("5"))).unwrap().poles.len(), 0);
 }

@@ -1,4 +1,4 @@
-//! From model text to a [`Loop`], and from a loop and a [`Question`] to exact polynomials.
+//! From model text to a [`Loop`], and from a loop to exact polynomials.
 //!
 //! A model is a TOML text: constants, parameters, and the loop in one of four forms. Every number
 //! is read by its own text and stays exact; every mistake is reported with its place, several in
@@ -16,17 +16,17 @@ mod constants_set;
 mod definition;
 mod evaluate;
 pub mod examples;
+mod free;
 mod parts;
-mod question;
 mod read;
 mod text;
 
 pub use builder::{BlockBuilder, LoopBuilder, ParameterBuilder};
-pub use closed_loop::{ClosedLoop, TransferFunction};
+pub use closed_loop::{ClosedLoop, Evaluated, TransferFunction};
 pub use definition::{
     Block, Constant, Diagram, Discretization, Dynamics, Form, Loop, Matrix, Method, Name, Output, Parameter, Ports,
     Pwm, Simulation, Time,
 };
-pub use question::{ModelError, Question, Resolved};
 pub use read::{DRIVE, schema, source_from_bytes};
+pub(crate) use text::names::shorten;
 pub use text::{Expression, Factor, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};

@@ -1,11 +1,12 @@
-//! Writing certificates. Nothing here is trusted: what is wrong is found by the [check](super::check).
+//! Writing certificates of the answers that are shown. Nothing here is trusted: what is wrong is found by the checkers.
 
 use super::cofactors::{Identity, identity};
 use super::line::{Line, Separator};
 use super::text::to_text;
-use crate::analysis::{DECAY, Failure, OneParameter, PointVerdict, RADIUS, Settings};
-use crate::model::{Loop, ModelError, Question, Time};
-use crate::stability::{HalfSizePair, Region};
+use crate::answer::{Answer, PointVerdict};
+use crate::error::Failure;
+use crate::problem::{Bound, Problem, Region};
+use crate::stability::{HalfSizePair, ParametricPolynomial, Shape, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, UniPoly};
@@ -14,107 +15,106 @@ use serde_json::Value;
 /// The schema of the certificates that are written.
 pub const SCHEMA: &str = "jurist/certificate/1";
 
-/// A certificate for the stable set of one parameter.
-///
-/// ```
-/// use jurist_engine::analysis::{Settings, one_parameter};
-/// use jurist_check::{Limits, check};
-/// use jurist_engine::prove::emit::intervals_certificate;
-/// use jurist_algebra::limits::Budget;
-/// use jurist_engine::model::{DRIVE, Loop};
-/// let budget = Budget::unlimited();
-/// let question = one_parameter(&Loop::drive(), &Settings::default(), "K_pwm", &budget).unwrap();
-/// let certificate = intervals_certificate(DRIVE, &question, &budget).unwrap();
-/// assert!(check(DRIVE, &certificate, &Limits::default()).is_ok());
-/// ```
-///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-pub fn intervals_certificate(model: &str, question: &OneParameter, budget: &Budget) -> Result<String, Exhausted> {
-    budget.step("certificate");
-    let relative = question.parameter == RADIUS && question.time == Time::Discrete
-        || question.parameter == DECAY && question.time == Time::Continuous;
-    let mut proof = Proof::default();
-    if let Some(p) = &question.polynomial {
-        let full = p.polynomial().coeffs().iter().map(|c| c.times(p.content())).collect();
-        let coefficients = primitive(full, p.formal_degree());
-        proof = Proof::of(&coefficients, p.poles(), p.denominator(), question, budget)?;
-        proof.characteristic = coefficients;
+impl Answer<StableSet> {
+    /// A certificate of this answer: it proves these intervals, from these zeros and cells.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_check::{Limits, check};
+    /// use jurist_engine::model::Loop;
+    /// let (drive, budget) = (Loop::drive(), Budget::unlimited());
+    /// let answer = drive.ask().free("K_pwm").stable_set(&budget).unwrap();
+    /// let certificate = answer.certificate(&budget).unwrap();
+    /// assert!(check(&drive.source().text, &certificate, &Limits::default()).is_ok());
+    /// ```
+    ///
+    /// # Errors
+    /// [`Failure::Stopped`] when the budget runs out.
+    pub fn certificate(&self, budget: &Budget) -> Result<String, Failure> {
+        budget.enter(|| {
+            budget.step("certificate");
+            let problem = self.problem();
+            let mut proof = Proof::default();
+            if let Some(p) = problem.parametric(budget)? {
+                let coefficients = primitive(with_content(p), p.formal_degree());
+                proof = Proof::of(&coefficients, p, self, budget)?;
+                proof.characteristic = coefficients;
+            }
+            let bound = |b: &Option<Rational>| b.as_ref().map_or(Value::Null, number);
+            let range = &problem.parameter().domain;
+            let domain = object([("lower", bound(&range.lower)), ("upper", bound(&range.upper))]);
+            let stable = proof.line.as_ref().map(|line| line.stable_intervals()).unwrap_or_default();
+            let stable = stable.iter().map(|(l, u)| object([("lower", end(l)), ("upper", end(u))]));
+            let statement = object([
+                ("kind", "intervals".into()),
+                ("time", problem.time().name().into()),
+                ("parameter", problem.parameter().name.as_str().into()),
+                ("set", set(problem.set())),
+                ("region", region(problem.region())),
+                ("domain", domain),
+                ("stable", stable.collect()),
+            ]);
+            let boundary = match &proof.identity {
+                None => Value::Null,
+                Some(i) => {
+                    object([("u", polynomials(&i.u)), ("v", polynomials(&i.v)), ("value", polynomial(&i.value))])
+                }
+            };
+            let line = proof.line.as_ref().map(line_json).unwrap_or_default();
+            let certificate = object([
+                ("schema", SCHEMA.into()),
+                ("model", about(problem)),
+                ("statement", statement),
+                ("characteristic", polynomials(&proof.characteristic)),
+                ("boundary", boundary),
+                ("factors", polynomials(&proof.factors)),
+                ("line", Value::Array(line)),
+            ]);
+            Ok(to_text(&certificate))
+        })?
     }
-    let bound = |b: &Option<Rational>| b.as_ref().map_or(Value::Null, number);
-    let domain = object([("lower", bound(&question.domain.lower)), ("upper", bound(&question.domain.upper))]);
-    let stable = proof.line.as_ref().map(|line| line.stable_intervals()).unwrap_or_default();
-    let statement = object([
-        ("kind", "intervals".into()),
-        ("time", question.time.name().into()),
-        ("parameter", question.parameter.as_str().into()),
-        ("set", set(&question.set)),
-        ("region", region(question.time, &question.radius, &question.decay, relative)),
-        ("domain", domain),
-        ("stable", Value::Array(stable.iter().map(|(l, u)| object([("lower", end(l)), ("upper", end(u))])).collect())),
-    ]);
-    let boundary = match &proof.identity {
-        None => Value::Null,
-        Some(i) => object([("u", polynomials(&i.u)), ("v", polynomials(&i.v)), ("value", polynomial(&i.value))]),
-    };
-    let line = proof.line.as_ref().map(line_json).unwrap_or_default();
-    let certificate = object([
-        ("schema", SCHEMA.into()),
-        ("model", about(model, question.title.as_deref())),
-        ("statement", statement),
-        ("characteristic", polynomials(&proof.characteristic)),
-        ("boundary", boundary),
-        ("factors", polynomials(&proof.factors)),
-        ("line", Value::Array(line)),
-    ]);
-    Ok(to_text(&certificate))
 }
 
-/// A certificate for the verdict at one point.
-///
-/// # Errors
-/// [`Failure`] when the question is refused or the budget runs out.
-pub fn verdict_certificate(
-    lp: &Loop,
-    settings: &Settings,
-    answer: &PointVerdict,
-    budget: &Budget,
-) -> Result<String, Failure> {
-    budget.step("certificate");
-    let question = Question { keep: Vec::new(), set: settings.set.clone() };
-    let characteristic = match lp.characteristic_polynomial(&question, budget) {
-        Err(ModelError::Undefined(_)) => Vec::new(),
-        Err(ModelError::Input(error)) => return Err(error.into()),
-        Err(ModelError::Exhausted(exhausted)) => return Err(exhausted.into()),
-        Ok(d) => {
-            let values = d.coefficients.iter().map(|c| c.as_constant().unwrap_or(Rational::ZERO)).collect();
-            let values = in_region(values, &answer.radius, &answer.decay);
-            let common = values.iter().fold(Integer::ONE, |l, v| l.lcm(&v.denominator()));
-            let scaled = |v: &Rational| (v * &Rational::from(&common)).numerator();
-            primitive(values.iter().map(|v| UniPoly::constant(scaled(v))).collect(), answer.degree)
-        }
-    };
-    let counts = answer.count.unwrap_or_default();
-    let count = |n: usize| Value::from(n);
-    let statement = object([
-        ("kind", "verdict".into()),
-        ("time", answer.time.name().into()),
-        ("set", set(&answer.set)),
-        ("region", region(answer.time, &answer.radius, &answer.decay, false)),
-        ("verdict", answer.verdict.name().into()),
-        ("degree", count(answer.degree)),
-        ("inside", count(counts.inside)),
-        ("on", count(counts.on)),
-        ("outside", count(counts.outside)),
-        ("infinite", count(answer.infinite)),
-    ]);
-    let certificate = object([
-        ("schema", SCHEMA.into()),
-        ("model", about(&lp.source().text, answer.title.as_deref())),
-        ("statement", statement),
-        ("characteristic", polynomials(&characteristic)),
-    ]);
-    Ok(to_text(&certificate))
+impl Answer<PointVerdict> {
+    /// A certificate of this verdict.
+    ///
+    /// # Errors
+    /// [`Failure::Stopped`] when the budget runs out.
+    pub fn certificate(&self, budget: &Budget) -> Result<String, Failure> {
+        budget.enter(|| {
+            budget.step("certificate");
+            let (problem, verdict) = (self.problem(), self.value());
+            let characteristic = match problem.parametric(budget)? {
+                None => Vec::new(),
+                Some(p) => primitive(with_content(p), verdict.degree),
+            };
+            let counts = verdict.count.unwrap_or_default();
+            let statement = object([
+                ("kind", "verdict".into()),
+                ("time", problem.time().name().into()),
+                ("set", set(problem.set())),
+                ("region", region(problem.region())),
+                ("verdict", verdict.verdict.name().into()),
+                ("degree", verdict.degree.into()),
+                ("inside", counts.inside.into()),
+                ("on", counts.on.into()),
+                ("outside", counts.outside.into()),
+                ("infinite", verdict.infinite.into()),
+            ]);
+            let certificate = object([
+                ("schema", SCHEMA.into()),
+                ("model", about(problem)),
+                ("statement", statement),
+                ("characteristic", polynomials(&characteristic)),
+            ]);
+            Ok(to_text(&certificate))
+        })?
+    }
+}
+
+/// The coefficients without denominators.
+fn with_content(p: &ParametricPolynomial) -> Vec<UniPoly> {
+    p.polynomial().coeffs().iter().map(|c| c.times(p.content())).collect()
 }
 
 #[derive(Default)]
@@ -129,23 +129,23 @@ struct Proof {
 impl Proof {
     fn of(
         d: &[UniPoly],
-        poles: &[UniPoly],
-        denominator: &UniPoly,
-        question: &OneParameter,
+        p: &ParametricPolynomial,
+        answer: &Answer<StableSet>,
         budget: &Budget,
     ) -> Result<Proof, Exhausted> {
         let n = d.len() - 1;
-        let mut certain: Vec<UniPoly> = poles.to_vec();
-        certain.push(denominator.clone());
+        let shape = answer.problem().shape();
+        let mut certain: Vec<UniPoly> = p.poles().to_vec();
+        certain.push(p.denominator().clone());
         certain.push(d[n].clone());
         if n > 0 {
             let polynomial = jurist_algebra::poly::Poly::new(d.to_vec());
-            match question.region {
-                Region::UnitDisc => {
+            match shape {
+                Shape::UnitDisc => {
                     certain.push(polynomial.eval(&UniPoly::constant(Integer::ONE)));
                     certain.push(polynomial.eval(&UniPoly::constant(-Integer::ONE)));
                 }
-                Region::LeftHalfPlane => certain.push(d[0].clone()),
+                Shape::LeftHalfPlane => certain.push(d[0].clone()),
             }
         }
         if certain.iter().any(UniPoly::is_zero) {
@@ -154,7 +154,7 @@ impl Proof {
         let mut all = certain.clone();
         let mut proof = Proof::default();
         if n >= 2 {
-            let pair = HalfSizePair::new(&jurist_algebra::poly::Poly::new(d.to_vec()), n, question.region);
+            let pair = HalfSizePair::new(&jurist_algebra::poly::Poly::new(d.to_vec()), n, shape);
             let identity = identity(&pair.a, &pair.b, budget)?;
             let value = identity.value.clone();
             proof.identity = Some(identity);
@@ -165,9 +165,9 @@ impl Proof {
         }
         budget.step("factors");
         proof.factors = coprime_basis(&all, budget)?;
-        let p = question.polynomial.as_ref().expect("it has a polynomial");
-        let stable = |sample: &Rational| p.is_stable_at(sample, question.region);
-        let line = Line::of(&proof.factors, &question.domain, &certain, proof.identity.as_ref(), stable, budget)?;
+        let Some(cells) = answer.value().cells() else { return Ok(proof) };
+        let domain = &answer.problem().parameter().domain;
+        let line = Line::of(&proof.factors, domain, cells, &certain, proof.identity.as_ref(), budget)?;
         proof.line = Some(line);
         Ok(proof)
     }
@@ -218,24 +218,6 @@ fn primitive(mut coefficients: Vec<UniPoly>, n: usize) -> Vec<UniPoly> {
     coefficients.iter().map(|c| c.div_exact_scalar(&content).expect("the content divides")).collect()
 }
 
-fn in_region(mut c: Vec<Rational>, radius: &Option<Rational>, decay: &Option<Rational>) -> Vec<Rational> {
-    if let Some(r) = radius {
-        let mut power = Rational::ONE;
-        for x in &mut c {
-            *x = &*x * &power;
-            power = &power * r;
-        }
-    }
-    if let Some(s) = decay {
-        for i in 0..c.len() {
-            for j in (i..c.len() - 1).rev() {
-                c[j] = &c[j] - &(&c[j + 1] * s);
-            }
-        }
-    }
-    c
-}
-
 fn object<const N: usize>(pairs: [(&str, Value); N]) -> Value {
     Value::Object(pairs.into_iter().map(|(k, v)| (k.to_owned(), v)).collect())
 }
@@ -256,13 +238,12 @@ fn set(values: &[(String, Rational)]) -> Value {
     Value::Object(values.iter().map(|(n, v)| (n.clone(), number(v))).collect())
 }
 
-fn region(time: Time, radius: &Option<Rational>, decay: &Option<Rational>, relative: bool) -> Value {
-    let (key, value, usual) = match time {
-        Time::Discrete => ("radius", radius, Rational::ONE),
-        Time::Continuous => ("decay", decay, Rational::ZERO),
+fn region(region: &Region) -> Value {
+    let value = match region.bound() {
+        Bound::Number(value) => number(value),
+        Bound::Free => "parameter".into(),
     };
-    let value = if relative { "parameter".into() } else { number(value.as_ref().unwrap_or(&usual)) };
-    object([(key, value)])
+    object([(region.bound_name(), value)])
 }
 
 fn end(separator: &Separator) -> Value {
@@ -306,8 +287,9 @@ fn line_json(line: &Line) -> Vec<Value> {
 }
 
 /// Title and digest of the model, for people: the check reads the model itself.
-fn about(model: &str, title: Option<&str>) -> Value {
-    let digest =
-        model.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
-    object([("title", title.map_or(Value::Null, Value::from)), ("digest", format!("fnv1a64:{digest:016x}").into())])
+fn about(problem: &Problem) -> Value {
+    let text = &problem.model().source().text;
+    let digest = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
+    let title = problem.title().map_or(Value::Null, Value::from);
+    object([("title", title), ("digest", format!("fnv1a64:{digest:016x}").into())])
 }

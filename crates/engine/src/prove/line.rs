@@ -1,10 +1,10 @@
 //! The line of the parameter, cut into stretches and roots that a checker can verify without search.
 
 use super::cofactors::Identity;
-use crate::stability::Range;
+use crate::stability::{Cells, Range};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in, simplest_between};
+use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly, simplest_between};
 
 /// Irrational ends are enclosed to this many digits.
 const DIGITS: usize = 12;
@@ -50,39 +50,41 @@ impl Separator {
 }
 
 impl Line {
+    /// The line of an answer: its zeros, each found among the factors, and its cells.
     pub fn of(
         factors: &[UniPoly],
         domain: &Range,
+        cells: &Cells,
         certain: &[UniPoly],
         identity: Option<&Identity>,
-        is_stable: impl Fn(&Rational) -> bool,
         budget: &Budget,
     ) -> Result<Line, Exhausted> {
-        let mut roots: Vec<(RealAlgebraic, usize)> = Vec::new();
-        for (i, f) in factors.iter().enumerate() {
-            let Some(f) = SquareFree::part_of(f) else { continue };
-            let found = isolate_real_roots_in(&f, domain.lower.as_ref(), domain.upper.as_ref(), budget)?;
-            roots.extend(found.into_iter().map(|r| (r, i)));
-        }
-        roots.sort_by(|a, b| a.0.compare(&b.0));
         let mut separators = vec![Separator::Outer(domain.lower.clone())];
-        for (root, factor) in roots {
-            let separator = match root.exact() {
+        let mut verdicts = vec![cells.samples[0].1];
+        for (zero, (_, stable)) in cells.zeros.iter().zip(&cells.samples[1..]) {
+            let mut factor = None;
+            for (i, f) in factors.iter().enumerate() {
+                if factor.is_none() && zero.sign_of_within(f, budget)?.is_eq() {
+                    factor = Some(i);
+                }
+            }
+            // A common factor of both cofactors was divided out: no root is on the boundary there.
+            let Some(factor) = factor else { continue };
+            separators.push(match zero.exact() {
                 Some(value) => Separator::At { value, touch: None },
                 None => {
-                    let root = isolated(root.refined_to_digits(DIGITS), factor, factors, budget)?;
+                    let root = isolated(zero.refined_to_digits(DIGITS), factor, factors, budget)?;
                     Separator::Between { root, polynomial: factors[factor].clone(), factor, touch: None }
                 }
-            };
-            separators.push(separator);
+            });
+            verdicts.push(*stable);
         }
         separators.push(Separator::Outer(domain.upper.clone()));
         separate(&mut separators, budget)?;
         let mut stretches = Vec::new();
-        for pair in separators.windows(2) {
-            budget.check()?;
+        for (pair, stable) in separators.windows(2).zip(verdicts) {
             let sample = between(&pair[0].limits().1, &pair[1].limits().0);
-            stretches.push(Stretch { split: Vec::new(), stable: is_stable(&sample), sample });
+            stretches.push(Stretch { split: Vec::new(), stable, sample });
         }
         for i in 1..stretches.len() {
             if stretches[i - 1].stable && stretches[i].stable {

@@ -1,60 +1,71 @@
 //! The statement about one parameter in the language of SMT solvers.
 
-use crate::analysis::OneParameter;
-use crate::stability::{Region, StableSet, jury_table_with, routh_table};
+use crate::answer::Answer;
+use crate::error::Failure;
+use crate::stability::{Shape, StableSet, jury_table_with, routh_table};
+use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, UniPoly};
 use std::fmt::Write;
 
-/// An SMT-LIB 2 script (the SMT-LIB Standard, version 2.6) that asks for a parameter value in the domain at which the classical
-/// conditions (Jury's, or Routh's) and the claimed set differ. `unsat` means that they are the same set.
-///
-/// The only variable is the parameter. An irrational end is no variable either: with `f` its polynomial and `(a, b)`
-/// its enclosure, `x < end` is `x <= a or (x < b and f(x) has the sign of f(a))`.
-///
-/// The conditions are those of the table whose rows are divided by the entry two rows above, so that their degrees grow by
-/// addition: `|first| > |last|` of a row stands as "`first - last` and `first + last` have the same sign".
-pub fn intervals_smt2(question: &OneParameter, set: &StableSet) -> String {
-    let mut domain = Vec::new();
-    if let Some(lower) = &question.domain.lower {
-        domain.push(format!("(< {} p)", real(lower)));
-    }
-    if let Some(upper) = &question.domain.upper {
-        domain.push(format!("(< p {})", real(upper)));
-    }
-    let mut conditions = Vec::new();
-    match &question.polynomial {
-        None => conditions.push("false".to_owned()),
-        Some(p) => {
-            let not_zero = p.poles().iter().chain([p.denominator(), p.content()]);
-            let not_zero = not_zero.filter(|f| f.is_zero() || !f.is_constant());
-            conditions.extend(not_zero.map(|f| format!("(distinct {} 0.0)", horner(f))));
-            match question.region {
-                Region::UnitDisc => jury(p.polynomial(), p.formal_degree(), &mut conditions),
-                Region::LeftHalfPlane => routh(p.polynomial(), p.formal_degree(), &mut conditions),
+impl Answer<StableSet> {
+    /// An SMT-LIB 2 script (the SMT-LIB Standard, version 2.6) that asks for a parameter value in the domain at which the classical
+    /// conditions (Jury's, or Routh's) and the claimed set differ. `unsat` means that they are the same set.
+    ///
+    /// The only variable is the parameter. An irrational end is no variable either: with `f` its polynomial and `(a, b)`
+    /// its enclosure, `x < end` is `x <= a or (x < b and f(x) has the sign of f(a))`.
+    ///
+    /// The conditions are those of the table whose rows are divided by the entry two rows above, so that their degrees grow by
+    /// addition: `|first| > |last|` of a row stands as "`first - last` and `first + last` have the same sign".
+    ///
+    /// # Errors
+    /// [`Failure::Stopped`] when the budget runs out.
+    pub fn smt2(&self, budget: &Budget) -> Result<String, Failure> {
+        budget.enter(|| {
+            let problem = self.problem();
+            let (parameter, set) = (problem.parameter(), self.value());
+            let mut domain = Vec::new();
+            if let Some(lower) = &parameter.domain.lower {
+                domain.push(format!("(< {} p)", real(lower)));
             }
-        }
+            if let Some(upper) = &parameter.domain.upper {
+                domain.push(format!("(< p {})", real(upper)));
+            }
+            let mut conditions = Vec::new();
+            match problem.parametric(budget)? {
+                None => conditions.push("false".to_owned()),
+                Some(p) => {
+                    let not_zero = p.poles().iter().chain([p.denominator(), p.content()]);
+                    let not_zero = not_zero.filter(|f| f.is_zero() || !f.is_constant());
+                    conditions.extend(not_zero.map(|f| format!("(distinct {} 0.0)", horner(f))));
+                    match problem.shape() {
+                        Shape::UnitDisc => jury(p.polynomial(), p.formal_degree(), &mut conditions),
+                        Shape::LeftHalfPlane => routh(p.polynomial(), p.formal_degree(), &mut conditions),
+                    }
+                }
+            }
+            let mut claimed = Vec::new();
+            for interval in set.intervals() {
+                let lower = interval.lower.as_ref().map(|e| above(&e.value));
+                let upper = interval.upper.as_ref().map(|e| below(&e.value));
+                claimed.push(joined("and", lower.into_iter().chain(upper).collect(), "true"));
+            }
+            let mut out = String::new();
+            let _ = writeln!(out, "; p is the parameter '{}'", parameter.name.replace(['\n', '\r'], " "));
+            for (name, value) in problem.set() {
+                let _ = writeln!(out, "; {} = {value}", name.replace(['\n', '\r'], " "));
+            }
+            let _ = writeln!(out, "; unsat: the loop is stable exactly on the claimed set");
+            let _ = writeln!(out, "(set-logic QF_NRA)\n(declare-const p Real)");
+            for bound in domain {
+                let _ = writeln!(out, "(assert {bound})");
+            }
+            let _ = writeln!(out, "(define-fun stable () Bool {})", joined("and", conditions, "true"));
+            let _ = writeln!(out, "(define-fun claimed () Bool {})", joined("or", claimed, "false"));
+            let _ = writeln!(out, "(assert (distinct stable claimed))\n(check-sat)");
+            Ok(out)
+        })?
     }
-    let mut claimed = Vec::new();
-    for interval in set.intervals() {
-        let lower = interval.lower.as_ref().map(|e| above(&e.value));
-        let upper = interval.upper.as_ref().map(|e| below(&e.value));
-        claimed.push(joined("and", lower.into_iter().chain(upper).collect(), "true"));
-    }
-    let mut out = String::new();
-    let _ = writeln!(out, "; p is the parameter '{}'", question.parameter.replace(['\n', '\r'], " "));
-    for (name, value) in &question.set {
-        let _ = writeln!(out, "; {} = {value}", name.replace(['\n', '\r'], " "));
-    }
-    let _ = writeln!(out, "; unsat: the loop is stable exactly on the claimed set");
-    let _ = writeln!(out, "(set-logic QF_NRA)\n(declare-const p Real)");
-    for bound in domain {
-        let _ = writeln!(out, "(assert {bound})");
-    }
-    let _ = writeln!(out, "(define-fun stable () Bool {})", joined("and", conditions, "true"));
-    let _ = writeln!(out, "(define-fun claimed () Bool {})", joined("or", claimed, "false"));
-    let _ = writeln!(out, "(assert (distinct stable claimed))\n(check-sat)");
-    out
 }
 
 /// Jury's conditions: `a_n D(1) > 0`, `(-1)^n a_n D(-1) > 0`, `|a_n| > |a_0|`, and `|first| > |last|` of every further row. A divisor

@@ -3,72 +3,83 @@
 use super::layout::{Columns, called, fraction, named_values, short, visible};
 use super::margins::margin;
 use super::{json, real, region};
-use crate::analysis::{Decision, Intervals, OneParameter, frequency};
+use crate::answer::{Answer, Frequency};
+use crate::problem::Problem;
 use crate::stability::{Cause, End, IntervalSet, Range, StableSet};
-use jurist_algebra::number::{Rational, parse_number};
+use jurist_algebra::limits::Exhausted;
+use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, parse_number};
 use jurist_algebra::poly::RealAlgebraic;
 use serde_json::Value;
 
-/// The document `jurist/intervals/1`.
-pub fn intervals_json(answer: &Intervals, digits: usize) -> Value {
-    let mut out = json::question(&answer.question, "jurist/intervals/1");
-    match &answer.stable {
-        Decision::Decided(set) => {
-            out.insert("stable".into(), json::stable_set(set, &answer.question, digits));
+impl Answer<StableSet> {
+    /// The document `jurist/intervals/1`, decimals to so many significant digits.
+    pub fn json(&self, digits: usize) -> Value {
+        intervals_json(self.problem(), Ok(self.value()), digits)
+    }
+
+    /// The answer for people.
+    pub fn text(&self, digits: usize) -> String {
+        intervals_text(self.problem(), Ok(self.value()), digits)
+    }
+}
+
+/// The document `jurist/intervals/1`, also of an answer that the budget did not allow.
+pub fn intervals_json(problem: &Problem, set: Result<&StableSet, &Exhausted>, digits: usize) -> Value {
+    let mut out = json::question(problem, "jurist/intervals/1");
+    match set {
+        Ok(set) => {
+            out.insert("stable".into(), json::stable_set(set, problem, digits));
         }
-        Decision::Undecided { budget, reached } => {
-            out.insert("stable".into(), Value::Null);
-            out.insert("undecided".into(), json::undecided(budget, reached));
-        }
+        Err(stopped) => json::undecided(&mut out, &["stable"], stopped),
     }
     Value::Object(out)
 }
 
-/// The answer for people.
-pub fn intervals_text(answer: &Intervals, digits: usize) -> String {
-    let question = &answer.question;
-    let mut out = format!("{}\n", heading(question));
-    out.push_str(&answer_lines(answer, digits));
-    out
+/// The answer for people, also one that the budget did not allow.
+pub fn intervals_text(problem: &Problem, set: Result<&StableSet, &Exhausted>, digits: usize) -> String {
+    format!("{}\n{}", heading(problem), answer_lines(problem, set, digits))
 }
 
 /// The model and the values of the other parameters.
-fn heading(question: &OneParameter) -> String {
-    let title = called(question.title.as_deref());
-    let mut line = format!("{title}, {} time", question.time.name());
-    if !question.set.is_empty() {
-        line.push_str(&format!(", {}", named_values(&question.set)));
+pub fn heading(problem: &Problem) -> String {
+    let title = called(problem.title());
+    let mut line = format!("{title}, {} time", problem.time().name());
+    if !problem.set().is_empty() {
+        line.push_str(&format!(", {}", named_values(problem.set())));
     }
     line
 }
 
+/// What is asked for is not decided, and why.
+pub fn undecided_text(stopped: &Exhausted) -> String {
+    format!("undecided, the budget ran out: {}; reached: {}", stopped.budget, stopped.reached)
+}
+
 /// The intervals, and a line for each end.
-pub fn answer_lines(answer: &Intervals, digits: usize) -> String {
-    let question = &answer.question;
-    let name = &question.parameter;
-    let goal = region::goal(question).unwrap_or_else(|| "stable".to_owned());
+pub fn answer_lines(problem: &Problem, set: Result<&StableSet, &Exhausted>, digits: usize) -> String {
+    let free = problem.parameter();
+    let name = &free.name;
+    let goal = region::goal_or_stable(problem);
     let mut asked = name.clone();
-    if let Some(unit) = &question.unit {
+    if let Some(unit) = &free.unit {
         asked.push_str(&format!(" in {}", visible(unit)));
     }
-    let domain = domain_text(name, &question.domain);
+    let domain = domain_text(name, &free.domain);
     if domain != "all" {
         asked.push_str(&format!(", domain {domain}"));
     }
-    match &answer.stable {
-        Decision::Undecided { budget, reached } => {
-            format!("{asked}: undecided, the budget ran out: {budget}; reached: {reached}\n")
-        }
-        Decision::Decided(set) if set.is_empty() && question.polynomial.is_none() => {
+    match set {
+        Err(stopped) => format!("{asked}: {}\n", undecided_text(stopped)),
+        Ok(set) if set.is_empty() && problem.evaluated().is_some_and(|a| a.undefined().is_some()) => {
             format!("{asked}: {goal} nowhere, undefined for every {name}\n")
         }
-        Decision::Decided(set) if set.is_empty() => format!("{asked}: {goal} nowhere\n"),
-        Decision::Decided(set) => {
+        Ok(set) if set.is_empty() => format!("{asked}: {goal} nowhere\n"),
+        Ok(set) => {
             let mut out = format!("{asked}: {goal} for\n");
             for interval in set_lines(name, &set.to_interval_set(), digits) {
                 out.push_str(&format!("    {interval}\n"));
             }
-            out.push_str(&end_lines(set, question, digits));
+            out.push_str(&end_lines(set, problem, digits));
             out
         }
     }
@@ -130,19 +141,19 @@ fn distinct_decimals(values: &[&RealAlgebraic], digits: usize) -> Vec<String> {
 }
 
 /// A row for each end: value, cause, frequency, margin.
-fn end_lines(set: &StableSet, question: &OneParameter, digits: usize) -> String {
+fn end_lines(set: &StableSet, problem: &Problem, digits: usize) -> String {
     let mut columns = Columns::new("    ");
     let mut ends: Vec<&End> = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten().collect();
     // Two intervals that touch share an end.
     ends.dedup_by(|b, a| a.value.compare(&b.value).is_eq());
     let values: Vec<&RealAlgebraic> = ends.iter().map(|end| &end.value).collect();
     for (end, decimal) in ends.iter().zip(distinct_decimals(&values, digits)) {
-        columns.row(end_cells(end, decimal, question, digits));
+        columns.row(end_cells(end, decimal, problem, digits));
     }
     if columns.is_empty() { String::new() } else { format!("ends\n{columns}") }
 }
 
-fn end_cells(end: &End, decimal: String, question: &OneParameter, digits: usize) -> Vec<String> {
+fn end_cells(end: &End, decimal: String, problem: &Problem, digits: usize) -> Vec<String> {
     let exact = match end.value.exact() {
         Some(exact) if !is_decimal_of(&decimal, &exact) => match fraction(&exact) {
             Ok(whole) => format!("= {whole}"),
@@ -151,8 +162,11 @@ fn end_cells(end: &End, decimal: String, question: &OneParameter, digits: usize)
         _ => String::new(),
     };
     let places = digits.min(7);
-    let pick = |part: fn(&crate::analysis::Frequency) -> Option<jurist_algebra::number::Enclosure>| {
-        real::enclosed(places, |bits| frequency(end, question, bits).as_ref().and_then(part))
+    let once = problem.frequency(end, real::bits_for(places));
+    let pick = |part: fn(&Frequency) -> Option<Enclosure>| {
+        let narrow = once.as_ref().and_then(part)?;
+        let decimal = enclosed_decimal(narrow.lower(), narrow.upper(), places);
+        decimal.or_else(|| real::enclosed(places, |bits| problem.frequency(end, bits).as_ref().and_then(part)))
     };
     let mut at = Vec::new();
     if let Some(hertz) = pick(|f| f.hertz.clone()) {
@@ -163,15 +177,16 @@ fn end_cells(end: &End, decimal: String, question: &OneParameter, digits: usize)
     } else if let Some(rate) = pick(|f| f.radians_per_second.clone()) {
         at.push(format!("{rate} rad/s"));
     }
-    let causes = region::causes_text(&end.causes, question);
+    let causes = region::causes_text(&end.causes, problem);
     let mut cause = if at.is_empty() { causes } else { format!("{causes} at {}", at.join(", ")) };
     if end.causes.contains(Cause::Pole) {
         cause.push_str(": the model is undefined here");
     }
+    let nominal = problem.parameter().nominal.as_ref();
     // A gain margin of a time means nothing in decibels.
-    let is_time = question.sample_time.as_ref().is_some_and(|(n, d)| !(n.is_constant() && d.is_constant()));
-    let margin = margin(&end.value, question.nominal.as_ref(), places).and_then(|m| {
-        let nominal = question.nominal.as_ref().map(short).unwrap_or_default();
+    let is_time = problem.sample_time().is_some_and(|(n, d)| !(n.is_constant() && d.is_constant()));
+    let margin = margin(&end.value, nominal, places).and_then(|m| {
+        let nominal = nominal.map(short).unwrap_or_default();
         // That an end at 0 is 0 x nominal goes without saying.
         let decibels = m.decibels?;
         let factor = format!("{} x nominal {nominal}", decimal_factor(&m.factor, places));

@@ -2,10 +2,12 @@
 
 use super::margins::margin;
 use super::real::{self, JSON_NUMBER_DIGITS};
-use super::region;
-use crate::analysis::{Frequency, OneParameter, Point, frequency};
+use super::region as boundary;
+use crate::answer::Frequency;
+use crate::problem::{Problem, Region};
 use crate::stability::{End, IntervalSet, Range, StableSet};
-use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::limits::Exhausted;
+use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal};
 use jurist_algebra::poly::{RealAlgebraic, UniPoly};
 use serde_json::{Map, Value, json};
 
@@ -65,22 +67,22 @@ pub fn interval_set(set: &IntervalSet, digits: usize) -> Value {
 }
 
 /// A stable set: each end with its cause, frequency and margin.
-pub fn stable_set(set: &StableSet, question: &OneParameter, digits: usize) -> Value {
-    let interval = |i: &crate::stability::StableInterval| json!({ "lower": end(i.lower.as_ref(), question, digits), "upper": end(i.upper.as_ref(), question, digits) });
+pub fn stable_set(set: &StableSet, problem: &Problem, digits: usize) -> Value {
+    let interval = |i: &crate::stability::StableInterval| json!({ "lower": end(i.lower.as_ref(), problem, digits), "upper": end(i.upper.as_ref(), problem, digits) });
     set.intervals().iter().map(interval).collect::<Vec<_>>().into()
 }
 
 /// One end with all that is known about it.
-fn end(end: Option<&End>, question: &OneParameter, digits: usize) -> Value {
+fn end(end: Option<&End>, problem: &Problem, digits: usize) -> Value {
     let Some(end) = end else { return Value::Null };
     let mut out = number(&end.value, digits);
     out.insert("cause".into(), end.causes.to_string().into());
-    if let Some(boundary) = region::exact_boundary(&end.causes, question) {
+    if let Some(boundary) = boundary::exact_boundary(&end.causes, problem) {
         out.insert("boundary".into(), boundary.into());
     }
-    frequency_fields(&mut out, digits, |bits| frequency(end, question, bits));
+    frequency_fields(&mut out, digits, |bits| problem.frequency(end, bits));
     out.insert("closed".into(), false.into());
-    let margin = margin(&end.value, question.nominal.as_ref(), digits);
+    let margin = margin(&end.value, problem.free().first().and_then(|f| f.nominal.as_ref()), digits);
     out.insert("margin_factor".into(), margin.as_ref().map_or(Value::Null, |m| m.factor.clone().into()));
     let decibels = margin.as_ref().and_then(|m| m.decibels.as_deref());
     out.insert("margin_db".into(), real::json_number(decibels));
@@ -90,63 +92,70 @@ fn end(end: Option<&End>, question: &OneParameter, digits: usize) -> Value {
 /// The frequency of a complex pair in all its units; `null` where it has none.
 pub fn frequency_fields(out: &mut Map<String, Value>, digits: usize, at: impl Fn(u64) -> Option<Frequency>) {
     let places = digits.min(JSON_NUMBER_DIGITS);
+    // One enclosure is narrow enough for nearly every decimal; only a value next to a tie asks for another.
+    let once = at(real::bits_for(digits));
     let pick = |part: fn(&Frequency) -> Option<Enclosure>| {
-        let decimal = real::enclosed(places, |bits| at(bits).as_ref().and_then(part));
-        real::json_number(decimal.as_deref())
+        let narrow = once.as_ref().and_then(part)?;
+        let decimal = enclosed_decimal(narrow.lower(), narrow.upper(), places);
+        decimal.or_else(|| real::enclosed(places, |bits| at(bits).as_ref().and_then(part)))
     };
-    out.insert("frequency_hz".into(), pick(|f| f.hertz.clone()));
-    let enclosure = at(real::bits_for(digits)).and_then(|f| f.hertz);
+    out.insert("frequency_hz".into(), real::json_number(pick(|f| f.hertz.clone()).as_deref()));
+    let enclosure = once.as_ref().and_then(|f| f.hertz.clone());
     out.insert(
         "frequency_enclosure".into(),
         enclosure.map_or(Value::Null, |e| json!([e.lower().to_string(), e.upper().to_string()])),
     );
-    out.insert("radians_per_second".into(), pick(|f| f.radians_per_second.clone()));
-    out.insert("angle".into(), pick(|f| f.angle.clone()));
+    out.insert("radians_per_second".into(), real::json_number(pick(|f| f.radians_per_second.clone()).as_deref()));
+    out.insert("angle".into(), real::json_number(pick(|f| f.angle.clone()).as_deref()));
 }
 
 /// What every answer about one parameter begins with.
-pub fn question(question: &OneParameter, schema: &str) -> Map<String, Value> {
+pub fn question(problem: &Problem, schema: &str) -> Map<String, Value> {
+    let mut out = Map::new();
+    let free = problem.parameter();
+    out.insert("schema".into(), schema.into());
+    out.insert("title".into(), problem.title().unwrap_or_default().into());
+    out.insert("time".into(), problem.time().name().into());
+    out.insert("parameter".into(), free.name.as_str().into());
+    out.insert("unit".into(), free.unit.as_deref().map_or(Value::Null, Value::from));
+    out.insert("nominal".into(), exact(free.nominal.as_ref()));
+    out.insert("set".into(), set(problem.set()));
+    out.insert("domain".into(), domain(&free.domain));
+    region(&mut out, problem.region());
+    out
+}
+
+/// What every answer about a point begins with.
+pub fn point(problem: &Problem, schema: &str) -> Map<String, Value> {
     let mut out = Map::new();
     out.insert("schema".into(), schema.into());
-    out.insert("title".into(), question.title.as_deref().unwrap_or_default().into());
-    out.insert("time".into(), question.time.name().into());
-    out.insert("parameter".into(), question.parameter.as_str().into());
-    out.insert("unit".into(), question.unit.as_deref().map_or(Value::Null, Value::from));
-    out.insert("nominal".into(), exact(question.nominal.as_ref()));
-    out.insert("set".into(), set(&question.set));
-    out.insert("domain".into(), domain(&question.domain));
-    relative(&mut out, question.radius.as_ref(), question.decay.as_ref());
+    out.insert("title".into(), problem.title().unwrap_or_default().into());
+    out.insert("time".into(), problem.time().name().into());
+    out.insert("set".into(), set(problem.set()));
+    region(&mut out, problem.region());
     out
 }
 
 /// The radius or decay rate, where one was asked for.
-pub fn relative(out: &mut Map<String, Value>, radius: Option<&Rational>, decay: Option<&Rational>) {
-    for (name, value) in [("radius", radius), ("decay", decay)] {
+pub fn region(out: &mut Map<String, Value>, region: &Region) {
+    for (name, value) in [("radius", region.radius()), ("decay", region.decay())] {
         if value.is_some() {
             out.insert(name.into(), exact(value));
         }
     }
 }
 
-/// Why there is no answer.
-pub fn undecided(budget: &str, reached: &str) -> Value {
-    json!({ "budget": budget, "reached": reached })
+/// Puts into a document that there is no answer and why: each of `keys` is `null`.
+pub fn undecided(out: &mut Map<String, Value>, keys: &[&str], stopped: &Exhausted) {
+    for key in keys {
+        out.insert((*key).into(), Value::Null);
+    }
+    out.insert("undecided".into(), json!({ "budget": stopped.budget, "reached": stopped.reached }));
 }
 
-/// A document without an answer, because a budget ran out before the question was reduced to algebra.
-pub fn undecided_document(schema: &str, key: &str, budget: &str, reached: &str) -> Value {
-    json!({ "schema": schema, key: null, "undecided": undecided(budget, reached) })
-}
-
-/// The same about a point: with all that is known of it.
-pub fn undecided_at_point(schema: &str, key: &str, budget: &str, reached: &str, point: &Point) -> Value {
-    let mut out = Map::new();
-    out.insert("schema".into(), schema.into());
-    out.insert("title".into(), point.title.as_deref().unwrap_or_default().into());
-    out.insert("time".into(), point.time.name().into());
-    out.insert("set".into(), set(&point.set));
-    relative(&mut out, point.radius.as_ref(), point.decay.as_ref());
-    out.insert(key.into(), Value::Null);
-    out.insert("undecided".into(), undecided(budget, reached));
+/// A document about a point whose answer the budget did not allow.
+pub fn undecided_point(schema: &str, key: &str, problem: &Problem, stopped: &Exhausted) -> Value {
+    let mut out = point(problem, schema);
+    undecided(&mut out, &[key], stopped);
     Value::Object(out)
 }

@@ -175,25 +175,23 @@ mod tests {
 
     #[test]
     fn no_title_or_unit_passes_for_an_answer() {
-        use crate::analysis::{Settings, analyze, intervals, verdict};
-        use crate::show::{analysis_text, intervals_text, verdict_text};
         use jurist_algebra::limits::Budget;
         let text = "title = \"loop\\n\\u001b[1Astable for all K\\n\"\ntime = 'discrete'\n[parameters]\n\
             K = { nominal = 1, unit = \"V\\nstable\\u009b\" }\n[loop]\ncharacteristic = 'z - K'\n";
         let (model, _) = crate::model::Loop::from_toml(&crate::error::Source::new("m.toml", text)).unwrap();
-        let (settings, budget) = (Settings::default(), Budget::unlimited());
-        let one = intervals(&model, &settings, "K", &budget).unwrap();
+        let budget = Budget::unlimited();
+        let one = model.ask().free("K").stable_set(&budget).unwrap();
         let texts = [
-            intervals_text(&one, 12),
-            verdict_text(&verdict(&model, &settings, &budget).unwrap()),
-            analysis_text(&analyze(&model, &settings, &budget).unwrap(), 12),
+            one.text(12),
+            model.ask().verdict(&budget).unwrap().text(),
+            model.ask().analyze(&budget).unwrap().text(12),
         ];
         for text in texts {
             assert!(text.starts_with("loop\\n\\u{1b}[1Astable for all K\\n, discrete time"), "{text}");
             assert!(!text.contains(|c: char| is_unseen(c) && c != '\n'), "{text}");
             assert!(!text.lines().any(|line| line.starts_with("stable")), "{text}");
         }
-        let exact = crate::show::intervals_json(&one, 12).to_string();
+        let exact = one.json(12).to_string();
         assert!(exact.contains("loop\\n\\u001b[1Astable for all K\\n"), "{exact}");
     }
 }

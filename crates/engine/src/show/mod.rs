@@ -13,8 +13,7 @@ pub mod region;
 mod table;
 mod verdict;
 
-pub use analysis::{analysis_json, analysis_text};
 pub use intervals::{intervals_json, intervals_text};
 pub use map::{map_boxes_json, map_boxes_text, map_json, map_text};
-pub use table::{point_table_json, point_table_text, table_json, table_text};
-pub use verdict::{verdict_json, verdict_text};
+pub use table::{point_table_json, table_json, table_text};
+pub use verdict::verdict_json;

@@ -1,13 +1,15 @@
 //! The classical table: Jury's in discrete time, Routh's in continuous time.
 
-use super::intervals::{domain_text, set_lines};
+use super::intervals::{domain_text, set_lines, undecided_text};
 use super::json;
 use super::layout::{Columns, called, named_values, wrapped};
 use super::notation::{Coefficient, coefficient_text};
 use super::region;
-use crate::analysis::{Decision, OneParameter, PointTable, TableAnswer};
+use crate::answer::{Answer, ParametricTable, PointTable};
 use crate::model::Time;
+use crate::problem::Problem;
 use crate::stability::{ClassicalTest, Inequality, ScaledPoly, Table, UNDIVIDED_ORDER, row_name};
+use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, UniPoly};
 use serde_json::{Map, Value, json};
@@ -116,25 +118,24 @@ fn condition_json(test: &ClassicalTest, index: usize, numeric: bool) -> Map<Stri
     out
 }
 
-/// The document `jurist/jury/1` in one parameter.
-pub fn table_json(answer: &TableAnswer, digits: usize) -> Value {
-    let mut out = json::question(&answer.question, "jurist/jury/1");
-    out.insert("table".into(), table_name(answer.question.time).into());
-    let test = match &answer.test {
-        Decision::Undecided { budget, reached } => {
-            for key in ["rows", "conditions", "intersection"] {
-                out.insert(key.into(), Value::Null);
-            }
-            out.insert("undecided".into(), json::undecided(budget, reached));
+/// The schema of tables.
+const SCHEMA: &str = "jurist/jury/1";
+
+/// The document `jurist/jury/1` in one parameter, also of a table that the budget did not allow.
+pub fn table_json(problem: &Problem, answer: Result<&ParametricTable, &Exhausted>, digits: usize) -> Value {
+    let mut out = json::question(problem, SCHEMA);
+    out.insert("table".into(), table_name(problem.time()).into());
+    let parts = ["rows", "conditions", "intersection"];
+    let answer = match answer {
+        Ok(answer) => answer,
+        Err(stopped) => {
+            json::undecided(&mut out, &parts, stopped);
             return Value::Object(out);
         }
-        Decision::Decided(None) => {
-            for key in ["rows", "conditions", "intersection"] {
-                out.insert(key.into(), json!([]));
-            }
-            return Value::Object(out);
-        }
-        Decision::Decided(Some(test)) => test,
+    };
+    let Some(test) = &answer.test else {
+        out.extend(parts.map(|key| (key.to_owned(), json!([]))));
+        return Value::Object(out);
     };
     out.insert("rows".into(), rows_json(test, false));
     if let Some(factor) = &test.cleared_by {
@@ -147,24 +148,24 @@ pub fn table_json(answer: &TableAnswer, digits: usize) -> Value {
     });
     out.insert("conditions".into(), conditions.collect::<Vec<_>>().into());
     // The stable set is the same set, end by end, and knows the causes.
-    let intersection = match answer.stable.decided() {
-        Some(set) => json::stable_set(set, &answer.question, digits),
-        None => json::interval_set(&test.intersection, digits),
-    };
-    out.insert("intersection".into(), intersection);
+    out.insert("intersection".into(), json::stable_set(&answer.stable, problem, digits));
     Value::Object(out)
 }
 
-/// The document `jurist/jury/1` at a point.
-pub fn point_table_json(answer: &PointTable) -> Value {
+/// The document `jurist/jury/1` at a point, also of a table that the budget did not allow.
+pub fn point_table_json(problem: &Problem, answer: Result<&PointTable, &Exhausted>) -> Value {
+    let answer = match answer {
+        Ok(answer) => answer,
+        Err(stopped) => return json::undecided_point(SCHEMA, "rows", problem, stopped),
+    };
     let mut out = Map::new();
-    out.insert("schema".into(), "jurist/jury/1".into());
-    out.insert("title".into(), answer.title.as_deref().unwrap_or_default().into());
-    out.insert("time".into(), answer.time.name().into());
-    out.insert("table".into(), table_name(answer.time).into());
+    out.insert("schema".into(), SCHEMA.into());
+    out.insert("title".into(), problem.title().unwrap_or_default().into());
+    out.insert("time".into(), problem.time().name().into());
+    out.insert("table".into(), table_name(problem.time()).into());
     out.insert("parameter".into(), Value::Null);
-    out.insert("set".into(), json::set(&answer.set));
-    json::relative(&mut out, answer.radius.as_ref(), answer.decay.as_ref());
+    out.insert("set".into(), json::set(problem.set()));
+    json::region(&mut out, problem.region());
     let test = answer.test.as_ref();
     out.insert("rows".into(), test.map_or(json!([]), |t| rows_json(t, true)));
     let conditions = test.iter().flat_map(|t| t.conditions.iter().enumerate().map(move |(i, c)| (t, i, c)));
@@ -178,6 +179,30 @@ pub fn point_table_json(answer: &PointTable) -> Value {
     Value::Object(out)
 }
 
+impl Answer<ParametricTable> {
+    /// The document `jurist/jury/1`.
+    pub fn json(&self, digits: usize) -> Value {
+        table_json(self.problem(), Ok(self.value()), digits)
+    }
+
+    /// The table, its conditions and their solutions for people.
+    pub fn text(&self, digits: usize) -> String {
+        table_text(self.problem(), Ok(self.value()), digits)
+    }
+}
+
+impl Answer<PointTable> {
+    /// The document `jurist/jury/1` at a point.
+    pub fn json(&self) -> Value {
+        point_table_json(self.problem(), Ok(self.value()))
+    }
+
+    /// The table at a point for people.
+    pub fn text(&self, digits: usize) -> String {
+        point_table_text(self.problem(), self.value(), digits)
+    }
+}
+
 fn table_name(time: Time) -> &'static str {
     match time {
         Time::Discrete => "Jury",
@@ -185,42 +210,42 @@ fn table_name(time: Time) -> &'static str {
     }
 }
 
-/// The table, its conditions and their solutions for people.
-pub fn table_text(answer: &TableAnswer, digits: usize) -> String {
-    let question = &answer.question;
-    let mut out = heading(question);
-    let test = match &answer.test {
-        Decision::Undecided { budget, reached } => {
-            out.push_str(&format!("undecided, the budget ran out: {budget}; reached: {reached}\n"));
+/// The table, its conditions and their solutions for people, also of a table that the budget did not allow.
+pub fn table_text(problem: &Problem, answer: Result<&ParametricTable, &Exhausted>, digits: usize) -> String {
+    let name = &problem.parameter().name;
+    let mut out = heading(problem);
+    let test = match answer.map(|table| &table.test) {
+        Err(stopped) => {
+            out.push_str(&format!("{}\n", undecided_text(stopped)));
             return out;
         }
-        Decision::Decided(None) => {
-            out.push_str(&format!("the loop is undefined for every {}\n", question.parameter));
+        Ok(None) => {
+            out.push_str(&format!("the loop is undefined for every {name}\n"));
             return out;
         }
-        Decision::Decided(Some(test)) => test,
+        Ok(Some(test)) => test,
     };
     out.push_str(&scheme(test));
     if let Some(factor) = &test.cleared_by {
         let factor = ScaledPoly { scale: Rational::ONE, polynomial: factor.clone() };
-        let text = entry_text(&factor, Some(&question.parameter), digits);
+        let text = entry_text(&factor, Some(name), digits);
         out.push_str(&format!("coefficients multiplied by {text}\n"));
     }
     out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has them exactly)\n"));
-    out.push_str(&entries_text(test, Some(&question.parameter), digits));
+    out.push_str(&entries_text(test, Some(name), digits));
     out.push_str(&format!("\nConditions, each with its exact solution set\n{}", determinants(test)));
-    out.push_str(&conditions_text(test, &question.parameter, digits));
+    out.push_str(&conditions_text(test, name, digits));
     out
 }
 
-fn heading(question: &OneParameter) -> String {
-    let title = called(question.title.as_deref());
-    let region = region::goal(question).map(|goal| relative(question.time, &goal)).unwrap_or_default();
-    let mut line = format!("{} table of {title}{region} in {}", table_name(question.time), question.parameter);
-    if !question.set.is_empty() {
-        line.push_str(&format!(", {}", named_values(&question.set)));
+fn heading(problem: &Problem) -> String {
+    let (title, free) = (called(problem.title()), problem.parameter());
+    let region = region::goal(problem).map(|goal| relative(problem.time(), &goal)).unwrap_or_default();
+    let mut line = format!("{} table of {title}{region} in {}", table_name(problem.time()), free.name);
+    if !problem.set().is_empty() {
+        line.push_str(&format!(", {}", named_values(problem.set())));
     }
-    let domain = domain_text(&question.parameter, &question.domain);
+    let domain = domain_text(&free.name, &free.domain);
     if domain != "all" {
         line.push_str(&format!(", asked: {domain}"));
     }
@@ -254,13 +279,12 @@ fn conditions_text(test: &ClassicalTest, name: &str, digits: usize) -> String {
 }
 
 /// The table at a point for people.
-pub fn point_table_text(answer: &PointTable, digits: usize) -> String {
-    let title = called(answer.title.as_deref());
-    let goal = region::point_goal(answer.radius.as_ref(), answer.decay.as_ref());
-    let region = goal.map(|goal| relative(answer.time, &goal)).unwrap_or_default();
-    let mut out = format!("{} table of {title}{}", table_name(answer.time), region.trim_end_matches(','));
-    if !answer.set.is_empty() {
-        out.push_str(&format!(", {}", named_values(&answer.set)));
+fn point_table_text(problem: &Problem, answer: &PointTable, digits: usize) -> String {
+    let title = called(problem.title());
+    let region = region::goal(problem).map(|goal| relative(problem.time(), &goal)).unwrap_or_default();
+    let mut out = format!("{} table of {title}{}", table_name(problem.time()), region.trim_end_matches(','));
+    if !problem.set().is_empty() {
+        out.push_str(&format!(", {}", named_values(problem.set())));
     }
     out.push('\n');
     let Some(test) = &answer.test else {

@@ -1,19 +1,34 @@
 //! The verdict at one point.
 
+use super::intervals::heading;
 use super::json;
-use super::layout::{called, named_values, short};
-use crate::analysis::{PointVerdict, Verdict};
+use super::layout::short;
+use crate::answer::{Answer, PointVerdict, Verdict};
 use crate::model::Time;
-use serde_json::{Map, Value};
+use crate::problem::Problem;
+use jurist_algebra::limits::Exhausted;
+use serde_json::Value;
 
-/// The document `jurist/verdict/1`.
-pub fn verdict_json(answer: &PointVerdict) -> Value {
-    let mut out = Map::new();
-    out.insert("schema".into(), "jurist/verdict/1".into());
-    out.insert("title".into(), answer.title.as_deref().unwrap_or_default().into());
-    out.insert("time".into(), answer.time.name().into());
-    out.insert("set".into(), json::set(&answer.set));
-    json::relative(&mut out, answer.radius.as_ref(), answer.decay.as_ref());
+impl Answer<PointVerdict> {
+    /// The document `jurist/verdict/1`.
+    pub fn json(&self) -> Value {
+        verdict_json(self.problem(), Ok(self.value()))
+    }
+
+    /// The verdict for people: two lines.
+    pub fn text(&self) -> String {
+        format!("{}\n{}\n", heading(self.problem()), verdict_line(self.problem(), self.value()))
+    }
+}
+
+/// The document `jurist/verdict/1`, also of a verdict that the budget did not allow.
+pub fn verdict_json(problem: &Problem, verdict: Result<&PointVerdict, &Exhausted>) -> Value {
+    const SCHEMA: &str = "jurist/verdict/1";
+    let answer = match verdict {
+        Ok(answer) => answer,
+        Err(stopped) => return json::undecided_point(SCHEMA, "verdict", problem, stopped),
+    };
+    let mut out = json::point(problem, SCHEMA);
     out.insert("verdict".into(), answer.verdict.name().into());
     out.insert("degree".into(), answer.degree.into());
     let count = answer.count;
@@ -24,31 +39,21 @@ pub fn verdict_json(answer: &PointVerdict) -> Value {
     Value::Object(out)
 }
 
-/// The verdict for people: two lines.
-pub fn verdict_text(answer: &PointVerdict) -> String {
-    let title = called(answer.title.as_deref());
-    let mut point = format!("{title}, {} time", answer.time.name());
-    if !answer.set.is_empty() {
-        point.push_str(&format!(", {}", named_values(&answer.set)));
-    }
-    format!("{point}\n{}\n", verdict_line(answer))
-}
-
 /// `unstable: 4 roots inside the unit circle, 0 on it, 2 outside`.
-pub fn verdict_line(answer: &PointVerdict) -> String {
+pub fn verdict_line(problem: &Problem, answer: &PointVerdict) -> String {
     let name = answer.verdict.name();
     let Some(count) = answer.count else {
         let unknown =
             "an expression of the model divides by zero, a block loses its order, or the loop is not well posed";
         return format!("{name}: {}", answer.undefined.as_deref().unwrap_or(unknown));
     };
-    let boundary = match (answer.time, &answer.radius, &answer.decay) {
+    let boundary = match (problem.time(), problem.region().radius(), problem.region().decay()) {
         (Time::Discrete, Some(r), _) => format!("the circle |z| = {}", short(r)),
         (Time::Discrete, None, _) => "the unit circle".to_owned(),
         (Time::Continuous, _, Some(s)) => format!("the line Re s = {}", short(&-s)),
         (Time::Continuous, _, None) => "the imaginary axis".to_owned(),
     };
-    let (inner, outer) = match answer.time {
+    let (inner, outer) = match problem.time() {
         Time::Discrete => ("inside", "outside"),
         Time::Continuous => ("left of", "right of it"),
     };

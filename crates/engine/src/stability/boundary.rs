@@ -1,6 +1,6 @@
 //! The polynomials in the parameter at whose zeros the number of stable roots may change.
 
-use super::{Cause, HalfSizePair, ParametricPolynomial, Region};
+use super::{Cause, HalfSizePair, ParametricPolynomial, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Integer;
 use jurist_algebra::poly::{Domain, SquareFree, UniPoly};
@@ -26,7 +26,7 @@ pub struct Boundary {
 /// [`Exhausted`] when the budget runs out.
 pub fn boundary_polynomials(
     p: &ParametricPolynomial,
-    region: Region,
+    region: Shape,
     budget: &Budget,
 ) -> Result<Option<Vec<Boundary>>, Exhausted> {
     let n = p.formal_degree();
@@ -38,11 +38,11 @@ pub fn boundary_polynomials(
     if n > 0 {
         let value = |x: i64| p.polynomial().eval(&UniPoly::constant(Integer::from(x)));
         match region {
-            Region::UnitDisc => {
+            Shape::UnitDisc => {
                 found.push((Cause::RootAtOne, value(1)));
                 found.push((Cause::RootAtMinusOne, value(-1)));
             }
-            Region::LeftHalfPlane => found.push((Cause::RootAtZero, value(0))),
+            Shape::LeftHalfPlane => found.push((Cause::RootAtZero, value(0))),
         }
         if found.iter().any(|(_, b)| b.is_zero()) {
             return Ok(None);

@@ -3,7 +3,7 @@
 
 use super::interval_set::{cells, merge_points, zeros_in};
 use super::{
-    IntervalSet, JuryTable, ParametricPolynomial, Range, Region, RouthTable, UNDIVIDED_ORDER, jury_table_within,
+    IntervalSet, JuryTable, ParametricPolynomial, Range, RouthTable, Shape, UNDIVIDED_ORDER, jury_table_within,
     routh_table_within,
 };
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -78,7 +78,7 @@ pub struct ClassicalTest {
 pub fn classical_test(
     p: &ParametricPolynomial,
     range: &Range,
-    region: Region,
+    region: Shape,
     budget: &Budget,
 ) -> Result<ClassicalTest, Exhausted> {
     let n = p.formal_degree();
@@ -97,8 +97,8 @@ pub fn classical_test(
     };
     budget.step("the table");
     let (table, scales, inequalities) = match region {
-        Region::UnitDisc => jury_inequalities(&base, n, scale, budget)?,
-        Region::LeftHalfPlane => routh_inequalities(&base, n, scale, budget)?,
+        Shape::UnitDisc => jury_inequalities(&base, n, scale, budget)?,
+        Shape::LeftHalfPlane => routh_inequalities(&base, n, scale, budget)?,
     };
     let mut conditions = Vec::with_capacity(inequalities.len());
     let mut poles = Vec::new();
@@ -326,7 +326,7 @@ mod tests {
         let range = Range::between(Some(Rational::from(-3)), None);
         for order in [2, 3, 4, 5, 5, 6, 6, 6] {
             let p = example(order, &mut seed);
-            let test = classical_test(&p, &range, Region::UnitDisc, &Budget::unlimited()).unwrap();
+            let test = classical_test(&p, &range, Shape::UnitDisc, &Budget::unlimited()).unwrap();
             for condition in &test.conditions {
                 let textbook = solve(&condition.inequality, &range, &Budget::unlimited()).unwrap();
                 assert!(textbook.same_as(&condition.solution), "order {order}: {}", condition.name);

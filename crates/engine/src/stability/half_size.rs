@@ -1,7 +1,7 @@
 //! The half-size pair: a polynomial's behaviour on the boundary of the stability region, written
 //! as two polynomials of half its degree in one real variable.
 
-use super::Region;
+use super::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::poly::{Domain, Poly, resultant_formal};
 
@@ -32,7 +32,7 @@ pub struct HalfSizePair<R: Domain> {
     /// Formal degree of `b`.
     pub degree_b: usize,
     /// Which of the two substitutions was made.
-    pub region: Region,
+    pub region: Shape,
 }
 
 impl<R: Domain> HalfSizePair<R> {
@@ -40,14 +40,14 @@ impl<R: Domain> HalfSizePair<R> {
     ///
     /// # Panics
     /// When `n` is 0 or below the degree of `d`.
-    pub fn new(d: &Poly<R>, n: usize, region: Region) -> Self {
+    pub fn new(d: &Poly<R>, n: usize, region: Shape) -> Self {
         assert!(n > 0 && d.coeffs().len() <= n + 1, "the formal degree is positive and not below the degree");
         let k = n / 2;
         let degree_a = k;
         let degree_b = if n.is_multiple_of(2) { k - 1 } else { k };
         let (a, b) = match region {
-            Region::LeftHalfPlane => split_even_odd(d),
-            Region::UnitDisc => unit_disc_pair(d, n),
+            Shape::LeftHalfPlane => split_even_odd(d),
+            Shape::UnitDisc => unit_disc_pair(d, n),
         };
         HalfSizePair { a, b, degree_a, degree_b, region }
     }
@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn order_six_by_hand() {
         let d = UniPoly::from_i64(&[3, -5, 7, 11, -13, 17, 19]);
-        let pair = HalfSizePair::new(&d, 6, Region::UnitDisc);
+        let pair = HalfSizePair::new(&d, 6, Shape::UnitDisc);
         assert_eq!(pair.a, UniPoly::from_i64(&[2 * (11 + 5 - 17), 7 - 13 - 9 - 57, -5 + 17, 3 + 19]));
         assert_eq!(pair.b, UniPoly::from_i64(&[3 - 7 - 13 - 19, 17 + 5, 19 - 3]));
     }
@@ -133,7 +133,7 @@ mod tests {
         for coeffs in [&[3i64, -5, 7, 11, -13][..], &[1, 2, -3, 4], &[5, 7], &[2, -9, 4]] {
             let d = UniPoly::from_i64(coeffs);
             let n = coeffs.len() - 1;
-            let pair = HalfSizePair::new(&d, n, Region::UnitDisc);
+            let pair = HalfSizePair::new(&d, n, Shape::UnitDisc);
             let product = &d * &d.reversed(n);
             let left = in_x(product.coeffs()[n..].to_vec()).scaled(&Integer::from(4));
             let (p, q): (&[i64], &[i64]) = if n % 2 == 0 { (&[1], &[4, 0, -1]) } else { (&[2, 1], &[2, -1]) };
@@ -157,7 +157,7 @@ mod tests {
                 }
             }
             expected *= Integer::from(1i64 << ((n - 1) / 2));
-            let got = HalfSizePair::new(&d, n, Region::UnitDisc).critical_constraint(&Budget::unlimited()).unwrap();
+            let got = HalfSizePair::new(&d, n, Shape::UnitDisc).critical_constraint(&Budget::unlimited()).unwrap();
             assert_eq!(got.abs(), expected.abs(), "n = {n}");
         }
     }

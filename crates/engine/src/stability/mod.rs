@@ -1,7 +1,7 @@
 //! From a polynomial to an answer about stability.
 //!
 //! Discrete time asks whether all roots lie in the open unit disc, continuous time whether they
-//! lie in the open left half plane ([`Region`]). Both questions are reduced to a pair of
+//! lie in the open left half plane ([`Shape`]). Both questions are reduced to a pair of
 //! polynomials of half the degree on an interval of the real line ([`HalfSizePair`]), which gives
 //! the exact count of roots ([`count_roots`]) and the boundary in parameter space.
 
@@ -30,11 +30,11 @@ pub use pair_location::ComplexPair;
 pub use parametric::{AtPoint, ParametricPolynomial};
 pub use root_count::{RootCount, count_roots, count_roots_cauchy_index, count_roots_within, is_stable};
 pub use routh::{RouthTable, is_hurwitz_routh, routh_table, routh_table_within};
-pub use stable_set::{End, StableInterval, StableSet, end_at, stable_set};
+pub use stable_set::{Cells, End, StableInterval, StableSet, end_at, stable_set};
 
 /// Where the roots of the characteristic polynomial of a stable loop lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Region {
+pub enum Shape {
     /// The open unit disc, `|z| < 1`: discrete time.
     UnitDisc,
     /// The open left half plane, `Re s < 0`: continuous time.

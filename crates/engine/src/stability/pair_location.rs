@@ -1,7 +1,7 @@
 //! Where on the boundary a complex pair sits at a limit of stability.
 
 use super::interval_set::zeros_in;
-use super::{HalfSizePair, ParametricPolynomial, Range, Region};
+use super::{HalfSizePair, ParametricPolynomial, Range, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, UniPoly, subresultant_chain};
@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 /// `x = 2 cos(theta)` (unit disc) or `x = -omega^2` (left half plane).
 #[derive(Clone, Debug)]
 pub struct ComplexPair {
-    region: Region,
+    region: Shape,
     x: HalfSizeRoot,
 }
 
@@ -34,12 +34,12 @@ enum HalfSizeRoot {
 pub(super) fn complex_pair_at(
     p: &ParametricPolynomial,
     value: &RealAlgebraic,
-    region: Region,
+    region: Shape,
     budget: &Budget,
 ) -> Result<Option<ComplexPair>, Exhausted> {
     let ends: &[i64] = match region {
-        Region::UnitDisc => &[2, -2],
-        Region::LeftHalfPlane => &[0],
+        Shape::UnitDisc => &[2, -2],
+        Shape::LeftHalfPlane => &[0],
     };
     if let Some(exact) = value.exact() {
         let special = p.specialised(&exact);
@@ -47,8 +47,8 @@ pub(super) fn complex_pair_at(
         let pair = HalfSizePair::new(&special, n, region);
         let common = pair.a.gcd_within(&pair.b, budget)?;
         let range = match region {
-            Region::UnitDisc => Range::between(Some(Rational::from(-2)), Some(Rational::from(2))),
-            Region::LeftHalfPlane => Range::between(None, Some(Rational::ZERO)),
+            Shape::UnitDisc => Range::between(Some(Rational::from(-2)), Some(Rational::from(2))),
+            Shape::LeftHalfPlane => Range::between(None, Some(Rational::ZERO)),
         };
         let roots = zeros_in(&common, &range, budget)?;
         return Ok(roots.into_iter().last().map(|x| ComplexPair { region, x: HalfSizeRoot::Number(x) }));
@@ -109,7 +109,7 @@ fn divide_by_linear(p: &Poly<UniPoly>, a: i64) -> (Poly<UniPoly>, UniPoly) {
 
 impl ComplexPair {
     /// The region on whose boundary the pair sits.
-    pub fn region(&self) -> Region {
+    pub fn region(&self) -> Shape {
         self.region
     }
 
@@ -134,20 +134,20 @@ impl ComplexPair {
     /// The angle of the upper root in radians, in `(0, pi)`; `None` in continuous time.
     pub fn angle(&self, bits: u64) -> Option<Enclosure> {
         match self.region {
-            Region::UnitDisc => {
+            Shape::UnitDisc => {
                 let x = self.half_size_root(bits + 8);
                 let half = Enclosure::from_rational(Rational::new(Integer::ONE, Integer::from(2)));
                 Some(x.mul(&half, 2 * bits + 64).acos(bits + 8))
             }
-            Region::LeftHalfPlane => None,
+            Shape::LeftHalfPlane => None,
         }
     }
 
     /// The angular frequency in radians per second; `None` in discrete time.
     pub fn angular_frequency(&self, bits: u64) -> Option<Enclosure> {
         match self.region {
-            Region::UnitDisc => None,
-            Region::LeftHalfPlane => {
+            Shape::UnitDisc => None,
+            Shape::LeftHalfPlane => {
                 let x = self.half_size_root(bits + 8);
                 Some(x.neg().sqrt(bits + 8))
             }
@@ -158,11 +158,11 @@ impl ComplexPair {
     /// to the distance from its ends.
     fn is_fine(&self, lo: &Rational, hi: &Rational, bits: u64) -> bool {
         let distance = match self.region {
-            Region::UnitDisc => {
+            Shape::UnitDisc => {
                 let two = Rational::from(2);
                 (&two - hi).min(lo + &two)
             }
-            Region::LeftHalfPlane => -hi,
+            Shape::LeftHalfPlane => -hi,
         };
         distance.sign() == Ordering::Greater && (hi - lo) * Rational::from(&Integer::ONE << bits) <= distance
     }
@@ -210,8 +210,8 @@ impl ComplexPair {
         let degree = polynomial.coeffs().len() - 1;
         let above = |c: &Rational| roots_above(polynomial, parameter, c);
         let (mut lo, mut hi) = match self.region {
-            Region::UnitDisc => (Rational::from(-2), Rational::from(2)),
-            Region::LeftHalfPlane => {
+            Shape::UnitDisc => (Rational::from(-2), Rational::from(2)),
+            Shape::LeftHalfPlane => {
                 let mut lo = Rational::from(-1);
                 while above(&lo) < degree {
                     lo *= Rational::from(2);

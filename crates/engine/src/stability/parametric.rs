@@ -1,6 +1,6 @@
 //! A characteristic polynomial with one parameter left, ready to be decided.
 
-use super::{Region, RootCount, count_roots_within};
+use super::{RootCount, Shape, count_roots_within};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, UniPoly};
@@ -147,7 +147,7 @@ impl ParametricPolynomial {
     }
 
     /// The exact root count at a value of the parameter.
-    pub fn at(&self, value: &Rational, region: Region) -> AtPoint {
+    pub fn at(&self, value: &Rational, region: Shape) -> AtPoint {
         self.at_within(value, region, &Budget::unlimited()).expect("the budget is unlimited")
     }
 
@@ -155,7 +155,7 @@ impl ParametricPolynomial {
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
-    pub fn at_within(&self, value: &Rational, region: Region, budget: &Budget) -> Result<AtPoint, Exhausted> {
+    pub fn at_within(&self, value: &Rational, region: Shape, budget: &Budget) -> Result<AtPoint, Exhausted> {
         if self.is_undefined_at(value) {
             return Ok(AtPoint::Undefined);
         }
@@ -169,7 +169,7 @@ impl ParametricPolynomial {
 
     /// Whether the loop is stable at a value of the parameter: defined, of full degree, all roots
     /// inside the region.
-    pub fn is_stable_at(&self, value: &Rational, region: Region) -> bool {
+    pub fn is_stable_at(&self, value: &Rational, region: Shape) -> bool {
         matches!(self.at(value, region), AtPoint::Defined { count, infinite: 0 } if count.inside == self.formal_degree)
     }
 }

@@ -1,6 +1,6 @@
 //! How many roots of a polynomial lie inside, on and outside the boundary: exactly, in all cases.
 
-use super::{HalfSizePair, Region};
+use super::{HalfSizePair, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Sign};
 use jurist_algebra::poly::{Domain, Poly, UniPoly};
@@ -30,21 +30,21 @@ impl RootCount {
 ///
 /// ```
 /// use jurist_algebra::poly::UniPoly;
-/// use jurist_engine::stability::{Region, RootCount, count_roots};
+/// use jurist_engine::stability::{Shape, RootCount, count_roots};
 /// // (2z - 1)(z - 1)(z - 3)
 /// let p = UniPoly::from_i64(&[-3, 10, -9, 2]);
-/// let count = count_roots(&p, Region::UnitDisc);
+/// let count = count_roots(&p, Shape::UnitDisc);
 /// assert_eq!(count, RootCount { inside: 1, on: 1, outside: 1 });
 /// ```
 ///
 /// # Panics
 /// When `p` is zero.
-pub fn count_roots(p: &UniPoly, region: Region) -> RootCount {
+pub fn count_roots(p: &UniPoly, region: Shape) -> RootCount {
     count_roots_cauchy_index(p, region)
 }
 
 /// Whether all roots lie in the open region. A non-zero constant is stable, zero is not.
-pub fn is_stable(p: &UniPoly, region: Region) -> bool {
+pub fn is_stable(p: &UniPoly, region: Shape) -> bool {
     if p.is_zero() {
         return false;
     }
@@ -63,7 +63,7 @@ pub fn is_stable(p: &UniPoly, region: Region) -> bool {
 ///
 /// # Panics
 /// When `p` is zero.
-pub fn count_roots_cauchy_index(p: &UniPoly, region: Region) -> RootCount {
+pub fn count_roots_cauchy_index(p: &UniPoly, region: Shape) -> RootCount {
     count_roots_within(p, region, &Budget::unlimited()).expect("the budget is unlimited")
 }
 
@@ -74,12 +74,12 @@ pub fn count_roots_cauchy_index(p: &UniPoly, region: Region) -> RootCount {
 ///
 /// # Panics
 /// When `p` is zero.
-pub fn count_roots_within(p: &UniPoly, region: Region, budget: &Budget) -> Result<RootCount, Exhausted> {
+pub fn count_roots_within(p: &UniPoly, region: Shape, budget: &Budget) -> Result<RootCount, Exhausted> {
     assert!(!p.is_zero(), "the zero polynomial has no root count");
     let mut count = RootCount::default();
     let mut d = p.clone();
     match region {
-        Region::UnitDisc => {
+        Shape::UnitDisc => {
             for root in [1, -1] {
                 while d.eval(&Integer::from(root)).is_zero() {
                     d = d.div_exact(&UniPoly::from_i64(&[-root, 1])).expect("a root's factor divides");
@@ -87,7 +87,7 @@ pub fn count_roots_within(p: &UniPoly, region: Region, budget: &Budget) -> Resul
                 }
             }
         }
-        Region::LeftHalfPlane => {
+        Shape::LeftHalfPlane => {
             let zeros = d.coeffs().iter().take_while(|c| c.is_zero()).count();
             d = Poly::new(d.coeffs()[zeros..].to_vec());
             count.on += zeros;
@@ -100,15 +100,15 @@ pub fn count_roots_within(p: &UniPoly, region: Region, budget: &Budget) -> Resul
     let padded = n % 2 == 1;
     if padded {
         d = match region {
-            Region::UnitDisc => d.shifted_up(1),
-            Region::LeftHalfPlane => &d * &UniPoly::from_i64(&[1, 1]),
+            Shape::UnitDisc => d.shifted_up(1),
+            Shape::LeftHalfPlane => &d * &UniPoly::from_i64(&[1, 1]),
         };
     }
     let even = n + usize::from(padded);
     let pair = HalfSizePair::new(&d, even, region);
     let ends = match region {
-        Region::UnitDisc => [End::Finite(-2), End::Finite(2)],
-        Region::LeftHalfPlane => [End::MinusInfinity, End::Finite(0)],
+        Shape::UnitDisc => [End::Finite(-2), End::Finite(2)],
+        Shape::LeftHalfPlane => [End::MinusInfinity, End::Finite(0)],
     };
     let sequence = signed_remainder_sequence(pair.a, pair.b, budget)?;
     // The signs are taken before the division by the gcd, which has no root at the ends: it changes
@@ -203,12 +203,12 @@ mod tests {
     }
 
     fn disc(factors: &[&[i64]]) -> (usize, usize, usize) {
-        let c = count_roots(&product(factors), Region::UnitDisc);
+        let c = count_roots(&product(factors), Shape::UnitDisc);
         (c.inside, c.on, c.outside)
     }
 
     fn half_plane(factors: &[&[i64]]) -> (usize, usize, usize) {
-        let c = count_roots(&product(factors), Region::LeftHalfPlane);
+        let c = count_roots(&product(factors), Shape::LeftHalfPlane);
         (c.inside, c.on, c.outside)
     }
 

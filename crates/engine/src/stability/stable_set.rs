@@ -3,8 +3,8 @@
 use super::interval_set::{cells, merge_points};
 use super::pair_location::complex_pair_at;
 use super::{
-    AlgebraicInterval, AtPoint, Boundary, Cause, Causes, ComplexPair, IntervalSet, ParametricPolynomial, Range, Region,
-    RootCount, boundary_polynomials,
+    AlgebraicInterval, AtPoint, Boundary, Cause, Causes, ComplexPair, IntervalSet, ParametricPolynomial, Range,
+    RootCount, Shape, boundary_polynomials,
 };
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
@@ -37,12 +37,29 @@ pub struct StableInterval {
 #[derive(Clone, Debug, Default)]
 pub struct StableSet {
     intervals: Vec<StableInterval>,
+    cells: Option<Cells>,
+}
+
+/// How the range was cut: between two neighbouring zeros of the boundary polynomials lies a cell in which the number of
+/// stable roots is constant.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Cells {
+    /// All real zeros of the boundary polynomials in the range, ascending.
+    pub zeros: Vec<RealAlgebraic>,
+    /// A value inside of each cell, and whether the loop is stable there; one more than zeros.
+    pub samples: Vec<(Rational, bool)>,
 }
 
 impl StableSet {
     /// The intervals, ascending and disjoint.
     pub fn intervals(&self) -> &[StableInterval] {
         &self.intervals
+    }
+
+    /// How the range was cut; `None` when the loop is stable nowhere because a boundary condition holds for every value.
+    pub fn cells(&self) -> Option<&Cells> {
+        self.cells.as_ref()
     }
 
     /// Every end, to take back a cause that belongs to the question's form and not to the loop.
@@ -76,11 +93,11 @@ impl StableSet {
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_algebra::poly::{Poly, UniPoly};
-/// use jurist_engine::stability::{ParametricPolynomial, Range, Region, stable_set};
+/// use jurist_engine::stability::{ParametricPolynomial, Range, Shape, stable_set};
 /// // z - 1 + K: stable for 0 < K < 2
 /// let d = Poly::new(vec![UniPoly::from_i64(&[-1, 1]), UniPoly::from_i64(&[1])]);
 /// let p = ParametricPolynomial::from_integral(&d, 1);
-/// let set = stable_set(&p, &Range::all(), Region::UnitDisc, &Budget::unlimited()).unwrap();
+/// let set = stable_set(&p, &Range::all(), Shape::UnitDisc, &Budget::unlimited()).unwrap();
 /// let ends = &set.intervals()[0];
 /// assert_eq!(ends.lower.as_ref().unwrap().causes.to_string(), "z=1");
 /// assert_eq!(ends.upper.as_ref().unwrap().causes.to_string(), "z=-1");
@@ -91,7 +108,7 @@ impl StableSet {
 pub fn stable_set(
     p: &ParametricPolynomial,
     range: &Range,
-    region: Region,
+    region: Shape,
     budget: &Budget,
 ) -> Result<StableSet, Exhausted> {
     let Some(boundaries) = boundary_polynomials(p, region, budget)? else { return Ok(StableSet::default()) };
@@ -103,18 +120,20 @@ pub fn stable_set(
     let points = merge_points(lists, budget)?;
     budget.step("testing a sample of each cell");
     let all = cells(range, &points);
-    let mut stable = Vec::with_capacity(all.len());
+    let mut samples = Vec::with_capacity(all.len());
     for (i, cell) in all.iter().enumerate() {
         budget.check()?;
         budget.advance(i as u64, all.len() as u64);
-        let at = p.at_within(&cell.sample(), region, budget)?;
+        let sample = cell.sample();
+        let at = p.at_within(&sample, region, budget)?;
         let inside = |count: RootCount| count.inside == p.formal_degree();
-        stable.push(matches!(at, AtPoint::Defined { count, infinite: 0 } if inside(count)));
+        samples.push((sample, matches!(at, AtPoint::Defined { count, infinite: 0 } if inside(count))));
     }
     let examiner = EndExaminer { p, range, region, boundaries: &boundaries, budget };
     let mut intervals: Vec<StableInterval> = Vec::new();
-    for (i, cell) in all.iter().enumerate().filter(|(i, _)| stable[*i]) {
-        let shared = (i > 0 && stable[i - 1]).then(|| intervals.last().and_then(|last| last.upper.clone())).flatten();
+    for (i, cell) in all.iter().enumerate().filter(|(i, _)| samples[*i].1) {
+        let shared =
+            (i > 0 && samples[i - 1].1).then(|| intervals.last().and_then(|last| last.upper.clone())).flatten();
         let lower = match (shared, &cell.lower) {
             (Some(end), _) => Some(end),
             (None, Some(value)) => Some(examiner.examine(value)?),
@@ -123,7 +142,7 @@ pub fn stable_set(
         let upper = cell.upper.as_ref().map(|value| examiner.examine(value)).transpose()?;
         intervals.push(StableInterval { lower, upper });
     }
-    Ok(StableSet { intervals })
+    Ok(StableSet { intervals, cells: Some(Cells { zeros: points, samples }) })
 }
 
 /// What happens at an end of a stable interval that was found elsewhere; `None` when the loop is stable
@@ -135,7 +154,7 @@ pub fn end_at(
     p: &ParametricPolynomial,
     value: &RealAlgebraic,
     range: &Range,
-    region: Region,
+    region: Shape,
     budget: &Budget,
 ) -> Result<Option<End>, Exhausted> {
     let Some(boundaries) = boundary_polynomials(p, region, budget)? else { return Ok(None) };
@@ -146,7 +165,7 @@ pub fn end_at(
 struct EndExaminer<'a> {
     p: &'a ParametricPolynomial,
     range: &'a Range,
-    region: Region,
+    region: Shape,
     boundaries: &'a [Boundary],
     budget: &'a Budget,
 }

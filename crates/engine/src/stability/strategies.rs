@@ -1,6 +1,6 @@
 //! Generators for property tests: polynomials and parametric loops whose verdict is known by construction.
 
-use super::{Region, RootCount};
+use super::{RootCount, Shape};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, UniPoly};
 use proptest::collection::vec;
@@ -26,12 +26,12 @@ impl ChosenFactor {
     }
 
     /// Where the roots lie with respect to a region: `Less` inside, `Equal` on, `Greater` outside.
-    pub fn place(&self, region: Region) -> Ordering {
+    pub fn place(&self, region: Shape) -> Ordering {
         match (self, region) {
-            (ChosenFactor::Real(p, q), Region::UnitDisc) => p.abs().cmp(q),
-            (ChosenFactor::Real(p, _), Region::LeftHalfPlane) => p.cmp(&0),
-            (ChosenFactor::Pair(a, b, c), Region::UnitDisc) => (a * a + b * b).cmp(&(c * c)),
-            (ChosenFactor::Pair(a, _, _), Region::LeftHalfPlane) => a.cmp(&0),
+            (ChosenFactor::Real(p, q), Shape::UnitDisc) => p.abs().cmp(q),
+            (ChosenFactor::Real(p, _), Shape::LeftHalfPlane) => p.cmp(&0),
+            (ChosenFactor::Pair(a, b, c), Shape::UnitDisc) => (a * a + b * b).cmp(&(c * c)),
+            (ChosenFactor::Pair(a, _, _), Shape::LeftHalfPlane) => a.cmp(&0),
         }
     }
 
@@ -67,7 +67,7 @@ pub fn polynomial_with_chosen_roots(factors: usize) -> impl Strategy<Value = (Un
 }
 
 /// The root count that follows from the chosen factors.
-pub fn expected_count(factors: &[ChosenFactor], region: Region) -> RootCount {
+pub fn expected_count(factors: &[ChosenFactor], region: Shape) -> RootCount {
     let mut count = RootCount::default();
     for f in factors {
         match f.place(region) {
@@ -95,7 +95,7 @@ pub struct MovingFactor {
 #[derive(Clone, Debug)]
 pub struct ChosenLoop {
     /// The region of stability.
-    pub region: Region,
+    pub region: Shape,
     /// The factors.
     pub factors: Vec<MovingFactor>,
 }
@@ -108,12 +108,12 @@ impl ChosenLoop {
             let constants = f.factor.polynomial().map(|c| UniPoly::constant(c.clone()));
             product.times(&match self.region {
                 // c^2 z^2 - 2 a c m z + (a^2 + b^2) m^2: the roots times m.
-                Region::UnitDisc => {
+                Shape::UnitDisc => {
                     let n = f.factor.degree();
                     let scaled = constants.coeffs().iter().enumerate();
                     Poly::new(scaled.map(|(k, c)| c.times(&motion.power((n - k) as u64))).collect())
                 }
-                Region::LeftHalfPlane => constants.taylor_shift(&motion.negated()),
+                Shape::LeftHalfPlane => constants.taylor_shift(&motion.negated()),
             })
         })
     }
@@ -123,14 +123,14 @@ impl ChosenLoop {
         self.factors.iter().all(|f| {
             let m = Rational::from(f.alpha) + Rational::from(f.beta) * k;
             match (&f.factor, self.region) {
-                (ChosenFactor::Real(p, q), Region::UnitDisc) => (Rational::from(*p) * m).abs() < Rational::from(*q),
-                (ChosenFactor::Pair(a, b, c), Region::UnitDisc) => {
+                (ChosenFactor::Real(p, q), Shape::UnitDisc) => (Rational::from(*p) * m).abs() < Rational::from(*q),
+                (ChosenFactor::Pair(a, b, c), Shape::UnitDisc) => {
                     Rational::from(a * a + b * b) * &m * &m < Rational::from(c * c)
                 }
-                (ChosenFactor::Real(p, q), Region::LeftHalfPlane) => {
+                (ChosenFactor::Real(p, q), Shape::LeftHalfPlane) => {
                     (Rational::from(*p) / Rational::from(*q) + m).is_negative()
                 }
-                (ChosenFactor::Pair(a, _, c), Region::LeftHalfPlane) => {
+                (ChosenFactor::Pair(a, _, c), Shape::LeftHalfPlane) => {
                     (Rational::from(*a) / Rational::from(*c) + m).is_negative()
                 }
             }
@@ -139,7 +139,7 @@ impl ChosenLoop {
 }
 
 /// A loop of up to `factors` moving factors.
-pub fn chosen_loop(region: Region, factors: usize) -> impl Strategy<Value = ChosenLoop> {
+pub fn chosen_loop(region: Shape, factors: usize) -> impl Strategy<Value = ChosenLoop> {
     let moving =
         (chosen_factor(), -3i64..=3, -3i64..=3).prop_map(|(factor, alpha, beta)| MovingFactor { factor, alpha, beta });
     vec(moving, 0..=factors).prop_map(move |factors| ChosenLoop { region, factors })

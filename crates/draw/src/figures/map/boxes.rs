@@ -6,9 +6,9 @@ use super::axes::ticks;
 use super::draw::{FAINT, INK, PAPER, REGION, axis_name};
 use super::window::AxisWindow;
 use jurist_algebra::number::{Rational, to_decimal};
-use jurist_engine::analysis::MapBoxes;
+use jurist_engine::answer::{Answer, MapBoxes};
 use jurist_engine::show::layout::called;
-use jurist_engine::show::region::map_goal;
+use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::boxes::{BoxMap, BoxVerdict};
 use kuva::render::color::Color;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
@@ -19,8 +19,8 @@ const UNSTABLE: &str = "#f4f4f4";
 const UNDECIDED: &str = "#e69f00";
 
 /// The window with its boxes, both axes linear; `None` while nothing is known.
-pub fn boxes_figure(answer: &MapBoxes, width: f64, height: f64) -> Option<Figure> {
-    let map = answer.boxes.decided()?;
+pub fn boxes_figure(answer: &Answer<MapBoxes>, width: f64, height: f64) -> Figure {
+    let map = &answer.value().boxes;
     let (left, top) = (66.0, 52.0);
     let plot = Plot {
         x: axis(&map.window.x),
@@ -31,9 +31,9 @@ pub fn boxes_figure(answer: &MapBoxes, width: f64, height: f64) -> Option<Figure
         height: height - top - 50.0,
     };
     let mut scene = Scene::new(width, height);
-    let title = called(answer.question.title.as_deref());
+    let title = called(answer.problem().title());
     scene.add(text((width / 2.0, 20.0), &title, 14, TextAnchor::Middle, None));
-    legend(&mut scene, map, &map_goal(&answer.question), (left, 40.0));
+    legend(&mut scene, map, &goal_or_stable(answer.problem()), (left, 40.0));
     for (verdict, fill, edge) in [
         (BoxVerdict::Unstable { outside: None }, UNSTABLE, PAPER),
         (BoxVerdict::Stable, REGION, PAPER),
@@ -48,10 +48,10 @@ pub fn boxes_figure(answer: &MapBoxes, width: f64, height: f64) -> Option<Figure
         scene.add(path(d, fill, edge, 0.3));
     }
     frame(&mut scene, &plot);
-    let [x_name, y_name] = [0, 1].map(|k: usize| axis_name(&answer.question.axes[k]));
+    let [x_name, y_name] = [0, 1].map(|k: usize| axis_name(&answer.problem().free()[k]));
     scene.add(text((left + plot.width / 2.0, height - 10.0), &x_name, 12, TextAnchor::Middle, None));
     scene.add(text((16.0, top + plot.height / 2.0), &y_name, 12, TextAnchor::Middle, Some(-90.0)));
-    Some(Figure::new(scene))
+    Figure::new(scene)
 }
 
 /// The rectangle between the axes.

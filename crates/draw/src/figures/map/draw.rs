@@ -7,11 +7,13 @@ use super::labels::{FrequencyPoint, extreme_points, frequencies, limits_on_lines
 use super::lines::{Role, Wall, mechanism_colour, walls};
 use super::shapes::{broken, dashed, path, thinned};
 use super::trace::MapTrace;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_engine::analysis::{Axis, Intervals, Map, RegionExtent};
+use jurist_engine::answer::{Answer, Map};
+use jurist_engine::error::Failure;
+use jurist_engine::problem::Free;
 use jurist_engine::show::layout::visible;
-use jurist_engine::show::region::map_goal;
+use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::StabilityMap;
 use kuva::render::color::Color;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
@@ -38,7 +40,7 @@ pub struct MapFigure {
 /// The contents of a picture, drawn at any size.
 #[derive(Debug)]
 pub struct MapContents<'a> {
-    pub(super) answer: &'a Map,
+    pub(super) answer: &'a Answer<Map>,
     pub(super) map: &'a StabilityMap,
     pub(super) trace: &'a MapTrace,
     /// The walls.
@@ -52,20 +54,17 @@ pub struct MapContents<'a> {
 }
 
 impl<'a> MapContents<'a> {
-    /// Walls and frequencies of a traced map; `None` while it is undecided. `slices` are the stable sets on the
-    /// lines through the nominal point, `limits` the extreme values of the regions, as far as they are known.
+    /// Walls and frequencies of a traced map.
     ///
     /// # Errors
-    /// [`Exhausted`] when the budget runs out.
+    /// [`Failure::Stopped`] when the budget runs out.
     pub fn new(
-        answer: &'a Map,
+        answer: &'a Answer<Map>,
         trace: &'a MapTrace,
-        slices: &[Intervals],
-        limits: &[RegionExtent],
         published: Vec<(f64, f64)>,
         budget: &Budget,
-    ) -> Result<Option<Self>, Exhausted> {
-        let Some(map) = answer.map.decided() else { return Ok(None) };
+    ) -> Result<Self, Failure> {
+        let map = &answer.value().decomposition;
         let walls = walls(answer, map, trace);
         budget.step("frequencies along the walls");
         let mut found = Vec::with_capacity(walls.len());
@@ -74,9 +73,9 @@ impl<'a> MapContents<'a> {
             let points = spaced(wall, (760.0, 440.0), FINE_SPACING);
             found.push(frequencies(answer, map, wall, &points, budget)?);
         }
-        let mut on_lines = limits_on_lines(slices, answer);
-        on_lines.extend(extreme_points(limits, answer));
-        Ok(Some(MapContents { answer, map, trace, walls, frequencies: found, on_lines, published }))
+        let mut on_lines = limits_on_lines(answer);
+        on_lines.extend(extreme_points(answer));
+        Ok(MapContents { answer, map, trace, walls, frequencies: found, on_lines, published })
     }
 
     /// The picture at a size, with or without its title.
@@ -130,9 +129,9 @@ impl<'a> Drawing<'a> {
 
     fn title(&self) -> String {
         let answer = self.contents.answer;
-        let asked = map_goal(answer);
+        let asked = goal_or_stable(answer.problem());
         let what = if asked == "stable" { "Stable region".to_owned() } else { format!("Region of {asked}") };
-        match answer.title.as_deref().filter(|t| !t.is_empty()) {
+        match answer.problem().title().filter(|t| !t.is_empty()) {
             Some(title) => format!("{what}: {}", visible(title)),
             None => what,
         }
@@ -167,7 +166,7 @@ impl<'a> Drawing<'a> {
         let edge = |end: &Option<Rational>, otherwise: f64| {
             end.as_ref().map_or(otherwise, |e| contents.trace.windows[1].place(e.to_f64_approximate()))
         };
-        let domain = &contents.answer.axes[1].domain;
+        let domain = &contents.answer.problem().free()[1].domain;
         let (bottom, top) = (edge(&domain.lower, -1.0), edge(&domain.upper, 2.0));
         for traced in &contents.trace.strips {
             let cells = &contents.map.strips[traced.strip].cells;
@@ -239,7 +238,7 @@ impl<'a> Drawing<'a> {
         ] {
             self.line(a, b, INK, 1.0, None);
         }
-        let axes = &self.contents.answer.axes;
+        let axes = &self.contents.answer.problem().free();
         let (x_name, y_name) = (axis_name(&axes[0]), axis_name(&axes[1]));
         self.text((self.left + self.width / 2.0, bottom + 40.0), &x_name, 12, TextAnchor::Middle, INK);
         self.scene.add(Primitive::Text {
@@ -255,7 +254,9 @@ impl<'a> Drawing<'a> {
     }
 
     pub(super) fn nominal(&self) -> Option<(f64, f64)> {
-        let [Some(x), Some(y)] = [0, 1].map(|k| self.contents.answer.axes[k].nominal.as_ref()) else { return None };
+        let [Some(x), Some(y)] = [0, 1].map(|k| self.contents.answer.problem().free()[k].nominal.as_ref()) else {
+            return None;
+        };
         let windows = &self.contents.trace.windows;
         let at = (windows[0].place(x.to_f64_approximate()), windows[1].place(y.to_f64_approximate()));
         let inside = |v: f64| (0.0..=1.0).contains(&v);
@@ -307,7 +308,7 @@ impl<'a> Drawing<'a> {
 }
 
 /// `K_pwm / V`.
-pub(super) fn axis_name(axis: &Axis) -> String {
+pub(super) fn axis_name(axis: &Free) -> String {
     match axis.unit.as_deref().filter(|u| !u.is_empty()) {
         Some(unit) => format!("{} / {}", axis.name, visible(unit)),
         None => axis.name.clone(),

@@ -2,13 +2,13 @@
 
 use super::lines::{Role, Wall, mechanism_words};
 use super::trace::approximate;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, parallel_map};
 use jurist_algebra::number::{parse_number, to_decimal};
-use jurist_engine::analysis::{Decision, Frequency, Intervals, Map, RegionExtent, frequency};
+use jurist_engine::answer::{Answer, Frequency, Map};
+use jurist_engine::error::Failure;
 use jurist_engine::model::Time;
 use jurist_engine::stability::Cause;
 use jurist_engine::stability::plane::StabilityMap;
-use rayon::prelude::*;
 
 /// Bits of a frequency in a picture.
 const BITS: u64 = 30;
@@ -34,8 +34,8 @@ fn frequency_value(frequency: &Frequency, time: Time) -> Option<f64> {
 }
 
 /// The unit of the frequencies of a map.
-pub fn frequency_unit(answer: &Map) -> &'static str {
-    match (answer.time, &answer.sample_time) {
+pub fn frequency_unit(answer: &Answer<Map>) -> &'static str {
+    match (answer.problem().time(), answer.problem().evaluated().and_then(|a| a.sample_time())) {
         (Time::Discrete, Some(_)) => "Hz",
         (Time::Discrete, None) => "rad",
         (Time::Continuous, _) => "rad/s",
@@ -60,15 +60,17 @@ fn printed(decimal: &str) -> String {
 }
 
 /// The extreme values of the regions that are taken at points, with what is written there.
-pub(super) fn extreme_points(limits: &[RegionExtent], answer: &Map) -> Vec<((f64, f64), String)> {
+pub(super) fn extreme_points(answer: &Answer<Map>) -> Vec<((f64, f64), String)> {
     let mut out = Vec::new();
-    for (parameter, limit) in limits
+    for (parameter, limit) in answer
+        .value()
+        .limits()
         .iter()
         .flat_map(|l| l.ends.iter().enumerate())
         .flat_map(|(k, ends)| ends.iter().flatten().map(move |end| (k, end)))
     {
-        let name = &answer.axes[parameter].name;
-        let frequency = limit.frequency.as_ref().and_then(|f| frequency_value(f, answer.time));
+        let name = &answer.problem().free()[parameter].name;
+        let frequency = limit.frequency.as_ref().and_then(|f| frequency_value(f, answer.problem().time()));
         let frequency =
             frequency.map(|f| format!(", {}", frequency_text(f, frequency_unit(answer)))).unwrap_or_default();
         let text = format!("{name} = {}{frequency}", printed(&limit.limit.value.decimal(5)));
@@ -82,20 +84,19 @@ pub(super) fn extreme_points(limits: &[RegionExtent], answer: &Map) -> Vec<((f64
 
 /// The exact limits on the two lines through the nominal point, in floating point, with what is written there:
 /// `K_pwm = 550.94, 1664 Hz`.
-pub(super) fn limits_on_lines(slices: &[Intervals], answer: &Map) -> Vec<((f64, f64), String)> {
+pub(super) fn limits_on_lines(answer: &Answer<Map>) -> Vec<((f64, f64), String)> {
     let mut out = Vec::new();
-    for slice in slices {
-        let question = &slice.question;
-        let (Some((fixed, at)), Decision::Decided(set)) = (question.set.last(), &slice.stable) else { continue };
+    for (line, set) in &answer.value().slices {
+        let Some((fixed, at)) = line.set().last() else { continue };
         for end in set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
             let value = approximate(&end.value);
             let at = at.to_f64_approximate();
-            let place = if *fixed == answer.axes[0].name { (at, value) } else { (value, at) };
+            let place = if *fixed == answer.problem().free()[0].name { (at, value) } else { (value, at) };
             let decimal = printed(&end.value.decimal(5));
-            let frequency = frequency(end, question, BITS).and_then(|f| frequency_value(&f, answer.time));
+            let frequency = line.frequency(end, BITS).and_then(|f| frequency_value(&f, answer.problem().time()));
             let frequency =
                 frequency.map(|f| format!(", {}", frequency_text(f, frequency_unit(answer)))).unwrap_or_default();
-            let text = format!("{} = {decimal}{frequency}", question.parameter);
+            let text = format!("{} = {decimal}{frequency}", line.parameter().name);
             if out.iter().all(|(p, _)| *p != place) {
                 out.push((place, text));
             }
@@ -124,29 +125,26 @@ pub(super) fn spaced(wall: &Wall, shape: (f64, f64), spacing: f64) -> Vec<usize>
 
 /// The certified frequencies at some points of a wall of a stable cell.
 pub(super) fn frequencies(
-    answer: &Map,
+    answer: &Answer<Map>,
     map: &StabilityMap,
     wall: &Wall,
     points: &[usize],
     budget: &Budget,
-) -> Result<Vec<FrequencyPoint>, Exhausted> {
+) -> Result<Vec<FrequencyPoint>, Failure> {
     let causes = &map.curves[wall.curve].causes;
     if wall.role != Role::Stable || !causes.contains(Cause::ComplexPair) {
         return Ok(Vec::new());
     }
-    let found: Vec<Result<Option<FrequencyPoint>, Exhausted>> = points
-        .par_iter()
-        .map(|&point| {
-            let Some((x, number)) = wall.lines.get(point) else { return Ok(None) };
-            let end = answer.wall(x, *number, BITS, budget)?;
-            let value = end.and_then(|e| e.1).and_then(|f| frequency_value(&f, answer.time));
-            Ok(value.map(|value| FrequencyPoint { point, value }))
-        })
-        .collect();
+    let found: Vec<Result<Option<FrequencyPoint>, Failure>> = parallel_map(points, |&point| {
+        let Some((x, number)) = wall.lines.get(point) else { return Ok(None) };
+        let end = answer.wall(x, *number, BITS, budget)?;
+        let value = end.and_then(|e| e.1).and_then(|f| frequency_value(&f, answer.problem().time()));
+        Ok(value.map(|value| FrequencyPoint { point, value }))
+    });
     found.into_iter().filter_map(Result::transpose).collect()
 }
 
 /// The mechanism of a wall in words.
-pub(super) fn words(answer: &Map, map: &StabilityMap, wall: &Wall) -> String {
+pub(super) fn words(answer: &Answer<Map>, map: &StabilityMap, wall: &Wall) -> String {
     mechanism_words(&map.curves[wall.curve].causes, answer)
 }

@@ -4,7 +4,7 @@ use super::draw::{CHARACTER, Drawing, FAINT, INK, REGION};
 use super::labels::words;
 use super::lines::{Role, Wall, mechanism_colour};
 use super::shapes::dashed;
-use jurist_engine::show::region::map_goal;
+use jurist_engine::show::region::goal_or_stable;
 use kuva::render::color::Color;
 use kuva::render::render::{Primitive, TextAnchor};
 
@@ -22,7 +22,7 @@ impl Drawing<'_> {
         let contents = self.contents;
         let mut entries: Vec<(Entry, String)> = Vec::new();
         if !contents.map.regions.is_empty() {
-            entries.push((Entry::Region, format!("{} (certified)", map_goal(contents.answer))));
+            entries.push((Entry::Region, format!("{} (certified)", goal_or_stable(contents.answer.problem()))));
         }
         let seen = |role: Role| {
             let on_screen =

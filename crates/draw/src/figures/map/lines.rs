@@ -4,10 +4,10 @@ use super::super::COLOURS;
 use super::trace::{MapTrace, approximate};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RealAlgebraic;
-use jurist_engine::analysis::Map;
-use jurist_engine::show::region::map_edge;
+use jurist_engine::answer::{Answer, Map};
+use jurist_engine::show::region::boundary_point;
 use jurist_engine::stability::plane::{Cell, StabilityMap};
-use jurist_engine::stability::{Cause, Causes, Region};
+use jurist_engine::stability::{Cause, Causes, Shape};
 
 /// What a wall separates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,21 +49,21 @@ pub fn mechanism_colour(causes: &Causes) -> (&'static str, Option<&'static str>)
 }
 
 /// A mechanism in words, with the points of the boundary that was asked for.
-pub fn mechanism_words(causes: &Causes, answer: &Map) -> String {
-    let edge = map_edge(answer);
+pub fn mechanism_words(causes: &Causes, answer: &Answer<Map>) -> String {
+    let edge = boundary_point(answer.problem());
     let printed = |sign: &str| match &edge {
         Some(edge) => format!("{sign}{edge}").replace("--", "").replace('-', "\u{2212}"),
         None => format!("{sign}1").replace('-', "\u{2212}"),
     };
-    let words = |cause: Cause| match (cause, answer.region) {
+    let words = |cause: Cause| match (cause, answer.problem().shape()) {
         (Cause::RootAtOne, _) => format!("root at z = {}", printed("")),
         (Cause::RootAtMinusOne, _) => format!("root at z = {}", printed("-")),
-        (Cause::ComplexPair, Region::UnitDisc) if edge.is_some() => format!("complex pair on |z| = {}", printed("")),
-        (Cause::ComplexPair, Region::LeftHalfPlane) if edge.is_some() => {
+        (Cause::ComplexPair, Shape::UnitDisc) if edge.is_some() => format!("complex pair on |z| = {}", printed("")),
+        (Cause::ComplexPair, Shape::LeftHalfPlane) if edge.is_some() => {
             format!("complex pair on Re s = {}", printed(""))
         }
-        (Cause::ComplexPair, Region::UnitDisc) => "complex pair on the circle".into(),
-        (Cause::ComplexPair, Region::LeftHalfPlane) => "complex pair on the axis".into(),
+        (Cause::ComplexPair, Shape::UnitDisc) => "complex pair on the circle".into(),
+        (Cause::ComplexPair, Shape::LeftHalfPlane) => "complex pair on the axis".into(),
         (Cause::RootAtZero, _) if edge.is_some() => format!("root at s = {}", printed("")),
         (Cause::RootAtZero, _) => "root at s = 0".into(),
         (Cause::DegreeLost, _) => "degree lost".into(),
@@ -94,7 +94,7 @@ fn role(below: &Cell, above: &Cell, causes: &Causes) -> Role {
 }
 
 /// All walls of a traced map.
-pub(super) fn walls(answer: &Map, map: &StabilityMap, trace: &MapTrace) -> Vec<Wall> {
+pub(super) fn walls(answer: &Answer<Map>, map: &StabilityMap, trace: &MapTrace) -> Vec<Wall> {
     let mut done: Vec<Wall> = Vec::new();
     let mut open: Vec<Wall> = Vec::new();
     let mut last_strip = None;
@@ -135,7 +135,7 @@ pub(super) fn walls(answer: &Map, map: &StabilityMap, trace: &MapTrace) -> Vec<W
 }
 
 /// The vertical lines among the curves: where stable cells touch them, and elsewhere.
-fn vertical_walls(answer: &Map, map: &StabilityMap, trace: &MapTrace) -> Vec<Wall> {
+fn vertical_walls(answer: &Answer<Map>, map: &StabilityMap, trace: &MapTrace) -> Vec<Wall> {
     let mut out = Vec::new();
     for (curve, c) in map.curves.iter().enumerate().filter(|(_, c)| c.polynomial.degree_in(1) == 0) {
         let Some(line) = c.polynomial.to_univariate(0) else { continue };
@@ -160,7 +160,7 @@ fn vertical_walls(answer: &Map, map: &StabilityMap, trace: &MapTrace) -> Vec<Wal
 
 /// A vertical line cut into what touches stable cells of the strips beside it and what does not.
 fn pieces(
-    answer: &Map,
+    answer: &Answer<Map>,
     map: &StabilityMap,
     trace: &MapTrace,
     (curve, u): (usize, f64),
@@ -175,7 +175,7 @@ fn pieces(
     let edge = |end: &Option<Rational>, otherwise: f64| {
         end.as_ref().map_or(otherwise, |e| trace.windows[1].place(e.to_f64_approximate())).clamp(0.0, 1.0)
     };
-    let domain = &answer.axes[1].domain;
+    let domain = &answer.problem().free()[1].domain;
     let (bottom, top) = (edge(&domain.lower, 0.0), edge(&domain.upper, 1.0));
     cuts.retain(|v| *v > bottom && *v < top);
     cuts.extend([bottom, top]);

@@ -1,13 +1,12 @@
 //! Points of the boundary curves: isolated roots on a fine set of vertical lines in every strip.
 
 use super::window::AxisWindow;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::poly::algebraic::simplest_between;
-use jurist_engine::analysis::Map;
+use jurist_engine::answer::{Answer, Map};
 use jurist_engine::stability::plane::{StabilityMap, Strip};
-use rayon::prelude::*;
 
 /// Lines per width of the picture before refinement.
 const LINES: f64 = 320.0;
@@ -53,9 +52,9 @@ pub struct MapTrace {
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
-pub fn trace_map(answer: &Map, windows: [AxisWindow; 2], budget: &Budget) -> Result<MapTrace, Exhausted> {
+pub fn trace_map(answer: &Answer<Map>, windows: [AxisWindow; 2], budget: &Budget) -> Result<MapTrace, Exhausted> {
     budget.step("tracing the curves");
-    let Some(map) = answer.map.decided() else { return Ok(MapTrace { windows, strips: Vec::new() }) };
+    let map = &answer.value().decomposition;
     let mut strips = Vec::new();
     for (number, strip) in map.strips.iter().enumerate() {
         budget.check()?;
@@ -70,7 +69,7 @@ pub fn trace_map(answer: &Map, windows: [AxisWindow; 2], budget: &Budget) -> Res
 }
 
 struct Tracer<'a> {
-    answer: &'a Map,
+    answer: &'a Answer<Map>,
     map: &'a StabilityMap,
     strip: &'a Strip,
     windows: &'a [AxisWindow; 2],
@@ -141,29 +140,26 @@ impl Tracer<'_> {
 
     /// Lines at places, each at the simplest value of `x` near it.
     fn at_all(&self, wanted: Vec<(f64, Option<Rational>)>, spacing: f64) -> Result<Vec<TracedLine>, Exhausted> {
-        let found: Vec<Result<Option<TracedLine>, Exhausted>> = wanted
-            .into_par_iter()
-            .map(|(u, exact)| {
-                self.budget.check()?;
-                let x = match exact {
-                    Some(x) => Some(x),
-                    None => {
-                        let near = |d: f64| rational(self.windows[0].value(u + d * spacing));
-                        let range = near(-0.01).zip(near(0.01));
-                        range.and_then(|(a, b)| simplest_between(&a, &b)).filter(|x| self.strip.x.contains(x))
-                    }
-                };
-                let Some(x) = x else { return Ok(None) };
-                let v = self.branches(&x)?;
-                Ok(Some(TracedLine { u, x, v }))
-            })
-            .collect();
+        let found: Vec<Result<Option<TracedLine>, Exhausted>> = parallel_map(wanted, |(u, exact)| {
+            self.budget.check()?;
+            let x = match exact {
+                Some(x) => Some(x),
+                None => {
+                    let near = |d: f64| rational(self.windows[0].value(u + d * spacing));
+                    let range = near(-0.01).zip(near(0.01));
+                    range.and_then(|(a, b)| simplest_between(&a, &b)).filter(|x| self.strip.x.contains(x))
+                }
+            };
+            let Some(x) = x else { return Ok(None) };
+            let v = self.branches(&x)?;
+            Ok(Some(TracedLine { u, x, v }))
+        });
         found.into_iter().filter_map(Result::transpose).collect()
     }
 
     fn branches(&self, x: &Rational) -> Result<Vec<f64>, Exhausted> {
         let window = &self.windows[1];
-        let branches = self.map.branches(x, &self.answer.axes[1].domain, self.budget)?;
+        let branches = self.map.branches(x, &self.answer.problem().free()[1].domain, self.budget)?;
         let width = (&window.upper - &window.lower) * Rational::dyadic(&jurist_algebra::number::Integer::ONE, 14);
         let place = |value: &RealAlgebraic| {
             let fine = if window.logarithmic { value.refined_to_digits(DIGITS) } else { value.refined(&width) };

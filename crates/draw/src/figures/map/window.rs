@@ -2,7 +2,7 @@
 
 use super::trace::approximate;
 use jurist_algebra::number::{Rational, parse_number};
-use jurist_engine::analysis::{Decision, Intervals, Map, RegionExtent};
+use jurist_engine::answer::{Answer, Map};
 use jurist_engine::stability::{AlgebraicInterval, Range};
 
 /// A positive range of values is drawn on a logarithmic axis from this ratio on.
@@ -54,38 +54,23 @@ impl AxisWindow {
 }
 
 /// The windows of both axes: what is asked for, else so that everything bounded shows.
-pub fn choose_windows(
-    answer: &Map,
-    limits: &[RegionExtent],
-    slices: &[Intervals],
-    marks: &[(f64, f64)],
-    requests: &[WindowRequest; 2],
-) -> [AxisWindow; 2] {
-    [0, 1].map(|parameter| choose(answer, limits, slices, marks, &requests[parameter], parameter))
+pub fn choose_windows(answer: &Answer<Map>, marks: &[(f64, f64)], requests: &[WindowRequest; 2]) -> [AxisWindow; 2] {
+    [0, 1].map(|parameter| choose(answer, marks, &requests[parameter], parameter))
 }
 
-fn choose(
-    answer: &Map,
-    limits: &[RegionExtent],
-    slices: &[Intervals],
-    marks: &[(f64, f64)],
-    request: &WindowRequest,
-    parameter: usize,
-) -> AxisWindow {
-    let axis = &answer.axes[parameter];
-    let map = answer.map.decided();
-    let regions = map.map_or(&[][..], |m| &m.regions);
+fn choose(answer: &Answer<Map>, marks: &[(f64, f64)], request: &WindowRequest, parameter: usize) -> AxisWindow {
+    let axis = &answer.problem().free()[parameter];
+    let regions = &answer.value().decomposition.regions;
     let extents: Vec<&AlgebraicInterval> = regions.iter().map(|r| if parameter == 0 { &r.x } else { &r.y }).collect();
     let open = [extents.iter().any(|e| e.lower.is_none()), extents.iter().any(|e| e.upper.is_none())];
     let mut values: Vec<f64> = extents.iter().flat_map(|e| [&e.lower, &e.upper]).flatten().map(approximate).collect();
     values.extend(axis.nominal.as_ref().map(Rational::to_f64_approximate));
     values.extend(marks.iter().map(|m| if parameter == 0 { m.0 } else { m.1 }));
-    for slice in slices.iter().filter(|s| s.question.parameter == axis.name) {
-        if let Decision::Decided(set) = &slice.stable {
-            let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
-            values.extend(ends.map(|e| approximate(&e.value)));
-        }
+    for (_, set) in answer.value().slices.iter().filter(|(line, _)| line.parameter().name == axis.name) {
+        let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
+        values.extend(ends.map(|e| approximate(&e.value)));
     }
+    let limits = answer.value().limits();
     let places = limits.iter().flat_map(|l| l.ends[1 - parameter].iter().flatten()).flat_map(|l| &l.limit.at);
     values.extend(
         places
@@ -101,8 +86,8 @@ fn choose(
 }
 
 /// Without a region the boundary curves are what there is to see.
-fn values_without_regions(answer: &Map, parameter: usize) -> Vec<f64> {
-    let Some(map) = answer.map.decided() else { return Vec::new() };
+fn values_without_regions(answer: &Answer<Map>, parameter: usize) -> Vec<f64> {
+    let map = &answer.value().decomposition;
     if parameter == 0 {
         map.strips.iter().flat_map(|s| [&s.x.lower, &s.x.upper]).flatten().map(approximate).collect()
     } else {

@@ -13,7 +13,7 @@ const COMPARED: usize = 80;
 const CANDIDATES: usize = 2000;
 
 /// The name, cut where it would flood the message.
-pub(in crate::model) fn shorten(name: &str) -> Cow<'_, str> {
+pub(crate) fn shorten(name: &str) -> Cow<'_, str> {
     match name.char_indices().nth(SHOWN) {
         Some((end, _)) => Cow::Owned(format!("{}...", &name[..end])),
         None => Cow::Borrowed(name),

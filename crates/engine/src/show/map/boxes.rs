@@ -7,23 +7,37 @@
 //! it is known to be the same at all points, else `null`) and `stopped` (`null`, or the budget that ran out before
 //! the goal). All numbers are exact. `boxes` is `null` with `undecided` where not even the curves were found.
 
+use super::super::intervals::{heading, undecided_text};
 use super::super::json;
-use super::super::layout::{called, named_values};
-use super::super::region::map_goal;
+use super::super::region::goal_or_stable;
 use super::document::{curve_json, question_fields};
 use super::text::axis_text;
-use crate::analysis::{Decision, MapBoxes};
+use crate::answer::{Answer, MapBoxes};
+use crate::problem::Problem;
 use crate::stability::plane::boxes::{BoxMap, BoxVerdict, PlaneBox, Window};
+use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, to_decimal};
 use serde_json::{Value, json};
 
-/// The document `jurist/map-boxes/1`.
-pub fn map_boxes_json(answer: &MapBoxes) -> Value {
-    let mut out = question_fields(&answer.question, "jurist/map-boxes/1");
-    match &answer.boxes {
-        Decision::Decided(map) => {
+impl Answer<MapBoxes> {
+    /// The document `jurist/map-boxes/1`.
+    pub fn json(&self) -> Value {
+        map_boxes_json(self.problem(), Ok(self.value()))
+    }
+
+    /// The answer for people: areas by verdict, and the extent of the stable boxes.
+    pub fn text(&self, digits: usize) -> String {
+        map_boxes_text(self.problem(), Ok(self.value()), digits)
+    }
+}
+
+/// The document `jurist/map-boxes/1`, also of an answer that the budget did not allow.
+pub fn map_boxes_json(problem: &Problem, answer: Result<&MapBoxes, &Exhausted>) -> Value {
+    let mut out = question_fields(problem, "jurist/map-boxes/1");
+    match answer {
+        Ok(MapBoxes { goal, boxes: map }) => {
             out.insert("window".into(), window_json(&map.window));
-            out.insert("goal".into(), answer.goal.to_string().into());
+            out.insert("goal".into(), goal.to_string().into());
             out.insert("curves".into(), map.curves.iter().map(curve_json).collect::<Vec<_>>().into());
             out.insert(
                 "areas".into(),
@@ -37,10 +51,7 @@ pub fn map_boxes_json(answer: &MapBoxes) -> Value {
             out.insert("boxes".into(), map.boxes.iter().map(box_json).collect::<Vec<_>>().into());
             out.insert("stopped".into(), map.stopped.as_deref().map_or(Value::Null, Value::from));
         }
-        Decision::Undecided { budget, reached } => {
-            out.insert("boxes".into(), Value::Null);
-            out.insert("undecided".into(), json::undecided(budget, reached));
-        }
+        Err(stopped) => json::undecided(&mut out, &["boxes"], stopped),
     }
     Value::Object(out)
 }
@@ -62,21 +73,13 @@ fn box_json(b: &PlaneBox) -> Value {
     out
 }
 
-/// The answer for people: areas by verdict, and the extent of the stable boxes.
-pub fn map_boxes_text(answer: &MapBoxes, digits: usize) -> String {
-    let question = &answer.question;
-    let mut out = format!("{}, {} time", called(question.title.as_deref()), question.time.name());
-    if !question.set.is_empty() {
-        out.push_str(&format!(", {}", named_values(&question.set)));
-    }
-    out.push('\n');
-    let [x, y] = &question.axes;
-    out.push_str(&format!("{} against {}, by boxes: ", axis_text(x), axis_text(y)));
-    match &answer.boxes {
-        Decision::Undecided { budget, reached } => {
-            out.push_str(&format!("undecided, the budget ran out: {budget}; reached: {reached}\n"));
-        }
-        Decision::Decided(map) => boxes_text(&mut out, map, &map_goal(question), [&x.name, &y.name], digits),
+/// The answer for people, also one that the budget did not allow.
+pub fn map_boxes_text(problem: &Problem, answer: Result<&MapBoxes, &Exhausted>, digits: usize) -> String {
+    let [x, y] = problem.axes();
+    let mut out = format!("{}\n{} against {}, by boxes: ", heading(problem), axis_text(x), axis_text(y));
+    match answer {
+        Err(stopped) => out.push_str(&format!("{}\n", undecided_text(stopped))),
+        Ok(answer) => boxes_text(&mut out, &answer.boxes, &goal_or_stable(problem), [&x.name, &y.name], digits),
     }
     out
 }

@@ -8,7 +8,7 @@ pub use boxes::{map_boxes_json, map_boxes_text};
 pub use document::map_json;
 pub use text::map_text;
 
-use crate::analysis::Axis;
+use crate::problem::Free;
 use crate::stability::plane::{Curve, StabilityMap};
 use crate::stability::{Cause, Causes};
 use jurist_algebra::poly::RealAlgebraic;
@@ -18,7 +18,7 @@ use jurist_algebra::poly::RealAlgebraic;
 const CRITICAL_POINT: &str = "critical point";
 
 /// Why a strip ends at a value of `x`: the domain, lines that are parts of curves, or a critical point.
-fn wall_cause(map: &StabilityMap, axis: &Axis, value: &RealAlgebraic) -> String {
+fn wall_cause(map: &StabilityMap, axis: &Free, value: &RealAlgebraic) -> String {
     let mut causes = Causes::default();
     for cause in map.curves.iter().filter(|c| contains_line(c, value)).flat_map(|c| c.causes.iter()) {
         causes.insert(cause);

@@ -1,54 +1,61 @@
 //! The answer for people: each region, how far it reaches, and what limits it there.
 
-use super::super::intervals::{domain_text, set_lines};
-use super::super::layout::{Columns, called, named_values, short, visible};
+use super::super::intervals::{domain_text, heading, set_lines, undecided_text};
+use super::super::layout::{Columns, named_values, short, visible};
 use super::super::real;
-use super::super::region::{map_causes_text, map_goal};
-use crate::analysis::{Axis, Decision, Intervals, Map, MapLimit, RegionExtent};
+use super::super::region::{causes_text, goal_or_stable};
+use crate::answer::{Answer, Map, MapLimit, RegionExtent};
+use crate::problem::{Free, Problem};
 use crate::stability::plane::{Branch, StabilityMap, StableRegion};
 use crate::stability::{AlgebraicInterval, Cause, IntervalSet};
+use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Enclosure, Integer, enclosed_decimal, to_decimal};
 use jurist_algebra::poly::algebraic::simplest_between;
 
 /// Digits of frequencies and of places.
 const FREQUENCY_DIGITS: usize = 7;
 
-/// The answer for people. `limits` holds what limits each region, `slices` the stable sets on the two lines
-/// through the nominal point, as far as they are known.
-pub fn map_text(answer: &Map, limits: &[RegionExtent], slices: &[Intervals], digits: usize) -> String {
-    let mut out = format!("{}, {} time", called(answer.title.as_deref()), answer.time.name());
-    if !answer.set.is_empty() {
-        out.push_str(&format!(", {}", named_values(&answer.set)));
+impl Answer<Map> {
+    /// The answer for people.
+    pub fn text(&self, digits: usize) -> String {
+        map_text(self.problem(), Ok(self.value()), digits)
     }
-    out.push('\n');
-    let [x, y] = &answer.axes;
-    let goal = map_goal(answer);
+}
+
+/// The answer for people, also one that the budget did not allow.
+pub fn map_text(problem: &Problem, answer: Result<&Map, &Exhausted>, digits: usize) -> String {
+    let mut out = format!("{}\n", heading(problem));
+    let [x, y] = problem.axes();
+    let goal = goal_or_stable(problem);
     out.push_str(&format!("{} against {}: ", axis_text(x), axis_text(y)));
-    match &answer.map {
-        Decision::Undecided { budget, reached } => {
-            out.push_str(&format!("undecided, the budget ran out: {budget}; reached: {reached}\n"));
+    let answer = match answer {
+        Ok(answer) => answer,
+        Err(stopped) => {
+            out.push_str(&format!("{}\n", undecided_text(stopped)));
+            return out;
         }
-        Decision::Decided(map) if map.never_stable => {
-            let why = answer.never_stable_cause().map(never_stable_text).unwrap_or_default();
-            out.push_str(&format!("{goal} nowhere{why}\n"));
-        }
-        Decision::Decided(map) if map.regions.is_empty() => out.push_str(&format!("{goal} in no open region\n")),
-        Decision::Decided(map) => {
-            let count = map.regions.len();
+    };
+    let map = &answer.decomposition;
+    if map.never_stable {
+        let why = answer.never_stable_cause.map(never_stable_text).unwrap_or_default();
+        out.push_str(&format!("{goal} nowhere{why}\n"));
+        return out;
+    }
+    match map.regions.len() {
+        0 => out.push_str(&format!("{goal} in no open region\n")),
+        count => {
             out.push_str(&format!("{goal} in {count} region{}\n", if count == 1 { "" } else { "s" }));
             for (k, region) in map.regions.iter().enumerate() {
                 let number = (count > 1).then_some(k + 1);
-                out.push_str(&region_text(number, region, limits.get(k), map, answer, digits));
+                out.push_str(&region_text(number, region, answer.limits().get(k), map, problem, digits));
             }
         }
     }
-    if answer.map.decided().is_some_and(|m| !m.never_stable) {
-        out.push_str(&nominal_text(answer, slices, digits));
-    }
+    out.push_str(&nominal_text(problem, answer, digits));
     out
 }
 
-pub(super) fn axis_text(axis: &Axis) -> String {
+pub(super) fn axis_text(axis: &Free) -> String {
     let mut text = axis.name.clone();
     if let Some(unit) = &axis.unit {
         text.push_str(&format!(" in {}", visible(unit)));
@@ -75,16 +82,16 @@ fn region_text(
     region: &StableRegion,
     limits: Option<&RegionExtent>,
     map: &StabilityMap,
-    answer: &Map,
+    problem: &Problem,
     digits: usize,
 ) -> String {
-    let axes = &answer.axes;
+    let axes = problem.axes();
     let mut out = match number {
         Some(k) => format!("region {k}: all points lie within\n"),
         None => "all its points lie within\n".to_owned(),
     };
     let extents = [&region.x, &region.y];
-    for (axis, extent) in axes.iter().zip(extents) {
+    for (axis, extent) in axes.into_iter().zip(extents) {
         for line in set_lines(&axis.name, &IntervalSet::from_iter([extent.clone()]), digits) {
             out.push_str(&format!("    {line}\n"));
         }
@@ -101,7 +108,7 @@ fn region_text(
                 (Some(limit), Some(value)) => vec![
                     format!("{word} {}", axis.name),
                     real::rounded(value, digits).decimal,
-                    mechanism(limit, answer),
+                    mechanism(limit, problem),
                     place(limit, k, axes),
                 ],
             };
@@ -109,7 +116,7 @@ fn region_text(
         }
     }
     out.push_str(&format!("limited by\n{columns}"));
-    let walls = walls(region, map, answer);
+    let walls = walls(region, map, problem);
     if !walls.is_empty() {
         out.push_str(&format!("with the walls\n{walls}"));
     }
@@ -117,8 +124,8 @@ fn region_text(
 }
 
 /// `complex pair at 1.2 Hz, 0.4 rad`.
-fn mechanism(limit: &MapLimit, answer: &Map) -> String {
-    let mut causes = map_causes_text(&limit.limit.causes, answer);
+fn mechanism(limit: &MapLimit, problem: &Problem) -> String {
+    let mut causes = causes_text(&limit.limit.causes, problem);
     if limit.limit.causes.contains(Cause::Pole) {
         causes.push_str(" (undefined there)");
     }
@@ -135,8 +142,8 @@ fn mechanism(limit: &MapLimit, answer: &Map) -> String {
 }
 
 /// Where the extreme value is taken.
-fn place(limit: &MapLimit, parameter: usize, axes: &[Axis; 2]) -> String {
-    let other = &axes[1 - parameter];
+fn place(limit: &MapLimit, parameter: usize, axes: [&Free; 2]) -> String {
+    let other = axes[1 - parameter];
     let places = &limit.limit.at;
     if places.is_empty() {
         return match limit.limit.along_line {
@@ -164,13 +171,13 @@ fn place(limit: &MapLimit, parameter: usize, axes: &[Axis; 2]) -> String {
 }
 
 /// What is below and above, from which `x` to which.
-fn walls(region: &StableRegion, map: &StabilityMap, answer: &Map) -> String {
-    let axes = &answer.axes;
+fn walls(region: &StableRegion, map: &StabilityMap, problem: &Problem) -> String {
+    let axes = problem.axes();
     let mut rows: Vec<(AlgebraicInterval, [String; 2])> = Vec::new();
     for (strip, cell) in &region.cells {
         let cell = &map.strips[*strip].cells[*cell];
         let side = |b: &Option<Branch>, domain: bool| match b {
-            Some(b) => map_causes_text(&map.curves[b.curve].causes, answer),
+            Some(b) => causes_text(&map.curves[b.curve].causes, problem),
             None if domain => "domain".to_owned(),
             None => "nothing".to_owned(),
         };
@@ -195,16 +202,16 @@ fn walls(region: &StableRegion, map: &StabilityMap, answer: &Map) -> String {
 }
 
 /// The two lines through the nominal point.
-fn nominal_text(answer: &Map, slices: &[Intervals], digits: usize) -> String {
-    let [Some(x), Some(y)] = [&answer.axes[0].nominal, &answer.axes[1].nominal] else { return String::new() };
-    let point = named_values(&[(answer.axes[0].name.clone(), x.clone()), (answer.axes[1].name.clone(), y.clone())]);
+fn nominal_text(problem: &Problem, answer: &Map, digits: usize) -> String {
+    let axes = problem.axes();
+    let [Some(x), Some(y)] = [&axes[0].nominal, &axes[1].nominal] else { return String::new() };
+    let point = named_values(&[(axes[0].name.clone(), x.clone()), (axes[1].name.clone(), y.clone())]);
     let mut out = String::new();
-    for slice in slices {
-        let question = &slice.question;
-        let Decision::Decided(set) = &slice.stable else { continue };
-        let fixed = question.set.last().map(|(name, value)| format!("{name} = {}", short(value))).unwrap_or_default();
-        let lines = set_lines(&question.parameter, &set.to_interval_set(), digits);
-        let lines = if lines.is_empty() { vec![format!("no {}", question.parameter)] } else { lines };
+    for (line, set) in &answer.slices {
+        let fixed = line.set().last().map(|(name, value)| format!("{name} = {}", short(value))).unwrap_or_default();
+        let name = &line.parameter().name;
+        let lines = set_lines(name, &set.to_interval_set(), digits);
+        let lines = if lines.is_empty() { vec![format!("no {name}")] } else { lines };
         for line in lines {
             out.push_str(&format!("    {line}   at {fixed}\n"));
         }

@@ -18,6 +18,10 @@ pub(super) fn write(report: &PolynomialReport, digits: Option<usize>) -> String 
     document.insert("parameters".into(), report.parameters.clone().into());
     let set: Map<String, Value> = report.set.iter().map(|(n, v)| (n.clone(), v.to_string().into())).collect();
     document.insert("set".into(), set.into());
+    // Without this key the coefficients are exact.
+    if let Some(digits) = digits {
+        document.insert("rounded_to_digits".into(), digits.into());
+    }
     match &report.relation {
         Relation::Characteristic => {}
         Relation::RootLocus { parameter } => {

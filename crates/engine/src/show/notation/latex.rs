@@ -23,7 +23,7 @@ pub(super) fn write(report: &PolynomialReport, digits: Option<usize>) -> String 
     for polynomial in &report.polynomials {
         lines.extend(equations(polynomial, report, digits));
     }
-    let mut out: String = report.remarks().iter().map(|r| format!("% {r}\n")).collect();
+    let mut out: String = report.remarks(digits).iter().map(|r| format!("% {r}\n")).collect();
     out.push_str("\\begin{align*}\n");
     out.push_str(&lines.join(" \\\\\n"));
     out.push_str("\n\\end{align*}\n");
@@ -82,7 +82,7 @@ pub fn symbol(name: &str) -> String {
     let part = |part: &str| {
         if GREEK.contains(&part) {
             format!("\\{part}")
-        } else if part.chars().count() == 1 || part.chars().all(|c| c.is_ascii_digit()) {
+        } else if (part != "_" && part.chars().count() == 1) || part.chars().all(|c| c.is_ascii_digit()) {
             part.to_owned()
         } else {
             format!("\\mathrm{{{}}}", part.replace('_', "\\_"))
@@ -91,5 +91,40 @@ pub fn symbol(name: &str) -> String {
     match name.split_once('_') {
         Some((base, index)) if !base.is_empty() && !index.is_empty() => format!("{}_{{{}}}", part(base), part(index)),
         _ => part(name),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether braces are balanced, no group is empty, and at most one `_` is an index, which has braces.
+    fn is_sound(latex: &str) -> bool {
+        let bare = latex.replace("\\_", "u");
+        let (mut depth, mut lowest) = (0_i32, 0);
+        for c in bare.chars() {
+            depth += i32::from(c == '{') - i32::from(c == '}');
+            lowest = lowest.min(depth);
+        }
+        let indices = bare.matches('_').count();
+        depth == 0 && lowest == 0 && indices <= 1 && bare.matches("_{").count() == indices && !bare.contains("{}")
+    }
+
+    #[test]
+    fn every_legal_name_is_sound_mathematics() {
+        let letters = ["_", "a", "K", "1", "\u{e9}", "omega"];
+        let mut names = vec![String::new()];
+        for _ in 0..5 {
+            let longer: Vec<String> = names.iter().flat_map(|n| letters.map(|l| format!("{n}{l}"))).collect();
+            for name in longer.iter().filter(|n| !n.starts_with('1')) {
+                let latex = symbol(name);
+                assert!(is_sound(&latex), "{name}: {latex}");
+            }
+            names = longer;
+        }
+        assert_eq!(symbol("_"), "\\mathrm{\\_}");
+        assert_eq!(symbol("K__"), "K_{\\mathrm{\\_}}");
+        assert_eq!(symbol("K_pwm"), "K_{\\mathrm{pwm}}");
+        assert_eq!(symbol("omega_1"), "\\omega_{1}");
     }
 }

@@ -47,7 +47,7 @@ pub(super) fn write(report: &PolynomialReport, digits: Option<usize>) -> String 
         times: "*",
         quotient: &|(n, _), (d, _)| format!("({n})/({d})"),
     };
-    let mut out: String = report.remarks().iter().map(|r| format!("% {r}\n")).collect();
+    let mut out: String = report.remarks(digits).iter().map(|r| format!("% {r}\n")).collect();
     out.push_str(&format!("% highest power of {} first\n", report.variable));
     for polynomial in &report.polynomials {
         let arguments = if names.is_empty() { String::new() } else { format!("@({}) ", names.join(", ")) };

@@ -148,13 +148,14 @@ impl PolynomialReport {
         }
     }
 
-    /// The lines that explain code: title, relation, values.
-    fn remarks(&self) -> Vec<String> {
+    /// The lines that explain code: title, relation, values, and whether coefficients are rounded.
+    fn remarks(&self, digits: Option<usize>) -> Vec<String> {
         let mut lines = vec![one_line(&self.title), self.headline()];
         if !self.set.is_empty() {
             let values: Vec<String> = self.set.iter().map(|(name, value)| format!("{name} = {value}")).collect();
             lines.push(format!("at {}", values.join(", ")));
         }
+        lines.extend(digits.map(|digits| format!("coefficients rounded to {digits} digits")));
         lines.retain(|line| !line.is_empty());
         lines
     }

@@ -21,7 +21,7 @@ pub(super) fn write(report: &PolynomialReport, digits: Option<usize>) -> String 
         times: "*",
         quotient: &|(n, _), (d, _)| format!("({n})/({d})"),
     };
-    let mut out: String = report.remarks().iter().map(|r| format!("# {r}\n")).collect();
+    let mut out: String = report.remarks(digits).iter().map(|r| format!("# {r}\n")).collect();
     out.push_str(&format!("# coefficients from {}^0 up\n", report.variable));
     if digits.is_none() {
         out.push_str("from fractions import Fraction\n");

@@ -23,7 +23,7 @@ pub(super) fn write(report: &PolynomialReport, digits: Option<usize>) -> String 
         times: " * ",
         quotient: &|(n, _), (d, _)| format!("({n}) / ({d})"),
     };
-    let mut out: String = report.remarks().iter().map(|r| format!("// {r}\n")).collect();
+    let mut out: String = report.remarks(digits).iter().map(|r| format!("// {r}\n")).collect();
     for polynomial in &report.polynomials {
         let (n, name) = (polynomial.coefficients.len(), &polynomial.name);
         out.push_str(&format!("\n/// Coefficients of `{name}` from `{}^0` up.\n", report.variable));

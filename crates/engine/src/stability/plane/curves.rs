@@ -1,6 +1,6 @@
 //! The curves in the plane of two parameters at which the number of stable roots may change.
 
-use crate::stability::{AtPoint, Cause, Causes, HalfSizePair, ParametricPolynomial, Region, count_roots};
+use crate::stability::{AtPoint, Cause, Causes, HalfSizePair, ParametricPolynomial, Shape, count_roots};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Integer, Rational};
@@ -68,7 +68,7 @@ impl PlanePolynomial {
     }
 
     /// The exact root count at a point.
-    pub fn at(&self, x: &Rational, y: &Rational, region: Region) -> AtPoint {
+    pub fn at(&self, x: &Rational, y: &Rational, region: Shape) -> AtPoint {
         let point = [x.clone(), y.clone()];
         let value = |p: &MultiPoly| p.eval(&point);
         if value(&self.denominator).is_zero() || self.poles.iter().any(|p| value(p).is_zero()) {
@@ -106,7 +106,7 @@ impl PlanePolynomial {
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
-pub fn boundary_curves(p: &PlanePolynomial, region: Region, budget: &Budget) -> Result<Option<Vec<Curve>>, Exhausted> {
+pub fn boundary_curves(p: &PlanePolynomial, region: Shape, budget: &Budget) -> Result<Option<Vec<Curve>>, Exhausted> {
     let n = p.formal_degree;
     if p.polynomial.degree() != Some(n) {
         return Ok(None);
@@ -115,11 +115,11 @@ pub fn boundary_curves(p: &PlanePolynomial, region: Region, budget: &Budget) -> 
     if n > 0 {
         let value = |z: i64| p.polynomial.eval(&MultiPoly::constant(Integer::from(z)));
         match region {
-            Region::UnitDisc => {
+            Shape::UnitDisc => {
                 found.push((Cause::RootAtOne, value(1)));
                 found.push((Cause::RootAtMinusOne, value(-1)));
             }
-            Region::LeftHalfPlane => found.push((Cause::RootAtZero, value(0))),
+            Shape::LeftHalfPlane => found.push((Cause::RootAtZero, value(0))),
         }
         if found.iter().any(|(_, f)| f.is_zero()) {
             return Ok(None);
@@ -150,7 +150,7 @@ pub fn boundary_curves(p: &PlanePolynomial, region: Region, budget: &Budget) -> 
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
-pub fn vanishing_boundary(p: &PlanePolynomial, region: Region, budget: &Budget) -> Result<Option<Cause>, Exhausted> {
+pub fn vanishing_boundary(p: &PlanePolynomial, region: Shape, budget: &Budget) -> Result<Option<Cause>, Exhausted> {
     let n = p.formal_degree;
     if p.polynomial.degree() != Some(n) || p.degree_loss.is_zero() {
         return Ok(Some(Cause::DegreeLost));
@@ -160,9 +160,9 @@ pub fn vanishing_boundary(p: &PlanePolynomial, region: Region, budget: &Budget) 
     }
     let vanishes = |z: i64| p.polynomial.eval(&MultiPoly::constant(Integer::from(z))).is_zero();
     let real = match region {
-        Region::UnitDisc if vanishes(1) => Some(Cause::RootAtOne),
-        Region::UnitDisc if vanishes(-1) => Some(Cause::RootAtMinusOne),
-        Region::LeftHalfPlane if vanishes(0) => Some(Cause::RootAtZero),
+        Shape::UnitDisc if vanishes(1) => Some(Cause::RootAtOne),
+        Shape::UnitDisc if vanishes(-1) => Some(Cause::RootAtMinusOne),
+        Shape::LeftHalfPlane if vanishes(0) => Some(Cause::RootAtZero),
         _ => None,
     };
     if real.is_some() {

@@ -4,11 +4,10 @@ use super::curves::{Curve, PlanePolynomial, X, Y, boundary_curves};
 use super::glue::glue_stable_cells;
 use super::projection::projection;
 use crate::stability::interval_set::{cells, merge_points};
-use crate::stability::{AlgebraicInterval, AtPoint, Range, Region};
-use jurist_algebra::limits::{Budget, Exhausted};
+use crate::stability::{AlgebraicInterval, AtPoint, Range, Shape};
+use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
-use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A branch of a curve over a strip: the root of the curve's polynomial in `y`, counted from 0 from
@@ -92,7 +91,7 @@ pub struct StabilityMap {
 pub fn stability_map(
     p: &PlanePolynomial,
     domain: &[Range; 2],
-    region: Region,
+    region: Shape,
     budget: &Budget,
 ) -> Result<StabilityMap, Exhausted> {
     budget.step("boundary curves");
@@ -189,15 +188,15 @@ fn decompose(
     p: &PlanePolynomial,
     curves: &[Curve],
     domain: &[Range; 2],
-    region: Region,
+    region: Shape,
     budget: &Budget,
 ) -> Result<Vec<Strip>, Exhausted> {
     budget.step("projecting the curves");
     let projection = projection(curves, &domain[1], budget)?;
     budget.step("isolating critical values");
     let (lower, upper) = (domain[0].lower.as_ref(), domain[0].upper.as_ref());
-    let lists = projection.par_iter().map(|q| isolate_real_roots_in(q, lower, upper, budget));
-    let points = merge_points(lists.collect::<Result<_, _>>()?, budget)?;
+    let lists: Result<_, _> = parallel_map(&projection, |q| isolate_real_roots_in(q, lower, upper, budget));
+    let points = merge_points(lists?, budget)?;
     budget.step("testing a sample of each cell");
     let intervals = cells(&domain[0], &points);
     let (total, done) = (intervals.len() as u64, AtomicU64::new(0));
@@ -208,7 +207,7 @@ fn decompose(
         budget.advance(done.fetch_add(1, Ordering::Relaxed) + 1, total);
         Ok(Strip { x, sample, cells })
     };
-    intervals.into_par_iter().map(strip).collect()
+    parallel_map(intervals, strip)
 }
 
 /// `q^d f(x, a/q)`.
@@ -245,7 +244,7 @@ fn cells_at(
     curves: &[Curve],
     x: &Rational,
     y_domain: &Range,
-    region: Region,
+    region: Shape,
     budget: &Budget,
 ) -> Result<Vec<Cell>, Exhausted> {
     let branches = branches_at(curves, x, y_domain, budget)?;

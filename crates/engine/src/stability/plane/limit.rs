@@ -2,7 +2,7 @@
 
 use super::curves::{Curve, PlanePolynomial};
 use super::decompose::{StabilityMap, Strip, at_y, branches_at, in_y, swapped_curve};
-use crate::stability::{AlgebraicInterval, Cause, Causes, ComplexPair, End, HalfSizePair, Range, Region, end_at};
+use crate::stability::{AlgebraicInterval, Cause, Causes, ComplexPair, End, HalfSizePair, Range, Shape, end_at};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{MultiPoly, Poly, RealAlgebraic, SquareFree, isolate_real_roots_in};
@@ -49,7 +49,7 @@ pub fn region_limits(
     map: &StabilityMap,
     p: &PlanePolynomial,
     domain: &[Range; 2],
-    region: Region,
+    region: Shape,
     digits: usize,
     budget: &Budget,
 ) -> Result<Vec<RegionLimits>, Exhausted> {
@@ -90,7 +90,7 @@ struct Search<'a> {
     curves: &'a [Curve],
     strips: &'a [Strip],
     domain: &'a [Range; 2],
-    region: Region,
+    region: Shape,
     /// The half-size pair.
     pair: &'a [Poly<MultiPoly>; 2],
     digits: usize,
@@ -305,8 +305,8 @@ impl Search<'_> {
         let root = pair.half_size_root(wanted + 2);
         let two = Rational::from(2);
         let from_end = |t: &Rational| match self.region {
-            Region::UnitDisc => (&two - t).min(t + &two),
-            Region::LeftHalfPlane => -t,
+            Shape::UnitDisc => (&two - t).min(t + &two),
+            Shape::LeftHalfPlane => -t,
         };
         let room = from_end(root.lower()).min(from_end(root.upper())) * Rational::dyadic(&Integer::ONE, wanted);
         let (lo, hi) = (root.lower() - &room, root.upper() + &room);

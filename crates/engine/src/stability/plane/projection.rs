@@ -3,10 +3,9 @@
 use super::curves::Curve;
 use super::decompose::{at_y, in_y};
 use crate::stability::Range;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Poly, SquareFree, UniPoly, discriminant, resultant};
-use rayon::prelude::*;
 
 /// A polynomial of the projection before it is computed.
 enum Projected<'a> {
@@ -51,8 +50,8 @@ pub(super) fn projection(curves: &[Curve], y_domain: &Range, budget: &Budget) ->
         let others = polynomials[..i].iter().filter(|g| g.coeffs().len() > 1);
         wanted.extend(others.map(|g| Projected::Resultant(f, g)));
     }
-    let computed: Vec<Option<SquareFree>> =
-        wanted.par_iter().map(|q| q.computed(budget)).collect::<Result<_, Exhausted>>()?;
+    let computed: Result<Vec<Option<SquareFree>>, Exhausted> = parallel_map(&wanted, |q| q.computed(budget));
+    let computed = computed?;
     let mut out: Vec<SquareFree> = Vec::new();
     for q in computed.into_iter().flatten() {
         if !out.contains(&q) {

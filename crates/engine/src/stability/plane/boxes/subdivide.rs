@@ -3,11 +3,10 @@
 use super::patch::{Patch, PatchSign, Rows};
 use super::{Areas, Axis, BoxMap, BoxVerdict, PlaneBox, Window};
 use crate::stability::plane::curves::{PlanePolynomial, X, Y, boundary_curves};
-use crate::stability::{AtPoint, Region};
-use jurist_algebra::limits::{Budget, Exhausted};
+use crate::stability::{AtPoint, Shape};
+use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
-use rayon::prelude::*;
 
 /// Boxes are halved together in groups of this size; between groups the budget is asked.
 const GROUP: usize = 64;
@@ -35,7 +34,7 @@ const MAX_HALVINGS: u32 = 80;
 pub fn stability_boxes(
     p: &PlanePolynomial,
     window: &Window,
-    region: Region,
+    region: Shape,
     goal: &Rational,
     budget: &Budget,
 ) -> Result<BoxMap, Exhausted> {
@@ -97,20 +96,20 @@ fn finished(
 }
 
 /// Polynomials of which none is negative where the loop is stable.
-fn necessary_conditions(p: &PlanePolynomial, region: Region) -> Vec<MultiPoly> {
+fn necessary_conditions(p: &PlanePolynomial, region: Shape) -> Vec<MultiPoly> {
     let d: &Poly<MultiPoly> = p.cleared();
     let n = p.formal_degree();
     let lead = d.coeff(n);
     let mut out = Vec::new();
     match region {
-        Region::UnitDisc => {
+        Shape::UnitDisc => {
             let value = |z: i64| d.eval(&MultiPoly::constant(Integer::from(z))).times(&lead);
             out.push(value(1));
             out.push(if n % 2 == 1 { value(-1).negated() } else { value(-1) });
             let last = d.coeff(0);
             out.push(lead.times(&lead).minus(&last.times(&last)));
         }
-        Region::LeftHalfPlane => out.extend((0..n).map(|k| d.coeff(k).times(&lead))),
+        Shape::LeftHalfPlane => out.extend((0..n).map(|k| d.coeff(k).times(&lead))),
     }
     out.retain(|f| !f.is_constant());
     out
@@ -177,7 +176,7 @@ enum Tested {
 
 struct Search<'a> {
     p: &'a PlanePolynomial,
-    region: Region,
+    region: Shape,
     window: &'a Window,
     /// Of the boundary polynomials, then of the necessary conditions.
     rows: Vec<Rows>,
@@ -214,7 +213,7 @@ impl Search<'_> {
         };
         while stopped.is_none() && rest.len() > 0 {
             let group: Vec<Node> = rest.by_ref().take(GROUP).collect();
-            let halves: Vec<Result<[Tested; 2], (Node, Exhausted)>> = group.into_par_iter().map(halve).collect();
+            let halves: Vec<Result<[Tested; 2], (Node, Exhausted)>> = parallel_map(group, halve);
             for result in halves {
                 match result {
                     Ok(tested) => tested.into_iter().for_each(|t| self.sort_out(t, decided, &mut next)),

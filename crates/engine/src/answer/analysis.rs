@@ -1,0 +1,71 @@
+//! Everything that can be said about a loop one parameter at a time.
+
+use super::{Answer, PointVerdict};
+use crate::error::Failure;
+use crate::problem::{Problem, Question};
+use crate::stability::StableSet;
+use jurist_algebra::limits::{Budget, Exhausted};
+use std::sync::Arc;
+
+/// The verdict at the nominal point and the stable set of each parameter, the others nominal; each is decided or has
+/// stopped on its own.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Analysis {
+    /// The question at the point, and its verdict; `None` where a value is missing.
+    pub verdict: Option<(Arc<Problem>, Result<PointVerdict, Exhausted>)>,
+    /// A question for each parameter that is not set and whose companions all have values, and its stable set.
+    pub sets: Vec<(Arc<Problem>, Result<StableSet, Exhausted>)>,
+}
+
+impl Analysis {
+    /// Why the first answer that is missing is missing.
+    pub fn stopped(&self) -> Option<&Exhausted> {
+        let verdict = self.verdict.as_ref().and_then(|(_, verdict)| verdict.as_ref().err());
+        verdict.or_else(|| self.sets.iter().find_map(|(_, set)| set.as_ref().err()))
+    }
+}
+
+impl Question {
+    /// The verdict with every parameter at its set or nominal value, and the stable set of each that is not set.
+    ///
+    /// # Errors
+    /// [`Failure::Refused`] when a question is refused. What the budget does not allow is noted in its place.
+    ///
+    /// # Panics
+    /// When a name is free.
+    pub fn analyze(self, budget: &Budget) -> Result<Analysis, Failure> {
+        assert!(self.free_names().is_empty(), "an analysis frees one parameter after the other");
+        let model = Arc::clone(self.model());
+        let open = model.parameters().iter().filter(|p| !self.values_set().contains_key(&p.name));
+        let open: Vec<_> = open.collect();
+        let without_value: Vec<_> = open.iter().filter(|p| p.nominal.is_none()).collect();
+        let verdict = if without_value.is_empty() {
+            let problem = self.clone().problem()?;
+            let verdict = stopped(Problem::verdict(&problem, budget).map(Answer::into_value))?;
+            Some((problem, verdict))
+        } else {
+            None
+        };
+        let mut sets = Vec::new();
+        for parameter in &open {
+            if without_value.iter().all(|missing| missing.name == parameter.name) {
+                let problem = self.clone().free(&parameter.name).problem()?;
+                let set = stopped(Problem::stable_set(&problem, budget).map(Answer::into_value))?;
+                sets.push((problem, set));
+            }
+        }
+        if verdict.is_none() && sets.is_empty() {
+            // Two parameters without values: the question of the first names what is missing.
+            self.free(&without_value[0].name).problem()?;
+        }
+        Ok(Analysis { verdict, sets })
+    }
+}
+
+fn stopped<T>(result: Result<T, Failure>) -> Result<Result<T, Exhausted>, Failure> {
+    match result {
+        Ok(value) => Ok(Ok(value)),
+        Err(failure) => failure.stopped().map(Err),
+    }
+}

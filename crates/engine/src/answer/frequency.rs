@@ -1,0 +1,79 @@
+//! The frequency of the complex pair at an end of a stable interval.
+
+use crate::problem::Problem;
+use crate::stability::{End, Shape};
+use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::poly::{RealAlgebraic, UniPoly};
+
+/// Certified enclosures of where a complex pair sits on the boundary.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Frequency {
+    /// The angle of the upper root in radians, discrete time only.
+    pub angle: Option<Enclosure>,
+    /// In radians per second: continuous time, or discrete time with a sample time.
+    pub radians_per_second: Option<Enclosure>,
+    /// In hertz: continuous time, or discrete time with a sample time.
+    pub hertz: Option<Enclosure>,
+}
+
+impl Frequency {
+    /// From the angle and the sample time on the unit circle, or from the angular frequency on the imaginary axis.
+    pub(super) fn new(
+        angle: Option<Enclosure>,
+        step: Option<&Enclosure>,
+        on_axis: Option<Enclosure>,
+        bits: u64,
+    ) -> Frequency {
+        let working = bits + 16;
+        let rate = match (&angle, step) {
+            (Some(angle), Some(step)) => angle.div(step, working),
+            _ => on_axis,
+        };
+        let two_pi = Enclosure::pi(working).mul(&Enclosure::from_rational(Rational::from(2)), working);
+        let hertz = rate.as_ref().and_then(|w| w.div(&two_pi, bits));
+        let rounded = |e: Enclosure| e.rounded(bits);
+        Frequency { angle: angle.map(rounded), radians_per_second: rate.map(rounded), hertz }
+    }
+}
+
+impl Problem {
+    /// The frequency of the complex pair at an end of the stable set, enclosed with about `bits` significant bits; `None`
+    /// when no complex pair is there. Without a positive sample time a discrete loop has only the angle.
+    ///
+    /// Cost: that of refining the end to twice as many bits.
+    pub fn frequency(&self, end: &End, bits: u64) -> Option<Frequency> {
+        let pair = end.pair.as_ref()?;
+        let working = bits + 16;
+        Some(match pair.region() {
+            Shape::LeftHalfPlane => Frequency::new(None, None, pair.angular_frequency(working), bits),
+            Shape::UnitDisc => {
+                let angle = pair.angle(working)?;
+                let step = self.sample_time().and_then(|t| positive_value_at(&t, &end.value, working));
+                Frequency::new(Some(angle), step.as_ref(), None, bits)
+            }
+        })
+    }
+}
+
+/// An enclosure of `numerator/denominator` at an algebraic number, of relative width about `2^-bits`;
+/// `None` unless the value is finite and positive.
+fn positive_value_at(f: &(UniPoly, UniPoly), at: &RealAlgebraic, bits: u64) -> Option<Enclosure> {
+    let (numerator, denominator) = (at.sign_of(&f.0), at.sign_of(&f.1));
+    if numerator.is_eq() || numerator != denominator {
+        return None;
+    }
+    let mut working = 2 * bits;
+    loop {
+        let (lo, hi) = at.refined(&Rational::dyadic(&Integer::ONE, working)).enclosure();
+        let x = Enclosure::new(lo, hi);
+        let value = |p: &UniPoly| p.eval_enclosure(&x, working);
+        if let Some(quotient) = value(&f.0).div(&value(&f.1), working)
+            && quotient.lower().sign().is_gt()
+            && (quotient.upper() - quotient.lower()) * Rational::from(&Integer::ONE << bits) <= *quotient.lower()
+        {
+            return Some(quotient);
+        }
+        working *= 2;
+    }
+}

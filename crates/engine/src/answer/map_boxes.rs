@@ -1,0 +1,128 @@
+//! The stable region in two parameters by boxes, and the choice between that and the exact decomposition.
+
+use super::{Answer, Map};
+use crate::error::{Diagnostic, Failure};
+use crate::problem::Problem;
+use crate::stability::Range;
+use crate::stability::plane::boxes::{BoxMap, Window, stability_boxes};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use std::sync::Arc;
+
+/// The part of the time that boxes may take, so that some is left to write them.
+const SUBDIVISION: (u32, u32) = (9, 10);
+
+/// How a map is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum MapMethod {
+    /// The exact decomposition of the whole domain.
+    Exact,
+    /// Boxes of a window, proved stable, proved unstable or left undecided.
+    Boxes,
+    /// The exact decomposition; boxes when it is not finished after half of a limited time and the
+    /// window is bounded.
+    #[default]
+    Auto,
+}
+
+/// What the boxes are to cover, and how well.
+#[derive(Clone, Debug)]
+pub struct BoxRequest {
+    /// Of either parameter; the domain is the window where an end is left out.
+    pub windows: [Range; 2],
+    /// The share of the window's area that may stay undecided.
+    pub undecided: Rational,
+}
+
+/// A window of two parameters cut into boxes.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct MapBoxes {
+    /// The share of the window's area that was allowed to stay undecided.
+    pub goal: Rational,
+    /// The boxes.
+    pub boxes: BoxMap,
+}
+
+/// A map by either method.
+#[derive(Clone, Debug)]
+pub enum MapOrBoxes {
+    /// The exact decomposition.
+    Exact(Box<Answer<Map>>),
+    /// Boxes.
+    Boxes(Box<Answer<MapBoxes>>),
+}
+
+impl Problem {
+    /// The stable region in the plane of the two free parameters by a method of choice.
+    ///
+    /// # Errors
+    /// [`Failure::Refused`] for boxes of a window that is not bounded, [`Failure::Stopped`] when the budget runs out.
+    ///
+    /// # Panics
+    /// Unless two parameters are free.
+    pub fn map_by(
+        self: &Arc<Self>,
+        method: MapMethod,
+        request: &BoxRequest,
+        digits: usize,
+        budget: &Budget,
+    ) -> Result<MapOrBoxes, Failure> {
+        budget.enter(|| {
+            let exact = |part: &Budget| {
+                let map = self.described(self.decomposed(part)?, digits, budget)?;
+                Ok(MapOrBoxes::Exact(Box::new(map)))
+            };
+            let window = match (method, window_of(self, request)) {
+                (MapMethod::Exact, _) => return exact(budget),
+                (MapMethod::Boxes, Err(refusal)) => return Err(refusal),
+                (_, window) => window,
+            };
+            let plane = self.plane(budget)?;
+            let (Ok(window), Some(p)) = (window, plane) else {
+                // Without a window, or undefined everywhere: that needs no boxes.
+                return exact(budget);
+            };
+            if method == MapMethod::Auto {
+                match exact(&budget.share(1, 2)) {
+                    Err(Failure::Stopped(_)) => {}
+                    answered => return answered,
+                }
+            }
+            let share = budget.share(SUBDIVISION.0, SUBDIVISION.1);
+            let boxes = stability_boxes(p, &window, self.shape(), &request.undecided, &share)?;
+            let value = MapBoxes { goal: request.undecided.clone(), boxes };
+            Ok(MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value))))
+        })?
+    }
+}
+
+/// The part of the domain that the boxes are to cover.
+fn window_of(question: &Problem, request: &BoxRequest) -> Result<Window, Failure> {
+    let side = |k: usize| {
+        let (domain, wanted) = (&question.free()[k].domain, &request.windows[k]);
+        let lower = wanted.lower.clone().max(domain.lower.clone());
+        let upper = match (&wanted.upper, &domain.upper) {
+            (Some(a), Some(b)) => Some(a.min(b).clone()),
+            (a, b) => a.clone().or_else(|| b.clone()),
+        };
+        Range::between(lower, upper)
+    };
+    let sides = [side(0), side(1)];
+    for (range, axis) in sides.iter().zip(question.free()) {
+        if range.lower.is_none() || range.upper.is_none() {
+            return Err(Diagnostic::error("E-usage", format!("boxes need a window of '{}' with two ends", axis.name))
+                .help(format!("say which values are to be covered, such as '-x {}=0..1'", axis.name))
+                .into());
+        }
+        if range.is_empty() {
+            return Err(Diagnostic::error(
+                "E-empty-domain",
+                format!("the window of '{}' is outside its domain", axis.name),
+            )
+            .help("boxes cover the part of the window that is in the domain")
+            .into());
+        }
+    }
+    Ok(Window::new(&sides[0], &sides[1]).expect("both sides are bounded and not empty"))
+}

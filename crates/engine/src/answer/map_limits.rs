@@ -1,0 +1,145 @@
+//! What limits the regions of a map, and what the map says on a line through it.
+
+use super::{Answer, Frequency, Map};
+use crate::error::Failure;
+use crate::problem::Problem;
+use crate::stability::plane::{Limit, multi_value, region_limits};
+use crate::stability::{AlgebraicInterval, AtPoint, End, Shape, StableSet, end_at, stable_set};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, RealAlgebraic};
+use std::sync::Arc;
+
+/// An extreme value of a region, with the frequency of the complex pair that limits it there.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct MapLimit {
+    /// The value, its causes and its place.
+    pub limit: Limit,
+    /// The frequency, for a complex pair at one point.
+    pub frequency: Option<Frequency>,
+}
+
+/// The extreme values of a region; `None` where it is unbounded.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct RegionExtent {
+    /// The least and the greatest value of either parameter.
+    pub ends: [[Option<MapLimit>; 2]; 2],
+}
+
+impl Problem {
+    fn with_frequency(&self, limit: Limit, bits: u64) -> MapLimit {
+        let frequency = limit.half_size_root.as_ref().map(|root| match self.shape() {
+            Shape::LeftHalfPlane => Frequency::new(None, None, Some(root.neg().sqrt(bits + 8)), bits),
+            Shape::UnitDisc => {
+                let half = Enclosure::from_rational(Rational::dyadic(&Integer::ONE, 1));
+                let angle = root.mul(&half, 4 * bits + 64).acos(bits + 8);
+                let step = limit.at.first().and_then(|at| self.sample_time_on(at, 4 * bits + 64));
+                Frequency::new(Some(angle), step.as_ref(), None, bits)
+            }
+        });
+        MapLimit { limit, frequency }
+    }
+
+    /// The sample time on a box, if it is positive there.
+    fn sample_time_on(&self, [x, y]: &[Enclosure; 2], bits: u64) -> Option<Enclosure> {
+        let step = self.evaluated()?.sample_time()?;
+        let value = |f: &MultiPoly| multi_value(f, x, y, bits);
+        let step = value(step.numerator()).div(&value(step.denominator()), bits)?;
+        step.lower().sign().is_gt().then_some(step)
+    }
+}
+
+impl Answer<Map> {
+    /// What limits each region, places and frequencies to about so many digits.
+    pub(super) fn region_extents(&self, digits: usize, budget: &Budget) -> Result<Vec<RegionExtent>, Exhausted> {
+        let problem = &self.problem;
+        let Ok(Some(p)) = problem.plane(budget) else { return Ok(Vec::new()) };
+        let found = region_limits(&self.value.decomposition, p, &problem.domains(), problem.shape(), digits, budget)?;
+        // log2(10) < 10/3
+        let bits = (digits as u64 + 2) * 10 / 3 + 8;
+        let extent = |r: crate::stability::plane::RegionLimits| RegionExtent {
+            ends: [r.x, r.y].map(|ends| ends.map(|end| end.map(|limit| problem.with_frequency(limit, bits)))),
+        };
+        Ok(found.into_iter().map(extent).collect())
+    }
+
+    /// What happens on the wall of a stable cell: branch `number`, counted from 0 from below, over a rational `x`
+    /// inside a strip; with the frequency of its complex pair to about `bits`.
+    ///
+    /// # Errors
+    /// [`Failure::Stopped`] when the budget runs out.
+    pub fn wall(
+        &self,
+        x: &Rational,
+        number: usize,
+        bits: u64,
+        budget: &Budget,
+    ) -> Result<Option<(End, Option<Frequency>)>, Failure> {
+        budget.enter(|| {
+            let line = self.problem.line(0, x, budget)?;
+            let domain = &line.parameter().domain;
+            let branches = self.value.decomposition.branches(x, domain, budget)?;
+            let (Some(p), Some((value, _))) = (line.parametric(budget)?, branches.get(number)) else { return Ok(None) };
+            let end = end_at(p, value, domain, line.shape(), &budget.silent())?;
+            Ok(end.map(|end| {
+                let frequency = line.frequency(&end, bits);
+                (end, frequency)
+            }))
+        })?
+    }
+
+    /// The cells on the vertical line at a rational `x`, from below, also where it is a wall between strips: whether
+    /// the loop is stable, and how many roots are outside. `None` where a curve contains the line.
+    ///
+    /// # Errors
+    /// [`Failure::Stopped`] when the budget runs out.
+    pub fn fibre(&self, x: &Rational, budget: &Budget) -> Result<Option<Vec<(bool, usize)>>, Failure> {
+        budget.enter(|| {
+            let map = &self.value.decomposition;
+            let Some(p) = self.problem.plane(budget)? else { return Ok(None) };
+            if map.curves.iter().any(|c| c.polynomial.substitute(0, x).0.is_zero()) {
+                return Ok(None);
+            }
+            let domain = &self.problem.free()[1].domain;
+            let mut ends: Vec<Option<RealAlgebraic>> = vec![domain.lower.clone().map(RealAlgebraic::from_rational)];
+            for (value, _) in map.branches(x, domain, budget)? {
+                // Branches of several curves may meet on a wall.
+                if !ends.last().is_some_and(|last| last.as_ref().is_some_and(|l| l.compare(&value).is_eq())) {
+                    ends.push(Some(value));
+                }
+            }
+            ends.push(domain.upper.clone().map(RealAlgebraic::from_rational));
+            let mut cells = Vec::with_capacity(ends.len());
+            for pair in ends.windows(2) {
+                budget.check()?;
+                let cell = AlgebraicInterval { lower: pair[0].clone(), upper: pair[1].clone() };
+                cells.push(match p.at(x, &cell.sample(), self.problem.shape()) {
+                    AtPoint::Defined { count, infinite } => {
+                        (infinite == 0 && count.inside == p.formal_degree(), count.outside + infinite)
+                    }
+                    AtPoint::Undefined | AtPoint::Zero => (false, p.formal_degree()),
+                });
+            }
+            Ok(Some(cells))
+        })?
+    }
+
+    /// The exact stable set on a line through the map: one parameter (0 for `x`) has a value, also that of a wall between
+    /// strips.
+    ///
+    /// # Errors
+    /// [`Failure::Stopped`] when the budget runs out.
+    pub fn slice(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Answer<StableSet>, Failure> {
+        budget.enter(|| {
+            let line = Arc::new(self.problem.on_line(fixed, value, budget)?);
+            let inside = self.problem.free()[fixed].domain.contains(value);
+            let set = match line.parametric(budget)?.filter(|_| inside) {
+                None => StableSet::default(),
+                Some(p) => stable_set(p, &line.parameter().domain, line.shape(), budget)?,
+            };
+            Ok(Answer::new(line, set))
+        })?
+    }
+}

@@ -1,0 +1,51 @@
+//! Answers: a problem and what is exactly known of it.
+//!
+//! Whoever shows, proves or draws an answer reads it; nothing is decided or isolated again.
+
+mod analysis;
+mod frequency;
+mod map;
+mod map_boxes;
+mod map_limits;
+mod stable;
+mod table;
+mod verdict;
+
+pub use analysis::Analysis;
+pub use frequency::Frequency;
+pub use map::Map;
+pub use map_boxes::{BoxRequest, MapBoxes, MapMethod, MapOrBoxes};
+pub use map_limits::{MapLimit, RegionExtent};
+pub use table::{ParametricTable, PointTable};
+pub use verdict::{PointVerdict, Verdict};
+
+use crate::problem::Problem;
+use std::sync::Arc;
+
+/// An exact value and the problem that it answers.
+#[derive(Clone, Debug)]
+pub struct Answer<T> {
+    problem: Arc<Problem>,
+    value: T,
+}
+
+impl<T> Answer<T> {
+    pub(crate) fn new(problem: Arc<Problem>, value: T) -> Self {
+        Answer { problem, value }
+    }
+
+    /// The question.
+    pub fn problem(&self) -> &Arc<Problem> {
+        &self.problem
+    }
+
+    /// What is known.
+    pub fn value(&self) -> &T {
+        &self.value
+    }
+
+    /// What is known, by value.
+    pub fn into_value(self) -> T {
+        self.value
+    }
+}

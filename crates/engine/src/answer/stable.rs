@@ -1,0 +1,58 @@
+//! The exact stable set of one parameter.
+
+use super::Answer;
+use crate::error::Failure;
+use crate::problem::{Problem, Question, Region};
+use crate::stability::{Cause, StableSet, stable_set};
+use jurist_algebra::limits::Budget;
+use std::sync::Arc;
+
+impl Question {
+    /// For which values of the one free parameter the loop is stable, all others at their set or nominal values.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::model::Loop;
+    /// let answer = Loop::drive().ask().free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
+    /// let lower = answer.value().intervals()[0].lower.as_ref().unwrap();
+    /// assert_eq!(lower.value.decimal(10), "0.03810053335");
+    /// ```
+    ///
+    /// # Errors
+    /// [`Failure`]: refused as [`Question::problem`], or stopped.
+    ///
+    /// # Panics
+    /// Unless one name is free.
+    pub fn stable_set(self, budget: &Budget) -> Result<Answer<StableSet>, Failure> {
+        Problem::stable_set(&self.problem()?, budget)
+    }
+}
+
+impl Problem {
+    /// The exact stable set of the one free parameter. A loop that is undefined for all values is stable nowhere.
+    ///
+    /// # Errors
+    /// [`Failure::Stopped`] when the budget runs out.
+    ///
+    /// # Panics
+    /// Unless one parameter is free.
+    pub fn stable_set(self: &Arc<Self>, budget: &Budget) -> Result<Answer<StableSet>, Failure> {
+        budget.enter(|| {
+            let set = match self.parametric(budget)? {
+                None => StableSet::default(),
+                Some(p) => own_causes(stable_set(p, &self.parameter().domain, self.shape(), budget)?, self),
+            };
+            Ok(Answer::new(Arc::clone(self), set))
+        })?
+    }
+}
+
+/// `D(r z)` is a constant at `r = 0`: that is of the substitution's making, no root of the loop is lost.
+fn own_causes(mut set: StableSet, problem: &Problem) -> StableSet {
+    if problem.region().is_free() && matches!(problem.region(), Region::Disc(_)) {
+        for end in set.ends_mut().filter(|end| end.value.sign().is_eq()) {
+            end.causes.remove(Cause::DegreeLost);
+        }
+    }
+    set
+}

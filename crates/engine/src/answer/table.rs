@@ -1,0 +1,94 @@
+//! The classical table: numeric at a point, or in one parameter with its conditions solved.
+
+use super::Answer;
+use crate::error::{Diagnostic, Failure};
+use crate::problem::{Problem, Question};
+use crate::stability::{ClassicalTest, Range, StableSet, classical_test, stable_set};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use std::sync::Arc;
+
+/// The table of a loop with one parameter, its conditions, and the check against the boundary way.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct ParametricTable {
+    /// The table and the solved conditions; `None` when the loop is undefined for every value.
+    pub test: Option<ClassicalTest>,
+    /// The stable set found independently, from the boundary polynomials. Its ends are those of the
+    /// conditions' intersection: a difference is a defect and refuses the answer.
+    pub stable: StableSet,
+}
+
+/// The table at a point.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct PointTable {
+    /// The table with constant entries: each condition holds everywhere or nowhere. `None` where the
+    /// loop is undefined.
+    pub test: Option<ClassicalTest>,
+}
+
+impl PointTable {
+    /// Whether all conditions hold: the loop is defined and stable.
+    pub fn holds(&self) -> bool {
+        self.test.as_ref().is_some_and(|test| !test.intersection.intervals().is_empty())
+    }
+}
+
+impl Question {
+    /// The table with polynomial entries in the one free parameter and each condition's own exact solution set.
+    ///
+    /// # Errors
+    /// [`Failure`]: refused as [`Question::problem`], or stopped.
+    pub fn parametric_table(self, budget: &Budget) -> Result<Answer<ParametricTable>, Failure> {
+        Problem::parametric_table(&self.problem()?, budget)
+    }
+
+    /// The table with every parameter at its set or nominal value.
+    ///
+    /// # Errors
+    /// [`Failure`]: refused as [`Question::problem`], or stopped.
+    pub fn point_table(self, budget: &Budget) -> Result<Answer<PointTable>, Failure> {
+        Problem::point_table(&self.problem()?, budget)
+    }
+}
+
+impl Problem {
+    /// The table with polynomial entries. The intersection of the conditions is compared with the stable set from the
+    /// boundary polynomials, each time.
+    ///
+    /// # Errors
+    /// [`Failure::Stopped`]; [`Failure::Refused`] where the two ways disagree (a defect of this program).
+    pub fn parametric_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<ParametricTable>, Failure> {
+        budget.enter(|| {
+            let Some(p) = self.parametric(budget)? else {
+                return Ok(Answer::new(Arc::clone(self), ParametricTable { test: None, stable: StableSet::default() }));
+            };
+            let domain = &self.parameter().domain;
+            let stable = stable_set(p, domain, self.shape(), budget)?;
+            let test = classical_test(p, domain, self.shape(), budget)?;
+            if !test.intersection.same_as(&stable.to_interval_set()) {
+                return Err(Diagnostic::error(
+                    "E-internal",
+                    "the table's conditions and the boundary polynomials disagree",
+                )
+                .help("this is a defect of jurist: please report it with the model")
+                .into());
+            }
+            Ok(Answer::new(Arc::clone(self), ParametricTable { test: Some(test), stable }))
+        })?
+    }
+
+    /// The table at the point that the values of all parameters are.
+    ///
+    /// # Errors
+    /// [`Failure::Stopped`] when the budget runs out.
+    pub fn point_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointTable>, Failure> {
+        budget.enter(|| {
+            // A coefficient or a pole of a point is a number.
+            let defined = self.parametric(budget)?.filter(|p| !p.is_undefined_at(&Rational::ZERO));
+            let test = defined.map(|p| classical_test(p, &Range::all(), self.shape(), budget)).transpose()?;
+            Ok(Answer::new(Arc::clone(self), PointTable { test }))
+        })?
+    }
+}

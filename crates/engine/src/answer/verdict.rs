@@ -1,0 +1,110 @@
+//! Verdicts at a point.
+
+use super::Answer;
+use crate::error::Failure;
+use crate::problem::{Problem, Question};
+use crate::stability::{AtPoint, RootCount};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use std::sync::Arc;
+
+/// The verdict on a loop whose parameters all have values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Verdict {
+    /// All roots strictly inside.
+    Stable,
+    /// None outside, at least one on the boundary.
+    Marginal,
+    /// At least one root outside or at infinity.
+    Unstable,
+    /// An expression of the model divides by zero, a block loses its order, or the loop is not well posed.
+    Undefined,
+}
+
+impl Verdict {
+    /// The name used in all output.
+    pub fn name(self) -> &'static str {
+        match self {
+            Verdict::Stable => "stable",
+            Verdict::Marginal => "marginal",
+            Verdict::Unstable => "unstable",
+            Verdict::Undefined => "undefined",
+        }
+    }
+}
+
+/// The verdict at one point, with the exact root count.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct PointVerdict {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Why the loop is undefined at the point, where that is known.
+    pub undefined: Option<String>,
+    /// The degree of the polynomial in all parameters.
+    pub degree: usize,
+    /// Finite roots by place; `None` at an undefined point.
+    pub count: Option<RootCount>,
+    /// Roots that have left through infinity.
+    pub infinite: usize,
+}
+
+impl Question {
+    /// The verdict with every parameter at its set or nominal value.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::answer::Verdict;
+    /// use jurist_engine::model::Loop;
+    /// let answer = Loop::drive().ask().set("K_pwm", 551).verdict(&Budget::unlimited()).unwrap();
+    /// assert_eq!(answer.value().verdict, Verdict::Unstable);
+    /// assert_eq!(answer.value().count.unwrap().outside, 2);
+    /// ```
+    ///
+    /// # Errors
+    /// [`Failure`]: refused as [`Question::problem`], or stopped.
+    ///
+    /// # Panics
+    /// When a name is free.
+    pub fn verdict(self, budget: &Budget) -> Result<Answer<PointVerdict>, Failure> {
+        Problem::verdict(&self.problem()?, budget)
+    }
+}
+
+impl Problem {
+    /// The verdict at the point that the values of all parameters are.
+    ///
+    /// # Errors
+    /// [`Failure::Stopped`] when the budget runs out.
+    ///
+    /// # Panics
+    /// When a parameter is free.
+    pub fn verdict(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointVerdict>, Failure> {
+        budget.enter(|| {
+            assert!(self.free().is_empty(), "a point has no free parameters");
+            let at = match self.parametric(budget)? {
+                None => AtPoint::Undefined,
+                Some(p) => {
+                    budget.step("counting the roots");
+                    p.at_within(&Rational::ZERO, self.shape(), budget)?
+                }
+            };
+            let algebra = self.algebra(budget)?;
+            let degree = algebra.formal_degree();
+            let (verdict, count, infinite) = match at {
+                AtPoint::Undefined => (Verdict::Undefined, None, 0),
+                AtPoint::Zero => (Verdict::Unstable, Some(RootCount::default()), degree),
+                AtPoint::Defined { count, infinite } => {
+                    let verdict = match (count.outside + infinite, count.on) {
+                        (0, 0) => Verdict::Stable,
+                        (0, _) => Verdict::Marginal,
+                        _ => Verdict::Unstable,
+                    };
+                    (verdict, Some(count), infinite)
+                }
+            };
+            let undefined = algebra.undefined().map(str::to_owned);
+            Ok(Answer::new(Arc::clone(self), PointVerdict { verdict, undefined, degree, count, infinite }))
+        })?
+    }
+}

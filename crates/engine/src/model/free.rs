@@ -1,0 +1,52 @@
+//! Which names of a model may vary.
+
+use super::definition::{Constant, Loop, Parameter};
+use super::text::names::{did_you_mean, known_names, list, shorten};
+use crate::error::{Diagnostic, Error};
+
+impl Loop {
+    /// What a name that is to be varied is: the parameter, or the constant as a parameter.
+    ///
+    /// # Errors
+    /// `E-unknown-parameter`, `E-not-a-number`.
+    pub fn free(&self, name: &str) -> Result<Parameter, Error> {
+        if let Some(diagnostic) = self.not_free(name) {
+            return Err(Error::new(Some(self.source().clone()), vec![diagnostic]));
+        }
+        let constant = |c: &Constant| Parameter {
+            name: c.name.clone(),
+            span: c.span,
+            nominal: c.number.clone(),
+            min: None,
+            max: None,
+            unit: None,
+            description: None,
+        };
+        let found = self.parameter(name).cloned().or_else(|| self.constant(name).map(constant));
+        found.ok_or_else(|| unknown_parameter(self, name).into())
+    }
+
+    pub(crate) fn not_free(&self, name: &str) -> Option<Diagnostic> {
+        if self.parameter(name).is_some() {
+            return None;
+        }
+        match self.constant(name) {
+            Some(Constant { number: Some(_), .. }) => None,
+            Some(c) => {
+                let message = format!("the constant '{}' is given by a formula, so it cannot vary", shorten(name));
+                let error = Diagnostic::error("E-not-a-number", message).at(c.span, "given by a formula");
+                let used: Vec<&str> = c.expression.names().into_iter().collect();
+                Some(error.help(format!("vary what it depends on: {}", list(used.into_iter().take(8)))))
+            }
+            None => Some(unknown_parameter(self, name)),
+        }
+    }
+}
+
+fn unknown_parameter(model: &Loop, name: &str) -> Diagnostic {
+    let numbers = model.constants().iter().filter(|c| c.number.is_some()).map(|c| c.name.as_str());
+    let names = || model.parameters().iter().map(|p| p.name.as_str()).chain(numbers.clone());
+    let mut error = Diagnostic::error("E-unknown-parameter", format!("the model has no parameter '{}'", shorten(name)));
+    error.help = did_you_mean(name, names()).or_else(|| known_names(names()));
+    error
+}

@@ -1,0 +1,175 @@
+//! From a resolved question to algebra: the model is evaluated once, and the region's bound put in.
+
+use super::region::{Bound, Region};
+use super::resolved::Problem;
+use super::substitution::{scaled_by_radius, shifted_by_decay};
+use crate::error::Failure;
+use crate::model::{ClosedLoop, Evaluated, Loop, Time};
+use crate::stability::ParametricPolynomial;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+
+/// What the model says to a question.
+#[derive(Clone, Debug)]
+pub struct Algebra {
+    polynomial: Option<CharacteristicPolynomial>,
+    undefined: Option<String>,
+    formal_degree: usize,
+    sample_time: Option<RationalFunction>,
+    closed_loop: Option<ClosedLoop>,
+}
+
+impl Algebra {
+    /// Evaluates the model for a question. The polynomial's variables are what is free.
+    pub(super) fn of(problem: &Problem, budget: &Budget) -> Result<Algebra, Failure> {
+        budget.step("characteristic polynomial");
+        let model = problem.model();
+        let bound =
+            problem.free().iter().position(|f| problem.region().is_free() && f.name == problem.region().bound_name());
+        let kept: Vec<String> =
+            problem.free().iter().enumerate().filter(|(i, _)| Some(*i) != bound).map(|(_, f)| f.name.clone()).collect();
+        let evaluated = match model.evaluate(&kept, problem.set(), budget) {
+            Ok(evaluated) => evaluated,
+            Err(Failure::Undefined(why)) => {
+                let formal_degree = symbolic_degree(model, &kept, problem.set(), budget)?;
+                let undefined = Some(why);
+                return Ok(Algebra {
+                    polynomial: None,
+                    undefined,
+                    formal_degree,
+                    sample_time: None,
+                    closed_loop: None,
+                });
+            }
+            Err(failure) => return Err(failure),
+        };
+        let Evaluated { polynomial, closed_loop, sample_time } = evaluated;
+        let polynomial = match bound {
+            None => polynomial,
+            Some(at) => make_room(polynomial, at, problem.region().bound_name()),
+        };
+        let sample_time = sample_time.filter(|_| problem.time() == Time::Discrete);
+        let sample_time = match bound {
+            None => sample_time,
+            Some(at) => sample_time.map(|t| shifted(&t, at)),
+        };
+        Ok(Algebra {
+            formal_degree: polynomial.formal_degree,
+            polynomial: Some(in_region(polynomial, problem.region(), bound)),
+            undefined: None,
+            sample_time,
+            closed_loop,
+        })
+    }
+
+    /// The characteristic polynomial in the free parameters, the region's bound put in; `None` where the loop is undefined
+    /// whatever they are.
+    pub fn polynomial(&self) -> Option<&CharacteristicPolynomial> {
+        self.polynomial.as_ref()
+    }
+
+    /// Why the loop is undefined whatever the free parameters are.
+    pub fn undefined(&self) -> Option<&str> {
+        self.undefined.as_deref()
+    }
+
+    /// The degree of the polynomial while all parameters are symbolic.
+    pub fn formal_degree(&self) -> usize {
+        self.formal_degree
+    }
+
+    /// The sample time in the free parameters, in discrete time and if the model gives one.
+    pub fn sample_time(&self) -> Option<&RationalFunction> {
+        self.sample_time.as_ref()
+    }
+
+    pub(super) fn closed_loop(&self, model: &Loop) -> Result<&ClosedLoop, Failure> {
+        match (&self.closed_loop, &self.undefined) {
+            (Some(closed_loop), _) => Ok(closed_loop),
+            (None, Some(why)) => Err(Failure::Undefined(why.clone())),
+            (None, None) => Err(model.has_no_states()),
+        }
+    }
+
+    /// What is left where one of two free parameters has a value, for one who has the polynomial in another form.
+    pub(super) fn beside_polynomial(&self, fixed: usize, value: &Rational) -> Algebra {
+        let left = |f: &RationalFunction| f.substitute(fixed, value)?.map_variables(|_| 0);
+        let sample_time = self.sample_time.as_ref().and_then(left);
+        let undefined = self.undefined.clone();
+        Algebra { polynomial: None, undefined, formal_degree: self.formal_degree, sample_time, closed_loop: None }
+    }
+
+    /// What is left where one of two free parameters has a value.
+    pub(super) fn on_line(&self, fixed: usize, value: &Rational) -> Algebra {
+        let left = |f: &RationalFunction| f.substitute(fixed, value)?.map_variables(|_| 0);
+        let polynomial = self.polynomial.as_ref().and_then(|d| {
+            let poles: Vec<MultiPoly> =
+                d.poles.iter().map(|p| p.substitute(fixed, value).0.map_variables(|_| 0)).collect();
+            let coefficients = d.coefficients.iter().map(left).collect::<Option<Vec<_>>>()?;
+            let variables = vec![d.variables[1 - fixed].clone()];
+            (!poles.iter().any(MultiPoly::is_zero)).then(|| CharacteristicPolynomial {
+                variables,
+                coefficients,
+                poles,
+                ..d.clone()
+            })
+        });
+        let undefined = polynomial.is_none().then(|| "an expression divides by zero".to_owned());
+        Algebra { undefined: self.undefined.clone().or(undefined), polynomial, ..self.beside_polynomial(fixed, value) }
+    }
+}
+
+/// The polynomial of one kept parameter (or none) in the form that is decided.
+pub(super) fn parametric(d: &CharacteristicPolynomial) -> ParametricPolynomial {
+    let side = |p: &MultiPoly| p.to_univariate(0).expect("one variable is kept");
+    let coefficients: Vec<_> = d.coefficients.iter().map(|c| (side(c.numerator()), side(c.denominator()))).collect();
+    let poles = d.univariate_poles().expect("one variable is kept");
+    let poles = poles.into_iter().filter(|p| !p.is_constant() || p.is_zero()).collect();
+    ParametricPolynomial::new(&coefficients, d.formal_degree, poles)
+}
+
+/// The polynomial with the bound of the region put in.
+fn in_region(d: CharacteristicPolynomial, region: &Region, bound: Option<usize>) -> CharacteristicPolynomial {
+    let put = |value: &Bound| match (value, bound) {
+        (Bound::Number(value), _) => RationalFunction::from(value.clone()),
+        (Bound::Free, at) => RationalFunction::variable(at.expect("a free bound is among what is free")),
+    };
+    match region {
+        Region::Disc(Bound::Number(r)) if r.is_one() => d,
+        Region::HalfPlane(Bound::Number(s)) if s.is_zero() => d,
+        Region::Disc(value) => scaled_by_radius(&d, &put(value)),
+        Region::HalfPlane(value) => shifted_by_decay(&d, &put(value)),
+    }
+}
+
+/// The same polynomial with one more variable, on which it does not depend yet.
+fn make_room(d: CharacteristicPolynomial, at: usize, name: &str) -> CharacteristicPolynomial {
+    let mut variables = d.variables;
+    variables.insert(at, name.to_owned());
+    CharacteristicPolynomial {
+        variables,
+        coefficients: d.coefficients.iter().map(|c| shifted(c, at)).collect(),
+        poles: d.poles.iter().map(|p| p.map_variables(|i| i + usize::from(i >= at))).collect(),
+        ..d
+    }
+}
+
+fn shifted(f: &RationalFunction, at: usize) -> RationalFunction {
+    f.map_variables(|i| i + usize::from(i >= at)).expect("no two variables become one")
+}
+
+/// The degree where the values set leave the loop undefined: that of the polynomial before any was set.
+fn symbolic_degree(
+    model: &Loop,
+    kept: &[String],
+    set: &[(String, Rational)],
+    budget: &Budget,
+) -> Result<usize, Failure> {
+    let is_parameter = |name: &String| model.parameter(name).is_some();
+    let parameters = model.parameters().iter().map(|p| p.name.clone());
+    let all: Vec<String> = parameters.chain(kept.iter().filter(|n| !is_parameter(n)).cloned()).collect();
+    let constants: Vec<_> = set.iter().filter(|(name, _)| !is_parameter(name)).cloned().collect();
+    Ok(model.evaluate(&all, &constants, budget)?.polynomial.formal_degree)
+}

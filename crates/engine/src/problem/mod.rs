@@ -1,0 +1,15 @@
+//! A question about a model as one value: resolved once, evaluated once, shared by all answers.
+//!
+//! [`Question`] is what is being asked, built step by step from a model; [`Problem`] is the same question resolved: every
+//! name is known, every value has its place, and the algebra is computed at most once, when it is first needed.
+
+mod evaluation;
+mod question;
+mod region;
+mod resolved;
+mod substitution;
+
+pub use evaluation::Algebra;
+pub use question::Question;
+pub use region::{Bound, DECAY, RADIUS, Region};
+pub use resolved::{Free, Problem};

@@ -1,0 +1,214 @@
+//! What is being asked of a model, step by step.
+
+use super::resolved::{Free, Problem};
+use super::{Bound, DECAY, RADIUS, Region};
+use crate::error::{Diagnostic, Error, Failure};
+use crate::model::{Loop, Parameter};
+use crate::stability::Range;
+use jurist_algebra::number::Rational;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A question about a model in the making: values, domains, what is free, and the region.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::number::parse_number;
+/// use jurist_engine::model::Loop;
+/// let drive = Loop::drive();
+/// let answer = drive.ask().set("T", parse_number("1e-4")?).free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
+/// let upper = answer.value().intervals()[0].upper.as_ref().unwrap();
+/// assert_eq!(upper.value.decimal(12), "550.941166687");
+/// # Ok::<(), jurist_algebra::number::ParseNumberError>(())
+/// ```
+#[derive(Clone, Debug)]
+#[must_use]
+pub struct Question {
+    model: Arc<Loop>,
+    set: BTreeMap<String, Rational>,
+    domain: BTreeMap<String, Range>,
+    free: Vec<String>,
+    region: Option<Region>,
+}
+
+impl Loop {
+    /// Begins a question about this model: everything at its nominal value, plain stability.
+    pub fn ask(&self) -> Question {
+        Question {
+            model: Arc::new(self.clone()),
+            set: BTreeMap::new(),
+            domain: BTreeMap::new(),
+            free: Vec::new(),
+            region: None,
+        }
+    }
+}
+
+impl Question {
+    /// Gives a parameter another value than its nominal one, or a constant another number.
+    ///
+    /// A parameter that is set keeps its part in the degree that counts and in the points of division by zero, which are
+    /// those of the model with all parameters symbolic. A constant that is set has another number and nothing else changes:
+    /// the answer is that of a model with this number in its text. Only a constant that is left [free](Question::free)
+    /// becomes a parameter.
+    pub fn set(mut self, name: impl Into<String>, value: impl Into<Rational>) -> Self {
+        self.set.insert(name.into(), value.into());
+        self
+    }
+
+    /// Gives several names their values.
+    pub fn set_all<S: Into<String>>(mut self, values: impl IntoIterator<Item = (S, Rational)>) -> Self {
+        self.set.extend(values.into_iter().map(|(name, value)| (name.into(), value)));
+        self
+    }
+
+    /// Replaces the open domain of a parameter; of `radius` and `decay`, too.
+    pub fn domain(mut self, name: impl Into<String>, range: Range) -> Self {
+        self.domain.insert(name.into(), range);
+        self
+    }
+
+    /// Leaves a parameter free: it is what the answer is about, next to those already free. `radius` (discrete time) and
+    /// `decay` (continuous time) free the bound of the region.
+    pub fn free(mut self, name: impl Into<String>) -> Self {
+        self.free.push(name.into());
+        self
+    }
+
+    /// Asks for all roots in another region than that of plain stability.
+    pub fn within(mut self, region: Region) -> Self {
+        self.region = Some(region);
+        self
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Arc<Loop> {
+        &self.model
+    }
+
+    /// The names that are free so far.
+    pub fn free_names(&self) -> &[String] {
+        &self.free
+    }
+
+    /// The values set so far.
+    pub fn values_set(&self) -> &BTreeMap<String, Rational> {
+        &self.set
+    }
+
+    /// The question with every name known and every value in its place. No algebra is done.
+    ///
+    /// # Errors
+    /// [`Failure::Refused`] for names the model does not know or that cannot vary, values that are missing, a region that
+    /// does not fit the kind of time, an empty domain, a name that is both free and set; all that apply.
+    pub fn problem(self) -> Result<Arc<Problem>, Failure> {
+        let (free, region) = self.region_and_free()?;
+        let set = resolve(&self.model, &free, &self.set)?;
+        let mut described = Vec::with_capacity(free.len() + 1);
+        if region.is_free() {
+            let name = region.bound_name();
+            // No root is nearer to 0 than by a negative radius.
+            let least = (name == RADIUS).then_some(Rational::ZERO);
+            let domain = match self.domain.get(name) {
+                Some(range) => Range { lower: range.lower.clone().max(least), upper: range.upper.clone() },
+                None => Range::between(Some(Rational::ZERO), None),
+            };
+            described.push(Free { name: name.to_owned(), unit: None, nominal: None, domain });
+        }
+        for name in &free {
+            let parameter = self.model.free(name)?;
+            let domain = self.domain.get(name).cloned();
+            let domain = domain.unwrap_or_else(|| Range::between(parameter.min.clone(), parameter.max.clone()));
+            described.push(Free { name: name.clone(), unit: parameter.unit, nominal: parameter.nominal, domain });
+        }
+        for one in &described {
+            if one.domain.is_empty() {
+                return Err(Diagnostic::error("E-empty-domain", format!("the domain of '{}' is empty", one.name))
+                    .help("the lower bound has to be below the upper one; both are excluded")
+                    .into());
+            }
+        }
+        let warnings = self.warnings(&free);
+        Ok(Arc::new(Problem::new(self.model, set, described, region, warnings)))
+    }
+
+    /// The region with its bound freed where `radius` or `decay` is asked for, and the other free names.
+    fn region_and_free(&self) -> Result<(Vec<String>, Region), Failure> {
+        let time = self.model.time();
+        let mut region = self.region.clone().unwrap_or_else(|| Region::of(time));
+        region.fits(time)?;
+        let mut free = self.free.clone();
+        if let Some(i) = free.iter().position(|name| name == RADIUS || name == DECAY) {
+            let name = free.remove(i);
+            let freed = if name == RADIUS { Region::Disc(Bound::Free) } else { Region::HalfPlane(Bound::Free) };
+            freed.fits(time)?;
+            if self.region.is_some() {
+                return Err(Diagnostic::error("E-kept-and-set", format!("'{name}' is the question and is also set"))
+                    .help(format!("leave out either '--param {name}' or '--{name}'"))
+                    .into());
+            }
+            region = freed;
+        }
+        Ok((free, region))
+    }
+
+    /// Values that lie outside their domains, those of the question before those of the model.
+    ///
+    /// A nominal value outside the model's own domain is remarked upon when the model is read.
+    fn warnings(&self, free: &[String]) -> Vec<Diagnostic> {
+        let model = &self.model;
+        let parameters = model.parameters().iter().map(|p| &p.name);
+        let names = parameters.chain(model.constants().iter().map(|c| &c.name)).filter(|name| !free.contains(name));
+        let mut warnings = Vec::new();
+        for name in names {
+            let set = self.set.get(name).cloned();
+            let nominal = || model.free(name).ok().and_then(|p| p.nominal);
+            let outside = match self.domain.get(name) {
+                Some(range) => set.or_else(nominal).filter(|v| !range.contains(v)),
+                None => set.filter(|v| model.parameter(name).is_some_and(|p| !p.contains(v))),
+            };
+            if let Some(value) = outside {
+                let message = format!("{name} = {value} is outside its domain");
+                warnings.push(Diagnostic::warning("W-outside-domain", message));
+            }
+        }
+        warnings
+    }
+}
+
+/// The value of every parameter that is not free, and of every constant that was set, in the order of the model.
+fn resolve(model: &Loop, free: &[String], set: &BTreeMap<String, Rational>) -> Result<Vec<(String, Rational)>, Error> {
+    let mut errors = Vec::new();
+    for name in free.iter().chain(set.keys()) {
+        errors.extend(model.not_free(name));
+    }
+    for (i, name) in free.iter().enumerate() {
+        let shown = crate::model::shorten(name);
+        if free[..i].contains(name) {
+            errors.push(Diagnostic::error("E-kept-twice", format!("'{shown}' is asked for twice")));
+        } else if set.contains_key(name) {
+            let error = Diagnostic::error("E-kept-and-set", format!("'{shown}' is both kept symbolic and set"));
+            errors.push(error.help("leave out one of the two"));
+        }
+    }
+    let mut values = Vec::new();
+    for parameter in model.parameters().iter().filter(|p| !free.contains(&p.name)) {
+        match set.get(&parameter.name).or(parameter.nominal.as_ref()) {
+            Some(value) => values.push((parameter.name.clone(), value.clone())),
+            None => errors.push(no_value(parameter)),
+        }
+    }
+    for constant in model.constants() {
+        if let Some(value) = set.get(&constant.name) {
+            values.push((constant.name.clone(), value.clone()));
+        }
+    }
+    if errors.is_empty() { Ok(values) } else { Err(Error::new(Some(model.source().clone()), errors)) }
+}
+
+fn no_value(parameter: &Parameter) -> Diagnostic {
+    let name = crate::model::shorten(&parameter.name);
+    Diagnostic::error("E-no-value", format!("the parameter '{name}' has no value"))
+        .at(parameter.span, "no 'nominal' here")
+        .help(format!("give it a nominal value, or set it: --set {name}=..."))
+}

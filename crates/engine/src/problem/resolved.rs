@@ -1,0 +1,202 @@
+//! A question resolved: every name known, every value in its place, the algebra computed once.
+
+use super::Region;
+use super::evaluation::{Algebra, parametric};
+use crate::error::{Diagnostic, Failure};
+use crate::model::{ClosedLoop, Loop, Time};
+use crate::stability::plane::PlanePolynomial;
+use crate::stability::{ParametricPolynomial, Range, Shape};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::UniPoly;
+use std::sync::{Arc, OnceLock};
+
+/// A parameter that a question leaves free.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Free {
+    /// Its name; `radius` or `decay` for the bound of the region.
+    pub name: String,
+    /// Its unit, if the model gives one.
+    pub unit: Option<String>,
+    /// Its nominal value, if there is one.
+    pub nominal: Option<Rational>,
+    /// Where it may lie, an open range: the model's bounds or those of the question.
+    pub domain: Range,
+}
+
+/// One question about one model. It is made by [`Question::problem`](super::Question::problem) and shared by all its answers.
+///
+/// The algebra is computed when it is first needed, once; whoever needs it again is given the same.
+#[derive(Debug)]
+pub struct Problem {
+    model: Arc<Loop>,
+    set: Vec<(String, Rational)>,
+    free: Vec<Free>,
+    region: Region,
+    warnings: Vec<Diagnostic>,
+    algebra: OnceLock<Algebra>,
+    parametric: OnceLock<Option<ParametricPolynomial>>,
+    plane: OnceLock<Option<PlanePolynomial>>,
+}
+
+impl Problem {
+    pub(super) fn new(
+        model: Arc<Loop>,
+        set: Vec<(String, Rational)>,
+        free: Vec<Free>,
+        region: Region,
+        warnings: Vec<Diagnostic>,
+    ) -> Problem {
+        let (algebra, parametric, plane) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        Problem { model, set, free, region, warnings, algebra, parametric, plane }
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Arc<Loop> {
+        &self.model
+    }
+
+    /// The model's title.
+    pub fn title(&self) -> Option<&str> {
+        self.model.title()
+    }
+
+    /// Discrete or continuous time.
+    pub fn time(&self) -> Time {
+        self.model.time()
+    }
+
+    /// The values of all other parameters and of the constants that were set, in the order of the model.
+    pub fn set(&self) -> &[(String, Rational)] {
+        &self.set
+    }
+
+    /// What is free, in the order in which it was asked for.
+    pub fn free(&self) -> &[Free] {
+        &self.free
+    }
+
+    /// The only free parameter.
+    ///
+    /// # Panics
+    /// When none is free.
+    pub fn parameter(&self) -> &Free {
+        &self.free[0]
+    }
+
+    /// The two free parameters of a map.
+    ///
+    /// # Panics
+    /// Unless two are free.
+    pub fn axes(&self) -> [&Free; 2] {
+        let [x, y] = self.free.as_slice() else { panic!("two parameters are free") };
+        [x, y]
+    }
+
+    /// The region in which all roots have to lie.
+    pub fn region(&self) -> &Region {
+        &self.region
+    }
+
+    /// The region once its bound is put into the polynomial.
+    pub fn shape(&self) -> Shape {
+        self.region.shape()
+    }
+
+    /// Remarks on the question, e.g. a value outside its domain.
+    pub fn warnings(&self) -> &[Diagnostic] {
+        &self.warnings
+    }
+
+    /// The characteristic polynomial and what goes with it; computed on the first call.
+    ///
+    /// # Errors
+    /// [`Failure::Refused`] where the model is not complete, [`Failure::Stopped`] when the budget runs out. A model that is
+    /// undefined at the values set has algebra without a polynomial.
+    pub fn algebra(&self, budget: &Budget) -> Result<&Algebra, Failure> {
+        if let Some(algebra) = self.algebra.get() {
+            return Ok(algebra);
+        }
+        let algebra = budget.enter(|| Algebra::of(self, budget))??;
+        Ok(self.algebra.get_or_init(|| algebra))
+    }
+
+    /// The algebra, if it has been computed.
+    pub fn evaluated(&self) -> Option<&Algebra> {
+        self.algebra.get()
+    }
+
+    /// The closed loop in state space.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra`]; `E-no-states` for a model given by its characteristic polynomial, [`Failure::Undefined`].
+    pub fn closed_loop(&self, budget: &Budget) -> Result<&ClosedLoop, Failure> {
+        self.algebra(budget)?.closed_loop(&self.model)
+    }
+
+    /// The polynomial in the one free parameter (or none) in the form that is decided; `None` where the loop is undefined
+    /// for every value.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra`].
+    ///
+    /// # Panics
+    /// When more than one parameter is free.
+    pub fn parametric(&self, budget: &Budget) -> Result<Option<&ParametricPolynomial>, Failure> {
+        assert!(self.free.len() <= 1, "one parameter is free");
+        let algebra = self.algebra(budget)?;
+        Ok(self.parametric.get_or_init(|| algebra.polynomial().map(parametric)).as_ref())
+    }
+
+    /// The polynomial in the two free parameters; `None` where the loop is undefined for all values.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra`].
+    ///
+    /// # Panics
+    /// Unless two parameters are free.
+    pub fn plane(&self, budget: &Budget) -> Result<Option<&PlanePolynomial>, Failure> {
+        assert_eq!(self.free.len(), 2, "two parameters are free");
+        let algebra = self.algebra(budget)?;
+        Ok(self.plane.get_or_init(|| algebra.polynomial().map(PlanePolynomial::new)).as_ref())
+    }
+
+    /// Numerator and denominator of the sample time in the one free parameter; `None` in continuous time, without a sample
+    /// time, and before the algebra is computed.
+    pub fn sample_time(&self) -> Option<(UniPoly, UniPoly)> {
+        let f = self.algebra.get()?.sample_time()?;
+        Some((f.numerator().to_univariate(0)?, f.denominator().to_univariate(0)?))
+    }
+
+    /// The problem that is left of one in two parameters when one of them (0 for the first) has a value. Its algebra follows
+    /// from what is known.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra`].
+    ///
+    /// # Panics
+    /// Unless two parameters are free.
+    pub fn on_line(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Failure> {
+        let algebra = self.algebra(budget)?.on_line(fixed, value);
+        self.line_with(algebra, fixed, value, budget)
+    }
+
+    /// [`Problem::on_line`] for one who needs the polynomial only in the form that is decided.
+    pub(crate) fn line(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Failure> {
+        let algebra = self.algebra(budget)?.beside_polynomial(fixed, value);
+        self.line_with(algebra, fixed, value, budget)
+    }
+
+    fn line_with(&self, algebra: Algebra, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Failure> {
+        let plane = self.plane(budget)?;
+        let polynomial = plane.and_then(|p| if fixed == 0 { p.at_x(value) } else { p.swapped().at_x(value) });
+        let mut set = self.set.clone();
+        set.push((self.free[fixed].name.clone(), value.clone()));
+        let free = vec![self.free[1 - fixed].clone()];
+        let problem = Problem::new(Arc::clone(&self.model), set, free, self.region.clone(), Vec::new());
+        problem.algebra.get_or_init(|| algebra);
+        problem.parametric.get_or_init(|| polynomial);
+        Ok(problem)
+    }
+}

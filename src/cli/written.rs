@@ -1,0 +1,39 @@
+//! What is said about a certificate when it has been written: whether the independent check accepts it.
+
+use super::arguments::RunOptions;
+use super::commands::Context;
+use super::output::note;
+use jurist_check::{Limits, check};
+use jurist_engine::error::Diagnostic;
+use std::ffi::OsStr;
+use std::time::Duration;
+
+/// Runs the check of `jurist verify` on a certificate that has been written, for as long as `--timeout` leaves
+/// time, and warns where it does not accept what was written. The answer is out by then and stays what it is.
+pub(super) fn check_certificate(context: &Context, options: &RunOptions, model: &str, text: &str, file: &OsStr) {
+    if context.quiet {
+        return;
+    }
+    let file = file.to_string_lossy();
+    let usual = Limits::default().timeout;
+    let left = options.timeout.map_or(usual, |timeout| timeout.saturating_sub(context.reporter.elapsed()).min(usual));
+    let unchecked = |reason: &str| {
+        let message =
+            format!("the certificate {file} has been written, but 'jurist verify' may not accept it: {reason}");
+        context.warn(
+            None,
+            &[Diagnostic::warning("W-certificate", message).help("the answer stands; it lacks its independent proof")],
+        );
+    };
+    if left == Duration::ZERO {
+        return unchecked("no time was left to check it");
+    }
+    context.budget.step("checking the certificate");
+    let result = check(model, text, &Limits { timeout: left });
+    context.reporter.finish();
+    match result {
+        Ok(proved) if options.verbose => note(&format!("checked: {file} proves: {}", proved.statement)),
+        Ok(_) => {}
+        Err(rejection) => unchecked(&rejection.to_string()),
+    }
+}

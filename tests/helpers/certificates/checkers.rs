@@ -1,0 +1,51 @@
+//! Both checkers on one certificate, and the certificates of whole loops.
+
+use super::python::Python;
+use jurist_algebra::limits::Budget;
+use jurist_check::{Limits, Step, check};
+use jurist_engine::answer::PointVerdict;
+use jurist_engine::problem::Question;
+use jurist_engine::stability::StableSet;
+use std::sync::{Mutex, OnceLock};
+
+/// What the Python checker says; `None` where Python is not there. One process serves a whole test program.
+pub fn python(model: &str, certificate: &str) -> Option<Result<String, String>> {
+    static PYTHON: OnceLock<Option<Mutex<Python>>> = OnceLock::new();
+    let python = PYTHON.get_or_init(|| Python::start().map(Mutex::new)).as_ref()?;
+    Some(python.lock().unwrap_or_else(|e| e.into_inner()).check(model, certificate))
+}
+
+/// Asserts that both checkers accept.
+pub fn accept(model: &str, certificate: &str) {
+    check(model, certificate, &Limits::default()).unwrap_or_else(|e| panic!("{e}\n{model}\n{certificate}"));
+    if let Some(Err(e)) = python(model, certificate) {
+        panic!("Python: {e}\n{model}\n{certificate}");
+    }
+}
+
+/// Asserts that both checkers reject, the first one at this step.
+pub fn reject(model: &str, certificate: &str, step: Step) {
+    match check(model, certificate, &Limits::default()) {
+        Ok(proved) => panic!("accepted: {}\n{certificate}", proved.statement),
+        Err(e) => assert_eq!(e.step, step, "{e}\n{certificate}"),
+    }
+    if let Some(Ok(proved)) = python(model, certificate) {
+        panic!("Python accepted: {proved}\n{certificate}");
+    }
+}
+
+/// The stable set, whose certificate both checkers accept.
+pub fn certified_set_of(question: Question) -> StableSet {
+    let budget = Budget::unlimited();
+    let answer = question.stable_set(&budget).unwrap_or_else(|e| panic!("{e}"));
+    accept(&answer.problem().model().source().text, &answer.certificate(&budget).expect("no limit"));
+    answer.into_value()
+}
+
+/// The verdict at a point, whose certificate both checkers accept.
+pub fn certified_verdict_of(question: Question) -> PointVerdict {
+    let budget = Budget::unlimited();
+    let answer = question.verdict(&budget).unwrap_or_else(|e| panic!("{e}"));
+    accept(&answer.problem().model().source().text, &answer.certificate(&budget).expect("no limit"));
+    answer.into_value()
+}

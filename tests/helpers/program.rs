@@ -1,0 +1,77 @@
+//! Running the built program.
+
+use super::number::number;
+use jurist_algebra::number::Rational;
+use serde_json::Value;
+use std::io::Write;
+use std::process::{Command, Output, Stdio};
+
+/// What a run gave.
+pub struct Run {
+    pub status: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+/// The program with arguments, away from any terminal.
+pub fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_jurist"));
+    command.args(arguments).current_dir(env!("CARGO_MANIFEST_DIR")).env_remove("NO_COLOR");
+    command
+}
+
+fn finished(output: Output) -> Run {
+    let text = |bytes| String::from_utf8(bytes).expect("the program writes UTF-8");
+    Run { status: output.status.code().expect("no signal"), stdout: text(output.stdout), stderr: text(output.stderr) }
+}
+
+/// Runs the program.
+pub fn jurist(arguments: &[&str]) -> Run {
+    finished(command(arguments).stdin(Stdio::null()).output().expect("the program runs"))
+}
+
+/// Runs the program with a model on standard input.
+pub fn jurist_with_input(arguments: &[&str], input: &[u8]) -> Run {
+    let mut child = command(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program runs");
+    // A program that refuses its arguments does not read.
+    let _ = child.stdin.take().expect("piped").write_all(input);
+    finished(child.wait_with_output().expect("the program ends"))
+}
+
+/// Runs the program and reads its JSON.
+pub fn json(arguments: &[&str]) -> Value {
+    let run = jurist(arguments);
+    assert_eq!(run.status, 0, "{arguments:?}: {}", run.stderr);
+    serde_json::from_str(&run.stdout).expect("the program writes JSON")
+}
+
+/// Runs the program on arguments that it refuses: status 2, an error with this code, no panic.
+pub fn refused(arguments: &[&str], code: &str) -> Run {
+    let run = jurist(arguments);
+    check_refused(&run, code, &format!("{arguments:?}"));
+    run
+}
+
+/// Runs the program on a model that it refuses.
+pub fn refused_model(model: &[u8], code: &str) -> Run {
+    let run = jurist_with_input(&["analyze", "-"], model);
+    check_refused(&run, code, &String::from_utf8_lossy(&model[..model.len().min(200)]));
+    run
+}
+
+fn check_refused(run: &Run, code: &str, what: &str) {
+    assert_eq!(run.status, 2, "{what}: {}", run.stderr);
+    assert!(run.stderr.contains(&format!("error[{code}]")), "{what}: expected {code}: {}", run.stderr);
+    assert!(!run.stderr.contains("panicked") && !run.stderr.contains("E-internal"), "{what}: {}", run.stderr);
+    assert_eq!(run.stdout, "", "{what}");
+}
+
+/// The number that a text in JSON says.
+pub fn number_in(value: &Value) -> Rational {
+    number(value.as_str().expect("a number as text"))
+}

@@ -1,0 +1,78 @@
+//! All tests of the workspace that are more than one file's own: one binary, a room for each subject.
+
+/// Written once: loading models, numbers, running the program, both checkers, expected answers.
+mod helpers;
+
+/// Laws of the algebra and of stability, on generated input: every algorithm against a second one.
+mod laws {
+    mod fast_algebra;
+    mod fast_isolation;
+    mod fuzz_corpus;
+    mod matrices;
+    mod numbers;
+    mod polynomials;
+    mod real_roots;
+    mod root_cases;
+    mod stability;
+}
+
+/// From a model's text to its characteristic polynomial, or to what is wrong with it.
+mod models {
+    mod damaged;
+    mod diagrams;
+    mod drive;
+    mod errors;
+    mod expressions;
+    mod root_causes;
+}
+
+/// Whole loops in one parameter, against answers that were derived by hand or by another program.
+mod loops {
+    mod continuous;
+    mod discrete;
+    mod drive;
+    mod large;
+    mod paper;
+    mod singular;
+}
+
+/// Two parameters: the exact decomposition and boxes.
+mod maps {
+    mod boxes;
+    mod cases;
+    mod laws;
+    mod methods;
+    mod program;
+}
+
+/// Certificates: true ones are accepted by both checkers, wrong ones by none.
+mod certificates {
+    mod attacks;
+    mod blocks;
+    mod check;
+    mod program;
+    mod smt;
+}
+
+/// Responses and root loci in floating point, against exact answers.
+mod simulation {
+    mod linear;
+    mod locus;
+    mod switched;
+}
+
+/// Figures and the report on the paper.
+mod pictures {
+    mod figures;
+    mod report;
+}
+
+/// The program as people and other programs see it.
+mod program {
+    mod bad_models;
+    mod drive;
+    mod regions;
+    mod simulate;
+    mod undecided;
+    mod usage;
+}

@@ -1,0 +1,146 @@
+//! An answer that the budget does not allow says all that is known of the question.
+
+use crate::helpers::program::{Run, jurist, jurist_with_input};
+use serde_json::Value;
+
+fn undecided(arguments: &[&str]) -> Value {
+    let run = jurist(&[arguments, &["--timeout", "0", "--json"]].concat());
+    assert_eq!(run.status, 3, "{arguments:?}: {}", run.stderr);
+    let document: Value = serde_json::from_str(&run.stdout).expect("a document");
+    assert!(run.stderr.contains("undecided: the budget ran out: time (0 s)"), "{}", run.stderr);
+    document
+}
+
+fn check_about(document: &Value, schema: &str) {
+    assert_eq!(document["schema"], schema);
+    assert!(document["title"].as_str().unwrap().starts_with("PWM"), "{document}");
+    assert_eq!(document["time"], "discrete");
+    assert_eq!(document["undecided"]["budget"], "time (0 s)");
+    assert!(!document["undecided"]["reached"].as_str().unwrap().is_empty());
+}
+
+#[test]
+fn one_parameter() {
+    for (command, schema, key) in [("intervals", "jurist/intervals/1", "stable"), ("jury", "jurist/jury/1", "rows")] {
+        let document = undecided(&[command, "--param", "K_pwm", "--set", "T=1/9000", "--radius", "99/100"]);
+        check_about(&document, schema);
+        assert_eq!(document["parameter"], "K_pwm");
+        assert_eq!(document["set"]["T"], "1/9000");
+        assert_eq!(document["domain"]["lower"], "0");
+        assert_eq!(document["radius"], "99/100");
+        assert_eq!(document.get(key), Some(&Value::Null));
+    }
+}
+
+#[test]
+fn a_point() {
+    for (command, schema, key) in [("verdict", "jurist/verdict/1", "verdict"), ("jury", "jurist/jury/1", "rows")] {
+        let document = undecided(&[command, "--set", "T=1/9000"]);
+        check_about(&document, schema);
+        assert_eq!(document["set"]["K_pwm"], "110");
+        assert_eq!(document["set"]["T"], "1/9000");
+        assert_eq!(document.get(key), Some(&Value::Null));
+    }
+}
+
+#[test]
+fn a_polynomial() {
+    let document = undecided(&["charpoly", "--set", "T=1/9000"]);
+    check_about(&document, "jurist/charpoly/1");
+    assert_eq!(document["variable"], "z");
+    assert_eq!(document["parameters"][0], "K_pwm");
+    assert_eq!(document["set"]["T"], "1/9000");
+    assert_eq!(document.get("coefficients"), Some(&Value::Null));
+    assert_eq!(undecided(&["charpoly", "--transfer", "omega_ref", "omega"])["schema"], "jurist/transfer/1");
+}
+
+#[test]
+fn everything() {
+    let document = undecided(&["analyze"]);
+    check_about(&document["verdict"], "jurist/verdict/1");
+    check_about(&document["parameters"][0], "jurist/intervals/1");
+    assert_eq!(document["parameters"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn a_bad_question_is_refused_whatever_the_time() {
+    let run = jurist(&["intervals", "--param", "K_pwm", "--set", "K_pwm=1", "--timeout", "0", "--json"]);
+    assert_eq!((run.status, run.stdout.as_str()), (2, ""));
+}
+
+/// The domain of the question is the one that values are held against.
+#[test]
+fn a_domain_of_the_command_line_replaces_the_models() {
+    let model = "time = 'discrete'\nparameters.K = { nominal = 1, min = 0, max = 2 }\n\
+                 parameters.L = 1\nconstants.c = 1\nloop.characteristic = 'z - (K + L + c)/10'\n";
+    let verdict =
+        |arguments: &[&str]| -> Run { jurist_with_input(&[&["verdict", "-"], arguments].concat(), model.as_bytes()) };
+    let warned = |arguments: &[&str]| verdict(arguments).stderr.matches("W-outside-domain").count();
+    assert_eq!(warned(&["--set", "K=5"]), 1);
+    assert_eq!(warned(&["--set", "K=5", "--domain", "K=0..10"]), 0);
+    assert_eq!(warned(&["--set", "K=1", "--domain", "K=2..10"]), 1);
+    assert_eq!(warned(&["--domain", "K=2..10"]), 1, "the nominal value is outside what is asked");
+    assert_eq!(warned(&["--domain", "K=0..10"]), 0);
+    assert_eq!(warned(&["--set", "c=5", "--domain", "c=0..1"]), 1);
+    let run = jurist_with_input(&["intervals", "-", "--param", "K", "--domain", "K=5..6"], model.as_bytes());
+    assert!(!run.stderr.contains("W-outside-domain"), "the question itself has no value: {}", run.stderr);
+    for command in ["analyze", "charpoly", "jury"] {
+        let arguments = [command, "-", "--set", "K=5", "--domain", "K=0..10"];
+        assert!(!jurist_with_input(&arguments, model.as_bytes()).stderr.contains("W-outside"), "{command}");
+    }
+}
+
+#[test]
+fn long_exact_values_are_cut_for_people_only() {
+    let digits = "7".repeat(3000);
+    let model = format!("time = 'discrete'\nparameters.K = 1\nloop.characteristic = 'z - K/{digits}'\n");
+    let text = jurist_with_input(&["intervals", "-", "--param", "K"], model.as_bytes()).stdout;
+    assert!(text.len() < 1500 && text.contains("a number of 3000 digits, --json has it"), "{text}");
+    let json = jurist_with_input(&["intervals", "-", "--param", "K", "--json"], model.as_bytes()).stdout;
+    let json: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["stable"][0]["upper"]["exact"].as_str(), Some(digits.as_str()));
+    let set = format!("K=1/{digits}");
+    let text = jurist_with_input(&["verdict", "-", "--set", &set], model.as_bytes()).stdout;
+    assert!(text.len() < 400 && text.contains("(a fraction of 1 over 3000 digits)"), "{text}");
+}
+
+/// A loop of high order with huge coefficients, quadratic in the parameter.
+fn heavy(order: usize, digits: usize) -> String {
+    let mut seed = 7u64;
+    let mut number = || -> String {
+        let mut text = String::new();
+        while text.len() < digits {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            text.push_str(&(seed >> 40).to_string());
+        }
+        text
+    };
+    let terms: Vec<String> =
+        (0..order).map(|i| format!("({} - {}*K + {}*K^2)*z^{i}", number(), number(), number())).collect();
+    format!(
+        "time = 'discrete'\nparameters.K = 1\nloop.characteristic = '{} + 7{}*z^{order}'\n",
+        terms.join(" + "),
+        "0".repeat(digits)
+    )
+}
+
+#[test]
+fn the_time_is_kept_whatever_the_step() {
+    let model = heavy(40, 300);
+    for arguments in [
+        &["jury", "-", "--param", "K", "--json"][..],
+        &["intervals", "-", "--param", "K", "--json"],
+        &["analyze", "-", "--json"],
+    ] {
+        let begun = std::time::Instant::now();
+        let run = jurist_with_input(&[arguments, &["--timeout", "1"]].concat(), model.as_bytes());
+        let taken = begun.elapsed();
+        assert_eq!(run.status, 3, "{arguments:?}: {}", run.stderr);
+        assert!(taken < std::time::Duration::from_millis(2500), "{arguments:?}: {taken:?}");
+        let document: Value = serde_json::from_str(&run.stdout).expect("a whole document");
+        let about = if arguments[0] == "analyze" { &document["parameters"][0] } else { &document };
+        assert_eq!(about["parameter"], "K");
+        assert_eq!(about["undecided"]["budget"], "time (1 s)");
+        assert!(run.stderr.contains("undecided: the budget ran out: time (1 s)"), "{}", run.stderr);
+    }
+}
