@@ -71,6 +71,8 @@ mod pictures {
 mod program {
     mod bad_models;
     mod drive;
+    #[cfg(unix)]
+    mod outputs;
     mod regions;
     mod simulate;
     mod undecided;

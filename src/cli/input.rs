@@ -28,7 +28,7 @@ pub(super) fn load(model: Option<&OsString>, context: &Context) -> Result<Loop, 
         let message = format!("{name} is longer than {} megabytes", MAX_MODEL_BYTES >> 20);
         return Err(Diagnostic::error("E-read", message).into());
     }
-    let (model, warnings) = context.budget.enter(|| Loop::from_bytes(&name, &bytes))??;
+    let (model, warnings) = Loop::from_bytes(&name, &bytes)?;
     context.warn(Some(model.source()), &warnings);
     Ok(model)
 }

@@ -24,6 +24,9 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     if let Some(problem) = first {
         context.warn(None, problem.warnings());
     }
+    if let Some(stopped) = answer.stopped() {
+        return context.undecided(output, stopped, || Some(answer.text(digits)), || answer.json(digits));
+    }
     context.answer(output, || answer.text(digits), || answer.json(digits))?;
-    Ok(answer.stopped().map_or(Status::Holds, |stopped| context.say_undecided(stopped)))
+    Ok(Status::Holds)
 }

@@ -1,9 +1,6 @@
 //! Where answers go: files as a whole or not at all, each to a name of its own, and nothing lost in silence.
-#![cfg(unix)]
 
-mod program;
-
-use program::{Run, jurist};
+use crate::helpers::program::{Run, json, jurist};
 use std::fs::{Permissions, read_dir, read_to_string};
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::PathBuf;
@@ -305,7 +302,7 @@ fn rounded_coefficients_are_marked() {
     let folder = Folder::new("rounded");
     let model = integrator(&folder);
     for question in [&[][..], &["--root-locus-form", "K"]] {
-        let document = |more: &[&str]| program::json(&[&["charpoly", &model, "--json"], question, more].concat());
+        let document = |more: &[&str]| json(&[&["charpoly", &model, "--json"], question, more].concat());
         assert_eq!(document(&["--digits", "5"])["rounded_to_digits"], 5);
         assert!(document(&[]).get("rounded_to_digits").is_none());
     }
