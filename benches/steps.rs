@@ -10,7 +10,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::SquareFree;
 use jurist_algebra::poly::real_roots::isolate_real_roots_fixed;
-use jurist_engine::stability::{Region, count_roots, jury_table};
+use jurist_engine::stability::{Shape, count_roots, jury_table};
 use std::hint::black_box;
 
 fn steps(c: &mut Criterion) {
@@ -43,7 +43,7 @@ fn steps(c: &mut Criterion) {
         let at_nominal = substituted(&p, 1, &Rational::new(1.into(), 10_000.into()));
         let numeric = at_nominal.map(|c| c.eval(&110.into()));
         group.bench_function("root count at the nominal point", |b| {
-            b.iter(|| count_roots(black_box(&numeric), Region::UnitDisc))
+            b.iter(|| count_roots(black_box(&numeric), Shape::UnitDisc))
         });
         group.bench_function("Jury table at the nominal point", |b| b.iter(|| jury_table(black_box(&numeric), n)));
         group.finish();

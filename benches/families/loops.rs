@@ -7,7 +7,7 @@ use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::real_roots::isolate_real_roots_fixed;
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, RealAlgebraic, SquareFree, UniPoly};
-use jurist_engine::stability::{HalfSizePair, Region};
+use jurist_engine::stability::{HalfSizePair, Shape};
 
 pub fn characteristic(m: &RationalMatrix) -> CharacteristicPolynomial {
     m.characteristic_polynomial(vec!["K".into(), "T".into()], &Budget::unlimited()).expect("no budget")
@@ -18,7 +18,7 @@ pub fn substituted(p: &CharacteristicPolynomial, variable: usize, value: &Ration
 }
 
 pub fn boundary<R: Domain>(p: &Poly<R>, n: usize) -> R {
-    HalfSizePair::new(p, n, Region::UnitDisc).critical_constraint(&Budget::unlimited()).expect("no budget")
+    HalfSizePair::new(p, n, Shape::UnitDisc).critical_constraint(&Budget::unlimited()).expect("no budget")
 }
 
 pub fn limits(p: &CharacteristicPolynomial, variable: usize, value: &Rational) -> Vec<RealAlgebraic> {
