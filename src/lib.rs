@@ -82,7 +82,7 @@ pub use jurist_engine::stability::{
 pub use jurist_algebra::limits::{Budget, Exhausted, Progress};
 // Exact algebra, as far as questions and answers are made of it.
 pub use jurist_algebra::matrix::{
-    CharacteristicPolynomial, FaddeevLeVerrier, PolyMatrix, RationalMatrix, faddeev_leverrier,
+    CharacteristicPolynomial, FaddeevLeVerrier, Matrix, RationalMatrix, faddeev_leverrier,
 };
 pub use jurist_algebra::number::{Enclosure, Integer, ParseNumberError, Rational, parse_number, to_decimal};
 pub use jurist_algebra::poly::{

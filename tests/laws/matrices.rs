@@ -6,36 +6,33 @@ use jurist_algebra::matrix::strategies::{
     from_roots, integer_matrix, integer_matrix_of_size, polynomial_matrix, unimodular, with_eigenvalues,
 };
 use jurist_algebra::matrix::{
-    CharacteristicPolynomial, PolyMatrix, RationalMatrix, characteristic_over_denominator, determinant_bareiss,
+    CharacteristicPolynomial, Matrix, RationalMatrix, characteristic_over_denominator, determinant_bareiss,
     determinant_leibniz, faddeev_leverrier,
 };
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 use proptest::prelude::*;
 
-fn charpoly<R: Domain>(m: &PolyMatrix<R>) -> Poly<R> {
+fn charpoly<R: Domain>(m: &Matrix<R>) -> Poly<R> {
     faddeev_leverrier(m, &Budget::unlimited()).unwrap().characteristic
 }
 
 /// `det(zI - M)` as a determinant over the polynomials in `z`.
-fn charpoly_bareiss<R: Domain>(m: &PolyMatrix<R>) -> Poly<R> {
+fn charpoly_bareiss<R: Domain>(m: &Matrix<R>) -> Poly<R> {
     determinant_bareiss(&m.characteristic_matrix(), &Budget::unlimited()).unwrap()
 }
 
 /// `p(M)` by Horner's rule.
-fn at_matrix<R: Domain>(p: &Poly<R>, m: &PolyMatrix<R>) -> PolyMatrix<R> {
-    p.coeffs()
-        .iter()
-        .rev()
-        .fold(PolyMatrix::zeros(m.rows(), m.rows()), |acc, c| &(m * &acc) + &PolyMatrix::scalar(m.rows(), c))
+fn at_matrix<R: Domain>(p: &Poly<R>, m: &Matrix<R>) -> Matrix<R> {
+    p.coeffs().iter().rev().fold(Matrix::zeros(m.rows(), m.rows()), |acc, c| &(m * &acc) + &Matrix::scalar(m.rows(), c))
 }
 
 /// `(zI - M) adj = det I`, checked as matrices of polynomials in `z`.
-fn adjugate_is_right<R: Domain>(m: &PolyMatrix<R>) -> bool {
+fn adjugate_is_right<R: Domain>(m: &Matrix<R>) -> bool {
     let n = m.rows();
     let fl = faddeev_leverrier(m, &Budget::unlimited()).unwrap();
-    let adjugate = PolyMatrix::from_fn(n, n, |i, j| fl.adjugate_entry(i, j));
-    &m.characteristic_matrix() * &adjugate == PolyMatrix::scalar(n, &fl.characteristic)
+    let adjugate = Matrix::from_fn(n, n, |i, j| fl.adjugate_entry(i, j));
+    &m.characteristic_matrix() * &adjugate == Matrix::scalar(n, &fl.characteristic)
 }
 
 /// The drive's closed loop `A - B K C`, variables `K_pwm` (0) and `T` (1).
@@ -133,29 +130,29 @@ fn the_drive_has_its_known_characteristic_polynomial() {
 
 #[test]
 fn sizes_zero_and_one_and_special_matrices() {
-    let none = PolyMatrix::<Integer>::identity(0);
+    let none = Matrix::<Integer>::identity(0);
     let fl = faddeev_leverrier(&none, &Budget::unlimited()).unwrap();
     assert_eq!((fl.characteristic, fl.adjugate.len()), (UniPoly::one(), 0));
     assert_eq!(determinant_bareiss(&none, &Budget::unlimited()), Ok(Integer::ONE));
     assert_eq!(determinant_leibniz(&none), Integer::ONE);
-    assert_eq!(charpoly(&PolyMatrix::from_i64(&[&[7]])), UniPoly::from_i64(&[-7, 1]));
+    assert_eq!(charpoly(&Matrix::from_i64(&[&[7]])), UniPoly::from_i64(&[-7, 1]));
     for n in 1..7 {
         let z = UniPoly::x();
-        let mut nilpotent = PolyMatrix::zeros(n, n);
+        let mut nilpotent = Matrix::zeros(n, n);
         for i in 1..n {
             nilpotent[(i - 1, i)] = Integer::from(3);
         }
-        assert_eq!(charpoly(&PolyMatrix::<Integer>::zeros(n, n)), z.power(n as u64));
+        assert_eq!(charpoly(&Matrix::<Integer>::zeros(n, n)), z.power(n as u64));
         assert_eq!(charpoly(&nilpotent), z.power(n as u64));
-        assert_eq!(charpoly(&PolyMatrix::identity(n)), UniPoly::from_i64(&[-1, 1]).power(n as u64));
-        assert!(adjugate_is_right(&nilpotent) && adjugate_is_right(&PolyMatrix::<Integer>::zeros(n, n)));
+        assert_eq!(charpoly(&Matrix::identity(n)), UniPoly::from_i64(&[-1, 1]).power(n as u64));
+        assert!(adjugate_is_right(&nilpotent) && adjugate_is_right(&Matrix::<Integer>::zeros(n, n)));
     }
 }
 
 #[test]
 fn a_spent_budget_is_reported() {
     let budget = spent();
-    let m = PolyMatrix::from_i64(&[&[1, 2], &[3, 4]]);
+    let m = Matrix::from_i64(&[&[1, 2], &[3, 4]]);
     assert!(faddeev_leverrier(&m, &budget).is_err() && determinant_bareiss(&m, &budget).is_err());
 }
 
@@ -176,6 +173,15 @@ fn poles_that_cancel_are_kept() {
         p.at(&[Rational::from(2)]).unwrap(),
         [Rational::from(1), Rational::new((-5).into(), 2.into()), Rational::ONE]
     );
+}
+
+/// The recursion over the field of rational functions itself, against the one over a common denominator.
+#[test]
+fn rational_functions_are_a_field_of_entries() {
+    let m = drive();
+    let expected = m.characteristic_polynomial(vec!["K".into(), "T".into()], &Budget::unlimited()).unwrap();
+    assert_eq!(charpoly(&m).coeffs(), expected.coefficients);
+    assert_eq!(charpoly_bareiss(&m).coeffs(), expected.coefficients);
 }
 
 #[test]
@@ -227,7 +233,7 @@ proptest! {
         let fl = faddeev_leverrier(&m, &Budget::unlimited()).unwrap();
         prop_assert_eq!(fl.characteristic.coeff(3), -m.trace());
         // trace adj(zI - M) is the derivative.
-        let traces = UniPoly::new(fl.adjugate.iter().rev().map(PolyMatrix::trace).collect());
+        let traces = UniPoly::new(fl.adjugate.iter().rev().map(Matrix::trace).collect());
         prop_assert_eq!(traces, fl.characteristic.derivative());
     }
 
@@ -238,7 +244,7 @@ proptest! {
 
     #[test]
     fn companions_have_their_polynomial(c in (0usize..8).prop_flat_map(small_integers)) {
-        let m = PolyMatrix::companion(&c);
+        let m = Matrix::companion(&c);
         let mut coefficients = c;
         coefficients.push(Integer::ONE);
         prop_assert_eq!(charpoly(&m), UniPoly::new(coefficients));
@@ -248,8 +254,8 @@ proptest! {
     fn block_triangular_is_the_product(
         a in integer_matrix(3, 9), d in integer_matrix(3, 9), fill in -9i64..=9
     ) {
-        let b = PolyMatrix::from_fn(a.rows(), d.rows(), |i, j| Integer::from(fill * (i as i64 - j as i64)));
-        let m = PolyMatrix::blocks(&a, &b, &PolyMatrix::zeros(d.rows(), a.rows()), &d);
+        let b = Matrix::from_fn(a.rows(), d.rows(), |i, j| Integer::from(fill * (i as i64 - j as i64)));
+        let m = Matrix::blocks(&a, &b, &Matrix::zeros(d.rows(), a.rows()), &d);
         prop_assert_eq!(charpoly(&m), charpoly(&a).times(&charpoly(&d)));
         prop_assert_eq!(m.block(0..a.rows(), a.rows()..m.rows()), b);
     }
@@ -258,7 +264,7 @@ proptest! {
     fn similar_and_transposed_matrices(
         (m, (u, inverse)) in (0usize..5).prop_flat_map(|n| (integer_matrix_of_size(n, 9), unimodular(n)))
     ) {
-        prop_assert_eq!(&u * &inverse, PolyMatrix::identity(m.rows()));
+        prop_assert_eq!(&u * &inverse, Matrix::identity(m.rows()));
         prop_assert_eq!(charpoly(&(&(&u * &m) * &inverse)), charpoly(&m));
         prop_assert_eq!(charpoly(&m.transposed()), charpoly(&m));
     }
@@ -268,7 +274,7 @@ proptest! {
         (a, b) in (1usize..5).prop_flat_map(|n| (integer_matrix_of_size(n, 9), integer_matrix_of_size(n, 9)))
     ) {
         prop_assert_eq!(charpoly(&(&a * &b)), charpoly(&(&b * &a)));
-        let det = |m: &PolyMatrix<Integer>| determinant_bareiss(m, &Budget::unlimited()).unwrap();
+        let det = |m: &Matrix<Integer>| determinant_bareiss(m, &Budget::unlimited()).unwrap();
         prop_assert_eq!(det(&(&a * &b)), &det(&a) * &det(&b));
     }
 

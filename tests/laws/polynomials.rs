@@ -1,7 +1,7 @@
 //! Laws of polynomials: ring axioms, divisors, resultants, decompositions, values.
 
 use jurist_algebra::limits::Budget;
-use jurist_algebra::matrix::{PolyMatrix, determinant_bareiss};
+use jurist_algebra::matrix::{Matrix, determinant_bareiss};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::multivariate::strategies::{multi_poly, nonzero_multi_poly, rational_function};
 use jurist_algebra::poly::{
@@ -24,8 +24,8 @@ fn linear_factors(roots: &[i64], lead: i64) -> UniPoly {
 }
 
 /// The Sylvester matrix of formal degrees `n` and `m`.
-fn sylvester<R: Domain>(a: &Poly<R>, n: usize, b: &Poly<R>, m: usize) -> PolyMatrix<R> {
-    PolyMatrix::from_fn(n + m, n + m, |i, j| {
+fn sylvester<R: Domain>(a: &Poly<R>, n: usize, b: &Poly<R>, m: usize) -> Matrix<R> {
+    Matrix::from_fn(n + m, n + m, |i, j| {
         let (p, degree, shift) = if i < m { (a, n, i) } else { (b, m, i - m) };
         if j >= shift && j - shift <= degree { p.coeff(degree - (j - shift)) } else { R::zero() }
     })

@@ -8,7 +8,18 @@
 //! | [`limits`] | budgets, cancellation and progress |
 //! | [`number`] | exact integers and rationals, parsing, correctly rounded printing, certified enclosures |
 //! | [`poly`] | polynomials in one and many variables, gcd, resultants, real root isolation, real algebraic numbers |
-//! | [`matrix`] | polynomial matrices, the Faddeev-LeVerrier recursion |
+//! | [`matrix`] | matrices over any domain, determinants, characteristic polynomials |
+//!
+//! # Budgets
+//!
+//! Algorithms that name steps take a [`Budget`](limits::Budget); all others ask the one that was entered on their thread:
+//!
+//! ```
+//! use jurist_algebra::limits::Budget;
+//! use jurist_algebra::poly::{Domain, UniPoly};
+//! let (a, b) = (UniPoly::from_i64(&[-1, 0, 1]), UniPoly::from_i64(&[1, 1]));
+//! assert_eq!(Budget::with_work(1_000_000).enter(|| a.gcd(&b)), Ok(b));
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

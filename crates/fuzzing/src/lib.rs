@@ -6,6 +6,7 @@
 #![deny(missing_docs)]
 
 mod certificate;
+pub mod endless;
 mod isolation;
 mod model;
 mod number;

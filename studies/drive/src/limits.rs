@@ -4,7 +4,7 @@ use super::facts::{AMPLITUDE, PERIOD, PUBLISHED_LIMITS, SPEED_REFERENCE};
 use super::html::Table;
 use super::runs::at;
 use jurist_algebra::limits::{Budget, Exhausted, join};
-use jurist_algebra::number::{Rational, enclosed_decimal, parse_number};
+use jurist_algebra::number::{Rational, enclosed_decimal};
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_draw::simulate::{Pulse, SampledModel, SwitchedModel, growth_limit};
 use jurist_engine::answer::Answer;
@@ -71,7 +71,7 @@ pub(super) fn limits(model: &Model, blocks: &Model, printed: [&Model; 2], budget
         row([way, &decimal(lower, 16), &decimal(upper, 16), &f, "proved"]);
     }
     let growth = |k: f64, t: f64| {
-        let problem = at(model, &rational(k)?, &rational(t)?).ok()?;
+        let problem = at(model, &Rational::from_f64(k)?, &Rational::from_f64(t)?).ok()?;
         let mut m = SampledModel::from_loop(&problem, 1.0, budget).ok()?;
         // Seen every 1024 samples: the same run, and the slow mode has time to show itself.
         for _ in 0..10 {
@@ -85,7 +85,7 @@ pub(super) fn limits(model: &Model, blocks: &Model, printed: [&Model; 2], budget
     row(["linear model, runs", &shown(lower, 4), &shown(upper, 2), &shown(f, 2), "drawn"]);
     let inputs = DVector::from_vec(vec![SPEED_REFERENCE, 0.0]);
     let circuit = |k: f64, t: f64, pulse| {
-        let problem = at(blocks, &rational(k)?, &rational(t)?).ok()?;
+        let problem = at(blocks, &Rational::from_f64(k)?, &Rational::from_f64(t)?).ok()?;
         SwitchedModel::from_loop(&problem, pulse, budget).ok()
     };
     for (pulse, word) in [(Pulse::Beginning, "beginning"), (Pulse::End, "end")] {
@@ -134,9 +134,4 @@ fn bisected(
 
 fn shown(x: Option<f64>, digits: usize) -> String {
     x.map_or_else(|| "none found".into(), |x| format!("{x:.digits$}"))
-}
-
-/// The rational that a float is, by its shortest decimal.
-fn rational(x: f64) -> Option<Rational> {
-    parse_number(&x.to_string()).ok()
 }

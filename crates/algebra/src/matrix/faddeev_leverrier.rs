@@ -1,6 +1,6 @@
 //! The recursion of Faddeev and LeVerrier.
 
-use super::PolyMatrix;
+use super::Matrix;
 use crate::limits::{Budget, Exhausted};
 use crate::number::Integer;
 use crate::poly::{Domain, Poly};
@@ -12,7 +12,7 @@ pub struct FaddeevLeVerrier<R: Domain> {
     pub characteristic: Poly<R>,
     /// `N_0, ..., N_(n-1)` with `adj(zI - M) = N_0 z^(n-1) + N_1 z^(n-2) + ... + N_(n-1)`, so that
     /// `(zI - M) adj(zI - M) = det(zI - M) I`. `N_0` is the identity; empty for `n = 0`.
-    pub adjugate: Vec<PolyMatrix<R>>,
+    pub adjugate: Vec<Matrix<R>>,
 }
 
 impl<R: Domain> FaddeevLeVerrier<R> {
@@ -35,9 +35,9 @@ impl<R: Domain> FaddeevLeVerrier<R> {
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
-/// use jurist_algebra::matrix::{PolyMatrix, faddeev_leverrier};
+/// use jurist_algebra::matrix::{Matrix, faddeev_leverrier};
 /// use jurist_algebra::poly::UniPoly;
-/// let m = PolyMatrix::from_i64(&[&[2, 1], &[1, 2]]);
+/// let m = Matrix::from_i64(&[&[2, 1], &[1, 2]]);
 /// let fl = faddeev_leverrier(&m, &Budget::unlimited()).unwrap();
 /// assert_eq!(fl.characteristic, UniPoly::from_i64(&[3, -4, 1]));
 /// ```
@@ -47,15 +47,18 @@ impl<R: Domain> FaddeevLeVerrier<R> {
 ///
 /// # Panics
 /// When the matrix is not square.
-pub fn faddeev_leverrier<R: Domain>(m: &PolyMatrix<R>, budget: &Budget) -> Result<FaddeevLeVerrier<R>, Exhausted> {
+pub fn faddeev_leverrier<R: Domain>(m: &Matrix<R>, budget: &Budget) -> Result<FaddeevLeVerrier<R>, Exhausted> {
     assert!(m.is_square(), "the characteristic polynomial of a square matrix");
+    budget.enter(|| recursion(m))
+}
+
+fn recursion<R: Domain>(m: &Matrix<R>) -> FaddeevLeVerrier<R> {
     let n = m.rows();
     let mut coefficients = vec![R::zero(); n + 1];
     coefficients[n] = R::one();
     let mut adjugate = Vec::with_capacity(n);
-    let mut current = PolyMatrix::identity(n);
+    let mut current = Matrix::identity(n);
     for k in 1..=n {
-        budget.check()?;
         let mut next = m * &current;
         let divisor = R::from_integer(&Integer::from(k));
         let c = next.trace().negated().div_exact(&divisor).expect("the trace of M N_(k-1) is -k c_(n-k)");
@@ -64,7 +67,7 @@ pub fn faddeev_leverrier<R: Domain>(m: &PolyMatrix<R>, budget: &Budget) -> Resul
         adjugate.push(std::mem::replace(&mut current, next));
     }
     debug_assert!(current.is_zero(), "the theorem of Cayley and Hamilton");
-    Ok(FaddeevLeVerrier { characteristic: Poly::new(coefficients), adjugate })
+    FaddeevLeVerrier { characteristic: Poly::new(coefficients), adjugate }
 }
 
 /// `q^n det(zI - N/q) = det(q z I - N)`, from the characteristic polynomial of `N`: the

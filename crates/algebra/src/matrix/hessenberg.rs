@@ -2,7 +2,8 @@
 //!
 //! Matrices are stored row by row, one after the other; `which` lists those that are meant.
 
-use crate::poly::kernel::modular::PrimeField;
+use crate::limits::checkpoint;
+use crate::poly::modular::prime_field::PrimeField;
 
 /// Divides row `i` of each matrix by entry `i` of its diagonal, none of which is zero.
 pub(super) fn invert_and_scale_rows(
@@ -65,6 +66,7 @@ fn eliminate(f: &PrimeField, matrix: &mut [u64], n: usize, k: usize, inverse: u6
         if entry == 0 {
             continue;
         }
+        checkpoint(n as u64 / 2);
         let factor = f.mul(entry, inverse);
         let negated = f.negated(factor);
         let (above, below) = matrix.split_at_mut(i * n);
@@ -90,6 +92,7 @@ pub(super) fn from_hessenberg(f: &PrimeField, h: &[u64], n: usize, room: &mut Ve
     room.resize(width * width, 0);
     room[0] = f.one();
     for k in 1..=n {
+        checkpoint((k * k / 8 + 1) as u64);
         let (known, rest) = room.split_at_mut(k * width);
         let current = &mut rest[..=k];
         let previous = &known[(k - 1) * width..(k - 1) * width + k];
@@ -154,6 +157,7 @@ fn determinant(f: &PrimeField, m: &mut [u64], n: usize) -> u64 {
             if factor == 0 {
                 continue;
             }
+            checkpoint(n as u64 / 4);
             let (above, below) = m.split_at_mut(i * n);
             for (x, &y) in below[k..n].iter_mut().zip(&above[k * n + k..(k + 1) * n]) {
                 *x = f.add(*x, f.mul(factor, y));
@@ -166,8 +170,8 @@ fn determinant(f: &PrimeField, m: &mut [u64], n: usize) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::poly::kernel::grid::Grid;
-    use crate::poly::kernel::modular::largest_primes;
+    use crate::poly::modular::grid::Grid;
+    use crate::poly::modular::prime_field::largest_primes;
 
     /// Against determinants, modulo primes so small that every pivot vanishes now and then.
     #[test]

@@ -5,9 +5,9 @@ use super::hessenberg::{determinants_by_elimination, from_hessenberg, invert_and
 use super::rational::least_common_multiple;
 use crate::limits::{Budget, Exhausted};
 use crate::number::Integer;
-use crate::poly::kernel::chinese::{Chinese, Limbs};
-use crate::poly::kernel::grid::Grid;
-use crate::poly::kernel::modular::PrimeField;
+use crate::poly::modular::chinese::{Chinese, Limbs};
+use crate::poly::modular::grid::Grid;
+use crate::poly::modular::prime_field::PrimeField;
 use crate::poly::{Domain, Monomial, MultiPoly, Poly};
 
 /// The greatest number of points of a grid; beyond, the recursion of Faddeev and LeVerrier is used.
@@ -35,10 +35,9 @@ const PARALLEL_MIN_PRODUCTS: usize = 1 << 21;
 pub fn characteristic_polynomial_multimodular(
     m: &RationalMatrix,
     budget: &Budget,
-) -> Option<Result<(Poly<MultiPoly>, MultiPoly), Exhausted>> {
+) -> Result<Option<(Poly<MultiPoly>, MultiPoly)>, Exhausted> {
     assert!(m.is_square(), "the characteristic polynomial of a square matrix");
-    let rows = Rows::new(m)?;
-    Some(rows.characteristic(budget))
+    budget.enter(|| Rows::new(m).map(|rows| rows.characteristic()))
 }
 
 /// A matrix `Q^-1 N` in rows, only entries that are not zero.
@@ -127,9 +126,9 @@ impl Rows {
         bits(&|i, j| i * n + j).min(bits(&|i, j| j * n + i))
     }
 
-    fn characteristic(&self, budget: &Budget) -> Result<(Poly<MultiPoly>, MultiPoly), Exhausted> {
+    fn characteristic(&self) -> (Poly<MultiPoly>, MultiPoly) {
         if self.n == 0 {
-            return Ok((Poly::one(), MultiPoly::one()));
+            return (Poly::one(), MultiPoly::one());
         }
         let width = self.entries.len() + self.n;
         static ZERO: Integer = Integer::ZERO;
@@ -145,13 +144,9 @@ impl Rows {
         let limbs = Limbs::new(coefficients);
         let chinese = Chinese::for_bits(self.height_bits());
         let points: usize = self.lengths.iter().product();
-        let image = |f: &PrimeField| {
-            budget.check()?;
-            Ok(self.image(f, limbs.residues(f)))
-        };
+        let image = |f: &PrimeField| self.image(f, limbs.residues(f));
         let products = (points * chinese.fields().len()).saturating_mul(self.n.pow(3));
-        let images: Vec<Vec<u64>> = chinese.images(products >= PARALLEL_MIN_PRODUCTS, image)?;
-        budget.check()?;
+        let images: Vec<Vec<u64>> = chinese.images(products >= PARALLEL_MIN_PRODUCTS, image);
         let stride = self.n + 1;
         let mut exponents = vec![0u32; self.variables.last().map_or(0, |last| last + 1)];
         let mut terms: Vec<Vec<(Monomial, Integer)>> = vec![Vec::new(); stride];
@@ -171,7 +166,7 @@ impl Rows {
         }
         let characteristic = Poly::new(terms.into_iter().map(MultiPoly::from_descending).collect());
         let denominator = self.denominators.iter().fold(MultiPoly::one(), |d, q| d.times(q));
-        Ok((characteristic, denominator))
+        (characteristic, denominator)
     }
 
     /// The coefficients modulo one prime: `lengths` by `n + 1` powers of `z`.

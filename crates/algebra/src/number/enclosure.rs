@@ -5,6 +5,7 @@
 //! the number of bits grows.
 
 use super::{Integer, Rational, enclosed_decimal};
+use crate::limits::checkpoint;
 
 /// A closed interval that is known to contain a real number.
 ///
@@ -226,6 +227,7 @@ fn odd_series(x: &Enclosure, bits: u64, alternating: bool) -> Enclosure {
     let (mut power, mut sum) = (start.clone(), start);
     let mut k = 1i64;
     let last = loop {
+        checkpoint(16);
         power = &(&power * &square) >> s;
         let term = power.div_mod_floor(&Integer::from(2 * k + 1)).0;
         if term.is_zero() {

@@ -1,8 +1,8 @@
 //! Real algebraic numbers: a polynomial and an enclosure that holds one of its roots.
 
-use super::real_roots::{Bracket, SquareFree, coprime_modulo_some_prime, linear};
+use super::modular::gcd::coprime_modulo_some_prime;
+use super::real_roots::{Bracket, linear};
 use super::{Domain, UniPoly};
-use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational, Sign, enclosed_decimal};
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -34,20 +34,6 @@ impl RealAlgebraic {
         debug_assert_eq!(poly.sign_at(&bracket.hi()).is_gt(), bracket.rising, "the sign at the upper end");
         debug_assert_eq!(poly.sign_at(&bracket.lo()).is_lt(), bracket.rising, "the sign at the lower end");
         RealAlgebraic { poly, place: Place::Within(bracket) }
-    }
-
-    /// The root of `p` in the open interval from `lo` to `hi`; `None` unless there is exactly one.
-    ///
-    /// # Errors
-    /// [`Exhausted`] when the budget runs out.
-    pub fn in_interval(
-        p: &SquareFree,
-        lo: &Rational,
-        hi: &Rational,
-        budget: &Budget,
-    ) -> Result<Option<RealAlgebraic>, Exhausted> {
-        let mut roots = super::real_roots::isolate_real_roots_in(p, Some(lo), Some(hi), budget)?;
-        Ok(if roots.len() == 1 { roots.pop() } else { None })
     }
 
     /// A square-free primitive polynomial with this number as a root; `q x - p` if it is rational.
@@ -148,21 +134,13 @@ impl RealAlgebraic {
 
     /// Exact comparison: equality is decided by a common divisor, never by refinement alone.
     pub fn compare(&self, other: &RealAlgebraic) -> Ordering {
-        self.compare_within(other, &Budget::unlimited()).expect("the budget is unlimited")
-    }
-
-    /// [`RealAlgebraic::compare`] within a budget.
-    ///
-    /// # Errors
-    /// [`Exhausted`] when the budget runs out.
-    pub fn compare_within(&self, other: &RealAlgebraic, budget: &Budget) -> Result<Ordering, Exhausted> {
         let (a, b) = match (&self.place, &other.place) {
-            (_, Place::Exact(y)) => return Ok(self.compare_rational(y)),
-            (Place::Exact(x), _) => return Ok(other.compare_rational(x).reverse()),
+            (_, Place::Exact(y)) => return self.compare_rational(y),
+            (Place::Exact(x), _) => return other.compare_rational(x).reverse(),
             (Place::Within(a), Place::Within(b)) => (a, b),
         };
         if let Some(order) = order_of_disjoint(a, b) {
-            return Ok(order);
+            return order;
         }
         let same = Arc::ptr_eq(&self.poly, &other.poly) || self.poly == other.poly;
         // Unequal numbers mostly part after a few bits; a common divisor costs more.
@@ -172,26 +150,24 @@ impl RealAlgebraic {
                 x.halve();
                 y.halve();
                 if let Some(order) = x.disjoint_order(&y) {
-                    return Ok(order);
+                    return order;
                 }
             }
         }
-        budget.check()?;
         let common = if same {
             Some(Arc::clone(&self.poly))
         } else if coprime_modulo_some_prime(&self.poly, &other.poly) {
             None
         } else {
-            Some(Arc::new(self.poly.gcd_within(&other.poly, budget)?))
+            Some(Arc::new(self.poly.gcd(&other.poly)))
         };
         if common.is_some_and(|g| x.shares_root_of(&y, &g)) {
-            return Ok(Ordering::Equal);
+            return Ordering::Equal;
         }
         loop {
             if let Some(order) = x.disjoint_order(&y) {
-                return Ok(order);
+                return order;
             }
-            budget.check()?;
             x.narrow_further();
             y.narrow_further();
         }
@@ -221,34 +197,24 @@ impl RealAlgebraic {
 
     /// The exact sign of `q` at this number; a zero is recognised by a common divisor.
     pub fn sign_of(&self, q: &UniPoly) -> Sign {
-        self.sign_of_within(q, &Budget::unlimited()).expect("the budget is unlimited")
-    }
-
-    /// [`RealAlgebraic::sign_of`] within a budget.
-    ///
-    /// # Errors
-    /// [`Exhausted`] when the budget runs out.
-    pub fn sign_of_within(&self, q: &UniPoly, budget: &Budget) -> Result<Sign, Exhausted> {
-        budget.check()?;
         let bracket = match &self.place {
-            Place::Exact(x) => return Ok(q.sign_at(x)),
+            Place::Exact(x) => return q.sign_at(x),
             Place::Within(b) => b,
         };
         if q.is_constant() {
-            return Ok(q.leading().map_or(Sign::Equal, Integer::sign));
+            return q.leading().map_or(Sign::Equal, Integer::sign);
         }
         if !coprime_modulo_some_prime(&self.poly, q) {
-            let g = self.poly.gcd_within(q, budget)?;
+            let g = self.poly.gcd(q);
             if g.sign_at(&bracket.lo()) != g.sign_at(&bracket.hi()) {
-                return Ok(Sign::Equal);
+                return Sign::Equal;
             }
         }
         let mut x = bracket.clone();
         loop {
             if let Some(sign) = sign_on(q, &x) {
-                return Ok(sign);
+                return sign;
             }
-            budget.check()?;
             x.refine_further(&self.poly);
         }
     }

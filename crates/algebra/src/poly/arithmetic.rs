@@ -1,8 +1,6 @@
 //! Sums, products and the operators; polynomials over a domain form a domain.
 
-use super::domain::Fast;
 use super::{Domain, Poly};
-use crate::limits::Budget;
 use crate::number::Integer;
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -58,11 +56,11 @@ impl<R: Domain> Domain for Poly<R> {
     fn needs_negation(&self) -> bool {
         self.leading().is_some_and(R::needs_negation)
     }
-    fn primitive_gcd(a: &Poly<Self>, b: &Poly<Self>) -> Poly<Self> {
-        R::primitive_gcd_over_polynomials(a, b)
+    fn primitive_gcd_fast(a: &Poly<Self>, b: &Poly<Self>) -> Option<Poly<Self>> {
+        R::primitive_gcd_over_polynomials_fast(a, b)
     }
-    fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize, budget: &Budget) -> Option<Fast<Self>> {
-        R::resultant_over_polynomials_fast(a, n, b, m, budget)
+    fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize) -> Option<Self> {
+        R::resultant_over_polynomials_fast(a, n, b, m)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The dense univariate polynomial.
 
 use super::Domain;
+use crate::limits::checkpoint;
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use std::fmt;
 
@@ -78,6 +79,7 @@ impl<R: Domain> Poly<R> {
 
     /// The value at `x`, by Horner's rule: `O(n)` operations.
     pub fn eval(&self, x: &R) -> R {
+        checkpoint(4 * self.coeffs.len() as u64);
         let mut acc = R::zero();
         for c in self.coeffs.iter().rev() {
             acc = acc.times(x).plus(c);
@@ -111,6 +113,7 @@ impl<R: Domain> Poly<R> {
         let mut c = self.coeffs.clone();
         let n = c.len();
         for i in 0..n {
+            checkpoint(4 * (n - i) as u64);
             for j in (i..n.saturating_sub(1)).rev() {
                 let (low, high) = c.split_at_mut(j + 1);
                 if a.is_one() {
@@ -125,6 +128,7 @@ impl<R: Domain> Poly<R> {
 
     /// `p(a x)`.
     pub fn scaled_argument(&self, a: &R) -> Self {
+        checkpoint(8 * self.coeffs.len() as u64);
         let mut power = R::one();
         let mut coeffs = Vec::with_capacity(self.coeffs.len());
         for c in &self.coeffs {
@@ -136,6 +140,7 @@ impl<R: Domain> Poly<R> {
 
     /// `c p`.
     pub fn scaled(&self, c: &R) -> Self {
+        checkpoint(4 * self.coeffs.len() as u64);
         Poly::new(self.coeffs.iter().map(|a| a.times(c)).collect())
     }
 
@@ -178,6 +183,7 @@ impl UniPoly {
 
     /// An enclosure of the values on an enclosure, by Horner's rule with `bits` significant bits.
     pub fn eval_enclosure(&self, x: &Enclosure, bits: u64) -> Enclosure {
+        checkpoint(64 * self.coeffs.len() as u64);
         let mut acc = Enclosure::from_rational(Rational::ZERO);
         for c in self.coeffs.iter().rev() {
             acc = acc.mul(x, bits).add(&Enclosure::from_rational(Rational::from(c)), bits);
@@ -195,6 +201,7 @@ impl UniPoly {
         if q.is_one() {
             return self.eval(a);
         }
+        checkpoint(8 * self.coeffs.len() as u64);
         let mut acc = Integer::ZERO;
         let mut power = Integer::ONE;
         for c in self.coeffs.iter().rev() {
@@ -208,6 +215,7 @@ impl UniPoly {
     /// The primitive integer polynomial with the roots of a rational one: `(q, p)` with
     /// `self = p q`, `q` a positive rational.
     pub fn from_rational_poly(p: &Poly<Rational>) -> (Rational, UniPoly) {
+        checkpoint(16 * p.coeffs().len() as u64);
         let mut denominator = Integer::ONE;
         for c in p.coeffs() {
             denominator = denominator.lcm(&c.denominator());

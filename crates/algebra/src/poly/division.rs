@@ -1,6 +1,7 @@
 //! Division: exact, and pseudo-division.
 
 use super::{Domain, Poly};
+use crate::limits::checkpoint;
 
 impl<R: Domain> Poly<R> {
     /// The exact quotient, or `None` when `divisor` is zero or does not divide.
@@ -20,6 +21,7 @@ impl<R: Domain> Poly<R> {
             if rest[k + m - 1].is_zero() {
                 continue;
             }
+            checkpoint(4 * m as u64);
             let q = if lead.is_one() { rest[k + m - 1].clone() } else { rest[k + m - 1].div_exact(lead)? };
             for (j, d) in divisor.coeffs()[..m - 1].iter().enumerate() {
                 rest[k + j].sub_times(&q, d);
@@ -34,6 +36,7 @@ impl<R: Domain> Poly<R> {
         if c.is_one() {
             return Some(self.clone());
         }
+        checkpoint(4 * self.coeffs().len() as u64);
         self.coeffs().iter().map(|a| a.div_exact(c)).collect::<Option<Vec<R>>>().map(Poly::new)
     }
 
@@ -52,6 +55,7 @@ impl<R: Domain> Poly<R> {
         let mut rest = self.coeffs().to_vec();
         let mut quotient = vec![R::zero(); n - m + 1];
         for k in (0..=n - m).rev() {
+            checkpoint(4 * (k + 2 * m) as u64);
             let top = rest[k + m - 1].clone();
             if !lead.is_one() {
                 for q in &mut quotient[k + 1..] {
@@ -80,6 +84,7 @@ impl<R: Domain> Poly<R> {
         }
         let mut rest = self.coeffs().to_vec();
         for k in (0..=n - m).rev() {
+            checkpoint(4 * (k + 2 * m) as u64);
             let top = rest[k + m - 1].clone();
             if !lead.is_one() {
                 for r in &mut rest[..k + m - 1] {

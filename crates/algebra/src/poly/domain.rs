@@ -1,11 +1,8 @@
 //! What polynomial algorithms ask of their coefficients.
 
 use super::Poly;
-use super::kernel::kronecker::{KRONECKER_MIN_LENGTH, convolve_kronecker, convolve_schoolbook};
-use super::kernel::multimodular_resultant as resultants;
-use crate::limits::{Budget, Exhausted};
+use crate::limits::checkpoint;
 use crate::number::{Integer, Rational};
-use std::cmp::Ordering;
 use std::fmt::Debug;
 
 /// An integral domain with greatest common divisors and exact division.
@@ -72,6 +69,7 @@ pub trait Domain: Clone + PartialEq + Debug + Send + Sync + 'static {
     fn convolve(a: &[Self], b: &[Self]) -> Vec<Self> {
         let mut out = vec![Self::zero(); a.len() + b.len() - 1];
         for (i, x) in a.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
+            checkpoint(4 * b.len() as u64);
             for (j, y) in b.iter().enumerate() {
                 out[i + j].add_times(x, y);
             }
@@ -79,107 +77,31 @@ pub trait Domain: Clone + PartialEq + Debug + Send + Sync + 'static {
         out
     }
 
-    /// A greatest common divisor of two non-zero primitive polynomials, up to a unit.
-    ///
-    /// A hook for domains that know a faster way than the subresultant sequence.
-    fn primitive_gcd(a: &Poly<Self>, b: &Poly<Self>) -> Poly<Self> {
-        super::gcd::primitive_gcd_subresultant(a, b)
+    /// A greatest common divisor of two non-zero primitive polynomials, up to a unit, or `None` where the subresultant
+    /// sequence is expected to be the fastest.
+    fn primitive_gcd_fast(_a: &Poly<Self>, _b: &Poly<Self>) -> Option<Poly<Self>> {
+        None
     }
 
-    /// [`Domain::primitive_gcd`] for polynomials over this domain as coefficients.
-    fn primitive_gcd_over_polynomials(a: &Poly<Poly<Self>>, b: &Poly<Poly<Self>>) -> Poly<Poly<Self>> {
-        super::gcd::primitive_gcd_subresultant(a, b)
+    /// [`Domain::primitive_gcd_fast`] for polynomials over this domain as coefficients.
+    fn primitive_gcd_over_polynomials_fast(_a: &Poly<Poly<Self>>, _b: &Poly<Poly<Self>>) -> Option<Poly<Poly<Self>>> {
+        None
     }
 
     /// The resultant of two polynomials for formal degrees that are not below the degrees, or `None`
     /// where the subresultant sequence is expected to be the fastest.
-    fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize, budget: &Budget) -> Option<Fast<Self>> {
-        let _ = (a, n, b, m, budget);
+    fn resultant_fast(_a: &Poly<Self>, _n: usize, _b: &Poly<Self>, _m: usize) -> Option<Self> {
         None
     }
 
     /// [`Domain::resultant_fast`] for polynomials over this domain as coefficients.
     fn resultant_over_polynomials_fast(
-        a: &Poly<Poly<Self>>,
-        n: usize,
-        b: &Poly<Poly<Self>>,
-        m: usize,
-        budget: &Budget,
-    ) -> Option<Fast<Poly<Self>>> {
-        let _ = (a, n, b, m, budget);
+        _a: &Poly<Poly<Self>>,
+        _n: usize,
+        _b: &Poly<Poly<Self>>,
+        _m: usize,
+    ) -> Option<Poly<Self>> {
         None
-    }
-}
-
-/// What a fast way returns: the value, unless the budget runs out.
-pub type Fast<R> = Result<R, Exhausted>;
-
-impl Domain for Integer {
-    fn zero() -> Self {
-        Integer::ZERO
-    }
-    fn one() -> Self {
-        Integer::ONE
-    }
-    fn from_integer(n: &Integer) -> Self {
-        n.clone()
-    }
-    fn is_zero(&self) -> bool {
-        self.is_zero()
-    }
-    fn is_one(&self) -> bool {
-        self.is_one()
-    }
-    fn plus(&self, other: &Self) -> Self {
-        self + other
-    }
-    fn minus(&self, other: &Self) -> Self {
-        self - other
-    }
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-    fn negated(&self) -> Self {
-        -self
-    }
-    fn div_exact(&self, divisor: &Self) -> Option<Self> {
-        (!divisor.is_zero() && self.divisible_by(divisor)).then(|| Integer::div_exact(self, divisor))
-    }
-    fn gcd(&self, other: &Self) -> Self {
-        Integer::gcd(self, other)
-    }
-    fn needs_negation(&self) -> bool {
-        self.sign() == Ordering::Less
-    }
-    fn add_times(&mut self, a: &Self, b: &Self) {
-        self.add_mul_assign(a, b);
-    }
-    fn sub_times(&mut self, a: &Self, b: &Self) {
-        self.sub_mul_assign(a, b);
-    }
-    fn power(&self, exponent: u64) -> Self {
-        self.pow(exponent)
-    }
-    fn convolve(a: &[Self], b: &[Self]) -> Vec<Self> {
-        if a.len().min(b.len()) < KRONECKER_MIN_LENGTH { convolve_schoolbook(a, b) } else { convolve_kronecker(a, b) }
-    }
-    fn primitive_gcd(a: &Poly<Self>, b: &Poly<Self>) -> Poly<Self> {
-        super::kernel::gcd::primitive_gcd(a, b)
-    }
-    fn primitive_gcd_over_polynomials(a: &Poly<Poly<Self>>, b: &Poly<Poly<Self>>) -> Poly<Poly<Self>> {
-        super::kernel::gcd_by_values::primitive_gcd(a, b)
-    }
-    fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize, budget: &Budget) -> Option<Fast<Self>> {
-        resultants::over_integers(a, n, b, m, budget)
-    }
-    fn resultant_over_polynomials_fast(
-        a: &Poly<Poly<Self>>,
-        n: usize,
-        b: &Poly<Poly<Self>>,
-        m: usize,
-        budget: &Budget,
-    ) -> Option<Fast<Poly<Self>>> {
-        resultants::over_univariate(a, n, b, m, budget)
     }
 }
 

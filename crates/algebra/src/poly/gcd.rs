@@ -1,40 +1,12 @@
 //! Content, primitive part, greatest common divisor, square-free decomposition.
 
-use super::{Domain, Poly, UniPoly};
-use crate::limits::{Budget, Exhausted};
-
-impl UniPoly {
-    /// The greatest common divisor, contents included, normalised; within a budget.
-    ///
-    /// # Errors
-    /// [`Exhausted`] when the budget runs out.
-    pub fn gcd_within(&self, other: &UniPoly, budget: &Budget) -> Result<UniPoly, Exhausted> {
-        if self.is_constant() || other.is_constant() {
-            return Ok(gcd(self, other));
-        }
-        let (a, b) = (self.content(), other.content());
-        let divide = |p: &UniPoly, c| p.div_exact_scalar(c).expect("the content divides every coefficient");
-        let g = super::kernel::gcd::primitive_gcd_within(&divide(self, &a), &divide(other, &b), budget)?;
-        Ok(g.primitive_part().scaled(&Domain::gcd(&a, &b)))
-    }
-
-    /// [`Poly::square_free_part`] within a budget.
-    ///
-    /// # Errors
-    /// [`Exhausted`] when the budget runs out.
-    pub fn square_free_part_within(&self, budget: &Budget) -> Result<UniPoly, Exhausted> {
-        if self.is_zero() {
-            return Ok(self.clone());
-        }
-        let p = self.primitive_part();
-        let g = p.gcd_within(&p.derivative(), budget)?;
-        Ok(if g.is_constant() { p } else { p.div_exact_poly(&g).expect("the gcd divides").primitive_part() })
-    }
-}
+use super::{Domain, Poly, RemainderSequence};
+use crate::limits::checkpoint;
 
 impl<R: Domain> Poly<R> {
     /// The greatest common divisor of the coefficients; zero for the zero polynomial.
     pub fn content(&self) -> R {
+        checkpoint(4 * self.coeffs().len() as u64);
         let mut content = R::zero();
         for c in self.coeffs().iter().rev() {
             content = content.gcd(c);
@@ -109,33 +81,20 @@ pub(super) fn gcd<R: Domain>(a: &Poly<R>, b: &Poly<R>) -> Poly<R> {
         return Poly::constant(content);
     }
     let divide = |p: &Poly<R>, c: &R| p.div_exact_scalar(c).expect("the content divides every coefficient");
-    let g = R::primitive_gcd(&divide(a, &content_a), &divide(b, &content_b));
+    let (a, b) = (divide(a, &content_a), divide(b, &content_b));
+    let g = R::primitive_gcd_fast(&a, &b).unwrap_or_else(|| primitive_gcd_subresultant(&a, &b));
     g.primitive_part().scaled(&content)
 }
 
 /// The last non-zero subresultant of two primitive polynomials, made primitive: the reference
 /// algorithm (Brown and Traub [BrownTraub1971](crate::bibliography#browntraub1971)).
 pub(super) fn primitive_gcd_subresultant<R: Domain>(a: &Poly<R>, b: &Poly<R>) -> Poly<R> {
-    let (mut a, mut b) = if a.degree() >= b.degree() { (a.clone(), b.clone()) } else { (b.clone(), a.clone()) };
-    let mut g = R::one();
-    let mut h = R::one();
-    loop {
-        let delta = (a.coeffs().len() - b.coeffs().len()) as u64;
-        let r = a.pseudo_rem(&b);
-        if r.is_zero() {
-            return b.primitive_part();
-        }
-        if r.is_constant() {
+    let (a, b) = if a.degree() >= b.degree() { (a, b) } else { (b, a) };
+    let mut sequence = RemainderSequence::new(a.clone(), b.clone());
+    while sequence.advance() {
+        if sequence.last().is_constant() {
             return Poly::one();
         }
-        let divisor = g.times(&h.power(delta));
-        a = b;
-        b = r.div_exact_scalar(&divisor).expect("the subresultant theorem");
-        g = a.leading().expect("not zero").clone();
-        h = match delta {
-            0 => h,
-            1 => g.clone(),
-            _ => g.power(delta).div_exact(&h.power(delta - 1)).expect("the subresultant theorem"),
-        };
     }
+    sequence.last().primitive_part()
 }

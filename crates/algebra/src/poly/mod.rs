@@ -8,13 +8,15 @@
 pub mod algebraic;
 mod arithmetic;
 mod dense;
+mod dispatch;
 mod division;
 mod domain;
 mod gcd;
-pub mod kernel;
+pub mod modular;
 pub mod multivariate;
 mod rational_function;
 pub mod real_roots;
+mod remainder_sequence;
 #[cfg(feature = "strategies")]
 pub mod strategies;
 mod subresultant;
@@ -25,6 +27,7 @@ pub use domain::Domain;
 pub use multivariate::{Monomial, MultiPoly};
 pub use rational_function::{DisplayRationalFunction, RationalFunction};
 pub use real_roots::{SquareFree, isolate_real_roots, isolate_real_roots_in};
+pub use remainder_sequence::{RemainderSequence, Step};
 pub use subresultant::{
     discriminant, resultant, resultant_formal, resultant_formal_subresultant, resultant_subresultant,
     subresultant_chain,

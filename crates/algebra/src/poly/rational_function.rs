@@ -238,6 +238,46 @@ impl From<Rational> for RationalFunction {
     }
 }
 
+/// The field of rational functions: a greatest common divisor is 1, or 0 when both are 0.
+impl Domain for RationalFunction {
+    fn zero() -> Self {
+        RationalFunction::zero()
+    }
+    fn one() -> Self {
+        RationalFunction::one()
+    }
+    fn from_integer(n: &Integer) -> Self {
+        RationalFunction::from(n.clone())
+    }
+    fn is_zero(&self) -> bool {
+        self.is_zero()
+    }
+    fn is_one(&self) -> bool {
+        self.is_one()
+    }
+    fn plus(&self, other: &Self) -> Self {
+        self.sum(other, false)
+    }
+    fn minus(&self, other: &Self) -> Self {
+        self.sum(other, true)
+    }
+    fn times(&self, other: &Self) -> Self {
+        self.product(other)
+    }
+    fn negated(&self) -> Self {
+        -self
+    }
+    fn div_exact(&self, divisor: &Self) -> Option<Self> {
+        self.checked_div(divisor)
+    }
+    fn gcd(&self, other: &Self) -> Self {
+        if self.is_zero() && other.is_zero() { RationalFunction::zero() } else { RationalFunction::one() }
+    }
+    fn needs_negation(&self) -> bool {
+        self.numerator.needs_negation()
+    }
+}
+
 macro_rules! operator {
     ($trait:ident, $method:ident, |$a:ident, $b:ident| $value:expr) => {
         impl $trait for &RationalFunction {

@@ -1,6 +1,6 @@
 //! Resultants and subresultants without fractions.
 
-use super::{Domain, Poly};
+use super::{Domain, Poly, RemainderSequence};
 use crate::limits::{Budget, Exhausted};
 
 /// The resultant of two polynomials of the degrees they have.
@@ -12,8 +12,8 @@ use crate::limits::{Budget, Exhausted};
 /// [`Exhausted`] when the budget runs out.
 pub fn resultant<R: Domain>(a: &Poly<R>, b: &Poly<R>, budget: &Budget) -> Result<R, Exhausted> {
     let (Some(n), Some(m)) = (a.degree(), b.degree()) else { return Ok(R::zero()) };
-    match R::resultant_fast(a, n, b, m, budget) {
-        Some(value) => value,
+    match budget.enter(|| R::resultant_fast(a, n, b, m))? {
+        Some(value) => Ok(value),
         None => resultant_subresultant(a, b, budget),
     }
 }
@@ -27,46 +27,29 @@ pub fn resultant<R: Domain>(a: &Poly<R>, b: &Poly<R>, budget: &Budget) -> Result
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
 pub fn resultant_subresultant<R: Domain>(a: &Poly<R>, b: &Poly<R>, budget: &Budget) -> Result<R, Exhausted> {
-    let (Some(n), Some(m)) = (a.degree(), b.degree()) else { return Ok(R::zero()) };
-    let mut negative = false;
-    let (mut a, mut b) = if n >= m {
-        (a.clone(), b.clone())
-    } else {
-        negative = n % 2 == 1 && m % 2 == 1;
-        (b.clone(), a.clone())
-    };
-    let mut g = R::one();
-    let mut h = R::one();
-    while b.coeffs().len() > 1 {
-        budget.check()?;
-        let (n, m) = (a.coeffs().len() - 1, b.coeffs().len() - 1);
-        let delta = (n - m) as u64;
-        if n % 2 == 1 && m % 2 == 1 {
-            negative = !negative;
-        }
-        let r = a.pseudo_rem(&b);
-        if r.is_zero() {
-            return Ok(R::zero());
-        }
-        let divisor = g.times(&h.power(delta));
-        a = b;
-        b = r.div_exact_scalar(&divisor).expect("the subresultant theorem");
-        g = a.leading().expect("not zero").clone();
-        h = raise(&g, &h, delta);
-    }
-    let n = (a.coeffs().len() - 1) as u64;
-    let last = b.coeffs()[0].clone();
-    let value = if n == 0 { R::one() } else { raise(&last, &h, n) };
-    Ok(if negative { value.negated() } else { value })
+    budget.enter(|| by_remainders(a, b))
 }
 
-/// `g^delta / h^(delta - 1)`, which is `h` for `delta = 0`.
-fn raise<R: Domain>(g: &R, h: &R, delta: u64) -> R {
-    match delta {
-        0 => h.clone(),
-        1 => g.clone(),
-        _ => g.power(delta).div_exact(&h.power(delta - 1)).expect("the subresultant theorem"),
+fn by_remainders<R: Domain>(a: &Poly<R>, b: &Poly<R>) -> R {
+    let (Some(n), Some(m)) = (a.degree(), b.degree()) else { return R::zero() };
+    let odd = |n: usize, m: usize| n % 2 == 1 && m % 2 == 1;
+    let (mut negative, mut sequence) = if n >= m {
+        (false, RemainderSequence::new(a.clone(), b.clone()))
+    } else {
+        (odd(n, m), RemainderSequence::new(b.clone(), a.clone()))
+    };
+    let degree = |p: &Poly<R>| p.coeffs().len() - 1;
+    while degree(sequence.last()) > 0 {
+        negative ^= odd(degree(sequence.previous()), degree(sequence.last()));
+        if !sequence.advance() {
+            return R::zero();
+        }
     }
+    let value = match degree(sequence.previous()) {
+        0 => R::one(),
+        n => sequence.raised(&sequence.last().coeffs()[0], n as u64),
+    };
+    if negative { value.negated() } else { value }
 }
 
 /// The resultant of two polynomials read with the formal degrees `n` and `m`: the determinant of
@@ -88,8 +71,8 @@ pub fn resultant_formal<R: Domain>(
     budget: &Budget,
 ) -> Result<R, Exhausted> {
     assert!(a.coeffs().len() <= n + 1 && b.coeffs().len() <= m + 1, "the formal degree is below the degree");
-    match R::resultant_fast(a, n, b, m, budget) {
-        Some(value) => value,
+    match budget.enter(|| R::resultant_fast(a, n, b, m))? {
+        Some(value) => Ok(value),
         None => resultant_formal_subresultant(a, n, b, m, budget),
     }
 }
@@ -157,24 +140,12 @@ pub fn discriminant<R: Domain>(p: &Poly<R>, budget: &Budget) -> Result<R, Exhaus
 /// # Panics
 /// When `b` is zero or `deg a < deg b`.
 pub fn subresultant_chain<R: Domain>(a: &Poly<R>, b: &Poly<R>, budget: &Budget) -> Result<Vec<Poly<R>>, Exhausted> {
-    assert!(!b.is_zero() && a.degree() >= b.degree(), "the first polynomial has the higher degree");
-    let mut chain = vec![a.clone(), b.clone()];
-    let mut g = R::one();
-    let mut h = R::one();
-    loop {
-        budget.check()?;
-        let (a, b) = (&chain[chain.len() - 2], &chain[chain.len() - 1]);
-        if b.is_constant() {
-            return Ok(chain);
+    let mut sequence = RemainderSequence::new(a.clone(), b.clone());
+    budget.enter(|| {
+        let mut chain = vec![a.clone(), b.clone()];
+        while !sequence.last().is_constant() && sequence.advance() {
+            chain.push(sequence.last().clone());
         }
-        let delta = (a.coeffs().len() - b.coeffs().len()) as u64;
-        let r = a.pseudo_rem(b);
-        if r.is_zero() {
-            return Ok(chain);
-        }
-        let divisor = g.times(&h.power(delta));
-        g = b.leading().expect("not zero").clone();
-        h = raise(&g, &h, delta);
-        chain.push(r.div_exact_scalar(&divisor).expect("the subresultant theorem"));
-    }
+        chain
+    })
 }

@@ -76,16 +76,8 @@ impl Fixed {
 
 /// `floor(value * 2^bits)`.
 fn integer_times_power(value: f64, bits: u64) -> Integer {
-    if !value.is_finite() || value == 0.0 {
-        return Integer::ZERO;
-    }
-    let raw = value.to_bits();
-    let exponent = ((raw >> 52) & 0x7ff) as i64;
-    let fraction = raw & ((1 << 52) - 1);
-    let (mantissa, exponent) = if exponent == 0 { (fraction, -1074) } else { (fraction | (1 << 52), exponent - 1075) };
-    let signed = if value < 0.0 { -Integer::from(mantissa) } else { Integer::from(mantissa) };
-    let shift = exponent + bits as i64;
-    if shift >= 0 { &signed << shift as u64 } else { &signed >> shift.unsigned_abs() }
+    let exact = Rational::from_f64(value).unwrap_or_default();
+    (exact.numerator() << bits).div_mod_floor(&exact.denominator()).0
 }
 
 /// The exact value of a finite `f64`, cut to `keep` bits after its first one; 0 if not finite.

@@ -86,7 +86,7 @@ impl Problem {
                 None => AtPoint::Undefined,
                 Some(p) => {
                     budget.step("counting the roots");
-                    p.at_within(&Rational::ZERO, self.shape(), budget)?
+                    budget.enter(|| p.at(&Rational::ZERO, self.shape()))?
                 }
             };
             let algebra = self.algebra(budget)?;

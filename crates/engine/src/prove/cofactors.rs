@@ -1,7 +1,7 @@
 //! Cofactors of a pair of polynomials: `U A + V B = value`.
 
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::poly::{Domain, Poly, UniPoly};
+use jurist_algebra::poly::{Domain, Poly, RemainderSequence, Step, UniPoly};
 
 /// `U A + V B = value`, with `U` and `V` coefficients in `x` from the constant term up.
 pub(super) struct Identity {
@@ -16,29 +16,27 @@ type InX = Poly<UniPoly>;
 /// in common; `value` is zero if and only if `A` and `B` have a common factor.
 pub(super) fn identity(a: &InX, b: &InX, budget: &Budget) -> Result<Identity, Exhausted> {
     let swapped = a.coeffs().len() < b.coeffs().len();
-    let (mut r0, mut r1) = if swapped { (b.clone(), a.clone()) } else { (a.clone(), b.clone()) };
-    // r0 = s0 first + t0 second, r1 = s1 first + t1 second
+    let (first, second) = if swapped { (b, a) } else { (a, b) };
+    // The last members are s0 first + t0 second and s1 first + t1 second.
     let (mut s0, mut t0, mut s1, mut t1) = (InX::one(), InX::zero(), InX::zero(), InX::one());
-    let (mut g, mut h) = (UniPoly::one(), UniPoly::one());
-    while !r1.is_constant() {
+    let mut value = UniPoly::zero();
+    let mut sequence = (!second.is_zero()).then(|| RemainderSequence::new(first.clone(), second.clone()));
+    while let Some(members) = &mut sequence {
         budget.check()?;
-        let delta = (r0.coeffs().len() - r1.coeffs().len()) as u64;
-        let (quotient, rest) = r0.pseudo_div_rem(&r1);
-        let lead = r1.leading().expect("not zero").power(delta + 1);
-        let divisor = g.times(&h.power(delta));
-        let exact = |p: InX| p.div_exact_scalar(&divisor).expect("the subresultant theorem");
-        let s2 = exact(s0.scaled(&lead).minus(&quotient.times(&s1)));
-        let t2 = exact(t0.scaled(&lead).minus(&quotient.times(&t1)));
-        let r2 = exact(rest);
-        (r0, r1, s0, s1, t0, t1) = (r1, r2, s1, s2, t1, t2);
-        g = r0.leading().expect("not zero").clone();
-        h = match delta {
-            0 => h,
-            1 => g.clone(),
-            _ => g.power(delta).div_exact(&h.power(delta - 1)).expect("the subresultant theorem"),
+        if members.last().is_constant() {
+            value = members.last().coeff(0);
+            break;
+        }
+        let Step { factor, quotient, divisor, is_end, .. } = members.advance_with_quotient();
+        let next = |x0: &InX, x1: &InX| {
+            let combined = x0.scaled(&factor).minus(&quotient.times(x1));
+            combined.div_exact_scalar(&divisor).expect("the subresultant theorem")
         };
+        (s0, s1, t0, t1) = (s1.clone(), next(&s0, &s1), t1.clone(), next(&t0, &t1));
+        if is_end {
+            break;
+        }
     }
-    let value = r1.coeff(0);
     let mut common = UniPoly::zero();
     for c in s1.coeffs().iter().chain(t1.coeffs()) {
         budget.check()?;

@@ -4,6 +4,7 @@ use super::cofactors::Identity;
 use crate::stability::{Cells, Range};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::real_roots::descartes_sign_variations_in;
 use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly, simplest_between};
 
 /// Irrational ends are enclosed to this many digits.
@@ -64,7 +65,7 @@ impl Line {
         for (zero, (_, stable)) in cells.zeros.iter().zip(&cells.samples[1..]) {
             let mut factor = None;
             for (i, f) in factors.iter().enumerate() {
-                if factor.is_none() && zero.sign_of_within(f, budget)?.is_eq() {
+                if factor.is_none() && budget.enter(|| zero.sign_of(f))?.is_eq() {
                     factor = Some(i);
                 }
             }
@@ -255,20 +256,5 @@ fn variations(f: &UniPoly, l: &Option<Rational>, r: &Option<Rational>) -> Option
     if f.is_constant() {
         return Some(0);
     }
-    let d = f.degree().unwrap_or(0);
-    // s^d f(x/s)
-    let scaled = |s: &Integer| f.reversed(d).scaled_argument(s).reversed(d);
-    let moved = match (l, r) {
-        (None, None) => return None,
-        (Some(l), None) => scaled(&l.denominator()).taylor_shift(&l.numerator()),
-        (None, Some(r)) => scaled(&r.denominator()).taylor_shift(&r.numerator()).negated_argument(),
-        (Some(l), Some(r)) => {
-            let s = l.denominator().lcm(&r.denominator());
-            let a = (l * &Rational::from(&s)).numerator();
-            let w = ((r - l) * Rational::from(&s)).numerator();
-            scaled(&s).taylor_shift(&a).scaled_argument(&w).reversed(d).taylor_shift(&Integer::ONE)
-        }
-    };
-    let signs: Vec<_> = moved.coeffs().iter().map(Integer::sign).filter(|s| s.is_ne()).collect();
-    Some(signs.windows(2).filter(|w| w[0] != w[1]).count())
+    (l.is_some() || r.is_some()).then(|| descartes_sign_variations_in(f, l.as_ref(), r.as_ref()))
 }

@@ -56,7 +56,7 @@ pub fn boundary_polynomials(
     let mut boundaries: Vec<Boundary> = Vec::new();
     for (cause, polynomial) in found {
         budget.check()?;
-        let Some(polynomial) = SquareFree::part_of_within(&polynomial, budget)? else { return Ok(None) };
+        let Some(polynomial) = budget.enter(|| SquareFree::part_of(&polynomial))? else { return Ok(None) };
         if polynomial.degree() > 0 && !boundaries.iter().any(|b| b.cause == cause && b.polynomial == polynomial) {
             boundaries.push(Boundary { cause, polynomial });
         }

@@ -3,8 +3,8 @@
 
 use super::interval_set::{cells, merge_points, zeros_in};
 use super::{
-    IntervalSet, JuryTable, ParametricPolynomial, Range, RouthTable, Shape, UNDIVIDED_ORDER, jury_table_within,
-    routh_table_within,
+    IntervalSet, JuryTable, ParametricPolynomial, Range, RouthTable, Shape, UNDIVIDED_ORDER, jury_table_with,
+    routh_table,
 };
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
@@ -115,7 +115,7 @@ pub fn classical_test(
     intersection = intersection.intersection(&cells(range, &poles).into_iter().collect());
     // The textbook's rows have factors that earlier rows solve at a fraction of the degree.
     let divided = match &table {
-        Table::Jury(table) if !table.is_divided() => Some(jury_table_within(&base, n, true, budget)?),
+        Table::Jury(table) if !table.is_divided() => Some(budget.enter(|| jury_table_with(&base, n, true))?),
         _ => None,
     };
     for (i, (name, inequality)) in inequalities.into_iter().enumerate() {
@@ -224,7 +224,7 @@ fn jury_inequalities(
     scale: Rational,
     budget: &Budget,
 ) -> Result<Inequalities, Exhausted> {
-    let table = jury_table_within(base, n, n > UNDIVIDED_ORDER, budget)?;
+    let table = budget.enter(|| jury_table_with(base, n, n > UNDIVIDED_ORDER))?;
     let mut scales: Vec<Rational> = Vec::with_capacity(table.rows.len());
     for (i, row) in table.rows.iter().enumerate() {
         scales.push(match i {
@@ -283,7 +283,7 @@ fn routh_inequalities(
     scale: Rational,
     budget: &Budget,
 ) -> Result<Inequalities, Exhausted> {
-    let table = routh_table_within(base, n, budget)?;
+    let table = budget.enter(|| routh_table(base, n))?;
     let lead = base.coeff(n);
     let plain = is_positive_constant(&lead);
     let mut scales = Vec::with_capacity(table.rows.len());

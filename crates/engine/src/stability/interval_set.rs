@@ -154,7 +154,7 @@ pub(super) fn cells(range: &Range, points: &[RealAlgebraic]) -> Vec<AlgebraicInt
 
 /// The distinct zeros of a polynomial inside a range, ascending; none for the zero polynomial.
 pub(super) fn zeros_in(f: &UniPoly, range: &Range, budget: &Budget) -> Result<Vec<RealAlgebraic>, Exhausted> {
-    let Some(f) = SquareFree::part_of_within(f, budget)? else { return Ok(Vec::new()) };
+    let Some(f) = budget.enter(|| SquareFree::part_of(f))? else { return Ok(Vec::new()) };
     isolate_real_roots_in(&f, range.lower.as_ref(), range.upper.as_ref(), budget)
 }
 
@@ -165,7 +165,7 @@ pub(super) fn merge_points(lists: Vec<Vec<RealAlgebraic>>, budget: &Budget) -> R
         let mut merged = Vec::with_capacity(all.len() + list.len());
         let (mut old, mut new) = (all.into_iter().peekable(), list.into_iter().peekable());
         while let (Some(a), Some(b)) = (old.peek(), new.peek()) {
-            let order = a.compare_within(b, budget)?;
+            let order = budget.enter(|| a.compare(b))?;
             if order.is_le() {
                 merged.extend(old.next());
             }

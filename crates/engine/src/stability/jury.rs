@@ -1,6 +1,5 @@
 //! The Jury table, numeric or symbolic.
 
-use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Integer;
 use jurist_algebra::poly::{Domain, Poly, UniPoly};
 use std::cmp::Ordering;
@@ -58,22 +57,6 @@ pub fn jury_table<R: Domain>(a: &Poly<R>, n: usize) -> JuryTable<R> {
 /// # Panics
 /// When `n` is below the degree of `a`.
 pub fn jury_table_with<R: Domain>(a: &Poly<R>, n: usize, divide: bool) -> JuryTable<R> {
-    jury_table_within(a, n, divide, &Budget::unlimited()).expect("the budget is unlimited")
-}
-
-/// [`jury_table_with`] within a budget, asked for each entry.
-///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-///
-/// # Panics
-/// When `n` is below the degree of `a`.
-pub fn jury_table_within<R: Domain>(
-    a: &Poly<R>,
-    n: usize,
-    divide: bool,
-    budget: &Budget,
-) -> Result<JuryTable<R>, Exhausted> {
     assert!(a.coeffs().len() <= n + 1, "the formal degree is below the degree");
     let mut rows = vec![JuryRow { entries: (0..=n).map(|k| a.coeff(k)).collect(), divisor: None }];
     while rows[rows.len() - 1].entries.len() > 3 {
@@ -81,32 +64,23 @@ pub fn jury_table_within<R: Domain>(
         let m = last.len() - 1;
         let mut entries: Vec<R> = Vec::with_capacity(m);
         for k in 0..m {
-            budget.check()?;
             entries.push(last[0].times(&last[k]).minus(&last[m].times(&last[m - k])));
         }
         let factor = (divide && rows.len() >= 3).then(|| rows[rows.len() - 2].entries[0].clone());
         rows.push(match factor.filter(|f| !f.is_zero()) {
             None => JuryRow { entries, divisor: None },
-            Some(f) => match quotients(&entries, &f, budget)? {
+            Some(f) => match quotients(&entries, &f) {
                 None => JuryRow { entries, divisor: None },
                 Some(entries) => JuryRow { entries, divisor: Some(f) },
             },
         });
     }
-    Ok(JuryTable { rows })
+    JuryTable { rows }
 }
 
 /// All entries divided by a factor; `None` where it does not divide one of them.
-fn quotients<R: Domain>(entries: &[R], factor: &R, budget: &Budget) -> Result<Option<Vec<R>>, Exhausted> {
-    let mut out = Vec::with_capacity(entries.len());
-    for entry in entries {
-        budget.check()?;
-        match entry.div_exact(factor) {
-            Some(quotient) => out.push(quotient),
-            None => return Ok(None),
-        }
-    }
-    Ok(Some(out))
+fn quotients<R: Domain>(entries: &[R], factor: &R) -> Option<Vec<R>> {
+    entries.iter().map(|entry| entry.div_exact(factor)).collect()
 }
 
 /// Whether all roots of `p` lie in the open unit disc, by the conditions of the Jury table.

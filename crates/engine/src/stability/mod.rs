@@ -25,11 +25,11 @@ pub use cause::{Cause, Causes};
 pub use conditions::{ClassicalTest, Condition, Inequality, ScaledPoly, Table, classical_test, row_name, solve};
 pub use half_size::HalfSizePair;
 pub use interval_set::{AlgebraicInterval, IntervalSet, Range};
-pub use jury::{JuryRow, JuryTable, UNDIVIDED_ORDER, is_schur_jury, jury_table, jury_table_with, jury_table_within};
+pub use jury::{JuryRow, JuryTable, UNDIVIDED_ORDER, is_schur_jury, jury_table, jury_table_with};
 pub use pair_location::ComplexPair;
 pub use parametric::{AtPoint, ParametricPolynomial};
-pub use root_count::{RootCount, count_roots, count_roots_cauchy_index, count_roots_within, is_stable};
-pub use routh::{RouthTable, is_hurwitz_routh, routh_table, routh_table_within};
+pub use root_count::{RootCount, count_roots, is_stable};
+pub use routh::{RouthTable, is_hurwitz_routh, routh_table};
 pub use stable_set::{Cells, End, StableInterval, StableSet, end_at, stable_set};
 
 /// Where the roots of the characteristic polynomial of a stable loop lie.

@@ -45,7 +45,7 @@ pub(super) fn complex_pair_at(
         let special = p.specialised(&exact);
         let Some(n) = special.degree().filter(|&n| n > 0) else { return Ok(None) };
         let pair = HalfSizePair::new(&special, n, region);
-        let common = pair.a.gcd_within(&pair.b, budget)?;
+        let common = budget.enter(|| pair.a.gcd(&pair.b))?;
         let range = match region {
             Shape::UnitDisc => Range::between(Some(Rational::from(-2)), Some(Rational::from(2))),
             Shape::LeftHalfPlane => Range::between(None, Some(Rational::ZERO)),
@@ -72,7 +72,7 @@ pub(super) fn complex_pair_at(
     for &end in ends {
         while !common.is_constant() {
             let (quotient, rest) = divide_by_linear(&common, end);
-            if value.sign_of_within(&rest, budget)? != Ordering::Equal {
+            if budget.enter(|| value.sign_of(&rest))? != Ordering::Equal {
                 break;
             }
             common = quotient;
@@ -88,7 +88,7 @@ pub(super) fn complex_pair_at(
 fn at_parameter(p: &Poly<UniPoly>, value: &RealAlgebraic, budget: &Budget) -> Result<Poly<UniPoly>, Exhausted> {
     let mut coeffs = p.coeffs().to_vec();
     while let Some(last) = coeffs.last() {
-        if value.sign_of_within(last, budget)?.is_ne() {
+        if budget.enter(|| value.sign_of(last))?.is_ne() {
             break;
         }
         coeffs.pop();

@@ -1,7 +1,6 @@
 //! A characteristic polynomial with one parameter left, ready to be decided.
 
-use super::{RootCount, Shape, count_roots_within};
-use jurist_algebra::limits::{Budget, Exhausted};
+use super::{RootCount, Shape, count_roots};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, UniPoly};
 
@@ -148,23 +147,15 @@ impl ParametricPolynomial {
 
     /// The exact root count at a value of the parameter.
     pub fn at(&self, value: &Rational, region: Shape) -> AtPoint {
-        self.at_within(value, region, &Budget::unlimited()).expect("the budget is unlimited")
-    }
-
-    /// [`ParametricPolynomial::at`] within a budget.
-    ///
-    /// # Errors
-    /// [`Exhausted`] when the budget runs out.
-    pub fn at_within(&self, value: &Rational, region: Shape, budget: &Budget) -> Result<AtPoint, Exhausted> {
         if self.is_undefined_at(value) {
-            return Ok(AtPoint::Undefined);
+            return AtPoint::Undefined;
         }
         let special = self.specialised(value);
         if special.is_zero() || self.content.sign_at(value).is_eq() {
-            return Ok(AtPoint::Zero);
+            return AtPoint::Zero;
         }
-        let count = count_roots_within(&special, region, budget)?;
-        Ok(AtPoint::Defined { count, infinite: self.formal_degree - count.total() })
+        let count = count_roots(&special, region);
+        AtPoint::Defined { count, infinite: self.formal_degree - count.total() }
     }
 
     /// Whether the loop is stable at a value of the parameter: defined, of full degree, all roots

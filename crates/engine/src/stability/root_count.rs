@@ -1,8 +1,8 @@
 //! How many roots of a polynomial lie inside, on and outside the boundary: exactly, in all cases.
 
 use super::{HalfSizePair, Shape};
-use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Sign};
+use jurist_algebra::poly::real_roots::{sign_variations, signed_remainder_sequence};
 use jurist_algebra::poly::{Domain, Poly, UniPoly};
 use std::cmp::Ordering;
 
@@ -26,7 +26,12 @@ impl RootCount {
 
 /// The exact root count of a non-zero polynomial; a constant has none.
 ///
-/// Chooses the algorithm; at present always [`count_roots_cauchy_index`].
+/// By the Cauchy index of the half-size pair. After the roots at the ends of the boundary (`1` and `-1`, or `0`) are
+/// split off and the degree is made even by a root known to be inside, the argument of the polynomial grows along the
+/// boundary's upper half by `pi/2 (inside - outside)`, which is `pi` times the Cauchy index of
+/// `B/A` (Gantmacher, The Theory of Matrices 2, ch. XV). Common roots of the pair are mirror pairs:
+/// those in the interval are on the boundary, the others have one root on either side.
+/// `O(n^2)` operations on integers that grow to `O(n)` times the input's length, within the budget that holds on the thread.
 ///
 /// ```
 /// use jurist_algebra::poly::UniPoly;
@@ -40,41 +45,6 @@ impl RootCount {
 /// # Panics
 /// When `p` is zero.
 pub fn count_roots(p: &UniPoly, region: Shape) -> RootCount {
-    count_roots_cauchy_index(p, region)
-}
-
-/// Whether all roots lie in the open region. A non-zero constant is stable, zero is not.
-pub fn is_stable(p: &UniPoly, region: Shape) -> bool {
-    if p.is_zero() {
-        return false;
-    }
-    let count = count_roots(p, region);
-    count.inside == count.total()
-}
-
-/// The root count from the Cauchy index of the half-size pair.
-///
-/// After the roots at the ends of the boundary (`1` and `-1`, or `0`) are split off and the degree
-/// is made even by a root known to be inside, the argument of the polynomial grows along the
-/// boundary's upper half by `pi/2 (inside - outside)`, which is `pi` times the Cauchy index of
-/// `B/A` (Gantmacher, The Theory of Matrices 2, ch. XV). Common roots of the pair are mirror pairs:
-/// those in the interval are on the boundary, the others have one root on either side.
-/// `O(n^2)` operations on integers that grow to `O(n)` times the input's length.
-///
-/// # Panics
-/// When `p` is zero.
-pub fn count_roots_cauchy_index(p: &UniPoly, region: Shape) -> RootCount {
-    count_roots_within(p, region, &Budget::unlimited()).expect("the budget is unlimited")
-}
-
-/// [`count_roots_cauchy_index`] within a budget.
-///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-///
-/// # Panics
-/// When `p` is zero.
-pub fn count_roots_within(p: &UniPoly, region: Shape, budget: &Budget) -> Result<RootCount, Exhausted> {
     assert!(!p.is_zero(), "the zero polynomial has no root count");
     let mut count = RootCount::default();
     let mut d = p.clone();
@@ -95,7 +65,7 @@ pub fn count_roots_within(p: &UniPoly, region: Shape, budget: &Budget) -> Result
     }
     let n = d.coeffs().len() - 1;
     if n == 0 {
-        return Ok(count);
+        return count;
     }
     let padded = n % 2 == 1;
     if padded {
@@ -110,21 +80,30 @@ pub fn count_roots_within(p: &UniPoly, region: Shape, budget: &Budget) -> Result
         Shape::UnitDisc => [End::Finite(-2), End::Finite(2)],
         Shape::LeftHalfPlane => [End::MinusInfinity, End::Finite(0)],
     };
-    let sequence = signed_remainder_sequence(pair.a, pair.b, budget)?;
+    let sequence = signed_remainder_sequence(&pair.a, &pair.b);
     // The signs are taken before the division by the gcd, which has no root at the ends: it changes
     // all signs of the sequence at an end together, so the variations stay.
     let variations = ends.map(|end| sign_variations(sequence.iter().map(|s| end.sign(s))));
     let index = variations[0] as i64 - variations[1] as i64;
     let gcd = sequence.last().expect("the sequence is not empty");
     let mirrored = gcd.coeffs().len() - 1;
-    let on_boundary = roots_with_multiplicity(gcd, ends, budget)?;
+    let on_boundary = roots_with_multiplicity(gcd, ends);
     let regular = even - 2 * mirrored;
     // inside - outside = 2 index, inside + outside = regular.
     let inside = (regular as i64 + 2 * index) / 2;
     count.inside += inside as usize + (mirrored - on_boundary) - usize::from(padded);
     count.outside += regular - inside as usize + (mirrored - on_boundary);
     count.on += 2 * on_boundary;
-    Ok(count)
+    count
+}
+
+/// Whether all roots lie in the open region. A non-zero constant is stable, zero is not.
+pub fn is_stable(p: &UniPoly, region: Shape) -> bool {
+    if p.is_zero() {
+        return false;
+    }
+    let count = count_roots(p, region);
+    count.inside == count.total()
 }
 
 /// An end of the interval that the boundary's upper half is mapped to.
@@ -146,52 +125,15 @@ impl End {
     }
 }
 
-/// `S_0 = a`, `S_1 = b`, `S_(i+1) = -rem(S_(i-1), S_i)` up to positive factors, without the final zero.
-fn signed_remainder_sequence(a: UniPoly, b: UniPoly, budget: &Budget) -> Result<Vec<UniPoly>, Exhausted> {
-    let positive = |p: UniPoly| {
-        let content = p.content();
-        if content.is_one() || p.is_zero() { p } else { p.div_exact_scalar(&content).expect("the content divides") }
-    };
-    let mut sequence = vec![positive(a)];
-    let mut next = positive(b);
-    while !next.is_zero() {
-        budget.check()?;
-        let previous = &sequence[sequence.len() - 1];
-        let exponent = (previous.coeffs().len() + 1).saturating_sub(next.coeffs().len());
-        let flips = exponent % 2 == 1 && next.needs_negation();
-        let mut r = previous.pseudo_rem(&next);
-        // The pseudo-remainder is lc^exponent times the remainder.
-        if !flips {
-            r = r.negated();
-        }
-        sequence.push(next);
-        next = positive(r);
-    }
-    Ok(sequence)
-}
-
-fn sign_variations(signs: impl Iterator<Item = Sign>) -> usize {
-    let mut last = Ordering::Equal;
-    let mut variations = 0;
-    for sign in signs.filter(|s| *s != Ordering::Equal) {
-        if last != Ordering::Equal && sign != last {
-            variations += 1;
-        }
-        last = sign;
-    }
-    variations
-}
-
 /// Real roots of `g` between the ends, with multiplicity, by Sturm's theorem on its square-free factors.
-fn roots_with_multiplicity(g: &UniPoly, ends: [End; 2], budget: &Budget) -> Result<usize, Exhausted> {
+fn roots_with_multiplicity(g: &UniPoly, ends: [End; 2]) -> usize {
     let mut roots = 0;
     for (factor, multiplicity) in g.square_free_decomposition() {
-        let derivative = factor.derivative();
-        let sequence = signed_remainder_sequence(factor, derivative, budget)?;
+        let sequence = signed_remainder_sequence(&factor, &factor.derivative());
         let [low, high] = ends.map(|end| sign_variations(sequence.iter().map(|s| end.sign(s))));
         roots += multiplicity * (low - high);
     }
-    Ok(roots)
+    roots
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! The Routh table, without fractions, numeric or symbolic.
 
-use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::poly::{Domain, Poly, UniPoly};
 
 /// The fraction-free Routh table: rows 0 and 1 hold the coefficients of even and odd distance from
@@ -29,17 +28,6 @@ impl<R: Domain> RouthTable<R> {
 /// # Panics
 /// When `n` is below the degree of `p`.
 pub fn routh_table<R: Domain>(p: &Poly<R>, n: usize) -> RouthTable<R> {
-    routh_table_within(p, n, &Budget::unlimited()).expect("the budget is unlimited")
-}
-
-/// [`routh_table`] within a budget, asked for each entry.
-///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-///
-/// # Panics
-/// When `n` is below the degree of `p`.
-pub fn routh_table_within<R: Domain>(p: &Poly<R>, n: usize, budget: &Budget) -> Result<RouthTable<R>, Exhausted> {
     assert!(p.coeffs().len() <= n + 1, "the formal degree is below the degree");
     let line = |from: usize| -> Vec<R> { (from..=n).step_by(2).map(|i| p.coeff(n - i)).collect() };
     let mut rows = vec![line(0)];
@@ -56,7 +44,6 @@ pub fn routh_table_within<R: Domain>(p: &Poly<R>, n: usize, budget: &Budget) -> 
         let divisor = (k >= 4).then(|| &rows[k - 3][0]);
         let mut row: Vec<R> = Vec::with_capacity(length);
         for j in 0..length {
-            budget.check()?;
             let entry = up1[0].times(&entry(up2, j + 1)).minus(&up2[0].times(&entry(up1, j + 1)));
             row.push(match divisor {
                 Some(divisor) => entry.div_exact(divisor).expect("Bareiss's identity"),
@@ -65,7 +52,7 @@ pub fn routh_table_within<R: Domain>(p: &Poly<R>, n: usize, budget: &Budget) -> 
         }
         rows.push(row);
     }
-    Ok(RouthTable { rows })
+    RouthTable { rows }
 }
 
 /// Whether all roots of `p` lie in the open left half plane, by the Hurwitz determinants.

@@ -125,7 +125,7 @@ pub fn stable_set(
         budget.check()?;
         budget.advance(i as u64, all.len() as u64);
         let sample = cell.sample();
-        let at = p.at_within(&sample, region, budget)?;
+        let at = budget.enter(|| p.at(&sample, region))?;
         let inside = |count: RootCount| count.inside == p.formal_degree();
         samples.push((sample, matches!(at, AtPoint::Defined { count, infinite: 0 } if inside(count))));
     }
@@ -172,8 +172,7 @@ struct EndExaminer<'a> {
 
 impl EndExaminer<'_> {
     fn examine(&self, value: &RealAlgebraic) -> Result<End, Exhausted> {
-        let vanishes =
-            |f: &jurist_algebra::poly::UniPoly| value.sign_of_within(f, self.budget).map(|sign| sign.is_eq());
+        let vanishes = |f: &jurist_algebra::poly::UniPoly| self.budget.enter(|| value.sign_of(f).is_eq());
         let coefficients_defined = !vanishes(self.p.denominator())?;
         // Where all coefficients vanish, or one is infinite, no root can be named.
         let has_roots = coefficients_defined && !vanishes(self.p.content())?;

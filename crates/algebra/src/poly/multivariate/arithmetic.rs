@@ -1,9 +1,8 @@
 //! Sums, products, powers and the operators.
 
 use super::{Monomial, MultiPoly};
-use crate::limits::Budget;
+use crate::limits::checkpoint;
 use crate::number::Integer;
-use crate::poly::domain::Fast;
 use crate::poly::{Domain, Poly};
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
@@ -73,6 +72,7 @@ impl MultiPoly {
         if c.is_one() {
             return self.clone();
         }
+        checkpoint(4 * self.terms.len() as u64);
         MultiPoly { terms: self.terms.iter().map(|(m, a)| (m.clone(), a * c)).collect() }
     }
 
@@ -81,6 +81,7 @@ impl MultiPoly {
         if monomial.is_one() {
             return self.scaled_by(c);
         }
+        checkpoint(4 * self.terms.len() as u64);
         let one = c.is_one();
         let product = |(m, a): &(Monomial, Integer)| {
             let m = m.checked_mul(monomial).expect("exponents stay below 2^32");
@@ -91,6 +92,7 @@ impl MultiPoly {
 
     /// `p + q` or `p - q` by merging.
     fn merged(&self, other: &MultiPoly, subtract: bool) -> MultiPoly {
+        checkpoint(4 * (self.terms.len() + other.terms.len()) as u64);
         let signed = |c: &Integer| if subtract { -c } else { c.clone() };
         let mut terms = Vec::with_capacity(self.terms.len() + other.terms.len());
         let (mut a, mut b) = (self.terms.iter().peekable(), other.terms.iter().peekable());
@@ -123,6 +125,7 @@ impl MultiPoly {
     fn times_sorted(&self, other: &MultiPoly) -> MultiPoly {
         let mut products = Vec::with_capacity(self.terms.len() * other.terms.len());
         for (m, c) in &self.terms {
+            checkpoint(4 * other.terms.len() as u64);
             for (n, d) in &other.terms {
                 products.push((m.checked_mul(n).expect("exponents stay below 2^32"), c * d));
             }
@@ -241,8 +244,8 @@ impl Domain for MultiPoly {
     fn gcd(&self, other: &Self) -> Self {
         super::gcd::gcd(self, other)
     }
-    fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize, budget: &Budget) -> Option<Fast<Self>> {
-        crate::poly::kernel::multimodular_resultant::over_multivariate(a, n, b, m, budget)
+    fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize) -> Option<Self> {
+        crate::poly::modular::multimodular_resultant::over_multivariate(a, n, b, m)
     }
     /// Whether the leading coefficient is negative.
     fn needs_negation(&self) -> bool {

@@ -2,6 +2,7 @@
 
 use super::arithmetic::Packing;
 use super::{Monomial, MultiPoly};
+use crate::limits::checkpoint;
 use crate::number::Integer;
 use crate::poly::{Domain, Poly};
 use std::collections::BTreeMap;
@@ -20,6 +21,7 @@ impl MultiPoly {
         if c.is_zero() {
             return None;
         }
+        checkpoint(4 * self.terms.len() as u64);
         self.terms.iter().map(divide).collect::<Option<Vec<_>>>().map(|terms| MultiPoly { terms })
     }
 
@@ -77,6 +79,7 @@ impl MultiPoly {
                 continue;
             }
             let (m, a) = (m.checked_div(lead)?, Domain::div_exact(&a, c)?);
+            checkpoint(16 * divisor.terms.len() as u64);
             for (n, d) in &divisor.terms[1..] {
                 // The dividend's degrees bound the quotient's, unless the division is not exact.
                 rest.entry(n.checked_mul(&m)?).or_default().sub_mul_assign(&a, d);

@@ -11,6 +11,7 @@ pub mod strategies;
 mod substitute;
 
 use super::Domain;
+use crate::limits::checkpoint;
 use crate::number::Integer;
 use std::fmt;
 
@@ -68,7 +69,10 @@ impl MultiPoly {
     }
 
     fn from_unsorted(mut terms: Vec<(Monomial, Integer)>) -> Self {
-        terms.sort_by(|a, b| b.0.cmp(&a.0));
+        terms.sort_by(|a, b| {
+            checkpoint(1);
+            b.0.cmp(&a.0)
+        });
         let mut out: Vec<(Monomial, Integer)> = Vec::with_capacity(terms.len());
         for (m, c) in terms {
             match out.last_mut() {
@@ -151,6 +155,7 @@ impl MultiPoly {
 
     /// The non-negative greatest common divisor of the coefficients; zero for zero.
     pub fn integer_content(&self) -> Integer {
+        checkpoint(4 * self.terms.len() as u64);
         let mut content = Integer::ZERO;
         for (_, c) in self.terms.iter().rev() {
             content = content.gcd(c);

@@ -1,6 +1,7 @@
 //! Values.
 
 use super::{Monomial, MultiPoly};
+use crate::limits::checkpoint;
 use crate::number::{Integer, Rational};
 use crate::poly::UniPoly;
 
@@ -13,6 +14,7 @@ impl MultiPoly {
             return (self.clone(), Integer::ONE);
         }
         let (a, q) = (powers(&x.numerator(), degree), powers(&x.denominator(), degree));
+        checkpoint(8 * self.terms.len() as u64);
         let set = |(m, c): &(Monomial, Integer)| {
             let e = m.exponent(i) as usize;
             (m.with_exponent(i, 0), &(c * &a[e]) * &q[degree - e])
@@ -26,6 +28,7 @@ impl MultiPoly {
         let degree = self.degree_in(i) as usize;
         let (a, q) = (powers(&x.numerator(), degree), powers(&x.denominator(), degree));
         let mut coefficients = vec![Integer::ZERO; self.degree_in(kept) as usize + 1];
+        checkpoint(8 * self.terms.len() as u64);
         for (m, c) in &self.terms {
             if m.exponents().iter().enumerate().any(|(j, &e)| e > 0 && j != i && j != kept) {
                 return None;
@@ -48,6 +51,7 @@ impl MultiPoly {
         let numerators: Vec<_> = degrees.iter().zip(point).map(|(&d, x)| powers(&x.numerator(), d as usize)).collect();
         let denominators: Vec<_> =
             degrees.iter().zip(point).map(|(&d, x)| powers(&x.denominator(), d as usize)).collect();
+        checkpoint(8 * (self.terms.len() * degrees.len()) as u64);
         let mut sum = Integer::ZERO;
         for (m, c) in &self.terms {
             let mut term = c.clone();
@@ -69,6 +73,7 @@ impl MultiPoly {
         let degrees = self.degrees();
         assert!(degrees.len() <= point.len(), "the point gives every variable that occurs");
         let table: Vec<_> = degrees.iter().zip(point).map(|(&d, x)| powers(x, d as usize)).collect();
+        checkpoint(8 * (self.terms.len() * degrees.len()) as u64);
         let mut sum = Integer::ZERO;
         for (m, c) in &self.terms {
             let value = m.exponents().iter().enumerate().fold(c.clone(), |v, (i, &e)| &v * &table[i][e as usize]);
@@ -80,6 +85,7 @@ impl MultiPoly {
 
 fn powers(x: &Integer, up_to: usize) -> Vec<Integer> {
     let mut out = Vec::with_capacity(up_to + 1);
+    checkpoint(4 * up_to as u64);
     let mut power = Integer::ONE;
     for _ in 0..up_to {
         let next = &power * x;

@@ -1,12 +1,9 @@
 //! An irrational root between two dyadic numbers, and its refinement.
 
-use super::fixed::refine_bracket;
+use crate::limits::checkpoint;
 use crate::number::{Integer, Rational, Sign};
 use crate::poly::UniPoly;
 use std::cmp::Ordering;
-
-/// From so many bits to gain on, refinement works in fixed point.
-const FIXED_POINT_MIN_BITS: u64 = 16;
 
 /// The only root of a polynomial between `lo / 2^bits` and `hi / 2^bits`; neither end is a root,
 /// the root is irrational and the signs at the ends are opposite.
@@ -21,6 +18,7 @@ pub(crate) struct Bracket {
 
 /// `2^(k n) p(a / 2^k)` for `n` the degree: an integer of the sign of `p(a / 2^k)`.
 pub(crate) fn eval_dyadic(p: &UniPoly, a: &Integer, k: u64) -> Integer {
+    checkpoint(8 * p.coeffs().len() as u64);
     let mut acc = Integer::ZERO;
     for (i, c) in p.coeffs().iter().rev().enumerate() {
         acc = &acc * a;
@@ -52,17 +50,6 @@ impl Bracket {
         let exact = width.trailing_zeros() == Some(width.bit_length() - 1);
         let log = width.bit_length() as i64 - i64::from(exact);
         u64::try_from(log - self.bits as i64 + target).unwrap_or(0)
-    }
-
-    /// Narrows the bracket to a width of at most `2^-target`: in fixed point, or exactly when little is
-    /// missing or the bracket holds or touches zero.
-    pub fn refine(&mut self, p: &UniPoly, target: i64) {
-        let beside_zero = self.lo.sign() == Sign::Greater || self.hi.is_negative();
-        if beside_zero && self.bits_missing(target) >= FIXED_POINT_MIN_BITS {
-            refine_bracket(p, self, target);
-        } else {
-            self.refine_exact(p, target);
-        }
     }
 
     /// The reference: quadratic interval refinement [Abbott2014](crate::bibliography#abbott2014) in exact integers. The secant predicts a cell of a grid of `2^m` cells, the signs at its ends
@@ -120,13 +107,6 @@ impl Bracket {
                 m /= 2;
             }
         }
-    }
-
-    /// About twice as many bits behind the point.
-    pub fn refine_further(&mut self, p: &UniPoly) {
-        let width = &self.hi - &self.lo;
-        let now = self.bits as i64 - width.bit_length() as i64;
-        self.refine(p, now.max(8).saturating_mul(2));
     }
 
     /// One halving.

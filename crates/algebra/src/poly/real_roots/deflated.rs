@@ -1,21 +1,15 @@
 //! Polynomials in a power of the variable: the roots of `q(x^h)` from those of `q`.
 
 use super::bracket::{Bracket, eval_dyadic};
-use super::isolate::isolate_real_roots_descartes;
+use super::isolate::by_bisection;
 use super::square_free::{SquareFree, deflation};
-use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational, Sign};
 use crate::poly::UniPoly;
 use crate::poly::algebraic::RealAlgebraic;
 
 /// Brackets of the roots of a square-free polynomial `q(x^h)`, `h > 1`, without rational roots,
 /// at least of those between `lo` and `hi`.
-pub(super) fn brackets(
-    p: &UniPoly,
-    lo: Option<&Rational>,
-    hi: Option<&Rational>,
-    budget: &Budget,
-) -> Result<Vec<Bracket>, Exhausted> {
+pub(super) fn brackets(p: &UniPoly, lo: Option<&Rational>, hi: Option<&Rational>) -> Vec<Bracket> {
     let h = deflation(p.coeffs());
     let mut out = Vec::new();
     for negative in [true, false] {
@@ -29,12 +23,12 @@ pub(super) fn brackets(
         let q = UniPoly::new(half.coeffs().iter().step_by(h).cloned().collect()).primitive_part();
         let power = |x: &Rational| x.pow(h as i64).expect("the exponent is positive");
         let (from, to) = (power(&from), to.as_ref().map(power));
-        let ys = isolate_real_roots_descartes(&SquareFree::known(q.clone()), Some(&from), to.as_ref(), budget)?;
+        let ys = by_bisection(&SquareFree::known(q.clone()), Some(&from), to.as_ref());
         for bracket in roots_of_roots(&half, h, &from, to.as_ref(), &ys) {
             out.push(if negative { mirrored(bracket) } else { bracket });
         }
     }
-    Ok(out)
+    out
 }
 
 /// The brackets of the positive `h`-th roots of `ys`, which are all positive roots of `q` between

@@ -1,6 +1,6 @@
 //! Isolation by Descartes' rule and bisection (Collins and Akritas), in exact integers.
 
-use crate::limits::{Budget, Exhausted};
+use crate::limits::checkpoint;
 use crate::number::{Integer, Sign};
 use crate::poly::UniPoly;
 
@@ -24,25 +24,21 @@ struct Node {
 /// [CollinsAkritas1976](crate::bibliography#collinsakritas1976): a cell without sign variation (after the map of `(0, 1)` to the positive
 /// axis) holds no root, with one exactly one; others are halved. Since no end can be a root, the
 /// cells' ends have opposite signs.
-pub(super) fn cells_by_bisection(
-    p: &UniPoly,
-    wanted: &dyn Fn(&Integer, u64) -> bool,
-    budget: &Budget,
-) -> Result<Vec<Cell>, Exhausted> {
+pub(super) fn cells_by_bisection(p: &UniPoly, wanted: &dyn Fn(&Integer, u64) -> bool) -> Vec<Cell> {
     let mut found = Vec::new();
     let mut stack = Vec::new();
-    visit(p.coeffs().to_vec(), Integer::ZERO, 0, wanted, &mut found, &mut stack, budget)?;
+    visit(p.coeffs().to_vec(), Integer::ZERO, 0, wanted, &mut found, &mut stack);
     while let Some(node) = stack.pop() {
         let left = halved(node.coeffs);
-        let right = shifted_by_one(left.clone(), budget)?;
+        let right = shifted_by_one(left.clone());
         let (at, depth) = (&node.at << 1, node.depth + 1);
         let mut pending = Vec::new();
-        visit(left, at.clone(), depth, wanted, &mut found, &mut pending, budget)?;
-        visit(right, at + Integer::ONE, depth, wanted, &mut found, &mut pending, budget)?;
+        visit(left, at.clone(), depth, wanted, &mut found, &mut pending);
+        visit(right, at + Integer::ONE, depth, wanted, &mut found, &mut pending);
         stack.append(&mut pending);
     }
     found.sort_by(compare_cells);
-    Ok(found)
+    found
 }
 
 /// Disjoint cells, compared by their left ends.
@@ -59,34 +55,29 @@ fn visit(
     wanted: &dyn Fn(&Integer, u64) -> bool,
     found: &mut Vec<Cell>,
     pending: &mut Vec<Node>,
-    budget: &Budget,
-) -> Result<(), Exhausted> {
-    budget.check()?;
+) {
     if !wanted(&at, depth) {
-        return Ok(());
+        return;
     }
-    match variations_on_unit_interval(&coeffs, budget)? {
+    match variations_on_unit_interval(&coeffs) {
         0 => {}
         1 => found.push(Cell { at, depth }),
         _ => pending.push(Node { coeffs, at, depth }),
     }
-    Ok(())
 }
 
 /// The sign variations of `(1 + x)^n p(1 / (1 + x))`, at most 2: the count stops there.
-fn variations_on_unit_interval(coeffs: &[Integer], budget: &Budget) -> Result<usize, Exhausted> {
+fn variations_on_unit_interval(coeffs: &[Integer]) -> usize {
     let mut c: Vec<Integer> = coeffs.iter().rev().cloned().collect();
     let n = c.len();
     let mut last = Sign::Equal;
     let mut count = 0;
     for i in 0..n {
-        if i % 32 == 0 {
-            budget.check()?;
-        }
+        checkpoint(4 * (n - i) as u64);
         // If all that is left has one sign, so have all coefficients still to come.
         if let Some(sign) = common_sign(&c[i..]) {
             let change = sign.is_ne() && last.is_ne() && sign != last;
-            return Ok((count + usize::from(change)).min(2));
+            return (count + usize::from(change)).min(2);
         }
         for j in (i..n - 1).rev() {
             let (low, high) = c.split_at_mut(j + 1);
@@ -97,11 +88,11 @@ fn variations_on_unit_interval(coeffs: &[Integer], budget: &Budget) -> Result<us
             count += usize::from(last.is_ne() && last != sign);
             last = sign;
             if count == 2 {
-                return Ok(2);
+                return 2;
             }
         }
     }
-    Ok(count)
+    count
 }
 
 /// The sign of all non-zero members, if they share one (`Equal` if all are zero).
@@ -129,16 +120,14 @@ fn halved(mut coeffs: Vec<Integer>) -> Vec<Integer> {
 }
 
 /// `p(x + 1)`.
-fn shifted_by_one(mut c: Vec<Integer>, budget: &Budget) -> Result<Vec<Integer>, Exhausted> {
+fn shifted_by_one(mut c: Vec<Integer>) -> Vec<Integer> {
     let n = c.len();
     for i in 0..n {
-        if i % 32 == 0 {
-            budget.check()?;
-        }
+        checkpoint(4 * (n - i) as u64);
         for j in (i..n - 1).rev() {
             let (low, high) = c.split_at_mut(j + 1);
             low[j] += &high[0];
         }
     }
-    Ok(c)
+    c
 }

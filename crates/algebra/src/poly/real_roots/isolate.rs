@@ -5,7 +5,8 @@ use super::bracket::{Bracket, eval_dyadic};
 use super::deflated;
 use super::descartes::{Cell, cells_by_bisection};
 use super::fixed::isolate_real_roots_fixed;
-use super::rational_roots::rational_roots;
+use super::rational_roots::without_rational_roots;
+use super::separated::separated;
 use super::square_free::{SquareFree, deflation};
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational, Sign};
@@ -55,6 +56,31 @@ pub fn isolate_real_roots_in(
     Ok(roots)
 }
 
+impl RealAlgebraic {
+    /// The root of `p` in the open interval from `lo` to `hi`; `None` unless there is exactly one.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_algebra::number::Rational;
+    /// use jurist_algebra::poly::{RealAlgebraic, SquareFree, UniPoly};
+    /// let p = SquareFree::new(UniPoly::from_i64(&[-2, 0, 1])).unwrap(); // x^2 - 2
+    /// let root = RealAlgebraic::in_interval(&p, &Rational::ONE, &2.into(), &Budget::unlimited());
+    /// assert_eq!(root.unwrap().unwrap().decimal(6), "1.41421");
+    /// ```
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn in_interval(
+        p: &SquareFree,
+        lo: &Rational,
+        hi: &Rational,
+        budget: &Budget,
+    ) -> Result<Option<RealAlgebraic>, Exhausted> {
+        let mut roots = isolate_real_roots_in(p, Some(lo), Some(hi), budget)?;
+        Ok(if roots.len() == 1 { roots.pop() } else { None })
+    }
+}
+
 /// The reference algorithm: linear factors first, then [CollinsAkritas1976](crate::bibliography#collinsakritas1976) bisection with exact
 /// integers on the positive and the negative half, each scaled to the unit interval by a power of
 /// two.
@@ -69,16 +95,21 @@ pub fn isolate_real_roots_descartes(
     hi: Option<&Rational>,
     budget: &Budget,
 ) -> Result<Vec<RealAlgebraic>, Exhausted> {
+    budget.enter(|| by_bisection(p, lo, hi))
+}
+
+/// The same within the budget that holds on the thread.
+pub(super) fn by_bisection(p: &SquareFree, lo: Option<&Rational>, hi: Option<&Rational>) -> Vec<RealAlgebraic> {
     let inside = |x: &Rational| lo.is_none_or(|lo| lo < x) && hi.is_none_or(|hi| x < hi);
-    let (rational, rest) = rational_roots(p, budget)?;
+    let (rational, rest) = without_rational_roots(p);
     let mut roots: Vec<RealAlgebraic> = rational.into_iter().filter(inside).map(RealAlgebraic::from_rational).collect();
     let poly = rest.shared();
     let mut brackets = if deflation(poly.coeffs()) > 1 {
-        deflated::brackets(&poly, lo, hi, budget)?
+        deflated::brackets(&poly, lo, hi)
     } else {
         let window = |x: &Rational, y: &Rational| lo.is_none_or(|lo| lo < y) && hi.is_none_or(|hi| x < hi);
-        let mut brackets = brackets_of_half(&poly, true, &window, budget)?;
-        brackets.append(&mut brackets_of_half(&poly, false, &window, budget)?);
+        let mut brackets = brackets_of_half(&poly, true, &window);
+        brackets.append(&mut brackets_of_half(&poly, false, &window));
         brackets
     };
     for bracket in brackets.drain(..) {
@@ -88,20 +119,14 @@ pub fn isolate_real_roots_descartes(
             roots.push(root);
         }
     }
-    budget.check()?;
-    Ok(separated(roots))
+    separated(roots)
 }
 
 /// Brackets of the positive (or the negative) roots of a square-free polynomial without rational
 /// roots, as far as they may lie in the window.
-fn brackets_of_half(
-    p: &UniPoly,
-    negative: bool,
-    window: &dyn Fn(&Rational, &Rational) -> bool,
-    budget: &Budget,
-) -> Result<Vec<Bracket>, Exhausted> {
+fn brackets_of_half(p: &UniPoly, negative: bool, window: &dyn Fn(&Rational, &Rational) -> bool) -> Vec<Bracket> {
     let half = if negative { p.negated_argument() } else { p.clone() };
-    let Some(scale) = positive_root_bound_bits(&half) else { return Ok(Vec::new()) };
+    let Some(scale) = positive_root_bound_bits(&half) else { return Vec::new() };
     let scaled = scaled_by_power_of_two(&half, scale);
     let ends = |at: &Integer, depth: u64| {
         let (lo, hi) = (dyadic(at, scale - depth as i64), dyadic(&(at + &Integer::ONE), scale - depth as i64));
@@ -111,8 +136,8 @@ fn brackets_of_half(
         let (lo, hi) = ends(at, depth);
         window(&lo, &hi)
     };
-    let cells = cells_by_bisection(&scaled, &wanted, budget)?;
-    Ok(cells.into_iter().map(|cell| bracket_of_cell(p, &cell, scale, negative)).collect())
+    let cells = cells_by_bisection(&scaled, &wanted);
+    cells.into_iter().map(|cell| bracket_of_cell(p, &cell, scale, negative)).collect()
 }
 
 fn bracket_of_cell(p: &UniPoly, cell: &Cell, scale: i64, negative: bool) -> Bracket {
@@ -145,18 +170,4 @@ fn scaled_by_power_of_two(p: &UniPoly, k: i64) -> UniPoly {
         if by >= 0 { c << by.unsigned_abs() } else { c >> by.unsigned_abs() }
     };
     UniPoly::new(p.coeffs().iter().enumerate().map(shift).collect())
-}
-
-/// The roots in ascending order, irrational ones refined until all enclosures are disjoint.
-pub(super) fn separated(mut roots: Vec<RealAlgebraic>) -> Vec<RealAlgebraic> {
-    roots.sort();
-    for i in 1..roots.len() {
-        let (left, right) = roots.split_at_mut(i);
-        let (left, right) = (&mut left[i - 1], &mut right[0]);
-        while left.enclosure().1 >= right.enclosure().0 {
-            left.narrow_further();
-            right.narrow_further();
-        }
-    }
-    roots
 }

@@ -9,9 +9,11 @@ mod deflated;
 mod descartes;
 mod fixed;
 mod isolate;
-mod modular;
 mod rational_roots;
+mod refinement;
+mod separated;
 mod sign_variations;
+mod small_residues;
 mod square_free;
 mod sturm;
 
@@ -19,10 +21,14 @@ pub use bounds::{negative_root_bound_bits, positive_root_bound_bits, root_bound_
 pub use fixed::isolate_real_roots_fixed;
 pub use isolate::{isolate_real_roots, isolate_real_roots_descartes, isolate_real_roots_in};
 pub use rational_roots::rational_roots;
-pub use sign_variations::{budan_fourier_bound, descartes_sign_variations, sign_variations};
+pub use sign_variations::{
+    budan_fourier_bound, descartes_sign_variations, descartes_sign_variations_in, sign_variations,
+};
 pub use square_free::SquareFree;
-pub use sturm::{Bound, count_roots_sturm, count_with_sequence, sturm_sequence};
+pub use sturm::{
+    Bound, count_roots_sturm, count_with_sequence, signed_remainder_sequence, signed_remainder_sequence_by,
+    sturm_sequence,
+};
 
 pub(crate) use bracket::Bracket;
-pub(crate) use modular::coprime_modulo_some_prime;
 pub(crate) use rational_roots::linear;

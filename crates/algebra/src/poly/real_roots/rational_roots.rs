@@ -1,9 +1,9 @@
 //! Rational roots, exactly: roots modulo a small prime, lifted until only one fraction fits.
 
 use super::bounds::root_bound_bits;
-use super::modular::{power, residues, without_rational_roots};
+use super::small_residues::{has_no_rational_root, power, residues};
 use super::square_free::SquareFree;
-use crate::limits::{Budget, Exhausted};
+use crate::limits::{Budget, Exhausted, checkpoint};
 use crate::number::{Integer, Rational};
 use crate::poly::UniPoly;
 
@@ -24,14 +24,19 @@ const LARGE_PRIME: u64 = 2_147_483_647;
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
 pub fn rational_roots(p: &SquareFree, budget: &Budget) -> Result<(Vec<Rational>, SquareFree), Exhausted> {
+    budget.enter(|| without_rational_roots(p))
+}
+
+/// The same within the budget that holds on the thread.
+pub(super) fn without_rational_roots(p: &SquareFree) -> (Vec<Rational>, SquareFree) {
     let mut roots = Vec::new();
     let mut rest = p.poly().clone();
     if rest.coeffs().first().is_some_and(Integer::is_zero) {
         roots.push(Rational::ZERO);
         rest = UniPoly::new(rest.into_coeffs().split_off(1));
     }
-    if rest.coeffs().len() > 2 && !without_rational_roots(&rest) {
-        let (prime, residues) = choose_prime(&rest, budget)?;
+    if rest.coeffs().len() > 2 && !has_no_rational_root(&rest) {
+        let (prime, residues) = choose_prime(&rest);
         let (small, residues) = small_roots(&rest, prime, residues);
         let product = product_of_linear(&small);
         let residues = match rest.div_exact_poly(&product) {
@@ -41,14 +46,13 @@ pub fn rational_roots(p: &SquareFree, budget: &Budget) -> Result<(Vec<Rational>,
                 residues
             }
             // A residue has misled: one by one.
-            None => choose_prime(&rest, budget)?.1,
+            None => choose_prime(&rest).1,
         };
         let mut lift = Lift::new(rest.clone(), prime);
         for r in residues {
             if rest.coeffs().len() <= 2 {
                 break;
             }
-            budget.check()?;
             if let Some((root, quotient)) = lift.rational_root(r, &rest) {
                 roots.push(root);
                 rest = quotient;
@@ -60,7 +64,7 @@ pub fn rational_roots(p: &SquareFree, budget: &Budget) -> Result<(Vec<Rational>,
         rest = UniPoly::from_i64(&[1]);
     }
     roots.sort();
-    Ok((roots, SquareFree::known(rest)))
+    (roots, SquareFree::known(rest))
 }
 
 /// Of the simple roots modulo a small prime those that lift to a rational number which is small
@@ -121,7 +125,7 @@ pub(crate) fn linear(root: &Rational) -> UniPoly {
 
 /// A prime not dividing the leading coefficient modulo which all roots are simple, and those
 /// roots: the best of a few.
-fn choose_prime(p: &UniPoly, budget: &Budget) -> Result<(u64, Vec<u64>), Exhausted> {
+fn choose_prime(p: &UniPoly) -> (u64, Vec<u64>) {
     let derivative = p.derivative();
     let mut best: Option<(u64, Vec<u64>)> = None;
     let mut good = 0;
@@ -130,13 +134,16 @@ fn choose_prime(p: &UniPoly, budget: &Budget) -> Result<(u64, Vec<u64>), Exhaust
     // discriminant, so that the search ends.
     loop {
         prime = next_prime(prime);
-        budget.check()?;
         let f = residues(p, prime);
         if f.len() < p.coeffs().len() {
             continue;
         }
         let value = |f: &[u64], x: u64| value_modulo(f, x, prime);
-        let roots: Vec<u64> = (0..prime).filter(|&x| value(&f, x) == 0).collect();
+        let is_root = |x: &u64| {
+            checkpoint(f.len() as u64 / 4 + 1);
+            value(&f, *x) == 0
+        };
+        let roots: Vec<u64> = (0..prime).filter(is_root).collect();
         let df = residues(&derivative, prime);
         if roots.iter().any(|&x| value(&df, x) == 0) {
             continue;
@@ -149,7 +156,7 @@ fn choose_prime(p: &UniPoly, budget: &Budget) -> Result<(u64, Vec<u64>), Exhaust
             // Many roots modulo a prime are most likely rational ones.
             roots.is_empty() || good == PRIMES_TRIED || 2 * roots.len() >= p.coeffs().len()
         }) {
-            return Ok(found);
+            return found;
         }
     }
 }
@@ -254,6 +261,7 @@ fn reduce(a: &Integer, m: &Integer) -> Integer {
 
 /// The value and the derivative of a polynomial at `x`, modulo `m`.
 fn value_and_slope(coeffs: &[Integer], x: &Integer, m: &Integer) -> (Integer, Integer) {
+    checkpoint(32 * coeffs.len() as u64);
     let mut value = Integer::ZERO;
     let mut slope = Integer::ZERO;
     for c in coeffs.iter().rev() {

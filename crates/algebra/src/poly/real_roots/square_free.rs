@@ -1,7 +1,6 @@
 //! Square-free polynomials as a type.
 
-use super::modular::coprime_modulo_some_prime;
-use crate::limits::{Budget, Exhausted};
+use crate::poly::modular::gcd::coprime_modulo_some_prime;
 use crate::poly::{Domain, UniPoly};
 use std::sync::Arc;
 
@@ -29,24 +28,16 @@ impl SquareFree {
     /// The product of the distinct irreducible factors: same roots, each once. `None` for zero;
     /// 1 for a non-zero constant.
     pub fn part_of(p: &UniPoly) -> Option<SquareFree> {
-        SquareFree::part_of_within(p, &Budget::unlimited()).expect("the budget is unlimited")
-    }
-
-    /// [`SquareFree::part_of`] within a budget.
-    ///
-    /// # Errors
-    /// [`Exhausted`] when the budget runs out.
-    pub fn part_of_within(p: &UniPoly, budget: &Budget) -> Result<Option<SquareFree>, Exhausted> {
         if p.is_zero() {
-            return Ok(None);
+            return None;
         }
         // x^v q(x^h) has the square-free part x sqf(q)(x^h), x only if v > 0.
         let v = p.coeffs().iter().take_while(|c| c.is_zero()).count();
         let h = deflation(&p.coeffs()[v..]);
         let q = UniPoly::new(p.coeffs()[v..].iter().step_by(h).cloned().collect()).primitive_part();
-        let part = if coprime_modulo_some_prime(&q, &q.derivative()) { q } else { q.square_free_part_within(budget)? };
+        let part = if coprime_modulo_some_prime(&q, &q.derivative()) { q } else { q.square_free_part() };
         let inflated = if h == 1 { part } else { inflate(&part, h) };
-        Ok(Some(SquareFree(Arc::new(if v > 0 { inflated.shifted_up(1) } else { inflated }))))
+        Some(SquareFree(Arc::new(if v > 0 { inflated.shifted_up(1) } else { inflated })))
     }
 
     /// A polynomial of which the caller knows that it is primitive, square-free, non-zero and has

@@ -2,8 +2,8 @@
 
 use super::sign_variations::sign_variations;
 use crate::limits::{Budget, Exhausted};
-use crate::number::{Rational, Sign};
-use crate::poly::{Domain, UniPoly};
+use crate::number::{Integer, Rational, Sign};
+use crate::poly::{Domain, Poly, UniPoly};
 
 /// An end of an interval on the real line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,22 +24,53 @@ pub enum Bound<'a> {
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
 pub fn sturm_sequence(p: &UniPoly, budget: &Budget) -> Result<Vec<UniPoly>, Exhausted> {
-    if p.is_zero() {
-        return Ok(Vec::new());
+    budget.enter(|| signed_remainder_sequence(p, &p.derivative()))
+}
+
+/// `S_0 = a`, `S_1 = b`, `S_(i+1) = -rem(S_(i-1), S_i)`, each divided by its positive content, without the final zero:
+/// what Sturm's theorem counts with, and the index of Cauchy of `b / a`
+/// ([BasuPollackRoy2006](crate::bibliography#basupollackroy2006)). Empty where `a` is zero.
+///
+/// `O(n^2)` operations on integers of about the size of subresultants. Runs within the budget that holds on the thread.
+///
+/// ```
+/// use jurist_algebra::poly::UniPoly;
+/// use jurist_algebra::poly::real_roots::signed_remainder_sequence;
+/// let (a, b) = (UniPoly::from_i64(&[-1, 0, 1]), UniPoly::from_i64(&[0, 1]));
+/// let sequence = signed_remainder_sequence(&a, &b); // x^2 - 1, x, 1
+/// assert_eq!(sequence[2], UniPoly::from_i64(&[1]));
+/// ```
+pub fn signed_remainder_sequence(a: &UniPoly, b: &UniPoly) -> Vec<UniPoly> {
+    signed_remainder_sequence_by(
+        positive_primitive(a),
+        positive_primitive(b),
+        |p| positive_primitive(&p),
+        Integer::sign,
+    )
+}
+
+/// The same over any domain with signs: `normalised` divides by a positive factor (or takes another representative of
+/// the coefficients), `sign` tells the sign of a leading coefficient. Both polynomials are to be normalised.
+pub fn signed_remainder_sequence_by<R: Domain>(
+    a: Poly<R>,
+    b: Poly<R>,
+    normalised: impl Fn(Poly<R>) -> Poly<R>,
+    sign: impl Fn(&R) -> Sign,
+) -> Vec<Poly<R>> {
+    let mut sequence: Vec<Poly<R>> = Vec::new();
+    let (mut previous, mut next) = (a, b);
+    while let Some(lead) = next.leading() {
+        // The pseudo-remainder is lead^exponent times the remainder.
+        let exponent = (previous.coeffs().len() + 1).saturating_sub(next.coeffs().len());
+        let flipped = exponent % 2 == 1 && sign(lead).is_lt();
+        let remainder = previous.pseudo_rem(&next);
+        let negative = normalised(if flipped { remainder } else { remainder.negated() });
+        sequence.push(std::mem::replace(&mut previous, std::mem::replace(&mut next, negative)));
     }
-    let mut sequence = vec![positive_primitive(p)];
-    let mut next = positive_primitive(&p.derivative());
-    while !next.is_zero() {
-        budget.check()?;
-        let previous = &sequence[sequence.len() - 1];
-        let rem = previous.pseudo_rem(&next);
-        // prem = lc^(d+1) rem: keep the sign of -rem.
-        let d = previous.coeffs().len() - next.coeffs().len();
-        let flipped = next.needs_negation() && d.is_multiple_of(2);
-        sequence.push(next);
-        next = positive_primitive(&if flipped { rem } else { rem.negated() });
+    if !previous.is_zero() {
+        sequence.push(previous);
     }
-    Ok(sequence)
+    sequence
 }
 
 /// The polynomial divided by its positive content: the signs stay.
@@ -78,8 +109,8 @@ pub fn count_roots_sturm(p: &UniPoly, lo: Bound, hi: Bound, budget: &Budget) -> 
     }
     // Multiple roots: V(a) - V(b) counts the distinct roots in (a, b] when neither end is a
     // multiple root; dividing by the gcd first removes that condition.
-    let sequence = sturm_sequence(&p.square_free_part(), budget)?;
-    Ok(count_with_sequence(&sequence, lo, hi))
+    let sequence = budget.enter(|| p.square_free_part()).and_then(|part| sturm_sequence(&part, budget))?;
+    budget.enter(|| count_with_sequence(&sequence, lo, hi))
 }
 
 /// The count from the Sturm sequence of a square-free polynomial, on a non-empty interval.

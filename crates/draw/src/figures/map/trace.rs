@@ -2,7 +2,7 @@
 
 use super::window::AxisWindow;
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
-use jurist_algebra::number::{Rational, parse_number};
+use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::poly::algebraic::simplest_between;
 use jurist_engine::answer::{Answer, Map};
@@ -125,7 +125,7 @@ impl Tracer<'_> {
         }
         let u = window.place(approximate(wall)).clamp(0.0, 1.0);
         let aside = if right { u - CLOSEST } else { u + CLOSEST };
-        let mut step = rational((window.value(aside) - window.value(u)).abs())?;
+        let mut step = Rational::from_f64((window.value(aside) - window.value(u)).abs())?;
         let half = Rational::dyadic(&jurist_algebra::number::Integer::ONE, 1);
         for _ in 0..200 {
             let (lo, hi) = wall.refined(&step).enclosure();
@@ -145,7 +145,7 @@ impl Tracer<'_> {
             let x = match exact {
                 Some(x) => Some(x),
                 None => {
-                    let near = |d: f64| rational(self.windows[0].value(u + d * spacing));
+                    let near = |d: f64| Rational::from_f64(self.windows[0].value(u + d * spacing));
                     let range = near(-0.01).zip(near(0.01));
                     range.and_then(|(a, b)| simplest_between(&a, &b)).filter(|x| self.strip.x.contains(x))
                 }
@@ -180,9 +180,4 @@ fn steep(a: &TracedLine, b: &TracedLine) -> bool {
 pub(super) fn approximate(value: &RealAlgebraic) -> f64 {
     let (lo, hi) = value.refined_to_digits(15).enclosure();
     lo.midpoint(&hi).to_f64_approximate()
-}
-
-/// The decimal that a floating-point number is printed as.
-fn rational(value: f64) -> Option<Rational> {
-    parse_number(&format!("{value:e}")).ok()
 }

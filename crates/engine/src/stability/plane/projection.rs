@@ -26,7 +26,7 @@ impl Projected<'_> {
             Projected::Resultant(f, g) => resultant(f, g, budget)?,
         };
         budget.check()?;
-        Ok(SquareFree::part_of_within(&value, budget)?.filter(|q| q.degree() > 0))
+        Ok(budget.enter(|| SquareFree::part_of(&value))?.filter(|q| q.degree() > 0))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
+use jurist_algebra::poly::real_roots::{sign_variations, signed_remainder_sequence_by};
 use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, UniPoly};
 use std::cmp::Ordering;
 
@@ -37,20 +38,10 @@ impl<'a> SturmAt<'a> {
                 first = reduced(&without_root(&first, end), c);
             }
         }
-        let mut next = reduced(&first.derivative(), c);
-        let mut sequence = vec![first];
-        while !next.is_zero() {
-            budget.check()?;
-            let previous = &sequence[sequence.len() - 1];
-            let exponent = (previous.coeffs().len() + 1).saturating_sub(next.coeffs().len());
-            let lead = c.sign_of(next.leading().expect("not zero"));
-            let mut r = reduced(&previous.pseudo_rem(&next), c);
-            if !(exponent % 2 == 1 && lead.is_lt()) {
-                r = r.negated();
-            }
-            sequence.push(next);
-            next = r;
-        }
+        let sequence = budget.enter(|| {
+            let derivative = reduced(&first.derivative(), c);
+            signed_remainder_sequence_by(first, derivative, |p| reduced(&p, c), |lead| c.sign_of(lead))
+        })?;
         Ok(Some(SturmAt { sequence, c, lower, upper }))
     }
 
@@ -74,13 +65,7 @@ impl<'a> SturmAt<'a> {
     }
 
     fn variations(&self, sign: impl Fn(&Poly<UniPoly>) -> Sign) -> usize {
-        let mut last = Ordering::Equal;
-        let mut count = 0;
-        for s in self.sequence.iter().map(sign).filter(|s| s.is_ne()) {
-            count += usize::from(last.is_ne() && s != last);
-            last = s;
-        }
-        count
+        sign_variations(self.sequence.iter().map(sign))
     }
 
     /// One rational in each open piece that the distinct roots cut the interval into, ascending.

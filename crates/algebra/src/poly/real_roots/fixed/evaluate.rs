@@ -1,6 +1,7 @@
 //! Values of a polynomial on the unit interval in fixed point, with a bound of the error.
 
 use super::limbs::{add, add_assign, is_negative, within, write_shifted};
+use crate::limits::checkpoint;
 use crate::number::Integer;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -132,6 +133,7 @@ fn horner<const L: usize>(table: &[u64], x: &[u64]) -> Vec<u64> {
 }
 
 fn horner_by<const L: usize, const M: usize>(table: &[u64], x: &[u64; M]) -> Vec<u64> {
+    checkpoint((table.len() * M / 16 + 1) as u64);
     let mut acc = [0u64; L];
     for c in table.as_chunks::<L>().0.iter().rev() {
         acc = add(&product_high(&acc, x), c);
@@ -175,6 +177,7 @@ fn horner_any(table: &[u64], limbs: usize, x: &[u64]) -> Vec<u64> {
     let mut acc = vec![0u64; limbs];
     let mut scratch = vec![0u64; limbs + x.len()];
     for c in table.chunks_exact(limbs).rev() {
+        checkpoint((limbs * x.len() / 16 + 1) as u64);
         product_high_any(&mut acc, x, &mut scratch);
         add_assign(&mut acc, c);
     }

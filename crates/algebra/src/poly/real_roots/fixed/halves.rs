@@ -6,40 +6,34 @@ use super::super::sign_variations::descartes_sign_variations;
 use super::piece::{Cell, Piece, binomial_row};
 use super::refine::Half;
 use super::search::{Found, search};
-use crate::limits::{Budget, Exhausted};
 use crate::number::Integer;
 use crate::poly::UniPoly;
 use std::rc::Rc;
 
 /// Strictly disjoint brackets, ascending, of the roots of a square-free polynomial without rational
 /// roots, refined to `2^-relative` of the root; of the positive ones only, unless `both`.
-pub fn brackets(p: &UniPoly, both: bool, relative: u64, budget: &Budget) -> Result<Vec<Bracket>, Exhausted> {
+pub fn brackets(p: &UniPoly, both: bool, relative: u64) -> Vec<Bracket> {
     if p.is_constant() {
-        return Ok(Vec::new());
+        return Vec::new();
     }
     let mut binomials = None;
     let mut out = Vec::new();
     if both {
-        let mut negative = positive_brackets(p.negated_argument(), relative, &mut binomials, budget)?;
+        let mut negative = positive_brackets(p.negated_argument(), relative, &mut binomials);
         negative.reverse();
         out = negative;
         for b in &mut out {
             *b = Bracket { lo: -&b.hi, hi: -&b.lo, bits: b.bits, rising: !b.rising };
         }
     }
-    out.append(&mut positive_brackets(p.clone(), relative, &mut binomials, budget)?);
-    Ok(out)
+    out.append(&mut positive_brackets(p.clone(), relative, &mut binomials));
+    out
 }
 
-fn positive_brackets(
-    p: UniPoly,
-    relative: u64,
-    binomials: &mut Option<Rc<Vec<Integer>>>,
-    budget: &Budget,
-) -> Result<Vec<Bracket>, Exhausted> {
+fn positive_brackets(p: UniPoly, relative: u64, binomials: &mut Option<Rc<Vec<Integer>>>) -> Vec<Bracket> {
     let most = descartes_sign_variations(&p);
     if most == 0 {
-        return Ok(Vec::new());
+        return Vec::new();
     }
     let bound = positive_root_bound_bits(&p).expect("the signs vary");
     let positive_at_infinity = !p.leading().expect("not zero").is_negative();
@@ -56,25 +50,24 @@ fn positive_brackets(
         let lengths = (half.coeffs[0].bit_length() as i64, half.coeffs[n].bit_length() as i64);
         let scale = (2 * (lengths.0 - lengths.1) + n as i64).div_euclid(2 * n as i64);
         let mut direct = Piece::new(Rc::clone(&half.coeffs), scale, Rc::clone(&row));
-        for found in search(&mut direct, most, budget)? {
+        for found in search(&mut direct, most) {
             out.push(direct_bracket(&found, scale));
         }
         let left = most - out.len().min(most);
         if left > 0 {
             let coeffs = half.coeffs.iter().rev().cloned().collect();
             let mut reversed = Piece::new(coeffs, -scale, row);
-            for found in search(&mut reversed, left, budget)?.iter().rev() {
+            for found in search(&mut reversed, left).iter().rev() {
                 let bracket = reversed_bracket(found, scale, bound, positive_at_infinity, &mut half);
                 out.push(bracket);
             }
         }
     }
     for b in &mut out {
-        budget.check()?;
         half.refine(b, relative);
     }
-    separate(&mut half, &mut out, budget)?;
-    Ok(out)
+    separate(&mut half, &mut out);
+    out
 }
 
 /// `2^exponent` as numerator and bits behind the point.
@@ -130,7 +123,7 @@ fn reversed_bracket(found: &Found, scale: i64, bound: i64, at_infinity: bool, ha
 }
 
 /// Refines neighbours, in ascending order, until there is a gap between them.
-fn separate(half: &mut Half, brackets: &mut [Bracket], budget: &Budget) -> Result<(), Exhausted> {
+fn separate(half: &mut Half, brackets: &mut [Bracket]) {
     for i in 1..brackets.len() {
         loop {
             let (left, right) = brackets.split_at_mut(i);
@@ -139,7 +132,6 @@ fn separate(half: &mut Half, brackets: &mut [Bracket], budget: &Budget) -> Resul
             if (&a.hi << (bits - a.bits)) < (&b.lo << (bits - b.bits)) {
                 break;
             }
-            budget.check()?;
             for x in [a, b] {
                 let width = &x.hi - &x.lo;
                 let now = x.bits as i64 - width.bit_length() as i64;
@@ -148,5 +140,4 @@ fn separate(half: &mut Half, brackets: &mut [Bracket], budget: &Budget) -> Resul
             }
         }
     }
-    Ok(())
 }

@@ -16,8 +16,8 @@ mod search;
 mod triangle;
 mod variations;
 
-use super::isolate::separated;
-use super::rational_roots::rational_roots;
+use super::rational_roots::without_rational_roots;
+use super::separated::separated;
 use super::square_free::{SquareFree, deflation};
 use crate::limits::{Budget, Exhausted};
 use crate::number::Rational;
@@ -53,25 +53,29 @@ pub fn isolate_real_roots_fixed(
     relative_bits: u64,
     budget: &Budget,
 ) -> Result<Vec<RealAlgebraic>, Exhausted> {
+    budget.enter(|| isolated(p, relative_bits))
+}
+
+fn isolated(p: &SquareFree, relative_bits: u64) -> Vec<RealAlgebraic> {
     let (zero, nonzero) = match p.poly().coeffs().split_first() {
         Some((c, others)) if c.is_zero() => (true, SquareFree::known(UniPoly::new(others.to_vec()))),
         _ => (false, p.clone()),
     };
     let h = deflation(nonzero.poly().coeffs());
     let (mut rational, poly, brackets) = if h > 1 {
-        let powers::Roots { rational, rest, brackets } = powers::roots(nonzero.poly(), h, relative_bits, budget)?;
+        let powers::Roots { rational, rest, brackets } = powers::roots(nonzero.poly(), h, relative_bits);
         (rational, Arc::new(rest), brackets)
     } else {
-        let (rational, rest) = rational_roots(&nonzero, budget)?;
+        let (rational, rest) = without_rational_roots(&nonzero);
         let poly = rest.shared();
-        let brackets = halves::brackets(&poly, true, relative_bits, budget)?;
+        let brackets = halves::brackets(&poly, true, relative_bits);
         (rational, poly, brackets)
     };
     rational.extend(zero.then_some(Rational::ZERO));
     let mut roots: Vec<RealAlgebraic> =
         brackets.into_iter().map(|b| RealAlgebraic::from_bracket(Arc::clone(&poly), b)).collect();
     if rational.is_empty() {
-        return Ok(roots);
+        return roots;
     }
     let exact = |x: Rational| RealAlgebraic::from_rational(x);
     if rational.iter().all(Rational::is_zero) {
@@ -79,9 +83,8 @@ pub fn isolate_real_roots_fixed(
         let at = roots.partition_point(|root| root.sign().is_lt());
         debug_assert!(roots.iter().all(|root| root.enclosure().0.sign() == root.enclosure().1.sign()));
         roots.insert(at, exact(Rational::ZERO));
-        return Ok(roots);
+        return roots;
     }
     roots.extend(rational.into_iter().map(exact));
-    budget.check()?;
-    Ok(separated(roots))
+    separated(roots)
 }

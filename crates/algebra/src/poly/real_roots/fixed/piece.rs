@@ -4,7 +4,7 @@
 use super::evaluate::Evaluator;
 use super::limbs::{max_bits, rescale, write_shifted};
 use super::triangle::{HEADROOM, fitting_width, shift_by_one, sum_differences, summing_width};
-use crate::limits::{Budget, Exhausted};
+use crate::limits::checkpoint;
 use crate::number::{Integer, Sign};
 use std::rc::Rc;
 
@@ -79,6 +79,7 @@ pub struct Piece {
 /// The binomial coefficients of one row of Pascal's triangle.
 pub fn binomial_row(n: usize) -> Vec<Integer> {
     let mut row = Vec::with_capacity(n + 1);
+    checkpoint(4 * n as u64);
     let mut c = Integer::ONE;
     for k in 0..=n {
         row.push(c.clone());
@@ -107,20 +108,14 @@ impl Piece {
 
     /// The Bernstein coefficients on a cell with `precision` certain bits of the largest, computed from
     /// the polynomial itself; `hint` is a guess at the binary logarithm of the largest.
-    pub fn bernstein(
-        &self,
-        cell: &Cell,
-        precision: u64,
-        hint: Option<i64>,
-        budget: &Budget,
-    ) -> Result<Bernstein, Exhausted> {
+    pub fn bernstein(&self, cell: &Cell, precision: u64, hint: Option<i64>) -> Bernstein {
         let n = self.degree() as u64;
         let top = self.top_bits();
         // Units lost: at most (2 n + 5) 2^n, see `differences_at`.
         let lost = n + u64::from(u64::BITS - (2 * n + 5).leading_zeros());
         let mut fraction = precision as i64 + lost as i64 + 4 - hint.unwrap_or(top);
         loop {
-            budget.check()?;
+            checkpoint(32 * n);
             let g = if cell.lo.is_zero() {
                 self.differences_at_zero(cell.bits - cell.log_width, fraction)
             } else {
@@ -138,7 +133,7 @@ impl Piece {
             let height = max_bits(&exact, limbs);
             let certain = height.saturating_sub(lost);
             if certain + 8 >= precision {
-                return Ok(stored(&exact, limbs, height, lost, fraction, precision));
+                return stored(&exact, limbs, height, lost, fraction, precision);
             }
             fraction += (precision - certain) as i64 + if height == 0 { fraction.abs() } else { 0 };
         }

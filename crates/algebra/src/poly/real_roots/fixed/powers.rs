@@ -1,10 +1,9 @@
 //! Roots of `q(x^h)` from those of `q`.
 
 use super::super::bracket::Bracket;
-use super::super::rational_roots::{linear, rational_roots};
+use super::super::rational_roots::{linear, without_rational_roots};
 use super::super::square_free::SquareFree;
 use super::halves;
-use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
 use crate::poly::UniPoly;
 
@@ -20,9 +19,9 @@ pub struct Roots {
 
 /// The real roots of a square-free `p(x) = q(x^h)`, `h > 1`, that is not 0 at 0, refined to
 /// `2^-relative` of the root.
-pub fn roots(p: &UniPoly, h: usize, relative: u64, budget: &Budget) -> Result<Roots, Exhausted> {
+pub fn roots(p: &UniPoly, h: usize, relative: u64) -> Roots {
     let q = UniPoly::new(p.coeffs().iter().step_by(h).cloned().collect());
-    let (ys, irrational) = rational_roots(&SquareFree::known(q.primitive_part()), budget)?;
+    let (ys, irrational) = without_rational_roots(&SquareFree::known(q.primitive_part()));
     let even = h.is_multiple_of(2);
     let (mut rational, mut powers) = (Vec::new(), Vec::new());
     let mut rest = p.clone();
@@ -38,13 +37,13 @@ pub fn roots(p: &UniPoly, h: usize, relative: u64, budget: &Budget) -> Result<Ro
         rest = rest.div_exact_poly(&linear(x)).expect("it is a root");
     }
     let mirror = |b: Bracket| Bracket { lo: -b.hi, hi: -b.lo, ..b };
-    let mut positive = roots_of_positive(irrational.poly(), &powers, h, relative, budget)?;
+    let mut positive = roots_of_positive(irrational.poly(), &powers, h, relative);
     let mut brackets: Vec<Bracket> = if even {
         // p is even: its negative roots mirror the positive ones.
         positive.iter().rev().cloned().map(mirror).collect()
     } else {
         let powers: Vec<Rational> = powers.iter().map(|y| -y).collect();
-        let negative = roots_of_positive(&irrational.poly().negated_argument(), &powers, h, relative, budget)?;
+        let negative = roots_of_positive(&irrational.poly().negated_argument(), &powers, h, relative);
         negative.into_iter().rev().map(mirror).collect()
     };
     brackets.append(&mut positive);
@@ -55,7 +54,7 @@ pub fn roots(p: &UniPoly, h: usize, relative: u64, budget: &Budget) -> Result<Ro
         b.rising = rising;
         rising = !rising;
     }
-    Ok(Roots { rational, rest, brackets })
+    Roots { rational, rest, brackets }
 }
 
 /// The `h`-th root of a non-negative number, if it is rational.
@@ -66,16 +65,10 @@ fn exact_root(y: &Rational, h: u64) -> Option<Rational> {
 
 /// The positive `h`-th roots of the positive roots of `q`, which has no rational roots, and of the positive ones
 /// of some rational numbers; which of them rise is left to the caller.
-fn roots_of_positive(
-    q: &UniPoly,
-    powers: &[Rational],
-    h: usize,
-    relative: u64,
-    budget: &Budget,
-) -> Result<Vec<Bracket>, Exhausted> {
+fn roots_of_positive(q: &UniPoly, powers: &[Rational], h: usize, relative: u64) -> Vec<Bracket> {
     let mut more = 4 + u64::from(usize::BITS - h.leading_zeros());
     loop {
-        let ys = positive_roots(q, powers, relative + more, budget)?;
+        let ys = positive_roots(q, powers, relative + more);
         let roots: Vec<Bracket> = ys.iter().map(|y| root_of(y, h as u64, relative + more)).collect();
         let apart = |a: &Bracket, b: &Bracket| {
             let bits = a.bits.max(b.bits);
@@ -83,7 +76,7 @@ fn roots_of_positive(
         };
         // Each enclosure holds the root that it was made from: apart, it holds no other.
         if roots.windows(2).all(|w| apart(&w[0], &w[1])) {
-            return Ok(roots);
+            return roots;
         }
         more = 2 * (more + relative);
     }
@@ -92,8 +85,8 @@ fn roots_of_positive(
 /// Brackets of the positive roots of a square-free `q` without rational roots and of the positive ones of some rational
 /// numbers, ascending; the latter, which are of relative width `2^-relative` too, may end at the root.
 /// Only the ends are meant.
-fn positive_roots(q: &UniPoly, powers: &[Rational], relative: u64, budget: &Budget) -> Result<Vec<Bracket>, Exhausted> {
-    let mut out = halves::brackets(q, false, relative, budget)?;
+fn positive_roots(q: &UniPoly, powers: &[Rational], relative: u64) -> Vec<Bracket> {
+    let mut out = halves::brackets(q, false, relative);
     for y in powers.iter().filter(|y| y.sign().is_gt()) {
         let exponent = y.numerator().bit_length() as i64 - y.denominator().bit_length() as i64 - 1;
         let bits = (relative as i64 - exponent).max(0) as u64;
@@ -105,7 +98,7 @@ fn positive_roots(q: &UniPoly, powers: &[Rational], relative: u64, budget: &Budg
         let bits = a.bits.max(b.bits);
         (&a.lo << (bits - a.bits)).cmp(&(&b.lo << (bits - b.bits)))
     });
-    Ok(out)
+    out
 }
 
 /// The `h`-th root of a bracket, rounded outwards by less than `2^-relative` of the root.

@@ -5,7 +5,7 @@ use super::limbs::{is_negative, max_bits, rescale, within};
 use super::piece::{Bernstein, Cell, Piece};
 use super::triangle::{HEADROOM, error_of_halves, fitting_width, split};
 use super::variations::{Variations, variations};
-use crate::limits::{Budget, Exhausted};
+use crate::limits::checkpoint;
 use crate::number::Integer;
 
 /// Bits kept of the coefficients of a cell with `v` sign variations: `BITS_BASE + BITS_PER_VARIATION v`.
@@ -53,33 +53,30 @@ fn bits_for(variations: usize) -> u64 {
 ///
 /// A cell whose Bernstein coefficients have no sign variation holds no root, with one it holds
 /// exactly one [LaneRiesenfeld1981](crate::bibliography#laneriesenfeld1981). The polynomial must be square-free and without rational roots.
-///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-pub fn search(piece: &mut Piece, most: usize, budget: &Budget) -> Result<Vec<Found>, Exhausted> {
+pub fn search(piece: &mut Piece, most: usize) -> Vec<Found> {
     let mut found = Vec::new();
     let mut stack = Vec::new();
     let cell = Cell::unit();
     let ends = (piece.positive_at(&Integer::ZERO, 0), piece.positive_at(&Integer::ONE, 0));
     // Most polynomials have fewer variations here than along the whole axis.
     let mut precision = bits_for(most).min(bits_for(FEW_VARIATIONS));
-    let mut bernstein = piece.bernstein(&cell, precision, None, budget)?;
+    let mut bernstein = piece.bernstein(&cell, precision, None);
     let mut variations = counted(&bernstein, ends);
     let wanted = bits_for(variations.most.min(most));
     if variations.most > FEW_VARIATIONS && wanted > precision {
         let hint = bernstein.height as i64 + bernstein.scale;
         precision = wanted;
-        bernstein = piece.bernstein(&cell, precision, Some(hint), budget)?;
+        bernstein = piece.bernstein(&cell, precision, Some(hint));
         variations = counted(&bernstein, ends);
     }
     let node = Node { cell, bernstein, variations, ends, unchanged: 0, zoom: FIRST_ZOOM, bought: (precision, 0) };
     place(node, &mut stack, &mut found);
     while let Some(node) = stack.pop() {
-        budget.check()?;
-        step(piece, node, &mut stack, &mut found, budget)?;
+        checkpoint(16);
+        step(piece, node, &mut stack, &mut found);
     }
     found.sort_by(|a, b| a.cell.compare(&b.cell));
-    Ok(found)
+    found
 }
 
 fn counted(b: &Bernstein, ends: (bool, bool)) -> Variations {
@@ -95,13 +92,7 @@ fn place(node: Node, stack: &mut Vec<Node>, found: &mut Vec<Found>) {
     }
 }
 
-fn step(
-    piece: &mut Piece,
-    mut node: Node,
-    stack: &mut Vec<Node>,
-    found: &mut Vec<Found>,
-    budget: &Budget,
-) -> Result<(), Exhausted> {
+fn step(piece: &mut Piece, mut node: Node, stack: &mut Vec<Node>, found: &mut Vec<Found>) {
     if node.bernstein.precision() < LEAST_PRECISION {
         // More bits if the last ones did not last.
         let depth = node.cell.bits - node.cell.log_width;
@@ -109,23 +100,22 @@ fn step(
         let fresh = bits_for(node.variations.most);
         let precision = if depth - at < 8 { 2 * last.max(fresh) } else { fresh.max(last / 2) };
         let hint = node.bernstein.height as i64 + node.bernstein.scale;
-        node.bernstein = piece.bernstein(&node.cell, precision, Some(hint), budget)?;
+        node.bernstein = piece.bernstein(&node.cell, precision, Some(hint));
         node.variations = counted(&node.bernstein, node.ends);
         node.bought = (precision, depth);
         place(node, stack, found);
-        return Ok(());
+        return;
     }
     let v = node.variations;
     if node.unchanged >= HALVINGS_BEFORE_NEWTON && v.least == v.most {
-        if let Some(zoomed) = newton(piece, &node, budget)? {
+        if let Some(zoomed) = newton(piece, &node) {
             stack.push(zoomed);
-            return Ok(());
+            return;
         }
         node.zoom = (node.zoom / 2).max(FIRST_ZOOM / 2);
         node.unchanged = 0;
     }
     halve(piece, node, stack, found);
-    Ok(())
 }
 
 /// Both halves, from one triangle.
@@ -179,15 +169,15 @@ fn trimmed(flat: &[u64], limbs: usize, error: u64, scale: i64, wanted: u64) -> B
 /// variations, so that there is none in the rest (subdivision never increases their number
 /// [Schoenberg1934](crate::bibliography#schoenberg1934)). `None` if the guess is wrong. The zoom is squared for the next step.
 /// The idea is that of [Sagraloff2012](crate::bibliography#sagraloff2012).
-fn newton(piece: &mut Piece, node: &Node, budget: &Budget) -> Result<Option<Node>, Exhausted> {
+fn newton(piece: &mut Piece, node: &Node) -> Option<Node> {
     let b = &node.bernstein;
     let v = node.variations.most;
     // The guess is no better than the coefficients.
     let zoom = node.zoom.min(b.precision().saturating_sub(v as u64 + 8));
     if zoom < FIRST_ZOOM / 2 {
-        return Ok(None);
+        return None;
     }
-    let Some(guess) = cluster(b, v, zoom + 1) else { return Ok(None) };
+    let Some(guess) = cluster(b, v, zoom + 1) else { return None };
     let last = &(&Integer::ONE << (zoom + 1)) - &Integer::from(2);
     let j = (&guess - &Integer::ONE).max(Integer::ZERO).min(last);
     let cell = if node.cell.lo.is_zero() && j.is_one() {
@@ -200,14 +190,14 @@ fn newton(piece: &mut Piece, node: &Node, budget: &Budget) -> Result<Option<Node
     // For the next step twice the zoom.
     let precision = 4 * zoom + bits_for(v);
     let hint = b.height as i64 + b.scale - (zoom * v as u64) as i64;
-    let bernstein = piece.bernstein(&cell, precision, Some(hint), budget)?;
+    let bernstein = piece.bernstein(&cell, precision, Some(hint));
     let variations = counted(&bernstein, (low, high));
     if variations.least < v {
-        return Ok(None);
+        return None;
     }
     let bought = (precision, cell.bits - cell.log_width);
     let unchanged = node.unchanged;
-    Ok(Some(Node { cell, bernstein, variations, ends: (low, high), unchanged, zoom: 2 * zoom, bought }))
+    Some(Node { cell, bernstein, variations, ends: (low, high), unchanged, zoom: 2 * zoom, bought })
 }
 
 /// The place of a cluster of `v` roots in the cell, times `2^bits`, seen from both ends alike: a

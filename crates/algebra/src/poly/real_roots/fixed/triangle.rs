@@ -2,6 +2,7 @@
 //! additions alone.
 
 use super::limbs::{add, add_assign, shift_right, shift_right_assign};
+use crate::limits::checkpoint;
 
 use std::ops::Range;
 
@@ -52,6 +53,7 @@ fn split_fixed<const L: usize>(work: &mut [[u64; L]], left: &mut [[u64; L]], rig
     let (mut stage, mut pending) = (0, 0);
     while stage < n {
         let m = n - stage;
+        checkpoint((m * L / 4) as u64);
         if m >= 2 {
             // Two stages in one sweep.
             let mut before = work[1];
@@ -89,6 +91,7 @@ fn split_any(work: &mut [u64], limbs: usize, left: &mut [u64], right: &mut [u64]
     let mut pending = 0;
     for stage in 1..=n {
         let m = n - stage;
+        checkpoint((m * limbs / 4) as u64);
         for i in 0..=m {
             let (low, high) = work.split_at_mut((i + 1) * limbs);
             add_assign(&mut low[i * limbs..], &high[..limbs]);
@@ -127,10 +130,14 @@ fn running_sums(flat: &mut [u64], limbs: usize, ranges: impl Iterator<Item = Ran
             match limbs {
                 $($l => {
                     let c = flat.as_chunks_mut::<$l>().0;
-                    ranges.for_each(|range| running_sum(&mut c[range]));
+                    ranges.for_each(|range| {
+                        checkpoint((range.len() * limbs / 8) as u64);
+                        running_sum(&mut c[range]);
+                    });
                 })*
                 _ => {
                     for range in ranges {
+                        checkpoint((range.len() * limbs / 8) as u64);
                         for i in range.skip(1) {
                             let (low, high) = flat.split_at_mut(i * limbs);
                             add_assign(&mut high[..limbs], &low[(i - 1) * limbs..]);

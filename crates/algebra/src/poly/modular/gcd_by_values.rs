@@ -1,23 +1,19 @@
 //! Greatest common divisors of polynomials over `Z[x]` through their values at integers `x`.
 
+use crate::limits::checkpoint;
 use crate::number::Integer;
-use crate::poly::gcd::primitive_gcd_subresultant;
 use crate::poly::{Domain, Poly, UniPoly};
 
 /// The subresultant sequence is used up to this degree of the smaller polynomial.
 pub const VALUES_MIN_DEGREE: usize = 1;
 
-/// A greatest common divisor of two non-zero polynomials over `Z[x]` that are primitive, up to sign: by
-/// values at integers, or by the subresultant sequence where the degree is low.
-pub fn primitive_gcd(a: &Poly<UniPoly>, b: &Poly<UniPoly>) -> Poly<UniPoly> {
-    if a.coeffs().len().min(b.coeffs().len()) <= VALUES_MIN_DEGREE + 1 {
-        primitive_gcd_subresultant(a, b)
-    } else {
-        primitive_gcd_by_values(a, b)
-    }
+/// [`primitive_gcd_by_values`]; `None` where the subresultant sequence is expected to be faster.
+pub(in crate::poly) fn primitive_gcd(a: &Poly<UniPoly>, b: &Poly<UniPoly>) -> Option<Poly<UniPoly>> {
+    (a.coeffs().len().min(b.coeffs().len()) > VALUES_MIN_DEGREE + 1).then(|| primitive_gcd_by_values(a, b))
 }
 
-/// The same by values alone ([Brown1971](crate::bibliography#brown1971)).
+/// A greatest common divisor of two non-zero polynomials over `Z[x]` that are primitive, up to sign, by values at
+/// integers ([Brown1971](crate::bibliography#brown1971)).
 ///
 /// Where not both leading coefficients vanish, the divisor of the values is never of too low a degree;
 /// so values of degree 0 prove that there is no common divisor, and a common divisor of the degree of
@@ -84,6 +80,7 @@ fn interpolated(nodes: &[Integer], values: &[UniPoly]) -> Option<Poly<UniPoly>> 
     let coefficient = |j: usize| {
         let mut differences: Vec<Integer> = values.iter().map(|v| v.coeff(j)).collect();
         for order in 1..nodes.len() {
+            checkpoint(8 * (nodes.len() - order) as u64);
             for i in (order..nodes.len()).rev() {
                 let difference = &differences[i] - &differences[i - 1];
                 let step = &nodes[i] - &nodes[i - order];
@@ -93,6 +90,7 @@ fn interpolated(nodes: &[Integer], values: &[UniPoly]) -> Option<Poly<UniPoly>> 
         let mut out: Vec<Integer> = Vec::new();
         for (node, value) in nodes.iter().zip(differences).rev() {
             // out = out (x - node) + value
+            checkpoint(4 * out.len() as u64);
             out.insert(0, value);
             for k in 1..out.len() {
                 let (low, high) = out.split_at_mut(k);
@@ -107,6 +105,7 @@ fn interpolated(nodes: &[Integer], values: &[UniPoly]) -> Option<Poly<UniPoly>> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::poly::gcd::primitive_gcd_subresultant;
 
     fn rows(rows: &[&[i64]]) -> Poly<UniPoly> {
         Poly::new(rows.iter().map(|r| UniPoly::from_i64(r)).collect())

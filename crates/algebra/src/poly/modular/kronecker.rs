@@ -1,5 +1,6 @@
 //! Products of polynomials as products of integers ([Kronecker1882](crate::bibliography#kronecker1882)).
 
+use crate::limits::checkpoint;
 use crate::number::Integer;
 
 /// The polynomials are multiplied as integers when the shorter one has at least this many
@@ -10,6 +11,7 @@ pub const KRONECKER_MIN_LENGTH: usize = 16;
 pub fn convolve_schoolbook(a: &[Integer], b: &[Integer]) -> Vec<Integer> {
     let mut out = vec![Integer::ZERO; a.len() + b.len() - 1];
     for (i, x) in a.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
+        checkpoint(2 * b.len() as u64);
         for (j, y) in b.iter().enumerate() {
             out[i + j].add_mul_assign(x, y);
         }
@@ -28,6 +30,7 @@ pub fn convolve_kronecker(a: &[Integer], b: &[Integer]) -> Vec<Integer> {
     let terms = u64::from(usize::BITS - a.len().min(b.len()).leading_zeros());
     let bits = height(a) + height(b) + terms + 1;
     let width = usize::try_from(bits.div_ceil(64)).expect("a coefficient fits into memory");
+    checkpoint(((a.len() + b.len()) * (width / 2 + 8)) as u64);
     let product = &pack(a, width) * &pack(b, width);
     unpack(&product, width, a.len() + b.len() - 1)
 }

@@ -1,6 +1,7 @@
 //! Values of polynomials on grids of small integers modulo a prime, and interpolation from them.
 
-use super::modular::PrimeField;
+use super::prime_field::PrimeField;
+use crate::limits::checkpoint;
 
 /// The grid `0..lengths[0] x 0..lengths[1] x ...` together with the tables of one prime.
 ///
@@ -63,6 +64,7 @@ impl<'a> Grid<'a> {
         let mut differences = vec![0; terms * inner];
         for (coefficients, values) in data.chunks_exact(terms * inner).zip(out.chunks_exact_mut(count * inner)) {
             for (row, &x) in values.chunks_exact_mut(inner).zip(&self.points).take(direct) {
+                checkpoint((terms * inner / 4) as u64);
                 row.copy_from_slice(&coefficients[(terms - 1) * inner..]);
                 for c in coefficients.chunks_exact(inner).rev().skip(1) {
                     for (v, &c) in row.iter_mut().zip(c) {
@@ -76,6 +78,7 @@ impl<'a> Grid<'a> {
             // The backward differences at the last point: of order 0, 1, ..., terms - 1.
             differences.copy_from_slice(&values[..terms * inner]);
             for order in 1..terms {
+                checkpoint(((terms - order) * inner / 8) as u64);
                 for k in 0..terms - order {
                     for i in 0..inner {
                         let at = k * inner + i;
@@ -84,6 +87,7 @@ impl<'a> Grid<'a> {
                 }
             }
             for row in values.chunks_exact_mut(inner).skip(terms) {
+                checkpoint((terms * inner / 8) as u64);
                 for k in 1..terms {
                     for i in 0..inner {
                         let at = k * inner + i;
@@ -108,6 +112,8 @@ impl<'a> Grid<'a> {
         let f = self.field;
         let n = v.len();
         for level in 1..n {
+            // Both triangles.
+            checkpoint((n - level) as u64 / 2);
             let mut previous = v[level - 1];
             for x in &mut v[level..] {
                 let current = *x;
@@ -129,6 +135,8 @@ impl<'a> Grid<'a> {
     fn interpolate_block(&self, v: &mut [u64], n: usize, inner: usize) {
         let f = self.field;
         for level in 1..n {
+            // Both triangles.
+            checkpoint(((n - level) * inner / 2) as u64);
             for k in (level..n).rev() {
                 let (before, current) = v[(k - 1) * inner..(k + 1) * inner].split_at_mut(inner);
                 for (x, &y) in current.iter_mut().zip(before.iter()) {
@@ -155,7 +163,7 @@ impl<'a> Grid<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::modular::largest_primes;
+    use super::super::prime_field::largest_primes;
     use super::*;
 
     #[test]

@@ -1,5 +1,6 @@
 //! Arithmetic modulo a prime that fits a machine word.
 
+use crate::limits::checkpoint;
 use std::sync::{Mutex, PoisonError};
 
 /// The integers modulo an odd prime `p < 2^62`.
@@ -9,7 +10,7 @@ use std::sync::{Mutex, PoisonError};
 /// up to four products be added up before they are reduced.
 ///
 /// ```
-/// use jurist_algebra::poly::kernel::modular::PrimeField;
+/// use jurist_algebra::poly::modular::prime_field::PrimeField;
 /// let f = PrimeField::new(101).unwrap();
 /// let third = f.inverse(f.residue(3));
 /// assert_eq!(f.integer(f.mul(third, f.residue(6))), 2);
@@ -235,6 +236,8 @@ pub fn largest_primes(count: usize) -> Vec<PrimeField> {
     static FOUND: Mutex<Vec<PrimeField>> = Mutex::new(Vec::new());
     let mut found = FOUND.lock().unwrap_or_else(PoisonError::into_inner);
     while found.len() < count {
+        // What is found stays found when the search is left.
+        checkpoint(1000);
         let mut p = found.last().map_or(PrimeField::LIMIT - 1, |f| f.prime - 2);
         while !is_prime(p) {
             p -= 2;

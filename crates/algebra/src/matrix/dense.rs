@@ -1,5 +1,6 @@
 //! Dense matrices over a domain.
 
+use crate::limits::checkpoint;
 use crate::number::Integer;
 use crate::poly::{Domain, Poly};
 use std::fmt;
@@ -8,20 +9,20 @@ use std::ops::{Add, Index, IndexMut, Mul, Sub};
 /// A dense matrix with entries from a domain, stored row by row. Either size may be 0.
 ///
 /// ```
-/// use jurist_algebra::matrix::PolyMatrix;
+/// use jurist_algebra::matrix::Matrix;
 /// use jurist_algebra::number::Integer;
-/// let m = PolyMatrix::from_i64(&[&[1, 2], &[3, 4]]);
+/// let m = Matrix::from_i64(&[&[1, 2], &[3, 4]]);
 /// assert_eq!((&m * &m)[(1, 0)], Integer::from(15));
 /// assert_eq!(m.trace(), Integer::from(5));
 /// ```
 #[derive(Clone, PartialEq, Eq)]
-pub struct PolyMatrix<R> {
+pub struct Matrix<R> {
     rows: usize,
     columns: usize,
     entries: Vec<R>,
 }
 
-impl<R: Domain> PolyMatrix<R> {
+impl<R: Domain> Matrix<R> {
     /// The matrix whose entry in row `i`, column `j` is `f(i, j)`.
     pub fn from_fn(rows: usize, columns: usize, mut f: impl FnMut(usize, usize) -> R) -> Self {
         let mut entries = Vec::with_capacity(rows * columns);
@@ -30,7 +31,7 @@ impl<R: Domain> PolyMatrix<R> {
                 entries.push(f(i, j));
             }
         }
-        PolyMatrix { rows, columns, entries }
+        Matrix { rows, columns, entries }
     }
 
     /// From rows; `None` when they differ in length. No rows give the 0 x 0 matrix.
@@ -39,34 +40,34 @@ impl<R: Domain> PolyMatrix<R> {
         if rows.iter().any(|row| row.len() != columns) {
             return None;
         }
-        Some(PolyMatrix { rows: rows.len(), columns, entries: rows.into_iter().flatten().collect() })
+        Some(Matrix { rows: rows.len(), columns, entries: rows.into_iter().flatten().collect() })
     }
 
     /// All entries zero.
     pub fn zeros(rows: usize, columns: usize) -> Self {
-        PolyMatrix::from_fn(rows, columns, |_, _| R::zero())
+        Matrix::from_fn(rows, columns, |_, _| R::zero())
     }
 
     /// The identity of size `n`.
     pub fn identity(n: usize) -> Self {
-        PolyMatrix::scalar(n, &R::one())
+        Matrix::scalar(n, &R::one())
     }
 
     /// `c` times the identity of size `n`.
     pub fn scalar(n: usize, c: &R) -> Self {
-        PolyMatrix::from_fn(n, n, |i, j| if i == j { c.clone() } else { R::zero() })
+        Matrix::from_fn(n, n, |i, j| if i == j { c.clone() } else { R::zero() })
     }
 
     /// A square matrix with these entries on the diagonal.
     pub fn diagonal(entries: &[R]) -> Self {
-        PolyMatrix::from_fn(entries.len(), entries.len(), |i, j| if i == j { entries[i].clone() } else { R::zero() })
+        Matrix::from_fn(entries.len(), entries.len(), |i, j| if i == j { entries[i].clone() } else { R::zero() })
     }
 
     /// The companion matrix of the monic `z^n + c_(n-1) z^(n-1) + ... + c_0`, given `c_0 ... c_(n-1)`:
     /// ones below the diagonal, the negated coefficients in the last column.
     pub fn companion(coefficients: &[R]) -> Self {
         let n = coefficients.len();
-        PolyMatrix::from_fn(n, n, |i, j| match (i, j) {
+        Matrix::from_fn(n, n, |i, j| match (i, j) {
             (i, j) if j + 1 == n => coefficients[i].negated(),
             (i, j) if i == j + 1 => R::one(),
             _ => R::zero(),
@@ -80,7 +81,7 @@ impl<R: Domain> PolyMatrix<R> {
     pub fn blocks(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
         assert!(a.rows == b.rows && c.rows == d.rows, "blocks side by side have equally many rows");
         assert!(a.columns == c.columns && b.columns == d.columns, "stacked blocks have equally many columns");
-        PolyMatrix::from_fn(a.rows + c.rows, a.columns + b.columns, |i, j| {
+        Matrix::from_fn(a.rows + c.rows, a.columns + b.columns, |i, j| {
             let (row, left, right) = if i < a.rows { (i, a, b) } else { (i - a.rows, c, d) };
             if j < a.columns { left[(row, j)].clone() } else { right[(row, j - a.columns)].clone() }
         })
@@ -91,7 +92,7 @@ impl<R: Domain> PolyMatrix<R> {
     /// # Panics
     /// When a range leaves the matrix.
     pub fn block(&self, rows: std::ops::Range<usize>, columns: std::ops::Range<usize>) -> Self {
-        PolyMatrix::from_fn(rows.len(), columns.len(), |i, j| self[(rows.start + i, columns.start + j)].clone())
+        Matrix::from_fn(rows.len(), columns.len(), |i, j| self[(rows.start + i, columns.start + j)].clone())
     }
 
     /// The number of rows.
@@ -124,13 +125,13 @@ impl<R: Domain> PolyMatrix<R> {
     }
 
     /// The matrix of the images under `f`.
-    pub fn map<S: Domain>(&self, f: impl FnMut(&R) -> S) -> PolyMatrix<S> {
-        PolyMatrix { rows: self.rows, columns: self.columns, entries: self.entries.iter().map(f).collect() }
+    pub fn map<S: Domain>(&self, f: impl FnMut(&R) -> S) -> Matrix<S> {
+        Matrix { rows: self.rows, columns: self.columns, entries: self.entries.iter().map(f).collect() }
     }
 
     /// Rows and columns exchanged.
     pub fn transposed(&self) -> Self {
-        PolyMatrix::from_fn(self.columns, self.rows, |i, j| self[(j, i)].clone())
+        Matrix::from_fn(self.columns, self.rows, |i, j| self[(j, i)].clone())
     }
 
     /// `c` times the matrix.
@@ -141,7 +142,7 @@ impl<R: Domain> PolyMatrix<R> {
     /// Every entry divided exactly; `None` when `c` does not divide one of them.
     pub fn div_exact_scalar(&self, c: &R) -> Option<Self> {
         let entries = self.entries.iter().map(|a| a.div_exact(c)).collect::<Option<Vec<R>>>()?;
-        Some(PolyMatrix { entries, ..*self })
+        Some(Matrix { entries, ..*self })
     }
 
     /// Adds `c` to each entry of the diagonal.
@@ -165,9 +166,9 @@ impl<R: Domain> PolyMatrix<R> {
     ///
     /// # Panics
     /// When the matrix is not square.
-    pub fn characteristic_matrix(&self) -> PolyMatrix<Poly<R>> {
+    pub fn characteristic_matrix(&self) -> Matrix<Poly<R>> {
         assert!(self.is_square(), "a characteristic matrix is square");
-        PolyMatrix::from_fn(self.rows, self.rows, |i, j| {
+        Matrix::from_fn(self.rows, self.rows, |i, j| {
             let top = if i == j { R::one() } else { R::zero() };
             Poly::new(vec![self[(i, j)].negated(), top])
         })
@@ -176,7 +177,7 @@ impl<R: Domain> PolyMatrix<R> {
     fn zip(&self, other: &Self, f: impl Fn(&R, &R) -> R) -> Self {
         assert!((self.rows, self.columns) == (other.rows, other.columns), "matrices of different sizes");
         let entries = self.entries.iter().zip(&other.entries).map(|(a, b)| f(a, b)).collect();
-        PolyMatrix { entries, ..*self }
+        Matrix { entries, ..*self }
     }
 
     /// Exchanges two rows.
@@ -187,18 +188,18 @@ impl<R: Domain> PolyMatrix<R> {
     }
 }
 
-impl PolyMatrix<Integer> {
+impl Matrix<Integer> {
     /// From machine integers, row by row.
     ///
     /// # Panics
     /// When the rows differ in length.
     pub fn from_i64(rows: &[&[i64]]) -> Self {
         let rows = rows.iter().map(|row| row.iter().map(|&c| Integer::from(c)).collect()).collect();
-        PolyMatrix::from_rows(rows).expect("rows have equal lengths")
+        Matrix::from_rows(rows).expect("rows have equal lengths")
     }
 }
 
-impl<R> Index<(usize, usize)> for PolyMatrix<R> {
+impl<R> Index<(usize, usize)> for Matrix<R> {
     type Output = R;
     fn index(&self, (i, j): (usize, usize)) -> &R {
         assert!(j < self.columns, "there is no column {j}");
@@ -206,7 +207,7 @@ impl<R> Index<(usize, usize)> for PolyMatrix<R> {
     }
 }
 
-impl<R> IndexMut<(usize, usize)> for PolyMatrix<R> {
+impl<R> IndexMut<(usize, usize)> for Matrix<R> {
     fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut R {
         assert!(j < self.columns, "there is no column {j}");
         &mut self.entries[i * self.columns + j]
@@ -215,29 +216,30 @@ impl<R> IndexMut<(usize, usize)> for PolyMatrix<R> {
 
 /// # Panics
 /// When the sizes differ.
-impl<R: Domain> Add for &PolyMatrix<R> {
-    type Output = PolyMatrix<R>;
-    fn add(self, other: &PolyMatrix<R>) -> PolyMatrix<R> {
+impl<R: Domain> Add for &Matrix<R> {
+    type Output = Matrix<R>;
+    fn add(self, other: &Matrix<R>) -> Matrix<R> {
         self.zip(other, R::plus)
     }
 }
 
 /// # Panics
 /// When the sizes differ.
-impl<R: Domain> Sub for &PolyMatrix<R> {
-    type Output = PolyMatrix<R>;
-    fn sub(self, other: &PolyMatrix<R>) -> PolyMatrix<R> {
+impl<R: Domain> Sub for &Matrix<R> {
+    type Output = Matrix<R>;
+    fn sub(self, other: &Matrix<R>) -> Matrix<R> {
         self.zip(other, R::minus)
     }
 }
 
 /// # Panics
 /// When the left one has not as many columns as the right one has rows.
-impl<R: Domain> Mul for &PolyMatrix<R> {
-    type Output = PolyMatrix<R>;
-    fn mul(self, other: &PolyMatrix<R>) -> PolyMatrix<R> {
+impl<R: Domain> Mul for &Matrix<R> {
+    type Output = Matrix<R>;
+    fn mul(self, other: &Matrix<R>) -> Matrix<R> {
         assert!(self.columns == other.rows, "matrices that cannot be multiplied");
-        PolyMatrix::from_fn(self.rows, other.columns, |i, j| {
+        Matrix::from_fn(self.rows, other.columns, |i, j| {
+            checkpoint(8 * self.columns as u64);
             let mut sum = R::zero();
             for (k, a) in self.row(i).iter().enumerate().filter(|(_, a)| !a.is_zero()) {
                 let b = &other[(k, j)];
@@ -250,7 +252,7 @@ impl<R: Domain> Mul for &PolyMatrix<R> {
     }
 }
 
-impl<R: Domain> fmt::Debug for PolyMatrix<R> {
+impl<R: Domain> fmt::Debug for Matrix<R> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list().entries((0..self.rows).map(|i| self.row(i))).finish()
     }

@@ -1,8 +1,8 @@
 //! From integers to residues modulo several primes, and back.
 
-use super::modular::{PrimeField, largest_primes, primes_for_bits};
+use super::prime_field::{PrimeField, largest_primes, primes_for_bits};
+use crate::limits::{checkpoint, parallel_map};
 use crate::number::Integer;
-use rayon::prelude::*;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Signed integers as limbs, laid out to be reduced modulo many primes.
@@ -32,6 +32,7 @@ impl Limbs {
 
     /// The residues of the integers, in the form of the field.
     pub fn residues(&self, f: &PrimeField) -> Vec<u64> {
+        checkpoint((self.limbs.len() / 2 + self.ends.len()) as u64);
         // The forms of 2^64, 2^128, ..., one place ahead because the reduction divides by 2^64.
         let mut place = f.residue(f.one());
         let mut places = Vec::with_capacity(self.longest);
@@ -86,6 +87,7 @@ impl Tables {
         let mut inverses = Vec::with_capacity(fields.len());
         let mut products = vec![vec![1u64]];
         for (k, f) in fields.iter().enumerate() {
+            checkpoint(k as u64 + 20);
             let mut place = f.one();
             let mut row = Vec::with_capacity(k);
             for earlier in &fields[..k] {
@@ -147,17 +149,10 @@ impl Chinese {
     }
 
     /// The images under `f` for each prime in their order, on several threads if `parallel`.
-    ///
-    /// # Errors
-    /// The first error in the order of the primes or, on several threads, any of them.
-    pub fn images<T: Send, E: Send>(
-        &self,
-        parallel: bool,
-        f: impl Fn(&PrimeField) -> Result<T, E> + Send + Sync,
-    ) -> Result<Vec<T>, E> {
+    pub fn images<T: Send>(&self, parallel: bool, f: impl Fn(&PrimeField) -> T + Send + Sync) -> Vec<T> {
         // With one thread there is nobody to hand work to.
         if parallel && self.count > 1 && rayon::current_num_threads() > 1 {
-            self.fields().par_iter().map(&f).collect()
+            parallel_map(self.fields(), f)
         } else {
             self.fields().iter().map(f).collect()
         }
@@ -170,6 +165,7 @@ impl Chinese {
     /// When there are not as many residues as primes.
     pub fn integer(&self, residues: impl IntoIterator<Item = u64>) -> Integer {
         let Tables { places, inverses, products, .. } = &*self.tables;
+        checkpoint((self.count * self.count / 8 + 1) as u64);
         let mut digits = Vec::with_capacity(self.count);
         for (((f, row), &inverse), x) in self.fields().iter().zip(places).zip(inverses).zip(residues) {
             // The digits are plain integers, the places forms: the sum is a plain residue.

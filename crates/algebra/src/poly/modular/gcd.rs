@@ -1,8 +1,8 @@
 //! Greatest common divisors of integer polynomials through their images modulo primes.
 
 use super::chinese::{Chinese, Limbs};
-use super::modular::{PrimeField, largest_primes};
-use crate::limits::{Budget, Exhausted};
+use super::prime_field::{PrimeField, largest_primes};
+use crate::limits::checkpoint;
 use crate::poly::{Domain, Poly, UniPoly};
 
 /// The subresultant sequence is used up to this degree of the smaller polynomial.
@@ -16,7 +16,7 @@ pub const MODULAR_MIN_DEGREE: usize = 3;
 ///
 /// ```
 /// use jurist_algebra::poly::UniPoly;
-/// use jurist_algebra::poly::kernel::gcd::primitive_gcd_modular;
+/// use jurist_algebra::poly::modular::gcd::primitive_gcd_modular;
 /// let (a, b) = (UniPoly::from_i64(&[-1, 0, 0, 0, 1]), UniPoly::from_i64(&[-1, 0, 0, 0, 0, 0, 1]));
 /// assert_eq!(primitive_gcd_modular(&a, &b), UniPoly::from_i64(&[-1, 0, 1]));
 /// ```
@@ -24,19 +24,11 @@ pub const MODULAR_MIN_DEGREE: usize = 3;
 /// # Panics
 /// When one of them is zero.
 pub fn primitive_gcd_modular(a: &UniPoly, b: &UniPoly) -> UniPoly {
-    primitive_gcd_modular_within(a, b, &Budget::unlimited()).expect("the budget is unlimited")
-}
-
-fn primitive_gcd_modular_within(a: &UniPoly, b: &UniPoly, budget: &Budget) -> Result<UniPoly, Exhausted> {
-    primitive_gcd_with(a, b, |k| budget.check().map(|()| largest_primes(k + 1)[k]))
+    primitive_gcd_with(a, b, |k| largest_primes(k + 1)[k])
 }
 
 /// The same with the given sequence of distinct primes, which must not end.
-fn primitive_gcd_with<E>(
-    a: &UniPoly,
-    b: &UniPoly,
-    prime: impl Fn(usize) -> Result<PrimeField, E>,
-) -> Result<UniPoly, E> {
+fn primitive_gcd_with(a: &UniPoly, b: &UniPoly, prime: impl Fn(usize) -> PrimeField) -> UniPoly {
     let lead = |p: &UniPoly| p.leading().expect("not zero").clone();
     let leading = lead(a).gcd(&lead(b));
     let (limbs_a, limbs_b) = (Limbs::new(a.coeffs()), Limbs::new(b.coeffs()));
@@ -45,14 +37,14 @@ fn primitive_gcd_with<E>(
     let mut images: Vec<Vec<u64>> = Vec::new();
     let mut attempt_at = 1;
     for k in 0.. {
-        let f = prime(k)?;
+        let f = prime(k);
         let scale = limbs_leading.residues(&f)[0];
         if scale == 0 {
             continue;
         }
         let mut image = monic_gcd(&f, limbs_a.residues(&f), limbs_b.residues(&f));
         if image.len() == 1 {
-            return Ok(UniPoly::one());
+            return UniPoly::one();
         }
         if let Some(known) = images.first() {
             if image.len() > known.len() {
@@ -79,7 +71,7 @@ fn primitive_gcd_with<E>(
         let lifted = (0..length).map(|j| chinese.integer(images.iter().map(|image| image[j])));
         let candidate = Poly::new(lifted.collect()).primitive_part();
         if candidate.coeffs().len() == length && divides(&candidate, a) && divides(&candidate, b) {
-            return Ok(candidate);
+            return candidate;
         }
     }
     unreachable!("the sequence of primes does not end")
@@ -103,6 +95,7 @@ fn monic_gcd(f: &PrimeField, a: Vec<u64>, b: Vec<u64>) -> Vec<u64> {
     }
     while !b.is_empty() {
         let m = b.len() - 1;
+        checkpoint((a.len() - m) as u64 * m as u64 / 8 + 8);
         let inverse = f.inverse(b[m]);
         for c in &mut b {
             *c = f.mul(*c, inverse);
@@ -136,22 +129,28 @@ fn monic_gcd(f: &PrimeField, a: Vec<u64>, b: Vec<u64>) -> Vec<u64> {
     a.iter().map(|&c| f.mul(c, inverse)).collect()
 }
 
-/// The gcd of two non-zero primitive polynomials by the way that is expected to be the fastest.
-pub fn primitive_gcd(a: &UniPoly, b: &UniPoly) -> UniPoly {
-    primitive_gcd_within(a, b, &Budget::unlimited()).expect("the budget is unlimited")
+/// [`primitive_gcd_modular`]; `None` where the subresultant sequence is expected to be faster.
+pub(in crate::poly) fn primitive_gcd(a: &UniPoly, b: &UniPoly) -> Option<UniPoly> {
+    (a.coeffs().len().min(b.coeffs().len()) > MODULAR_MIN_DEGREE).then(|| primitive_gcd_modular(a, b))
 }
 
-/// [`primitive_gcd`] within a budget, asked for each prime.
+/// Whether a prime proves that two polynomials have no common factor of positive degree.
 ///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-pub fn primitive_gcd_within(a: &UniPoly, b: &UniPoly, budget: &Budget) -> Result<UniPoly, Exhausted> {
-    if a.coeffs().len().min(b.coeffs().len()) <= MODULAR_MIN_DEGREE {
-        budget.check()?;
-        Ok(crate::poly::gcd::primitive_gcd_subresultant(a, b))
-    } else {
-        primitive_gcd_modular_within(a, b, budget)
+/// `true` is a proof: when a prime does not divide both leading coefficients, the degree of the greatest common divisor
+/// can only grow modulo it. `false` says nothing. `O(n m)` operations on machine words for each of two primes.
+pub(crate) fn coprime_modulo_some_prime(a: &UniPoly, b: &UniPoly) -> bool {
+    if a.coeffs().is_empty() || b.coeffs().is_empty() {
+        return false;
     }
+    if a.is_constant() || b.is_constant() {
+        return true;
+    }
+    let (limbs_a, limbs_b) = (Limbs::new(a.coeffs()), Limbs::new(b.coeffs()));
+    largest_primes(2).iter().any(|f| {
+        let (a, b) = (limbs_a.residues(f), limbs_b.residues(f));
+        // One leading coefficient must survive; then the divisor's leading coefficient does too.
+        (a.last() != Some(&0) || b.last() != Some(&0)) && monic_gcd(f, a, b).len() == 1
+    })
 }
 
 /// The primes of a sequence are tried until one divides neither leading coefficient; used in tests to
@@ -168,10 +167,10 @@ mod tests {
         let used = Cell::new(0);
         let g = primitive_gcd_with(a, b, |k| {
             used.set(k);
-            Ok::<_, Exhausted>(small[k])
+            small[k]
         });
         assert!(used.get() < small.len());
-        g.expect("no budget runs out")
+        g
     }
 
     #[test]

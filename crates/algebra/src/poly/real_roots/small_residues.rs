@@ -1,9 +1,6 @@
-//! Cheap certificates modulo word-size primes.
+//! Residues modulo numbers below 2^32, prime or not, for the search of rational roots.
 
 use crate::poly::UniPoly;
-
-/// Primes just below 2^31: products of residues fit `u64`.
-const PRIMES: [u64; 4] = [2_147_483_647, 2_147_483_629, 2_147_483_587, 2_147_483_579];
 
 /// The coefficients modulo `prime`, zeros at the top dropped.
 pub(super) fn residues(p: &UniPoly, prime: u64) -> Vec<u64> {
@@ -31,52 +28,9 @@ pub(super) fn power(base: u64, mut exponent: u64, prime: u64) -> u64 {
     result
 }
 
-/// Whether two polynomials given by residues have a constant greatest common divisor.
-fn coprime(mut a: Vec<u64>, mut b: Vec<u64>, prime: u64) -> bool {
-    if a.len() < b.len() {
-        std::mem::swap(&mut a, &mut b);
-    }
-    while b.len() > 1 {
-        let inverse = power(b[b.len() - 1], prime - 2, prime);
-        let m = b.len();
-        while a.len() >= m {
-            let top = a[a.len() - 1] * inverse % prime;
-            if top != 0 {
-                let negated = prime - top;
-                let at = a.len() - m;
-                for (x, y) in a[at..].iter_mut().zip(&b) {
-                    *x = (*x + negated * y) % prime;
-                }
-            }
-            a.pop();
-        }
-        trim(&mut a);
-        std::mem::swap(&mut a, &mut b);
-    }
-    b.len() == 1
-}
-
-/// Whether a prime proves that two polynomials have no common factor of positive degree.
-///
-/// `true` is a proof: when a prime does not divide both leading coefficients, the degree of the
-/// greatest common divisor can only grow modulo it. `false` says nothing.
-pub(crate) fn coprime_modulo_some_prime(a: &UniPoly, b: &UniPoly) -> bool {
-    if a.coeffs().is_empty() || b.coeffs().is_empty() {
-        return false;
-    }
-    if a.is_constant() || b.is_constant() {
-        return true;
-    }
-    PRIMES.iter().take(2).any(|&prime| {
-        let (ra, rb) = (residues(a, prime), residues(b, prime));
-        // One leading coefficient must survive; then the gcd's leading coefficient does too.
-        (ra.len() == a.coeffs().len() || rb.len() == b.coeffs().len()) && coprime(ra, rb, prime)
-    })
-}
-
 /// Whether some small prime proves that a polynomial has no rational root: it does not divide the
 /// leading coefficient, and the polynomial has no root modulo it. `false` says nothing.
-pub(super) fn without_rational_roots(p: &UniPoly) -> bool {
+pub(super) fn has_no_rational_root(p: &UniPoly) -> bool {
     /// Divisions by a constant are multiplications.
     fn rootless<const PRIME: u32>(residues: &[u64], lead: u64) -> bool {
         let q = u64::from(PRIME);

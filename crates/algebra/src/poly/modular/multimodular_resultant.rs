@@ -2,7 +2,6 @@
 //! remainders, and where that pays.
 
 use super::resultant::DensePair;
-use crate::limits::{Budget, Exhausted};
 use crate::number::Integer;
 use crate::poly::{Monomial, MultiPoly, Poly, UniPoly};
 
@@ -18,22 +17,14 @@ const MAX_POINTS: usize = 1 << 24;
 
 static ZERO: Integer = Integer::ZERO;
 
-type Answer<R> = Option<Result<R, Exhausted>>;
-
 /// For integer coefficients; `None` where the subresultant sequence is expected to be faster.
-pub(in crate::poly) fn over_integers(a: &UniPoly, n: usize, b: &UniPoly, m: usize, budget: &Budget) -> Answer<Integer> {
-    (n + m >= MULTIMODULAR_MIN_DEGREES).then(|| resultant_multimodular_integers(a, n, b, m, budget))
+pub(in crate::poly) fn over_integers(a: &UniPoly, n: usize, b: &UniPoly, m: usize) -> Option<Integer> {
+    (n + m >= MULTIMODULAR_MIN_DEGREES).then(|| resultant_multimodular_integers(a, n, b, m))
 }
 
 /// For coefficients in one variable.
-pub(in crate::poly) fn over_univariate(
-    a: &Poly<UniPoly>,
-    n: usize,
-    b: &Poly<UniPoly>,
-    m: usize,
-    budget: &Budget,
-) -> Answer<UniPoly> {
-    (n + m >= MULTIMODULAR_MIN_DEGREES).then(|| resultant_multimodular(a, n, b, m, budget))
+pub(in crate::poly) fn over_univariate(a: &Poly<UniPoly>, n: usize, b: &Poly<UniPoly>, m: usize) -> Option<UniPoly> {
+    (n + m >= MULTIMODULAR_MIN_DEGREES).then(|| resultant_multimodular(a, n, b, m))
 }
 
 /// For coefficients in several variables.
@@ -42,31 +33,21 @@ pub(in crate::poly) fn over_multivariate(
     n: usize,
     b: &Poly<MultiPoly>,
     m: usize,
-    budget: &Budget,
-) -> Answer<MultiPoly> {
+) -> Option<MultiPoly> {
     if n + m < MULTIMODULAR_MIN_DEGREES {
         return None;
     }
     let terms: usize = a.coeffs().iter().chain(b.coeffs()).map(|c| c.terms().len()).sum();
     let limit = terms.saturating_mul(POINTS_PER_TERM).min(MAX_POINTS);
     let layout = Layout::new(a, n, b, m, limit)?;
-    Some(layout.resultant(a, n, b, m, budget))
+    Some(layout.resultant(a, n, b, m))
 }
 
 /// The resultant of integer polynomials for formal degrees modulo primes.
 ///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-///
 /// # Panics
 /// When a formal degree is below the degree.
-pub fn resultant_multimodular_integers(
-    a: &UniPoly,
-    n: usize,
-    b: &UniPoly,
-    m: usize,
-    budget: &Budget,
-) -> Result<Integer, Exhausted> {
+pub fn resultant_multimodular_integers(a: &UniPoly, n: usize, b: &UniPoly, m: usize) -> Integer {
     let (mut coefficients, at_b) = room(a.coeffs().len(), n, b.coeffs().len(), m, 1);
     for (k, c) in a.coeffs().iter().enumerate() {
         coefficients[k] = c;
@@ -75,24 +56,15 @@ pub fn resultant_multimodular_integers(
         coefficients[at_b + k] = c;
     }
     let pair = DensePair { degrees: (n, m), terms: Vec::new(), coefficients };
-    Ok(pair.resultant(budget)?.pop().expect("one number"))
+    pair.resultant().pop().expect("one number")
 }
 
 /// The resultant over `Z[K]` for formal degrees: evaluated at `0, 1, 2, ...` modulo primes,
 /// interpolated and lifted, with proved bounds on degree and coefficients.
 ///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-///
 /// # Panics
 /// When a formal degree is below the degree.
-pub fn resultant_multimodular(
-    a: &Poly<UniPoly>,
-    n: usize,
-    b: &Poly<UniPoly>,
-    m: usize,
-    budget: &Budget,
-) -> Result<UniPoly, Exhausted> {
+pub fn resultant_multimodular(a: &Poly<UniPoly>, n: usize, b: &Poly<UniPoly>, m: usize) -> UniPoly {
     let terms = a.coeffs().iter().chain(b.coeffs()).map(|c| c.coeffs().len()).max().unwrap_or(0).max(1);
     let (mut coefficients, at_b) = room(a.coeffs().len(), n, b.coeffs().len(), m, terms);
     let rows = n + m + 2;
@@ -104,14 +76,11 @@ pub fn resultant_multimodular(
         }
     }
     let pair = DensePair { degrees: (n, m), terms: vec![terms], coefficients };
-    Ok(Poly::new(pair.resultant(budget)?))
+    Poly::new(pair.resultant())
 }
 
 /// The resultant over `Z[x_0, x_1, ...]` for formal degrees on a grid of as many dimensions as
 /// there are variables; `None` when the grid would be too large.
-///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
 ///
 /// # Panics
 /// When a formal degree is below the degree.
@@ -120,9 +89,8 @@ pub fn resultant_multimodular_multivariate(
     n: usize,
     b: &Poly<MultiPoly>,
     m: usize,
-    budget: &Budget,
-) -> Option<Result<MultiPoly, Exhausted>> {
-    Some(Layout::new(a, n, b, m, MAX_POINTS)?.resultant(a, n, b, m, budget))
+) -> Option<MultiPoly> {
+    Some(Layout::new(a, n, b, m, MAX_POINTS)?.resultant(a, n, b, m))
 }
 
 /// All zeros, and where the second polynomial begins.
@@ -168,14 +136,7 @@ impl Layout {
         (coefficients <= limit.max(n + m + 2) && points <= limit).then_some(layout)
     }
 
-    fn resultant(
-        &self,
-        a: &Poly<MultiPoly>,
-        n: usize,
-        b: &Poly<MultiPoly>,
-        m: usize,
-        budget: &Budget,
-    ) -> Result<MultiPoly, Exhausted> {
+    fn resultant(&self, a: &Poly<MultiPoly>, n: usize, b: &Poly<MultiPoly>, m: usize) -> MultiPoly {
         let (mut coefficients, at_b) =
             room(a.coeffs().len(), n, b.coeffs().len(), m, self.terms.iter().product::<usize>());
         let rows = n + m + 2;
@@ -193,7 +154,7 @@ impl Layout {
         }
         let pair = DensePair { degrees: (n, m), terms: self.terms.clone(), coefficients };
         let lengths = pair.lengths();
-        let values = pair.resultant(budget)?;
+        let values = pair.resultant();
         let mut exponents = vec![0u32; self.variables.last().map_or(0, |last| last + 1)];
         let mut terms = Vec::new();
         for (place, c) in values.into_iter().enumerate().filter(|(_, c)| !c.is_zero()) {
@@ -205,6 +166,6 @@ impl Layout {
             terms.push((Monomial::new(&exponents), c));
         }
         terms.reverse();
-        Ok(MultiPoly::from_descending(terms))
+        MultiPoly::from_descending(terms)
     }
 }

@@ -1,0 +1,11 @@
+//! Fast ways for polynomials over the integers through their residues modulo primes that fit a machine word, chosen in
+//! one place for the integers as a [`Domain`](super::Domain).
+
+pub mod chinese;
+pub mod gcd;
+pub mod gcd_by_values;
+pub mod grid;
+pub mod kronecker;
+pub mod multimodular_resultant;
+pub mod prime_field;
+pub mod resultant;
