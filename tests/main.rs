@@ -29,6 +29,7 @@ mod models {
 
 /// Whole loops in one parameter, beyond what the corpus says of them.
 mod loops {
+    mod corridor;
     mod drive;
     mod examples;
     mod large;
