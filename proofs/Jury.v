@@ -252,4 +252,102 @@ elim: n p => [|n IH] p sp; first exact: stable0.
 by rewrite jury_step //= IH // size_row.
 Qed.
 
+Lemma stableZ (c : R) n p : c != 0 -> stable n (c *: p) <-> stable n p.
+Proof.
+move=> c0; have cC : c%:C%C != 0 :> C by rewrite eq_complex /= eqxx andbT.
+rewrite /stable size_scale // coefZ mulf_eq0 (negPf c0) /=.
+by split=> -[-> -> H]; split=> // z rz; apply: H; move: rz; rewrite cpolyZ rootZ.
+Qed.
+
+(** ** The last row replaced by the signs at 1 and -1
+
+    The last condition of the table has the highest degree; the values of the polynomial itself at
+    1 and -1 decide the same. *)
+
+(** The rows down to degree 1; each condition is "the next row begins with a positive lead". *)
+Fixpoint inner n p : Prop :=
+  if n is (_.+1 as n').+1 then 0 < (row n p)`_n' /\ inner n' (row n p) else True.
+
+Lemma horner_rev1 n p : (size p <= n.+1)%N -> (rev_poly n p).[1] = p.[1].
+Proof.
+move=> sp; rewrite (@horner_coef_wide _ n.+1) ?size_poly // (@horner_coef_wide _ n.+1 p) //.
+rewrite (reindex_inj rev_ord_inj) /=; apply: eq_bigr => i _.
+by rewrite coef_rev subSS leq_subr subKn ?expr1n // -ltnS.
+Qed.
+
+Lemma horner_revN1 n p : (size p <= n.+1)%N -> (rev_poly n p).[-1] = (-1) ^+ n * p.[-1].
+Proof.
+move=> sp; rewrite (@horner_coef_wide _ n.+1) ?size_poly // (@horner_coef_wide _ n.+1 p) //.
+rewrite mulr_sumr (reindex_inj rev_ord_inj) /=; apply: eq_bigr => i _.
+have ni : (i <= n)%N by rewrite -ltnS.
+rewrite coef_rev subSS leq_subr subKn // mulrCA; congr (_ * _).
+by rewrite -signr_odd oddB // -[in RHS]signr_odd -[X in _ * X]signr_odd signr_addb.
+Qed.
+
+Lemma row_at1 n p : (size p <= n.+2)%N -> (row n.+1 p).[1] = (p`_n.+1 - p`_0) * p.[1].
+Proof.
+move=> sp; have := congr1 (fun q : {poly R} => q.[1]) (rowE sp).
+by rewrite !(hornerM, hornerX, hornerD, hornerN, hornerZ) horner_rev1 // mul1r => ->; ring.
+Qed.
+
+Lemma row_atN1 n p : (size p <= n.+2)%N ->
+  (-1) ^+ n * (row n.+1 p).[-1] = (p`_n.+1 - (-1) ^+ n.+1 * p`_0) * ((-1) ^+ n.+1 * p.[-1]).
+Proof.
+move=> sp; have := congr1 (fun q : {poly R} => q.[-1]) (rowE sp).
+rewrite !(hornerM, hornerX, hornerD, hornerN, hornerZ) horner_revN1 // mulN1r => /(canRL (@opprK _)) ->; rewrite exprS.
+by move: ((-1) ^+ n) => s; ring.
+Qed.
+
+Lemma lead_sub (a b : R) : a ^+ 2 < b ^+ 2 -> 0 < b * (b - a).
+Proof.
+move=> ab; have : 0 < (b ^+ 2 - a ^+ 2) + (b - a) ^+ 2 by rewrite ltr_paddr ?sqr_ge0 ?subr_gt0.
+have -> : (b ^+ 2 - a ^+ 2) + (b - a) ^+ 2 = 2%:R * (b * (b - a)) by ring.
+by rewrite pmulr_rgt0 ?ltr0n.
+Qed.
+
+Lemma lead_pos (a b x : R) : 0 < b * a -> (0 < b * x) = (0 < a * x).
+Proof.
+move=> ba; have b0 : b != 0 by apply: contraTneq ba => ->; rewrite mul0r ltxx.
+rewrite -(pmulr_rgt0 _ ba); have -> : b * a * (b * x) = b ^+ 2 * (a * x) by ring.
+by rewrite pmulr_rgt0 // exprn_even_gt0.
+Qed.
+
+Theorem inner_criterion n p : (size p <= n.+2)%N ->
+  stable n.+1 p <->
+  [/\ inner n.+1 p, 0 < p`_n.+1 * p.[1] & 0 < p`_n.+1 * ((-1) ^+ n.+1 * p.[-1])].
+Proof.
+elim: n p => [|n IH] p sp; rewrite jury_step //.
+  have -> : p.[1] = p`_1 + p`_0.
+    by rewrite (horner_coef_wide _ sp) !big_ord_recr big_ord0 /= expr0 expr1n; ring.
+  have -> : (-1) ^+ 1 * p.[-1] = p`_1 - p`_0.
+    by rewrite (horner_coef_wide _ sp) !big_ord_recr big_ord0 /= expr0 !expr1; ring.
+  rewrite stable0 ?size_row //; split=> [[ends _]|[_ l1 lN1]].
+    split=> //; last exact: lead_sub.
+    by rewrite -[p`_0]opprK lead_sub // sqrrN.
+  have p1 : p`_1 != 0 by apply: contraTneq l1 => ->; rewrite mul0r ltxx.
+  have ends : p`_0 ^+ 2 < p`_1 ^+ 2.
+    rewrite -subr_gt0 -(pmulr_rgt0 _ (_ : 0 < p`_1 ^+ 2)) ?exprn_even_gt0 //.
+    have -> : p`_1 ^+ 2 * (p`_1 ^+ 2 - p`_0 ^+ 2)
+      = p`_1 * (p`_1 + p`_0) * (p`_1 * (p`_1 - p`_0)) by ring.
+    exact: mulr_gt0.
+  by split=> //; rewrite lead_row subr_eq0 gt_eqF.
+rewrite IH ?size_row // row_at1 // row_atN1 //.
+have E : inner n.+2 p = (0 < (row n.+2 p)`_n.+1 /\ inner n.+1 (row n.+2 p)) by [].
+rewrite E {E}; have gt := lead_row n.+1 p.
+have le1 : 0 < (row n.+2 p)`_n.+1 ->
+  (0 < (row n.+2 p)`_n.+1 * ((p`_n.+2 - p`_0) * p.[1])) = (0 < p`_n.+2 * p.[1]).
+  rewrite gt subr_gt0 => ends; rewrite -gt pmulr_rgt0; last by rewrite gt subr_gt0.
+  by rewrite -(lead_pos p.[1] (lead_sub ends)).
+have leN1 : 0 < (row n.+2 p)`_n.+1 ->
+  (0 < (row n.+2 p)`_n.+1 * ((p`_n.+2 - (-1) ^+ n.+2 * p`_0) * ((-1) ^+ n.+2 * p.[-1])))
+  = (0 < p`_n.+2 * ((-1) ^+ n.+2 * p.[-1])).
+  rewrite gt subr_gt0 => ends; rewrite -gt pmulr_rgt0; last by rewrite gt subr_gt0.
+  rewrite -(lead_pos ((-1) ^+ n.+2 * p.[-1]) (lead_sub (a := (-1) ^+ n.+2 * p`_0) _)) //.
+  by rewrite exprMn -exprM mulnC exprM sqrrN !expr1n mul1r.
+split=> [[ends [inn one mone]]|[[lead inn] one mone]].
+  have lead : 0 < (row n.+2 p)`_n.+1 by rewrite gt subr_gt0.
+  by rewrite -le1 // -leN1.
+by split; [rewrite -subr_gt0 -gt | split; rewrite // ?le1 ?leN1].
+Qed.
+
 End Jury.
