@@ -165,7 +165,7 @@ Fixpoint phom (a c : Z) (p : poly) : Z * Z :=
 Definition pval (q : Q) (p : poly) : Z := fst (phom (Qnum q) (Zpos (Qden q)) p).
 
 (** Positive for every t > 0: no coefficient is negative, or so in both halves of a subdivision. *)
-Fixpoint positive (fuel : nat) (q : poly) : bool :=
+Fixpoint ray_pos (fuel : nat) (q : poly) : bool :=
   let q := ptrim q in
   match q with
   | [] => false
@@ -174,7 +174,7 @@ Fixpoint positive (fuel : nat) (q : poly) : bool :=
         forallb (Z.leb 0) q ||
         match fuel with
         | O => false
-        | S f => (0 <? fold_right Z.add 0 q) && positive f (fst (pmob 0 1 1 1 q)) && positive f (fst (pmob 1 1 1 0 q))
+        | S f => (0 <? fold_right Z.add 0 q) && ray_pos f (fst (pmob 0 1 1 1 q)) && ray_pos f (fst (pmob 1 1 1 0 q))
         end
       else false
   end.
@@ -182,7 +182,7 @@ Fixpoint positive (fuel : nat) (q : poly) : bool :=
 Definition proper (a b : pt) : bool :=
   (0 <=? snd a) && (0 <=? snd b) && (0 <? fst b * snd a - fst a * snd b).
 
-Definition pos_on (fuel : nat) (a b : pt) (p : poly) : bool := proper a b && positive fuel (mob a b p).
+Definition pos_on (fuel : nat) (a b : pt) (p : poly) : bool := proper a b && ray_pos fuel (mob a b p).
 Definition nonzero_on (fuel : nat) (a b : pt) (p : poly) : bool :=
   pos_on fuel a b p || pos_on fuel a b (popp p).
 Definition nonpos_on (a b : pt) (p : poly) : bool := proper a b && forallb (fun x => x <=? 0) (mob a b p).
