@@ -237,30 +237,26 @@ Definition low_pt (a : option Q) : pt := match a with Some q => pt_of q | None =
 Definition high_pt (a : option Q) : pt := match a with Some q => pt_of q | None => (1, 0) end.
 
 Fixpoint check_pieces (fuel : nat) (cs : list poly) (a upper : option Q) (on : bool) (ps : list piece) : bool :=
+  let to b := proper (low_pt a) (pt_of b) in
+  let side s F b :=
+    match a with None => false | Some a => isolates fuel F a b && edge fuel s cs F a b end in
   match ps with
   | [] => if on then in_on fuel cs (low_pt a) (high_pt upper) else out_on cs (low_pt a) (high_pt upper)
   | Along b :: ps' =>
-      (if on then in_on fuel cs (low_pt a) (pt_of b) && in_at cs b else out_on cs (low_pt a) (pt_of b) && out_at cs b)
+      to b && (if on then in_on fuel cs (low_pt a) (pt_of b) && in_at cs b
+               else out_on cs (low_pt a) (pt_of b) && out_at cs b)
       && check_pieces fuel cs (Some b) upper on ps'
   | Up F b :: ps' =>
-      match a with None => false | Some a =>
-        negb on && isolates fuel F a b && edge fuel Rising cs F a b && in_at cs b
-        && check_pieces fuel cs (Some b) upper true ps'
-      end
+      negb on && to b && side Rising F b && in_at cs b && check_pieces fuel cs (Some b) upper true ps'
   | Down F b :: ps' =>
-      match a with None => false | Some a =>
-        on && isolates fuel F a b && edge fuel Falling cs F a b && out_at cs b
-        && check_pieces fuel cs (Some b) upper false ps'
-      end
+      on && to b && side Falling F b && out_at cs b && check_pieces fuel cs (Some b) upper false ps'
   | Touch F b :: ps' =>
-      match a with None => false | Some a =>
-        on && isolates fuel F a b && edge fuel Touching cs F a b && in_at cs b
-        && check_pieces fuel cs (Some b) upper true ps'
-      end
+      on && to b && side Touching F b && in_at cs b && check_pieces fuel cs (Some b) upper true ps'
   | From :: ps' =>
       match a with None => false | Some _ => negb on && check_pieces fuel cs a upper true ps' end
   | Until b :: ps' =>
-      on && in_on fuel cs (low_pt a) (pt_of b) && out_at cs b && check_pieces fuel cs (Some b) upper false ps'
+      on && to b && in_on fuel cs (low_pt a) (pt_of b) && out_at cs b
+      && check_pieces fuel cs (Some b) upper false ps'
   end.
 
 (** The region of the roots: inside the circle of radius r, or left of the line at -s. *)

@@ -22,7 +22,11 @@ Fixpoint pr (p : positive) : R :=
 Definition zr (a : Z) : R := match a with Z0 => 0 | Zpos p => pr p | Zneg p => - pr p end.
 
 (** The number a fraction or a decimal stands for: [qr 0.25]. *)
-Definition qr (q : Q) : R := zr (Qnum q) / pr (Qden q).
+Definition qr (q : Q) : R :=
+  match Qden q with xH => zr (Qnum q) | d => zr (Qnum q) / pr d end.
+
+Lemma qrE q : qr q = zr (Qnum q) / pr (Qden q).
+Proof. by case: q => n [d|d|] //=; rewrite divr1. Qed.
 
 Lemma pr_nat p : pr p = (Pos.to_nat p)%:R.
 Proof.

@@ -247,7 +247,7 @@ Lemma phom_ok (q : Q) p :
   = pev p (qr R q) * zr R (phom (Qnum q) (Zpos (Qden q)) p).2.
 Proof.
 have d0 := pr_gt0 R (Qden q).
-have e : zr R (Qnum q) = qr R q * pr R (Qden q) by rewrite mulfVK ?gt_eqF.
+have e : zr R (Qnum q) = qr R q * pr R (Qden q) by rewrite qrE mulfVK ?gt_eqF.
 elim: p => [|y p] /=; first by rewrite !mul0r ltr01.
 case: phom => v w /= [w0 vw]; rewrite !zrM !zrD !zrM /= mulr_gt0 //; split=> //.
 rewrite mulrDl -[_ * zr R v * _]mulrA vw e; ring.
@@ -344,7 +344,7 @@ Definition only_root F (a b : Q) x : Prop :=
 
 Lemma between_qr a b K : between (pt_of a) (pt_of b) K = (qr R a < K < qr R b).
 Proof.
-rewrite /between /pt_of /= /qr ltr_pdivr_mulr ?pr_gt0 // ltr_pdivl_mulr ?pr_gt0 //.
+rewrite /between /pt_of /= !qrE ltr_pdivr_mulr ?pr_gt0 // ltr_pdivl_mulr ?pr_gt0 //.
 by rewrite ![K * _]mulrC.
 Qed.
 
@@ -360,7 +360,7 @@ have der : {in `]qr R a, qr R b[, forall y, 0 < (ppoly R F)^`().[y]}.
   by apply: pos_on_ok pos _; rewrite between_qr.
 have ab : qr R a < qr R b.
   rewrite ltNge; apply/negP => ba; case/andP: pos => /andP[/andP[_ _]].
-  rewrite (zr_gt0 R) /= zrD zrN !zrM subr_gt0 => pab _; move: ba; rewrite leNgt /qr.
+  rewrite (zr_gt0 R) /= zrD zrN !zrM subr_gt0 => pab _; move: ba; rewrite leNgt !qrE.
   by rewrite ltr_pdivr_mulr ?pr_gt0 // mulrAC ltr_pdivl_mulr ?pr_gt0 // pab.
 have [x] : {x | x \in `[qr R a, qr R b] & root (ppoly R F) x}.
   by apply: polyrcf.poly_ivt; [apply: ltW | rewrite in_itv /= !ltW].
