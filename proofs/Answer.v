@@ -246,4 +246,24 @@ split=> K; last by case: (starts ans).
 by case/andP => ->.
 Qed.
 
+(** The statement about equivalent properties. *)
+Lemma say_ext (S S' : R -> Prop) (lo up : option Q) a st acc ps :
+  (forall K, S K <-> S' K) -> say S lo up a st acc ps -> say S' lo up a st acc ps.
+Proof.
+move=> SS; elim: ps a st acc => [|p ps IH] a st acc.
+  have E K T : (S K <-> T) -> (S' K <-> T) by have := SS K; tauto.
+  by rewrite /= /on_domain; case: lo => [lo|]; case: up => [up|] H K; try move=> h; apply: E; auto.
+case: p => [b|F b|F b|F b||b] /=.
+- exact: IH.
+- by case: a => // a [y [only H]]; exists y; split=> //; apply: IH.
+- by case: a => // a; case: st => // lo' [y [only H]]; exists y; split=> //; apply: IH.
+- by case: a => // a; case: st => // lo' [y [only H]]; exists y; split=> //; apply: IH.
+- by case: a => // a; apply: IH.
+- by case: st => // lo'; apply: IH.
+Qed.
+
+Lemma says_ext (S S' : R -> Prop) (lo up : option Q) ans :
+  (forall K, S K <-> S' K) -> says S lo up ans -> says S' lo up ans.
+Proof. exact: say_ext. Qed.
+
 End Poly.

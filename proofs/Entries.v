@@ -53,7 +53,7 @@ Definition common (a b : poly) : poly * poly * poly :=
       let g := Z.gcd (pcontent a) (pcontent b) in
       let x := pquot b g in
       let y := pquot a g in
-      if peqb (pmul a x) (pmul b y) then (pmul a x, x, y) else (pmul a b, b, a).
+      if peqb (pmul a x) (pmul b y) && peqb b (pscale g x) then (pmul a x, x, y) else (pmul a b, b, a).
 
 Definition fadd (f g : frac) : frac :=
   let '(m, x, y) := common (snd f) (snd g) in
@@ -153,7 +153,7 @@ Definition all_nonzero (fuel : nat) (ans : answer) (gs : list poly) : bool :=
 
 Definition check_matrix (fuel : nat) (r : region) (n : nat) (m : matrix) (ans : answer) : bool :=
   all_nonzero fuel ans (matrix_guards n m) && forallb char_row_ok (fractions n m) &&
-  check_poly fuel r (charpoly n m) ans.
+  Nat.eqb (length (charpoly n m)) (S n) && check_poly fuel r (charpoly n m) ans.
 
 (** ** A polynomial given by its coefficients, lowest power first *)
 
