@@ -21,7 +21,21 @@ Infix "-" := Minus : expr_scope.
 Infix "*" := Times : expr_scope.
 Infix "/" := Over : expr_scope.
 Notation "- a" := (Neg a) : expr_scope.
-Notation "a ^ n" := (Power a n) : expr_scope.
+Notation "a ^ n" := (Power a n%nat) : expr_scope.
+
+(** Numbers as typed in a model: 46e-3 is 46/1000, exactly. *)
+Definition Q_of_decimal (i : Decimal.signed_int) (f : Decimal.uint) (e : Z) : Q :=
+  let m := Z.of_int (Decimal.app_int i f) in
+  let k := e - Z.of_nat (Decimal.nb_digits f) in
+  if 0 <=? k then Qmake (m * 10 ^ k) 1 else Qmake m (Z.to_pos (10 ^ (- k))).
+Definition expr_of_number (n : Number.number) : option expr :=
+  match n with
+  | Number.Decimal (Decimal.Decimal i f) => Some (Num (Q_of_decimal i f 0))
+  | Number.Decimal (Decimal.DecimalExp i f e) => Some (Num (Q_of_decimal i f (Z.of_int e)))
+  | Number.Hexadecimal _ => None
+  end.
+Definition expr_to_number (e : expr) : option Number.number := None.
+Number Notation expr expr_of_number expr_to_number : expr_scope.
 
 (** ** Fractions of polynomials *)
 
@@ -93,14 +107,14 @@ Definition matrix := list (list expr).
 Definition is_zero (e : expr) : bool := match e with Num q => Qnum q =? 0 | _ => false end.
 Definition eadd (a b : expr) : expr := if is_zero a then b else if is_zero b then a else Plus a b.
 Definition esub (a b : expr) : expr := if is_zero b then a else Minus a b.
-Definition emul (a b : expr) : expr := if is_zero a || is_zero b then Num 0 else Times a b.
+Definition emul (a b : expr) : expr := if is_zero a || is_zero b then Num 0%Q else Times a b.
 
-Definition entry (m : matrix) (i j : nat) : expr := nth j (nth i m []) (Num 0).
+Definition entry (m : matrix) (i j : nat) : expr := nth j (nth i m []) (Num 0%Q).
 Definition tabulate (r c : nat) (f : nat -> nat -> expr) : matrix :=
   map (fun i => map (f i) (seq 0 c)) (seq 0 r).
 
 Definition mprod (r k c : nat) (a b : matrix) : matrix :=
-  tabulate r c (fun i j => fold_right (fun l e => eadd (emul (entry a i l) (entry b l j)) e) (Num 0) (seq 0 k)).
+  tabulate r c (fun i j => fold_right (fun l e => eadd (emul (entry a i l) (entry b l j)) e) (Num 0%Q) (seq 0 k)).
 Definition msub (r c : nat) (a b : matrix) : matrix :=
   tabulate r c (fun i j => esub (entry a i j) (entry b i j)).
 
