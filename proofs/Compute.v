@@ -164,18 +164,22 @@ Fixpoint phom (a c : Z) (p : poly) : Z * Z :=
 (** A number with the sign of p at the finite point q. *)
 Definition pval (q : Q) (p : poly) : Z := fst (phom (Qnum q) (Zpos (Qden q)) p).
 
-(** Positive for every t > 0: no coefficient is negative, or so in both halves of a subdivision. *)
+(** Positive for every t > 0: no coefficient is negative, or so in both halves of a subdivision.
+    ([if] and not [||], whose two sides [vm_compute] would both run.) *)
 Fixpoint ray_pos (fuel : nat) (q : poly) : bool :=
   let q := ptrim q in
   match q with
   | [] => false
   | a :: _ =>
       if (0 <=? a) && (0 <? last q 0) then
-        forallb (Z.leb 0) q ||
-        match fuel with
-        | O => false
-        | S f => (0 <? fold_right Z.add 0 q) && ray_pos f (fst (pmob 0 1 1 1 q)) && ray_pos f (fst (pmob 1 1 1 0 q))
-        end
+        if forallb (Z.leb 0) q then true
+        else match fuel with
+             | O => false
+             | S f =>
+                 if 0 <? fold_right Z.add 0 q then
+                   if ray_pos f (fst (pmob 0 1 1 1 q)) then ray_pos f (fst (pmob 1 1 1 0 q)) else false
+                 else false
+             end
       else false
   end.
 
@@ -184,15 +188,18 @@ Definition proper (a b : pt) : bool :=
 
 Definition pos_on (fuel : nat) (a b : pt) (p : poly) : bool := proper a b && ray_pos fuel (mob a b p).
 Definition nonzero_on (fuel : nat) (a b : pt) (p : poly) : bool :=
-  pos_on fuel a b p || pos_on fuel a b (popp p).
+  if pos_on fuel a b p then true else pos_on fuel a b (popp p).
 Definition nonpos_on (a b : pt) (p : poly) : bool := proper a b && forallb (fun x => x <=? 0) (mob a b p).
 
 (** ** Conditions on an interval *)
 
+Fixpoint some {A : Type} (f : A -> bool) (l : list A) : bool :=
+  match l with [] => false | a :: l' => if f a then true else some f l' end.
+
 Definition in_on (fuel : nat) (cs : list poly) (a b : pt) : bool := forallb (pos_on fuel a b) cs.
 Definition in_at (cs : list poly) (q : Q) : bool := forallb (fun p => 0 <? pval q p) cs.
-Definition out_on (cs : list poly) (a b : pt) : bool := existsb (nonpos_on a b) cs.
-Definition out_at (cs : list poly) (q : Q) : bool := existsb (fun p => pval q p <=? 0) cs.
+Definition out_on (cs : list poly) (a b : pt) : bool := some (nonpos_on a b) cs.
+Definition out_at (cs : list poly) (q : Q) : bool := some (fun p => pval q p <=? 0) cs.
 
 (** p = F^m * g: how often F divides p, and what is left. *)
 Fixpoint strip (fuel : nat) (F p : poly) : nat * poly :=

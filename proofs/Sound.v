@@ -175,9 +175,9 @@ Proof. by elim: p => //= a p ->; rewrite zrD mul1r. Qed.
 Lemma ray_pos_ok fuel p t : ray_pos fuel p -> 0 < t -> 0 < pev p t.
 Proof.
 elim: fuel p t => [|fuel IH] p t; rewrite -(pev_trim p t) /=; case E: (ptrim p) => [|a q] //.
-  by case: ifP => // /andP[_ l0]; rewrite orbF => nn t0; apply: pos_pev.
-case: ifP => // /andP[_ l0] /orP[nn t0|]; first exact: pos_pev.
-case/andP => /andP[s0 lo] hi t0; case: (ltgtP t 1) => t1.
+  by case: ifP => // /andP[_ l0]; case: ifP => // nn _ t0; apply: pos_pev.
+case: ifP => // /andP[_ l0]; case: ifP => [nn _ t0|_]; first exact: pos_pev.
+case: ifP => // s0; case: ifP => // lo hi t0; case: (ltgtP t 1) => t1.
 - have t2 : 0 < 1 - t by rewrite subr_gt0.
   have u0 : 0 < t / (1 - t) by rewrite divr_gt0.
   have D1 : 1 + t / (1 - t) = (1 - t)^-1.
@@ -225,7 +225,7 @@ Qed.
 
 Lemma nonzero_on_ok fuel a b p K : nonzero_on fuel a b p -> between a b K -> pev p K != 0.
 Proof.
-move=> /orP[] H ab; have := pos_on_ok H ab; first by move/gt_eqF->.
+rewrite /nonzero_on; case: ifP => [H _ ab|_ H ab]; have := pos_on_ok H ab; first by move/gt_eqF->.
 by rewrite pevN oppr_gt0 => /lt_eqF->.
 Qed.
 
@@ -278,15 +278,18 @@ Proof. by move=> H ab; elim: cs H => //= c cs IH /andP[/pos_on_ok-> // /IH->]. Q
 
 Lemma out_on_ok cs a b K : out_on cs a b -> between a b K -> holds cs K = false.
 Proof.
-move=> H ab; elim: cs H => //= c cs IH /orP[/nonpos_on_ok/(_ ab)|/IH->]; last by rewrite andbF.
-by rewrite leNgt => /negPf->.
+move=> H ab; elim: cs H => //= c cs IH; rewrite /out_on /=; case np: (nonpos_on a b c) => H; last by rewrite (IH H) andbF.
+by have := nonpos_on_ok np ab; rewrite leNgt => /negPf->.
 Qed.
 
 Lemma in_at_ok cs q : in_at cs q = holds cs (qr R q).
 Proof. by elim: cs => //= c cs <-; rewrite pval_gt0. Qed.
 
 Lemma out_at_ok cs q : out_at cs q = ~~ holds cs (qr R q).
-Proof. by elim: cs => //= c cs ->; rewrite pval_le0 negb_and leNgt. Qed.
+Proof.
+rewrite /out_at; elim: cs => //= c cs ->; rewrite pval_le0 negb_and leNgt.
+by case: (0 < _).
+Qed.
 
 Lemma strip_ok fuel F p K : pev p K = pev F K ^+ (strip fuel F p).1 * pev (strip fuel F p).2 K.
 Proof.
