@@ -157,7 +157,29 @@ Fixpoint pmob (a b c d : Z) (p : poly) : poly * poly :=
   | [] => ([], [1])
   | x :: p' => let (h, w) := pmob a b c d p' in (padd (pscale x w) (plin a b h), plin c d w)
   end.
-Definition mob (a b : pt) (p : poly) : poly := fst (pmob (fst a) (fst b) (snd a) (snd b) (ptrim p)).
+
+(** The same in steps for finite a: y = D K, a shift by an integer, and for a finite b the scale of
+    the interval, the reversed coefficients and a shift by 1: additions instead of long products. *)
+Fixpoint over_den (D : Z) (p : poly) : poly * Z :=
+  match p with [] => ([], 1) | x :: p' => let (q, w) := over_den D p' in (x * w :: q, D * w) end.
+Fixpoint shift (a : Z) (p : poly) : poly :=
+  match p with [] => [] | x :: p' => padd [x] (plin a 1 (shift a p')) end.
+Fixpoint stretch (w m : Z) (p : poly) : poly :=
+  match p with [] => [] | x :: p' => m * x :: stretch w (w * m) p' end.
+
+(** The polynomial on the interval from a to b, up to a positive factor, as one on the ray t > 0. *)
+Definition mob (a b : pt) (p : poly) : poly :=
+  let p := ptrim p in
+  let (x, c) := a in
+  let (y, d) := b in
+  if (0 <? c) && (d =? 0) then shift x (fst (over_den c p))
+  else
+    let D := Z.lcm c d in
+    let u := x * (D / c) in
+    let v := y * (D / d) in
+    if (0 <? c) && (0 <? d) && (0 <? D) && (u * c =? x * D) && (v * d =? y * D) then
+      shift 1 (rev (stretch (v - u) 1 (shift u (fst (over_den D p)))))
+    else fst (pmob x y c d p).
 
 Fixpoint phom (a c : Z) (p : poly) : Z * Z :=
   match p with [] => (0, 1) | x :: p' => let (v, w) := phom a c p' in (x * w + a * v, c * w) end.

@@ -287,11 +287,37 @@ by rewrite coefZ mulf_neq0 // -[n in _`_n]/(n.+1.-1) -(size_char_poly (mx n n A 
 Qed.
 End Char.
 
+Lemma pval_eq0 q (p : poly) : Z.eqb 0 (pval q p) = (pev p (qr R q) == 0).
+Proof.
+have [w0 e] := phom_ok R q p; rewrite (zr_eq0 R).
+by rewrite -(mulIr_eq0 _ (mulIf (lt0r_neq0 (pr_gt0 R (Qden q))))) e mulf_eq0 (gt_eqF w0) orbF.
+Qed.
+
+Lemma nonzero_over_ok fuel a b (p : poly) x :
+  nonzero_over fuel a b p -> above a x && below b x -> pev p x != 0.
+Proof.
+rewrite /nonzero_over -[pev p x]pev_trim => H ab.
+have line : nonzero_on fuel (low_pt a) (high_pt b) p -> pev (ptrim p) x != 0.
+  by rewrite pev_trim => h; apply: (nonzero_on_ok h); rewrite between_ends.
+have halves : a = None -> b = None -> nonzero_on fuel (low_pt None) (pt_of 0) p
+    && ~~ Z.eqb 0 (pval 0 p) && nonzero_on fuel (pt_of 0) (high_pt None) p -> pev (ptrim p) x != 0.
+  rewrite pev_trim => _ _ /andP[/andP[neg zero] pos]; case: (ltgtP x (qr R 0)) => x0.
+  - by apply: (nonzero_on_ok neg); rewrite (between_ends None (Some (Qmake Z0 xH))) /= x0.
+  - by apply: (nonzero_on_ok pos); rewrite (between_ends (Some (Qmake Z0 xH)) None) /= x0.
+  - by rewrite x0 -pval_eq0.
+have rest : (match a, b with
+    | None, None => nonzero_on fuel (low_pt None) (pt_of 0) p
+        && ~~ Z.eqb 0 (pval 0 p) && nonzero_on fuel (pt_of 0) (high_pt None) p
+    | _, _ => nonzero_on fuel (low_pt a) (high_pt b) p end) -> pev (ptrim p) x != 0.
+  by case: (a) (b) line halves => [a'|] [b'|] l h; [exact: l | exact: l | exact: l | exact: h].
+case: (ptrim p) H rest => [|c [|d q]] H rest; [exact: rest | | exact: rest].
+by rewrite /= mulr0 addr0 -(zr_eq0 R).
+Qed.
+
 Lemma all_nonzero_ok fuel ans (gs : list poly) x :
   all_nonzero fuel ans gs -> dom (lower ans) (upper ans) x -> nonzero gs x.
 Proof.
-move=> H dx p pi; apply: (nonzero_on_ok (proj1 (forallb_forall _ _) H p pi)).
-by rewrite between_ends.
+move=> H dx p pi; exact: (nonzero_over_ok (proj1 (forallb_forall _ _) H p pi) dx).
 Qed.
 
 (** ** What a generated file uses *)

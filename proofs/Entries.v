@@ -162,8 +162,20 @@ Definition matrix_guards (n : nat) (m : matrix) : list poly :=
 Definition charpoly (n : nat) (m : matrix) : bipoly :=
   det n (map (fun i => char_row n i (nth i (fractions n m) [])) (seq 0 n)).
 
+(** Different from 0 on the whole domain; the whole line is looked at in two halves. *)
+Definition nonzero_over (fuel : nat) (a b : option Q) (p : poly) : bool :=
+  match ptrim p with
+  | [c] => negb (0 =? c)
+  | _ =>
+      match a, b with
+      | None, None =>
+          nonzero_on fuel (-1, 0) (0, 1) p && negb (0 =? pval 0 p) && nonzero_on fuel (0, 1) (1, 0) p
+      | _, _ => nonzero_on fuel (low_pt a) (high_pt b) p
+      end
+  end.
+
 Definition all_nonzero (fuel : nat) (ans : answer) (gs : list poly) : bool :=
-  forallb (nonzero_on fuel (low_pt (lower ans)) (high_pt (upper ans))) gs.
+  forallb (nonzero_over fuel (lower ans) (upper ans)) gs.
 
 Definition check_matrix (fuel : nat) (r : region) (n : nat) (m : matrix) (ans : answer) : bool :=
   all_nonzero fuel ans (matrix_guards n m) && forallb char_row_ok (fractions n m) &&

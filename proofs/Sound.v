@@ -197,9 +197,8 @@ case: ifP => // s0; case: ifP => // lo hi t0; case: (ltgtP t 1) => t1.
 by rewrite t1 pev_at1 -zr_gt0.
 Qed.
 
-(** The interval as the ray t > 0. *)
-Lemma mob_ok a b p K : proper a b -> between a b K ->
-  exists t D w, [/\ 0 < t, 0 < D, 0 < w & pev (mob a b p) t * D = pev p K * w].
+Lemma pmob_between a b p K : proper a b -> between a b K ->
+  exists t D w, [/\ 0 < t, 0 < D, 0 < w & pev (pmob a.1 b.1 a.2 b.2 (ptrim p)).1 t * D = pev p K * w].
 Proof.
 case: a b => a c [b d]; rewrite /proper /between /= => /andP[/andP[c0 d0] m0] /andP[lo hi].
 rewrite -subr_gt0 in lo; rewrite -subr_gt0 in hi.
@@ -214,7 +213,69 @@ have D0 : 0 < zr R c + zr R d * t by rewrite -(pmulr_lgt0 _ hi) e.
 have KD : K * (zr R c + zr R d * t) = zr R a + zr R b * t.
   by apply: (mulIf s0); rewrite -mulrA e mulrDl -[zr R b * t * s]mulrA tE /s; ring.
 have [w0 h] := @pmob_ok a b c d (ptrim p) K t _ erefl D0 KD.
-by exists t, (zr R c + zr R d * t), (pev (pmob a b c d (ptrim p)).2 t); rewrite /mob h pev_trim.
+by exists t, (zr R c + zr R d * t), (pev (pmob a b c d (ptrim p)).2 t); rewrite h pev_trim.
+Qed.
+
+Lemma over_den_ok D p K : 0 < zr R D ->
+  0 < zr R (over_den D p).2 /\
+  pev (over_den D p).1 (zr R D * K) * zr R D = pev p K * zr R (over_den D p).2.
+Proof.
+move=> D0; elim: p => [|y p] /=; first by rewrite !mul0r ltr01.
+case: over_den => q w /= [w0 e]; rewrite !zrM mulr_gt0 //; split=> //.
+by rewrite mulrDl -[_ * _ * pev q _ * _]mulrA e; ring.
+Qed.
+
+Lemma shift_ok a p t : pev (shift a p) t = pev p (zr R a + t).
+Proof.
+elim: p => // y p IH; have -> : shift a (y :: p) = padd [:: y] (plin a 1 (shift a p)) by [].
+by rewrite pevD pev_lin IH /= mulr0 addr0 mul1r.
+Qed.
+
+Lemma stretch_ok w m p t : pev (stretch w m p) t = zr R m * pev p (zr R w * t).
+Proof. by elim: p m => [|y p IH] m; rewrite /= ?mulr0 // IH !zrM; ring. Qed.
+
+Lemma rev_ok p t : t != 0 -> pev (List.rev p) t * t = t ^+ length p * pev p t^-1.
+Proof.
+move=> t0; elim: p => [|y p IH] /=; first by rewrite mul0r mulr0.
+have app (q : poly) z : pev (q ++ [:: z])%list t = pev q t + t ^+ length q * zr R z.
+  by elim: q => [|k q /= ->]; rewrite /= ?mulr0 ?addr0 ?mul1r ?add0r // exprS; ring.
+rewrite app rev_length mulrDl IH exprS; move: (pev p _) (t ^+ _) => P m.
+by field.
+Qed.
+
+(** The interval as the ray t > 0. *)
+Lemma mob_ok a b p K : proper a b -> between a b K ->
+  exists t D w, [/\ 0 < t, 0 < D, 0 < w & pev (mob a b p) t * D = pev p K * w].
+Proof.
+move=> ab abK; have := pmob_between p ab abK; case: a b ab abK => [x c] [y d] _ /andP[/= lo hi].
+rewrite /mob => /= general; case: ifP => [/andP[]|_].
+  rewrite (zr_gt0 R) => c0 /Z.eqb_eq d0; have [w0 e] := over_den_ok (ptrim p) K c0.
+  exists (zr R c * K - zr R x), (zr R c), (zr R (over_den c (ptrim p)).2).
+  by rewrite subr_gt0 lo c0 w0 shift_ok addrC subrK e pev_trim.
+case: ifP => [/andP[/andP[/andP[/andP[]]]]|_ //].
+set D := Z.lcm c d; set u := Z.mul x (Z.div D c); set v := Z.mul y (Z.div D d).
+rewrite !(zr_gt0 R) => c0 d0 D0 /(eqb_zr R) uE /(eqb_zr R) vE.
+have {}uE : zr R u * zr R c = zr R x * zr R D by rewrite -zrM -[RHS]zrM.
+have {}vE : zr R v * zr R d = zr R y * zr R D by rewrite -zrM -[RHS]zrM.
+have uK : zr R u < zr R D * K.
+  by rewrite -(ltr_pmul2r c0) uE [zr R x * _]mulrC -mulrA ltr_pmul2l // [K * _]mulrC.
+have vK : zr R D * K < zr R v.
+  by rewrite -(ltr_pmul2r d0) vE [zr R y * _]mulrC -mulrA ltr_pmul2l // [K * _]mulrC.
+have w0 : 0 < zr R D * K - zr R u by rewrite subr_gt0.
+have uv : 0 < zr R v - zr R u by rewrite subr_gt0 (lt_trans uK).
+pose t := (zr R v - zr R u) / (zr R D * K - zr R u).
+have t0 : 0 < t by rewrite divr_gt0.
+have t1 : 0 < t - 1 by rewrite subr_gt0 ltr_pdivl_mulr // mul1r ltr_add2r.
+have [W0 e] := over_den_ok (ptrim p) K D0; set q := (over_den D (ptrim p)).1 in e *.
+set g := stretch (v - u) 1 (shift u q).
+exists (t - 1), (t * zr R D), (t ^+ length g * zr R (over_den D (ptrim p)).2).
+rewrite mulr_gt0 // mulr_gt0 ?exprn_gt0 //; split=> //.
+have -> : pev (shift 1 (List.rev g)) (t - 1) = pev (List.rev g) t by rewrite shift_ok /= addrC subrK.
+have gE : pev g t^-1 = pev q (zr R D * K).
+  by rewrite /g stretch_ok mul1r shift_ok zrD zrN /t invf_div mulrCA divff ?gt_eqF // mulr1 addrC subrK.
+have -> : pev (List.rev g) t * (t * zr R D) = t ^+ length g * (pev g t^-1 * zr R D).
+  by rewrite mulrA rev_ok ?gt_eqF // -mulrA.
+by rewrite gE e pev_trim mulrCA.
 Qed.
 
 Lemma pos_on_ok fuel a b p K : pos_on fuel a b p -> between a b K -> 0 < pev p K.
