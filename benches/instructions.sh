@@ -1,5 +1,5 @@
 #!/bin/sh
-# Counts the instructions of the jobs of examples/instructions.rs under callgrind (one thread) and prints
+# Counts the instructions of the jobs of benches/drivers/instructions.rs under callgrind (one thread) and prints
 # them beside the recorded ones; `benches/instructions.sh record` writes the record.
 set -eu
 cd "$(dirname "$0")/.."

@@ -1,4 +1,4 @@
-\\ The family of examples/bench_loop.rs in PARI/GP: gp -q -f benches/pari/loop.gp < /dev/null
+\\ The family of benches/drivers/bench_loop.rs in PARI/GP: gp -q -f benches/pari/loop.gp < /dev/null
 default(parisizemax, "4G");
 \\ Closed loop of the drive with f filter sections in the current feedback.
 closedloop(f) =

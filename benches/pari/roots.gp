@@ -1,4 +1,4 @@
-\\ PARI/GP's polrootsreal on the families of examples/bench_roots.rs. gp -q -f benches/pari/roots.gp < /dev/null
+\\ PARI/GP's polrootsreal on the families of benches/drivers/bench_roots.rs. gp -q -f benches/pari/roots.gp < /dev/null
 default(parisize, 4000000000);
 median(v)=vecsort(v)[(#v + 2) \ 2];
 bench(name,P)={my(times=List(),start=getwalltime(),t,r,k);

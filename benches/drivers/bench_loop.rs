@@ -16,7 +16,7 @@ use jurist_algebra::poly::real_roots::isolate_real_roots_fixed;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-#[path = "../benches/families/mod.rs"]
+#[path = "../families/mod.rs"]
 mod families;
 
 fn main() {

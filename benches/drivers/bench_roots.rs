@@ -10,7 +10,7 @@ use jurist_algebra::poly::real_roots::isolate_real_roots_fixed;
 use jurist_algebra::poly::{SquareFree, UniPoly};
 use std::time::{Duration, Instant};
 
-#[path = "../benches/families/mod.rs"]
+#[path = "../families/mod.rs"]
 mod families;
 
 /// Median time and number of roots.

@@ -3,7 +3,7 @@
 //!
 //! `cargo run --release --example instructions JOB`, where JOB is one of those listed without it.
 
-#[path = "../benches/families/mod.rs"]
+#[path = "../families/mod.rs"]
 mod families;
 
 use families::loops::{boundary, characteristic, closed_loop, limits};
