@@ -2,7 +2,7 @@
 
 use super::words::{Token, is_variable, tokens};
 use jurist_draw::figures::Figure;
-use jurist_engine::show::layout::visible;
+use jurist_draw::page::{document, escaped};
 
 /// A table of plain text; names such as `K_pwm` in it are set as mathematics.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -36,11 +36,6 @@ impl Table {
             math(&self.caption)
         )
     }
-}
-
-/// Text with the characters that mean something in HTML replaced.
-pub(super) fn escaped(text: &str) -> String {
-    visible(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Text with names, powers and products set as mathematics: `K_pwm*T^2` with an index and a power.
@@ -101,11 +96,8 @@ pub(super) fn page(title: &str, sections: &[(&str, &str, String)]) -> String {
         .iter()
         .map(|(id, head, html)| format!("<section id=\"{id}\">\n<h2>{head}</h2>\n{html}</section>\n"))
         .collect();
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n<nav><ol>{contents}</ol></nav>\n{body}</body>\n</html>\n"
-    )
+    let body = format!("<h1>{}</h1>\n<nav><ol>{contents}</ol></nav>\n{body}", escaped(title));
+    document(title, STYLE, &body, false)
 }
 
 const STYLE: &str = "\

@@ -1,7 +1,7 @@
 //! The whole paper once more on one page.
 
 use super::diagrams::{chopper, current_controller, drive_blocks, pwm_signal, speed_controller, tracker};
-use super::html::{Table, escaped, figure, math, matrix, page, paragraph};
+use super::html::{Table, figure, math, matrix, page, paragraph};
 use super::latex;
 use super::limits::limits;
 use super::runs;
@@ -11,6 +11,7 @@ use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_algebra::poly::RationalFunction;
 use jurist_draw::figures::{Figure, locus_of};
+use jurist_draw::page::escaped;
 use jurist_engine::answer::{Answer, ParametricTable};
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::{Form, Matrix, Model};

@@ -176,7 +176,7 @@ impl Integer {
         if bits >= 64 * COUNTED_LIMBS && self.bit_length() > 1 {
             if bits > huge::PRODUCT_BITS && is_limited() {
                 let magnitude = huge::power(self.0.unsigned_abs_ref(), exponent, huge::PRODUCT_BITS);
-                return Integer(Inner::from_sign_and_abs(!self.is_negative() || exponent % 2 == 0, magnitude));
+                return Integer(Inner::from_sign_and_abs(!self.is_negative() || exponent.is_multiple_of(2), magnitude));
             }
             checkpoint(huge::work_of_product(bits / 64, bits / 64));
         }

@@ -1,5 +1,6 @@
 //! A self-contained page: the picture, and the verdict at the pointer, looked up exactly.
 
+use super::{document, escaped};
 use crate::figures::map::{
     FrequencyPoint, MapContents, MapFigure, MapTrace, Role, Wall, frequency_unit, mechanism_words,
 };
@@ -10,16 +11,13 @@ use jurist_engine::answer::{Answer, Map};
 use jurist_engine::error::Error;
 use jurist_engine::problem::Free;
 use jurist_engine::show::json;
-use jurist_engine::show::layout::{named_values, short, visible};
+use jurist_engine::show::layout::{named_values, short};
 use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::{Curve, Strip};
 use serde_json::{Value, json};
 
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
-
-/// Nothing is loaded from anywhere.
-const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
 /// The map as an HTML page that needs nothing from outside: the picture for wide and for narrow screens,
 /// `text` below it, and a script that looks a point up in the exact strips with integers of any size.
@@ -52,11 +50,8 @@ pub fn map_page(
         )
     };
     let data = data(answer, contents, trace, figures, budget)?.to_string().replace('<', "\\u003c");
-    Ok(format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n\
+    let body = format!(
+        "<h1>{title}</h1>\n\
          <p class=\"small\">{x_name} from left to right, {y_name} upwards. {others}</p>\n\
          <div class=\"figure wide\">{wide}</div>\n<div class=\"figure narrow\">{narrow}</div>\n\
          <div class=\"panel\"><div class=\"inputs\">\n{x_field}{y_field}</div>\n\
@@ -69,7 +64,7 @@ pub fn map_page(
          integers of any size in strips and cells that were computed and proved by exact algebra. A point on a boundary is \
          not stable.</p>\n\
          <h2>Limits</h2>\n<pre>{text}</pre>\n\
-         <script type=\"application/json\" id=\"data\">{data}</script>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n",
+         <script type=\"application/json\" id=\"data\">{data}</script>\n<script>\n{SCRIPT}</script>\n",
         title = escaped(&title),
         x_name = escaped(&x.name),
         y_name = escaped(&y.name),
@@ -79,11 +74,8 @@ pub fn map_page(
         x_field = field("x", x),
         y_field = field("y", y),
         text = escaped(text),
-    ))
-}
-
-pub(super) fn escaped(text: &str) -> String {
-    visible(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    );
+    Ok(document(&title, STYLE, &body, true))
 }
 
 /// What the script needs: the exact strips, and the walls as they are drawn.

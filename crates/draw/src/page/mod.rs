@@ -2,6 +2,8 @@
 
 mod boxes;
 mod map;
+mod shell;
 
 pub use boxes::map_boxes_page;
 pub use map::map_page;
+pub use shell::{document, escaped};

@@ -177,7 +177,7 @@ fn newton(piece: &mut Piece, node: &Node) -> Option<Node> {
     if zoom < FIRST_ZOOM / 2 {
         return None;
     }
-    let Some(guess) = cluster(b, v, zoom + 1) else { return None };
+    let guess = cluster(b, v, zoom + 1)?;
     let last = &(&Integer::ONE << (zoom + 1)) - &Integer::from(2);
     let j = (&guess - &Integer::ONE).max(Integer::ZERO).min(last);
     let cell = if node.cell.lo.is_zero() && j.is_one() {

@@ -1,6 +1,6 @@
 //! The steps from a matrix to the stable set, each alone.
 
-#[path = "families/mod.rs"]
+#[path = "../families/mod.rs"]
 mod families;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};

@@ -1,6 +1,6 @@
 //! Isolation in fixed point beside the exact reference.
 
-#[path = "families/mod.rs"]
+#[path = "../families/mod.rs"]
 mod families;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};

@@ -1,0 +1,1 @@
+//! Benchmarks of single steps: `cargo bench -p jurist-benches`.
