@@ -5,7 +5,8 @@
 //! | [`error`] | diagnostics with places and stable codes |
 //! | [`model`] | expressions, model files, block diagrams, discretisation |
 //! | [`stability`] | exact root count, tables of Jury and Routh, boundary polynomials, stable sets, two parameters |
-//! | [`analysis`] | the questions asked of a loop, answered as plain values |
+//! | [`problem`] | a question about a model as one value, resolved once and evaluated once |
+//! | [`answer`] | answers: a problem and what is exactly known of it |
 //! | [`prove`] | certificates and statements for solvers |
 //! | [`show`] | text, JSON, LaTeX, code |
 

@@ -11,7 +11,7 @@ use std::fmt::Write;
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
-/// use jurist_engine::model::{BlockBuilder, Model, ParameterBuilder, Question, Time};
+/// use jurist_engine::model::{BlockBuilder, Model, ParameterBuilder, Time};
 ///
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .title("integrator under proportional control")
@@ -21,7 +21,8 @@ use std::fmt::Write;
 ///     .block(BlockBuilder::new("controller", "r - y", "u").gain("K"))
 ///     .block(BlockBuilder::new("plant", "u", "y").transfer("1/(z - 1)"))
 ///     .build()?;
-/// let p = model.characteristic_polynomial(&Question::keeping(["K"]), &Budget::unlimited())?;
+/// let problem = model.ask().free("K").problem()?;
+/// let p = problem.algebra(&Budget::unlimited())?.polynomial().unwrap();
 /// // z - 1 + K
 /// assert_eq!(p.coefficients[0].display(&p.variables).to_string(), "K - 1");
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -43,7 +43,7 @@ pub struct Name {
 }
 
 /// A named value that does not change. One that is given as a number can be replaced by another number or freed:
-/// see [`Question`](super::Question).
+/// see [`Question`](crate::problem::Question).
 #[derive(Clone, Debug)]
 pub struct Constant {
     /// The name.
@@ -298,11 +298,10 @@ pub struct Simulation {
 /// A model: what its text says, checked.
 ///
 /// ```
-/// use jurist_engine::model::{Model, Question};
+/// use jurist_engine::model::Model;
 /// use jurist_algebra::limits::Budget;
-/// let drive = Model::drive();
-/// let question = Question::keeping(["K_pwm"]);
-/// let p = drive.characteristic_polynomial(&question, &Budget::unlimited())?;
+/// let problem = Model::drive().ask().free("K_pwm").problem()?;
+/// let p = problem.algebra(&Budget::unlimited())?.polynomial().unwrap();
 /// assert_eq!(p.formal_degree, 6);
 /// assert_eq!(p.coefficients[5], jurist_algebra::number::parse_number("-21378329/5347500")?.into());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
