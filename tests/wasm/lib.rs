@@ -1,6 +1,6 @@
 //! Answers computed where there is no clock and no thread; `run.mjs` asks and compares.
 
-use jurist::{Budget, Loop, Source};
+use jurist::{Budget, Model, Source};
 use std::fmt::Write;
 use std::time::Duration;
 
@@ -14,9 +14,9 @@ const MODEL: &str = r#"
 "#;
 
 /// Lines of answers.
-fn answers() -> Result<String, jurist::Failure> {
+fn answers() -> Result<String, jurist::Error> {
     let mut out = String::new();
-    let (model, _) = Loop::from_toml(&Source::new("model.toml", MODEL))?;
+    let (model, _) = Model::from_toml(&Source::new("model.toml", MODEL))?;
     for budget in [Budget::unlimited(), Budget::with_timeout(Duration::from_secs(60)), Budget::with_work(1 << 30)] {
         let answer = model.ask().free("K").stable_set(&budget)?;
         let limits = answer.value().intervals().iter().filter_map(|i| i.upper.as_ref());
