@@ -184,11 +184,6 @@ class P(dict):
         return P.of(out)
 
     def __pow__(self, k):
-        if len(self) == 1:
-            [(e, c)] = self.items()
-            spend(k, k * c.bit_length())
-            need(not any((e >> v & MASK) * k > MASK >> 4 for v in range(0, e.bit_length(), FIELD)), "too high a degree")
-            return P({e * k: c ** k})
         out = ONE
         for _ in range(k):
             out = out * self
@@ -226,12 +221,12 @@ class P(dict):
             content = content if content == ONE else content.common(c)
         return content
 
-    def primitive(self):
-        return P(zip(self, primitive(list(self.values()))))
+    def over(self, x):
+        return P({e: c // x for e, c in self.items()}) if x > 1 else self
 
     def common(self, other):
         """A greatest common divisor without an integer factor, by primitive remainders in the last variable."""
-        a, b = self.primitive(), other.primitive()
+        a, b = self.over(gcd(*self.values())), other.over(gcd(*other.values()))
         if not a or not b:
             return a or b
         v = (max(*a, *b, 0).bit_length() - 1) // FIELD
@@ -246,7 +241,8 @@ class P(dict):
             while a and a.degree(v) >= b.degree(v):
                 shift = P({a.degree(v) - b.degree(v) << FIELD * v: 1})
                 a = a * lead + -(b * a.coefficients(v)[-1] * shift)
-            a, b = b, (a / a.content(v)).primitive() if a else a
+            a, b = b, a / a.content(v) if a else a
+            b = b.over(gcd(*b.values()))
         return content if b else content * a
 
     def at(self, values):
@@ -266,66 +262,55 @@ ZERO, ONE, Z = P(), P({0: 1}), P({1: 1})
 def number(x):
     return P({0: x}) if x else ZERO
 
-class F:
-    """A quotient of two polynomials.  Only numbers are cancelled, so that everything divided by stays visible."""
+class Value:
+    """A sum of signals and states with coefficients, and a constant (under the name ""), over one denominator.
 
-    def __init__(self, top, bottom=ONE):
-        numbers = [*top.values(), *bottom.values()]
+    It is linear by construction.  A signal that occurs is there, be its coefficient zero.  Only numbers are cancelled, so
+    that everything divided by stays visible.
+    """
+
+    def __init__(self, tops, bottom=ONE):
+        numbers = [c for p in (bottom, *tops.values()) for c in p.values()]
         spend(1 + len(numbers) // 10, size(numbers), size(numbers))
         common = gcd(*numbers)
-        self.top, self.bottom = (P({e: c // common for e, c in p.items()}) if common > 1 else p for p in (top, bottom))
-
-    def __add__(self, other):  # over the least common denominator
-        if not self.top or not other.top:
-            return self if self.top else other
-        if self.bottom == other.bottom:
-            return F(self.top + other.top, self.bottom)
-        common = self.bottom.common(other.bottom)
-        left, right = other.bottom / common, self.bottom / common
-        return F(self.top * left + other.top * right, self.bottom * left)
-
-    def __neg__(self):
-        return F(-self.top, self.bottom)
-
-    def __mul__(self, other):
-        return F(self.top * other.top, self.bottom * other.bottom) if self.top and other.top else F(ZERO)
-
-    def __pow__(self, k):
-        return F(self.top ** k, self.bottom ** k)
-
-    def number(self):
-        """The value, if no variable occurs; otherwise None."""
-        return None if any(self.top) or any(self.bottom) else Fraction(self.top.get(0, 0), self.bottom[0])
-
-class Linear:
-    """A quotient, and coefficients of signals and states.  A signal that occurs is there, be its coefficient zero."""
-
-    def __init__(self, constant, signals={}):
-        self.constant, self.signals = constant, signals
-
-    def __add__(self, other):
-        out = dict(self.signals)
-        for name, c in other.signals.items():
-            out[name] = out[name] + c if name in out else c
-        return Linear(self.constant + other.constant, out)
-
-    def __neg__(self):
-        return self * F(number(-1))
-
-    def __mul__(self, factor):
-        return Linear(self.constant * factor, {name: c * factor for name, c in self.signals.items()})
+        self.tops = {name: p.over(common) for name, p in tops.items()}
+        self.bottom = bottom.over(common)
 
     def scalar(self):
-        need(not self.signals, "a signal where none may be: in a divisor, in a power, or times another one")
-        return self.constant
+        need(set(self.tops) <= {""}, "a signal where none may be: in a divisor, in a power, or times another one")
+        return self.tops.get("", ZERO)
 
-NOTHING = Linear(F(ZERO))
+    def __add__(self, other):  # over the least common denominator
+        left = right = ONE
+        if self.bottom != other.bottom:
+            common = self.bottom.common(other.bottom)
+            left, right = other.bottom / common, self.bottom / common
+        tops = {name: p * left for name, p in self.tops.items()}
+        for name, p in other.tops.items():
+            tops[name] = tops.get(name, ZERO) + p * right
+        return Value(tops, self.bottom * left)
 
-def signal_of(name):
-    return Linear(F(ZERO), {name: F(ONE)})
+    def __neg__(self):
+        return Value({name: -p for name, p in self.tops.items()}, self.bottom)
+
+    def __mul__(self, other):
+        one, factor = (self, other) if set(self.tops) - {""} else (other, self)
+        return Value({name: p * factor.scalar() for name, p in one.tops.items()}, one.bottom * factor.bottom)
+
+    def __pow__(self, k):
+        return self if k == 1 else Value({"": self.scalar() ** k}, self.bottom ** k)
+
+    def number(self):
+        """If no variable occurs; otherwise None."""
+        return None if any(self.scalar()) or any(self.bottom) else Fraction(self.scalar().get(0, 0), self.bottom[0])
+
+def scalar(p):
+    return Value({"": p})
+
+NOTHING = scalar(ZERO)
 
 def dot(row, values):
-    return sum((x * c for c, x in zip(row, values) if c.top), NOTHING)
+    return sum((c * x for c, x in zip(row, values) if c.scalar()), NOTHING)
 
 # ---------------------------------------------------------------- expressions
 
@@ -344,14 +329,11 @@ def is_name(text):
     return re.fullmatch(r"[^\W\d]\w*", text) and (text[0] == "_" or text[0].isalpha())
 
 def decimal(text):
-    mantissa, _, exponent = text.replace("_", "").lower().partition("e")
-    whole, _, fraction = mantissa.partition(".")
-    need(len(mantissa) <= MAX_DIGITS and len(exponent) < 8, "a number is too long")
-    exponent = int(exponent or 0) - len(fraction)
-    need(abs(exponent) <= MAX_DIGITS, "a number is too long")
-    spend(1, 4 * len(mantissa), 4 * len(mantissa) + 4 * abs(exponent))
-    top, bottom = int(whole + fraction) * 10 ** max(0, exponent), 10 ** max(0, -exponent)
-    return F(number(top), number(bottom))
+    mantissa, _, exponent = text.lower().partition("e")
+    need(len(mantissa) <= MAX_DIGITS and len(exponent) < 8 and abs(int(exponent or 0)) <= MAX_DIGITS, "a number is too long")
+    spend(1, 4 * len(mantissa), 4 * len(mantissa) + 4 * abs(int(exponent or 0)))
+    x = Fraction(text)
+    return Value({"": number(x.numerator)}, number(x.denominator))
 
 def tokens_of(text):
     tokens, at, text = [], 0, text.rstrip()
@@ -391,9 +373,7 @@ def evaluate(text, names, inverse):
         result = signed(names)
         while operator := accept("*", "/"):
             factor = signed(names)
-            if operator == "/":
-                factor = Linear(inverse(factor.scalar()))
-            result = factor * result.scalar() if factor.signals else result * factor.constant
+            result = result * (factor if operator == "*" else inverse(factor))
         return result
 
     def signed(names):
@@ -402,11 +382,9 @@ def evaluate(text, names, inverse):
         base = atom(names)
         if not accept("^"):
             return base
-        k = nested(signed, no_names).constant.number()
+        k = nested(signed, no_names).number()
         need(k.denominator == 1 and abs(k) <= 1000, "an exponent is not a small integer")
-        if k == 1:
-            return base
-        return Linear((inverse(base.scalar()) if k < 0 else base.scalar()) ** abs(int(k)))
+        return (inverse(base) if k < 0 else base) ** abs(int(k))
 
     def atom(names):
         token = tokens.pop() if tokens else ")"
@@ -415,7 +393,7 @@ def evaluate(text, names, inverse):
             need(accept(")"), "')' is missing")
             return result
         if token[0] in ".0123456789":
-            return Linear(decimal(token))
+            return decimal(token)
         need(is_name(token), f"{token:.40} is not expected in {text[:60]!r}")
         return names(token)
 
@@ -428,7 +406,7 @@ class Scope:
 
     def __init__(self, constants, variables):
         self.divisors, self.constants = [], constants
-        self.known = {name: Linear(F(P({1 << FIELD * v: 1}))) for name, v in variables.items()}
+        self.known = {name: scalar(P({1 << FIELD * v: 1})) for name, v in variables.items()}
         for name in constants:
             self.define(name)
 
@@ -443,7 +421,7 @@ class Scope:
             if new:
                 waiting[new] = None
             else:
-                self.known.setdefault(name, Linear(self.scalar(self.constants[name])))
+                self.known.setdefault(name, self.value(self.constants[name]))
                 waiting.popitem()
 
     def value(self, toml, more={}, division_by_z=True):
@@ -453,27 +431,24 @@ class Scope:
             return more[name] if name in more else self.known[name]
 
         def inverse(f):
-            need(f.top, "division by zero")
-            need(division_by_z or not f.top.degree(0) and not f.bottom.degree(0), "division by the loop's variable")
-            self.divisors.append(f.top)
-            return F(f.bottom, f.top)
+            need(f.scalar(), "division by zero")
+            need(division_by_z or not f.scalar().degree(0), "division by the loop's variable")
+            self.divisors.append(f.scalar())
+            return Value({"": f.bottom}, f.scalar())
 
         need(isinstance(toml, (str, int)) and not isinstance(toml, bool), "an expression is expected")
         if isinstance(toml, str):
             return evaluate(toml, named, inverse)
         spend(1, toml.bit_length())
-        return Linear(F(number(toml)))
-
-    def scalar(self, toml):
-        return self.value(toml).constant
+        return scalar(number(toml))
 
     def linear(self, toml, signals):
         value = self.value(toml, signals)
-        need(not value.constant.top, "a linear expression has a constant term")
+        need(not value.tops.pop("", ZERO), "a linear expression has a constant term")
         return value
 
     def matrix(self, toml, rows=None, columns=None):
-        m = [[self.scalar(e) for e in listed(row)] for row in listed(toml)]
+        m = [[self.value(e) for e in listed(row)] for row in listed(toml)]
         need(len({len(row) for row in m}) < 2, "the rows differ in length")
         need(rows is None or len(m) == rows and (not m or len(m[0]) == columns), "sizes do not fit")
         return m
@@ -493,7 +468,7 @@ def text_of(toml):
 
 def constant(toml):
     """A number, or an expression of numbers."""
-    return Scope({}, {}).scalar(toml).number()
+    return Scope({}, {}).value(toml).number()
 
 def table(toml, keys=None):
     """A table, in which only these keys may be."""
@@ -542,18 +517,17 @@ class Loop:
     def __init__(self, model, variables):
         self.z, self.taken, root = model.z, model.taken, model.root
         self.scope = Scope({name: c for name, c in model.constants.items() if name not in variables}, variables)
-        self.unknowns, self.equations, self.degree, self.own, self.written = [], [], 0, [], None
+        self.unknowns, self.equations, self.degree, self.own = [], [], 0, []
         if "sample_time" in root:
-            t = self.scope.scalar(root["sample_time"]).number()
+            t = self.scope.value(root["sample_time"]).number()
             need(t is None or t > 0, "the sample time is not positive")
         loop = table(root.get("loop"), "characteristic matrix A B C K states inputs E outputs")
         forms = ("characteristic" in loop, "matrix" in loop, any(k in loop for k in "ABCK"), "block" in root)
         need(sum(forms) == 1, "the model has not exactly one form of loop")
         self.inputs, self.signals, self.states, self.outputs = [], [], [], []
         if forms[0]:
-            written = self.scope.value(loop["characteristic"], {self.z: Linear(F(Z))}, division_by_z=False).constant
-            self.degree, self.written = written.top.degree(0), written.bottom
-            self.equations = [self.unknown() * written]
+            written = self.scope.value(loop["characteristic"], {self.z: scalar(Z)}, division_by_z=False)
+            self.degree, self.equations = written.scalar().degree(0), [self.unknown() * written]
         elif forms[3]:
             self.blocks(loop, listed(root["block"]))
         else:
@@ -579,12 +553,12 @@ class Loop:
 
     def unknown(self, name=None):
         self.unknowns.append(name or len(self.unknowns))
-        return signal_of(self.unknowns[-1])
+        return Value({self.unknowns[-1]: ONE})
 
     def state_space(self, a, b, x, u, up=Z, down=ONE):
         """up x = down (A x + B u)"""
         for i in range(len(x)):
-            self.equations.append(x[i] * F(up) + -((dot(a[i], x) + dot(b[i], u)) * F(down)))
+            self.equations.append(x[i] * scalar(up) + -((dot(a[i], x) + dot(b[i], u)) * scalar(down)))
         self.degree += len(x)
 
     def responses(self, loop, names):
@@ -592,7 +566,7 @@ class Loop:
         self.outputs = [text_of(output).strip() for output in outputs]
         need(len(set(self.outputs)) == len(outputs), "an output is named twice")
         for output in outputs:
-            self.scope.linear(output, {name: signal_of(name) for name in names})
+            self.scope.linear(output, {name: Value({name: ONE}) for name in names})
 
     def simulation(self, given):
         known = {"inputs": self.inputs, "initial": self.states, "units": self.inputs + self.signals + self.outputs}
@@ -614,7 +588,7 @@ class Loop:
         self.signals = distinct([*driven, *self.inputs], self.taken)
         self.unknowns = driven[:]
         for block in blocks:
-            self.block(block, {name: signal_of(name) for name in self.signals})
+            self.block(block, {name: Value({name: ONE}) for name in self.signals})
         self.responses(loop, self.signals)
 
     def block(self, block, signals):
@@ -626,16 +600,16 @@ class Loop:
             need(self.z == "z", "a continuous loop has nothing to discretise")
             need("transfer" not in block or "s" not in self.taken, "s has two meanings")
             rule, inner = table(block["discretize"], "method T c"), "s"
-            method, t, c = (scope.scalar(rule[k]) if k in rule and k != "method" else rule.get(k) for k in ("method", "T", "c"))
+            method, t, c = (scope.value(rule[k]) if k in rule and k != "method" else rule.get(k) for k in ("method", "T", "c"))
             if method == "tustin" and (c or t):
-                c = c or scope.value("2/T", {"T": Linear(t)}).constant
-                up, down = (Z + number(-1)) * c.top, (Z + ONE) * c.bottom
+                c = c or scope.value("2/T", {"T": t})
+                up, down = (Z + number(-1)) * c.scalar(), (Z + ONE) * c.bottom
             else:
                 need(method in ("forward", "backward") and t and not c, "'discretize' does not fit")
-                up, down = (Z + number(-1)) * t.bottom, t.top * (ONE if method == "forward" else Z)
+                up, down = (Z + number(-1)) * t.bottom, t.scalar() * (ONE if method == "forward" else Z)
         if "pwm" in block:
             need(len(table(block["pwm"], "amplitude carrier period")) == 3, "'pwm' is not complete")
-            [scope.scalar(e) for e in block["pwm"].values()]
+            [scope.value(e) for e in block["pwm"].values()]
         kinds = [any(k in block for k in keys) for keys in (["transfer"], ["gain"], ["delay"], ["num", "den"], "ABCD")]
         need(sum(kinds) == 1, "a block does not say exactly once what it does")
         if kinds[4]:
@@ -656,21 +630,18 @@ class Loop:
                 self.equations.append(y[i] + -(seen + (dot(d[i], u) if d else NOTHING)))
             return
         need(len(u) == len(y) == 1, "a transfer function has one input and one output")
-        if kinds[0]:
-            ratio = scope.value(block["transfer"], {inner: Linear(F(Z))}).constant
-            num, den = ratio.top, ratio.bottom
-        elif kinds[1]:
-            ratio = scope.scalar(block["gain"])
-            num, den = ratio.top, ratio.bottom
-        elif kinds[2]:
+        if kinds[2]:
             samples = constant(block["delay"])
             need(samples.denominator == 1 and 0 <= samples <= MAX_ORDER and inner == "z", "a delay is a number of samples")
             num, den = ONE, Z ** int(samples)
+        elif kinds[3]:
+            num, den = ([scope.value(e) for e in several(block[key])[::-1]] for key in ("num", "den"))
+            need(num and den, "a list without coefficients")
+            num, den = (dot(list_, [scalar(Z ** k) for k in range(len(list_))]) for list_ in (num, den))
+            num, den = num.scalar() * den.bottom, den.scalar() * num.bottom
         else:
-            need(all(several(block[key]) for key in ("num", "den")), "a list without coefficients")
-            num, den = (sum((F(Z) ** k * scope.scalar(e) for k, e in enumerate(several(block[key])[::-1])), F(ZERO))
-                        for key in ("num", "den"))
-            num, den = num.top * den.bottom, den.top * num.bottom
+            ratio = scope.value(block["transfer"], {inner: scalar(Z)}) if kinds[0] else scope.value(block["gain"])
+            num, den = ratio.scalar(), ratio.bottom
         order = den.degree(0)
         need(den and num.degree(0) <= order <= MAX_ORDER, "a transfer function is improper")
         scope.divisors.append(den.coefficients(0)[order])
@@ -678,7 +649,7 @@ class Loop:
             num, den = (sum((c * up ** k * down ** (order - k) for k, c in enumerate(p.coefficients(0))), ZERO)
                         for p in (num, den))
             scope.divisors.append((den.coefficients(0) + [ZERO] * order)[order])
-        self.equations.append(y[0] * F(den) + -(u[0] * F(num)))
+        self.equations.append(y[0] * scalar(den) + -(u[0] * scalar(num)))
         self.degree += order
 
 # ---------------------------------------------------------------- the characteristic polynomial
@@ -719,38 +690,20 @@ def interpolated(values):
         out = [a - k * b for a, b in zip([d[k], *out], [*out, 0])]
     return out
 
-def digits(x, bits, count):
-    """Of a sum of powers of 2^bits whose coefficients are less than half of that."""
-    out = []
-    for _ in range(count):
-        digit = x & (1 << bits) - 1
-        out.append(digit - (digit >> bits - 1 << bits))
-        x = x - out[-1] >> bits
-    return out
-
 def determinant(m):
-    """By its values at more points than its degrees; or at a power of 2 so large that they are read off that value."""
+    """By its values at more points than its degrees."""
     if len(m) == 1:
         return listing(m[0][0])
     degrees = []
     for v in (0, 1):
         sizes = [[max((key[v] for key in e), default=0) for e in row] for row in m]
-        degrees.append(min(sum(map(max, sizes)), sum(map(max, zip(*sizes)))))
-    bits = prod(sum(abs(c) for e in row for c in e.values()) for row in m).bit_length() + 1
-    (z_degree, degree), many = degrees, 4 * len(m) + 8
-    at_points = degree <= many
-    z_bits = bits + degree * degree.bit_length() if at_points else bits * (degree + 1)
-
-    def known(values, degree, bits):
-        return interpolated(values) if len(values) > degree else digits(*values, bits, degree + 1)
-
+        degrees.append(1 + min(sum(map(max, sizes)), sum(map(max, zip(*sizes)))))
     columns = []
-    for p in range(degree + 1) if at_points else [1 << bits]:
-        values = []
-        for z in range(z_degree + 1) if z_degree <= many else [1 << z_bits]:
-            values.append(eliminated([[sum(c * z ** i * p ** j for (i, j), c in e.items()) for e in row] for row in m]))
-        columns.append(known(values, z_degree, z_bits))
-    return trim([trim(known(list(row), degree, bits)) for row in zip(*columns)])
+    for p in range(degrees[1]):
+        columns.append(interpolated([
+            eliminated([[sum(c * z ** i * p ** j for (i, j), c in e.items()) for e in row] for row in m])
+            for z in range(degrees[0])]))
+    return trim([trim(interpolated(list(row))) for row in zip(*columns)])
 
 def characteristic_polynomial(text, kept, values):
     """Whether time is discrete, the degree, the coefficients of z^0, z^1, ... in the parameter, the poles."""
@@ -767,13 +720,7 @@ def characteristic_polynomial(text, kept, values):
     values = list(values.values())
 
     def system(equations, unknowns):
-        matrix = []
-        for equation in equations:
-            row, common = [equation.signals.get(name, F(ZERO)) for name in unknowns], ONE
-            for f in row:
-                common = common * (f.bottom / f.bottom.common(common)) if f.top else common
-            matrix.append(cleared([(f.top * (common / f.bottom)).at(values) if f.top else {} for f in row]))
-        return determinant(matrix)
+        return determinant([cleared([e.tops.get(name, ZERO).at(values) for name in unknowns]) for e in equations])
 
     poles = []
     for divisor in loop.scope.divisors:  # undefined where all its coefficients vanish together
@@ -786,7 +733,9 @@ def characteristic_polynomial(text, kept, values):
     d = system(loop.equations, loop.unknowns)
     need(len(d) <= loop.degree + 1, "a determinant has too high a degree")
     d += [[]] * (loop.degree + 1 - len(d))
-    [lead] = listing(*cleared([loop.written.at(values)])) if loop.written else d[-1:]
+    # A characteristic polynomial is taken as it is written, a determinant with the leading coefficient 1.
+    written = "characteristic" in model.root["loop"]
+    [lead] = listing(*cleared([loop.equations[0].bottom.at(values)])) if written else d[-1:]
     poles.append(lead)  # not well posed, if these are blocks
     for equations, states in loop.own:  # a block loses its order, which the other blocks' numerators can hide
         own = system(equations, states)
@@ -814,34 +763,16 @@ def in_region(d, discrete, extent):
 
 # ---------------------------------------------------------------- roots and boundaries
 
-def is_stable(d, discrete):
-    """All roots strictly inside: Schur-Cohn's reduction, or Routh's."""
-    while len(d) > 1:
-        n, first, next_to_last, last = len(d) - 1, d[0], d[-2], d[-1]
-        spend(2 * n, size(d), size(d))
-        if discrete:
-            if abs(first) >= abs(last):
-                return False
-            d = [last * d[k] - first * d[n - k] for k in range(1, n + 1)]
-        else:
-            if last * next_to_last <= 0:
-                return False
-            odd = [d[k] if (n - k) % 2 else 0 for k in range(n)]  # d_(n-1), d_(n-3), ...
-            last, next_to_last = abs(last), abs(next_to_last)
-            d = [next_to_last * d[k] - (last * odd[k - 1] if k else 0) for k in range(n)]
-        d = primitive(d)
-    return bool(d)
-
-def variations(sturm_chain, at):
-    """At -1 or 1 times infinity, or at 0."""
-    return changes(f[-1] * at ** (len(f) - 1) if at else f[0] for f in sturm_chain)
+def variations(sturm_chain):
+    """Between minus infinity and infinity."""
+    return changes(f[-1] * (-1) ** (len(f) - 1) for f in sturm_chain) - changes(f[-1] for f in sturm_chain)
 
 def sturm(f, g):
-    """The chain f, g, and minus the remainder each time."""
-    f_and_on = [primitive(f), primitive(g)]
-    while f_and_on[-1]:
-        f_and_on.append([-c for c in remainder(*f_and_on[-2:])])
-    return f_and_on[:-1]
+    """The chain f, g, and minus the remainder each time; it ends with a greatest common divisor."""
+    sturm_chain = [primitive(f), primitive(g)]
+    while sturm_chain[-1]:
+        sturm_chain.append([-c for c in remainder(*sturm_chain[-2:])])
+    return sturm_chain[:-1]
 
 def places(d, discrete):
     """The numbers of roots inside, on and outside."""
@@ -852,21 +783,17 @@ def places(d, discrete):
         d = scaled(shifted(d, -1), 2)[::-1]  # z = 2/w - 1
         inside, more, outside = places(shifted(mirrored(d), -1), False)  # w = 1 - s
         return inside, on + more, outside
-    h = common_divisor(d, mirrored(d))  # the roots that are mirror images
-    rest, n = divided(d, h), len(d) - len(h)
-    on = next(k for k, c in enumerate(h) if c)
-    e = h[on::2]  # h = s^on e(s^2): each negative root of e is a pair on the axis
-    while len(e) > 1:
-        derivative = [k * c for k, c in enumerate(e)][1:]
-        f_and_on = sturm(e, derivative)
-        on += 2 * (variations(f_and_on, -1) - variations(f_and_on, 0))
-        e = common_divisor(e, derivative)
-    # The Cauchy index of the odd part over the even part along the axis is roots left minus roots right.
-    turned = [(-1) ** ((n - k) // 2) * c for k, c in enumerate(rest)]
-    f_and_on = sturm(*(trim([c if (n - k) % 2 == odd else 0 for k, c in enumerate(turned)]) for odd in (0, 1)))
-    index = variations(f_and_on, -1) - variations(f_and_on, 1)
-    inside = (len(h) - 1 - on) // 2 + (n + index) // 2
-    return inside, on, len(d) - 1 - on - inside
+    # With s = iw, over w: the Cauchy index of the odd part over the even part is roots left minus roots right; what
+    # both have in common has the roots on the axis.
+    n, on = len(d) - 1, 0
+    turned = [(-1) ** ((n - k) // 2) * c for k, c in enumerate(d)]
+    chain = sturm(*(trim([c if (n - k) % 2 == odd else 0 for k, c in enumerate(turned)]) for odd in (0, 1)))
+    index, common = variations(chain), chain[-1]
+    while len(common) > 1:  # the real roots, of any multiplicity
+        chain = sturm(common, [k * c for k, c in enumerate(common)][1:])
+        on, common = on + variations(chain), chain[-1]
+    inside = (n - on + index) // 2
+    return inside, on, n - on - inside
 
 def half_size_pair(d, discrete):
     """A and B, lists by powers of x, and their formal degrees: see the grammar."""
@@ -1079,7 +1006,7 @@ def walk(d, n, discrete, certain, identity, factors, line, low, high):
         need(right is None or s < right or s == right and after["regular"], "line: the sample is outside")
         at_sample = trim([value(c + [0] * (longest - len(c)), s) for c in d])
         need(len(at_sample) == n + 1, "line: the sample loses degree")
-        need(is_stable(at_sample, discrete) == stable, "line: at a sample the verdict is wrong")
+        need((places(at_sample, discrete)[0] == n) == stable, "line: at a sample the verdict is wrong")
         return stable
 
     def excluded(p):
