@@ -8,8 +8,7 @@ of jurist's module `certificate`.  Exit status 0: proved; 4: rejected.
 Whatever the form of the loop, it is read as linear equations in signals and states.  They are linear by the reading:
 the values of expressions are objects of class Linear, which have no other operations.
 
-Polynomials in one variable are lists of integers, the constant term first.  Polynomials in several variables are
-objects of class P.
+Polynomials are objects of class P, or lists of integers, the constant term first, where numbers are put in.
 """
 import json
 import re
@@ -17,7 +16,7 @@ import signal
 import sys
 import tomllib
 from fractions import Fraction
-from itertools import accumulate, product, zip_longest
+from itertools import accumulate
 from math import gcd, lcm, prod
 
 MAX_TEXT, MAX_MODEL = 64 << 20, 4 << 20  # characters
@@ -27,6 +26,7 @@ MAX_TERMS = 50_000
 MAX_DEPTH = 16  # of JSON
 MAX_NESTING = 200  # of expressions
 MAX_ORDER = 2000
+MAX_DEGREE = 4000
 MAX_WORK = 30 * 10**9  # about as many nanoseconds
 SECONDS = 60  # the last resort
 sys.set_int_max_str_digits(2 * MAX_DIGITS)
@@ -48,29 +48,11 @@ def spend(count, bits=0, others=0):
     spent += count * (150 + bits // 30 + others // 30 + bits * others // 1000)
     need(spent <= MAX_WORK, "the check is too much work")
 
-# ---------------------------------------------------------------- polynomials in one variable
-
-def trim(p):
-    while p and not p[-1]:
-        p = p[:-1]
-    return p
+# ---------------------------------------------------------------- polynomials in one variable, as lists
 
 def size(numbers):
     """The bits of the longest."""
     return max((c.bit_length() for c in numbers), default=0)
-
-def plus(p, q, factor=1):
-    spend(len(q), size(q), factor.bit_length())
-    return trim([a + factor * b for a, b in zip_longest(p, q, fillvalue=0)])
-
-def times(p, q):
-    spend(len(p) * len(q), size(p), size(q))
-    out = [0] * (len(p) + len(q) - 1) if p and q else []
-    for i, a in enumerate(p):
-        if a:
-            for j, b in enumerate(q, i):
-                out[j] += a * b
-    return out
 
 def value(p, x):
     """At a rational number, times its denominator to the power of len(p) - 1."""
@@ -79,40 +61,6 @@ def value(p, x):
     for c in reversed(p):
         result, power = result * top + c * power, power * bottom
     return result
-
-def primitive(p):
-    """Integers without a common factor; a positive factor is lost."""
-    spend(1 + len(p) // 10, size(p), size(p))
-    common = gcd(*p)
-    return p if common < 2 else [c // common for c in p]
-
-def divided(p, f):
-    """The primitive quotient by a polynomial that is not zero, or None if there is a remainder."""
-    p, f, quotient = primitive(p)[:], primitive(f), []
-    spend(len(f) * max(0, len(p) - len(f) + 1), size(p), size(f))
-    while len(p) >= len(f):
-        factor, rest = divmod(p[-1], f[-1])
-        if rest:
-            return None
-        quotient.append(factor)
-        shift = len(p) - len(f)
-        p[shift:] = [c - factor * b for c, b in zip(p[shift:], f)]
-        p.pop()
-    return None if any(p) else quotient[::-1]
-
-def remainder(p, q):
-    """A positive multiple."""
-    lead, sign = abs(q[-1]), 1 if q[-1] > 0 else -1
-    while len(p) >= len(q):
-        spend(len(p), size(p), size(q))
-        factor, shift = sign * p[-1], len(p) - len(q)
-        p = trim([lead * c - (factor * q[k - shift] if k >= shift else 0) for k, c in enumerate(p[:-1])])
-    return primitive(p)
-
-def common_divisor(p, q):
-    while q:
-        p, q = q, remainder(p, q) if len(q) > 1 else []
-    return primitive(p)
 
 def changes(signs):
     """The number of sign changes, zeros left out."""
@@ -138,8 +86,9 @@ def scaled(p, top, bottom=1):
     spend(2 * len(p), size(p) + len(p) * top.bit_length(), len(p) * bottom.bit_length())
     return [c * top ** k * bottom ** (len(p) - 1 - k) for k, c in enumerate(p)]
 
-def descartes(p, a, b):
+def descartes(f, a, b):
     """At least the number of roots in the open interval (a, b), equal to it if 0 or 1; None is an infinite end."""
+    p = f.listed(1)
     if len(p) < 2 or a is b is None:
         return len(p) - 1 if p else 0
     if a is None:
@@ -162,8 +111,14 @@ class P(dict):
     """
 
     @staticmethod
-    def of(terms):
-        return P({e: c for e, c in terms.items() if c})
+    def of(numbers, v=0):
+        """From a list of coefficients, or a dictionary."""
+        items = numbers.items() if isinstance(numbers, dict) else enumerate(numbers)
+        return P({k << FIELD * v: c for k, c in items if c})
+
+    def listed(self, v):
+        """The coefficients of a polynomial in variable v alone."""
+        return [self.get(k << FIELD * v, 0) for k in range(self.degree(v) + 1)] if self else []
 
     def __add__(self, other):
         out = dict(self)
@@ -190,13 +145,14 @@ class P(dict):
         return out
 
     def __truediv__(self, other):
-        """The quotient of a division without remainder."""
+        """The quotient of a division without remainder, otherwise None."""
         quotient, rest, lead = P(), dict(self), max(other)
         while rest:
             spend(len(other) + len(rest) // 10, size(rest.values()), size(other.values()))
             e = max(rest) - lead
             factor, no = divmod(rest[e + lead], other[lead])
-            need(not no and e >= 0 and not e & HIGHEST, "internal: a division has a remainder")
+            if no or e < 0 or e & HIGHEST:
+                return None
             quotient[e] = factor
             for f, c in other.items():
                 rest[e + f] = rest.get(e + f, 0) - factor * c
@@ -221,12 +177,30 @@ class P(dict):
             content = content if content == ONE else content.common(c)
         return content
 
+    def lead(self, v):
+        """The leading coefficient."""
+        top = self.degree(v) << FIELD * v
+        return P({e - top: c for e, c in self.items() if e & MASK << FIELD * v == top})
+
     def over(self, x):
         return P({e: c // x for e, c in self.items()}) if x > 1 else self
 
+    def primitive(self):
+        """Without a common factor of the numbers; a positive factor is lost."""
+        spend(1 + len(self) // 10, size(self.values()), size(self.values()))
+        return self.over(gcd(*self.values()))
+
+    def remainder(self, other, v):
+        """A multiple, by a positive number if no other variable occurs."""
+        a, b = self, -other if other.lead(v).get(0, 0) < 0 else other
+        while a and a.degree(v) >= b.degree(v):
+            shift = P({a.degree(v) - b.degree(v) << FIELD * v: 1})
+            a = a * b.lead(v) + -(b * (a.lead(v) * shift))
+        return a.primitive()
+
     def common(self, other):
         """A greatest common divisor without an integer factor, by primitive remainders in the last variable."""
-        a, b = self.over(gcd(*self.values())), other.over(gcd(*other.values()))
+        a, b = self.primitive(), other.primitive()
         if not a or not b:
             return a or b
         v = (max(*a, *b, 0).bit_length() - 1) // FIELD
@@ -237,25 +211,21 @@ class P(dict):
         if a.degree(v) < b.degree(v):
             a, b = b, a
         while b and b.degree(v):
-            lead = b.coefficients(v)[-1]
-            while a and a.degree(v) >= b.degree(v):
-                shift = P({a.degree(v) - b.degree(v) << FIELD * v: 1})
-                a = a * lead + -(b * a.coefficients(v)[-1] * shift)
-            a, b = b, a / a.content(v) if a else a
-            b = b.over(gcd(*b.values()))
+            rest = a.remainder(b, v)
+            a, b = b, (rest / rest.content(v)).primitive() if rest else rest
         return content if b else content * a
 
     def at(self, values):
-        """Numbers in the place of all variables from 2 on; coefficients by the exponents of the first two."""
+        """Numbers in the place of all variables from 2 on; the coefficients are rational."""
         out = {}
         for e, c in self.items():
-            key, e = (e & MASK, e >> FIELD & MASK), e >> 2 * FIELD
+            key, e = e & (MASK << FIELD | MASK), e >> 2 * FIELD
             for x in values:
                 k = e & MASK
                 spend(1, size([c.numerator, c.denominator]), k * size(x.as_integer_ratio()))
                 c, e = c * x ** k, e >> FIELD
             out[key] = out.get(key, 0) + c
-        return {key: c for key, c in out.items() if c}
+        return P.of(out)
 
 ZERO, ONE, Z = P(), P({0: 1}), P({1: 1})
 
@@ -655,17 +625,12 @@ class Loop:
 # ---------------------------------------------------------------- the characteristic polynomial
 
 def cleared(entries):
-    """Polynomials with rational coefficients times a positive number: integers without a common factor."""
+    """Polynomials with rational coefficients, times a positive number: integers without a common factor."""
     common = lcm(*(c.denominator for e in entries for c in e.values()))
-    numbers = iter(primitive([int(c * common) for e in entries for c in e.values()]))
-    return [{key: next(numbers) for key in e} for e in entries]
-
-def listing(terms):
-    """From coefficients by exponents of z and the parameter to a list of lists."""
-    out = [[] for _ in range(1 + max((i for i, _ in terms), default=-1))]
-    for (i, j), c in sorted(terms.items()):
-        out[i] += [0] * (j - len(out[i])) + [c]
-    return out
+    entries = [P({k: int(c * common) for k, c in e.items()}) for e in entries]
+    numbers = [c for e in entries for c in e.values()]
+    spend(1 + len(numbers) // 10, size(numbers), size(numbers))
+    return [e.over(gcd(*numbers)) for e in entries]
 
 def eliminated(rows):
     """The determinant of integers [Bareiss1968]."""
@@ -693,20 +658,20 @@ def interpolated(values):
 def determinant(m):
     """By its values at more points than its degrees."""
     if len(m) == 1:
-        return listing(m[0][0])
+        return m[0][0]
     degrees = []
     for v in (0, 1):
-        sizes = [[max((key[v] for key in e), default=0) for e in row] for row in m]
+        sizes = [[e.degree(v) for e in row] for row in m]
         degrees.append(1 + min(sum(map(max, sizes)), sum(map(max, zip(*sizes)))))
     columns = []
     for p in range(degrees[1]):
         columns.append(interpolated([
-            eliminated([[sum(c * z ** i * p ** j for (i, j), c in e.items()) for e in row] for row in m])
+            eliminated([[sum(c * z ** (k & MASK) * p ** (k >> FIELD) for k, c in e.items()) for e in row] for row in m])
             for z in range(degrees[0])]))
-    return trim([trim(interpolated(list(row))) for row in zip(*columns)])
+    return sum((P.of(interpolated(list(row)), 1) * Z ** k for k, row in enumerate(zip(*columns))), ZERO)
 
 def characteristic_polynomial(text, kept, values):
-    """Whether time is discrete, the degree, the coefficients of z^0, z^1, ... in the parameter, the poles."""
+    """Whether time is discrete, the degree, the coefficients of z^0, z^1, ... (none if undefined), the poles."""
     model = Model(text)
     names = [*([kept] if kept is not None else []), *values]
     need(len(set(names)) == len(names), "a parameter has two values")
@@ -722,44 +687,38 @@ def characteristic_polynomial(text, kept, values):
     def system(equations, unknowns):
         return determinant([cleared([e.tops.get(name, ZERO).at(values) for name in unknowns]) for e in equations])
 
-    poles = []
-    for divisor in loop.scope.divisors:  # undefined where all its coefficients vanish together
-        poles.append([])
-        for c in listing(*cleared([divisor.at(values)])):
-            poles[-1] = common_divisor(poles[-1], c)
+    # Undefined where all coefficients of a divisor vanish together.
+    poles = [cleared([divisor.at(values)])[0].content(0) for divisor in loop.scope.divisors]
+    n, undefined = loop.degree, (model.discrete, loop.degree, [], [ZERO])
     if not all(poles):
-        return model.discrete, loop.degree, [], [[]]
+        return undefined
     need(len(loop.equations) == len(loop.unknowns), "there are not as many equations as unknowns")
     d = system(loop.equations, loop.unknowns)
-    need(len(d) <= loop.degree + 1, "a determinant has too high a degree")
-    d += [[]] * (loop.degree + 1 - len(d))
+    need(d.degree(0) <= n, "a determinant has too high a degree")
     # A characteristic polynomial is taken as it is written, a determinant with the leading coefficient 1.
     written = "characteristic" in model.root["loop"]
-    [lead] = listing(*cleared([loop.equations[0].bottom.at(values)])) if written else d[-1:]
+    lead = cleared([loop.equations[0].bottom.at(values)])[0] if written else d.lead(0) if d.degree(0) == n else ZERO
     poles.append(lead)  # not well posed, if these are blocks
     for equations, states in loop.own:  # a block loses its order, which the other blocks' numerators can hide
         own = system(equations, states)
-        poles.append(own[len(states)] if len(own) > len(states) else [])
+        poles.append(own.lead(0) if own.degree(0) == len(states) else ZERO)
     if not all(poles):
-        return model.discrete, loop.degree, [], [[]]
-    common = lead  # to lowest terms
-    for c in d:
-        common = common_divisor(c, common) if len(common) > 1 else [1]
-    sign = 1 if lead[-1] * common[-1] > 0 else -1
-    d = [[sign * gcd(*c) * x for x in divided(c, common)] for c in d]
-    return model.discrete, loop.degree, d, poles if "block" in model.root else poles[:-1]
+        return undefined
+    common = lead.common(d.content(0)) if any(lead) else ONE  # to lowest terms
+    d = (d if lead[max(lead)] * common[max(common)] > 0 else -d) / common
+    d = d.coefficients(0) + [ZERO] * (n - d.degree(0))
+    return model.discrete, n, d, poles if "block" in model.root else poles[:-1]
 
 def in_region(d, discrete, extent):
     """The coefficients of D(R z) or D(s - S): integers without a common factor; a positive factor is lost."""
-    top, bottom = (Z, 1) if extent == "parameter" else (number(extent.numerator), extent.denominator)
-    d, powers = [P.of(dict(enumerate(c))) for c in d], [number(bottom ** k) for k in range(len(d))]
+    top, bottom = (P({1 << FIELD: 1}), 1) if extent == "parameter" else (number(extent.numerator), extent.denominator)
+    powers = [number(bottom ** k) for k in range(len(d))]
     if discrete:
         d = [c * top ** k * power for k, (c, power) in enumerate(zip(d, powers[::-1]))]
     else:
         d = shifted([c * power for c, power in zip(d, powers[::-1])], -top)
         d = [c * power for c, power in zip(d, powers)]
-    common = gcd(*(x for c in d for x in c.values())) or 1
-    return [trim([c.get(k, 0) // common for k in range(c.degree(0) + 1)]) for c in d]
+    return cleared(d)
 
 # ---------------------------------------------------------------- roots and boundaries
 
@@ -769,17 +728,18 @@ def variations(sturm_chain):
 
 def sturm(f, g):
     """The chain f, g, and minus the remainder each time; it ends with a greatest common divisor."""
-    sturm_chain = [primitive(f), primitive(g)]
-    while sturm_chain[-1]:
-        sturm_chain.append([-c for c in remainder(*sturm_chain[-2:])])
-    return sturm_chain[:-1]
+    f, g, out = P.of(f), P.of(g), []
+    while g:
+        out.append(f.listed(0))
+        f, g = g, -f.remainder(g, 0)
+    return [*out, f.listed(0)]
 
 def places(d, discrete):
     """The numbers of roots inside, on and outside."""
     if discrete:
         on = 0
-        while value(d, -1) == 0:
-            d, on = divided(d, [1, 1]), on + 1
+        while (quotient := P.of(d) / P.of([1, 1])) is not None:
+            d, on = quotient.listed(0), on + 1
         d = scaled(shifted(d, -1), 2)[::-1]  # z = 2/w - 1
         inside, more, outside = places(shifted(mirrored(d), -1), False)  # w = 1 - s
         return inside, on + more, outside
@@ -787,7 +747,7 @@ def places(d, discrete):
     # both have in common has the roots on the axis.
     n, on = len(d) - 1, 0
     turned = [(-1) ** ((n - k) // 2) * c for k, c in enumerate(d)]
-    chain = sturm(*(trim([c if (n - k) % 2 == odd else 0 for k, c in enumerate(turned)]) for odd in (0, 1)))
+    chain = sturm(*([c if (n - k) % 2 == odd else 0 for k, c in enumerate(turned)] for odd in (0, 1)))
     index, common = variations(chain), chain[-1]
     while len(common) > 1:  # the real roots, of any multiplicity
         chain = sturm(common, [k * c for k, c in enumerate(common)][1:])
@@ -796,25 +756,25 @@ def places(d, discrete):
     return inside, on, n - on - inside
 
 def half_size_pair(d, discrete):
-    """A and B, lists by powers of x, and their formal degrees: see the grammar."""
+    """A and B, polynomials in x (variable 0) and the parameter, and their formal degrees: see the grammar."""
     n = len(d) - 1
     k = n // 2
     if not discrete:
-        return d[0::2], k, d[1::2], (n - 1) // 2
+        return *(sum((c * Z ** j for j, c in enumerate(d[first::2])), ZERO) for first in (0, 1)), k, (n - 1) // 2
 
     def in_x(coefficients, first, then):
         """sum c_j t_j(x) with t_0, t_1 as given and t_(j+1) = x t_j - t_(j-1)"""
-        out = [[] for _ in coefficients]
+        out = ZERO
         for c in coefficients:
-            out = [plus(o, c, x) if x else o for o, x in zip_longest(out, first, fillvalue=0)]
-            first, then = then, [a - b for a, b in zip_longest([0, *then], first, fillvalue=0)]
+            out = out + c * first
+            first, then = then, Z * then + -first
         return out
 
-    even, odd = ([plus(d[j], d[n - j], sign) for j in range(n - k, n + 1)] for sign in (1, -1))
+    even, odd = ([d[j] + d[n - j] * number(sign) for j in range(n - k, n + 1)] for sign in (1, -1))
     if n % 2 == 0:  # z^j + z^-j, and (z^j - z^-j)/(z - 1/z)
-        return in_x([d[k], *even[1:]], [2], [0, 1]), k, in_x(odd[1:], [1], [0, 1]), k - 1
+        return in_x([d[k], *even[1:]], number(2), Z), in_x(odd[1:], ONE, Z), k, k - 1
     # (z^(j+1) + z^-j)/(z + 1), and (z^(j+1) - z^-j)/(z - 1)
-    return in_x(even, [1], [-1, 1]), k, in_x(odd, [1], [1, 1]), k
+    return in_x(even, ONE, Z + number(-1)), in_x(odd, ONE, Z + ONE), k, k
 
 # ---------------------------------------------------------------- the parts of a certificate
 
@@ -844,9 +804,11 @@ def items(json_list, kind):
     return [kind(item) for item in json_list]
 
 def polynomial(coefficients):
+    """In variable 1, the parameter."""
     p = items(coefficients, integer)
-    need(p == trim(p), "a polynomial has a zero at the top")
-    return p
+    need(not p or p[-1], "a polynomial has a zero at the top")
+    need(len(p) <= MAX_DEGREE, "a polynomial has too high a degree")
+    return P.of(p, 1)
 
 def polynomials(json_list):
     return items(json_list, polynomial)
@@ -925,12 +887,12 @@ def check(model, certificate):
     if nowhere:
         need(factors == line == claimed == [], "the loop is stable nowhere")
     else:
-        need(all(len(f) > 1 for f in factors), "factors: one is constant")
+        need(all(map(any, factors)), "factors: one is constant")
         for p in certain + ([identity["value"]] if identity else []):
             for f in factors:
-                while (quotient := divided(p, f)) is not None:
+                while (quotient := p.primitive() / f.primitive()) is not None:
                     p = quotient
-            need(len(p) == 1, "factors: a boundary polynomial is not a product of them")
+            need(not any(p), "factors: a boundary polynomial is not a product of them")
         found = walk(d, n, discrete, certain, identity, factors, line, low, high)
         need(found == claimed, "stable: the claimed set is not the one that the line shows")
     given = ", ".join([f"{low} < {parameter} < {high}".replace("None < ", "").replace(" < None", ""),
@@ -941,32 +903,29 @@ def check(model, certificate):
 def in_words(e, infinite):
     if e is None:
         return infinite
-    return str(e) if isinstance(e, Fraction) else f"[the root of {e[0]} in ({e[1][0]}, {e[1][1]})]"
+    return str(e) if isinstance(e, Fraction) else f"[the root of {e[0].listed(1)} in ({e[1][0]}, {e[1][1]})]"
 
 def boundaries(d, n, discrete, poles, boundary):
     """The polynomials at whose zeros the loop is not stable, the identity, whether the loop is stable nowhere."""
-    certain = poles + [d[n] if d else []]
+    certain = poles + [d[n] if d else ZERO]
     if n > 0 and d:
         for x in (1, -1) if discrete else (0,):
-            certain.append(trim([value(column, x) for column in zip_longest(*d, fillvalue=0)]))
+            certain.append(sum((c * number(x ** k) for k, c in enumerate(d)), ZERO))
     if n < 2 or not all(certain):
         need(boundary is None, "boundary: must be null")
         return certain, None, not all(certain)
     u, v, result = parts(boundary, ["u", "v", "value"])
     u, v, result = polynomials(u), polynomials(v), polynomial(result)
-    a, degree_a, b, degree_b = half_size_pair(d, discrete)
+    a, b, degree_a, degree_b = half_size_pair(d, discrete)
     need(len(u) <= degree_b and len(v) <= degree_a, "boundary: a cofactor's degree is too high")
     need(any(u) or any(v), "boundary: both cofactors are zero")
-    sums = [[] for _ in range(max(len(u) + len(a), len(v) + len(b)))]
-    for p, q in (u, a), (v, b):
-        for (i, f), (j, g) in product(enumerate(p), enumerate(q)):
-            sums[i + j] = plus(sums[i + j], times(f, g))
-    need(trim(sums) == trim([result]), "boundary: the identity does not hold")
+    left = [sum((c * Z ** k for k, c in enumerate(p)), ZERO) for p in (u, v)]
+    need(left[0] * a + left[1] * b == result, "boundary: the identity does not hold")
     return certain, {"u": u, "v": v, "value": result}, not result
 
 def walk(d, n, discrete, certain, identity, factors, line, low, high):
     """The stable intervals that the line from `low` to `high` shows."""
-    longest = max(map(len, d))
+    longest = 1 + max(c.degree(1) for c in d)
 
     def none_between(a, b):
         return all(descartes(f, a, b) == 0 for f in factors)
@@ -981,13 +940,13 @@ def walk(d, n, discrete, certain, identity, factors, line, low, high):
             count(touch[1])
         if "at" in item:
             x = rational(parts(item, ["at"], ["touch"])[0])
-            need(any(value(f, x) == 0 for f in factors), "line: no factor vanishes at 'at'")
+            need(any(value(f.listed(1), x) == 0 for f in factors), "line: no factor vanishes at 'at'")
             return domain_end(x) | {"touch": touch}
         between, k = parts(item, ["between", "factor"], ["touch"])
         (a, b), k = pair(between), count(k)
         need(k < len(factors), "line: there is no such factor")
         for i, f in enumerate(factors):
-            need(value(f, a) != 0 and value(f, b) != 0, "line: a factor vanishes at an end of 'between'")
+            need(value(f.listed(1), a) != 0 and value(f.listed(1), b) != 0, "line: a factor vanishes at an end of 'between'")
             need(descartes(f, a, b) == (i == k), "line: 'between' is not shown to hold just one root")
         root = {"end": (factors[k], [a, b]), "left": a, "right": b}
         return root | {"regular": True, "factor": factors[k], "touch": touch}
@@ -1001,24 +960,24 @@ def walk(d, n, discrete, certain, identity, factors, line, low, high):
         for a, b in zip(ends, ends[1:]):
             need(one_point or a is None or b is None or a < b, "line: the points are not in order")
             need(one_point or none_between(a, b), "line: a stretch is not shown to have no roots")
-        need(all(value(f, x) != 0 for f in factors for x in split), "line: a factor vanishes at a split point")
+        need(all(value(f.listed(1), x) != 0 for f in factors for x in split), "line: a factor vanishes at a split point")
         need(left is None or left < s or left == s and before["regular"], "line: the sample is outside")
         need(right is None or s < right or s == right and after["regular"], "line: the sample is outside")
-        at_sample = trim([value(c + [0] * (longest - len(c)), s) for c in d])
-        need(len(at_sample) == n + 1, "line: the sample loses degree")
+        at_sample = [value([*c.listed(1), *[0] * longest][:longest], s) for c in d]
+        need(at_sample[-1], "line: the sample loses degree")
         need((places(at_sample, discrete)[0] == n) == stable, "line: at a sample the verdict is wrong")
         return stable
 
     def excluded(p):
         """The loop is undefined there, loses degree, or has a root on the boundary or a pair of mirror images."""
         x, f, touch = p["end"], p["factor"], p["touch"]
-        vanishes = (lambda g: divided(g, f) is not None) if f else (lambda g: value(g, x) == 0)
+        vanishes = (lambda g: g.primitive() / f.primitive() is not None) if f else (lambda g: value(g.listed(1), x) == 0)
         if any(map(vanishes, certain)):
             return True
         if identity is None or touch is None or not vanishes(identity["value"]):
             return False
         w = dict(enumerate(identity[touch[0]])).get(touch[1])  # not zero there: Theorem 2
-        return bool(w) and (descartes(w, p["left"], p["right"]) == 0 if f else value(w, x) != 0)
+        return bool(w) and (descartes(w, p["left"], p["right"]) == 0 if f else value(w.listed(1), x) != 0)
 
     need(isinstance(line, list) and len(line) % 2 == 1, "line: must begin and end with a stretch")
     before, was_stable, found = domain_end(low), False, []
@@ -1040,7 +999,7 @@ def check_verdict(model, document, statement, values, discrete, extent):
     need(is_discrete == discrete, "the model's time is another")
     d = in_region(d, discrete, extent)
     need(polynomials(characteristic) == d, "characteristic: not that of the model")
-    p = trim([value(c, 0) for c in d])
+    p = P.of([c.get(0, 0) for c in d]).listed(0)
     inside, on, outside = places(p, discrete) if p else (0, 0, 0)
     infinite = n - (inside + on + outside) if all(poles) else 0
     found = "unstable" if outside + infinite or not p else "marginal" if on else "stable"
