@@ -4,7 +4,7 @@ mod certificates;
 mod program;
 
 use certificates::{checkers, emitted};
-use jurist::certificate::check::{Limits, check};
+use jurist_check::{Limits, check};
 use program::jurist_with_input;
 use std::collections::BTreeSet;
 use toml_edit::{Document, Table};
