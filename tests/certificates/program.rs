@@ -1,4 +1,4 @@
-//! `--certificate`, `--smt2`, `jurist verify` and `examples/check.py` as programs.
+//! `--certificate`, `--smt2`, `jurist verify` and `crates/check/check.py` as programs.
 
 use crate::helpers::program::{Run, jurist, jurist_with_input};
 use std::path::PathBuf;
@@ -33,10 +33,10 @@ impl Drop for Folder {
     }
 }
 
-/// `examples/check.py`, where Python is there.
+/// `crates/check/check.py`, where Python is there.
 fn python(model: &str, certificate: &str) -> Option<Run> {
     if Command::new("python3").args(["-c", "import tomllib"]).output().is_ok_and(|o| o.status.success()) {
-        let script = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/check.py");
+        let script = concat!(env!("CARGO_MANIFEST_DIR"), "/crates/check/check.py");
         let mut command = Command::new("python3");
         let output =
             command.args([script, model, certificate]).current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
