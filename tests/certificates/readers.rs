@@ -1,13 +1,10 @@
 //! What is a model, by the three readers: the engine, `jurist verify` and `crates/check/check.py` on one list.
 
-mod certificates;
-mod program;
-
-use certificates::{checkers, emitted};
+use crate::helpers::certificates::{checkers, emitted};
+use crate::helpers::program::jurist_with_input;
 use jurist_check::{Limits, check};
-use program::jurist_with_input;
 use std::collections::BTreeSet;
-use toml_edit::{Document, Table};
+use toml::Table;
 
 /// An entry of the list.
 struct Case {
@@ -37,7 +34,7 @@ fn edited(text: &str, pairs: &[String], name: &str) -> String {
 
 fn cases() -> Vec<Case> {
     let list = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/readers.toml");
-    let list = Document::parse(std::fs::read_to_string(list).expect("the list is there")).expect("the list is TOML");
+    let list: Table = std::fs::read_to_string(list).expect("the list is there").parse().expect("the list is TOML");
     let bases = list["base"].as_table().expect("a table");
     let read = |case: &Table| {
         let text = |key: &str| case.get(key).map(|v| v.as_str().expect("a string").to_owned());
@@ -57,7 +54,7 @@ fn cases() -> Vec<Case> {
         let question = text("question").unwrap_or_else(|| "K".into());
         Case { question, text: edited(base, &edits, &name), near, accepted, name }
     };
-    let cases: Vec<Case> = list["case"].as_array_of_tables().expect("tables").iter().map(read).collect();
+    let cases: Vec<Case> = list["case"].as_array().expect("tables").iter().map(|case| read(case.as_table().expect("a table"))).collect();
     let names: BTreeSet<&str> = cases.iter().map(|c| c.name.as_str()).collect();
     assert!(names.len() == cases.len() && cases.len() > 200);
     cases

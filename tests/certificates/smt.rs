@@ -4,7 +4,6 @@ use crate::helpers::certificates::MODELS;
 use crate::helpers::model::{example_text, read};
 use jurist_algebra::limits::Budget;
 use std::process::{Command, Stdio};
-use std::time::Instant;
 
 fn script(model: &str, parameter: &str) -> String {
     let budget = Budget::unlimited();
@@ -52,10 +51,9 @@ fn answer(solver: &[String], what: &str, script: &str) -> String {
     let thread = std::thread::current().id();
     let file = std::env::temp_dir().join(format!("jurist-{}-{thread:?}.smt2", std::process::id()));
     std::fs::write(&file, script).unwrap();
-    let start = Instant::now();
     let output = Command::new(&solver[0]).args(&solver[1..]).arg(&file).output().unwrap();
     let _ = std::fs::remove_file(&file);
-    println!("{}: {what}: {:?}", solver[0], start.elapsed());
+    println!("{}: {what}", solver[0]);
     String::from_utf8_lossy(&output.stdout).trim().to_owned()
 }
 

@@ -1,6 +1,8 @@
 //! What several rooms of the tests share.
 
+pub mod budget;
 pub mod certificates;
+pub mod corpus;
 pub mod drive;
 pub mod loops;
 pub mod model;

@@ -1,5 +1,6 @@
 //! The fast ways of the algebra against their references.
 
+use crate::helpers::budget::spent;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::{RationalMatrix, characteristic_polynomial_multimodular};
 use jurist_algebra::number::{Integer, Rational};
@@ -217,7 +218,7 @@ fn sizes_zero_and_one() {
 
 #[test]
 fn a_spent_budget_is_reported() {
-    let budget = Budget::with_timeout(std::time::Duration::ZERO);
+    let budget = spent();
     let p: Poly<UniPoly> = Poly::new((0..5).map(|k| UniPoly::from_i64(&[k, 1])).collect());
     assert!(resultant_formal(&p, 4, &p.derivative(), 3, &budget).is_err());
     assert!(RationalMatrix::identity(3).characteristic_polynomial(names(), &budget).is_err());

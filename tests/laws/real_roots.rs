@@ -1,5 +1,6 @@
 //! Laws of real root isolation and of real algebraic numbers, on generated polynomials.
 
+use crate::helpers::budget::spent;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational, parse_number};
 use jurist_algebra::poly::real_roots::{Bound, budan_fourier_bound, count_roots_sturm};
@@ -199,14 +200,13 @@ fn negative_root_of_an_odd_power() {
 fn comparisons_keep_the_budget() {
     use jurist_algebra::limits::Budget;
     use jurist_algebra::poly::{Domain, SquareFree, UniPoly, isolate_real_roots};
-    use std::time::Duration;
     let roots = |coeffs: &[i64]| {
         let p = SquareFree::part_of(&UniPoly::from_i64(coeffs)).unwrap();
         isolate_real_roots(&p, &Budget::unlimited()).unwrap()
     };
     // The root of 2 in two polynomials: only a common divisor decides.
     let (a, b) = (roots(&[-2, 0, 1]), roots(&[2, -2, -1, 1]));
-    let spent = Budget::with_timeout(Duration::ZERO);
+    let spent = spent();
     let (x, y) = (&a[1], b.iter().find(|y| y.decimal(5) == "1.4142").unwrap());
     assert!(x.compare_within(y, &spent).is_err());
     assert!(x.compare_within(y, &Budget::unlimited()).unwrap().is_eq());

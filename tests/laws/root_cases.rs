@@ -1,5 +1,6 @@
 //! Real root isolation against Sturm's theorem and against roots known by construction.
 
+use crate::helpers::budget::spent;
 use crate::helpers::number::ratio;
 use crate::helpers::polynomial::{mignotte, product};
 use jurist_algebra::limits::Budget;
@@ -10,7 +11,6 @@ use jurist_algebra::poly::real_roots::{
     isolate_real_roots_in, root_bound_bits,
 };
 use jurist_algebra::poly::{Domain, UniPoly};
-use std::time::Duration;
 
 fn poly(coeffs: &[i64]) -> UniPoly {
     UniPoly::from_i64(coeffs)
@@ -201,10 +201,8 @@ fn intervals_leave_out_roots_at_their_ends() {
 #[test]
 fn a_budget_of_nothing_ends_the_work() {
     let p = SquareFree::part_of(&mignotte(60, 1_000_003)).unwrap();
-    assert!(isolate_real_roots(&p, &Budget::with_timeout(Duration::ZERO)).is_err());
-    assert!(
-        count_roots_sturm(p.poly(), Bound::Unbounded, Bound::Unbounded, &Budget::with_timeout(Duration::ZERO)).is_err()
-    );
+    assert!(isolate_real_roots(&p, &spent()).is_err());
+    assert!(count_roots_sturm(p.poly(), Bound::Unbounded, Bound::Unbounded, &spent()).is_err());
 }
 
 #[test]

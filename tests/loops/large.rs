@@ -1,10 +1,11 @@
-//! Loops of high order: they answer, or they stop when their time is up and say what they had reached.
+//! Loops of high order: they answer, or they stop when they are told to and say what they had reached.
 
+use crate::helpers::budget::{cancelled_at, endless_model};
+use crate::helpers::model::load;
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::{Failure, Source};
 use jurist_engine::model::Loop;
 use std::fmt::Write;
-use std::time::{Duration, Instant};
 
 /// The drive with `filters` first-order filters in its current feedback, as one matrix: order `6 + filters`.
 fn filtered_drive(filters: usize) -> Loop {
@@ -72,15 +73,29 @@ fn order_twenty_with_two_parameters() {
     }
 }
 
+/// Stopped when a step begins: the answer says which.
 #[test]
-fn order_two_hundred_keeps_its_time() {
+fn order_two_hundred_stops_where_it_is_cancelled() {
     let lp = filtered_drive(194);
-    let start = Instant::now();
-    let budget = Budget::with_timeout(Duration::from_secs(2));
+    let step = "characteristic polynomial";
+    let budget = cancelled_at(step);
     match lp.ask().free("K").stable_set(&budget) {
-        Ok(answer) => assert!(!answer.value().is_empty()),
-        Err(Failure::Stopped(why)) => assert!(why.budget.starts_with("time") && !why.reached.is_empty()),
+        Err(Failure::Stopped(stopped)) => {
+            assert_eq!((stopped.budget.as_str(), stopped.reached.as_str()), ("cancelled", step))
+        }
         Err(refused) => panic!("{refused}"),
+        Ok(answer) => panic!("{:?}", answer.value()),
     }
-    assert!(start.elapsed() < Duration::from_secs(40), "the time limit was not kept");
+}
+
+#[test]
+fn work_without_end_stops_where_it_is_cancelled() {
+    let lp = load(&endless_model());
+    let step = "boundary polynomials";
+    match lp.ask().free("K").stable_set(&cancelled_at(step)) {
+        Err(Failure::Stopped(stopped)) => {
+            assert_eq!((stopped.budget.as_str(), stopped.reached.as_str()), ("cancelled", step));
+        }
+        other => panic!("{other:?}"),
+    }
 }

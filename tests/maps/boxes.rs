@@ -1,5 +1,6 @@
 //! Boxes of two parameters: against exact counts, against the exact decomposition, against known areas.
 
+use crate::helpers::budget::{cancelled_after, spent};
 use crate::helpers::number::number;
 use crate::helpers::plane::{c, first_order, polynomial, small_loop, square, x, y};
 use jurist_algebra::limits::Budget;
@@ -9,7 +10,6 @@ use jurist_engine::stability::plane::boxes::{BoxMap, BoxVerdict, Window, stabili
 use jurist_engine::stability::plane::{PlanePolynomial, stability_map};
 use jurist_engine::stability::{AtPoint, Range, Shape};
 use proptest::prelude::*;
-use std::time::Duration;
 
 fn window(x: [&str; 2], y: [&str; 2]) -> Window {
     let side = |[low, high]: [&str; 2]| Range::between(Some(number(low)), Some(number(high)));
@@ -171,14 +171,13 @@ fn precision_is_found_again() {
 }
 
 #[test]
-fn time_that_is_up_leaves_more_undecided() {
+fn a_budget_that_runs_out_leaves_more_undecided() {
     let p = polynomial(vec![y(), x(), c("1")]);
     let w = window(["-3", "3"], ["-2", "2"]);
-    assert!(stability_boxes(&p, &w, Shape::UnitDisc, &number("1/2"), &Budget::with_timeout(Duration::ZERO)).is_err());
-    let short = Budget::with_timeout(Duration::from_millis(300));
-    let map = stability_boxes(&p, &w, Shape::UnitDisc, &number("1e-12"), &short).unwrap();
+    assert!(stability_boxes(&p, &w, Shape::UnitDisc, &number("1/2"), &spent()).is_err());
+    let map = stability_boxes(&p, &w, Shape::UnitDisc, &number("1e-12"), &cancelled_after(20)).unwrap();
     tiles_the_window(&map);
-    assert!(map.stopped.is_some());
+    assert_eq!(map.stopped.as_deref(), Some("cancelled"));
     assert!(map.areas.undecided > Rational::ZERO);
 }
 

@@ -5,16 +5,14 @@ use jurist_algebra::limits::Budget;
 use jurist_engine::error::Source;
 use jurist_engine::model::{Loop, source_from_bytes};
 use jurist_engine::show::diagnostics::{render, render_error};
-use std::time::{Duration, Instant};
 
 const HEAD: &str = "time = 'discrete'\n[parameters]\nK = { nominal = 1 }\n";
 
 /// Codes and places of all errors, as `code@line:column`.
 fn errors(text: &str) -> Vec<String> {
-    let start = Instant::now();
     let source = Source::new("model.toml", text);
     let result = Loop::from_toml(&source);
-    let found = match &result {
+    match &result {
         Ok(_) => Vec::new(),
         Err(error) => {
             let drawn = render_error(error, false);
@@ -28,9 +26,7 @@ fn errors(text: &str) -> Vec<String> {
             };
             error.diagnostics().iter().map(place).collect()
         }
-    };
-    assert!(start.elapsed() < Duration::from_secs(3), "took {:?}", start.elapsed());
-    found
+    }
 }
 
 /// The same for a model with parameter K and this text after it.

@@ -193,17 +193,6 @@ fn equation_23_has_the_printed_digits() {
 }
 
 #[test]
-fn the_printed_equations_have_their_own_limits() {
-    let answer = json(&["intervals", "examples/equation-23-as-printed.toml", "--param", "K_pwm", "--json"]);
-    let stable = answer["stable"].as_array().unwrap();
-    assert_eq!(stable.len(), 1);
-    check_end(&stable[0]["lower"], "2.98531969042", "z=1", 12);
-    check_end(&stable[0]["upper"], "550.941166686", "complex pair", 12);
-    let answer = json(&["intervals", "examples/equation-37-as-printed.toml", "--param", "T", "--json"]);
-    check_end(&answer["stable"][0]["lower"], "0.0000385570", "complex pair", 12);
-}
-
-#[test]
 fn the_jury_table_has_seven_conditions() {
     let answer = json(&["jury", "--param", "K_pwm", "--json", "--digits", "20"]);
     let rows = answer["rows"].as_array().unwrap();

@@ -1,5 +1,6 @@
 //! The root locus: continuity of branches, the cluster at z = 1, crossings, gaps.
 
+use crate::helpers::budget::spent;
 use crate::helpers::drive::drive_polynomial;
 use crate::helpers::number::ratio;
 use jurist_algebra::limits::Budget;
@@ -97,6 +98,6 @@ fn a_degree_that_is_lost_makes_a_gap_and_not_a_jump() {
 
 #[test]
 fn a_budget_ends_the_tracing() {
-    let none = Budget::with_timeout(std::time::Duration::ZERO);
+    let none = spent();
     assert!(trace_root_locus(|k| Some(drive_polynomial(k, &ratio(1, 100))), &plain_options(), &none).is_err());
 }

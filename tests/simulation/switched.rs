@@ -1,7 +1,7 @@
 //! The switched circuit: steady state, linearisation, limits, and the averaged model as T goes to 0.
 
+use crate::helpers::budget::{cancelled_after, spent};
 use crate::helpers::drive::{E_SW, K_A, L_A, names, sampled_drive, switched_drive};
-use jurist_algebra::limits::Budget;
 use jurist_draw::simulate::{Excitation, Pulse, Record, Step, SwitchedModel, SwitchedState, eigenvalues, growth_limit};
 use nalgebra::{DMatrix, DVector, dvector};
 
@@ -169,13 +169,16 @@ fn the_period_average_approaches_the_averaged_model_with_first_order() {
     }
 }
 
+/// A run of more samples than there is memory for ends where it is told to.
 #[test]
 fn a_budget_ends_a_run() {
-    let none = Budget::with_timeout(std::time::Duration::ZERO);
-    let drive = switched_drive(110.0, 1e-4, Pulse::Beginning);
-    let run = drive.simulate_within(&drive.rest(), &reference_step(), 10, Record::Samples, &none);
-    assert!(run.is_err());
-    assert!(sampled_drive(110.0, 1e-4).simulate_within(&reference_step(), 10, &none).is_err());
+    let (circuit, sampled) = (switched_drive(110.0, 1e-4, Pulse::Beginning), sampled_drive(110.0, 1e-4));
+    for reports in [0, 3] {
+        let budget = || if reports == 0 { spent() } else { cancelled_after(reports) };
+        let run = circuit.simulate_within(&circuit.rest(), &reference_step(), usize::MAX, Record::Samples, &budget());
+        assert!(run.is_err());
+        assert!(sampled.simulate_within(&reference_step(), usize::MAX, &budget()).is_err());
+    }
 }
 
 #[test]

@@ -308,7 +308,7 @@ mod tests {
     use std::time::Duration;
 
     fn value(text: &str) -> Option<String> {
-        let clock = Clock::new(Duration::from_secs(5));
+        let clock = Clock::new(Duration::MAX);
         let mut scope = Scope::new(HashMap::new(), HashMap::new(), &clock);
         scope.scalar(text).ok().and_then(|f| as_number(&f)).map(|q| q.to_string())
     }

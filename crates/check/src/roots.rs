@@ -220,7 +220,7 @@ mod tests {
 
     #[test]
     fn all_products_of_three_are_counted() {
-        let clock = Clock::new(Duration::from_secs(60));
+        let clock = Clock::new(Duration::MAX);
         let f = factors();
         let add = |x: Places, y: Places| Places {
             inside: x.inside + y.inside,

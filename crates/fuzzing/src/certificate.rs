@@ -22,6 +22,8 @@ pub fn certificate_check(data: &[u8]) {
     let Some((&kind, data)) = data.split_first() else { return };
     let model = MODELS[usize::from(kind & 3)];
     let limits = Limits { timeout: Duration::from_secs(5) };
+    // A true certificate has all the time it needs: a busy machine is no finding.
+    let patient = Limits { timeout: Duration::MAX };
     if kind & 4 == 0 {
         let text = String::from_utf8_lossy(data);
         let _ = check(model, &text, &limits);
@@ -29,7 +31,7 @@ pub fn certificate_check(data: &[u8]) {
         return;
     }
     let certificate = if kind & 8 == 0 { true_certificate(model) } else { true_verdict(model) };
-    let original = check(model, &certificate, &limits).expect("a true certificate");
+    let original = check(model, &certificate, &patient).expect("a true certificate");
     let mut bytes = certificate.into_bytes();
     for edit in data.chunks_exact(3) {
         let place = (usize::from(edit[0]) << 8 | usize::from(edit[1])) % bytes.len();

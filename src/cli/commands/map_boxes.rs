@@ -96,14 +96,21 @@ pub(super) fn answer(boxes: &Answer<MapBoxes>, output: &OutputOptions, context: 
             _ => map_boxes_page(boxes, &figure, digits).into_bytes(),
         };
         write(Path::new(file), &bytes)?;
-    } else {
-        context.answer(output, || boxes.text(digits), || boxes.json())?;
+        return Ok(match &boxes.value().boxes.stopped {
+            None => Status::Holds,
+            Some(budget) => context.say_undecided(&stopped_at(budget)),
+        });
     }
-    Ok(match &boxes.value().boxes.stopped {
-        None => Status::Holds,
-        Some(budget) => {
-            let reached = "subdividing the window".to_owned();
-            context.say_undecided(&Exhausted { budget: budget.clone(), reached })
+    match &boxes.value().boxes.stopped {
+        None => {
+            context.answer(output, || boxes.text(digits), || boxes.json())?;
+            Ok(Status::Holds)
         }
-    })
+        Some(budget) => context.undecided(output, &stopped_at(budget), || Some(boxes.text(digits)), || boxes.json()),
+    }
+}
+
+/// The subdivision ended before its goal.
+fn stopped_at(budget: &str) -> Exhausted {
+    Exhausted { budget: budget.to_owned(), reached: "subdividing the window".to_owned() }
 }

@@ -54,6 +54,11 @@ pub enum MapOrBoxes {
 }
 
 impl Problem {
+    /// Whether a map by this method comes to boxes at last, when the exact decomposition takes too long.
+    pub fn ends_in_boxes(&self, method: MapMethod, request: &BoxRequest) -> bool {
+        method != MapMethod::Exact && window_of(self, request).is_ok()
+    }
+
     /// The stable region in the plane of the two free parameters by a method of choice.
     ///
     /// # Errors
@@ -70,7 +75,7 @@ impl Problem {
     ) -> Result<MapOrBoxes, Failure> {
         budget.enter(|| {
             let exact = |part: &Budget| {
-                let map = self.described(self.decomposed(part)?, digits, budget)?;
+                let map = self.described(part.enter(|| self.decomposed(part))??, digits, budget)?;
                 Ok(MapOrBoxes::Exact(Box::new(map)))
             };
             let window = match (method, window_of(self, request)) {
