@@ -294,6 +294,8 @@ DIGITS = "[0-9](?:_?[0-9])*"
 NUMBER = rf"(?:{DIGITS}(?:\.(?:{DIGITS})?)?|\.{DIGITS})(?:[eE][+-]?{DIGITS})?(?![\w.])"
 TOKEN = re.compile(rf"[^\S\x1c-\x1f]*({NUMBER}|[^\W\d]\w*|[-+*/^()])")
 
+CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f]")
+
 class Number(str):
     """A number of a TOML text that is no integer, as it is written."""
 
@@ -540,7 +542,7 @@ class Loop:
 
     def responses(self, loop, names):
         outputs = several(loop.get("outputs", []))
-        self.outputs = [text_of(output).strip() for output in outputs]
+        self.outputs = [CONTROL.sub(" ", text_of(output).strip()) for output in outputs]  # a name is one line
         need(len(set(self.outputs)) == len(outputs), "an output is named twice")
         for output in outputs:
             self.scope.linear(output, {name: Value({name: ONE}) for name in names})
@@ -683,11 +685,14 @@ def characteristic_polynomial(text, kept, values):
     names = [*([kept] if kept is not None else []), *values]
     need(len(set(names)) == len(names), "a parameter has two values")
     need(set(model.parameters) <= set(names), "a parameter has no value")
-    freed = set(names) - set(model.parameters)
-    need(freed <= set(model.constants), "the model has no such parameter")
-    if freed:  # numbers, and the model must be right as it is
-        [constant(model.constants[name]) for name in freed]
+    numbers = set(names) - set(model.parameters)
+    need(numbers <= set(model.constants), "the model has no such parameter")
+    if numbers:  # given as such; and the model must be right as it is
+        [constant(model.constants[name]) for name in numbers]
         Loop(model, {name: v for v, name in enumerate(model.parameters, 1)})
+    # A constant that is set has another number, and nothing else changes.
+    model.constants = model.constants | {name: str(x) for name, x in values.items() if name in numbers}
+    values = {name: x for name, x in values.items() if name not in numbers}
     loop = Loop(model, {name: v for v, name in enumerate(values, 2)} | ({} if kept is None else {kept: 1}))
     values = list(values.values())
 
