@@ -58,6 +58,7 @@ mod certificates {
     mod blocks;
     mod check;
     mod program;
+    mod readers;
     mod smt;
 }
 

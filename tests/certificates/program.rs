@@ -1,4 +1,4 @@
-//! `--certificate`, `--smt2`, `jurist verify` and `examples/check.py` as programs.
+//! `--certificate`, `--smt2`, `jurist verify` and `crates/check/check.py` as programs.
 
 use crate::helpers::model::path;
 use crate::helpers::program::{Run, jurist, jurist_with_input};
@@ -34,16 +34,16 @@ impl Drop for Folder {
     }
 }
 
-/// `examples/check.py` as a program that takes its time: no test may fail because the machine is busy.
+/// `crates/check/check.py` as a program that takes its time: no test may fail because the machine is busy.
 const PATIENT: &str = "import sys
-sys.path.insert(0, 'examples')
+sys.path.insert(0, 'crates/check')
 sys.dont_write_bytecode = True
 import check
 check.SECONDS = 1e9
 check.main()
 ";
 
-/// `examples/check.py`, where Python is there.
+/// `crates/check/check.py`, where Python is there.
 fn python(model: &str, certificate: &str) -> Option<Run> {
     if Command::new("python3").args(["-c", "import tomllib"]).output().is_ok_and(|o| o.status.success()) {
         let mut command = Command::new("python3");

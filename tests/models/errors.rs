@@ -142,6 +142,8 @@ fn structure() {
         ("[loop]\ncharacteristic = 'z'\nmatrix = [[1]]\n", "E-two-forms@6:1"),
         ("[loop]\nmatrix = [[1, 2]]\n", "E-size@5:10"),
         ("[loop]\nmatrix = [[1, 2], [3]]\n", "E-size@5:19"),
+        ("[loop]\nmatrix = [[1, 'K'], [2, 3]]\nstates = ['x']\n", "E-size@6:10"),
+        ("[loop]\nmatrix = [[1, 'K'], [2, 3]]\nstates = 'x'\n", "E-size@6:10"),
         ("[loop]\nmatrix = 5\n", "E-type@5:10"),
         ("[loop]\nmatrix = [[true]]\n", "E-type@5:12"),
         ("[loop]\nmatrix = [[1979-05-27]]\n", "E-type@5:12"),

@@ -3,20 +3,27 @@
 //! The unknowns are the states of all state-space blocks and all driven signals. A block `num/den` gives the row
 //! `den y - num u = 0`, a state-space block the rows `z x - A x - B u = 0` and `y - C x - D u = 0`, with `u`
 //! written out in signals. The determinant is, up to a factor without `z`, the product of all
-//! denominators times `det(I - G L)`: every mode counts, nothing cancels [Rosenbrock1970](crate::bibliography#rosenbrock1970).
+//! denominators times `det(I - G L)`: every mode counts, nothing cancels \[Rosenbrock1970\].
 
 #![expect(clippy::needless_range_loop, reason = "matrix indices, as in the formulas")]
 
-use super::expression::{Names, Scope};
-use super::model::{matrix, sized};
+use super::characteristic::Form;
+use super::clock::Clock;
+use super::declarations::Declarations;
+use super::expression::{Names, Scope, number};
+use super::model::{Ports, matrix, names, outputs, sized};
 use super::multivariate::{Fraction, Multi};
-use super::number::{Clock, Q, Z};
+use super::number::{Q, Z, shorten};
 use super::toml::Toml;
 use num_traits::{One, ToPrimitive, Zero};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 /// Delays of more samples are refused.
-const MAX_DELAY: usize = 2000;
+const MAX_DELAY: u32 = 2000;
+
+/// Transfer functions of higher orders are refused.
+const MAX_ORDER: usize = 2000;
 
 /// `s = top/bottom` with `top`, `bottom` in the variable; both are without denominators.
 struct Substitution {
@@ -28,11 +35,14 @@ type Row = BTreeMap<usize, Fraction>;
 
 struct Diagram<'s, 'c> {
     scope: &'s mut Scope<'c>,
+    declared: &'s Declarations<'s>,
+    signals: BTreeMap<String, usize>,
     rows: Vec<Row>,
     /// The number of unknowns so far: driven signals first, then states.
     unknowns: usize,
     degree: usize,
-    blocks: Vec<Ordered>,
+    /// The blocks alone.
+    alone: Vec<Ordered>,
 }
 
 /// A matrix and the degree of its determinant unless a block loses its order.
@@ -40,74 +50,58 @@ pub(super) type Ordered = (Vec<Vec<Multi>>, usize);
 
 /// The system matrix with the degree its determinant has when the connection is well posed; and those of all
 /// blocks alone: direct feedthrough may keep up the degree of the whole where a block loses its order.
-pub(super) fn system_matrix(
-    table: &Toml,
-    blocks: &Toml,
-    variable: &str,
+pub(super) fn system_matrix<'t>(
+    table: &'t Toml,
+    blocks: &'t [Toml],
+    declared: &Declarations<'_>,
     scope: &mut Scope<'_>,
-) -> Result<(Ordered, Vec<Ordered>), String> {
-    let blocks = blocks.list()?;
-    let external = table.get("inputs").map(Toml::one_or_more).unwrap_or_default();
-    let mut signals: HashMap<String, usize> = HashMap::new();
-    let driven = blocks.iter().flat_map(|b| b.get("output").map(Toml::one_or_more).unwrap_or_default());
-    let mut count = 0;
-    for name in driven {
-        signals.insert(name.text()?.to_owned(), count);
-        count += 1;
+) -> Result<(Form, Ports<'t>), String> {
+    let mut called = BTreeSet::new();
+    if let Some(name) = blocks.iter().filter_map(|b| b.get("name")?.text().ok()).find(|name| !called.insert(*name)) {
+        return Err(format!("two blocks are called '{}'", shorten(name)));
     }
-    // External signals are zero: their numbers lie beyond all unknowns.
-    for (i, name) in external.iter().enumerate() {
-        signals.insert(name.text()?.to_owned(), usize::MAX - i);
-    }
-    if signals.len() != count + external.len() {
-        return Err("a signal is driven twice".into());
-    }
-    if let Some(name) = signals.keys().find(|n| scope.constants.contains_key(*n) || scope.parameters.contains_key(*n)) {
-        return Err(format!("'{}' is a signal and also something else", super::number::shorten(name)));
-    }
-    let mut diagram = Diagram { scope, rows: Vec::new(), unknowns: count, degree: 0, blocks: Vec::new() };
-    let mut first_output = 0;
+    let inputs = names(table, "inputs")?;
+    let mut driven = Vec::new();
     for block in blocks {
-        let outputs = block.get("output").map(Toml::one_or_more).unwrap_or_default().len();
-        diagram.block(block, first_output..first_output + outputs, &signals, variable)?;
-        first_output += outputs;
+        driven.extend(names(block, "output")?);
     }
-    for output in table.get("outputs").map(Toml::one_or_more).unwrap_or_default() {
-        let names = Names { signals: Some(&signals), ..Names::default() };
-        diagram.scope.linear(&output.expression()?, names)?;
+    let all: Vec<&str> = driven.iter().chain(&inputs).copied().collect();
+    declared.distinct(&all)?;
+    // External signals are zero: their numbers lie beyond all unknowns.
+    let external = inputs.iter().enumerate().map(|(i, name)| (*name, usize::MAX - i));
+    let numbered = driven.iter().enumerate().map(|(i, name)| (*name, i)).chain(external);
+    let signals = numbered.map(|(name, i)| (name.to_owned(), i)).collect();
+    let unknowns = driven.len();
+    let (rows, alone) = (Vec::new(), Vec::new());
+    let mut diagram = Diagram { scope, declared, signals, rows, unknowns, degree: 0, alone };
+    let mut first = 0;
+    let mut states = Vec::new();
+    for block in blocks {
+        let own = &driven[first..first + names(block, "output")?.len()];
+        if block.get("A").is_some() && block.get("C").is_none() {
+            states.extend(own);
+        }
+        diagram.block(block, first..first + own.len())?;
+        first += own.len();
     }
-    diagram.matrix()
+    let outputs = outputs(table, &diagram.signals, diagram.scope)?;
+    Ok((diagram.form()?, Ports { inputs, states, signals: driven, outputs }))
 }
 
 impl Diagram<'_, '_> {
-    fn block(
-        &mut self,
-        block: &Toml,
-        outputs: std::ops::Range<usize>,
-        signals: &HashMap<String, usize>,
-        variable: &str,
-    ) -> Result<(), String> {
+    fn block(&mut self, block: &Toml, outputs: Range<usize>) -> Result<(), String> {
         let mut inputs: Vec<Row> = Vec::new();
         for text in block.get("input").map(Toml::one_or_more).unwrap_or_default() {
-            let names = Names { signals: Some(signals), ..Names::default() };
-            let value = self.scope.linear(&text.expression()?, names)?;
-            if !value.constant.numerator.is_zero() {
-                return Err("an input of a block has a constant term".into());
-            }
-            inputs.push(value.signals);
+            inputs.push(self.scope.linear(text, &self.signals)?);
         }
         let substitution = match block.get("discretize") {
-            Some(_) if variable == "s" => return Err("a continuous loop has nothing to discretise".into()),
+            Some(_) if !self.declared.discrete => return Err("a continuous loop has nothing to discretise".into()),
             Some(table) => Some(self.substitution(table)?),
             None => None,
         };
-        let inner = if substitution.is_some() { "s" } else { variable };
-        if let Some(pwm) = block.get("pwm") {
-            for key in ["amplitude", "carrier", "period"] {
-                if let Some(value) = pwm.get(key) {
-                    self.scope.scalar(&value.expression()?)?;
-                }
-            }
+        let inner = if substitution.is_some() { "s" } else { self.declared.variable() };
+        for (_, value) in block.section("pwm")? {
+            self.scope.scalar(value)?;
         }
         let given = |key: &str| block.get(key).is_some();
         let kinds = ["transfer", "gain", "delay"].into_iter().filter(|k| given(k)).count()
@@ -122,43 +116,42 @@ impl Diagram<'_, '_> {
         if inputs.len() != 1 || outputs.len() != 1 {
             return Err("a block with one transfer function has one input and one output".into());
         }
-        let one = Multi::one();
-        let (num, den) = if let Some(text) = block.get("transfer") {
-            let names = Names { variable: Some(inner), ..Names::default() };
-            let f = self.scope.linear(&text.expression()?, names)?.constant;
-            let den = f.whole_denominator(self.scope.clock)?;
-            (f.numerator, den)
-        } else if let Some(text) = block.get("gain") {
-            let f = self.scope.scalar(&text.expression()?)?;
-            let den = f.whole_denominator(self.scope.clock)?;
-            (f.numerator, den)
-        } else if let Some(samples) = block.get("delay") {
-            let value = self.scope.scalar(&samples.expression()?)?;
-            let number = value.numerator.0.values().next().cloned().unwrap_or_default();
-            let constant = value.numerator.is_constant() && value.scalar == one && value.denominator == one;
-            let samples = number.to_usize().filter(|&k| k <= MAX_DELAY && constant);
-            let Some(samples) = samples.filter(|_| inner == "z") else {
+        let clock = self.scope.clock;
+        let (num, den) = if let Some(samples) = block.get("delay") {
+            let samples = number(samples, clock)?;
+            let samples = Some(samples).filter(Q::is_integer).and_then(|q| q.to_integer().to_u32());
+            let Some(samples) = samples.filter(|&k| k <= MAX_DELAY && inner == "z") else {
                 return Err("a delay is not a number of samples".into());
             };
-            (one, Multi::variable(0).power(samples as u32, self.scope.clock)?)
-        } else {
-            let num = self.coefficients(block.get("num").ok_or("a block has no 'num'")?)?;
-            let den = self.coefficients(block.get("den").ok_or("a block has no 'den'")?)?;
+            (Multi::one(), Multi::variable(0).power(samples, clock)?)
+        } else if let (Some(num), Some(den)) = (block.get("num"), block.get("den")) {
+            let (num, den) = (self.coefficients(num)?, self.coefficients(den)?);
             // Both over the scalar denominators of both.
-            let clock = self.scope.clock;
             (num.numerator.times(&den.scalar, clock)?, den.numerator.times(&num.scalar, clock)?)
+        } else {
+            let f = if let Some(text) = block.get("transfer") {
+                // Signals are not known there, constants and parameters are.
+                if inner == "s" && self.declared.is_taken(inner) {
+                    return Err("'s' is the variable of a block and also something else".into());
+                }
+                self.scope.value(text, Names::Variable(inner))?
+            } else {
+                self.scope.scalar(block.get("gain").ok_or("a block has no 'num' or no 'den'")?)?
+            };
+            let den = f.whole_denominator(clock)?;
+            (f.numerator, den)
         };
-        if den.is_zero() || num.degree(0) > den.degree(0) {
-            return Err("a transfer function is improper".into());
+        if den.is_zero() || num.degree(0) > den.degree(0) || den.degree(0) > MAX_ORDER {
+            return Err("a transfer function is improper, or of too high an order".into());
         }
         if substitution.is_some() {
             // The order of the continuous block.
             let lead = den.coefficients(0).pop().unwrap_or_default();
-            self.blocks.push((vec![vec![lead]], 0));
+            self.alone.push((vec![vec![lead]], 0));
         }
         let (num, den, order) = self.substituted(&num, &den, substitution)?;
         self.degree += order;
-        self.blocks.push((vec![vec![den.clone()]], order));
+        self.alone.push((vec![vec![den.clone()]], order));
         let mut row: Row = BTreeMap::new();
         let whole = |m: Multi| Fraction { numerator: m, denominator: Multi::one(), scalar: Multi::one() };
         row.insert(outputs.start, whole(den));
@@ -191,8 +184,11 @@ impl Diagram<'_, '_> {
     fn coefficients(&mut self, list: &Toml) -> Result<Fraction, String> {
         let mut sum = Fraction::number(&Q::zero());
         let z = Fraction::variable(0);
+        if list.one_or_more().is_empty() {
+            return Err("a list has no coefficients".into());
+        }
         for c in list.one_or_more() {
-            let c = self.scope.scalar(&c.expression()?)?;
+            let c = self.scope.scalar(c)?;
             sum = sum.times(&z, self.scope.clock)?.plus(&c, self.scope.clock)?;
         }
         Ok(sum)
@@ -200,7 +196,7 @@ impl Diagram<'_, '_> {
 
     fn substitution(&mut self, table: &Toml) -> Result<Substitution, String> {
         let clock = self.scope.clock;
-        let mut get = |key: &str| table.get(key).map(|t| self.scope.scalar(&t.expression()?)).transpose();
+        let mut get = |key: &str| table.get(key).map(|t| self.scope.scalar(t)).transpose();
         let (time, factor) = (get("T")?, get("c")?);
         let whole = |f: &Fraction| Ok::<_, String>((f.numerator.clone(), f.whole_denominator(clock)?));
         let z = Multi::variable(0);
@@ -221,7 +217,7 @@ impl Diagram<'_, '_> {
                 if time.numerator.is_zero() {
                     return Err("division by a sample time that is zero".into());
                 }
-                self.scope.divisors.push(time.numerator.clone());
+                self.scope.divisors.insert(time.numerator.clone());
                 let (n, d) = whole(time)?;
                 let top = minus.times(&d.scaled(&Z::from(2)), clock)?;
                 Ok(Substitution { top, bottom: plus.times(&n, clock)? })
@@ -255,7 +251,7 @@ impl Diagram<'_, '_> {
         &mut self,
         block: &Toml,
         inputs: &[Row],
-        outputs: std::ops::Range<usize>,
+        outputs: Range<usize>,
         substitution: Option<Substitution>,
     ) -> Result<(), String> {
         let clock = self.scope.clock;
@@ -305,7 +301,7 @@ impl Diagram<'_, '_> {
             self.rows.push(row);
         }
         if discretised {
-            self.blocks.push((alone, n));
+            self.alone.push((alone, n));
         }
         for (i, output) in outputs.enumerate() {
             // y - C x - D u = 0
@@ -326,7 +322,7 @@ impl Diagram<'_, '_> {
     }
 
     /// The rows, each cleared of its scalar denominators, which are divisors noted already.
-    fn matrix(self) -> Result<(Ordered, Vec<Ordered>), String> {
+    fn form(self) -> Result<Form, String> {
         let clock = self.scope.clock;
         let n = self.unknowns;
         let mut out = Vec::with_capacity(n);
@@ -336,7 +332,7 @@ impl Diagram<'_, '_> {
         if out.len() != n {
             return Err("the diagram has not as many equations as signals".into());
         }
-        Ok(((out, self.degree), self.blocks))
+        Ok(Form::System((out, self.degree), self.alone))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Determinants of polynomial matrices by evaluation and interpolation.
 
-use super::number::{Clock, Q, Z};
+use super::clock::Clock;
+use super::number::Z;
 use super::univariate::Uni;
 use num_traits::{One, Zero};
 
@@ -23,6 +24,11 @@ impl Entry {
 /// Degrees are bounded by the sums over rows, or columns, of the largest degrees; that many values at small
 /// integers determine the polynomial.
 pub(super) fn determinant(m: &[Vec<Entry>], clock: &Clock) -> Result<Vec<Uni>, String> {
+    if let [row] = m
+        && let [entry] = row.as_slice()
+    {
+        return Ok(entry.0[..entry.degree().map_or(0, |d| d + 1)].to_vec());
+    }
     let (Some(z_bound), Some(p_bound)) = (bound(m, Entry::degree), bound(m, Entry::parameter_degree)) else {
         return Ok(Vec::new());
     };
@@ -32,10 +38,13 @@ pub(super) fn determinant(m: &[Vec<Entry>], clock: &Clock) -> Result<Vec<Uni>, S
     let mut by_power: Vec<Vec<Z>> = vec![Vec::new(); z_bound + 1];
     for p in points(p_bound + 1) {
         let at_p: Vec<Vec<Vec<Z>>> =
-            m.iter().map(|row| row.iter().map(|e| e.0.iter().map(|c| value(&c.0, &p)).collect()).collect()).collect();
+            m.iter().map(|row| row.iter().map(|e| e.0.iter().map(|c| value(&c.0, p)).collect()).collect()).collect();
+        let terms = at_p.iter().flatten().map(Vec::len).sum();
+        let longest_entry = at_p.iter().flatten().map(|c| longest(c)).max().unwrap_or(0);
         let mut values = Vec::with_capacity(z_bound + 1);
         for z in points(z_bound + 1) {
-            let numbers = at_p.iter().map(|row| row.iter().map(|c| value(c, &z)).collect()).collect();
+            clock.spend(terms, longest_entry.saturating_add(32 * (z_bound as u64)), 32)?;
+            let numbers = at_p.iter().map(|row| row.iter().map(|c| value(c, z)).collect()).collect();
             values.push(bareiss(numbers, clock)?);
         }
         for (k, c) in interpolated(&values, clock)?.into_iter().enumerate() {
@@ -60,11 +69,11 @@ fn bound(m: &[Vec<Entry>], degree: impl Fn(&Entry) -> Option<usize>) -> Option<u
 }
 
 /// `0, 1, -1, 2, -2, ...`
-fn points(n: usize) -> impl Iterator<Item = Z> {
-    (0..n).map(|i| if i % 2 == 1 { Z::from(i / 2 + 1) } else { -Z::from(i / 2) })
+fn points(n: usize) -> impl Iterator<Item = i64> {
+    (0..n as i64).map(|i| if i % 2 == 1 { i / 2 + 1 } else { -i / 2 })
 }
 
-fn value(coefficients: &[Z], at: &Z) -> Z {
+fn value(coefficients: &[Z], at: i64) -> Z {
     coefficients.iter().rev().fold(Z::zero(), |sum, c| sum * at + c)
 }
 
@@ -74,7 +83,9 @@ fn bareiss(mut m: Vec<Vec<Z>>, clock: &Clock) -> Result<Z, String> {
     let mut previous = Z::one();
     let mut negative = false;
     for k in 0..n {
-        clock.tick()?;
+        // All are minors of one order: the row in turn tells how long they are.
+        let bits = previous.bits().max(longest(&m[k]));
+        clock.spend((n - k) * (n - k), bits, bits)?;
         let Some(pivot) = (k..n).find(|&i| !m[i][k].is_zero()) else { return Ok(Z::zero()) };
         if pivot != k {
             m.swap(pivot, k);
@@ -94,33 +105,37 @@ fn bareiss(mut m: Vec<Vec<Z>>, clock: &Clock) -> Result<Z, String> {
     Ok(if negative { -previous } else { previous })
 }
 
-/// The coefficients of the polynomial with these values at [`points`], by Newton's divided differences.
+/// The coefficients of the polynomial with these values at [`points`], by Newton's divided differences. Those of a polynomial with
+/// integer coefficients at integers are integers: `x^n` has the complete symmetric polynomials of the points as differences.
 fn interpolated(values: &[Z], clock: &Clock) -> Result<Vec<Z>, String> {
-    let at: Vec<Z> = points(values.len()).collect();
-    let mut differences: Vec<Q> = values.iter().cloned().map(Q::from).collect();
+    let at: Vec<i64> = points(values.len()).collect();
+    let mut differences = values.to_vec();
     for k in 1..differences.len() {
-        clock.tick()?;
+        clock.spend(differences.len() - k, longest(&differences), 32)?;
         for i in (k..differences.len()).rev() {
-            differences[i] = (&differences[i] - &differences[i - 1]) / Q::from(&at[i] - &at[i - k]);
+            let (difference, step) = (&differences[i] - &differences[i - 1], at[i] - at[i - k]);
+            let quotient = &difference / step;
+            if &quotient * step != difference {
+                return Err("internal: a determinant is not integral".into());
+            }
+            differences[i] = quotient;
         }
     }
-    let mut out: Vec<Q> = Vec::new();
+    let mut out: Vec<Z> = Vec::with_capacity(values.len());
     for (difference, point) in differences.iter().zip(&at).rev() {
-        clock.tick()?;
+        clock.spend(out.len(), longest(&out), 32)?;
         // out <- out (x - point) + difference
-        let mut next = vec![Q::zero(); out.len() + 1];
-        for (i, c) in out.iter().enumerate() {
-            next[i + 1] += c;
-            next[i] -= c * Q::from(point.clone());
+        out.push(Z::zero());
+        for i in (0..out.len()).rev() {
+            let before = if i > 0 { out[i - 1].clone() } else { difference.clone() };
+            out[i] = before - &out[i] * *point;
         }
-        next[0] += difference;
-        out = next;
     }
-    out.into_iter()
-        .map(|c| {
-            if c.is_integer() { Ok(c.to_integer()) } else { Err("internal: a determinant is not integral".to_owned()) }
-        })
-        .collect()
+    Ok(out)
+}
+
+fn longest(numbers: &[Z]) -> u64 {
+    numbers.iter().map(Z::bits).max().unwrap_or(0)
 }
 
 #[cfg(test)]
@@ -144,5 +159,19 @@ mod tests {
         assert_eq!(d, expected.map(|c| c.scaled(&Z::from(-1))));
         assert!(determinant(&[vec![Entry(vec![])]], &clock).unwrap().is_empty());
         assert_eq!(determinant(&[], &clock).unwrap(), [uni(&[1])]);
+    }
+
+    #[test]
+    fn interpolation_gives_back_the_coefficients() {
+        let clock = Clock::new(Duration::MAX);
+        for n in 0..40_i64 {
+            let wanted: Vec<Z> =
+                (0..n).map(|k| Z::from((k * k * 7919 + 31 * n) % 1009 - 500).pow(1 + k as u32 % 3)).collect();
+            let values: Vec<Z> = points(wanted.len()).map(|x| value(&wanted, x)).collect();
+            assert_eq!(interpolated(&values, &clock).unwrap(), wanted);
+        }
+        // z^2/2 + z/2 has integers at integers and is refused.
+        let halves: Vec<Z> = points(3).map(|x| Z::from(x * (x + 1) / 2)).collect();
+        assert!(interpolated(&halves, &clock).is_err());
     }
 }

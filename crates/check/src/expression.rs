@@ -1,35 +1,27 @@
 //! Expressions: read and evaluated in one pass.
 
+use super::clock::Clock;
 use super::multivariate::{Fraction, Multi};
-use super::number::{Clock, Q, decimal, shorten};
-use num_traits::{One, Signed, ToPrimitive, Zero};
-use std::collections::{BTreeMap, HashMap};
+use super::number::{Q, decimal, shorten};
+use super::toml::Toml;
+use num_traits::{One, ToPrimitive, Zero};
+use std::collections::{BTreeMap, BTreeSet};
 
-/// Parentheses, signs, powers and constants that use each other may nest this deep.
-const MAX_DEPTH: usize = 1000;
+/// Parentheses, signs and exponents may nest this deep.
+const MAX_NESTING: usize = 200;
 
 /// Exponents may be this large.
 const MAX_POWER: i64 = 1000;
 
-/// A constant of the model.
-pub(super) enum Constant {
-    /// Not yet evaluated: its text.
-    Text(String),
-    /// Being evaluated: a use now is a circle.
-    Open,
-    /// Its value.
-    Known(Fraction),
-}
-
 /// What names mean, and everything that was divided by.
 pub(super) struct Scope<'c> {
-    pub constants: HashMap<String, Constant>,
+    /// Values of constants.
+    pub constants: BTreeMap<String, Fraction>,
     /// Numbers of variables, from 1 on.
-    pub parameters: HashMap<String, usize>,
+    pub parameters: BTreeMap<String, usize>,
     /// Every divisor, as a polynomial: the model is undefined where it vanishes identically in variable 0.
-    pub divisors: Vec<Multi>,
+    pub divisors: BTreeSet<Multi>,
     pub clock: &'c Clock,
-    depth: usize,
 }
 
 /// A constant part and the coefficients of signals.
@@ -40,88 +32,133 @@ pub(super) struct Linear {
 }
 
 /// What may occur in an expression beside constants and parameters.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Names<'n> {
-    /// The name of variable 0.
-    pub variable: Option<&'n str>,
+#[derive(Clone, Copy)]
+pub(super) enum Names<'n> {
+    /// Nothing.
+    Scalar,
+    /// Variable 0 by its name.
+    Variable(&'n str),
+    /// Variable 0, by which nothing is divided.
+    Polynomial(&'n str),
     /// Signals and their numbers.
-    pub signals: Option<&'n HashMap<String, usize>>,
-    /// Whether nothing may occur but numbers.
-    pub numbers_only: bool,
+    Signals(&'n BTreeMap<String, usize>),
+    /// Nothing, not even constants and parameters.
+    Numbers,
 }
 
 impl<'c> Scope<'c> {
-    pub fn new(constants: HashMap<String, Constant>, parameters: HashMap<String, usize>, clock: &'c Clock) -> Self {
-        Scope { constants, parameters, divisors: Vec::new(), clock, depth: 0 }
+    pub fn new(parameters: BTreeMap<String, usize>, clock: &'c Clock) -> Self {
+        Scope { constants: BTreeMap::new(), parameters, divisors: BTreeSet::new(), clock }
     }
 
-    /// An expression in constants and parameters.
-    pub fn scalar(&mut self, text: &str) -> Result<Fraction, String> {
-        Ok(self.linear(text, Names::default())?.constant)
+    /// A number, or an expression in constants and parameters.
+    pub fn scalar(&mut self, value: &Toml) -> Result<Fraction, String> {
+        self.value(value, Names::Scalar)
     }
 
-    /// An expression in which `names` may occur as well.
-    pub fn linear(&mut self, text: &str, names: Names<'_>) -> Result<Linear, String> {
-        let depth = self.depth;
-        let mut parser = Parser { scope: self, names, rest: text };
+    /// A number, or an expression without signals.
+    pub fn value(&mut self, value: &Toml, names: Names<'_>) -> Result<Fraction, String> {
+        Ok(self.evaluate(value.expression()?, names)?.constant)
+    }
+
+    /// The coefficients of signals in an expression that is linear in them, without a constant term.
+    pub fn linear(
+        &mut self,
+        value: &Toml,
+        signals: &BTreeMap<String, usize>,
+    ) -> Result<BTreeMap<usize, Fraction>, String> {
+        let value = self.evaluate(value.expression()?, Names::Signals(signals))?;
+        if !value.constant.numerator.is_zero() {
+            return Err("an input or output has a constant term".into());
+        }
+        Ok(value.signals)
+    }
+
+    fn evaluate(&mut self, text: &str, names: Names<'_>) -> Result<Linear, String> {
+        let mut parser = Parser { scope: self, names, rest: text, nesting: 0 };
         let value = parser.sum().and_then(|value| match parser.next_char() {
             None => Ok(value),
-            Some(c) => Err(format!("'{c}' is not expected here")),
+            Some(c) => Err(format!("'{}' is not expected here", c.escape_debug())),
         });
-        self.depth = depth;
         value.map_err(|e| format!("{e}, in '{}'", shorten(text)))
     }
 
-    /// Whether a text is an expression of numbers only.
-    pub fn is_number(&mut self, text: &str) -> bool {
-        let names = Names { numbers_only: true, ..Names::default() };
-        let known = self.divisors.len();
-        let number = self.linear(text, names).is_ok();
-        self.divisors.truncate(known);
-        number
-    }
-
-    pub fn constant(&mut self, name: &str) -> Result<Fraction, String> {
-        let Some(entry) = self.constants.get_mut(name) else {
-            return Err(format!("unknown name '{}'", shorten(name)));
-        };
-        match std::mem::replace(entry, Constant::Open) {
-            Constant::Open => Err(format!("the constant '{}' uses itself", shorten(name))),
-            Constant::Known(value) => {
-                *entry = Constant::Known(value.clone());
-                Ok(value)
-            }
-            Constant::Text(text) => {
-                self.deeper()?;
-                let value = self.scalar(&text)?;
-                self.depth -= 1;
-                self.constants.insert(name.to_owned(), Constant::Known(value.clone()));
-                Ok(value)
-            }
-        }
-    }
-
-    fn deeper(&mut self) -> Result<(), String> {
-        self.depth += 1;
-        if self.depth > MAX_DEPTH { Err("expressions are nested too deep".into()) } else { Ok(()) }
-    }
-
     /// `1/value`, noting the divisor.
-    fn inverse(&mut self, value: &Fraction) -> Result<Fraction, String> {
+    fn inverse(&mut self, value: &Fraction, names: Names<'_>) -> Result<Fraction, String> {
         if value.numerator.is_zero() {
             return Err("division by an expression that is zero everywhere".into());
         }
-        if !value.numerator.is_constant() && !self.divisors.contains(&value.numerator) {
-            self.divisors.push(value.numerator.clone());
+        if matches!(names, Names::Polynomial(_)) && value.numerator.degree(0) > 0 {
+            return Err("the characteristic polynomial divides by its variable".into());
+        }
+        if !value.numerator.is_constant() {
+            self.divisors.insert(value.numerator.clone());
         }
         value.inverse(self.clock)
     }
+}
+
+/// The value of a number or of an expression of numbers.
+pub(super) fn number(value: &Toml, clock: &Clock) -> Result<Q, String> {
+    let value = Scope::new(BTreeMap::new(), clock).value(value, Names::Numbers)?;
+    value.as_number().ok_or_else(|| "internal: a number has variables".into())
+}
+
+/// Whether a text is a name.
+pub(super) fn is_name(text: &str) -> bool {
+    name_length(text) == text.len() && !text.is_empty()
+}
+
+/// How long the name is with which a text begins; 0 if it begins with none.
+fn name_length(text: &str) -> usize {
+    if text.starts_with(|c: char| c == '_' || c.is_alphabetic()) {
+        text.find(|c: char| !(c == '_' || c.is_alphanumeric())).unwrap_or(text.len())
+    } else {
+        0
+    }
+}
+
+/// How long the number is with which a text begins.
+fn number_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digit = |i: usize| bytes.get(i).is_some_and(u8::is_ascii_digit);
+    let digits = |mut i: usize| {
+        while digit(i) || (bytes.get(i) == Some(&b'_') && i > 0 && digit(i - 1) && digit(i + 1)) {
+            i += 1;
+        }
+        i
+    };
+    let mut end = digits(0);
+    if bytes.get(end) == Some(&b'.') {
+        end = digits(end + 1);
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+        if digit(end + 1 + sign) {
+            end = digits(end + 1 + sign);
+        }
+    }
+    end
+}
+
+/// The names that occur in an expression, in the order of the text.
+pub(super) fn names_in(text: &str) -> Vec<&str> {
+    let (mut names, mut rest) = (Vec::new(), text);
+    while let Some(c) = rest.chars().next() {
+        let length = name_length(rest);
+        if length > 0 {
+            names.push(&rest[..length]);
+        }
+        rest = &rest[length.max(number_length(rest)).max(c.len_utf8())..];
+    }
+    names
 }
 
 struct Parser<'s, 'c, 't> {
     scope: &'s mut Scope<'c>,
     names: Names<'t>,
     rest: &'t str,
+    nesting: usize,
 }
 
 impl<'t> Parser<'_, '_, 't> {
@@ -136,6 +173,17 @@ impl<'t> Parser<'_, '_, 't> {
             self.rest = &self.rest[c.len_utf8()..];
         }
         found
+    }
+
+    /// A part of an expression, one level deeper.
+    fn nested(&mut self, part: impl FnOnce(&mut Self) -> Result<Linear, String>) -> Result<Linear, String> {
+        self.nesting += 1;
+        if self.nesting > MAX_NESTING {
+            return Err("an expression is nested too deep".into());
+        }
+        let value = part(self)?;
+        self.nesting -= 1;
+        Ok(value)
     }
 
     fn sum(&mut self) -> Result<Linear, String> {
@@ -176,7 +224,7 @@ impl<'t> Parser<'_, '_, 't> {
                 if !factor.signals.is_empty() {
                     return Err("division by a signal".into());
                 }
-                factor.constant = self.scope.inverse(&factor.constant)?;
+                factor.constant = self.scope.inverse(&factor.constant, self.names)?;
             }
             let (mut signals, scale) = match (product.signals.is_empty(), factor.signals.is_empty()) {
                 (false, false) => return Err("a product of signals".into()),
@@ -194,31 +242,28 @@ impl<'t> Parser<'_, '_, 't> {
     /// Signs bind more weakly than powers.
     fn prefix(&mut self) -> Result<Linear, String> {
         self.scope.clock.tick()?;
-        self.scope.deeper()?;
-        let value = if self.eat('-') {
-            negated(self.prefix()?)
-        } else if self.eat('+') {
-            self.prefix()?
-        } else {
-            let base = self.atom()?;
-            if self.eat('^') { self.power(base)? } else { base }
-        };
-        self.scope.depth -= 1;
-        Ok(value)
+        if self.eat('-') {
+            return self.nested(Self::prefix).map(negated);
+        }
+        if self.eat('+') {
+            return self.nested(Self::prefix);
+        }
+        let base = self.atom()?;
+        if self.eat('^') { self.power(base) } else { Ok(base) }
     }
 
     fn power(&mut self, base: Linear) -> Result<Linear, String> {
-        let names = std::mem::replace(&mut self.names, Names { numbers_only: true, ..Names::default() });
-        let exponent = self.prefix()?;
+        let names = std::mem::replace(&mut self.names, Names::Numbers);
+        let exponent = self.nested(Self::prefix)?;
         self.names = names;
-        let e = as_number(&exponent.constant).filter(Q::is_integer).and_then(|q| q.to_integer().to_i64());
+        let e = exponent.constant.as_number().filter(Q::is_integer).and_then(|q| q.to_integer().to_i64());
         let Some(e) = e.filter(|e| e.abs() <= MAX_POWER) else {
             return Err(format!("an exponent is not an integer of at most {MAX_POWER}"));
         };
         if !base.signals.is_empty() {
             return if e == 1 { Ok(base) } else { Err("a power of a signal".into()) };
         }
-        let value = if e < 0 { self.scope.inverse(&base.constant)? } else { base.constant };
+        let value = if e < 0 { self.scope.inverse(&base.constant, self.names)? } else { base.constant };
         let constant = value.power(e.unsigned_abs() as u32, self.scope.clock)?;
         Ok(Linear { constant, signals: BTreeMap::new() })
     }
@@ -226,56 +271,39 @@ impl<'t> Parser<'_, '_, 't> {
     fn atom(&mut self) -> Result<Linear, String> {
         let Some(c) = self.next_char() else { return Err("an expression ends too early".into()) };
         if self.eat('(') {
-            let value = self.sum()?;
+            let value = self.nested(Self::sum)?;
             return if self.eat(')') { Ok(value) } else { Err("')' is missing".into()) };
         }
         if c.is_ascii_digit() || c == '.' {
             return self.number();
         }
-        if !(c == '_' || c.is_alphabetic()) {
-            return Err(format!("'{c}' is not expected here"));
+        let (name, rest) = self.rest.split_at(name_length(self.rest));
+        if name.is_empty() {
+            return Err(format!("'{}' is not expected here", c.escape_debug()));
         }
-        let length = self.rest.find(|c: char| !(c == '_' || c.is_alphanumeric())).unwrap_or(self.rest.len());
-        let (name, rest) = self.rest.split_at(length);
         self.rest = rest;
         let plain = |constant| Linear { constant, signals: BTreeMap::new() };
-        if self.names.numbers_only {
+        if matches!(self.names, Names::Numbers) {
             return Err(format!("the name '{}' where only numbers may stand", shorten(name)));
         }
-        if self.names.variable == Some(name) {
+        if matches!(self.names, Names::Variable(variable) | Names::Polynomial(variable) if variable == name) {
             return Ok(plain(Fraction::variable(0)));
         }
-        if let Some(&i) = self.names.signals.and_then(|s| s.get(name)) {
+        if let Names::Signals(signals) = self.names
+            && let Some(&i) = signals.get(name)
+        {
             let signals = BTreeMap::from([(i, Fraction::number(&Q::one()))]);
             return Ok(Linear { constant: Fraction::number(&Q::zero()), signals });
         }
         if let Some(&i) = self.scope.parameters.get(name) {
             return Ok(plain(Fraction::variable(i)));
         }
-        self.scope.constant(name).map(plain)
+        let constant = self.scope.constants.get(name);
+        constant.cloned().map(plain).ok_or_else(|| format!("unknown name '{}'", shorten(name)))
     }
 
     fn number(&mut self) -> Result<Linear, String> {
-        let bytes = self.rest.as_bytes();
-        let digit = |i: usize| bytes.get(i).is_some_and(u8::is_ascii_digit);
-        let mut end = 0;
-        let digits = |mut i: usize| {
-            while digit(i) || (bytes.get(i) == Some(&b'_') && i > 0 && digit(i - 1) && digit(i + 1)) {
-                i += 1;
-            }
-            i
-        };
-        end = digits(end);
-        if bytes.get(end) == Some(&b'.') {
-            end = digits(end + 1);
-        }
-        if matches!(bytes.get(end), Some(b'e' | b'E')) {
-            let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
-            if digit(end + 1 + sign) {
-                end = digits(end + 1 + sign);
-            }
-        }
-        let (text, rest) = self.rest.split_at(end);
+        let (text, rest) = self.rest.split_at(number_length(self.rest));
         if rest.starts_with(|c: char| c == '.' || c == '_' || c.is_alphanumeric()) {
             return Err("a number is followed by a letter".into());
         }
@@ -292,16 +320,6 @@ fn negated(value: Linear) -> Linear {
     }
 }
 
-/// The value of a fraction without variables.
-fn as_number(f: &Fraction) -> Option<Q> {
-    if !(f.numerator.is_constant() && f.denominator.is_constant() && f.scalar.is_constant()) {
-        return None;
-    }
-    let value = |m: &Multi| m.0.values().next().cloned().unwrap_or_default();
-    let below = value(&f.scalar) * value(&f.denominator);
-    if below.is_zero() { None } else { Some(Q::new(value(&f.numerator), below)) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -309,8 +327,7 @@ mod tests {
 
     fn value(text: &str) -> Option<String> {
         let clock = Clock::new(Duration::MAX);
-        let mut scope = Scope::new(HashMap::new(), HashMap::new(), &clock);
-        scope.scalar(text).ok().and_then(|f| as_number(&f)).map(|q| q.to_string())
+        number(&Toml::Text(text.to_owned()), &clock).ok().map(|q| q.to_string())
     }
 
     #[test]
@@ -339,13 +356,26 @@ mod tests {
         {
             assert_eq!(value(text), None, "{text}");
         }
-        // The check runs on a stack of this size; that of a test is smaller.
-        let deep = std::thread::Builder::new().stack_size(64 << 20).spawn(|| {
-            assert_eq!(value(&"(".repeat(100_000)), None);
-            assert_eq!(value(&"-".repeat(100_000)), None);
-            assert_eq!(value(&"1+".repeat(50_000)), None);
-        });
-        deep.expect("a thread").join().expect("no overflow");
-        assert!(!num_traits::Zero::is_zero(&Q::one().abs()));
+        for (text, is_read) in [("(", true), ("-", true), ("2^", false)] {
+            let nested = |n: usize| format!("{}1{}", text.repeat(n), ")".repeat(if text == "(" { n } else { 0 }));
+            assert!(value(&nested(200)).is_some() || !is_read, "{text}");
+            assert_eq!(value(&nested(201)), None, "{text}");
+            assert_eq!(value(&nested(100_000)), None, "{text}");
+        }
+        assert_eq!(value(&vec!["1"; 50_000].join("+")).as_deref(), Some("50000"));
+    }
+
+    #[test]
+    fn powers_of_powers_are_counted_before_they_are_computed() {
+        assert!(value("(9^999)^100").is_some());
+        for text in ["(((9^999)^999)^999)^999", "(1 + (9^999)^999)^999", "((1/9^999)^999)^999"] {
+            assert_eq!(value(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn names_are_found_beside_numbers() {
+        assert_eq!(names_in("1e5*a + 2e + .5e-3b_1(ω²^-c"), ["a", "e", "b_1", "ω²", "c"]);
+        assert!(is_name("_") && is_name("ω_e²") && !is_name("") && !is_name("²d") && !is_name("1d") && !is_name("d e"));
     }
 }

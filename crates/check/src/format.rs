@@ -225,7 +225,7 @@ impl Reader<'_> {
                 if self.eat(b'}') {
                     return Ok(Json::Object(pairs));
                 }
-                let mut seen = std::collections::HashSet::new();
+                let mut seen = std::collections::BTreeSet::new();
                 loop {
                     self.space();
                     let key = self.string()?;

@@ -1,8 +1,9 @@
 //! The stable set of one parameter: the one forward pass over the line.
 
+use super::characteristic::Characteristic;
+use super::clock::Clock;
 use super::half_size::{InX, pair, times};
-use super::model::Characteristic;
-use super::number::{Clock, Q};
+use super::number::Q;
 use super::roots::{is_hurwitz, is_schur};
 use super::statement::{End, boolean, count, end, list, number, object, polynomial, polynomials, text};
 use super::univariate::Uni;

@@ -1,45 +1,67 @@
-//! The keys of a model: one that is misspelt may be the one that matters.
+//! The keys of a model and their types: a key that is misspelt may be the one that matters.
 
 use super::number::shorten;
 use super::toml::Toml;
 
+const ROOT: [&str; 8] = ["title", "time", "sample_time", "constants", "parameters", "loop", "block", "simulation"];
+const PARAMETER: [&str; 5] = ["nominal", "min", "max", "unit", "description"];
 const LOOP: [&str; 10] = ["characteristic", "matrix", "A", "B", "C", "K", "states", "inputs", "E", "outputs"];
+const SIMULATION: [&str; 4] = ["inputs", "initial", "duration", "units"];
 const BLOCK: [&str; 14] =
     ["name", "input", "output", "discretize", "pwm", "transfer", "num", "den", "gain", "delay", "A", "B", "C", "D"];
+const DISCRETIZE: [&str; 3] = ["method", "T", "c"];
+const PWM: [&str; 3] = ["amplitude", "carrier", "period"];
 
-/// Refuses unknown keys wherever known ones have a meaning.
+/// Refuses unknown keys wherever known ones have a meaning, missing ones, and what is no table or no text where one must be.
 pub(super) fn known(model: &Toml) -> Result<(), String> {
-    let root = ["title", "time", "sample_time", "constants", "parameters", "loop", "block", "simulation"];
-    only(model, &root, "the model")?;
-    for (_, parameter) in model.get("parameters").map(Toml::entries).unwrap_or_default() {
-        only(parameter, &["nominal", "min", "max", "unit", "description"], "a parameter")?;
-    }
-    if let Some(table) = model.get("loop") {
-        only(table, &LOOP, "[loop]")?;
+    only(model, &ROOT, "the model")?;
+    model.get("title").map(Toml::text).transpose()?;
+    model.section("constants")?;
+    for (_, parameter) in model.section("parameters")? {
+        if parameter.expression().is_err() {
+            only(parameter, &PARAMETER, "a parameter")?;
+        }
+        for key in ["unit", "description"] {
+            parameter.get(key).map(Toml::text).transpose()?;
+        }
     }
     if let Some(table) = model.get("simulation") {
-        only(table, &["inputs", "initial", "duration", "units"], "[simulation]")?;
+        only(table, &SIMULATION, "[simulation]")?;
     }
-    if let (Some(table), Some(_)) = (model.get("loop"), model.get("block"))
-        && let Some(key) = ["states", "E"].iter().find(|key| table.get(key).is_some())
-    {
+    let table = model.get("loop").ok_or("the model has no [loop]")?;
+    only(table, &LOOP, "[loop]")?;
+    let Some(blocks) = model.get("block") else { return Ok(()) };
+    if let Some(key) = ["states", "E"].iter().find(|key| table.get(key).is_some()) {
         return Err(format!("'{key}' does not go with blocks"));
     }
-    for block in model.get("block").map(Toml::one_or_more).unwrap_or_default() {
-        only(block, &BLOCK, "a block")?;
-        if let Some(table) = block.get("discretize") {
-            only(table, &["method", "T", "c"], "'discretize'")?;
-        }
-        if let Some(table) = block.get("pwm") {
-            only(table, &["amplitude", "carrier", "period"], "'pwm'")?;
-        }
+    blocks.list()?.iter().try_for_each(block)
+}
+
+fn block(block: &Toml) -> Result<(), String> {
+    only(block, &BLOCK, "a block")?;
+    block.get("name").map(Toml::text).transpose()?;
+    all(block, &["input", "output"], "a block")?;
+    if let Some(table) = block.get("discretize") {
+        only(table, &DISCRETIZE, "'discretize'")?;
+    }
+    if let Some(table) = block.get("pwm") {
+        only(table, &PWM, "'pwm'")?;
+        all(table, &PWM, "'pwm'")?;
     }
     Ok(())
 }
 
 fn only(table: &Toml, known: &[&str], place: &str) -> Result<(), String> {
-    match table.entries().iter().find(|(key, _)| !known.contains(&key.as_str())) {
+    let Toml::Table(entries) = table else { return Err(format!("{place} is not a table")) };
+    match entries.iter().find(|(key, _)| !known.contains(&key.as_str())) {
         Some((key, _)) => Err(format!("'{}' is no key of {place}", shorten(key))),
+        None => Ok(()),
+    }
+}
+
+fn all(table: &Toml, needed: &[&str], place: &str) -> Result<(), String> {
+    match needed.iter().find(|key| table.get(key).is_none()) {
+        Some(key) => Err(format!("{place} has no '{key}'")),
         None => Ok(()),
     }
 }

@@ -8,6 +8,9 @@
 #![deny(missing_docs)]
 
 mod blocks;
+mod characteristic;
+mod clock;
+mod declarations;
 mod determinant;
 mod expression;
 pub mod format;
@@ -28,9 +31,10 @@ mod toml;
 mod univariate;
 mod verdict;
 
+use clock::{Clock, out_of_time};
 use format::{Json, SCHEMA};
 use num_traits::Zero;
-use number::{Clock, Q, out_of_time, shorten};
+use number::{Q, shorten};
 use statement::{Extent, bound, extent, identifier, object, polynomials, text, values};
 use std::fmt;
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -153,15 +157,20 @@ impl std::error::Error for Rejection {}
 /// assert!(check(model, &wrong, &Limits::default()).is_err());
 /// ```
 ///
+/// The check runs in a thread of its own, so that it can be given up in the middle of an operation; where there are no threads (as in
+/// WebAssembly), on the calling thread. Where there is no clock either (`wasm32-unknown-unknown`), operations are counted by
+/// the lengths of their numbers and the time is over after as many units as it has nanoseconds. That is the order of what they
+/// take, not a promise: additions and products of whole polynomials are not counted one by one.
+///
 /// # Errors
 /// [`Rejection`] with the step that failed. A rejection says nothing about the statement.
 pub fn check(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Rejection> {
     let limits = *limits;
-    let (model, certificate) = (model.to_owned(), certificate.to_owned());
     let (sender, receiver) = channel();
-    let work = move || drop(sender.send(checked(&model, &certificate, &limits)));
+    let texts = (model.to_owned(), certificate.to_owned());
+    let work = move || drop(sender.send(checked(&texts.0, &texts.1, &limits)));
     if std::thread::Builder::new().stack_size(STACK).spawn(work).is_err() {
-        return Err(Rejection { step: Step::Format, reason: "internal: there is no thread to check in".into() });
+        return checked(model, certificate, &limits);
     }
     // The clock is looked at between operations; one of them on long numbers can take its time.
     receiver.recv_timeout(limits.timeout.saturating_add(GRACE)).unwrap_or_else(|e| {

@@ -1,6 +1,7 @@
 //! Polynomials in the loop's variable and all parameters, and their quotients.
 
-use super::number::{Clock, Q, Z};
+use super::clock::Clock;
+use super::number::{Q, Z, power};
 use super::univariate::gcd;
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
@@ -9,10 +10,25 @@ use std::collections::BTreeMap;
 const MAX_TERMS: usize = 50_000;
 
 /// Exponents beyond this are refused.
-pub(super) const MAX_EXPONENT: u32 = 4000;
+const MAX_EXPONENT: u32 = 4000;
+
+/// Numbers of more bits are refused before they are computed.
+const MAX_BITS: u64 = 1 << 22;
+
+/// Counts operations on numbers of so many bits, whose results have at most as many as both together.
+fn count(clock: &Clock, operations: usize, bits: u64, others: u64) -> Result<(), String> {
+    if bits.saturating_add(others) > MAX_BITS {
+        return Err("a number in the model grows too long".into());
+    }
+    clock.spend(operations, bits, others)
+}
+
+fn longest<'z>(numbers: impl Iterator<Item = &'z Z>) -> u64 {
+    numbers.map(Z::bits).max().unwrap_or(0)
+}
 
 /// Integer coefficients by exponents; variable 0 is `z` or `s`, the parameters follow.
-#[derive(Clone, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub(super) struct Multi(pub BTreeMap<Vec<u32>, Z>);
 
 impl Multi {
@@ -80,8 +96,9 @@ impl Multi {
 
     pub fn times(&self, other: &Multi, clock: &Clock) -> Result<Multi, String> {
         let mut out = Multi::default();
+        let bits = [self, other].map(|m| longest(m.0.values()));
         for (e, c) in &self.0 {
-            clock.tick()?;
+            count(clock, other.0.len(), bits[0], bits[1])?;
             for (f, d) in &other.0 {
                 let n = e.len().max(f.len());
                 let at = |list: &[u32], i: usize| list.get(i).copied().unwrap_or(0);
@@ -100,6 +117,15 @@ impl Multi {
 
     pub fn power(&self, exponent: u32, clock: &Clock) -> Result<Multi, String> {
         let mut result = Multi::one();
+        if let (1, Some((e, c))) = (self.0.len(), self.0.first_key_value()) {
+            let bits = c.bits().saturating_mul(exponent.into());
+            count(clock, 1, bits / 2, bits / 2)?;
+            let e: Vec<u32> = e.iter().map(|e| e.saturating_mul(exponent)).collect();
+            if e.iter().any(|&e| e > MAX_EXPONENT) {
+                return Err("an expression of the model has too high a degree".into());
+            }
+            return Ok(Multi::default().with(e, c.pow(exponent)));
+        }
         for _ in 0..exponent {
             result = result.times(self, clock)?;
         }
@@ -212,17 +238,19 @@ impl Multi {
 
     /// The polynomial with every parameter but `kept` replaced by its value: rational coefficients by powers
     /// of variable 0, and in each by powers of the kept parameter.
-    pub fn specialised(&self, kept: usize, values: &[Q]) -> Vec<Vec<Q>> {
+    pub fn specialised(&self, kept: usize, values: &[Q], clock: &Clock) -> Result<Vec<Vec<Q>>, String> {
         let mut out: Vec<Vec<Q>> = vec![vec![Q::zero(); self.degree(kept) + 1]; self.degree(0) + 1];
         for (e, c) in &self.0 {
             let mut term = Q::from(c.clone());
-            for (i, &k) in e.iter().enumerate().filter(|(i, _)| *i != 0 && *i != kept) {
-                term *= super::number::power(&values[i], k as usize);
+            for (i, &k) in e.iter().enumerate().filter(|(i, k)| *i != 0 && *i != kept && **k > 0) {
+                let bits = |q: &Q| q.numer().bits() + q.denom().bits();
+                count(clock, 1, bits(&term), bits(&values[i]).saturating_mul(k.into()))?;
+                term *= power(&values[i], k);
             }
             let at = |i: usize| e.get(i).copied().unwrap_or(0) as usize;
             out[at(0)][at(kept)] += term;
         }
-        out
+        Ok(out)
     }
 }
 
@@ -249,9 +277,18 @@ impl Fraction {
     }
 
     /// Without common integer factors.
-    fn reduced(mut self) -> Self {
-        let all = self.numerator.0.values().chain(self.scalar.0.values());
-        let mut g = all.fold(Z::zero(), |g, c| gcd(&g, c));
+    fn reduced(mut self, clock: &Clock) -> Result<Self, String> {
+        let mut g = Z::zero();
+        for c in self.numerator.0.values().chain(self.scalar.0.values()) {
+            // Bits times words: about what a greatest common divisor takes.
+            let (short, long) = (g.bits().min(c.bits()), g.bits().max(c.bits()));
+            clock.spend(1, short, long)?;
+            clock.spend(1, short.saturating_mul(64), short)?;
+            g = gcd(&g, c);
+            if g.is_one() {
+                break;
+            }
+        }
         if self.scalar.0.last_key_value().is_some_and(|(_, c)| c.is_negative()) {
             g = -g;
         }
@@ -260,7 +297,7 @@ impl Fraction {
                 *c = &*c / &g;
             }
         }
-        self
+        Ok(self)
     }
 
     pub fn negated(self) -> Self {
@@ -290,33 +327,30 @@ impl Fraction {
         };
         let left = self.numerator.times(&e_rest, clock)?.times(&left_scalar, clock)?;
         let right = other.numerator.times(&d_rest, clock)?.times(&right_scalar, clock)?;
-        Ok(Fraction {
-            numerator: left.plus(&right),
-            denominator: d.times(&e_rest, clock)?,
-            scalar: self.scalar.times(&left_scalar, clock)?,
-        }
-        .reduced())
+        let sum = left.plus(&right);
+        let (denominator, scalar) = (d.times(&e_rest, clock)?, self.scalar.times(&left_scalar, clock)?);
+        Fraction { numerator: sum, denominator, scalar }.reduced(clock)
     }
 
     pub fn times(&self, other: &Fraction, clock: &Clock) -> Result<Fraction, String> {
-        Ok(Fraction {
+        Fraction {
             numerator: self.numerator.times(&other.numerator, clock)?,
             denominator: self.denominator.times(&other.denominator, clock)?,
             scalar: self.scalar.times(&other.scalar, clock)?,
         }
-        .reduced())
+        .reduced(clock)
     }
 
     /// `1/self`; the numerator must not be zero.
     pub fn inverse(&self, clock: &Clock) -> Result<Fraction, String> {
         let top = self.denominator.times(&self.scalar, clock)?;
         let bottom = self.numerator.clone();
-        Ok(if bottom.degree(0) == 0 {
+        if bottom.degree(0) == 0 {
             Fraction { numerator: top, denominator: Multi::one(), scalar: bottom }
         } else {
             Fraction { numerator: top, denominator: bottom, scalar: Multi::one() }
         }
-        .reduced())
+        .reduced(clock)
     }
 
     pub fn power(&self, exponent: u32, clock: &Clock) -> Result<Fraction, String> {
@@ -325,6 +359,13 @@ impl Fraction {
             denominator: self.denominator.power(exponent, clock)?,
             scalar: self.scalar.power(exponent, clock)?,
         })
+    }
+
+    /// The value, if no variable occurs.
+    pub fn as_number(&self) -> Option<Q> {
+        let number = |m: &Multi| m.is_constant().then(|| m.0.values().next().cloned().unwrap_or_default());
+        let below = number(&self.scalar)? * number(&self.denominator)?;
+        if below.is_zero() { None } else { Some(Q::new(number(&self.numerator)?, below)) }
     }
 
     /// Denominator and scalar together.

@@ -1,38 +1,14 @@
-//! Exact numbers from text, and the clock that bounds all work.
+//! Exact numbers from text.
 
 use num_bigint::BigInt;
 use num_rational::Ratio;
-use num_traits::{One, Zero};
-use std::time::{Duration, Instant};
+use num_traits::Zero;
 
 pub(super) type Z = BigInt;
 pub(super) type Q = Ratio<BigInt>;
 
 /// Numbers with more digits than this are refused.
 pub(super) const MAX_DIGITS: usize = 100_000;
-
-/// Ends the work when its time is up.
-pub(super) struct Clock {
-    end: Option<Instant>,
-    timeout: Duration,
-}
-
-impl Clock {
-    pub fn new(timeout: Duration) -> Self {
-        Clock { end: Instant::now().checked_add(timeout), timeout }
-    }
-
-    pub fn tick(&self) -> Result<(), String> {
-        match self.end {
-            Some(end) if Instant::now() >= end => Err(out_of_time(self.timeout)),
-            _ => Ok(()),
-        }
-    }
-}
-
-pub(super) fn out_of_time(timeout: Duration) -> String {
-    format!("the check takes longer than {} s", timeout.as_secs_f64())
-}
 
 /// An integer as certificates write it: an optional minus sign and digits.
 pub(super) fn integer(text: &str) -> Result<Z, String> {
@@ -87,11 +63,7 @@ pub(super) fn shorten(text: &str) -> String {
     short
 }
 
-/// Integer power of a rational number.
-pub(super) fn power(base: &Q, exponent: usize) -> Q {
-    let mut result = Q::one();
-    for _ in 0..exponent {
-        result *= base;
-    }
-    result
+/// Integer power of a rational number; lowest terms stay lowest.
+pub(super) fn power(base: &Q, exponent: u32) -> Q {
+    Q::new_raw(base.numer().pow(exponent), base.denom().pow(exponent))
 }

@@ -12,7 +12,7 @@ pub(super) fn transformed(d: &[Uni], discrete: bool, extent: &Extent) -> Vec<Uni
     let out = match (discrete, extent) {
         (true, Extent::Parameter) => d.iter().enumerate().map(|(k, c)| c.shifted_up(k)).collect(),
         (true, Extent::Number(r)) => {
-            let powers: Vec<Q> = (0..n).map(|k| power(r, k)).collect();
+            let powers: Vec<Q> = (0..n).map(|k| power(r, k as u32)).collect();
             let m = common_denominator(powers.iter());
             d.iter().zip(&powers).map(|(c, p)| c.scaled(&(p.numer() * (&m / p.denom())))).collect()
         }
@@ -41,5 +41,5 @@ pub(super) fn transformed(d: &[Uni], discrete: bool, extent: &Extent) -> Vec<Uni
             c
         }
     };
-    super::model::primitive(out)
+    super::characteristic::primitive(out)
 }

@@ -1,6 +1,7 @@
 //! Where the roots of one polynomial with integer coefficients lie, exactly.
 
-use super::number::{Clock, Z};
+use super::clock::Clock;
+use super::number::Z;
 use super::univariate::Uni;
 use num_bigint::Sign;
 use num_traits::{One, Signed, Zero};
@@ -15,7 +16,7 @@ pub(super) struct Places {
 
 /// Whether all roots lie strictly inside the unit circle, by the Schur-Cohn reduction
 /// `D <- (d_n D - d_0 D#)/z`: the roots are inside if and only if `|d_0| < |d_n|` and those of the
-/// reduced polynomial are [Jury1964](crate::bibliography#jury1964). Constants that are not zero have no roots.
+/// reduced polynomial are \[Jury1964\]. Constants that are not zero have no roots.
 pub(super) fn is_schur(d: &Uni, clock: &Clock) -> Result<bool, String> {
     let mut d = d.primitive();
     if d.is_zero() {
@@ -38,7 +39,7 @@ pub(super) fn is_schur(d: &Uni, clock: &Clock) -> Result<bool, String> {
 
 /// Whether all roots have negative real parts, by Routh's reduction: with `a_n, a_(n-1)` of one sign,
 /// `D <- D - (a_n/a_(n-1)) s (a_(n-1) s^(n-1) + a_(n-3) s^(n-3) + ...)` has one root less, and the
-/// rest on the same sides [Routh1877](crate::bibliography#routh1877).
+/// rest on the same sides \[Routh1877\].
 pub(super) fn is_hurwitz(d: &Uni, clock: &Clock) -> Result<bool, String> {
     let mut d = d.primitive();
     if d.is_zero() {

@@ -1,7 +1,7 @@
 //! A model file as plain values, through `toml_edit`: numbers by their source text.
 
-use super::number::{Q, Z, decimal, shorten};
-use num_traits::Num;
+use super::number::shorten;
+use std::collections::BTreeSet;
 use toml_edit::{Document, Item, TableLike, Value};
 use toml_parser::parser::{EventKind, parse_document};
 
@@ -15,7 +15,8 @@ const LONG: usize = 15;
 /// A value of the file.
 #[derive(Clone, Debug)]
 pub(super) enum Toml {
-    Number(Q),
+    /// A decimal number as it is written.
+    Number(String),
     Text(String),
     List(Vec<Toml>),
     Table(Vec<(String, Toml)>),
@@ -35,11 +36,19 @@ impl Toml {
         }
     }
 
-    /// A text, or the numbers' text: what an expression is written as.
-    pub fn expression(&self) -> Result<String, String> {
+    /// The entries of the table under a key; none where the key is not there.
+    pub fn section(&self, key: &str) -> Result<&[(String, Toml)], String> {
+        match self.get(key) {
+            None => Ok(&[]),
+            Some(Toml::Table(entries)) => Ok(entries),
+            Some(_) => Err(format!("'{}' is not a table", shorten(key))),
+        }
+    }
+
+    /// A text, or the number's text: what an expression is written as.
+    pub fn expression(&self) -> Result<&str, String> {
         match self {
-            Toml::Number(q) => Ok(format!("{}/{}", q.numer(), q.denom())),
-            Toml::Text(text) => Ok(text.clone()),
+            Toml::Number(text) | Toml::Text(text) => Ok(text),
             _ => Err("a number or an expression is expected".into()),
         }
     }
@@ -72,87 +81,83 @@ pub(super) fn read(text: &str) -> Result<Toml, String> {
     if text.len() > MAX_TEXT {
         return Err(format!("the model is longer than {MAX_TEXT} bytes"));
     }
-    let text = quote_long_numbers(text);
-    let document = Document::parse(text.as_str()).map_err(|e| format!("not TOML: {}", e.message()))?;
-    table(document.as_table(), &text, 0)
+    let source = quote_long_numbers(text);
+    let document = Document::parse(source.text.as_str()).map_err(|e| format!("not TOML: {}", e.message()))?;
+    table(document.as_table(), &source, 0)
 }
 
-fn table(source: &dyn TableLike, text: &str, depth: usize) -> Result<Toml, String> {
-    let entries = source.iter().map(|(key, item)| Ok((key.to_owned(), of_item(item, text, depth + 1)?)));
+/// A text in which some numbers stand in quotes.
+struct Source {
+    text: String,
+    /// Where these begin.
+    numbers: BTreeSet<usize>,
+}
+
+fn table(entries: &dyn TableLike, source: &Source, depth: usize) -> Result<Toml, String> {
+    let entries = entries.iter().map(|(key, item)| Ok((key.to_owned(), of_item(item, source, depth + 1)?)));
     Ok(Toml::Table(entries.collect::<Result<_, String>>()?))
 }
 
-fn of_item(item: &Item, text: &str, depth: usize) -> Result<Toml, String> {
+fn of_item(item: &Item, source: &Source, depth: usize) -> Result<Toml, String> {
     if depth > 100 {
         return Err("the model is nested too deep".into());
     }
     match item {
         Item::None => Ok(Toml::Other),
-        Item::Table(t) => table(t, text, depth),
+        Item::Table(t) => table(t, source, depth),
         Item::ArrayOfTables(list) => {
-            Ok(Toml::List(list.iter().map(|t| table(t, text, depth)).collect::<Result<_, _>>()?))
+            Ok(Toml::List(list.iter().map(|t| table(t, source, depth)).collect::<Result<_, _>>()?))
         }
-        Item::Value(value) => of_value(value, text, depth),
+        Item::Value(value) => of_value(value, source, depth),
     }
 }
 
-fn of_value(value: &Value, text: &str, depth: usize) -> Result<Toml, String> {
+fn of_value(value: &Value, source: &Source, depth: usize) -> Result<Toml, String> {
     if depth > 100 {
         return Err("the model is nested too deep".into());
     }
-    let raw = || value.span().and_then(|span| text.get(span)).ok_or_else(|| "a number has no place".to_owned());
+    let span = || value.span().ok_or_else(|| "internal: a value has no place".to_owned());
     match value {
+        Value::String(s) if source.numbers.contains(&span()?.start) => Ok(Toml::Number(s.value().clone())),
         Value::String(s) => Ok(Toml::Text(s.value().clone())),
-        Value::Integer(_) | Value::Float(_) => number(raw()?).map(Toml::Number),
+        Value::Integer(_) | Value::Float(_) => {
+            let raw = source.text.get(span()?).unwrap_or_default().trim();
+            // Neither another base nor infinity.
+            let number = is_decimal(raw).then(|| Toml::Number(raw.to_owned()));
+            number.ok_or_else(|| format!("'{}' is not a decimal number", shorten(raw)))
+        }
         Value::Boolean(_) | Value::Datetime(_) => Ok(Toml::Other),
         Value::Array(items) => {
-            Ok(Toml::List(items.iter().map(|v| of_value(v, text, depth + 1)).collect::<Result<_, _>>()?))
+            Ok(Toml::List(items.iter().map(|v| of_value(v, source, depth + 1)).collect::<Result<_, _>>()?))
         }
-        Value::InlineTable(t) => table(t, text, depth),
+        Value::InlineTable(t) => table(t, source, depth),
     }
 }
 
-/// A TOML number by its text.
-fn number(raw: &str) -> Result<Q, String> {
-    let raw = raw.trim();
-    let (negative, plain) = match raw.strip_prefix('-') {
-        Some(rest) => (true, rest),
-        None => (false, raw.strip_prefix('+').unwrap_or(raw)),
-    };
-    let plain = plain.replace('_', "");
-    let radix = [("0x", 16), ("0o", 8), ("0b", 2)].into_iter().find_map(|(p, r)| Some((plain.strip_prefix(p)?, r)));
-    let value = match radix {
-        Some((digits, radix)) => {
-            Q::from(Z::from_str_radix(digits, radix).map_err(|_| format!("'{}' is not a number", shorten(raw)))?)
-        }
-        None => decimal(&plain)?,
-    };
-    Ok(if negative { -value } else { value })
-}
-
 /// The same text with long decimal numbers as strings, which mean the same.
-fn quote_long_numbers(text: &str) -> String {
+fn quote_long_numbers(text: &str) -> Source {
     let source = toml_parser::Source::new(text);
     let tokens = source.lex().into_vec();
     let mut events: Vec<toml_parser::parser::Event> = Vec::new();
     let mut errors: Vec<toml_parser::ParseError> = Vec::new();
     let mut guard = toml_parser::parser::RecursionGuard::new(&mut events, 100);
     parse_document(&tokens, &mut guard, &mut errors);
-    let mut out = String::with_capacity(text.len());
+    let mut out = Source { text: String::with_capacity(text.len()), numbers: BTreeSet::new() };
     let mut done = 0;
     for event in events.iter().filter(|e| e.kind() == EventKind::Scalar && e.encoding().is_none()) {
         let (start, end) = (event.span().start(), event.span().end());
         let Some(raw) = text.get(start..end) else { continue };
         let exponent = raw.find(['e', 'E']).is_some();
         if is_decimal(raw) && start >= done && (exponent || raw.len() > LONG) {
-            out.push_str(&text[done..start]);
-            out.push('"');
-            out.push_str(raw);
-            out.push('"');
+            out.text.push_str(&text[done..start]);
+            out.numbers.insert(out.text.len());
+            out.text.push('"');
+            out.text.push_str(raw);
+            out.text.push('"');
             done = end;
         }
     }
-    out.push_str(&text[done..]);
+    out.text.push_str(&text[done..]);
     out
 }
 
@@ -182,14 +187,19 @@ mod tests {
 
     #[test]
     fn numbers_keep_every_digit() {
-        let text = "a = 0.1\nb = 1e400\nc = 123456789012345678901234567890\nd = 0x1F\ne = [1_000, 2.50e-3]\nf = 'x'";
+        let text = "a = 0.1\nb = 1e400\nc = 123456789012345678901234567890\nd = '0x1F'\ne = [1_000, 2.50e-3]\nf = 'x'";
         let t = read(text).unwrap();
         let of = |key: &str| t.get(key).unwrap().expression().unwrap();
-        assert_eq!(of("a"), "1/10");
+        assert_eq!(of("a"), "0.1");
         assert_eq!(of("b"), "1e400");
         assert_eq!(of("c"), "123456789012345678901234567890");
-        assert_eq!(of("d"), "31/1");
         assert_eq!(t.get("e").unwrap().list().unwrap()[1].expression().unwrap(), "2.50e-3");
+        // A number is no string, however it is read; nor is a string a number.
+        assert!(["a", "b", "c"].iter().all(|key| t.get(key).unwrap().text().is_err()));
+        assert_eq!((t.get("d").unwrap().text(), t.get("f").unwrap().text()), (Ok("0x1F"), Ok("x")));
+        for wrong in ["0x1F", "0o17", "0b1", "-inf", "+nan"] {
+            assert!(read(&format!("a = {wrong}")).is_err(), "{wrong}");
+        }
         assert!(read("a = 1\na = 2").is_err());
         assert!(read("a = nan").is_err() && read("a = inf").is_err());
         for wrong in ["1e5-99999.5", "1e5+1", "1-2", "01e5", "1__0e5", "1_e5", "1.e5", ".5e1", "1e", "1e5.0", "--1e5"] {

@@ -1,6 +1,7 @@
 //! The verdict at one point, and statements in words.
 
-use super::number::{Clock, Q};
+use super::clock::Clock;
+use super::number::Q;
 use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
 use super::statement::{self, End, Extent, count, extent, list, object, polynomials, text, values};
 use super::univariate::Uni;

@@ -1,4 +1,4 @@
-//! `examples/check.py` in one process for many certificates.
+//! `crates/check/check.py` in one process for many certificates.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
@@ -27,7 +27,7 @@ impl Python {
             println!("skipped: python3 with tomllib is not there");
             return None;
         }
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples");
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/crates/check");
         let mut command = Command::new("python3");
         command.args(["-c", DRIVER, folder]).stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = command.spawn().expect("python3 is there");

@@ -131,8 +131,8 @@ fn read_ports(table: &Table, meant: &Meant, matrix: Option<&Matrix>, what: &str,
     let input_matrix = table.get("E").and_then(|v| reader.matrix(v, "the matrix E"));
     if let (Some(matrix), Some(entry)) = (matrix, table.entry("states")) {
         let n = matrix.size().0;
-        if matches!(&entry.value.kind, Kind::Array(items) if items.len() != n) {
-            let given = if let Kind::Array(items) = &entry.value.kind { items.len() } else { 1 };
+        let given = if let Kind::Array(items) = &entry.value.kind { items.len() } else { 1 };
+        if given != n {
             let message = format!("{} for {}", count(given, "state", "states"), count(n, "row", "rows"));
             let error = Diagnostic::error("E-size", message).at(entry.value.span, "the states");
             reader.report(error.also(matrix.span, format!("{what} has {}", count(n, "row", "rows"))));

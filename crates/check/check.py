@@ -1,0 +1,1057 @@
+#!/usr/bin/env python3
+"""Checks a certificate of jurist against a model:  check.py MODEL CERTIFICATE
+
+A second checker, independent of the program: plain Python (3.11) with nothing but its standard library, exact
+integers throughout, no search.  The grammar of certificates, and why these checks suffice, is in the documentation
+of jurist's module `certificate`.  Exit status 0: proved; 4: rejected.
+
+Whatever the form of the loop, it is read as linear equations in signals and states.  They are linear by the reading:
+the values of expressions are objects of class Linear, which have no other operations.
+
+Polynomials are objects of class P, or lists of integers, the constant term first, where numbers are put in.
+"""
+import json
+import re
+import signal
+import sys
+import tomllib
+from fractions import Fraction
+from itertools import accumulate
+from math import gcd, lcm, prod
+
+MAX_TEXT, MAX_MODEL = 64 << 20, 4 << 20  # characters
+MAX_DIGITS = 100_000
+MAX_BITS = 1 << 22  # of the numbers that the check computes
+MAX_TERMS = 50_000
+MAX_DEPTH = 16  # of JSON
+MAX_NESTING = 200  # of expressions
+MAX_ORDER = 2000
+MAX_DEGREE = 4000
+MAX_WORK = 20 * 10**9  # about as many nanoseconds
+SECONDS = 60  # the last resort
+sys.set_int_max_str_digits(2 * MAX_DIGITS)
+sys.setrecursionlimit(4000)
+
+class Rejected(Exception):
+    pass
+
+def need(condition, reason):
+    if not condition:
+        raise Rejected(reason)
+
+spent = 0
+
+def spend(count, bits=0, others=0):
+    """Counts operations on numbers of so many bits before they are done."""
+    global spent
+    need(bits + others <= MAX_BITS, "a number grows too long")
+    spent += count * (500 + bits // 30 + others // 30 + bits * others // 1000)
+    need(spent <= MAX_WORK, "the check is too much work")
+
+# ---------------------------------------------------------------- polynomials in one variable, as lists
+
+def size(numbers):
+    """The bits of the longest."""
+    return max((c.bit_length() for c in numbers), default=0)
+
+def value(p, x):
+    """At a rational number, times its denominator to the power of len(p) - 1."""
+    (top, bottom), result, power = x.as_integer_ratio(), 0, 1
+    spend(len(p), size(p) + len(p) * top.bit_length(), len(p) * bottom.bit_length())
+    for c in reversed(p):
+        result, power = result * top + c * power, power * bottom
+    return result
+
+def changes(signs):
+    """The number of sign changes, zeros left out."""
+    signs = [s > 0 for s in signs if s != 0]
+    return sum(a != b for a, b in zip(signs, signs[1:]))
+
+def mirrored(p):
+    """p(-x)"""
+    return [-c if k % 2 else c for k, c in enumerate(p)]
+
+def shifted(p, a):
+    """p(x + a) by Horner's scheme; zeros at the top stay."""
+    c, out = p[::-1], []
+    if p and isinstance(p[0], int):
+        spend(len(p) ** 2 // 2, size(p) + len(p) * a.bit_length(), a.bit_length())
+    while c:
+        c = list(accumulate(c, lambda s, x: s * a + x))
+        out.append(c.pop())
+    return out
+
+def scaled(p, top, bottom=1):
+    """bottom^d p(top/bottom x), d the degree."""
+    spend(2 * len(p), size(p) + len(p) * top.bit_length(), len(p) * bottom.bit_length())
+    return [c * top ** k * bottom ** (len(p) - 1 - k) for k, c in enumerate(p)]
+
+def descartes(f, a, b):
+    """At least the number of roots in the open interval (a, b), equal to it if 0 or 1; None is an infinite end."""
+    p = f.listed(1)
+    if len(p) < 2 or a is b is None:
+        return len(p) - 1 if p else 0
+    if a is None:
+        p, a, b = mirrored(p), -b, None
+    width = Fraction(1) if b is None else b - a
+    bottom = lcm(a.denominator, width.denominator)
+    p = scaled(shifted(scaled(p, 1, bottom), int(a * bottom)), int(width * bottom))  # of t in a + width t
+    return changes(p if b is None else shifted(p[::-1], 1))  # t = 1/(1 + y)
+
+# ---------------------------------------------------------------- polynomials in several variables
+
+FIELD = 16  # bits of an exponent, of which the highest four stay free
+MASK = (1 << FIELD) - 1
+HIGHEST = int("f000" * 1000, 16)
+
+class P(dict):
+    """Integer coefficients by exponents, which are packed into one integer: x_v^k is k << FIELD v.
+
+    Variable 0 is z (or s), 1 the parameter in question, the others are those that have a value.
+    """
+
+    @staticmethod
+    def of(numbers, v=0):
+        """From a list of coefficients, or a dictionary."""
+        items = numbers.items() if isinstance(numbers, dict) else enumerate(numbers)
+        return P({k << FIELD * v: c for k, c in items if c})
+
+    def listed(self, v):
+        """The coefficients of a polynomial in variable v alone."""
+        return [self.get(k << FIELD * v, 0) for k in range(self.degree(v) + 1)] if self else []
+
+    def __add__(self, other):
+        spend(2 * (len(self) + len(other)))
+        out = dict(self)
+        for e, c in other.items():
+            out[e] = out.get(e, 0) + c
+        return P.of(out)
+
+    def __neg__(self):
+        return P({e: -c for e, c in self.items()})
+
+    def __mul__(self, other):
+        spend(5 + len(self) * len(other), size(self.values()), size(other.values()))
+        out = {}
+        for e, c in self.items():
+            for f, d in other.items():
+                out[e + f] = out.get(e + f, 0) + c * d
+        need(len(out) <= MAX_TERMS and not any(e & HIGHEST for e in out), "an expression grows too large")
+        return P.of(out)
+
+    def __pow__(self, k):
+        if not any(self):  # a number
+            spend(k, k * size(self.values()))
+            return number(self.get(0, 0) ** k)
+        out = ONE
+        for _ in range(k):
+            out = out * self
+        return out
+
+    def __truediv__(self, other):
+        """The quotient of a division without remainder, otherwise None."""
+        quotient, rest, lead = P(), dict(self), max(other)
+        while rest:
+            spend(2 * len(other) + len(rest) // 4, size(rest.values()), size(other.values()))
+            e = max(rest) - lead
+            factor, no = divmod(rest[e + lead], other[lead])
+            if no or e < 0 or e & HIGHEST:
+                return None
+            quotient[e] = factor
+            for f, c in other.items():
+                rest[e + f] = rest.get(e + f, 0) - factor * c
+                if not rest[e + f]:
+                    del rest[e + f]
+        return quotient
+
+    def degree(self, v):
+        return max((e >> FIELD * v & MASK for e in self), default=0)
+
+    def coefficients(self, v):
+        """The coefficients of the powers of one variable, the constant term first."""
+        spend(4 * len(self))
+        out = [P() for _ in range(self.degree(v) + 1)]
+        for e, c in self.items():
+            k = e >> FIELD * v & MASK
+            out[k][e - (k << FIELD * v)] = c
+        return out
+
+    def content(self, v):
+        content = P()
+        for c in self.coefficients(v):
+            content = content if content == ONE else content.common(c)
+        return content
+
+    def lead(self, v):
+        """The leading coefficient."""
+        spend(4 * len(self))
+        top = self.degree(v) << FIELD * v
+        return P({e - top: c for e, c in self.items() if e & MASK << FIELD * v == top})
+
+    def over(self, x):
+        return P({e: c // x for e, c in self.items()}) if x > 1 else self
+
+    def primitive(self):
+        """Without a common factor of the numbers; a positive factor is lost."""
+        spend(1 + len(self) // 10, size(self.values()), size(self.values()))
+        return self.over(gcd(*self.values()))
+
+    def remainder(self, other, v):
+        """A multiple, by a positive number if no other variable occurs."""
+        a, b = self, -other if other.lead(v).get(0, 0) < 0 else other
+        while a and a.degree(v) >= b.degree(v):
+            shift = P({a.degree(v) - b.degree(v) << FIELD * v: 1})
+            a = a * b.lead(v) + -(b * (a.lead(v) * shift))
+        return a.primitive()
+
+    def common(self, other):
+        """A greatest common divisor without an integer factor, by primitive remainders in the last variable."""
+        a, b = self.primitive(), other.primitive()
+        if not a or not b:
+            return a or b
+        v = (max(*a, *b, 0).bit_length() - 1) // FIELD
+        if v < 0 or a == b:
+            return a if a == b else ONE
+        contents = a.content(v), b.content(v)
+        a, b, content = a / contents[0], b / contents[1], contents[0].common(contents[1])
+        if a.degree(v) < b.degree(v):
+            a, b = b, a
+        while b and b.degree(v):
+            rest = a.remainder(b, v)
+            a, b = b, (rest / rest.content(v)).primitive() if rest else rest
+        return content if b else content * a
+
+    def at(self, values):
+        """Numbers in the place of all variables from 2 on; the coefficients are rational."""
+        out = {}
+        for e, c in self.items():
+            key, e = e & (MASK << FIELD | MASK), e >> 2 * FIELD
+            for x in values:
+                k = e & MASK
+                spend(1, size([c.numerator, c.denominator]), k * size(x.as_integer_ratio()))
+                c, e = c * x ** k, e >> FIELD
+            out[key] = out.get(key, 0) + c
+        return P.of(out)
+
+ZERO, ONE, Z = P(), P({0: 1}), P({1: 1})
+
+def number(x):
+    return P({0: x}) if x else ZERO
+
+class Value:
+    """A sum of signals and states with coefficients, and a constant (under the name ""), over one denominator.
+
+    It is linear by construction.  A signal that occurs is there, be its coefficient zero.  Only numbers are cancelled, so
+    that everything divided by stays visible.
+    """
+
+    def __init__(self, tops, bottom=ONE):
+        numbers = [c for p in (bottom, *tops.values()) for c in p.values()]
+        spend(50 + len(numbers), size(numbers), size(numbers))
+        common = gcd(*numbers)
+        self.tops = {name: p.over(common) for name, p in tops.items()}
+        self.bottom = bottom.over(common)
+
+    def scalar(self):
+        need(set(self.tops) <= {""}, "a signal where none may be: in a divisor, in a power, or times another one")
+        return self.tops.get("", ZERO)
+
+    def __add__(self, other):  # over the least common denominator
+        left = right = ONE
+        if self.bottom != other.bottom:
+            common = self.bottom.common(other.bottom)
+            left, right = other.bottom / common, self.bottom / common
+        tops = {name: p * left for name, p in self.tops.items()}
+        for name, p in other.tops.items():
+            tops[name] = tops.get(name, ZERO) + p * right
+        return Value(tops, self.bottom * left)
+
+    def __neg__(self):
+        return Value({name: -p for name, p in self.tops.items()}, self.bottom)
+
+    def __mul__(self, other):
+        one, factor = (self, other) if set(self.tops) - {""} else (other, self)
+        return Value({name: p * factor.scalar() for name, p in one.tops.items()}, one.bottom * factor.bottom)
+
+    def __pow__(self, k):
+        return self if k == 1 else Value({"": self.scalar() ** k}, self.bottom ** k)
+
+    def number(self):
+        """If no variable occurs; otherwise None."""
+        return None if any(self.scalar()) or any(self.bottom) else Fraction(self.scalar().get(0, 0), self.bottom[0])
+
+def scalar(p):
+    return Value({"": p})
+
+NOTHING = scalar(ZERO)
+
+def dot(row, values):
+    return sum((c * x for c, x in zip(row, values) if c.scalar()), NOTHING)
+
+# ---------------------------------------------------------------- expressions
+
+DIGITS = "[0-9](?:_?[0-9])*"
+NUMBER = rf"(?:{DIGITS}(?:\.(?:{DIGITS})?)?|\.{DIGITS})(?:[eE][+-]?{DIGITS})?(?![\w.])"
+TOKEN = re.compile(rf"[^\S\x1c-\x1f]*({NUMBER}|[^\W\d]\w*|[-+*/^()])")
+
+CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f]")
+
+class Number(str):
+    """A number of a TOML text that is no integer, as it is written."""
+
+    def __new__(cls, text):
+        need("n" not in text, f"{text} is not a number of a model")
+        return super().__new__(cls, text)
+
+def is_name(text):
+    return re.fullmatch(r"[^\W\d]\w*", text) and (text[0] == "_" or text[0].isalpha())
+
+def decimal(text):
+    mantissa, _, exponent = text.lower().partition("e")
+    need(len(mantissa) <= MAX_DIGITS and len(exponent) < 8 and abs(int(exponent or 0)) <= MAX_DIGITS, "a number is too long")
+    spend(1, 4 * len(mantissa), 4 * len(mantissa) + 4 * abs(int(exponent or 0)))
+    x = Fraction(text)
+    return Value({"": number(x.numerator)}, number(x.denominator))
+
+def tokens_of(text):
+    tokens, at, text = [], 0, text.rstrip()
+    while at < len(text):
+        match = TOKEN.match(text, at)
+        need(match, f"cannot read {text[:60]!r}")
+        tokens.append(match[1])
+        at = match.end()
+    return tokens
+
+def no_names(name):
+    raise Rejected(f"the name {name:.40} where only numbers may stand")
+
+def evaluate(text, names, inverse):
+    """The value of an expression; `names` and `inverse` are functions."""
+    tokens, depth = tokens_of(text)[::-1], 0  # the next token is the last of the list
+
+    def accept(*operators):
+        return tokens.pop() if tokens and tokens[-1] in operators else None
+
+    def nested(part, names):
+        nonlocal depth
+        depth += 1
+        need(depth <= MAX_NESTING, "an expression is nested too deep")
+        result = part(names)
+        depth -= 1
+        return result
+
+    def total(names):
+        result = product(names)
+        while operator := accept("+", "-"):
+            term = product(names)
+            result = result + (term if operator == "+" else -term)
+        return result
+
+    def product(names):
+        result = signed(names)
+        while operator := accept("*", "/"):
+            factor = signed(names)
+            result = result * (factor if operator == "*" else inverse(factor))
+        return result
+
+    def signed(names):
+        if sign := accept("+", "-"):
+            return nested(signed, names) if sign == "+" else -nested(signed, names)
+        base = atom(names)
+        if not accept("^"):
+            return base
+        k = nested(signed, no_names).number()
+        need(k.denominator == 1 and abs(k) <= 1000, "an exponent is not a small integer")
+        return (inverse(base) if k < 0 else base) ** abs(int(k))
+
+    def atom(names):
+        token = tokens.pop() if tokens else ")"
+        if token == "(":
+            result = nested(total, names)
+            need(accept(")"), "')' is missing")
+            return result
+        if token[0] in ".0123456789":
+            return decimal(token)
+        need(is_name(token), f"{token:.40} is not expected in {text[:60]!r}")
+        return names(token)
+
+    result = total(names)
+    need(not tokens, f"cannot read {text[:60]!r}")
+    return result
+
+class Scope:
+    """What names mean, and everything that was divided by."""
+
+    def __init__(self, constants, variables):
+        need(len(variables) < 900, "there are too many parameters")  # HIGHEST
+        self.divisors, self.constants = [], constants
+        self.known = {name: scalar(P({1 << FIELD * v: 1})) for name, v in variables.items()}
+        for name in constants:
+            self.define(name)
+
+    def define(self, name):
+        """A constant, after those that it uses."""
+        waiting = {name: None}  # in order
+        while waiting:
+            name = next(reversed(waiting))
+            uses = tokens_of(self.constants[name]) if isinstance(self.constants[name], str) else []
+            new = next((u for u in uses if u in self.constants and u not in self.known), None)
+            need(new not in waiting, f"the constant {name:.40} uses itself")
+            if new:
+                waiting[new] = None
+            else:
+                self.known.setdefault(name, self.value(self.constants[name]))
+                waiting.popitem()
+
+    def value(self, toml, more={}, division_by_z=True):
+        """Of an expression or a number; `more` are names of signals, or of the loop's variable."""
+        def named(name):
+            need(name in more or name in self.known, f"the name {name:.40} is unknown")
+            return more[name] if name in more else self.known[name]
+
+        def inverse(f):
+            need(f.scalar(), "division by zero")
+            need(division_by_z or not f.scalar().degree(0), "division by the loop's variable")
+            self.divisors.append(f.scalar())
+            return Value({"": f.bottom}, f.scalar())
+
+        need(isinstance(toml, (str, int)) and not isinstance(toml, bool), "an expression is expected")
+        if isinstance(toml, str):
+            return evaluate(toml, named, inverse)
+        spend(1, toml.bit_length())
+        return scalar(number(toml))
+
+    def linear(self, toml, signals):
+        value = self.value(toml, signals)
+        need(not value.tops.pop("", ZERO), "a linear expression has a constant term")
+        return value
+
+    def matrix(self, toml, rows=None, columns=None):
+        m = [[self.value(e) for e in listed(row)] for row in listed(toml)]
+        need(len({len(row) for row in m}) < 2, "the rows differ in length")
+        need(rows is None or len(m) == rows and (not m or len(m[0]) == columns), "sizes do not fit")
+        return m
+
+# ---------------------------------------------------------------- the parts of a model
+
+def listed(toml):
+    need(isinstance(toml, list), "an array is expected")
+    return toml
+
+def several(toml):
+    return toml if isinstance(toml, list) else [toml]
+
+def text_of(toml):
+    need(isinstance(toml, str) and not isinstance(toml, Number), "a string is expected")
+    return toml
+
+def constant(toml):
+    """A number, or an expression of numbers."""
+    return Scope({}, {}).value(toml).number()
+
+def table(toml, keys=None):
+    """A table, in which only these keys may be."""
+    need(isinstance(toml, dict), "a table is expected")
+    unknown = set(toml) - set(keys.split()) if keys else set()
+    need(not unknown, f"unknown key {min(unknown, default='')!r:.60}")
+    return toml
+
+def distinct(names, others=()):
+    """Names, each of which occurs once."""
+    names = [text_of(name) for name in names]
+    need(all(map(is_name, names)), "not a name")
+    need(len({*names, *others}) == len(names) + len(others), "a name has two meanings, or one that is reserved")
+    return names
+
+# What tomllib would make decimal without a word; strings and comments are passed over.
+NOT_DECIMAL = re.compile(
+    r""" "{3}(?:[^\\]|\\.)*?"{3} | '{3}.*?'{3} | "(?:[^"\\\n]|\\.)*" | '[^'\n]*' | \#[^\n]*
+       | (?<![\w.-]) [+-]? (?P<number> 0[xob])""", re.VERBOSE | re.DOTALL)
+
+class Model:
+    """What does not depend on a question."""
+
+    def __init__(self, text):
+        need(len(text) <= MAX_MODEL, "the model is too long")
+        keys = "title time sample_time constants parameters loop block simulation"
+        self.root = table(tomllib.loads(text.removeprefix("\ufeff"), parse_float=Number), keys)
+        need(not any(match["number"] for match in NOT_DECIMAL.finditer(text)), "a number is not decimal")
+        text_of(self.root.get("title", ""))
+        self.discrete = text_of(self.root.get("time")) == "discrete"
+        need(self.discrete or self.root["time"] == "continuous", "the model has no time")
+        self.z = "z" if self.discrete else "s"
+        self.constants, self.parameters = (table(self.root.get(key, {})) for key in ("constants", "parameters"))
+        self.taken = distinct([*self.constants, *self.parameters, self.z, "radius", "decay"])
+        for parameter in self.parameters.values():
+            if not isinstance(parameter, dict):
+                parameter = {"nominal": parameter}
+            table(parameter, "nominal min max unit description")
+            numbers = {key: constant(parameter[key]) for key in ("nominal", "min", "max") if key in parameter}
+            need(not {"min", "max"} <= set(numbers) or numbers["min"] < numbers["max"], "a domain is empty")
+            [text_of(parameter[key]) for key in ("unit", "description") if key in parameter]
+
+class Loop:
+    """Equations of signals and states, and everything that is divided by."""
+
+    def __init__(self, model, variables):
+        self.z, self.taken, root = model.z, model.taken, model.root
+        self.scope = Scope({name: c for name, c in model.constants.items() if name not in variables}, variables)
+        self.unknowns, self.equations, self.degree, self.own = [], [], 0, []
+        if "sample_time" in root:
+            t = self.scope.value(root["sample_time"]).number()
+            need(t is None or t > 0, "the sample time is not positive")
+        loop = table(root.get("loop"), "characteristic matrix A B C K states inputs E outputs")
+        forms = ("characteristic" in loop, "matrix" in loop, any(k in loop for k in "ABCK"), "block" in root)
+        need(sum(forms) == 1, "the model has not exactly one form of loop")
+        self.inputs, self.signals, self.states, self.outputs = [], [], [], []
+        if forms[0]:
+            written = self.scope.value(loop["characteristic"], {self.z: scalar(Z)}, division_by_z=False)
+            self.degree, self.equations = written.scalar().degree(0), [self.unknown() * written]
+        elif forms[3]:
+            self.blocks(loop, listed(root["block"]))
+        else:
+            a = self.scope.matrix(loop["matrix"] if forms[1] else loop["A"])
+            x = [self.unknown() for _ in a]
+            b, u = [[]] * len(x), []
+            if forms[2]:
+                b, c = (self.scope.matrix(loop[key]) for key in "BC")
+                need(len(b) == len(x) and all(len(row) == len(x) for row in c), "sizes do not fit")
+                k = self.scope.matrix(loop["K"], len(b[0]) if b else 0, len(c))
+                y = [dot(row, x) for row in c]
+                u = [-dot(row, y) for row in k]
+            need(x and len(a[0]) == len(x), "the matrix is not square, or empty")
+            self.state_space(a, b, x, u)
+            self.states = self.signals = distinct(several(loop.get("states", [])), self.taken)
+            need("states" not in loop or len(self.states) == len(x), "not as many states as rows")
+            self.inputs = distinct(several(loop.get("inputs", [])), self.taken)
+            need(("inputs" in loop) == ("E" in loop), "'inputs' and 'E' go together")
+            if "E" in loop:
+                self.scope.matrix(loop["E"], len(x), len(self.inputs))
+            self.responses(loop, self.states)
+        self.simulation(table(root.get("simulation", {}), "inputs initial duration units"))
+
+    def unknown(self, name=None):
+        self.unknowns.append(name or len(self.unknowns))
+        return Value({self.unknowns[-1]: ONE})
+
+    def state_space(self, a, b, x, u, up=Z, down=ONE):
+        """up x = down (A x + B u)"""
+        for i in range(len(x)):
+            self.equations.append(x[i] * scalar(up) + -((dot(a[i], x) + dot(b[i], u)) * scalar(down)))
+        self.degree += len(x)
+
+    def responses(self, loop, names):
+        outputs = several(loop.get("outputs", []))
+        self.outputs = [CONTROL.sub(" ", text_of(output).strip()) for output in outputs]  # a name is one line
+        need(len(set(self.outputs)) == len(outputs), "an output is named twice")
+        for output in outputs:
+            self.scope.linear(output, {name: Value({name: ONE}) for name in names})
+
+    def simulation(self, given):
+        known = {"inputs": self.inputs, "initial": self.states, "units": self.inputs + self.signals + self.outputs}
+        for key, names in known.items():
+            for name, item in table(given.get(key, {})).items():
+                need(name in names, f"unknown name {name:.40} in the simulation")
+                text_of(item) if key == "units" else constant(item)
+        need("duration" not in given or constant(given["duration"]) > 0, "the duration is not positive")
+
+    def blocks(self, loop, blocks):
+        keys = "name input output discretize pwm transfer num den gain delay A B C D"
+        need("states" not in loop and "E" not in loop, "blocks have their own states")
+        for block in blocks:
+            need({"input", "output"} <= set(table(block, keys)), "a block has no input or no output")
+        names = [text_of(block["name"]) for block in blocks if "name" in block]
+        need(len(set(names)) == len(names), "two blocks have one name")
+        driven = [name for block in blocks for name in several(block["output"])]
+        self.inputs = several(loop.get("inputs", []))
+        self.signals = distinct([*driven, *self.inputs], self.taken)
+        self.unknowns = driven[:]
+        for block in blocks:
+            self.block(block, {name: Value({name: ONE}) for name in self.signals})
+        self.responses(loop, self.signals)
+
+    def block(self, block, signals):
+        scope = self.scope
+        u = [scope.linear(e, signals) for e in several(block["input"])]
+        y = [signals[name] for name in several(block["output"])]
+        up, down, inner = Z, ONE, self.z
+        if "discretize" in block:  # s = up / down
+            need(self.z == "z", "a continuous loop has nothing to discretise")
+            need("transfer" not in block or "s" not in self.taken, "s has two meanings")
+            rule, inner = table(block["discretize"], "method T c"), "s"
+            method, t, c = (scope.value(rule[k]) if k in rule and k != "method" else rule.get(k) for k in ("method", "T", "c"))
+            if method == "tustin" and (c or t):
+                c = c or scope.value("2/T", {"T": t})
+                up, down = (Z + number(-1)) * c.scalar(), (Z + ONE) * c.bottom
+            else:
+                need(method in ("forward", "backward") and t and not c, "'discretize' does not fit")
+                up, down = (Z + number(-1)) * t.bottom, t.scalar() * (ONE if method == "forward" else Z)
+        if "pwm" in block:
+            need(len(table(block["pwm"], "amplitude carrier period")) == 3, "'pwm' is not complete")
+            [scope.value(e) for e in block["pwm"].values()]
+        kinds = [any(k in block for k in keys) for keys in (["transfer"], ["gain"], ["delay"], ["num", "den"], "ABCD")]
+        need(sum(kinds) == 1, "a block does not say exactly once what it does")
+        if kinds[4]:
+            need(("A" in block) == ("B" in block) and ("A" in block or "C" not in block), "A and B are needed")
+            n = len(listed(block.get("A", [])))
+            sizes = {"A": (n, n), "B": (n, len(u)), "C": (len(y), n), "D": (len(y), len(u))}
+            a, b, c, d = (scope.matrix(block[k], *sizes[k]) if k in block else None for k in "ABCD")
+            x = [self.unknown() for _ in range(n)]
+            if n:
+                self.state_space(a, b, x, u, up, down)
+            if n and "discretize" in block:
+                self.own.append((self.equations[-n:], self.unknowns[-n:]))
+            if a is not None and c is None:
+                need(len(y) == n, "without C the outputs are the states")
+                self.states = self.states + several(block["output"])
+            for i in range(len(y)):
+                seen = x[i] if a is not None and c is None else dot(c[i], x) if n else NOTHING
+                self.equations.append(y[i] + -(seen + (dot(d[i], u) if d else NOTHING)))
+            return
+        need(len(u) == len(y) == 1, "a transfer function has one input and one output")
+        if kinds[2]:
+            samples = constant(block["delay"])
+            need(samples.denominator == 1 and 0 <= samples <= MAX_ORDER and inner == "z", "a delay is a number of samples")
+            num, den = ONE, Z ** int(samples)
+        elif kinds[3]:
+            num, den = ([scope.value(e) for e in several(block[key])[::-1]] for key in ("num", "den"))
+            need(num and den, "a list without coefficients")
+            num, den = (dot(list_, [scalar(Z ** k) for k in range(len(list_))]) for list_ in (num, den))
+            num, den = num.scalar() * den.bottom, den.scalar() * num.bottom
+        else:
+            ratio = scope.value(block["transfer"], {inner: scalar(Z)}) if kinds[0] else scope.value(block["gain"])
+            num, den = ratio.scalar(), ratio.bottom
+        order = den.degree(0)
+        need(den and num.degree(0) <= order <= MAX_ORDER, "a transfer function is improper")
+        scope.divisors.append(den.coefficients(0)[order])
+        if "discretize" in block:
+            num, den = (sum((c * up ** k * down ** (order - k) for k, c in enumerate(p.coefficients(0))), ZERO)
+                        for p in (num, den))
+            scope.divisors.append((den.coefficients(0) + [ZERO] * order)[order])
+        self.equations.append(y[0] * scalar(den) + -(u[0] * scalar(num)))
+        self.degree += order
+
+# ---------------------------------------------------------------- the characteristic polynomial
+
+def cleared(entries):
+    """Polynomials with rational coefficients, times a positive number: integers without a common factor."""
+    common = lcm(*(c.denominator for e in entries for c in e.values()))
+    entries = [P({k: int(c * common) for k, c in e.items()}) for e in entries]
+    numbers = [c for e in entries for c in e.values()]
+    spend(1 + len(numbers) // 10, size(numbers), size(numbers))
+    return [e.over(gcd(*numbers)) for e in entries]
+
+def eliminated(rows):
+    """The determinant of integers [Bareiss1968]."""
+    bits, last, sign = prod(sum(map(abs, row)) for row in rows).bit_length(), 1, 1
+    spend(1 + len(rows) ** 3 // 3, bits // 2, bits // 2)
+    while rows:
+        k = min((k for k, row in enumerate(rows) if row[0]), key=lambda k: abs(rows[k][0]), default=None)
+        if k is None:
+            return 0
+        (top, *rest), sign = rows.pop(k), -sign if k % 2 else sign
+        rows = [[(top * x - first * y if first else top * x) // last for x, y in zip(row, rest)] for first, *row in rows]
+        last = top
+    return sign * last
+
+def interpolated(values):
+    """The coefficients of the polynomial with these values at 0, 1, 2, ..., by Newton's divided differences."""
+    d, out = values[:], []
+    spend(len(d) ** 2, size(d), 10)
+    for k in range(1, len(d)):
+        d[k:] = [(b - a) // k for a, b in zip(d[k - 1:], d[k:])]
+    for k in range(len(d) - 1, -1, -1):  # out (x - k) + d_k
+        out = [a - k * b for a, b in zip([d[k], *out], [*out, 0])]
+    return out
+
+def determinant(m):
+    """By its values at more points than its degrees."""
+    if len(m) == 1:
+        return m[0][0]
+    degrees = []
+    for v in (0, 1):
+        sizes = [[e.degree(v) for e in row] for row in m]
+        degrees.append(1 + min(sum(map(max, sizes)), sum(map(max, zip(*sizes)))))
+    columns = []
+    for p in range(degrees[1]):
+        columns.append(interpolated([
+            eliminated([[sum(c * z ** (k & MASK) * p ** (k >> FIELD) for k, c in e.items()) for e in row] for row in m])
+            for z in range(degrees[0])]))
+    return sum((P.of(interpolated(list(row)), 1) * Z ** k for k, row in enumerate(zip(*columns))), ZERO)
+
+def characteristic_polynomial(text, kept, values):
+    """Whether time is discrete, the degree, the coefficients of z^0, z^1, ... (none if undefined), the poles."""
+    model = Model(text)
+    names = [*([kept] if kept is not None else []), *values]
+    need(len(set(names)) == len(names), "a parameter has two values")
+    need(set(model.parameters) <= set(names), "a parameter has no value")
+    numbers = set(names) - set(model.parameters)
+    need(numbers <= set(model.constants), "the model has no such parameter")
+    if numbers:  # given as such; and the model must be right as it is
+        [constant(model.constants[name]) for name in numbers]
+        Loop(model, {name: v for v, name in enumerate(model.parameters, 1)})
+    # A constant that is set has another number, and nothing else changes.
+    model.constants = model.constants | {name: str(x) for name, x in values.items() if name in numbers}
+    values = {name: x for name, x in values.items() if name not in numbers}
+    loop = Loop(model, {name: v for v, name in enumerate(values, 2)} | ({} if kept is None else {kept: 1}))
+    values = list(values.values())
+
+    def system(equations, unknowns):
+        return determinant([cleared([e.tops.get(name, ZERO).at(values) for name in unknowns]) for e in equations])
+
+    # Undefined where all coefficients of a divisor vanish together.
+    poles = [cleared([divisor.at(values)])[0].content(0) for divisor in loop.scope.divisors]
+    n, undefined = loop.degree, (model.discrete, loop.degree, [], [ZERO])
+    if not all(poles):
+        return undefined
+    need(len(loop.equations) == len(loop.unknowns), "there are not as many equations as unknowns")
+    d = system(loop.equations, loop.unknowns)
+    need(d.degree(0) <= n, "a determinant has too high a degree")
+    # A characteristic polynomial is taken as it is written, a determinant with the leading coefficient 1.
+    written = "characteristic" in model.root["loop"]
+    lead = cleared([loop.equations[0].bottom.at(values)])[0] if written else d.lead(0) if d.degree(0) == n else ZERO
+    poles.append(lead)  # not well posed, if these are blocks
+    for equations, states in loop.own:  # a block loses its order, which the other blocks' numerators can hide
+        own = system(equations, states)
+        poles.append(own.lead(0) if own.degree(0) == len(states) else ZERO)
+    if not all(poles):
+        return undefined
+    common = lead.common(d.content(0)) if any(lead) else ONE  # to lowest terms
+    d = (d if lead[max(lead)] * common[max(common)] > 0 else -d) / common
+    d = d.coefficients(0) + [ZERO] * (n - d.degree(0))
+    return model.discrete, n, d, poles if "block" in model.root else poles[:-1]
+
+def in_region(d, discrete, extent):
+    """The coefficients of D(R z) or D(s - S): integers without a common factor; a positive factor is lost."""
+    top, bottom = (P({1 << FIELD: 1}), 1) if extent == "parameter" else (number(extent.numerator), extent.denominator)
+    powers = [number(bottom ** k) for k in range(len(d))]
+    if discrete:
+        d = [c * top ** k * power for k, (c, power) in enumerate(zip(d, powers[::-1]))]
+    else:
+        d = shifted([c * power for c, power in zip(d, powers[::-1])], -top)
+        d = [c * power for c, power in zip(d, powers)]
+    return cleared(d)
+
+# ---------------------------------------------------------------- roots and boundaries
+
+def variations(sturm_chain):
+    """Between minus infinity and infinity."""
+    return changes(f[-1] * (-1) ** (len(f) - 1) for f in sturm_chain) - changes(f[-1] for f in sturm_chain)
+
+def sturm(f, g):
+    """The chain f, g, and minus the remainder each time; it ends with a greatest common divisor."""
+    f, g, out = P.of(f), P.of(g), []
+    while g:
+        out.append(f.listed(0))
+        f, g = g, -f.remainder(g, 0)
+    return [*out, f.listed(0)]
+
+def places(d, discrete):
+    """The numbers of roots inside, on and outside."""
+    if discrete:
+        on = 0
+        while (quotient := P.of(d) / P.of([1, 1])) is not None:
+            d, on = quotient.listed(0), on + 1
+        d = scaled(shifted(d, -1), 2)[::-1]  # z = 2/w - 1
+        inside, more, outside = places(shifted(mirrored(d), -1), False)  # w = 1 - s
+        return inside, on + more, outside
+    # With s = iw, over w: the Cauchy index of the odd part over the even part is roots left minus roots right; what
+    # both have in common has the roots on the axis.
+    n, on = len(d) - 1, 0
+    turned = [(-1) ** ((n - k) // 2) * c for k, c in enumerate(d)]
+    chain = sturm(*([c if (n - k) % 2 == odd else 0 for k, c in enumerate(turned)] for odd in (0, 1)))
+    index, common = variations(chain), chain[-1]
+    while len(common) > 1:  # the real roots, of any multiplicity
+        chain = sturm(common, [k * c for k, c in enumerate(common)][1:])
+        on, common = on + variations(chain), chain[-1]
+    inside = (n - on + index) // 2
+    return inside, on, n - on - inside
+
+def half_size_pair(d, discrete):
+    """A and B, polynomials in x (variable 0) and the parameter, and their formal degrees: see the grammar."""
+    n = len(d) - 1
+    k = n // 2
+    if not discrete:
+        return *(sum((c * Z ** j for j, c in enumerate(d[first::2])), ZERO) for first in (0, 1)), k, (n - 1) // 2
+
+    def in_x(coefficients, first, then):
+        """sum c_j t_j(x) with t_0, t_1 as given and t_(j+1) = x t_j - t_(j-1)"""
+        out = ZERO
+        for c in coefficients:
+            out = out + c * first
+            first, then = then, Z * then + -first
+        return out
+
+    even, odd = ([d[j] + d[n - j] * number(sign) for j in range(n - k, n + 1)] for sign in (1, -1))
+    if n % 2 == 0:  # z^j + z^-j, and (z^j - z^-j)/(z - 1/z)
+        return in_x([d[k], *even[1:]], number(2), Z), in_x(odd[1:], ONE, Z), k, k - 1
+    # (z^(j+1) + z^-j)/(z + 1), and (z^(j+1) - z^-j)/(z - 1)
+    return in_x(even, ONE, Z + number(-1)), in_x(odd, ONE, Z + ONE), k, k
+
+# ---------------------------------------------------------------- the parts of a certificate
+
+def integer(text):
+    need(isinstance(text, str) and re.fullmatch("-?[0-9]+", text), "not an integer")
+    need(len(text.lstrip("-")) <= MAX_DIGITS, "a number has too many digits")
+    spend(1, 4 * len(text), 4 * len(text))
+    return int(text)
+
+def rational(text):
+    need(isinstance(text, str), "not a number")
+    top, slash, bottom = text.partition("/")
+    d = integer(bottom) if slash else 1
+    need(d > 0, "a denominator is not positive")
+    return Fraction(integer(top), d)
+
+def name_of(text):
+    need(isinstance(text, str) and is_name(text), "not a name")
+    return text
+
+def count(number):
+    need(type(number) is int, "not a count")
+    return number
+
+def items(json_list, kind):
+    need(isinstance(json_list, list), "not a list")
+    return [kind(item) for item in json_list]
+
+def polynomial(coefficients):
+    """In variable 1, the parameter."""
+    p = items(coefficients, integer)
+    need(not p or p[-1], "a polynomial has a zero at the top")
+    need(len(p) <= MAX_DEGREE, "a polynomial has too high a degree")
+    return P.of(p, 1)
+
+def polynomials(json_list):
+    return items(json_list, polynomial)
+
+def pair(json_list):
+    ab = items(json_list, rational)
+    need(len(ab) == 2 and ab[0] < ab[1], "not a pair in order")
+    return ab
+
+def parts(json_object, names, optional=()):
+    need(isinstance(json_object, dict), "an object is expected")
+    need(set(names) <= set(json_object) <= {*names, *optional}, f"the keys are not {', '.join(names)}")
+    return [json_object[name] for name in names]
+
+def end(json_value):
+    if not isinstance(json_value, dict):
+        return None if json_value is None else rational(json_value)
+    p, between = parts(json_value, ["polynomial", "between"])
+    return polynomial(p), pair(between)
+
+def strict(pairs):
+    need(len({key for key, _ in pairs}) == len(pairs), "a key occurs twice")
+    return dict(pairs)
+
+def small(text):
+    need(re.fullmatch("[0-9]{1,9}", text), "only small counts are written as numbers")
+    return int(text)
+
+def depth(json_value):
+    inside = json_value.values() if isinstance(json_value, dict) else json_value
+    return 1 + max(map(depth, inside), default=0) if isinstance(json_value, (dict, list)) else 0
+
+def read(certificate):
+    need(len(certificate) <= MAX_TEXT, "the text is too long")
+    hooks = {"parse_int": small, "parse_float": small, "parse_constant": small, "object_pairs_hook": strict}
+    document = json.loads(certificate, **hooks)
+    need(depth(document) <= MAX_DEPTH, "nested too deep")
+    need(isinstance(document, dict) and document.get("schema") == "jurist/certificate/1", "unknown schema")
+    return document
+
+# ---------------------------------------------------------------- the check
+
+def check(model, certificate):
+    """The proved statement as a sentence; raises an exception if it is not proved."""
+    document = read(certificate)
+    statement = document["statement"]
+    kind, time, values, region = (statement[key] for key in ("kind", "time", "set", "region"))
+    need(kind in ("intervals", "verdict"), "unknown kind of statement")
+    need(time in ("discrete", "continuous"), "unknown time")
+    discrete = time == "discrete"
+    values = {name_of(name): rational(x) for name, x in values.items()}
+    [extent] = parts(region, ["radius" if discrete else "decay"])
+    extent = "parameter" if extent == "parameter" else rational(extent)
+    need(not discrete or extent == "parameter" or extent > 0, "the radius is not positive")
+    if kind == "verdict":
+        return check_verdict(model, document, statement, values, discrete, extent)
+    names = ["schema", "statement", "characteristic", "boundary", "factors", "line"]
+    _, _, characteristic, boundary, factors, line = parts(document, names, ["model"])
+    names = ["kind", "time", "set", "region", "parameter", "domain", "stable"]
+    *_, parameter, domain, claimed = parts(statement, names)
+    name_of(parameter)
+    low, high = (None if b is None else rational(b) for b in parts(domain, ["lower", "upper"]))
+    need(low is None or high is None or low < high, "the domain is empty")
+    relative = extent == "parameter"
+    if relative:
+        need(parameter == ("radius" if discrete else "decay"), "the parameter is not that of the region")
+        need(parameter not in values, "the model has a parameter of this name")
+        need(not discrete or low is not None and low >= 0, "a radius is positive")
+    claimed = items(claimed, lambda interval: [end(e) for e in parts(interval, ["lower", "upper"])])
+    is_discrete, n, d, poles = characteristic_polynomial(model, None if relative else parameter, values)
+    need(is_discrete == discrete, "the model's time is another")
+    d = in_region(d, discrete, extent)
+    need(polynomials(characteristic) == d, "characteristic: not that of the model")
+    certain, identity, nowhere = boundaries(d, n, discrete, poles, boundary)
+    factors = polynomials(factors)
+    if nowhere:
+        need(factors == line == claimed == [], "the loop is stable nowhere")
+    else:
+        need(all(map(any, factors)), "factors: one is constant")
+        for p in certain + ([identity["value"]] if identity else []):
+            for f in factors:
+                while (quotient := p.primitive() / f.primitive()) is not None:
+                    p = quotient
+            need(not any(p), "factors: a boundary polynomial is not a product of them")
+        found = walk(d, n, discrete, certain, identity, factors, line, low, high)
+        need(found == claimed, "stable: the claimed set is not the one that the line shows")
+    given = ", ".join([f"{low} < {parameter} < {high}".replace("None < ", "").replace(" < None", ""),
+                       *(f"{name} = {x}" for name, x in values.items())])
+    where = [f"{in_words(lower, '-infinity')} to {in_words(upper, 'infinity')}" for lower, upper in claimed]
+    return f"in {time} time, {given}, {region}: stable exactly for {parameter} from {' or '.join(where) or 'nowhere'}"
+
+def in_words(e, infinite):
+    if e is None:
+        return infinite
+    return str(e) if isinstance(e, Fraction) else f"[the root of {e[0].listed(1)} in ({e[1][0]}, {e[1][1]})]"
+
+def boundaries(d, n, discrete, poles, boundary):
+    """The polynomials at whose zeros the loop is not stable, the identity, whether the loop is stable nowhere."""
+    certain = poles + [d[n] if d else ZERO]
+    if n > 0 and d:
+        for x in (1, -1) if discrete else (0,):
+            certain.append(sum((c * number(x ** k) for k, c in enumerate(d)), ZERO))
+    if n < 2 or not all(certain):
+        need(boundary is None, "boundary: must be null")
+        return certain, None, not all(certain)
+    u, v, result = parts(boundary, ["u", "v", "value"])
+    u, v, result = polynomials(u), polynomials(v), polynomial(result)
+    a, b, degree_a, degree_b = half_size_pair(d, discrete)
+    need(len(u) <= degree_b and len(v) <= degree_a, "boundary: a cofactor's degree is too high")
+    need(any(u) or any(v), "boundary: both cofactors are zero")
+    left = [sum((c * Z ** k for k, c in enumerate(p)), ZERO) for p in (u, v)]
+    need(left[0] * a + left[1] * b == result, "boundary: the identity does not hold")
+    return certain, {"u": u, "v": v, "value": result}, not result
+
+def walk(d, n, discrete, certain, identity, factors, line, low, high):
+    """The stable intervals that the line from `low` to `high` shows."""
+    longest = 1 + max(c.degree(1) for c in d)
+
+    def none_between(a, b):
+        return all(descartes(f, a, b) == 0 for f in factors)
+
+    def domain_end(x):
+        return {"end": x, "left": x, "right": x, "regular": False, "factor": None, "touch": None}
+
+    def point(item):
+        touch = item.get("touch")
+        if touch is not None:
+            need(isinstance(touch, list) and len(touch) == 2 and touch[0] in ("u", "v"), "line: bad touch")
+            count(touch[1])
+        if "at" in item:
+            x = rational(parts(item, ["at"], ["touch"])[0])
+            need(any(value(f.listed(1), x) == 0 for f in factors), "line: no factor vanishes at 'at'")
+            return domain_end(x) | {"touch": touch}
+        between, k = parts(item, ["between", "factor"], ["touch"])
+        (a, b), k = pair(between), count(k)
+        need(k < len(factors), "line: there is no such factor")
+        for i, f in enumerate(factors):
+            need(value(f.listed(1), a) != 0 and value(f.listed(1), b) != 0, "line: a factor vanishes at an end of 'between'")
+            need(descartes(f, a, b) == (i == k), "line: 'between' is not shown to hold just one root")
+        root = {"end": (factors[k], [a, b]), "left": a, "right": b}
+        return root | {"regular": True, "factor": factors[k], "touch": touch}
+
+    def stretch(item, before, after):
+        split, sample, stable = parts(item, ["split", "sample", "stable"])
+        split, s, left, right = items(split, rational), rational(sample), before["right"], after["left"]
+        need(type(stable) is bool, "line: 'stable' is not true or false")
+        one_point = before["regular"] and after["regular"] and left == right and not split
+        ends = [left, *split, right]
+        for a, b in zip(ends, ends[1:]):
+            need(one_point or a is None or b is None or a < b, "line: the points are not in order")
+            need(one_point or none_between(a, b), "line: a stretch is not shown to have no roots")
+        need(all(value(f.listed(1), x) != 0 for f in factors for x in split), "line: a factor vanishes at a split point")
+        need(left is None or left < s or left == s and before["regular"], "line: the sample is outside")
+        need(right is None or s < right or s == right and after["regular"], "line: the sample is outside")
+        at_sample = [value([*c.listed(1), *[0] * longest][:longest], s) for c in d]
+        need(at_sample[-1], "line: the sample loses degree")
+        need((places(at_sample, discrete)[0] == n) == stable, "line: at a sample the verdict is wrong")
+        return stable
+
+    def excluded(p):
+        """The loop is undefined there, loses degree, or has a root on the boundary or a pair of mirror images."""
+        x, f, touch = p["end"], p["factor"], p["touch"]
+        vanishes = (lambda g: g.primitive() / f.primitive() is not None) if f else (lambda g: value(g.listed(1), x) == 0)
+        if any(map(vanishes, certain)):
+            return True
+        if identity is None or touch is None or not vanishes(identity["value"]):
+            return False
+        w = dict(enumerate(identity[touch[0]])).get(touch[1])  # not zero there: Theorem 2
+        return bool(w) and (descartes(w, p["left"], p["right"]) == 0 if f else value(w.listed(1), x) != 0)
+
+    need(isinstance(line, list) and len(line) % 2 == 1, "line: must begin and end with a stretch")
+    before, was_stable, found = domain_end(low), False, []
+    for i in range(0, len(line), 2):
+        after = point(line[i + 1]) if i + 1 < len(line) else domain_end(high)
+        stable = stretch(line[i], before, after)
+        need(not (stable and was_stable) or excluded(before), "line: a point between two stable stretches")
+        if stable:
+            found.append([before["end"], after["end"]])
+        before, was_stable = after, stable
+    return found
+
+def check_verdict(model, document, statement, values, discrete, extent):
+    _, _, characteristic = parts(document, ["schema", "statement", "characteristic"], ["model"])
+    names = ["verdict", "degree", "inside", "on", "outside", "infinite"]
+    name, *counts = parts(statement, names, ["kind", "time", "set", "region"])
+    need(extent != "parameter", "the region has no parameter here")
+    is_discrete, n, d, poles = characteristic_polynomial(model, None, values)
+    need(is_discrete == discrete, "the model's time is another")
+    d = in_region(d, discrete, extent)
+    need(polynomials(characteristic) == d, "characteristic: not that of the model")
+    p = P.of([c.get(0, 0) for c in d]).listed(0)
+    inside, on, outside = places(p, discrete) if p else (0, 0, 0)
+    infinite = n - (inside + on + outside) if all(poles) else 0
+    found = "unstable" if outside + infinite or not p else "marginal" if on else "stable"
+    found = [found if all(poles) else "undefined", n, inside, on, outside, infinite]
+    need([name, *map(count, counts)] == found, f"stable: it is {dict(zip(names, found))}")
+    at = ", ".join(f"{name} = {x}" for name, x in values.items())
+    roots = ", ".join(f"{name} {x}" for name, x in zip(names, found))
+    return f"in {statement['time']} time, {at or 'without parameters'}, {statement['region']}: {roots}"
+
+
+# Whatever is wrong in a certificate or a model ends in one of these; the check itself has no other way out.
+FAILURES = (ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError, Rejected, TypeError, ValueError)
+
+def judge(model, certificate):
+    """Whether the certificate is accepted, and the statement or the reason."""
+    global spent
+    spent = 0
+    try:
+        return True, check(model, certificate)
+    except FAILURES as error:
+        return False, f"{type(error).__name__}: {error}"
+
+def give_up(*_):
+    raise Rejected(f"the check takes longer than {SECONDS} s")
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit("usage: check.py MODEL CERTIFICATE")
+    if hasattr(signal, "setitimer"):
+        signal.signal(signal.SIGALRM, give_up)
+        signal.setitimer(signal.ITIMER_REAL, SECONDS)
+    try:
+        texts = [open(name, encoding="utf-8", newline="").read(MAX_TEXT + 1) for name in sys.argv[1:]]
+    except (OSError, UnicodeDecodeError) as error:
+        accepted, sentence = False, str(error)
+    else:
+        accepted, sentence = judge(*texts)
+    print("proved:" if accepted else "rejected:", sentence, file=sys.stdout if accepted else sys.stderr)
+    sys.exit(0 if accepted else 4)
+
+
+if __name__ == "__main__":
+    main()

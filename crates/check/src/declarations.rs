@@ -1,0 +1,219 @@
+//! What a model declares: its time, constants, parameters, and which names are taken.
+
+use super::clock::Clock;
+use super::expression::{Scope, is_name, names_in, number};
+use super::multivariate::Fraction;
+use super::number::{Q, shorten};
+use super::toml::Toml;
+use num_traits::Zero;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The declarations of a model.
+pub(super) struct Declarations<'t> {
+    pub discrete: bool,
+    /// Each after those that it uses.
+    constants: Vec<(&'t str, &'t Toml)>,
+    parameters: Vec<&'t str>,
+    taken: BTreeSet<&'t str>,
+}
+
+/// What a question makes of constants and parameters.
+pub(super) struct Meaning<'q> {
+    /// Numbers of variables: 0 is the loop's own, 1 the parameter in question.
+    pub variables: BTreeMap<String, usize>,
+    /// Values of the variables from 2 on.
+    pub values: Vec<Q>,
+    /// Constants that have another number: nothing else changes.
+    replaced: BTreeMap<&'q str, &'q Q>,
+    /// Whether it is about constants, too.
+    pub changes_constants: bool,
+}
+
+impl<'t> Declarations<'t> {
+    pub fn read(root: &'t Toml, clock: &Clock) -> Result<Self, String> {
+        let discrete = match root.get("time").ok_or("the model has no 'time'")?.text()? {
+            "discrete" => true,
+            "continuous" => false,
+            other => return Err(format!("unknown time '{}'", shorten(other))),
+        };
+        let constants = in_order(root.section("constants")?)?;
+        let mut parameters = Vec::new();
+        for (name, parameter) in root.section("parameters")? {
+            parameters.push(name.as_str());
+            domain(parameter, clock)?;
+        }
+        let mut declared = Declarations { discrete, constants, parameters, taken: BTreeSet::new() };
+        declared.taken.extend([declared.variable(), "radius", "decay"]);
+        let names: Vec<&str> =
+            declared.constants.iter().map(|(name, _)| *name).chain(declared.parameters.iter().copied()).collect();
+        declared.distinct(&names)?;
+        declared.taken.extend(names);
+        Ok(declared)
+    }
+
+    /// The name of the loop's variable.
+    pub fn variable(&self) -> &'static str {
+        if self.discrete { "z" } else { "s" }
+    }
+
+    pub fn is_taken(&self, name: &str) -> bool {
+        self.taken.contains(name)
+    }
+
+    /// Refuses what is no name, what has another meaning, and what occurs twice.
+    pub fn distinct(&self, names: &[&str]) -> Result<(), String> {
+        let mut seen = BTreeSet::new();
+        for name in names {
+            if !is_name(name) {
+                return Err(format!("'{}' is not a name", shorten(&name.escape_debug().to_string())));
+            }
+            if self.is_taken(name) || !seen.insert(*name) {
+                return Err(format!("'{}' has two meanings, or one that is reserved", shorten(name)));
+            }
+        }
+        Ok(())
+    }
+
+    /// The model as it is written, all parameters symbolic.
+    pub fn as_written(&self) -> Meaning<'static> {
+        let variables = self.parameters.iter().enumerate().map(|(i, name)| ((*name).to_owned(), i + 1)).collect();
+        Meaning { variables, values: Vec::new(), replaced: BTreeMap::new(), changes_constants: false }
+    }
+
+    /// The model with one name in question and values for others: all parameters, and constants that are given as numbers.
+    pub fn asked<'q>(
+        &self,
+        kept: Option<&'q str>,
+        values: &'q [(String, Q)],
+        clock: &Clock,
+    ) -> Result<Meaning<'q>, String> {
+        let mut meaning = Meaning {
+            variables: BTreeMap::new(),
+            values: vec![Q::zero(), Q::zero()],
+            replaced: BTreeMap::new(),
+            changes_constants: false,
+        };
+        let mut seen = BTreeSet::new();
+        let kept = kept.map(|name| (name, None));
+        for (name, value) in kept.into_iter().chain(values.iter().map(|(name, value)| (name.as_str(), Some(value)))) {
+            if !seen.insert(name) {
+                return Err(format!("'{}' has two values", shorten(name)));
+            }
+            if !self.parameters.contains(&name) {
+                let Some((_, constant)) = self.constants.iter().find(|(constant, _)| *constant == name) else {
+                    return Err(format!("the model has no parameter '{}'", shorten(name)));
+                };
+                number(constant, clock)?;
+                meaning.changes_constants = true;
+                if let Some(value) = value {
+                    meaning.replaced.insert(name, value);
+                    continue;
+                }
+            }
+            let variable = value.map_or(1, |value| {
+                meaning.values.push(value.clone());
+                meaning.values.len() - 1
+            });
+            meaning.variables.insert(name.to_owned(), variable);
+        }
+        match self.parameters.iter().find(|name| !seen.contains(*name)) {
+            Some(name) => Err(format!("the parameter '{}' has no value", shorten(name))),
+            None => Ok(meaning),
+        }
+    }
+
+    /// The scope of expressions. All constants are evaluated: one without a value makes the model undefined, used or not.
+    pub fn scope<'c>(&self, meaning: &Meaning<'_>, clock: &'c Clock) -> Result<Scope<'c>, String> {
+        let mut scope = Scope::new(meaning.variables.clone(), clock);
+        for (name, text) in self.constants.iter().filter(|(name, _)| !meaning.variables.contains_key(*name)) {
+            let value = match meaning.replaced.get(name) {
+                Some(value) => Fraction::number(value),
+                None => scope.scalar(text)?,
+            };
+            scope.constants.insert((*name).to_owned(), value);
+        }
+        Ok(scope)
+    }
+}
+
+/// Reads a parameter: a number, or a table with numbers.
+fn domain(parameter: &Toml, clock: &Clock) -> Result<(), String> {
+    if !matches!(parameter, Toml::Table(_)) {
+        number(parameter, clock)?;
+        return Ok(());
+    }
+    let read = |key: &str| parameter.get(key).map(|value| number(value, clock)).transpose();
+    let (_, min, max) = (read("nominal")?, read("min")?, read("max")?);
+    match (min, max) {
+        (Some(min), Some(max)) if min >= max => Err("the domain of a parameter is empty".into()),
+        _ => Ok(()),
+    }
+}
+
+/// The constants, each after those that it uses; depth first with a stack of its own, since chains may be long.
+fn in_order(entries: &[(String, Toml)]) -> Result<Vec<(&str, &Toml)>, String> {
+    #[derive(Clone, Copy, PartialEq)]
+    enum State {
+        New,
+        Open,
+        Done,
+    }
+    let index: BTreeMap<&str, usize> = entries.iter().enumerate().map(|(i, (name, _))| (name.as_str(), i)).collect();
+    let uses = |value: &Toml| -> Result<Vec<usize>, String> {
+        Ok(names_in(value.expression()?).into_iter().filter_map(|name| index.get(name).copied()).collect())
+    };
+    let uses = entries.iter().map(|(_, value)| uses(value)).collect::<Result<Vec<_>, _>>()?;
+    let mut state = vec![State::New; entries.len()];
+    let mut order = Vec::with_capacity(entries.len());
+    for root in 0..entries.len() {
+        let mut stack = if state[root] == State::New { vec![(root, 0)] } else { Vec::new() };
+        while let Some((current, next)) = stack.pop() {
+            state[current] = State::Open;
+            let Some(&used) = uses[current].get(next) else {
+                state[current] = State::Done;
+                order.push((entries[current].0.as_str(), &entries[current].1));
+                continue;
+            };
+            stack.push((current, next + 1));
+            match state[used] {
+                State::New => stack.push((used, 0)),
+                State::Open => return Err(format!("the constant '{}' uses itself", shorten(&entries[used].0))),
+                State::Done => {}
+            }
+        }
+    }
+    Ok(order)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::toml::read;
+    use std::time::Duration;
+
+    #[test]
+    fn constants_come_after_those_they_use() {
+        let order = |text: &str| -> Result<String, String> {
+            Ok(in_order(read(text).unwrap().entries())?.iter().map(|(name, _)| *name).collect())
+        };
+        assert_eq!(order("a = 'b + c'\nb = 'c'\nd = 'a'\nc = 2e5").unwrap(), "cbad");
+        assert!(order("a = 'b'\nb = 'c'\nc = 'a'").is_err() && order("a = '0*a'").is_err());
+        // A circle of exponents of ten is none.
+        assert_eq!(order("e1 = '1e1*b'\nb = '1e1'").unwrap(), "be1");
+    }
+
+    #[test]
+    fn a_constant_that_is_set_is_a_number_and_no_variable() {
+        let (clock, root) =
+            (Clock::new(Duration::MAX), read("time = 'discrete'\nconstants.c = '1/2'\nparameters.K = {}"));
+        let root = root.unwrap();
+        let declared = Declarations::read(&root, &clock).unwrap();
+        let two = [("c".to_owned(), Q::from(num_bigint::BigInt::from(2)))];
+        let meaning = declared.asked(Some("K"), &two, &clock).unwrap();
+        assert_eq!(meaning.variables, BTreeMap::from([("K".to_owned(), 1)]));
+        assert_eq!(declared.scope(&meaning, &clock).unwrap().constants["c"].numerator.degree(1), 0);
+        for wrong in [declared.asked(Some("c"), &two, &clock), declared.asked(None, &two, &clock)] {
+            assert!(wrong.is_err());
+        }
+    }
+}
