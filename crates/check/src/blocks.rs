@@ -131,7 +131,7 @@ impl Diagram<'_, '_> {
         } else {
             let f = if let Some(text) = block.get("transfer") {
                 // Signals are not known there, constants and parameters are.
-                if inner == "s" && self.declared.is_taken(inner) {
+                if substitution.is_some() && self.declared.is_taken(inner) {
                     return Err("'s' is the variable of a block and also something else".into());
                 }
                 self.scope.value(text, Names::Variable(inner))?
