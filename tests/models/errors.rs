@@ -2,7 +2,7 @@
 
 use crate::helpers::model::characteristic as polynomial_of;
 use jurist_algebra::limits::Budget;
-use jurist_engine::error::Source;
+use jurist_engine::error::{Error, Source};
 use jurist_engine::model::{Model, source_from_bytes};
 use jurist_engine::show::diagnostics::{render, render_error};
 
@@ -263,6 +263,7 @@ fn undefined_is_no_error_of_the_text() {
     let nominal = model.ask().problem().unwrap();
     let algebra = nominal.algebra(&budget).unwrap();
     assert!(algebra.polynomial().is_none() && algebra.undefined().is_some());
+    assert!(matches!(nominal.closed_loop(&budget), Err(Error::Undefined(_))));
     let p = polynomial_of(model.ask().free("a"));
     assert_eq!(p.poles[0].display(&p.variables).to_string(), "a - 1");
 }
