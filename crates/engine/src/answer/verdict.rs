@@ -9,7 +9,9 @@ use jurist_algebra::number::Rational;
 use std::sync::Arc;
 
 /// The verdict on a loop whose parameters all have values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// All roots strictly inside.
     Stable,

@@ -7,7 +7,9 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Whether the loop runs in steps or continuously.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
 pub enum Time {
     /// Polynomial variable z, stable inside the unit circle.
     Discrete,

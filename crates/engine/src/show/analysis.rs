@@ -1,19 +1,11 @@
 //! Everything that is said about a loop one parameter at a time.
 
-use super::intervals::{answer_lines, intervals_json, undecided_text};
+use super::intervals::{answer_lines, undecided_text};
 use super::layout::{called, named_values, short};
-use super::verdict::{verdict_json, verdict_line};
+use super::verdict::verdict_line;
 use crate::answer::Analysis;
-use serde_json::{Value, json};
 
 impl Analysis {
-    /// The document `jurist/analyze/1`.
-    pub fn json(&self, digits: usize) -> Value {
-        let verdict = self.verdict.as_ref().map(|(problem, verdict)| verdict_json(problem, verdict.as_ref()));
-        let sets = self.sets.iter().map(|(problem, set)| intervals_json(problem, set.as_ref(), digits));
-        json!({ "schema": "jurist/analyze/1", "verdict": verdict, "parameters": sets.collect::<Vec<_>>() })
-    }
-
     /// The analysis for people.
     pub fn text(&self, digits: usize) -> String {
         let mut out = String::new();

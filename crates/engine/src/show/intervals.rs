@@ -2,37 +2,19 @@
 
 use super::layout::{Columns, called, fraction, named_values, short, visible};
 use super::margins::margin;
-use super::{json, real, region};
+use super::{real, region};
 use crate::answer::{Answer, Frequency};
 use crate::problem::Problem;
 use crate::stability::{Cause, End, IntervalSet, Range, StableSet};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, parse_number};
 use jurist_algebra::poly::RealAlgebraic;
-use serde_json::Value;
 
 impl Answer<StableSet> {
-    /// The document `jurist/intervals/1`, decimals to so many significant digits.
-    pub fn json(&self, digits: usize) -> Value {
-        intervals_json(self.problem(), Ok(self.value()), digits)
-    }
-
     /// The answer for people.
     pub fn text(&self, digits: usize) -> String {
         intervals_text(self.problem(), Ok(self.value()), digits)
     }
-}
-
-/// The document `jurist/intervals/1`, also of an answer that the budget did not allow.
-pub fn intervals_json(problem: &Problem, set: Result<&StableSet, &Exhausted>, digits: usize) -> Value {
-    let mut out = json::question(problem, "jurist/intervals/1");
-    match set {
-        Ok(set) => {
-            out.insert("stable".into(), json::stable_set(set, problem, digits));
-        }
-        Err(stopped) => json::undecided(&mut out, &["stable"], stopped),
-    }
-    Value::Object(out)
 }
 
 /// The answer for people, also one that the budget did not allow.

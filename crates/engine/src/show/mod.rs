@@ -2,8 +2,8 @@
 
 mod analysis;
 pub mod diagnostics;
+pub mod documents;
 pub mod intervals;
-pub mod json;
 pub mod layout;
 pub mod map;
 pub mod margins;
@@ -13,7 +13,6 @@ pub mod region;
 mod table;
 mod verdict;
 
-pub use intervals::{intervals_json, intervals_text};
-pub use map::{map_boxes_json, map_boxes_text, map_json, map_text};
-pub use table::{point_table_json, table_json, table_text};
-pub use verdict::verdict_json;
+pub use intervals::intervals_text;
+pub use map::{map_boxes_text, map_text};
+pub use table::table_text;

@@ -2,7 +2,6 @@
 
 use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, to_decimal_refining};
 use jurist_algebra::poly::RealAlgebraic;
-use serde_json::Value;
 
 /// An algebraic number, refined as far as its decimal needs.
 #[derive(Clone, Debug)]
@@ -36,10 +35,9 @@ pub fn enclosed(digits: usize, mut enclose: impl FnMut(u64) -> Option<Enclosure>
     })
 }
 
-/// A decimal as a JSON number; `null` where there is none.
-pub fn json_number(decimal: Option<&str>) -> Value {
-    let nearest = decimal.and_then(|text| text.parse::<f64>().ok());
-    nearest.and_then(serde_json::Number::from_f64).map_or(Value::Null, Value::Number)
+/// A decimal as a JSON number; none for what is too large for one.
+pub fn json_number(decimal: &str) -> Option<serde_json::Number> {
+    serde_json::Number::from_f64(decimal.parse().ok()?)
 }
 
 /// Bits that make an enclosure about as narrow as so many digits and two more ask for.
@@ -74,6 +72,6 @@ mod tests {
         let blurred = |bits| Some(eighth.add(&Enclosure::pi(bits), bits).sub(&Enclosure::pi(bits), bits));
         let text = enclosed(2, blurred).unwrap();
         assert!(text == "0.12" || text == "0.13", "{text}");
-        assert_eq!(json_number(Some(&text)).to_string(), text);
+        assert_eq!(json_number(&text).unwrap().to_string(), text);
     }
 }

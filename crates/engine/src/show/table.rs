@@ -1,31 +1,30 @@
 //! The classical table: Jury's in discrete time, Routh's in continuous time.
 
 use super::intervals::{domain_text, set_lines, undecided_text};
-use super::json;
+use super::documents::TableKind;
 use super::layout::{Columns, called, named_values, wrapped};
 use super::notation::{Coefficient, coefficient_text};
 use super::region;
 use crate::answer::{Answer, ParametricTable, PointTable};
 use crate::model::Time;
 use crate::problem::Problem;
-use crate::stability::{ClassicalTest, Inequality, ScaledPoly, Table, UNDIVIDED_ORDER, row_name};
+use crate::stability::{ClassicalTest, ScaledPoly, Table, UNDIVIDED_ORDER, row_name};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, UniPoly};
-use serde_json::{Map, Value, json};
+use jurist_algebra::poly::UniPoly;
 
 /// Characters per line of a printed table.
 const WIDTH: usize = 100;
 
 /// One row of the table as it is written: its name, entries, and what it was divided by.
-struct Row {
-    name: String,
-    entries: Vec<ScaledPoly>,
-    divided_by: Option<String>,
+pub(super) struct Row {
+    pub name: String,
+    pub entries: Vec<ScaledPoly>,
+    pub divided_by: Option<String>,
 }
 
 /// The rows with their scale factors applied.
-fn rows(test: &ClassicalTest) -> Vec<Row> {
+pub(super) fn rows(test: &ClassicalTest) -> Vec<Row> {
     let scaled = |p: &UniPoly, i: usize| ScaledPoly {
         scale: test.scales.get(i).cloned().unwrap_or(Rational::ONE),
         polynomial: p.clone(),
@@ -52,7 +51,7 @@ fn rows(test: &ClassicalTest) -> Vec<Row> {
 }
 
 /// The degree the table was built for.
-fn order(test: &ClassicalTest) -> usize {
+pub(super) fn order(test: &ClassicalTest) -> usize {
     match &test.table {
         Table::Jury(table) => table.rows.first().map_or(0, |r| r.entries.len().saturating_sub(1)),
         Table::Routh(table) => {
@@ -63,128 +62,11 @@ fn order(test: &ClassicalTest) -> usize {
 }
 
 /// Rational coefficients from the constant term up.
-fn coefficients(p: &ScaledPoly) -> Vec<Rational> {
+pub(super) fn coefficients(p: &ScaledPoly) -> Vec<Rational> {
     p.polynomial.coeffs().iter().map(|c| &p.scale * &Rational::from(c)).collect()
 }
 
-/// A polynomial in the parameter as a list of strings, or a number as a string.
-fn entry_json(p: &ScaledPoly, numeric: bool) -> Value {
-    let mut list: Vec<String> = coefficients(p).iter().map(Rational::to_string).collect();
-    if list.is_empty() {
-        list.push("0".to_owned());
-    }
-    if numeric { list.swap_remove(0).into() } else { list.into() }
-}
-
-fn rows_json(test: &ClassicalTest, numeric: bool) -> Value {
-    let row = |r: Row| {
-        let entries: Vec<Value> = r.entries.iter().map(|p| entry_json(p, numeric)).collect();
-        json!({ "name": r.name, "entries": entries, "divided_by": r.divided_by })
-    };
-    rows(test).into_iter().map(row).collect::<Vec<_>>().into()
-}
-
-/// The row of the table that a condition is on; none for the values at 1 and -1.
-fn condition_row(test: &ClassicalTest, index: usize) -> Option<String> {
-    match &test.table {
-        Table::Jury(_) => index.checked_sub(2).map(row_name),
-        Table::Routh(_) => Some(format!("s^{}", order(test).saturating_sub(index + 1))),
-    }
-}
-
-/// Name, sides and row of each condition; `left > right`, or `|left| > |right|`, or as it is named
-/// `|left| < |right|`.
-fn condition_json(test: &ClassicalTest, index: usize, numeric: bool) -> Map<String, Value> {
-    let condition = &test.conditions[index];
-    let (relation, left, right) = match &condition.inequality {
-        Inequality::Positive(f) => {
-            let zero = ScaledPoly { scale: Rational::ONE, polynomial: UniPoly::zero() };
-            ("left > right", entry_json(f, numeric), entry_json(&zero, numeric))
-        }
-        // Textbooks write the first row's condition the other way round: |a_0| < a_n.
-        Inequality::Dominates { left, right } if condition.name.contains('<') => {
-            ("|left| < |right|", entry_json(right, numeric), entry_json(left, numeric))
-        }
-        Inequality::Dominates { left, right } => {
-            ("|left| > |right|", entry_json(left, numeric), entry_json(right, numeric))
-        }
-    };
-    let mut out = Map::new();
-    out.insert("name".into(), condition.name.as_str().into());
-    out.insert("relation".into(), relation.into());
-    out.insert("left".into(), left);
-    out.insert("right".into(), right);
-    out.insert("row".into(), condition_row(test, index).map_or(Value::Null, Value::from));
-    out
-}
-
-/// The schema of tables.
-const SCHEMA: &str = "jurist/jury/1";
-
-/// The document `jurist/jury/1` in one parameter, also of a table that the budget did not allow.
-pub fn table_json(problem: &Problem, answer: Result<&ParametricTable, &Exhausted>, digits: usize) -> Value {
-    let mut out = json::question(problem, SCHEMA);
-    out.insert("table".into(), table_name(problem.time()).into());
-    let parts = ["rows", "conditions", "intersection"];
-    let answer = match answer {
-        Ok(answer) => answer,
-        Err(stopped) => {
-            json::undecided(&mut out, &parts, stopped);
-            return Value::Object(out);
-        }
-    };
-    let Some(test) = &answer.test else {
-        out.extend(parts.map(|key| (key.to_owned(), json!([]))));
-        return Value::Object(out);
-    };
-    out.insert("rows".into(), rows_json(test, false));
-    if let Some(factor) = &test.cleared_by {
-        out.insert("cleared_by".into(), json::polynomial(factor));
-    }
-    let conditions = test.conditions.iter().enumerate().map(|(i, c)| {
-        let mut out = condition_json(test, i, false);
-        out.insert("solution".into(), json::interval_set(&c.solution, digits));
-        Value::Object(out)
-    });
-    out.insert("conditions".into(), conditions.collect::<Vec<_>>().into());
-    // The stable set is the same set, end by end, and knows the causes.
-    out.insert("intersection".into(), json::stable_set(&answer.stable, problem, digits));
-    Value::Object(out)
-}
-
-/// The document `jurist/jury/1` at a point, also of a table that the budget did not allow.
-pub fn point_table_json(problem: &Problem, answer: Result<&PointTable, &Exhausted>) -> Value {
-    let answer = match answer {
-        Ok(answer) => answer,
-        Err(stopped) => return json::undecided_point(SCHEMA, "rows", problem, stopped),
-    };
-    let mut out = Map::new();
-    out.insert("schema".into(), SCHEMA.into());
-    out.insert("title".into(), problem.title().unwrap_or_default().into());
-    out.insert("time".into(), problem.time().name().into());
-    out.insert("table".into(), table_name(problem.time()).into());
-    out.insert("parameter".into(), Value::Null);
-    out.insert("set".into(), json::set(problem.set()));
-    json::region(&mut out, problem.region());
-    let test = answer.test.as_ref();
-    out.insert("rows".into(), test.map_or(json!([]), |t| rows_json(t, true)));
-    let conditions = test.iter().flat_map(|t| t.conditions.iter().enumerate().map(move |(i, c)| (t, i, c)));
-    let conditions = conditions.map(|(test, i, c)| {
-        let mut out = condition_json(test, i, true);
-        out.insert("holds".into(), (!c.solution.intervals().is_empty()).into());
-        Value::Object(out)
-    });
-    out.insert("conditions".into(), conditions.collect::<Vec<_>>().into());
-    out.insert("holds".into(), answer.holds().into());
-    Value::Object(out)
-}
-
 impl Answer<ParametricTable> {
-    /// The document `jurist/jury/1`.
-    pub fn json(&self, digits: usize) -> Value {
-        table_json(self.problem(), Ok(self.value()), digits)
-    }
-
     /// The table, its conditions and their solutions for people.
     pub fn text(&self, digits: usize) -> String {
         table_text(self.problem(), Ok(self.value()), digits)
@@ -192,11 +74,6 @@ impl Answer<ParametricTable> {
 }
 
 impl Answer<PointTable> {
-    /// The document `jurist/jury/1` at a point.
-    pub fn json(&self) -> Value {
-        point_table_json(self.problem(), Ok(self.value()))
-    }
-
     /// The table at a point for people.
     pub fn text(&self, digits: usize) -> String {
         point_table_text(self.problem(), self.value(), digits)
@@ -204,10 +81,7 @@ impl Answer<PointTable> {
 }
 
 fn table_name(time: Time) -> &'static str {
-    match time {
-        Time::Discrete => "Jury",
-        Time::Continuous => "Routh",
-    }
+    TableKind::from(time).name()
 }
 
 /// The table, its conditions and their solutions for people, also of a table that the budget did not allow.

@@ -1,42 +1,16 @@
 //! The verdict at one point.
 
 use super::intervals::heading;
-use super::json;
 use super::layout::short;
 use crate::answer::{Answer, PointVerdict, Verdict};
 use crate::model::Time;
 use crate::problem::Problem;
-use jurist_algebra::limits::Exhausted;
-use serde_json::Value;
 
 impl Answer<PointVerdict> {
-    /// The document `jurist/verdict/1`.
-    pub fn json(&self) -> Value {
-        verdict_json(self.problem(), Ok(self.value()))
-    }
-
     /// The verdict for people: two lines.
     pub fn text(&self) -> String {
         format!("{}\n{}\n", heading(self.problem()), verdict_line(self.problem(), self.value()))
     }
-}
-
-/// The document `jurist/verdict/1`, also of a verdict that the budget did not allow.
-pub fn verdict_json(problem: &Problem, verdict: Result<&PointVerdict, &Exhausted>) -> Value {
-    const SCHEMA: &str = "jurist/verdict/1";
-    let answer = match verdict {
-        Ok(answer) => answer,
-        Err(stopped) => return json::undecided_point(SCHEMA, "verdict", problem, stopped),
-    };
-    let mut out = json::point(problem, SCHEMA);
-    out.insert("verdict".into(), answer.verdict.name().into());
-    out.insert("degree".into(), answer.degree.into());
-    let count = answer.count;
-    out.insert("inside".into(), count.map_or(Value::Null, |c| c.inside.into()));
-    out.insert("on".into(), count.map_or(Value::Null, |c| c.on.into()));
-    out.insert("outside".into(), count.map_or(Value::Null, |c| c.outside.into()));
-    out.insert("infinite".into(), count.map_or(Value::Null, |_| answer.infinite.into()));
-    Value::Object(out)
 }
 
 /// `unstable: 4 roots inside the unit circle, 0 on it, 2 outside`.

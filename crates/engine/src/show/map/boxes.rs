@@ -1,76 +1,19 @@
-//! The document `jurist/map-boxes/1`, and the answer by boxes for people.
-//!
-//! The document has the question's fields as `jurist/map/1` has them, then
-//! `window` (`{x: [LO, HI], y: [LO, HI]}`), `goal` (the share of its area that may stay undecided), `curves` (as in
-//! `jurist/map/1`), `areas` (`window`, `stable`, `unstable`, `undecided`, which add up), `boxes` (sorted by lower `x`, then
-//! lower `y`; each `{x: [LO, HI], y: [LO, HI], verdict, outside}`, open, `outside` being the number of roots outside where
-//! it is known to be the same at all points, else `null`) and `stopped` (`null`, or the budget that ran out before
-//! the goal). All numbers are exact. `boxes` is `null` with `undecided` where not even the curves were found.
+//! The answer by boxes for people.
 
 use super::super::intervals::{heading, undecided_text};
-use super::super::json;
 use super::super::region::goal_or_stable;
-use super::document::{curve_json, question_fields};
 use super::text::axis_text;
 use crate::answer::{Answer, MapBoxes};
 use crate::problem::Problem;
-use crate::stability::plane::boxes::{BoxMap, BoxVerdict, PlaneBox, Window};
+use crate::stability::plane::boxes::{BoxMap, BoxVerdict, Window};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, to_decimal};
-use serde_json::{Value, json};
 
 impl Answer<MapBoxes> {
-    /// The document `jurist/map-boxes/1`.
-    pub fn json(&self) -> Value {
-        map_boxes_json(self.problem(), Ok(self.value()))
-    }
-
     /// The answer for people: areas by verdict, and the extent of the stable boxes.
     pub fn text(&self, digits: usize) -> String {
         map_boxes_text(self.problem(), Ok(self.value()), digits)
     }
-}
-
-/// The document `jurist/map-boxes/1`, also of an answer that the budget did not allow.
-pub fn map_boxes_json(problem: &Problem, answer: Result<&MapBoxes, &Exhausted>) -> Value {
-    let mut out = question_fields(problem, "jurist/map-boxes/1");
-    match answer {
-        Ok(MapBoxes { goal, boxes: map }) => {
-            out.insert("window".into(), window_json(&map.window));
-            out.insert("goal".into(), goal.to_string().into());
-            out.insert("curves".into(), map.curves.iter().map(curve_json).collect::<Vec<_>>().into());
-            out.insert(
-                "areas".into(),
-                json!({
-                    "window": map.window.area().to_string(),
-                    "stable": map.areas.stable.to_string(),
-                    "unstable": map.areas.unstable.to_string(),
-                    "undecided": map.areas.undecided.to_string(),
-                }),
-            );
-            out.insert("boxes".into(), map.boxes.iter().map(box_json).collect::<Vec<_>>().into());
-            out.insert("stopped".into(), map.stopped.as_deref().map_or(Value::Null, Value::from));
-        }
-        Err(stopped) => json::undecided(&mut out, &["boxes"], stopped),
-    }
-    Value::Object(out)
-}
-
-fn window_json(window: &Window) -> Value {
-    let side = |[low, high]: &[Rational; 2]| json!([low.to_string(), high.to_string()]);
-    json!({ "x": side(&window.x), "y": side(&window.y) })
-}
-
-fn box_json(b: &PlaneBox) -> Value {
-    let mut out = window_json(&b.window);
-    let outside = match b.verdict {
-        BoxVerdict::Stable => json!(0),
-        BoxVerdict::Unstable { outside } => outside.map_or(Value::Null, Value::from),
-        BoxVerdict::Undecided => Value::Null,
-    };
-    out["verdict"] = b.verdict.name().into();
-    out["outside"] = outside;
-    out
 }
 
 /// The answer for people, also one that the budget did not allow.

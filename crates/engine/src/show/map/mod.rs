@@ -1,11 +1,9 @@
-//! The stable region in two parameters: JSON and text.
+//! The stable region in two parameters, for people.
 
 mod boxes;
-mod document;
 mod text;
 
-pub use boxes::{map_boxes_json, map_boxes_text};
-pub use document::map_json;
+pub use boxes::map_boxes_text;
 pub use text::map_text;
 
 use crate::problem::Free;
@@ -18,7 +16,7 @@ use jurist_algebra::poly::RealAlgebraic;
 const CRITICAL_POINT: &str = "critical point";
 
 /// Why a strip ends at a value of `x`: the domain, lines that are parts of curves, or a critical point.
-fn wall_cause(map: &StabilityMap, axis: &Free, value: &RealAlgebraic) -> String {
+pub(super) fn wall_cause(map: &StabilityMap, axis: &Free, value: &RealAlgebraic) -> String {
     let mut causes = Causes::default();
     for cause in map.curves.iter().filter(|c| contains_line(c, value)).flat_map(|c| c.causes.iter()) {
         causes.insert(cause);

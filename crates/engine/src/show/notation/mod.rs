@@ -2,7 +2,6 @@
 
 mod code;
 mod csv;
-mod json;
 mod latex;
 mod matlab;
 mod python;
@@ -11,6 +10,7 @@ mod rust;
 mod terms;
 mod text;
 
+use super::documents::report_text;
 use super::layout::is_unseen;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
@@ -18,6 +18,7 @@ use jurist_algebra::poly::RationalFunction;
 pub use latex::symbol as latex_symbol;
 pub use root_locus::root_locus_form;
 pub use terms::Coefficient;
+pub(super) use terms::plain_number;
 pub use text::coefficient_text;
 
 /// How polynomials are written.
@@ -120,7 +121,7 @@ impl PolynomialReport {
     pub fn write(&self, notation: Notation, digits: Option<usize>) -> String {
         match notation {
             Notation::Text => text::write(self, digits),
-            Notation::Json => json::write(self, digits),
+            Notation::Json => report_text(self, digits),
             Notation::Csv => csv::write(self, digits),
             Notation::Latex => latex::write(self, digits),
             Notation::Matlab => matlab::write(self, digits),

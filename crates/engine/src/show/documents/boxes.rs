@@ -1,0 +1,149 @@
+//! The document `jurist/map-boxes/1`.
+
+use super::schema_name;
+use super::{Answered, Curve, Exact, MapQuestion};
+use crate::answer::{self, Answer};
+use crate::problem::Problem;
+use crate::stability::plane::boxes;
+use jurist_algebra::limits::Exhausted;
+use serde::{Deserialize, Serialize};
+
+schema_name!(MapBoxesName, "jurist/map-boxes/1");
+
+/// A window of two parameters cut into boxes, each proved stable, proved unstable or left undecided.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MapBoxes {
+    /// The kind of document.
+    pub schema: MapBoxesName,
+    /// What was asked.
+    #[serde(flatten)]
+    pub question: MapQuestion,
+    /// The boxes; none where not even the curves were found.
+    #[serde(flatten)]
+    pub answer: Answered<SubdividedWindow, MapBoxesOpen>,
+}
+
+/// The boxes.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SubdividedWindow {
+    /// The part of the domain that the boxes cover.
+    pub window: Window,
+    /// The share of its area that was allowed to stay undecided.
+    pub goal: Exact,
+    /// The curves on which stability can change.
+    pub curves: Vec<Curve>,
+    /// Areas in the product of the parameters' units; the last three add up to the first.
+    pub areas: Areas,
+    /// The boxes by lower x, then lower y.
+    pub boxes: Vec<PlaneBox>,
+    /// The budget that ran out before the goal was reached; `null` where none did.
+    pub stopped: Option<String>,
+}
+
+/// No boxes.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MapBoxesOpen {
+    /// Not known.
+    pub boxes: (),
+}
+
+/// A rectangle.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Window {
+    /// Lower and upper x.
+    pub x: [Exact; 2],
+    /// Lower and upper y.
+    pub y: [Exact; 2],
+}
+
+impl From<&boxes::Window> for Window {
+    fn from(window: &boxes::Window) -> Self {
+        Window { x: window.x.each_ref().map(Exact::from), y: window.y.each_ref().map(Exact::from) }
+    }
+}
+
+/// Exact areas.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Areas {
+    /// Of the window.
+    pub window: Exact,
+    /// Of the boxes proved stable.
+    pub stable: Exact,
+    /// Of the boxes proved to hold no stable point.
+    pub unstable: Exact,
+    /// Of the rest.
+    pub undecided: Exact,
+}
+
+/// An open box.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PlaneBox {
+    /// Where it is.
+    #[serde(flatten)]
+    pub window: Window,
+    /// What is proved of all its points.
+    pub verdict: BoxVerdict,
+    /// The number of roots outside the region, where it is known to be the same at all points, else `null`.
+    pub outside: Option<usize>,
+}
+
+/// What is proved of a box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum BoxVerdict {
+    /// Stable at every point.
+    Stable,
+    /// Stable at no point.
+    Unstable,
+    /// Nothing.
+    Undecided,
+}
+
+impl From<&boxes::PlaneBox> for PlaneBox {
+    fn from(b: &boxes::PlaneBox) -> Self {
+        let (verdict, outside) = match b.verdict {
+            boxes::BoxVerdict::Stable => (BoxVerdict::Stable, Some(0)),
+            boxes::BoxVerdict::Unstable { outside } => (BoxVerdict::Unstable, outside),
+            boxes::BoxVerdict::Undecided => (BoxVerdict::Undecided, None),
+        };
+        PlaneBox { window: (&b.window).into(), verdict, outside }
+    }
+}
+
+impl MapBoxes {
+    /// The document, also of an answer that the budget did not allow.
+    pub fn new(problem: &Problem, answer: Result<&answer::MapBoxes, &Exhausted>) -> Self {
+        let known = |answer::MapBoxes { goal, boxes: map }: &answer::MapBoxes| SubdividedWindow {
+            window: (&map.window).into(),
+            goal: goal.into(),
+            curves: map.curves.iter().map(Curve::from).collect(),
+            areas: Areas {
+                window: (&map.window.area()).into(),
+                stable: (&map.areas.stable).into(),
+                unstable: (&map.areas.unstable).into(),
+                undecided: (&map.areas.undecided).into(),
+            },
+            boxes: map.boxes.iter().map(PlaneBox::from).collect(),
+            stopped: map.stopped.clone(),
+        };
+        MapBoxes {
+            schema: MapBoxesName::V1,
+            question: MapQuestion::new(problem),
+            answer: Answered::of(answer, known),
+        }
+    }
+}
+
+impl Answer<answer::MapBoxes> {
+    /// The document `jurist/map-boxes/1`.
+    pub fn json(&self) -> MapBoxes {
+        MapBoxes::new(self.problem(), Ok(self.value()))
+    }
+}

@@ -1,0 +1,59 @@
+//! The document `jurist/intervals/1`.
+
+use super::schema_name;
+use super::{Answered, Bounds, End, ParameterQuestion};
+use crate::answer::Answer;
+use crate::problem::Problem;
+use crate::stability::StableSet;
+use jurist_algebra::limits::Exhausted;
+use serde::{Deserialize, Serialize};
+
+schema_name!(IntervalsName, "jurist/intervals/1");
+
+/// The exact stable set of one parameter.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Intervals {
+    /// The kind of document.
+    pub schema: IntervalsName,
+    /// What was asked.
+    #[serde(flatten)]
+    pub question: ParameterQuestion,
+    /// The set.
+    #[serde(flatten)]
+    pub answer: Answered<Stable, IntervalsOpen>,
+}
+
+/// The answer.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Stable {
+    /// The stable set as intervals in ascending order; two that touch share an end that is not stable. Empty: never stable.
+    pub stable: Vec<Bounds<End>>,
+}
+
+/// No answer.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct IntervalsOpen {
+    /// Not known.
+    pub stable: (),
+}
+
+impl Intervals {
+    /// The document, also of an answer that the budget did not allow; decimals to so many significant digits.
+    pub fn new(problem: &Problem, set: Result<&StableSet, &Exhausted>, digits: usize) -> Self {
+        Intervals {
+            schema: IntervalsName::V1,
+            question: ParameterQuestion::new(problem),
+            answer: Answered::of(set, |set| Stable { stable: End::intervals(set, problem, digits) }),
+        }
+    }
+}
+
+impl Answer<StableSet> {
+    /// The document `jurist/intervals/1`, decimals to so many significant digits.
+    pub fn json(&self, digits: usize) -> Intervals {
+        Intervals::new(self.problem(), Ok(self.value()), digits)
+    }
+}

@@ -1,0 +1,336 @@
+//! The document `jurist/jury/1`: in one parameter, or at a point.
+
+use super::end::{Bounds, End, PlainEnd};
+use super::question::title;
+use super::schema_name;
+use super::{Answered, Exact, Named, Open, ParameterQuestion, PointQuestion, RegionBound};
+use crate::answer::{self, Answer, ParametricTable};
+use crate::model::Time;
+use crate::problem::Problem;
+use crate::show::table::{coefficients, order, rows};
+use crate::stability::{ClassicalTest, Inequality, ScaledPoly, Table, row_name};
+use jurist_algebra::limits::Exhausted;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, UniPoly};
+use serde::{Deserialize, Serialize};
+
+schema_name!(JuryName, "jurist/jury/1");
+
+/// The table of Jury or Routh with its conditions, in one parameter or at a point.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub enum Jury {
+    /// In one parameter.
+    InParameter(JuryInParameter),
+    /// At a point.
+    AtPoint(JuryAtPoint),
+}
+
+/// The table with polynomial entries in one parameter, and each condition's own exact solution set.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct JuryInParameter {
+    /// The kind of document.
+    pub schema: JuryName,
+    /// What was asked.
+    #[serde(flatten)]
+    pub question: ParameterQuestion,
+    /// Whose table it is.
+    pub table: TableKind,
+    /// The table and its conditions.
+    #[serde(flatten)]
+    pub answer: Answered<SolvedTable, TableOpen>,
+}
+
+/// The table with numbers.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub enum JuryAtPoint {
+    /// The table.
+    Known(PointTable),
+    /// The budget did not allow it.
+    Undecided {
+        /// The kind of document.
+        schema: JuryName,
+        /// What was asked.
+        #[serde(flatten)]
+        question: PointQuestion,
+        /// Why there is no answer.
+        #[serde(flatten)]
+        open: Open<RowsOpen>,
+    },
+}
+
+/// Whose table it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum TableKind {
+    /// Discrete time.
+    Jury,
+    /// Continuous time.
+    Routh,
+}
+
+impl From<Time> for TableKind {
+    fn from(time: Time) -> Self {
+        match time {
+            Time::Discrete => TableKind::Jury,
+            Time::Continuous => TableKind::Routh,
+        }
+    }
+}
+
+impl TableKind {
+    /// The name used in all output.
+    pub fn name(self) -> &'static str {
+        match self {
+            TableKind::Jury => "Jury",
+            TableKind::Routh => "Routh",
+        }
+    }
+}
+
+/// A table in one parameter; all lists are empty where the loop is undefined for every value.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SolvedTable {
+    /// The rows; an entry is a polynomial in the parameter, coefficients from the constant term up.
+    pub rows: Vec<Row<Vec<Exact>>>,
+    /// The polynomial in the parameter that the loop's coefficients were multiplied by to clear their denominators; left
+    /// out where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cleared_by: Option<Vec<Exact>>,
+    /// The conditions of stability.
+    pub conditions: Vec<Condition<Vec<Exact>, Solution>>,
+    /// Where all conditions hold: the stable set.
+    pub intersection: Vec<Bounds<End>>,
+}
+
+/// No table.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct TableOpen {
+    /// Not known.
+    pub rows: (),
+    /// Not known.
+    pub conditions: (),
+    /// Not known.
+    pub intersection: (),
+}
+
+/// A table at a point; rows and conditions are empty where the loop is undefined.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PointTable {
+    /// The kind of document.
+    pub schema: JuryName,
+    /// The model's title; empty where it has none.
+    pub title: String,
+    /// The kind of time.
+    pub time: Time,
+    /// Whose table it is.
+    pub table: TableKind,
+    /// None is in question.
+    pub parameter: (),
+    /// The values of the parameters, and of constants that were replaced.
+    pub set: Named<Exact>,
+    /// The region.
+    #[serde(flatten)]
+    pub region: RegionBound,
+    /// The rows.
+    pub rows: Vec<Row<Exact>>,
+    /// The conditions of stability.
+    pub conditions: Vec<Condition<Exact, Holds>>,
+    /// Whether all conditions hold: the loop is defined and stable.
+    pub holds: bool,
+}
+
+/// No table.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RowsOpen {
+    /// Not known.
+    pub rows: (),
+}
+
+/// A row of the table.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "RowOf{E}"))]
+pub struct Row<E> {
+    /// `a`, `b`, ... of Jury's table, `s^n`, ... of Routh's.
+    pub name: String,
+    /// The entries from the left.
+    pub entries: Vec<E>,
+    /// The entry that the row was divided by, such as `a_0`; `null` where it was not.
+    pub divided_by: Option<String>,
+}
+
+/// How the sides of a condition compare.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum Relation {
+    /// The left side is greater.
+    #[serde(rename = "left > right")]
+    Greater,
+    /// The left side has the greater absolute value.
+    #[serde(rename = "|left| > |right|")]
+    GreaterAbsolute,
+    /// The left side has the smaller absolute value.
+    #[serde(rename = "|left| < |right|")]
+    SmallerAbsolute,
+}
+
+/// A condition of stability.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "ConditionWith{R}"))]
+pub struct Condition<E, R> {
+    /// As textbooks write it.
+    pub name: String,
+    /// How the sides compare.
+    pub relation: Relation,
+    /// The left side.
+    pub left: E,
+    /// The right side.
+    pub right: E,
+    /// The row of the table that it is on; `null` for the values at 1 and -1.
+    pub row: Option<String>,
+    /// Where it holds.
+    #[serde(flatten)]
+    pub result: R,
+}
+
+/// Where a condition holds.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Solution {
+    /// The values of the parameter for which it holds, as intervals in ascending order; empty: never.
+    pub solution: Vec<Bounds<PlainEnd>>,
+}
+
+/// Whether a condition holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Holds {
+    /// Whether it holds at the point.
+    pub holds: bool,
+}
+
+/// A polynomial in the parameter.
+fn polynomial(p: &ScaledPoly) -> Vec<Exact> {
+    let mut list: Vec<Exact> = coefficients(p).iter().map(Exact::from).collect();
+    if list.is_empty() {
+        list.push((&Rational::ZERO).into());
+    }
+    list
+}
+
+/// A polynomial that is a number.
+fn constant(p: &ScaledPoly) -> Exact {
+    polynomial(p).swap_remove(0)
+}
+
+fn table_rows<E>(test: &ClassicalTest, entry: fn(&ScaledPoly) -> E) -> Vec<Row<E>> {
+    let row = |r: crate::show::table::Row| Row {
+        name: r.name,
+        entries: r.entries.iter().map(entry).collect(),
+        divided_by: r.divided_by,
+    };
+    rows(test).into_iter().map(row).collect()
+}
+
+/// The row of the table that a condition is on; none for the values at 1 and -1.
+fn condition_row(test: &ClassicalTest, index: usize) -> Option<String> {
+    match &test.table {
+        Table::Jury(_) => index.checked_sub(2).map(row_name),
+        Table::Routh(_) => Some(format!("s^{}", order(test).saturating_sub(index + 1))),
+    }
+}
+
+fn conditions<E, R>(
+    test: &ClassicalTest,
+    entry: fn(&ScaledPoly) -> E,
+    result: impl Fn(&crate::stability::Condition) -> R,
+) -> Vec<Condition<E, R>> {
+    let condition = |(index, condition): (usize, &crate::stability::Condition)| {
+        let (relation, left, right) = match &condition.inequality {
+            Inequality::Positive(f) => {
+                let zero = ScaledPoly { scale: Rational::ONE, polynomial: UniPoly::zero() };
+                (Relation::Greater, entry(f), entry(&zero))
+            }
+            // Textbooks write the first row's condition the other way round: |a_0| < a_n.
+            Inequality::Dominates { left, right } if condition.name.contains('<') => {
+                (Relation::SmallerAbsolute, entry(right), entry(left))
+            }
+            Inequality::Dominates { left, right } => (Relation::GreaterAbsolute, entry(left), entry(right)),
+        };
+        let (name, row) = (condition.name.clone(), condition_row(test, index));
+        Condition { name, relation, left, right, row, result: result(condition) }
+    };
+    test.conditions.iter().enumerate().map(condition).collect()
+}
+
+impl JuryInParameter {
+    /// The document, also of a table that the budget did not allow; decimals to so many significant digits.
+    pub fn new(problem: &Problem, answer: Result<&ParametricTable, &Exhausted>, digits: usize) -> Self {
+        let solved = |answer: &ParametricTable| {
+            let test = answer.test.as_ref();
+            let solution = |c: &crate::stability::Condition| Solution { solution: PlainEnd::intervals(&c.solution, digits) };
+            SolvedTable {
+                rows: test.map(|t| table_rows(t, polynomial)).unwrap_or_default(),
+                cleared_by: test.and_then(|t| t.cleared_by.as_ref()).map(Exact::coefficients),
+                conditions: test.map(|t| conditions(t, polynomial, solution)).unwrap_or_default(),
+                // The stable set is the same set, end by end, and knows the causes.
+                intersection: End::intervals(&answer.stable, problem, digits),
+            }
+        };
+        JuryInParameter {
+            schema: JuryName::V1,
+            question: ParameterQuestion::new(problem),
+            table: problem.time().into(),
+            answer: Answered::of(answer, solved),
+        }
+    }
+}
+
+impl JuryAtPoint {
+    /// The document, also of a table that the budget did not allow.
+    pub fn new(problem: &Problem, answer: Result<&answer::PointTable, &Exhausted>) -> Self {
+        let schema = JuryName::V1;
+        let answer = match answer {
+            Ok(answer) => answer,
+            Err(stopped) => {
+                return JuryAtPoint::Undecided { schema, question: PointQuestion::new(problem), open: stopped.into() };
+            }
+        };
+        let test = answer.test.as_ref();
+        let holds = |c: &crate::stability::Condition| Holds { holds: !c.solution.intervals().is_empty() };
+        JuryAtPoint::Known(PointTable {
+            schema,
+            title: title(problem),
+            time: problem.time(),
+            table: problem.time().into(),
+            parameter: (),
+            set: problem.set().into(),
+            region: problem.region().into(),
+            rows: test.map(|t| table_rows(t, constant)).unwrap_or_default(),
+            conditions: test.map(|t| conditions(t, constant, holds)).unwrap_or_default(),
+            holds: answer.holds(),
+        })
+    }
+}
+
+impl Answer<ParametricTable> {
+    /// The document `jurist/jury/1`, decimals to so many significant digits.
+    pub fn json(&self, digits: usize) -> JuryInParameter {
+        JuryInParameter::new(self.problem(), Ok(self.value()), digits)
+    }
+}
+
+impl Answer<answer::PointTable> {
+    /// The document `jurist/jury/1` at a point.
+    pub fn json(&self) -> JuryAtPoint {
+        JuryAtPoint::new(self.problem(), Ok(self.value()))
+    }
+}

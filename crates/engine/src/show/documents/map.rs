@@ -1,0 +1,350 @@
+//! The document `jurist/map/1`.
+
+use super::end::{Bounds, FrequencyOfPair, PlainEnd};
+use super::number::{Enclosure, Exact, Named, Number, enclosure};
+use super::question::{RegionBound, title};
+use super::schema_name;
+use super::Answered;
+use crate::answer::{self, Answer, MapLimit, RegionExtent};
+use crate::model::Time;
+use crate::problem::{Free, Problem};
+use crate::show::map::wall_cause;
+use crate::show::real::JSON_NUMBER_DIGITS;
+use crate::show::region::{boundary_point, causes_text};
+use crate::stability::plane::{self, StabilityMap, StableRegion};
+use jurist_algebra::limits::Exhausted;
+use jurist_algebra::number::{self, enclosed_decimal};
+use jurist_algebra::poly::RealAlgebraic;
+use serde::{Deserialize, Serialize};
+
+schema_name!(MapName, "jurist/map/1");
+
+/// The stable region in the plane of two parameters, cut into cells of constant root count.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Map {
+    /// The kind of document.
+    pub schema: MapName,
+    /// What was asked.
+    #[serde(flatten)]
+    pub question: MapQuestion,
+    /// The map.
+    #[serde(flatten)]
+    pub answer: Answered<Regions, MapOpen>,
+}
+
+/// Of each parameter one.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "PairOf{T}"))]
+pub struct Pair<T> {
+    /// Of the first parameter.
+    pub x: T,
+    /// Of the second parameter.
+    pub y: T,
+}
+
+/// A question about two parameters.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MapQuestion {
+    /// The model's title; empty where it has none.
+    pub title: String,
+    /// The kind of time.
+    pub time: Time,
+    /// The name of the first parameter.
+    pub x: String,
+    /// The name of the second parameter.
+    pub y: String,
+    /// The parameters' units; `null` where the model names none.
+    pub unit: Pair<Option<String>>,
+    /// Their nominal values in these units; `null` where they have none.
+    pub nominal: Pair<Option<Exact>>,
+    /// The values of all other parameters, and of constants that were replaced.
+    pub set: Named<Exact>,
+    /// The open intervals of values that are asked about.
+    pub domain: Pair<Bounds<Exact>>,
+    /// The region.
+    #[serde(flatten)]
+    pub region: RegionBound,
+}
+
+/// The exact decomposition: curves, strips between critical values of x, cells between branches of the curves.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Regions {
+    /// Whether the loop is stable at no point for one reason; then there are no curves, strips and regions.
+    pub never_stable: bool,
+    /// That reason: `undefined`, or the cause whose boundary polynomial vanishes identically. Left out where
+    /// `never_stable` is false.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub never_stable_cause: Option<Option<String>>,
+    /// The curves on which stability can change.
+    pub curves: Vec<Curve>,
+    /// The open strips from left to right.
+    pub strips: Vec<Strip>,
+    /// The connected stable regions.
+    pub regions: Vec<PlaneRegion>,
+}
+
+/// No map.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MapOpen {
+    /// Not known.
+    pub never_stable: (),
+    /// Not known.
+    pub curves: (),
+    /// Not known.
+    pub strips: (),
+    /// Not known.
+    pub regions: (),
+}
+
+/// The zeros of a polynomial in both parameters.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Curve {
+    /// What happens on the curve: causes as in `jurist/intervals/1`.
+    pub name: String,
+    /// The polynomial.
+    pub terms: Vec<CurveTerm>,
+}
+
+/// The powers of x and y, and the integer before them.
+pub type CurveTerm = (u32, u32, Exact);
+
+impl From<&plane::Curve> for Curve {
+    fn from(curve: &plane::Curve) -> Self {
+        let terms = curve.polynomial.terms().iter();
+        let terms = terms.map(|(m, c)| (m.exponent(0), m.exponent(1), c.into())).collect();
+        Curve { name: curve.causes.to_string(), terms }
+    }
+}
+
+/// An open strip of the domain.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Strip {
+    /// Between which values of x.
+    pub x: Bounds<Wall>,
+    /// A value of x inside.
+    pub sample: Exact,
+    /// The cells from below.
+    pub cells: Vec<Cell>,
+}
+
+/// A value of x at which a strip ends.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Wall {
+    /// The value.
+    #[serde(flatten)]
+    pub number: Number,
+    /// The causes of curves that contain the line, `domain`, or `critical point`: branches meet, end or run to infinity.
+    pub cause: String,
+    /// Always `null`: along a line the frequency varies.
+    #[serde(flatten)]
+    pub frequency: FrequencyOfPair,
+    /// Whether the line belongs to the strip.
+    pub closed: bool,
+}
+
+/// An open cell of a strip.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Cell {
+    /// The branch below; `null` at the domain's edge.
+    pub lower: Option<Branch>,
+    /// The branch above; `null` at the domain's edge.
+    pub upper: Option<Branch>,
+    /// The verdict at all its points.
+    pub verdict: CellVerdict,
+    /// Roots outside the region, the same number at all its points.
+    pub outside: usize,
+    /// A value of y inside, at the strip's sample.
+    pub sample: Exact,
+}
+
+/// The verdict on a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum CellVerdict {
+    /// All roots strictly inside the region.
+    Stable,
+    /// Not stable.
+    Unstable,
+}
+
+/// A branch of a curve over a strip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Branch {
+    /// The number of the curve, from 0.
+    pub curve: usize,
+    /// The number of the root of the curve's polynomial in y, from 0 from below, of the real roots inside the domain.
+    pub root: usize,
+}
+
+/// A connected region of stable points.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PlaneRegion {
+    /// Its cells: number of the strip and number of the cell, from 0.
+    pub cells: Vec<(usize, usize)>,
+    /// The least and the greatest x on its boundary.
+    pub x: Bounds<RegionEnd>,
+    /// The least and the greatest y on its boundary.
+    pub y: Bounds<RegionEnd>,
+}
+
+/// An extreme value of a region; only its place where the budget ended before what limits it was known.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub enum RegionEnd {
+    /// With what limits it.
+    Limit(RegionLimit),
+    /// Only the place.
+    Plain(PlainEnd),
+}
+
+/// An extreme value of a region with what limits it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RegionLimit {
+    /// The value.
+    #[serde(flatten)]
+    pub number: Number,
+    /// The causes, as in `jurist/intervals/1`.
+    pub cause: String,
+    /// The same with the points where the loop's own roots are; only where a smaller region is asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub boundary: Option<String>,
+    /// Where the complex pair is.
+    #[serde(flatten)]
+    pub frequency: FrequencyOfPair,
+    /// Where the other parameter is then, one place for each cell that ends there; empty where the region ends along a
+    /// line or at infinity of the other parameter.
+    pub at: Vec<Place>,
+    /// Whether the value belongs to the region.
+    pub closed: bool,
+}
+
+/// An enclosed value.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Place {
+    /// With as many digits as the enclosure determines; `null` where it determines none.
+    pub decimal: Option<String>,
+    /// Certified bounds.
+    pub enclosure: Enclosure,
+}
+
+impl Place {
+    fn new(value: &number::Enclosure, digits: usize) -> Self {
+        let (lo, hi) = (value.lower(), value.upper());
+        let decimal = (1..=digits.min(JSON_NUMBER_DIGITS)).rev().find_map(|d| enclosed_decimal(lo, hi, d));
+        Place { decimal, enclosure: enclosure(lo, hi) }
+    }
+}
+
+impl MapQuestion {
+    pub(super) fn new(problem: &Problem) -> Self {
+        let [x, y] = problem.axes();
+        MapQuestion {
+            title: title(problem),
+            time: problem.time(),
+            x: x.name.clone(),
+            y: y.name.clone(),
+            unit: Pair { x: x.unit.clone(), y: y.unit.clone() },
+            nominal: Pair { x: x.nominal.as_ref().map(Exact::from), y: y.nominal.as_ref().map(Exact::from) },
+            set: problem.set().into(),
+            domain: Pair { x: (&x.domain).into(), y: (&y.domain).into() },
+            region: problem.region().into(),
+        }
+    }
+}
+
+impl Strip {
+    fn new(strip: &plane::Strip, map: &StabilityMap, x: &Free, digits: usize) -> Self {
+        let wall = |value: &RealAlgebraic| Wall {
+            number: Number::new(value, digits),
+            cause: wall_cause(map, x, value),
+            frequency: FrequencyOfPair::default(),
+            closed: false,
+        };
+        Strip {
+            x: Bounds { lower: strip.x.lower.as_ref().map(wall), upper: strip.x.upper.as_ref().map(wall) },
+            sample: (&strip.sample).into(),
+            cells: strip.cells.iter().map(Cell::from).collect(),
+        }
+    }
+}
+
+impl From<&plane::Cell> for Cell {
+    fn from(cell: &plane::Cell) -> Self {
+        let branch = |b: plane::Branch| Branch { curve: b.curve, root: b.root };
+        Cell {
+            lower: cell.lower.map(branch),
+            upper: cell.upper.map(branch),
+            verdict: if cell.stable { CellVerdict::Stable } else { CellVerdict::Unstable },
+            outside: cell.outside,
+            sample: (&cell.sample).into(),
+        }
+    }
+}
+
+impl PlaneRegion {
+    fn new(region: &StableRegion, limits: Option<&RegionExtent>, problem: &Problem, digits: usize) -> Self {
+        let extents = [&region.x, &region.y].map(|interval| [&interval.lower, &interval.upper]);
+        let end = |parameter: usize, side: usize| {
+            let limit = limits.and_then(|l| l.ends[parameter][side].as_ref());
+            match (limit, extents[parameter][side]) {
+                (Some(limit), _) => Some(RegionEnd::Limit(RegionLimit::new(limit, parameter, problem, digits))),
+                (None, value) => value.as_ref().map(|value| RegionEnd::Plain(PlainEnd::new(value, digits))),
+            }
+        };
+        let bounds = |parameter| Bounds { lower: end(parameter, 0), upper: end(parameter, 1) };
+        PlaneRegion { cells: region.cells.clone(), x: bounds(0), y: bounds(1) }
+    }
+}
+
+impl RegionLimit {
+    fn new(limit: &MapLimit, parameter: usize, problem: &Problem, digits: usize) -> Self {
+        let place = |at: &[number::Enclosure; 2]| Place::new(&at[1 - parameter], digits);
+        RegionLimit {
+            number: Number::new(&limit.limit.value, digits),
+            cause: limit.limit.causes.to_string(),
+            boundary: boundary_point(problem).map(|_| causes_text(&limit.limit.causes, problem)),
+            frequency: FrequencyOfPair::new(digits.min(JSON_NUMBER_DIGITS), |_| limit.frequency.clone()),
+            at: limit.limit.at.iter().map(place).collect(),
+            closed: false,
+        }
+    }
+}
+
+impl Map {
+    /// The document, also of a map that the budget did not allow; decimals to so many significant digits.
+    pub fn new(problem: &Problem, answer: Result<&answer::Map, &Exhausted>, digits: usize) -> Self {
+        let known = |answer: &answer::Map| {
+            let (map, limits) = (&answer.decomposition, answer.limits());
+            let region = |(k, r)| PlaneRegion::new(r, limits.get(k), problem, digits);
+            Regions {
+                never_stable: map.never_stable,
+                never_stable_cause: map.never_stable.then(|| answer.never_stable_cause.map(str::to_owned)),
+                curves: map.curves.iter().map(Curve::from).collect(),
+                strips: map.strips.iter().map(|s| Strip::new(s, map, problem.axes()[0], digits)).collect(),
+                regions: map.regions.iter().enumerate().map(region).collect(),
+            }
+        };
+        Map { schema: MapName::V1, question: MapQuestion::new(problem), answer: Answered::of(answer, known) }
+    }
+}
+
+impl Answer<answer::Map> {
+    /// The document `jurist/map/1`, decimals to so many significant digits.
+    pub fn json(&self, digits: usize) -> Map {
+        Map::new(self.problem(), Ok(self.value()), digits)
+    }
+}

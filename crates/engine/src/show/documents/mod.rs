@@ -1,0 +1,79 @@
+//! The JSON documents as types: what a program that reads them may rely on.
+//!
+//! Each document says its kind and version under `schema`; a kind keeps its version while keys are only added. Exact
+//! numbers are texts ([`Exact`]); JSON numbers are rounded values and counts. The JSON Schemas made of these types are in
+//! the folder `schema`, named after kind and version.
+//!
+//! ```
+//! use jurist_algebra::limits::Budget;
+//! use jurist_engine::model::Model;
+//! use jurist_engine::show::documents::{self, Answered, Intervals};
+//! let answer = Model::drive().ask().free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
+//! let text = documents::to_text(&answer.json(12));
+//! let read: Intervals = serde_json::from_str(&text).unwrap();
+//! let Answered::Known(found) = read.answer else { panic!("no budget, no end of it") };
+//! assert_eq!(found.stable[0].lower.as_ref().unwrap().number.decimal, "0.0381005333483");
+//! ```
+
+mod analyze;
+mod boxes;
+mod charpoly;
+mod end;
+mod intervals;
+mod jury;
+mod map;
+mod number;
+mod question;
+#[cfg(feature = "schema")]
+pub mod schemas;
+mod undecided;
+mod verdict;
+
+pub use analyze::{Analysis, AnalysisName};
+pub use boxes::{Areas, BoxVerdict, MapBoxes, MapBoxesName, MapBoxesOpen, PlaneBox, SubdividedWindow, Window};
+pub(in crate::show) use charpoly::report_text;
+pub use charpoly::{
+    Charpoly, CharpolyName, Coefficient, Coefficients, CoefficientsOpen, KnownPolynomials, LocusQuotient,
+    OpenPolynomials, Polynomials, PolynomialsOrNone, QuotientOpen, RootLocusForm, RootLocusFormName, Term, Transfer,
+    TransferName, TransferQuotient,
+};
+pub use end::{Bounds, End, FrequencyOfPair, PlainEnd};
+pub use intervals::{Intervals, IntervalsName, IntervalsOpen, Stable};
+pub use jury::{
+    Condition, Holds, Jury, JuryAtPoint, JuryInParameter, JuryName, PointTable, Relation, Row, RowsOpen, Solution,
+    SolvedTable, TableKind, TableOpen,
+};
+pub use map::{
+    Branch, Cell, CellVerdict, Curve, CurveTerm, Map, MapName, MapOpen, MapQuestion, Pair, Place, PlaneRegion,
+    Regions, RegionEnd, RegionLimit, Strip, Wall,
+};
+pub use number::{Enclosure, Exact, Named, Number};
+pub use question::{ParameterQuestion, PointQuestion, RegionBound};
+pub use undecided::{Answered, Open, Undecided};
+pub use verdict::{RootsByPlace, Verdict, VerdictName, VerdictOpen};
+
+use serde::Serialize;
+
+/// The document as text, ending with a newline.
+pub fn to_text(document: &impl Serialize) -> String {
+    // Keys are texts and numbers finite, which always serialise.
+    let mut text = serde_json::to_string_pretty(document).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+/// What stands under `schema` in documents of a kind.
+macro_rules! schema_name {
+    ($name:ident, $text:literal) => {
+        #[doc = concat!("`", $text, "`.")]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        pub enum $name {
+            /// The first version.
+            #[default]
+            #[serde(rename = $text)]
+            V1,
+        }
+    };
+}
+use schema_name;

@@ -1,0 +1,96 @@
+//! What a document says of the question that it answers.
+
+use super::end::Bounds;
+use super::number::{Exact, Named};
+use crate::model::Time;
+use crate::problem::{Problem, Region};
+use serde::{Deserialize, Serialize};
+
+/// The region in which all roots have to lie, where it is smaller than that of plain stability.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RegionBound {
+    /// Discrete time: all |z| below this. Left out for the unit circle, and where the radius is the parameter in question.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<Exact>,
+    /// Continuous time: all Re s below minus this, per unit of time. Left out for the imaginary axis, and where the decay
+    /// rate is the parameter in question.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub decay: Option<Exact>,
+}
+
+impl From<&Region> for RegionBound {
+    fn from(region: &Region) -> Self {
+        RegionBound { radius: region.radius().map(Exact::from), decay: region.decay().map(Exact::from) }
+    }
+}
+
+/// A question about one parameter.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ParameterQuestion {
+    /// The model's title; empty where it has none.
+    pub title: String,
+    /// The kind of time.
+    pub time: Time,
+    /// The name of the parameter in question.
+    pub parameter: String,
+    /// Its unit; `null` where the model names none.
+    pub unit: Option<String>,
+    /// Its nominal value in that unit; `null` where it has none.
+    pub nominal: Option<Exact>,
+    /// The values of all other parameters, and of constants that were replaced.
+    pub set: Named<Exact>,
+    /// The open interval of values that are asked about.
+    pub domain: Bounds<Exact>,
+    /// The region.
+    #[serde(flatten)]
+    pub region: RegionBound,
+}
+
+impl ParameterQuestion {
+    pub(super) fn new(problem: &Problem) -> Self {
+        let free = problem.parameter();
+        ParameterQuestion {
+            title: title(problem),
+            time: problem.time(),
+            parameter: free.name.clone(),
+            unit: free.unit.clone(),
+            nominal: free.nominal.as_ref().map(Exact::from),
+            set: problem.set().into(),
+            domain: (&free.domain).into(),
+            region: problem.region().into(),
+        }
+    }
+}
+
+/// A question about a point.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PointQuestion {
+    /// The model's title; empty where it has none.
+    pub title: String,
+    /// The kind of time.
+    pub time: Time,
+    /// The values of the parameters, and of constants that were replaced.
+    pub set: Named<Exact>,
+    /// The region.
+    #[serde(flatten)]
+    pub region: RegionBound,
+}
+
+impl PointQuestion {
+    pub(super) fn new(problem: &Problem) -> Self {
+        PointQuestion {
+            title: title(problem),
+            time: problem.time(),
+            set: problem.set().into(),
+            region: problem.region().into(),
+        }
+    }
+}
+
+/// The model's title; empty where it has none.
+pub(super) fn title(problem: &Problem) -> String {
+    problem.title().unwrap_or_default().to_owned()
+}

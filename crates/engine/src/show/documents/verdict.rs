@@ -1,0 +1,82 @@
+//! The document `jurist/verdict/1`.
+
+use super::schema_name;
+use super::{Answered, PointQuestion};
+use crate::answer::{self, Answer, PointVerdict};
+use crate::problem::Problem;
+use jurist_algebra::limits::Exhausted;
+use serde::{Deserialize, Serialize};
+
+schema_name!(VerdictName, "jurist/verdict/1");
+
+/// The verdict at a point.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Verdict {
+    /// The kind of document.
+    pub schema: VerdictName,
+    /// What was asked.
+    #[serde(flatten)]
+    pub question: PointQuestion,
+    /// The verdict.
+    #[serde(flatten)]
+    pub answer: Answered<RootsByPlace, VerdictOpen>,
+}
+
+/// The verdict, and where the roots are; counts with multiplicity, `null` where the loop is undefined.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RootsByPlace {
+    /// In one word.
+    pub verdict: answer::Verdict,
+    /// The degree of the characteristic polynomial in all parameters.
+    pub degree: usize,
+    /// Roots strictly inside the region.
+    pub inside: Option<usize>,
+    /// Roots on its boundary.
+    pub on: Option<usize>,
+    /// Finite roots outside.
+    pub outside: Option<usize>,
+    /// Roots at infinity: by how much the degree drops at this point.
+    pub infinite: Option<usize>,
+}
+
+/// No answer.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct VerdictOpen {
+    /// Not known.
+    pub verdict: (),
+}
+
+impl From<&PointVerdict> for RootsByPlace {
+    fn from(answer: &PointVerdict) -> Self {
+        let count = answer.count;
+        RootsByPlace {
+            verdict: answer.verdict,
+            degree: answer.degree,
+            inside: count.map(|c| c.inside),
+            on: count.map(|c| c.on),
+            outside: count.map(|c| c.outside),
+            infinite: count.map(|_| answer.infinite),
+        }
+    }
+}
+
+impl Verdict {
+    /// The document, also of a verdict that the budget did not allow.
+    pub fn new(problem: &Problem, verdict: Result<&PointVerdict, &Exhausted>) -> Self {
+        Verdict {
+            schema: VerdictName::V1,
+            question: PointQuestion::new(problem),
+            answer: Answered::of(verdict, RootsByPlace::from),
+        }
+    }
+}
+
+impl Answer<PointVerdict> {
+    /// The document `jurist/verdict/1`.
+    pub fn json(&self) -> Verdict {
+        Verdict::new(self.problem(), Ok(self.value()))
+    }
+}
