@@ -5,7 +5,8 @@ use crate::limits::{Budget, Exhausted};
 use crate::number::Integer;
 use crate::poly::{Domain, Poly};
 
-/// The characteristic polynomial of a matrix `M` of size `n`, and the adjugate of `zI - M`.
+/// The characteristic polynomial of a matrix `M` of size `n`, and the adjugate of `zI - M`, as the recursion of
+/// [Faddeev1949](crate::bibliography#faddeev1949) gives them.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;

@@ -128,7 +128,7 @@ impl Enclosure {
     /// The arc cosine of the part in `[-1, 1]`, by `acos(x) = 2 atan(sqrt((1 - x)/(1 + x)))`, which
     /// keeps its relative accuracy near `x = 1`.
     ///
-    /// Cost: that of one square root and one arc tangent.
+    /// Cost: that of a square root and an arc tangent for each end.
     ///
     /// # Panics
     /// When no part of the interval lies in `[-1, 1]`.
