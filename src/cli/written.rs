@@ -29,7 +29,7 @@ pub(super) fn check_certificate(context: &Context, options: &RunOptions, model: 
         return unchecked("no time was left to check it");
     }
     context.budget.step("checking the certificate");
-    let result = check(model, text, &Limits { timeout: left });
+    let result = check(model, text, &Limits::within(left));
     context.reporter.finish();
     match result {
         Ok(proved) if options.verbose => note(&format!("checked: {file} proves: {}", proved.statement)),

@@ -15,7 +15,7 @@ use crate::helpers::model::read;
 
 /// No test may fail because the machine is busy.
 fn limits() -> Limits {
-    Limits { timeout: Duration::MAX }
+    Limits::within(Duration::MAX)
 }
 
 const TANGENCY: &str =
@@ -100,7 +100,7 @@ fn broken_texts_are_rejected() {
         "time = 'discrete'\nconstants.a = 'b'\nconstants.b = 'a'\nparameters.K = {}\nloop.characteristic = 'z'".into(),
         "time = 'discrete'\nparameters.K = {}\nloop.characteristic = 'z + 1e999999999'".into(),
     ];
-    let short = Limits { timeout: Duration::from_secs(1) };
+    let short = Limits::within(Duration::from_secs(1));
     for model in &models {
         assert!(check(model, good, &short).is_err());
     }

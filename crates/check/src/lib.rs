@@ -48,10 +48,24 @@ const STACK: usize = 64 << 20;
 const GRACE: Duration = Duration::from_millis(500);
 
 /// How much work a check may be.
+///
+/// ```
+/// use jurist_check::Limits;
+/// use std::time::Duration;
+/// assert_eq!(Limits::default(), Limits::within(Duration::from_secs(60)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Limits {
     /// The longest time, after which the certificate is rejected.
     pub timeout: Duration,
+}
+
+impl Limits {
+    /// A check that may take so long.
+    pub const fn within(timeout: Duration) -> Self {
+        Limits { timeout }
+    }
 }
 
 impl Default for Limits {
@@ -62,7 +76,21 @@ impl Default for Limits {
 }
 
 /// What has been proved.
+///
+/// ```
+/// use jurist_check::{Limits, check};
+/// let model = "time = 'discrete'\nparameters.K = {}\nloop.characteristic = 'z - 1 + K'";
+/// let certificate = r#"{
+///     "schema": "jurist/certificate/1",
+///     "statement": {"kind": "verdict", "time": "discrete", "set": {"K": "1"}, "region": {"radius": "1"},
+///         "verdict": "stable", "degree": 1, "inside": 1, "on": 0, "outside": 0, "infinite": 0},
+///     "characteristic": [[], ["1"]]
+/// }"#;
+/// let proved = check(model, certificate, &Limits::default()).unwrap();
+/// assert_eq!(proved.kind, "verdict");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Proved {
     /// The statement in a sentence or two.
     pub statement: String,
@@ -71,6 +99,13 @@ pub struct Proved {
 }
 
 /// The step at which a check failed, in the order in which they are taken.
+///
+/// ```
+/// use jurist_check::{Limits, Step, check};
+/// let rejection = check("time = 'discrete'", "no certificate", &Limits::default()).unwrap_err();
+/// assert_eq!(rejection.step, Step::Format);
+/// assert_eq!(rejection.step.name(), "format");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     /// The text is JSON of the right version with the right parts.
@@ -115,7 +150,21 @@ impl Step {
 }
 
 /// Why a certificate proves nothing.
+///
+/// ```
+/// use jurist_check::{Limits, Step, check};
+/// let model = "time = 'discrete'\nparameters.K = {}\nloop.characteristic = 'z - 1 + K'";
+/// let certificate = r#"{
+///     "schema": "jurist/certificate/1",
+///     "statement": {"kind": "verdict", "time": "discrete", "set": {"K": "1"}, "region": {"radius": "1"},
+///         "verdict": "stable", "degree": 1, "inside": 1, "on": 0, "outside": 0, "infinite": 0},
+///     "characteristic": [[], ["1"]]
+/// }"#;
+/// let lie = certificate.replace("[[], [\"1\"]]", "[[\"1\"], [\"1\"]]");
+/// assert_eq!(check(model, &lie, &Limits::default()).unwrap_err().step, Step::Characteristic);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Rejection {
     /// The step that failed.
     pub step: Step,
@@ -132,6 +181,11 @@ impl fmt::Display for Rejection {
 impl std::error::Error for Rejection {}
 
 /// Checks that a certificate proves its statement about a model, both given as text.
+///
+/// Cost: one pass. The model's polynomial is a determinant at as many points as its degrees in `z` and in the
+/// parameter ask for, `O(n^3)` operations each; then the identity is multiplied out, and each piece of the line
+/// takes `O(d^2)` additions for the sign variations of each factor of degree `d` (\[BasuPollackRoy2006\]) and each
+/// sample a reduction of `O(n^2)` operations (\[Jury1964\], \[Routh1877\]).
 ///
 /// ```
 /// use jurist_check::{check, Limits};

@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn arguments_are_two_files_and_options() {
         let check = |model: &str, certificate: &str, timeout| {
-            Ok(Task::Check { model: model.into(), certificate: certificate.into(), limits: Limits { timeout } })
+            Ok(Task::Check { model: model.into(), certificate: certificate.into(), limits: Limits::within(timeout) })
         };
         assert_eq!(of(&["m", "c"]), check("m", "c", Limits::default().timeout));
         assert_eq!(of(&["--timeout", "0.5", "-", "c"]), check("-", "c", Duration::from_millis(500)));

@@ -16,7 +16,13 @@ use std::fmt;
 use std::sync::Arc;
 
 /// A half-open range of bytes in a source text.
+///
+/// ```
+/// use jurist_engine::error::Span;
+/// assert_eq!(Span::new(3, 5).to(Span::new(8, 9)), Span::new(3, 9));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub struct Span {
     /// First byte.
     pub start: usize,
@@ -37,7 +43,14 @@ impl Span {
 }
 
 /// A text that diagnostics point into, with the name to show for it.
+///
+/// ```
+/// use jurist_engine::error::Source;
+/// let source = Source::new("model.toml", "time = 'discrete'\nK = 1");
+/// assert_eq!(source.line_column(18), (2, 1));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Source {
     /// File name, `<stdin>`, `<command line>`, ...
     pub name: String,
@@ -64,7 +77,15 @@ impl Source {
 }
 
 /// A place in the text and what is to be said about it.
+///
+/// ```
+/// use jurist_engine::error::{Diagnostic, Span};
+/// let error = Diagnostic::error("E-unknown-name", "unknown name 'k'").at(Span::new(4, 5), "not defined");
+/// let label = error.primary.unwrap();
+/// assert_eq!((label.span.start, label.text.as_str()), (4, "not defined"));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Label {
     /// Where.
     pub span: Span,
@@ -73,6 +94,11 @@ pub struct Label {
 }
 
 /// Whether the input is refused or only remarked upon.
+///
+/// ```
+/// use jurist_engine::error::{Diagnostic, Severity};
+/// assert_eq!(Diagnostic::warning("W-unused", "the constant 'c' is not used").severity, Severity::Warning);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
     /// The input is refused.
@@ -82,7 +108,16 @@ pub enum Severity {
 }
 
 /// One thing that is wrong, where, and what to do about it.
+///
+/// ```
+/// use jurist_engine::error::{Diagnostic, Span};
+/// let error = Diagnostic::error("E-unknown-name", "unknown name 'k'").at(Span::new(4, 5), "not defined");
+/// let error = error.help("did you mean 'K'?");
+/// assert_eq!(error.to_string(), "error[E-unknown-name]: unknown name 'k'");
+/// assert_eq!(error.help.as_deref(), Some("did you mean 'K'?"));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Diagnostic {
     /// Error or warning.
     pub severity: Severity,
@@ -146,6 +181,13 @@ impl fmt::Display for Diagnostic {
 }
 
 /// Why an input was refused: at least one diagnostic, and the text they point into.
+///
+/// ```
+/// use jurist_engine::error::{Diagnostic, Diagnostics, Source, Span};
+/// let error = Diagnostic::error("E-unknown-name", "unknown name 'k'").at(Span::new(4, 5), "not defined");
+/// let errors = Diagnostics::from(error).in_source(&Source::new("model.toml", "z - k"));
+/// assert_eq!(errors.to_string(), "model.toml:1:5: error[E-unknown-name]: unknown name 'k'");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostics {
     source: Option<Arc<Source>>,

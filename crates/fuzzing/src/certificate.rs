@@ -21,9 +21,9 @@ const MODELS: [&str; 4] = [
 pub fn certificate_check(data: &[u8]) {
     let Some((&kind, data)) = data.split_first() else { return };
     let model = MODELS[usize::from(kind & 3)];
-    let limits = Limits { timeout: Duration::from_secs(5) };
+    let limits = Limits::within(Duration::from_secs(5));
     // A true certificate has all the time it needs: a busy machine is no finding.
-    let patient = Limits { timeout: Duration::MAX };
+    let patient = Limits::within(Duration::MAX);
     if kind & 4 == 0 {
         let text = String::from_utf8_lossy(data);
         let _ = check(model, &text, &limits);

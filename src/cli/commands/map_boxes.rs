@@ -75,7 +75,7 @@ impl MethodOptions {
             }
         };
         let range = |a: &AxisRequest| Range::between(a.lower.clone(), a.upper.clone());
-        Ok(BoxRequest { windows: [range(&axes[0]), range(&axes[1])], undecided })
+        Ok(BoxRequest::new([range(&axes[0]), range(&axes[1])], undecided))
     }
 }
 
@@ -112,5 +112,5 @@ pub(super) fn answer(boxes: &Answer<MapBoxes>, output: &OutputOptions, context: 
 
 /// The subdivision ended before its goal.
 fn stopped_at(budget: &str) -> Exhausted {
-    Exhausted { budget: budget.to_owned(), reached: "subdividing the window".to_owned() }
+    Exhausted::new(budget, "subdividing the window")
 }

@@ -27,7 +27,7 @@ pub(in crate::cli) struct Options {
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let model = read_text(context, &options.model, MAX_TEXT as u64, &CERTIFIED_MODEL)?;
     let certificate = read_text(context, &options.certificate, MAX_TEXT as u64, &CERTIFICATE)?;
-    let limits = options.run.timeout.map_or_else(Limits::default, |timeout| Limits { timeout });
+    let limits = options.run.timeout.map_or_else(Limits::default, Limits::within);
     let result = match (&model, &certificate) {
         (Ok(model), Ok(certificate)) => check(model, certificate, &limits).map_err(|rejection| rejection.to_string()),
         (Err(reason), _) | (_, Err(reason)) => Err(format!("the certificate is rejected: {reason}")),

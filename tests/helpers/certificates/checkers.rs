@@ -10,7 +10,7 @@ use std::sync::{Mutex, OnceLock};
 use std::time::Duration;
 
 /// No test may fail because the machine is busy.
-const LIMITS: Limits = Limits { timeout: Duration::MAX };
+const LIMITS: Limits = Limits::within(Duration::MAX);
 
 /// What the Python checker says; `None` where Python is not there. One process serves a whole test program.
 pub fn python(model: &str, certificate: &str) -> Option<Result<String, String>> {

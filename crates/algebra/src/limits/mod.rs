@@ -17,6 +17,24 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 /// Receives the name of the step that begins and, where known, its share done (0 to 1).
+///
+/// ```
+/// use jurist_algebra::limits::{Budget, Progress};
+/// use std::sync::{Arc, Mutex};
+///
+/// #[derive(Default)]
+/// struct Log(Mutex<Vec<String>>);
+/// impl Progress for Log {
+///     fn step(&self, name: &str) {
+///         self.0.lock().unwrap().push(name.to_owned());
+///     }
+///     fn advance(&self, _done: u64, _total: u64) {}
+/// }
+///
+/// let log = Arc::new(Log::default());
+/// Budget::unlimited().reporting_to(log.clone()).step("isolating");
+/// assert_eq!(*log.0.lock().unwrap(), ["isolating"]);
+/// ```
 pub trait Progress: Send + Sync {
     /// A new step begins.
     fn step(&self, name: &str);
@@ -249,7 +267,16 @@ impl fmt::Debug for Budget {
 }
 
 /// A budget ran out before the exact answer was reached.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// let budget = Budget::with_work(0);
+/// budget.step("isolating");
+/// let exhausted = budget.check().unwrap_err();
+/// assert_eq!((exhausted.budget.as_str(), exhausted.reached.as_str()), ("work (0 units)", "isolating"));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Exhausted {
     /// Which budget, e.g. `time (2 s)`.
     pub budget: String,
@@ -258,6 +285,11 @@ pub struct Exhausted {
 }
 
 impl Exhausted {
+    /// A budget of one's own that ran out, and the step that was reached.
+    pub fn new(budget: impl Into<String>, reached: impl Into<String>) -> Self {
+        Exhausted { budget: budget.into(), reached: reached.into() }
+    }
+
     /// A budget that ran out at a step that is not known here.
     fn of(budget: String) -> Self {
         Exhausted { budget, reached: String::new() }

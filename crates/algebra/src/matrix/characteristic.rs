@@ -46,6 +46,8 @@ impl CharacteristicPolynomial {
     /// coefficients, with a positive leading coefficient; `P` keeps all its content. The sign of
     /// `d` varies with the parameters unless it is constant: signs of `P` that matter are to be
     /// taken relative to its leading coefficient, from which `d` drops out.
+    ///
+    /// Cost: a least common multiple and a product of polynomials for each of the `n + 1` coefficients.
     pub fn cleared(&self) -> (Poly<MultiPoly>, MultiPoly) {
         let mut denominator = MultiPoly::one();
         for c in &self.coefficients {

@@ -5,8 +5,20 @@ use crate::limits::{Budget, Exhausted};
 use crate::number::Integer;
 use crate::poly::{Domain, Poly};
 
-/// The characteristic polynomial of a matrix `M` of size `n`, and the adjugate of `zI - M`.
+/// The characteristic polynomial of a matrix `M` of size `n`, and the adjugate of `zI - M`, as the recursion of
+/// [Faddeev1949](crate::bibliography#faddeev1949) gives them.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::matrix::{Matrix, faddeev_leverrier};
+/// use jurist_algebra::poly::UniPoly;
+/// let m = Matrix::from_i64(&[&[2, 1], &[0, 3]]);
+/// let fl = faddeev_leverrier(&m, &Budget::unlimited()).unwrap();
+/// assert_eq!(fl.adjugate_entry(0, 0), UniPoly::from_i64(&[-3, 1])); // z - 3
+/// assert_eq!(fl.adjugate_entry(0, 1), UniPoly::from_i64(&[1]));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FaddeevLeVerrier<R: Domain> {
     /// `det(zI - M)`, monic of degree `n`.
     pub characteristic: Poly<R>,

@@ -30,6 +30,8 @@ pub struct Cleared {
 
 impl RationalMatrix {
     /// The matrix over the least common denominator of its entries.
+    ///
+    /// Cost: a least common multiple and a product of polynomials for each entry.
     pub fn cleared(&self) -> Cleared {
         let mut denominator = MultiPoly::one();
         for entry in self.entries() {
@@ -62,6 +64,10 @@ impl RationalMatrix {
     /// `variables` are the names of variables 0, 1, ... By [`characteristic_polynomial_multimodular`] where the grid of
     /// parameters is not too large, else by the recursion of Faddeev and LeVerrier.
     ///
+    /// Cost: `O(n^3)` products of residues ([Hadamard1893](crate::bibliography#hadamard1893) bounds how many primes
+    /// there are) at each point of a grid, which has in each variable one point more than the sum of the greatest
+    /// degrees of the rows; then a greatest common divisor for each of the `n` coefficients.
+    ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
     ///
@@ -86,6 +92,9 @@ impl RationalMatrix {
     /// `det(zI - M)` with coefficients in lowest terms, monic, by the recursion of Faddeev and
     /// LeVerrier over the common denominator. The poles are those of the entries; `variables` are
     /// the names of variables 0, 1, ...
+    ///
+    /// Cost: `O(n^4)` products of polynomials ([Faddeev1949](crate::bibliography#faddeev1949)), and a greatest
+    /// common divisor for each of the `n` coefficients.
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.

@@ -95,6 +95,9 @@ impl Rounded {
 /// from `1e-6` to below `1e15`, else like `1.25e-7`. Where the digits are the whole number, trailing
 /// zeros are dropped.
 ///
+/// Cost: a power of ten and a division of numbers as long as the value and the digits, and the conversion of the
+/// quotient to decimal.
+///
 /// ```
 /// use jurist_algebra::number::{parse_number, to_decimal};
 /// assert_eq!(to_decimal(&parse_number("1/3").unwrap(), 5), "0.33333");

@@ -96,6 +96,8 @@ impl Enclosure {
 
     /// The square root of the non-negative part.
     ///
+    /// Cost: two integer square roots of about `2 bits` bits.
+    ///
     /// # Panics
     /// When the whole interval is negative.
     pub fn sqrt(&self, bits: u64) -> Enclosure {
@@ -107,6 +109,8 @@ impl Enclosure {
     }
 
     /// pi, by Machin's formula `pi/4 = 4 atan(1/5) - atan(1/239)`.
+    ///
+    /// Cost: `O(bits)` products and divisions of `bits` bits.
     pub fn pi(bits: u64) -> Enclosure {
         let term = |n: i64, factor: i64| {
             let x = Rational::new(Integer::ONE, Integer::from(n));
@@ -123,6 +127,8 @@ impl Enclosure {
 
     /// The arc cosine of the part in `[-1, 1]`, by `acos(x) = 2 atan(sqrt((1 - x)/(1 + x)))`, which
     /// keeps its relative accuracy near `x = 1`.
+    ///
+    /// Cost: that of a square root and an arc tangent for each end.
     ///
     /// # Panics
     /// When no part of the interval lies in `[-1, 1]`.

@@ -27,7 +27,15 @@ pub enum ParseNumberErrorKind {
 }
 
 /// Why a text is not a number, and where.
+///
+/// ```
+/// use jurist_algebra::number::{ParseNumberErrorKind, parse_number};
+/// let error = parse_number("12x").unwrap_err();
+/// assert_eq!((error.kind, error.offset), (ParseNumberErrorKind::UnexpectedCharacter, 2));
+/// assert_eq!(error.to_string(), "character 3 does not belong to a number");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ParseNumberError {
     /// What is wrong.
     pub kind: ParseNumberErrorKind,
@@ -53,8 +61,9 @@ impl std::error::Error for ParseNumberError {}
 
 /// Reads a signed decimal or a fraction of two: `0.046`, `46e-3`, `.5`, `-1/3`, `1_000`, `+2`, `1.5/0.3`.
 ///
-/// Blanks around the number and around `/` are allowed. The value is exact. Time is that of the
-/// conversion of the digits to binary.
+/// Blanks around the number and around `/` are allowed. The value is exact.
+///
+/// Cost: the conversion of the digits to binary, and of a fraction one greatest common divisor.
 ///
 /// ```
 /// use jurist_algebra::number::parse_number;

@@ -12,6 +12,17 @@ use std::sync::Arc;
 /// It is the only root of [`polynomial`](RealAlgebraic::polynomial) in the closed
 /// [`enclosure`](RealAlgebraic::enclosure), whose ends are equal exactly when the number is
 /// rational. Comparisons are exact and decide equality; the order is that of the real line.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::number::Rational;
+/// use jurist_algebra::poly::{RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
+/// let p = SquareFree::new(UniPoly::from_i64(&[-2, 0, 1])).unwrap(); // x^2 - 2
+/// let root = isolate_real_roots(&p, &Budget::unlimited()).unwrap().pop().unwrap();
+/// assert!(root.compare_rational(&Rational::ONE).is_gt());
+/// assert!(root.sign_of(&UniPoly::from_i64(&[-4, 0, 0, 0, 1])).is_eq()); // x^4 - 4
+/// assert!(root.compare(&RealAlgebraic::from_rational(2.into())).is_lt());
+/// ```
 #[derive(Clone, Debug)]
 pub struct RealAlgebraic {
     poly: Arc<UniPoly>,
@@ -74,6 +85,10 @@ impl RealAlgebraic {
 
     /// The same number with an enclosure of at most the given positive width (of any width, if
     /// `width` is not positive).
+    ///
+    /// Cost: secant steps ([Abbott2014](crate::bibliography#abbott2014)), each of which about doubles the bits, so
+    /// that the last ones count: `O(n)` products of numbers as long as the enclosure in fixed point, up to `n`
+    /// times as long where the enclosure touches zero.
     pub fn refined(&self, width: &Rational) -> RealAlgebraic {
         let mut out = self.clone();
         if width.sign().is_gt() {
@@ -133,6 +148,9 @@ impl RealAlgebraic {
     }
 
     /// Exact comparison: equality is decided by a common divisor, never by refinement alone.
+    ///
+    /// Cost: a few halvings where the numbers differ; else a greatest common divisor of the polynomials, or a check
+    /// modulo a prime that there is none, and refinement until the enclosures part.
     pub fn compare(&self, other: &RealAlgebraic) -> Ordering {
         let (a, b) = match (&self.place, &other.place) {
             (_, Place::Exact(y)) => return self.compare_rational(y),
@@ -196,6 +214,9 @@ impl RealAlgebraic {
     }
 
     /// The exact sign of `q` at this number; a zero is recognised by a common divisor.
+    ///
+    /// Cost: a check modulo a prime that `q` and the polynomial are coprime, a greatest common divisor where they
+    /// are not, and values of `q` on an enclosure that is refined until its sign shows.
     pub fn sign_of(&self, q: &UniPoly) -> Sign {
         let bracket = match &self.place {
             Place::Exact(x) => return q.sign_at(x),
@@ -221,6 +242,8 @@ impl RealAlgebraic {
 
     /// Rounded to so many significant digits, correctly: ties to even for rational numbers, and an
     /// irrational one is refined until both ends of its enclosure round alike (it is no tie).
+    ///
+    /// Cost: that of [`RealAlgebraic::refined`] to about `3.4 digits` bits, and the conversion to decimal.
     ///
     /// ```
     /// use jurist_algebra::limits::Budget;

@@ -19,6 +19,14 @@ pub struct Poly<R> {
 }
 
 /// A univariate polynomial over the integers.
+///
+/// ```
+/// use jurist_algebra::number::Rational;
+/// use jurist_algebra::poly::UniPoly;
+/// let p = UniPoly::from_i64(&[-1, 0, 4]); // 4 x^2 - 1
+/// assert!(p.sign_at(&Rational::new(1.into(), 2.into())).is_eq());
+/// assert_eq!(p.eval_rational(&3.into()), 35.into());
+/// ```
 pub type UniPoly = Poly<Integer>;
 
 impl<R: Domain> Poly<R> {

@@ -10,6 +10,17 @@ use std::fmt::Debug;
 /// The integers, the rationals, and polynomials over a `Domain` are domains, so the same
 /// algorithms serve numbers and symbolic parameters. Methods take references because coefficients
 /// may be large.
+///
+/// ```
+/// use jurist_algebra::number::{Integer, Rational};
+/// use jurist_algebra::poly::{Domain, UniPoly};
+/// fn sum_of_squares<R: Domain>(items: &[R]) -> R {
+///     items.iter().fold(R::zero(), |sum, x| sum.plus(&x.times(x)))
+/// }
+/// assert_eq!(sum_of_squares(&[Integer::from(3), Integer::from(4)]), Integer::from(25));
+/// assert_eq!(sum_of_squares(&[Rational::from(1), Rational::from(2)]), Rational::from(5));
+/// assert_eq!(sum_of_squares(&[UniPoly::x(), UniPoly::one()]), UniPoly::from_i64(&[1, 0, 1]));
+/// ```
 pub trait Domain: Clone + PartialEq + Debug + Send + Sync + 'static {
     /// The neutral element of addition.
     fn zero() -> Self;

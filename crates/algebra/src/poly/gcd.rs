@@ -29,6 +29,8 @@ impl<R: Domain> Poly<R> {
 
     /// The product of the distinct irreducible factors of positive degree, primitive
     /// (characteristic 0: `p / gcd(p, p')`). Zero stays zero, a non-zero constant becomes 1.
+    ///
+    /// Cost: a greatest common divisor with the derivative, and an exact division.
     pub fn square_free_part(&self) -> Poly<R> {
         if self.is_zero() {
             return self.clone();
@@ -41,6 +43,8 @@ impl<R: Domain> Poly<R> {
     /// The square-free decomposition `p = c f_1 f_2^2 f_3^3 ...`: the pairs `(f_i, i)` with `f_i`
     /// of positive degree, primitive, square-free and pairwise coprime (Yun's algorithm [Yun1976](crate::bibliography#yun1976)).
     /// Empty for a constant.
+    ///
+    /// Cost: a greatest common divisor with the derivative, then one for each multiplicity up to the greatest.
     pub fn square_free_decomposition(&self) -> Vec<(Poly<R>, usize)> {
         let mut out = Vec::new();
         if self.is_constant() {

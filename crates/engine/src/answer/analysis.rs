@@ -9,6 +9,22 @@ use std::sync::Arc;
 
 /// The verdict at the nominal point and the stable set of each parameter, the others nominal; each is decided or has
 /// stopped on its own.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .characteristic("z^2 - z + K/2")
+///     .build()?;
+/// let analysis = model.ask().analyze(&Budget::unlimited())?;
+/// let (_, verdict) = analysis.verdict.as_ref().unwrap();
+/// assert_eq!(verdict.as_ref().unwrap().verdict.name(), "stable");
+/// let (question, set) = &analysis.sets[0];
+/// assert_eq!(question.parameter().name, "K");
+/// assert_eq!(set.as_ref().unwrap().intervals().len(), 1);
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Analysis {
@@ -28,6 +44,9 @@ impl Analysis {
 
 impl Question {
     /// The verdict with every parameter at its set or nominal value, and the stable set of each that is not set.
+    ///
+    /// Cost: that of [`Question::verdict`], and that of [`Question::stable_set`] for each parameter that is not
+    /// set; the model is evaluated for each.
     ///
     /// # Errors
     /// [`Error::Refused`] when a question is refused. What the budget does not allow is noted in its place.

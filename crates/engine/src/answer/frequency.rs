@@ -6,6 +6,21 @@ use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{RealAlgebraic, UniPoly};
 
 /// Certified enclosures of where a complex pair sits on the boundary.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .characteristic("z^2 - z + K/2")
+///     .build()?;
+/// let answer = model.ask().free("K").stable_set(&Budget::unlimited())?;
+/// let upper = answer.value().intervals()[0].upper.as_ref().unwrap(); // K = 2: z^2 - z + 1
+/// let frequency = answer.problem().frequency(upper, 64).unwrap();
+/// assert_eq!(frequency.angle.unwrap().decimal(10).unwrap(), "1.047197551"); // pi/3
+/// assert!(frequency.hertz.is_none(), "there is no sample time");
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Frequency {

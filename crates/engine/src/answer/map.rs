@@ -10,6 +10,22 @@ use jurist_algebra::number::Rational;
 use std::sync::Arc;
 
 /// For which values of two parameters the loop is stable, and what is exactly known beside it.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("a").nominal("0"))
+///     .parameter(ParameterBuilder::new("b").nominal("0"))
+///     .characteristic("z^2 + a*z + b")
+///     .build()?;
+/// let answer = model.ask().free("a").free("b").map(6, &Budget::unlimited())?;
+/// let map = answer.value();
+/// assert_eq!(map.decomposition.regions.len(), 1); // the triangle of stable z^2 + a z + b
+/// let greatest_a = map.limits()[0].ends[0][1].as_ref().unwrap();
+/// assert_eq!(greatest_a.limit.value.decimal(6), "2");
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Map {
@@ -39,6 +55,8 @@ impl Map {
 impl Question {
     /// The exact stable region in the plane of the two free parameters, all others at their set or nominal values.
     /// Places and frequencies of what limits the regions are enclosed to about so many digits.
+    ///
+    /// Cost: that of [`Problem::map`].
     ///
     /// # Errors
     /// [`Error`]: refused as [`Question::problem`], or stopped.
@@ -70,6 +88,13 @@ impl Problem {
 
     /// The exact stable region in the plane of the two free parameters. A loop that is undefined for all values of both is
     /// stable nowhere.
+    ///
+    /// Cost: with `D` the total degree of the boundary curves, up to `O(D^2)` critical values, the real zeros of
+    /// discriminants and resultants of the curves ([Collins1975](jurist_algebra::bibliography#collins1975),
+    /// [McCallum1998](jurist_algebra::bibliography#mccallum1998)); in each strip between them the zeros of the
+    /// curves on one line are isolated, and one root count decides each of up to `O(D)` cells. Where there is a
+    /// stable region all this is done once more with the parameters exchanged, and lines and boxes are narrowed
+    /// around each of its extreme values.
     ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out before the decomposition.

@@ -13,6 +13,11 @@ use std::sync::Arc;
 const SUBDIVISION: (u32, u32) = (9, 10);
 
 /// How a map is made.
+///
+/// ```
+/// use jurist_engine::answer::MapMethod;
+/// assert_eq!(MapMethod::default(), MapMethod::Auto);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum MapMethod {
     /// The exact decomposition of the whole domain.
@@ -26,7 +31,25 @@ pub enum MapMethod {
 }
 
 /// What the boxes are to cover, and how well.
+///
+/// ```
+/// use jurist_algebra::number::Rational;
+/// use jurist_engine::answer::{BoxRequest, MapMethod};
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::stability::Range;
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("a").nominal("0"))
+///     .parameter(ParameterBuilder::new("b").nominal("0"))
+///     .characteristic("z^2 + a*z + b")
+///     .build()?;
+/// let side = Range::between(Some((-3).into()), Some(3.into()));
+/// let request = BoxRequest::new([side.clone(), side], Rational::new(1.into(), 4.into()));
+/// let problem = model.ask().free("a").free("b").plane_problem()?;
+/// assert!(problem.ends_in_boxes(MapMethod::Boxes, &request));
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct BoxRequest {
     /// Of either parameter; the domain is the window where an end is left out.
     pub windows: [Range; 2],
@@ -34,7 +57,36 @@ pub struct BoxRequest {
     pub undecided: Rational,
 }
 
+impl BoxRequest {
+    /// Boxes of a window of which a share of the area may stay undecided.
+    pub fn new(windows: [Range; 2], undecided: Rational) -> BoxRequest {
+        BoxRequest { windows, undecided }
+    }
+}
+
 /// A window of two parameters cut into boxes.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::number::Rational;
+/// use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes};
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::stability::Range;
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("a").nominal("0"))
+///     .parameter(ParameterBuilder::new("b").nominal("0"))
+///     .characteristic("z^2 + a*z + b")
+///     .build()?;
+/// let side = Range::between(Some((-3).into()), Some(3.into()));
+/// let request = BoxRequest::new([side.clone(), side], Rational::new(1.into(), 4.into()));
+/// let problem = model.ask().free("a").free("b").plane_problem()?;
+/// let map = problem.map_by(MapMethod::Boxes, &request, 6, &Budget::unlimited())?;
+/// let MapOrBoxes::Boxes(answer) = map else { panic!("boxes were asked for") };
+/// let (goal, areas) = (&answer.value().goal, &answer.value().boxes.areas);
+/// assert_eq!(&areas.stable + &areas.unstable + &areas.undecided, 36.into());
+/// assert!(areas.undecided <= goal * &Rational::from(36));
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct MapBoxes {
@@ -45,6 +97,25 @@ pub struct MapBoxes {
 }
 
 /// A map by either method.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::number::Rational;
+/// use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes};
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::stability::Range;
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("a").nominal("0"))
+///     .parameter(ParameterBuilder::new("b").nominal("0"))
+///     .characteristic("z^2 + a*z + b")
+///     .build()?;
+/// let side = Range::between(Some((-3).into()), Some(3.into()));
+/// let request = BoxRequest::new([side.clone(), side], Rational::new(1.into(), 4.into()));
+/// let problem = model.ask().free("a").free("b").plane_problem()?;
+/// let map = problem.map_by(MapMethod::Auto, &request, 6, &Budget::unlimited())?;
+/// assert!(matches!(map, MapOrBoxes::Exact(_)), "there was time enough");
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub enum MapOrBoxes {
     /// The exact decomposition.
@@ -60,6 +131,10 @@ impl Problem {
     }
 
     /// The stable region in the plane of the two free parameters by a method of choice.
+    ///
+    /// Cost: of the exact decomposition that of [`Problem::map`]; of boxes
+    /// ([ZettlerGarloff1998](jurist_algebra::bibliography#zettlergarloff1998)) about `1/h` of side `h` along each
+    /// boundary curve, halved at the product of the curve's degrees times their sum.
     ///
     /// # Errors
     /// [`Error::Refused`] for boxes of a window that is not bounded, [`Error::Stopped`] when the budget runs out.

@@ -11,6 +11,21 @@ use jurist_algebra::poly::{Domain, MultiPoly, RealAlgebraic};
 use std::sync::Arc;
 
 /// An extreme value of a region, with the frequency of the complex pair that limits it there.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("a").nominal("0"))
+///     .parameter(ParameterBuilder::new("b").nominal("0"))
+///     .characteristic("z^2 + a*z + b")
+///     .build()?;
+/// let answer = model.ask().free("a").free("b").map(6, &Budget::unlimited())?;
+/// let causes: Vec<String> = answer.value().all_limits().map(|end| end.limit.causes.to_string()).collect();
+/// assert_eq!(causes.len(), 4); // the least and the greatest a and b
+/// assert!(causes.iter().all(|names| !names.is_empty()));
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct MapLimit {
@@ -21,6 +36,22 @@ pub struct MapLimit {
 }
 
 /// The extreme values of a region; `None` where it is unbounded.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::answer::MapLimit;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("a").nominal("0"))
+///     .parameter(ParameterBuilder::new("b").nominal("0"))
+///     .characteristic("z^2 + a*z + b")
+///     .build()?;
+/// let answer = model.ask().free("a").free("b").map(6, &Budget::unlimited())?;
+/// let [_, [least_b, greatest_b]] = &answer.value().limits()[0].ends;
+/// let value = |end: &Option<MapLimit>| end.as_ref().unwrap().limit.value.decimal(6);
+/// assert_eq!((value(least_b), value(greatest_b)), ("-1".to_owned(), "1".to_owned()));
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct RegionExtent {
@@ -68,6 +99,9 @@ impl Answer<Map> {
     /// What happens on the wall of a stable cell: branch `number`, counted from 0 from below, over a rational `x`
     /// inside a strip; with the frequency of its complex pair to about `bits`.
     ///
+    /// Cost: the zeros of the boundary curves on one line are isolated, and one resultant tells what happens at the
+    /// wall.
+    ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out.
     pub fn wall(
@@ -92,6 +126,9 @@ impl Answer<Map> {
 
     /// The cells on the vertical line at a rational `x`, from below, also where it is a wall between strips: whether
     /// the loop is stable, and how many roots are outside. `None` where a curve contains the line.
+    ///
+    /// Cost: the zeros of the boundary curves on one line are isolated, and one root count is made for each cell
+    /// between them.
     ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out.
@@ -128,6 +165,8 @@ impl Answer<Map> {
 
     /// The exact stable set on a line through the map: one parameter (0 for `x`) has a value, also that of a wall between
     /// strips.
+    ///
+    /// Cost: that of [`stable_set`](crate::stability::stable_set) on the line; the model is not evaluated again.
     ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out.

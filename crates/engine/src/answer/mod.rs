@@ -23,6 +23,19 @@ use crate::problem::Problem;
 use std::sync::Arc;
 
 /// An exact value and the problem that it answers.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .characteristic("z^2 - z + K/2")
+///     .build()?;
+/// let answer = model.ask().verdict(&Budget::unlimited())?;
+/// assert_eq!(answer.problem().set(), [("K".to_owned(), 1.into())]);
+/// assert_eq!(answer.value().count.unwrap().inside, 2);
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Answer<T> {
     problem: Arc<Problem>,

@@ -10,6 +10,8 @@ use std::sync::Arc;
 impl Question {
     /// For which values of the one free parameter the loop is stable, all others at their set or nominal values.
     ///
+    /// Cost: that of [`Problem::stable_set`].
+    ///
     /// ```
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::model::Model;
@@ -30,6 +32,8 @@ impl Question {
 
 impl Problem {
     /// The exact stable set of the one free parameter. A loop that is undefined for all values is stable nowhere.
+    ///
+    /// Cost: that of [`Problem::algebra`], once, and of [`stable_set`](crate::stability::stable_set).
     ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out.

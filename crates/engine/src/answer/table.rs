@@ -9,6 +9,21 @@ use jurist_algebra::number::Rational;
 use std::sync::Arc;
 
 /// The table of a loop with one parameter, its conditions, and the check against the boundary way.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .characteristic("z^2 - z + K/2")
+///     .build()?;
+/// let answer = model.ask().free("K").parametric_table(&Budget::unlimited())?;
+/// let test = answer.value().test.as_ref().unwrap();
+/// let names: Vec<&str> = test.conditions.iter().map(|condition| condition.name.as_str()).collect();
+/// assert_eq!(names, ["Q(1) > 0", "(-1)^2*Q(-1) > 0", "|a_0| < a_2"]);
+/// assert!(test.intersection.same_as(&answer.value().stable.to_interval_set()));
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ParametricTable {
@@ -20,6 +35,19 @@ pub struct ParametricTable {
 }
 
 /// The table at a point.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .characteristic("z^2 - z + K/2")
+///     .build()?;
+/// let budget = Budget::unlimited();
+/// assert!(model.ask().set("K", 1).point_table(&budget)?.value().holds());
+/// assert!(!model.ask().set("K", 3).point_table(&budget)?.value().holds());
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct PointTable {
@@ -38,6 +66,8 @@ impl PointTable {
 impl Question {
     /// The table with polynomial entries in the one free parameter and each condition's own exact solution set.
     ///
+    /// Cost: that of [`Problem::parametric_table`].
+    ///
     /// # Errors
     /// [`Error`]: refused as [`Question::problem`], or stopped.
     pub fn parametric_table(self, budget: &Budget) -> Result<Answer<ParametricTable>, Error> {
@@ -45,6 +75,8 @@ impl Question {
     }
 
     /// The table with every parameter at its set or nominal value.
+    ///
+    /// Cost: that of [`Problem::point_table`].
     ///
     /// # Errors
     /// [`Error`]: refused as [`Question::problem`], or stopped.
@@ -56,6 +88,8 @@ impl Question {
 impl Problem {
     /// The table with polynomial entries. The intersection of the conditions is compared with the stable set from the
     /// boundary polynomials, each time.
+    ///
+    /// Cost: that of [`Problem::algebra`], once, of [`classical_test`], and of [`stable_set`] for the comparison.
     ///
     /// # Errors
     /// [`Error::Stopped`]; [`Error::Refused`] where the two ways disagree (a defect of this program).
@@ -80,6 +114,8 @@ impl Problem {
     }
 
     /// The table at the point that the values of all parameters are.
+    ///
+    /// Cost: that of [`Problem::algebra`], once, and of a table of numbers: `O(n^2)` operations.
     ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out.

@@ -9,6 +9,20 @@ use jurist_algebra::number::Rational;
 use std::sync::Arc;
 
 /// The verdict on a loop whose parameters all have values.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::answer::Verdict;
+/// use jurist_engine::error::Error;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .characteristic("z^2 - z + K/2")
+///     .build()?;
+/// let at = |value: i32| Ok::<_, Error>(model.ask().set("K", value).verdict(&Budget::unlimited())?.value().verdict);
+/// assert_eq!((at(1)?, at(2)?, at(3)?), (Verdict::Stable, Verdict::Marginal, Verdict::Unstable));
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -36,6 +50,19 @@ impl Verdict {
 }
 
 /// The verdict at one point, with the exact root count.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .characteristic("z^2 - z + K/2")
+///     .build()?;
+/// let answer = model.ask().set("K", 2).verdict(&Budget::unlimited())?;
+/// let verdict = answer.value(); // z^2 - z + 1
+/// assert_eq!((verdict.degree, verdict.count.unwrap().on, verdict.infinite), (2, 2, 0));
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct PointVerdict {
@@ -53,6 +80,8 @@ pub struct PointVerdict {
 
 impl Question {
     /// The verdict with every parameter at its set or nominal value.
+    ///
+    /// Cost: that of [`Problem::verdict`].
     ///
     /// ```
     /// use jurist_algebra::limits::Budget;
@@ -75,6 +104,9 @@ impl Question {
 
 impl Problem {
     /// The verdict at the point that the values of all parameters are.
+    ///
+    /// Cost: that of [`Problem::algebra`], once, and of one root count
+    /// ([`count_roots`](crate::stability::count_roots)).
     ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out.

@@ -5,6 +5,22 @@ use jurist_algebra::limits::Exhausted;
 use std::fmt;
 
 /// Why a question has no answer.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::error::Error;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .characteristic("z^2 - z + K/2")
+///     .build()?;
+/// match model.ask().free("k").stable_set(&Budget::unlimited()) {
+///     Err(Error::Refused(diagnostics)) => assert_eq!(diagnostics.code(), "E-unknown-parameter"),
+///     other => panic!("{other:?}"),
+/// }
+/// assert!(matches!(model.ask().verdict(&Budget::with_work(0)), Err(Error::Stopped(_))));
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
@@ -18,6 +34,9 @@ pub enum Error {
 
 impl Error {
     /// What stopped the work, if that is why there is no answer.
+    ///
+    /// # Errors
+    /// The error itself, where it is another one.
     pub fn stopped(self) -> Result<Exhausted, Error> {
         match self {
             Error::Stopped(exhausted) => Ok(exhausted),

@@ -39,6 +39,16 @@ pub struct ModelBuilder {
 }
 
 /// A parameter in the making.
+///
+/// ```
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let gain = ParameterBuilder::new("K").nominal("1/2").min("0").unit("V/A");
+/// let (model, _) = Model::builder(Time::Discrete).parameter(gain).characteristic("z - 1 + K").build()?;
+/// let gain = model.parameter("K").unwrap();
+/// assert_eq!(gain.nominal.as_ref().unwrap().to_string(), "1/2");
+/// assert!(!gain.contains(&0.into()));
+/// # Ok::<(), jurist_engine::error::Diagnostics>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct ParameterBuilder {
     name: String,
@@ -46,6 +56,19 @@ pub struct ParameterBuilder {
 }
 
 /// A block in the making.
+///
+/// ```
+/// use jurist_engine::model::{BlockBuilder, Model, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .inputs(["r"])
+///     .outputs(["y"])
+///     .block(BlockBuilder::new("controller", "r - y", "u").gain("1/2"))
+///     .block(BlockBuilder::new("sample", "u", "v").delay(1))
+///     .block(BlockBuilder::new("plant", "v", "y").ratio(["1"], ["1", "-1"]))
+///     .build()?;
+/// assert_eq!(model.outputs().len(), 1);
+/// # Ok::<(), jurist_engine::error::Diagnostics>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct BlockBuilder {
     text: String,
@@ -185,6 +208,8 @@ impl ModelBuilder {
     }
 
     /// The loop, with warnings.
+    ///
+    /// Cost: that of [`Model::from_toml`].
     ///
     /// # Errors
     /// As [`Model::from_toml`], pointing into the text of [`ModelBuilder::to_toml`].

@@ -15,7 +15,24 @@ use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 
 /// A closed loop in state space: `x' = A x + E r`, `y = C x + D r`, where `x'` is the next sample
 /// or the derivative.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{BlockBuilder, Model, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .inputs(["r"])
+///     .outputs(["y"])
+///     .block(BlockBuilder::new("controller", "r - y", "u").gain("1/2"))
+///     .block(BlockBuilder::new("plant", "u", "y").transfer("1/(z - 1)"))
+///     .build()?;
+/// let (problem, budget) = (model.ask().problem()?, Budget::unlimited());
+/// let closed_loop = problem.closed_loop(&budget)?;
+/// assert_eq!(closed_loop.a[(0, 0)].as_constant().unwrap().to_string(), "1/2");
+/// assert_eq!((closed_loop.inputs[0].as_str(), closed_loop.outputs[0].as_str()), ("r", "y"));
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ClosedLoop {
     /// The kept parameters: variables 0, 1, ... of all entries.
     pub variables: Vec<String>,
@@ -40,7 +57,25 @@ pub struct ClosedLoop {
 }
 
 /// A transfer function of the closed loop as it stands: nothing is cancelled.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{BlockBuilder, Model, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .inputs(["r"])
+///     .outputs(["y"])
+///     .block(BlockBuilder::new("controller", "r - y", "u").gain("1/2"))
+///     .block(BlockBuilder::new("plant", "u", "y").transfer("1/(z - 1)"))
+///     .build()?;
+/// let (problem, budget) = (model.ask().problem()?, Budget::unlimited());
+/// let closed_loop = problem.closed_loop(&budget)?;
+/// let transfer = closed_loop.transfer_function("r", "y", &budget)?; // (1/2) / (z - 1/2)
+/// assert_eq!(transfer.numerator[0].as_constant().unwrap().to_string(), "1/2");
+/// assert_eq!(transfer.denominator.coefficients[0].as_constant().unwrap().to_string(), "-1/2");
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct TransferFunction {
     /// Coefficients of the numerator from the constant term up, as many as the denominator has.
     pub numerator: Vec<RationalFunction>,
@@ -102,6 +137,10 @@ impl Model {
     /// Matrices and blocks give `det(zI - A)` of the closed loop, monic, with every mode; a `characteristic` stays as it is
     /// written. The formal degree is that with all parameters symbolic, before any was set.
     ///
+    /// Cost: each expression is evaluated once, all parameters symbolic, which is the part that grows with their
+    /// number; then every coefficient is a rational function into which the values are put. For matrices and blocks
+    /// there follows [`ClosedLoop::characteristic_polynomial`].
+    ///
     /// # Errors
     /// [`Error::Undefined`] at values for which the model is undefined whatever is kept, [`Error::Stopped`] when the
     /// budget runs out, [`Error::Refused`] where the model is not complete.
@@ -138,6 +177,8 @@ impl Model {
     }
 
     /// The value of an expression in constants and parameters, all of which have values.
+    ///
+    /// Cost: an operation on rational functions for each operator of the expression and of the model's constants.
     ///
     /// # Errors
     /// As [`Model::evaluate`].
@@ -262,6 +303,8 @@ fn add_pole(poles: &mut Vec<MultiPoly>, pole: &MultiPoly) {
 impl ClosedLoop {
     /// `det(zI - A)`.
     ///
+    /// Cost: that of [`RationalMatrix::characteristic_polynomial`].
+    ///
     /// # Errors
     /// [`Error::Stopped`].
     pub fn characteristic_polynomial(&self, budget: &Budget) -> Result<CharacteristicPolynomial, Error> {
@@ -273,6 +316,8 @@ impl ClosedLoop {
     }
 
     /// The transfer function from an input to an output of the closed loop, nothing cancelled.
+    ///
+    /// Cost: two characteristic polynomials.
     ///
     /// # Errors
     /// `E-unknown-signal`; [`Error::Stopped`].
@@ -296,6 +341,8 @@ impl ClosedLoop {
     /// By the matrix determinant lemma the numerator is `det(zI - A + e c) - det(zI - A) + d det(zI - A)`
     /// with `e` the column of the input and `c`, `d` the row of the output: it equals
     /// `c adj(zI - A) e + d det(zI - A)`.
+    ///
+    /// Cost: two characteristic polynomials.
     ///
     /// # Errors
     /// [`Error::Stopped`].

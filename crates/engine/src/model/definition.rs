@@ -7,6 +7,11 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Whether the loop runs in steps or continuously.
+///
+/// ```
+/// use jurist_engine::model::Time;
+/// assert_eq!((Time::Discrete.variable(), Time::Continuous.name()), ("z", "continuous"));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -46,7 +51,15 @@ pub struct Name {
 
 /// A named value that does not change. One that is given as a number can be replaced by another number or freed:
 /// see [`Question`](crate::problem::Question).
+///
+/// ```
+/// use jurist_engine::model::Model;
+/// let drive = Model::drive();
+/// let inductance = drive.constant("L_a").unwrap();
+/// assert_eq!(inductance.number.as_ref().unwrap().to_string(), "23/500");
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Constant {
     /// The name.
     pub name: String,
@@ -59,7 +72,15 @@ pub struct Constant {
 }
 
 /// A quantity that stays free.
+///
+/// ```
+/// use jurist_engine::model::Model;
+/// let drive = Model::drive();
+/// let gain = drive.parameter("K_pwm").unwrap();
+/// assert!(gain.contains(&550.into()) && !gain.contains(&0.into()));
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Parameter {
     /// The name.
     pub name: String,

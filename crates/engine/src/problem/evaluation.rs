@@ -12,6 +12,21 @@ use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 
 /// What the model says to a question.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .characteristic("z^2 - z + K/2")
+///     .build()?;
+/// let (problem, budget) = (model.ask().free("K").problem()?, Budget::unlimited());
+/// let algebra = problem.algebra(&budget)?;
+/// let polynomial = algebra.polynomial().unwrap();
+/// assert_eq!(algebra.formal_degree(), 2);
+/// assert_eq!(polynomial.coefficients[0].display(&polynomial.variables).to_string(), "K/2");
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Algebra {
     polynomial: Option<CharacteristicPolynomial>,

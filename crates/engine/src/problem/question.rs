@@ -98,6 +98,8 @@ impl Question {
 
     /// The question with every name known and every value in its place. No algebra is done.
     ///
+    /// Cost: that of looking up each name.
+    ///
     /// # Errors
     /// [`Error::Refused`] for names the model does not know or that cannot vary, values that are missing, a region that
     /// does not fit the kind of time, an empty domain, a name that is both free and set; all that apply.

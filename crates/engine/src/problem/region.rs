@@ -11,6 +11,13 @@ pub const RADIUS: &str = "radius";
 pub const DECAY: &str = "decay";
 
 /// How far a region reaches: a number, or what the question is about.
+///
+/// ```
+/// use jurist_engine::model::Time;
+/// use jurist_engine::problem::{Bound, Region};
+/// assert_eq!(*Region::of(Time::Discrete).bound(), Bound::Number(1.into()));
+/// assert!(Region::Disc(Bound::Free).is_free());
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Bound {
     /// A number.
@@ -20,6 +27,21 @@ pub enum Bound {
 }
 
 /// An open region of the complex plane in which all roots of a stable loop lie.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Region;
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .characteristic("z^2 - z + K/2")
+///     .build()?;
+/// let within = Region::disc("9/10".parse().unwrap())?; // |z| < 9/10
+/// let answer = model.ask().free("K").within(within).stable_set(&Budget::unlimited())?;
+/// let upper = answer.value().intervals()[0].upper.as_ref().unwrap();
+/// assert_eq!(upper.value.exact().unwrap().to_string(), "81/50");
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Region {

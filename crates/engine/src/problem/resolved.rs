@@ -12,6 +12,19 @@ use jurist_algebra::poly::UniPoly;
 use std::sync::{Arc, OnceLock};
 
 /// A parameter that a question leaves free.
+///
+/// ```
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .characteristic("z^2 - z + K/2")
+///     .build()?;
+/// let problem = model.ask().free("K").problem()?;
+/// let free = problem.parameter();
+/// assert_eq!((free.name.as_str(), free.nominal.clone()), ("K", Some(1.into())));
+/// assert!(free.domain.contains(&(-7).into()));
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Free {
@@ -28,6 +41,21 @@ pub struct Free {
 /// One question about one model. It is made by [`Question::problem`](super::Question::problem) and shared by all its answers.
 ///
 /// The algebra is computed when it is first needed, once; whoever needs it again is given the same.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .characteristic("z^2 - z + K/2")
+///     .build()?;
+/// let problem = model.ask().set("K", 2).problem()?;
+/// assert_eq!(problem.set(), [("K".to_owned(), 2.into())]);
+/// assert!(problem.evaluated().is_none());
+/// let verdict = problem.verdict(&Budget::unlimited())?;
+/// assert!(verdict.problem().evaluated().is_some());
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Debug)]
 pub struct Problem {
     model: Arc<Model>,
@@ -111,6 +139,9 @@ impl Problem {
 
     /// The characteristic polynomial and what goes with it; computed on the first call.
     ///
+    /// Cost: on the first call that of [`Model::evaluate`] with what is free kept, and of putting the region's
+    /// bound into the polynomial, `O(n^2)` operations on its coefficients; then nothing.
+    ///
     /// # Errors
     /// [`Error::Refused`] where the model is not complete, [`Error::Stopped`] when the budget runs out. A model that is
     /// undefined at the values set has algebra without a polynomial.
@@ -129,6 +160,8 @@ impl Problem {
 
     /// The closed loop in state space.
     ///
+    /// Cost: that of [`Problem::algebra`].
+    ///
     /// # Errors
     /// As [`Problem::algebra`]; `E-no-states` for a model given by its characteristic polynomial, [`Error::Undefined`].
     pub fn closed_loop(&self, budget: &Budget) -> Result<&ClosedLoop, Error> {
@@ -137,6 +170,9 @@ impl Problem {
 
     /// The polynomial in the one free parameter (or none) in the form that is decided; `None` where the loop is undefined
     /// for every value.
+    ///
+    /// Cost: that of [`Problem::algebra`]; on the first call also `O(n)` greatest common divisors of polynomials in
+    /// the parameter.
     ///
     /// # Errors
     /// As [`Problem::algebra`].
@@ -150,6 +186,9 @@ impl Problem {
     }
 
     /// The polynomial in the two free parameters; `None` where the loop is undefined for all values.
+    ///
+    /// Cost: that of [`Problem::algebra`]; on the first call also `O(n)` least common multiples of polynomials in
+    /// the parameters.
     ///
     /// # Errors
     /// As [`Problem::algebra`].
@@ -171,6 +210,8 @@ impl Problem {
 
     /// The problem that is left of one in two parameters when one of them (0 for the first) has a value. Its algebra follows
     /// from what is known.
+    ///
+    /// Cost: that of [`Problem::algebra`], and of putting the value into the `n + 1` coefficients.
     ///
     /// # Errors
     /// As [`Problem::algebra`].

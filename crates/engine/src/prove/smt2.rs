@@ -18,6 +18,8 @@ impl Answer<StableSet> {
     /// The conditions are those of the table whose rows are divided by the entry two rows above, so that their degrees grow by
     /// addition: `|first| > |last|` of a row stands as "`first - last` and `first + last` have the same sign".
     ///
+    /// Cost: one table, `O(n^2)` operations on polynomials in the parameter, and its text.
+    ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out.
     pub fn smt2(&self, budget: &Budget) -> Result<String, Error> {

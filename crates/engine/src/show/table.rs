@@ -1,7 +1,7 @@
 //! The classical table: Jury's in discrete time, Routh's in continuous time.
 
-use super::intervals::{domain_text, set_lines, undecided_text};
 use super::documents::TableKind;
+use super::intervals::{domain_text, set_lines, undecided_text};
 use super::layout::{Columns, called, named_values, wrapped};
 use super::notation::{Coefficient, coefficient_text};
 use super::region;

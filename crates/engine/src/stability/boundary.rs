@@ -6,7 +6,19 @@ use jurist_algebra::number::Integer;
 use jurist_algebra::poly::{Domain, SquareFree, UniPoly};
 
 /// One boundary: a square-free polynomial in the parameter and what happens at its zeros.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::{Poly, UniPoly};
+/// use jurist_engine::stability::{Cause, ParametricPolynomial, Shape, boundary_polynomials};
+/// let d = Poly::new(vec![UniPoly::from_i64(&[-1, 1]), UniPoly::from_i64(&[1])]); // z - 1 + K
+/// let p = ParametricPolynomial::from_integral(&d, 1);
+/// let boundaries = boundary_polynomials(&p, Shape::UnitDisc, &Budget::unlimited()).unwrap().unwrap();
+/// assert_eq!(boundaries[0].cause, Cause::RootAtOne);
+/// assert_eq!(boundaries[0].polynomial.poly(), &UniPoly::from_i64(&[0, 1])); // D(1) = K
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Boundary {
     /// What happens at the zeros; for `complex pair` it may also be a mirror pair off the boundary.
     pub cause: Cause,
@@ -21,6 +33,24 @@ pub struct Boundary {
 /// exact count decides the whole gap. Conversely a zero next to a stable gap is never stable: there all
 /// roots are in the closed region by continuity, and two roots that mirror each other in the boundary
 /// then lie on it.
+///
+/// Of a root at the ends of the boundary the values of the polynomial there tell, of complex pairs the critical
+/// constraint ([JuryPavlidis1963](jurist_algebra::bibliography#jurypavlidis1963),
+/// [Orlando1911](jurist_algebra::bibliography#orlando1911)).
+///
+/// Cost: one resultant ([`HalfSizePair::critical_constraint`]) of degree up to `(n - 1) d` for order `n` and
+/// coefficients of degree `d`, and a square-free part of each boundary.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::{Poly, UniPoly};
+/// use jurist_engine::stability::{ParametricPolynomial, Shape, boundary_polynomials};
+/// let d = Poly::new(vec![UniPoly::from_i64(&[-1, 1]), UniPoly::from_i64(&[1])]); // z - 1 + K
+/// let p = ParametricPolynomial::from_integral(&d, 1);
+/// let boundaries = boundary_polynomials(&p, Shape::UnitDisc, &Budget::unlimited()).unwrap().unwrap();
+/// let causes: Vec<&str> = boundaries.iter().map(|boundary| boundary.cause.name()).collect();
+/// assert_eq!(causes, ["z=1", "z=-1"]);
+/// ```
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out.

@@ -3,6 +3,11 @@
 use std::fmt;
 
 /// One reason. The order is the order in which several are named.
+///
+/// ```
+/// use jurist_engine::stability::Cause;
+/// assert_eq!(Cause::ComplexPair.to_string(), "complex pair");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Cause {
     /// A root at `z = 1`.
@@ -44,6 +49,15 @@ impl fmt::Display for Cause {
 }
 
 /// All reasons that hold at once, e.g. `z=1+domain`.
+///
+/// ```
+/// use jurist_engine::stability::{Cause, Causes};
+/// let mut causes = Causes::default();
+/// causes.insert(Cause::Domain);
+/// causes.insert(Cause::RootAtOne);
+/// assert_eq!(causes.to_string(), "z=1+domain");
+/// assert!(causes.contains(Cause::Domain));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
 pub struct Causes(Vec<Cause>);
 

@@ -34,7 +34,20 @@ pub struct ScaledPoly {
 }
 
 /// One condition with its exact solution set in the parameter's range.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::{Poly, UniPoly};
+/// use jurist_engine::stability::{ParametricPolynomial, Range, Shape, classical_test};
+/// let d = Poly::new(vec![UniPoly::from_i64(&[-1, 1]), UniPoly::from_i64(&[1])]); // z - 1 + K
+/// let p = ParametricPolynomial::from_integral(&d, 1);
+/// let test = classical_test(&p, &Range::all(), Shape::UnitDisc, &Budget::unlimited()).unwrap();
+/// let condition = &test.conditions[2];
+/// assert_eq!(condition.name, "|a_0| < a_1"); // |K - 1| < 1
+/// assert!(condition.solution.contains(&1.into()) && !condition.solution.contains(&2.into()));
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Condition {
     /// The condition in the field's notation, e.g. `|b_0| > |b_5|`.
     pub name: String,
@@ -54,7 +67,19 @@ pub enum Table {
 }
 
 /// The classical test of a loop with one parameter: table, conditions, their intersection.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::{Poly, UniPoly};
+/// use jurist_engine::stability::{ParametricPolynomial, Range, Shape, classical_test};
+/// let d = Poly::new(vec![UniPoly::from_i64(&[-1, 1]), UniPoly::from_i64(&[1])]); // z - 1 + K
+/// let p = ParametricPolynomial::from_integral(&d, 1);
+/// let test = classical_test(&p, &Range::all(), Shape::UnitDisc, &Budget::unlimited()).unwrap();
+/// assert_eq!(test.conditions.len(), 3);
+/// assert_eq!(test.intersection.intervals().len(), 1); // 0 < K < 2
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct ClassicalTest {
     /// The table, each row up to the positive factor in `scales`.
     pub table: Table,
@@ -72,6 +97,26 @@ pub struct ClassicalTest {
 ///
 /// The intersection is the stable set, found without the boundary polynomials: the two ways are
 /// each other's oracle.
+///
+/// Jury's conditions are those of [JuryBlanchard1961](jurist_algebra::bibliography#juryblanchard1961), Routh's
+/// those of [Routh1877](jurist_algebra::bibliography#routh1877) without fractions.
+///
+/// Cost: a table, `O(n^2)` operations on polynomials in the parameter, and isolation of the real zeros of two
+/// polynomials for each row of Jury's, of one for each of Routh's. With coefficients of degree `d` the textbook's
+/// rows of Jury, printed up to order 8, reach degree `2^(n-2) d`; solved are divided rows, of degree `2 i d` in row
+/// `i`. So this way is slower than [`stable_set`](super::stable_set), and its oracle.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::{Poly, UniPoly};
+/// use jurist_engine::stability::{ParametricPolynomial, Range, Shape, classical_test, stable_set};
+/// let d = Poly::new(vec![UniPoly::from_i64(&[-1, 1]), UniPoly::from_i64(&[1])]); // z - 1 + K
+/// let p = ParametricPolynomial::from_integral(&d, 1);
+/// let (all, budget) = (Range::all(), Budget::unlimited());
+/// let test = classical_test(&p, &all, Shape::UnitDisc, &budget).unwrap();
+/// let set = stable_set(&p, &all, Shape::UnitDisc, &budget).unwrap();
+/// assert!(test.intersection.same_as(&set.to_interval_set()));
+/// ```
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out.

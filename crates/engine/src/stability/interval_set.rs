@@ -6,6 +6,12 @@ use jurist_algebra::poly::{RealAlgebraic, SquareFree, UniPoly, isolate_real_root
 use std::cmp::Ordering;
 
 /// An open interval with rational ends, either of which may be infinite (`None`).
+///
+/// ```
+/// use jurist_engine::stability::Range;
+/// let range = Range::between(Some(0.into()), None);
+/// assert!(range.contains(&1.into()) && !range.contains(&0.into()));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Range {
     /// The lower end, excluded.
@@ -37,6 +43,13 @@ impl Range {
 }
 
 /// An open interval with algebraic ends; `None` is an infinite end.
+///
+/// ```
+/// use jurist_algebra::poly::RealAlgebraic;
+/// use jurist_engine::stability::AlgebraicInterval;
+/// let positive = AlgebraicInterval { lower: Some(RealAlgebraic::from_rational(0.into())), upper: None };
+/// assert!(positive.contains(&positive.sample()) && !positive.contains(&0.into()));
+/// ```
 #[derive(Clone, Debug)]
 pub struct AlgebraicInterval {
     /// The lower end, excluded.
@@ -47,6 +60,19 @@ pub struct AlgebraicInterval {
 
 /// A union of disjoint open intervals, in ascending order. Two may share an end, which is then not
 /// in the set.
+///
+/// ```
+/// use jurist_algebra::poly::RealAlgebraic;
+/// use jurist_engine::stability::{AlgebraicInterval, IntervalSet};
+/// let interval = |lower: i32, upper: i32| AlgebraicInterval {
+///     lower: Some(RealAlgebraic::from_rational(lower.into())),
+///     upper: Some(RealAlgebraic::from_rational(upper.into())),
+/// };
+/// let set: IntervalSet = [interval(0, 2), interval(3, 5)].into_iter().collect();
+/// let common = set.intersection(&[interval(1, 4)].into_iter().collect());
+/// assert_eq!(common.intervals().len(), 2);
+/// assert!(common.contains(&"7/2".parse().unwrap()) && !common.contains(&2.into()));
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct IntervalSet {
     intervals: Vec<AlgebraicInterval>,
@@ -59,6 +85,8 @@ impl IntervalSet {
     }
 
     /// The cells of `range` between the given points in which `holds` is true of a rational sample.
+    ///
+    /// Cost: a rational number between any two neighbouring points, and what `holds` takes.
     ///
     /// # Errors
     /// What `holds` returns, or the budget.
@@ -130,6 +158,8 @@ impl AlgebraicInterval {
     }
 
     /// A rational number inside.
+    ///
+    /// Cost: halvings of the enclosures of both ends until the simplest rational number between them shows.
     pub fn sample(&self) -> Rational {
         match (&self.lower, &self.upper) {
             (Some(l), Some(u)) => rational_between(l, u).expect("the ends differ"),

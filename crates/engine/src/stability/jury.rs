@@ -22,7 +22,16 @@ pub struct JuryRow<R> {
 /// The first row holds the coefficients `a_0 .. a_n`; the next `b_k = a_0 a_k - a_n a_(n-k)`,
 /// `k = 0 .. n-1`, and so on down to a row of three entries ([JuryBlanchard1961](jurist_algebra::bibliography#juryblanchard1961); the form of
 /// Phillips and Nagle, Digital Control System Analysis and Design, 1984).
+///
+/// ```
+/// use jurist_algebra::poly::UniPoly;
+/// use jurist_engine::stability::jury_table;
+/// let table = jury_table(&UniPoly::from_i64(&[1, 2, 3, 4]), 3); // 4 z^3 + 3 z^2 + 2 z + 1
+/// assert_eq!(table.rows.len(), 2);
+/// assert!(!table.is_divided());
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct JuryTable<R> {
     /// The rows `a`, `b`, `c`, ...
     pub rows: Vec<JuryRow<R>>,
@@ -44,7 +53,17 @@ impl<R: Domain> JuryTable<R> {
 ///
 /// Above order [`UNDIVIDED_ORDER`] the row after `c` is divided by `b_0`, the next by `c_0`, and so
 /// on: these divisions are exact, since the rows are then minors of the Schur-Cohn matrix. Where
-/// the divisor is identically zero the row is left undivided. `O(n^2)` operations.
+/// the divisor is identically zero the row is left undivided.
+///
+/// Cost: `O(n^2)` operations ([JuryBlanchard1961](jurist_algebra::bibliography#juryblanchard1961)), on entries whose length (or degree)
+/// doubles from row to row where nothing is divided, and grows by addition where it is.
+///
+/// ```
+/// use jurist_algebra::poly::UniPoly;
+/// use jurist_engine::stability::jury_table;
+/// let table = jury_table(&UniPoly::from_i64(&[1, 2, 3, 4]), 3); // 4 z^3 + 3 z^2 + 2 z + 1
+/// assert_eq!(table.rows[1].entries, [(-15).into(), (-10).into(), (-5).into()]);
+/// ```
 ///
 /// # Panics
 /// When `n` is below the degree of `a`.
@@ -86,6 +105,16 @@ fn quotients<R: Domain>(entries: &[R], factor: &R) -> Option<Vec<R>> {
 /// Whether all roots of `p` lie in the open unit disc, by the conditions of the Jury table.
 ///
 /// An oracle for [`super::count_roots`]; the zero polynomial is not stable, a constant is.
+///
+/// Cost: that of [`jury_table`] ([JuryBlanchard1961](jurist_algebra::bibliography#juryblanchard1961)): `O(n^2)`
+/// operations on integers.
+///
+/// ```
+/// use jurist_algebra::poly::UniPoly;
+/// use jurist_engine::stability::is_schur_jury;
+/// assert!(is_schur_jury(&UniPoly::from_i64(&[1, 2, 3, 4])));
+/// assert!(!is_schur_jury(&UniPoly::from_i64(&[4, 3, 2, 1])));
+/// ```
 pub fn is_schur_jury(p: &UniPoly) -> bool {
     let Some(n) = p.degree() else { return false };
     if n == 0 {

@@ -33,6 +33,13 @@ pub use routh::{RouthTable, is_hurwitz_routh, routh_table};
 pub use stable_set::{Cells, End, StableInterval, StableSet, end_at, stable_set};
 
 /// Where the roots of the characteristic polynomial of a stable loop lie.
+///
+/// ```
+/// use jurist_algebra::poly::UniPoly;
+/// use jurist_engine::stability::{Shape, is_stable};
+/// let p = UniPoly::from_i64(&[-1, 2]); // the root 1/2
+/// assert!(is_stable(&p, Shape::UnitDisc) && !is_stable(&p, Shape::LeftHalfPlane));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shape {
     /// The open unit disc, `|z| < 1`: discrete time.

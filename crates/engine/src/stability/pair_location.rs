@@ -9,6 +9,21 @@ use std::cmp::Ordering;
 
 /// A pair of complex conjugate roots on the boundary, located by the half-size variable
 /// `x = 2 cos(theta)` (unit disc) or `x = -omega^2` (left half plane).
+///
+/// It is found as the common root of the half-size pair, where that is not rational by subresultants
+/// ([BrownTraub1971](jurist_algebra::bibliography#browntraub1971)).
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::{Poly, UniPoly};
+/// use jurist_engine::stability::{ParametricPolynomial, Range, Shape, stable_set};
+/// // z^2 - z + K: stable for 0 < K < 1, where the pair has the angle pi/3
+/// let d = Poly::new(vec![UniPoly::from_i64(&[0, 1]), UniPoly::from_i64(&[-1]), UniPoly::from_i64(&[1])]);
+/// let p = ParametricPolynomial::from_integral(&d, 2);
+/// let set = stable_set(&p, &Range::all(), Shape::UnitDisc, &Budget::unlimited()).unwrap();
+/// let pair = set.intervals()[0].upper.as_ref().unwrap().pair.as_ref().unwrap();
+/// assert_eq!(pair.angle(64).unwrap().decimal(10).unwrap(), "1.047197551");
+/// ```
 #[derive(Clone, Debug)]
 pub struct ComplexPair {
     region: Shape,
@@ -115,6 +130,10 @@ impl ComplexPair {
 
     /// A certified enclosure of `2 cos(theta)`, or of `-omega^2`, whose width is about `2^-bits`
     /// relative to the distance from the nearest end of the interval.
+    ///
+    /// Cost: that of refining the parameter's value to a few times as many bits; where several pairs meet on the
+    /// boundary, bisection instead, with `O(m)` exact signs at the parameter's value for each bit, `m` the number
+    /// of pairs.
     pub fn half_size_root(&self, bits: u64) -> Enclosure {
         match &self.x {
             HalfSizeRoot::Number(x) => {

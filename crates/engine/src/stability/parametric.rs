@@ -9,6 +9,14 @@ use jurist_algebra::poly::{Domain, Poly, UniPoly};
 /// It is held as `content * polynomial / denominator` with `polynomial` over the integers and
 /// without a common factor in `p`, together with the parameter values at which the loop is
 /// undefined and the degree the polynomial is meant to have.
+///
+/// ```
+/// use jurist_algebra::poly::{Poly, UniPoly};
+/// use jurist_engine::stability::{ParametricPolynomial, Shape};
+/// let d = Poly::new(vec![UniPoly::from_i64(&[-1, 1]), UniPoly::from_i64(&[1])]); // z - 1 + K
+/// let p = ParametricPolynomial::from_integral(&d, 1);
+/// assert!(p.is_stable_at(&1.into(), Shape::UnitDisc) && !p.is_stable_at(&2.into(), Shape::UnitDisc));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParametricPolynomial {
     polynomial: Poly<UniPoly>,
@@ -38,6 +46,8 @@ pub enum AtPoint {
 impl ParametricPolynomial {
     /// From coefficients `numerator / denominator` for `z^0` first, the polynomials whose zeros make
     /// the loop undefined, and the degree of the polynomial in all parameters.
+    ///
+    /// Cost: `O(n)` greatest common divisors of polynomials in the parameter.
     ///
     /// # Panics
     /// When a denominator or a pole polynomial is zero, or a coefficient above `formal_degree` is not.
@@ -118,6 +128,9 @@ impl ParametricPolynomial {
 
     /// The polynomial at a value of the parameter, as an integer polynomial up to a non-zero factor;
     /// meaningful where the loop is defined and the content does not vanish.
+    ///
+    /// Cost: `O(n d)` products of numbers up to `d` times as long as the value, `d` the degree in the parameter,
+    /// and `O(n)` greatest common divisors.
     pub fn specialised(&self, value: &Rational) -> UniPoly {
         let height = self.polynomial.coeffs().iter().filter_map(UniPoly::degree).max().unwrap_or(0);
         let (p, q) = (value.numerator(), value.denominator());
@@ -146,6 +159,8 @@ impl ParametricPolynomial {
     }
 
     /// The exact root count at a value of the parameter.
+    ///
+    /// Cost: that of [`ParametricPolynomial::specialised`] and of [`count_roots`].
     pub fn at(&self, value: &Rational, region: Shape) -> AtPoint {
         if self.is_undefined_at(value) {
             return AtPoint::Undefined;
@@ -160,6 +175,8 @@ impl ParametricPolynomial {
 
     /// Whether the loop is stable at a value of the parameter: defined, of full degree, all roots
     /// inside the region.
+    ///
+    /// Cost: that of [`ParametricPolynomial::at`].
     pub fn is_stable_at(&self, value: &Rational, region: Shape) -> bool {
         matches!(self.at(value, region), AtPoint::Defined { count, infinite: 0 } if count.inside == self.formal_degree)
     }

@@ -7,6 +7,14 @@ use jurist_algebra::poly::{Domain, Poly, UniPoly};
 use std::cmp::Ordering;
 
 /// Numbers of roots with respect to a region, counted with multiplicity.
+///
+/// ```
+/// use jurist_algebra::poly::UniPoly;
+/// use jurist_engine::stability::{RootCount, Shape, count_roots};
+/// let count = count_roots(&UniPoly::from_i64(&[0, 1, 0, 1]), Shape::LeftHalfPlane); // s (s^2 + 1)
+/// assert_eq!(count, RootCount { inside: 0, on: 3, outside: 0 });
+/// assert_eq!(count.total(), 3);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub struct RootCount {
     /// Roots in the open region: strictly stable.
@@ -29,7 +37,7 @@ impl RootCount {
 /// By the Cauchy index of the half-size pair. After the roots at the ends of the boundary (`1` and `-1`, or `0`) are
 /// split off and the degree is made even by a root known to be inside, the argument of the polynomial grows along the
 /// boundary's upper half by `pi/2 (inside - outside)`, which is `pi` times the Cauchy index of
-/// `B/A` (Gantmacher, The Theory of Matrices 2, ch. XV). Common roots of the pair are mirror pairs:
+/// `B/A` ([Gantmacher1959](jurist_algebra::bibliography#gantmacher1959), ch. XV). Common roots of the pair are mirror pairs:
 /// those in the interval are on the boundary, the others have one root on either side.
 /// `O(n^2)` operations on integers that grow to `O(n)` times the input's length, within the budget that holds on the thread.
 ///
@@ -98,6 +106,14 @@ pub fn count_roots(p: &UniPoly, region: Shape) -> RootCount {
 }
 
 /// Whether all roots lie in the open region. A non-zero constant is stable, zero is not.
+///
+/// Cost: that of [`count_roots`].
+///
+/// ```
+/// use jurist_algebra::poly::UniPoly;
+/// use jurist_engine::stability::{Shape, is_stable};
+/// assert!(is_stable(&UniPoly::from_i64(&[4, 3, 2, 1]), Shape::LeftHalfPlane));
+/// ```
 pub fn is_stable(p: &UniPoly, region: Shape) -> bool {
     if p.is_zero() {
         return false;

@@ -4,7 +4,18 @@ use jurist_algebra::poly::{Domain, Poly, UniPoly};
 
 /// The fraction-free Routh table: rows 0 and 1 hold the coefficients of even and odd distance from
 /// the leading one; the first entries of rows 1 to n are the Hurwitz determinants.
+///
+/// The table is that of [Routh1877](jurist_algebra::bibliography#routh1877), each row a positive multiple of his
+/// where the first column is positive.
+///
+/// ```
+/// use jurist_algebra::poly::UniPoly;
+/// use jurist_engine::stability::routh_table;
+/// let table = routh_table(&UniPoly::from_i64(&[4, 3, 2, 1]), 3); // s^3 + 2 s^2 + 3 s + 4
+/// assert!(table.first_column().eq(&[1.into(), 2.into(), 2.into(), 8.into()]));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RouthTable<R> {
     /// Row `i`, of `floor((n - i)/2) + 1` entries.
     pub rows: Vec<Vec<R>>,
@@ -24,6 +35,14 @@ impl<R: Domain> RouthTable<R> {
 ///
 /// A row whose first entry is (identically) zero ends the table, because the next would divide by it.
 /// `O(n^2)` operations.
+///
+/// ```
+/// use jurist_algebra::poly::UniPoly;
+/// use jurist_engine::stability::routh_table;
+/// let table = routh_table(&UniPoly::from_i64(&[4, 3, 2, 1]), 3); // s^3 + 2 s^2 + 3 s + 4
+/// assert_eq!(table.rows[..2], [vec![1.into(), 3.into()], vec![2.into(), 4.into()]]);
+/// assert_eq!(table.rows[2..], [vec![2.into()], vec![8.into()]]);
+/// ```
 ///
 /// # Panics
 /// When `n` is below the degree of `p`.
@@ -58,6 +77,16 @@ pub fn routh_table<R: Domain>(p: &Poly<R>, n: usize) -> RouthTable<R> {
 /// Whether all roots of `p` lie in the open left half plane, by the Hurwitz determinants.
 ///
 /// An oracle for [`super::count_roots`]; the zero polynomial is not stable, a constant is.
+///
+/// Cost: that of [`routh_table`] ([Bistritz2013](jurist_algebra::bibliography#bistritz2013)): `O(n^2)` operations
+/// on integers that are minors of the matrix of Hurwitz.
+///
+/// ```
+/// use jurist_algebra::poly::UniPoly;
+/// use jurist_engine::stability::is_hurwitz_routh;
+/// assert!(is_hurwitz_routh(&UniPoly::from_i64(&[4, 3, 2, 1])));
+/// assert!(!is_hurwitz_routh(&UniPoly::from_i64(&[9, 3, 2, 1])));
+/// ```
 pub fn is_hurwitz_routh(p: &UniPoly) -> bool {
     let Some(n) = p.degree() else { return false };
     let p = if p.needs_negation() { p.negated() } else { p.clone() };

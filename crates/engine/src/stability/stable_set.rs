@@ -11,7 +11,20 @@ use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{RealAlgebraic, isolate_real_roots_in};
 
 /// One end of a stable interval.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::{Poly, UniPoly};
+/// use jurist_engine::stability::{ParametricPolynomial, Range, Shape, stable_set};
+/// let d = Poly::new(vec![UniPoly::from_i64(&[-1, 1]), UniPoly::from_i64(&[1])]); // z - 1 + K
+/// let p = ParametricPolynomial::from_integral(&d, 1);
+/// let set = stable_set(&p, &Range::all(), Shape::UnitDisc, &Budget::unlimited()).unwrap();
+/// let upper = set.intervals()[0].upper.as_ref().unwrap();
+/// assert_eq!((upper.value.decimal(6).as_str(), upper.causes.to_string().as_str()), ("2", "z=-1"));
+/// assert!(upper.pair.is_none());
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct End {
     /// The exact value.
     pub value: RealAlgebraic,
@@ -22,7 +35,20 @@ pub struct End {
 }
 
 /// An open interval of stable parameter values; `None` is an infinite end.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::{Poly, UniPoly};
+/// use jurist_engine::stability::{End, ParametricPolynomial, Range, Shape, stable_set};
+/// let d = Poly::new(vec![UniPoly::from_i64(&[-1, 1]), UniPoly::from_i64(&[1])]); // z - 1 + K
+/// let p = ParametricPolynomial::from_integral(&d, 1);
+/// let set = stable_set(&p, &Range::all(), Shape::UnitDisc, &Budget::unlimited()).unwrap();
+/// let interval = &set.intervals()[0];
+/// let value = |end: &Option<End>| end.as_ref().unwrap().value.decimal(6);
+/// assert_eq!((value(&interval.lower), value(&interval.upper)), ("0".to_owned(), "2".to_owned()));
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct StableInterval {
     /// The lower end, never stable itself.
     pub lower: Option<End>,
@@ -34,6 +60,18 @@ pub struct StableInterval {
 ///
 /// Two neighbouring intervals may share an end, where the loop is only marginally stable (the roots
 /// touch the boundary) or undefined.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::{Poly, UniPoly};
+/// use jurist_engine::stability::{ParametricPolynomial, Range, Shape, stable_set};
+/// let d = Poly::new(vec![UniPoly::from_i64(&[-1, 1]), UniPoly::from_i64(&[1])]); // z - 1 + K
+/// let p = ParametricPolynomial::from_integral(&d, 1);
+/// let set = stable_set(&p, &Range::all(), Shape::UnitDisc, &Budget::unlimited()).unwrap();
+/// assert!(set.contains(&1.into()) && !set.contains(&2.into()));
+/// let cells = set.cells().unwrap();
+/// assert_eq!((cells.zeros.len(), cells.samples.len()), (2, 3));
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct StableSet {
     intervals: Vec<StableInterval>,
@@ -89,6 +127,15 @@ impl StableSet {
 /// The real zeros of the [`boundary_polynomials`] cut the range into open cells; in each the root
 /// count is constant, so it is taken exactly at one rational sample. Ends of stable cells are then
 /// examined for all that happens there.
+///
+/// With the critical constraint of [JuryPavlidis1963](jurist_algebra::bibliography#jurypavlidis1963) as the
+/// boundary of complex pairs, and what lies between zeros decided as in
+/// [Collins1975](jurist_algebra::bibliography#collins1975).
+///
+/// Cost: that of [`boundary_polynomials`], one resultant; isolation of the real zeros of each, of degree up to `(n
+/// - 1) d` for order `n` and coefficients of degree `d`; one [`count_roots`](super::count_roots) in each cell
+/// between them, `O(n^2)` operations on integers; and at each end of a stable interval the signs of all boundary
+/// polynomials.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;

@@ -11,6 +11,14 @@ const INLINE: usize = 4;
 ///
 /// Exponent vectors of different lengths are the same when they differ by zeros at the end, so a
 /// monomial does not know how many variables there are.
+///
+/// ```
+/// use jurist_algebra::poly::Monomial;
+/// let m = Monomial::new(&[2, 1]); // x_0^2 x_1
+/// assert_eq!(m, Monomial::new(&[2, 1, 0]));
+/// assert!(m > Monomial::power_of(1, 7));
+/// assert_eq!(m.total_degree(), 3);
+/// ```
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Monomial(Exponents);
 

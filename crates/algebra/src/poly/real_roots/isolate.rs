@@ -22,6 +22,12 @@ const CHOSEN_RELATIVE_BITS: u64 = 8;
 /// Any non-zero polynomial is made [`SquareFree`] by [`SquareFree::part_of`], which refuses only
 /// the zero polynomial. The chooser among the algorithms of this module.
 ///
+/// Cost: with `n` the degree, a halving of an interval in the Bernstein basis
+/// ([LaneRiesenfeld1981](crate::bibliography#laneriesenfeld1981),
+/// [CollinsAkritas1976](crate::bibliography#collinsakritas1976)) takes `n^2 / 2` additions of numbers of about a
+/// hundred bits, more where signs change often; Newton steps ([Sagraloff2012](crate::bibliography#sagraloff2012))
+/// shorten the way to roots that are close together.
+///
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_algebra::poly::UniPoly;
@@ -39,7 +45,18 @@ pub fn isolate_real_roots(p: &SquareFree, budget: &Budget) -> Result<Vec<RealAlg
 }
 
 /// The roots in the open interval from `lo` to `hi`, `None` meaning without end; an end that is a
-/// root is left out. Otherwise as [`isolate_real_roots`].
+/// root is left out.
+///
+/// Cost: that of [`isolate_real_roots`], which isolates all roots, and two comparisons for each of them.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::number::Rational;
+/// use jurist_algebra::poly::{SquareFree, UniPoly, isolate_real_roots_in};
+/// let p = SquareFree::new(UniPoly::from_i64(&[0, -2, 0, 1])).unwrap(); // x^3 - 2 x
+/// let roots = isolate_real_roots_in(&p, Some(&Rational::ZERO), None, &Budget::unlimited()).unwrap();
+/// assert_eq!((roots.len(), roots[0].decimal(5)), (1, "1.4142".to_owned()));
+/// ```
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
@@ -58,6 +75,8 @@ pub fn isolate_real_roots_in(
 
 impl RealAlgebraic {
     /// The root of `p` in the open interval from `lo` to `hi`; `None` unless there is exactly one.
+    ///
+    /// Cost: that of [`isolate_real_roots`].
     ///
     /// ```
     /// use jurist_algebra::limits::Budget;

@@ -27,6 +27,9 @@ impl SquareFree {
 
     /// The product of the distinct irreducible factors: same roots, each once. `None` for zero;
     /// 1 for a non-zero constant.
+    ///
+    /// Cost: a check modulo a prime where there are no repeated roots, else that of
+    /// [`Poly::square_free_part`](crate::poly::Poly::square_free_part).
     pub fn part_of(p: &UniPoly) -> Option<SquareFree> {
         if p.is_zero() {
             return None;

@@ -20,6 +20,9 @@ const MAX_SHOWN: usize = 20;
 impl Model {
     /// Reads a model file. Warnings come with the loop; errors come all together.
     ///
+    /// Cost: linear in the text, but for the conversion of its numbers and the values of constants that are
+    /// computed to be checked; no characteristic polynomial is made.
+    ///
     /// ```
     /// use jurist_engine::error::Source;
     /// use jurist_engine::model::Model;

@@ -19,6 +19,7 @@ use std::fmt;
 /// # Ok::<(), jurist_engine::error::Diagnostics>(())
 /// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Expression {
     /// Where it stands in the source text.
     pub span: Span,

@@ -133,11 +133,7 @@ impl MapBoxes {
             boxes: map.boxes.iter().map(PlaneBox::from).collect(),
             stopped: map.stopped.clone(),
         };
-        MapBoxes {
-            schema: MapBoxesName::V1,
-            question: MapQuestion::new(problem),
-            answer: Answered::of(answer, known),
-        }
+        MapBoxes { schema: MapBoxesName::V1, question: MapQuestion::new(problem), answer: Answered::of(answer, known) }
     }
 }
 

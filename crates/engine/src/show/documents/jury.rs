@@ -276,7 +276,8 @@ impl JuryInParameter {
     pub fn new(problem: &Problem, answer: Result<&ParametricTable, &Exhausted>, digits: usize) -> Self {
         let solved = |answer: &ParametricTable| {
             let test = answer.test.as_ref();
-            let solution = |c: &crate::stability::Condition| Solution { solution: PlainEnd::intervals(&c.solution, digits) };
+            let solution =
+                |c: &crate::stability::Condition| Solution { solution: PlainEnd::intervals(&c.solution, digits) };
             SolvedTable {
                 rows: test.map(|t| table_rows(t, polynomial)).unwrap_or_default(),
                 cleared_by: test.and_then(|t| t.cleared_by.as_ref()).map(Exact::coefficients),

@@ -1,10 +1,10 @@
 //! The document `jurist/map/1`.
 
+use super::Answered;
 use super::end::{Bounds, FrequencyOfPair, PlainEnd};
 use super::number::{Enclosure, Exact, Named, Number, enclosure};
 use super::question::{RegionBound, title};
 use super::schema_name;
-use super::Answered;
 use crate::answer::{self, Answer, MapLimit, RegionExtent};
 use crate::model::Time;
 use crate::problem::{Free, Problem};

@@ -45,7 +45,7 @@ pub use jury::{
 };
 pub use map::{
     Branch, Cell, CellVerdict, Curve, CurveTerm, Map, MapName, MapOpen, MapQuestion, Pair, Place, PlaneRegion,
-    Regions, RegionEnd, RegionLimit, Strip, Wall,
+    RegionEnd, RegionLimit, Regions, Strip, Wall,
 };
 pub use number::{Enclosure, Exact, Named, Number};
 pub use question::{ParameterQuestion, PointQuestion, RegionBound};

@@ -46,7 +46,11 @@ pub fn check_published(folder: &Path, schemas: &[(&str, Value)]) {
             std::fs::write(&path, &made).expect("the schema is written");
         }
         let published = std::fs::read_to_string(&path).unwrap_or_default();
-        assert!(published == made, "{} differs from its type: UPDATE_SCHEMAS=1 cargo test schemas writes it", path.display());
+        assert!(
+            published == made,
+            "{} differs from its type: UPDATE_SCHEMAS=1 cargo test schemas writes it",
+            path.display()
+        );
     }
 }
 
