@@ -11,8 +11,6 @@
 mod builder;
 mod closed_loop;
 mod connect;
-#[cfg(test)]
-mod constants_set;
 mod definition;
 mod evaluate;
 pub mod examples;

@@ -1,11 +1,11 @@
 //! A constant that is set has another number, and nothing else changes; a constant that is kept is a parameter.
 
-use super::Model;
-use crate::error::{Error, Source};
-use crate::problem::Question;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, parse_number};
+use jurist_engine::error::{Error, Source};
+use jurist_engine::model::{Model, Parameter};
+use jurist_engine::problem::Question;
 use std::path::Path;
 
 fn number(text: &str) -> Rational {
@@ -31,7 +31,7 @@ fn free<'n>(model: &Model, names: impl IntoIterator<Item = &'n str>) -> Question
 }
 
 fn examples() -> Vec<Model> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let mut models = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -47,7 +47,7 @@ fn examples() -> Vec<Model> {
 fn a_constant_set_to_its_own_number_changes_no_answer_of_the_examples() {
     let mut constants = 0;
     for model in examples() {
-        let nominal = |p: &&super::Parameter| p.nominal.is_some();
+        let nominal = |p: &&Parameter| p.nominal.is_some();
         let without = model.parameters().iter().filter(|p| !nominal(p)).map(|p| p.name.as_str());
         let one = model.parameters().iter().find(nominal).map(|p| p.name.as_str());
         let plain = free(&model, without.chain(one));
