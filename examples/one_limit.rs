@@ -2,7 +2,7 @@
 //!
 //! `cargo run --example one_limit`
 
-use jurist::{Budget, Error, Model, Source};
+use jurist::{Budget, Error, Model, Source, documents};
 
 const MODEL: &str = r#"
 title = "first-order plant, proportional controller, one sample of delay"
@@ -44,6 +44,6 @@ fn main() -> Result<(), Error> {
     }
     // The same for people, and for programs.
     print!("{}", answer.text(12));
-    println!("{}", answer.json(12)["stable"][0]["upper"]["decimal"]);
+    print!("{}", documents::to_text(&answer.json(12)));
     Ok(())
 }

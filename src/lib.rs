@@ -38,7 +38,8 @@
 //! | [`Question::analyze`] | [`Analysis`] | the verdict, and the stable set of each parameter |
 //!
 //! An answer writes itself for people (`text`), for programs (`json`) and for checkers (`certificate`, `smt2`); [`check()`]
-//! re-checks a certificate with code that shares nothing with the engine. Everything that takes long takes a [`Budget`].
+//! re-checks a certificate with code that shares nothing with the engine. What stands in the JSON is said by
+//! [`documents`], as types, and by [`schemas`](_documentation::schemas). Everything that takes long takes a [`Budget`].
 //!
 //! # Why an answer is right
 //!
@@ -71,6 +72,7 @@ pub use jurist_engine::model::{
     TransferFunction,
 };
 pub use jurist_engine::problem::{Algebra, Bound, Free, Problem, Question, Region};
+pub use jurist_engine::show::documents;
 pub use jurist_engine::show::notation::Notation;
 pub use jurist_engine::stability::{
     AlgebraicInterval, Boundary, Cause, Causes, ClassicalTest, ComplexPair, Condition, End, HalfSizePair, IntervalSet,
@@ -108,6 +110,8 @@ pub mod _documentation {
 
     #[doc = include_str!("performance.md")]
     pub mod performance {}
+
+    pub mod schemas;
 }
 
 /// Generators of polynomials, matrices and loops with exactly known verdicts, for property tests.

@@ -79,6 +79,7 @@ mod pictures {
 /// The program as people and other programs see it.
 mod program {
     mod bad_models;
+    mod documents;
     mod drive;
     #[cfg(unix)]
     mod outputs;

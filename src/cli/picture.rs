@@ -6,8 +6,6 @@ use super::output::{ending, unknown_ending, write_answer};
 use super::status::Error;
 use jurist_draw::figures::Figure;
 use jurist_engine::error::Diagnostic;
-use jurist_engine::show::json;
-use serde_json::Value;
 use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::path::Path;
@@ -30,7 +28,7 @@ pub(super) enum Kind {
 pub(super) struct Picture<'a> {
     pub figure: &'a Figure,
     pub csv: &'a dyn Fn() -> String,
-    pub json: &'a dyn Fn() -> Value,
+    pub json: &'a dyn Fn() -> String,
     /// Whether the data are also written beside the picture.
     pub csv_beside: bool,
 }
@@ -53,7 +51,7 @@ pub(super) fn wanted(options: &PictureOptions) -> Result<Kind, Error> {
 /// Writes the picture.
 pub(super) fn deliver(picture: &Picture<'_>, kind: Kind, file: Option<&OsString>) -> Result<(), Error> {
     if kind == Kind::Json {
-        write_answer(&json::to_text(&(picture.json)()), file)?;
+        write_answer(&(picture.json)(), file)?;
     }
     let Some(file) = file.filter(|f| kind != Kind::Standard && *f != "-") else {
         if kind == Kind::Json {

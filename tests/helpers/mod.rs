@@ -11,3 +11,4 @@ pub mod plane;
 pub mod polynomial;
 pub mod program;
 pub mod random;
+pub mod schema;

@@ -1,6 +1,7 @@
 //! Running the built program.
 
 use super::number::number;
+use super::schema::fits;
 use jurist_algebra::number::Rational;
 use serde_json::Value;
 use std::io::Write;
@@ -49,11 +50,13 @@ pub fn given_time<T>(run: impl Fn(&str) -> Option<T>) -> T {
     (0..).find_map(|doublings| run(&(1u64 << doublings).to_string())).expect("at some time")
 }
 
-/// Runs the program and reads its JSON.
+/// Runs the program and reads its JSON, which fits its schema.
 pub fn json(arguments: &[&str]) -> Value {
     let run = jurist(arguments);
     assert_eq!(run.status, 0, "{arguments:?}: {}", run.stderr);
-    serde_json::from_str(&run.stdout).expect("the program writes JSON")
+    let document = serde_json::from_str(&run.stdout).expect("the program writes JSON");
+    fits(&document).unwrap_or_else(|why| panic!("{arguments:?}: {why}"));
+    document
 }
 
 /// Runs the program on arguments that it refuses: status 2, an error with this code, no panic.

@@ -3,6 +3,7 @@
 use jurist_algebra::limits::{Budget, Progress};
 use jurist_check::{Limits, check};
 use jurist_engine::model::Model;
+use jurist_engine::show::documents;
 use std::sync::{Arc, Mutex};
 
 /// Remembers every step that begins.
@@ -79,7 +80,7 @@ fn the_page_of_a_map_decomposes_nothing_again() {
     let contents = MapContents::new(&answer, &trace, Vec::new(), &budget).unwrap();
     let figures = [contents.draw(860.0, 600.0, false), contents.draw(400.0, 470.0, false)];
     let page = jurist_draw::page::map_page(&answer, &contents, &trace, &figures, "", &budget).unwrap();
-    assert!(page.contains("<svg") && !answer.json(12).is_null());
+    assert!(page.contains("<svg") && !documents::to_text(&answer.json(12)).is_empty());
     assert_eq!(steps.count("characteristic polynomial"), 1);
     // Once in the direction of either axis: the extents of the regions need both.
     assert_eq!(steps.count("projecting the curves"), 2);

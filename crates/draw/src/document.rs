@@ -3,14 +3,13 @@
 
 use crate::figures::DrawnLocus;
 use crate::simulate::{Operating, SwitchedModel, Trace};
-use jurist_algebra::number::Rational;
 use jurist_engine::answer::Answer;
 use jurist_engine::model::{Model, Time};
 use jurist_engine::problem::Problem;
-use jurist_engine::show::json;
+use jurist_engine::show::documents::{Exact, Named};
 use jurist_engine::stability::StableSet;
 use nalgebra::Complex;
-use serde_json::{Map, Value, json};
+use serde::{Deserialize, Serialize};
 
 /// What a simulation found.
 #[derive(Clone, Debug)]
@@ -48,68 +47,265 @@ impl CircuitAnswer {
     }
 }
 
-/// The unit of a loop's time: seconds, or samples where a discrete loop names no sample time.
-pub fn time_unit(model: &Model, sample_time: Option<f64>) -> &'static str {
-    if model.time() == Time::Continuous || sample_time.is_some() { "s" } else { "samples" }
+/// A number in floating point; `null` where it is not finite.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub struct Float(Option<f64>);
+
+impl From<f64> for Float {
+    fn from(value: f64) -> Self {
+        Float(Some(value).filter(|v| v.is_finite()))
+    }
 }
+
+/// Real and imaginary part.
+pub type Point = [Float; 2];
 
 /// `jurist/simulate/1`.
-///
-/// `time` are the instants in `time_unit`, `signals` have as many values; instants repeat where a
-/// signal jumps. A unit that the model does not name is `null`.
-pub fn simulation_json(problem: &Problem, answer: &SimulationAnswer) -> Value {
-    let model = problem.model();
-    let signal = |s: &crate::simulate::Signal| {
-        let unit = if s.unit.is_empty() { Value::Null } else { s.unit.as_str().into() };
-        json!({ "name": s.name, "unit": unit, "values": s.values })
-    };
-    let mut out = head("jurist/simulate/1", model.title(), problem.set());
-    out.insert("kind".into(), if answer.circuit.is_some() { "switched" } else { "sampled" }.into());
-    out.insert("sample_time".into(), answer.sample_time.map_or(Value::Null, Value::from));
-    out.insert("time_unit".into(), time_unit(model, answer.sample_time).into());
-    out.insert("time".into(), answer.trace.time.clone().into());
-    out.insert("signals".into(), answer.trace.signals.iter().map(signal).collect::<Vec<_>>().into());
-    if let Some(circuit) = &answer.circuit {
-        let steady = circuit.operating.as_ref().map(|operating| {
-            let state = circuit.states.iter().zip(operating.state.plant.iter());
-            let state: Map<String, Value> = state.map(|(name, v)| (name.clone(), (*v).into())).collect();
-            json!({ "duty": operating.duty, "state": state, "multipliers": complex(&circuit.multipliers) })
-        });
-        out.insert("steady_state".into(), steady.unwrap_or(Value::Null));
-        out.insert("clamped_periods".into(), circuit.clamped.into());
-    }
-    Value::Object(out)
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum SimulationName {
+    /// The first version.
+    #[default]
+    #[serde(rename = "jurist/simulate/1")]
+    V1,
 }
 
-/// `jurist/locus/1`: the roots, branch by branch, and the certified crossings.
-pub fn locus_json(answer: &Answer<StableSet>, drawn: &DrawnLocus) -> Value {
+/// `jurist/locus/1`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum LocusName {
+    /// The first version.
+    #[default]
+    #[serde(rename = "jurist/locus/1")]
+    V1,
+}
+
+/// A time response, in floating point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Simulation {
+    /// The kind of document.
+    pub schema: SimulationName,
+    /// The model's title; empty where it has none.
+    pub title: String,
+    /// Always true: nothing here is exact but `set`.
+    pub floating_point: bool,
+    /// The values of the parameters, and of constants that were replaced.
+    pub set: Named<Exact>,
+    /// What was simulated.
+    pub kind: SimulationKind,
+    /// Seconds between two samples; `null` for a continuous loop or without a sample time.
+    pub sample_time: Option<Float>,
+    /// The unit of `time`.
+    pub time_unit: TimeUnit,
+    /// The instants; they repeat where a signal jumps.
+    pub time: Vec<Float>,
+    /// The signals.
+    pub signals: Vec<SignalValues>,
+    /// What is known of a switched circuit.
+    #[serde(flatten)]
+    pub circuit: Option<CircuitValues>,
+}
+
+/// What was simulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum SimulationKind {
+    /// The circuit with its switches.
+    Switched,
+    /// The linear loop.
+    Sampled,
+}
+
+/// The unit of time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum TimeUnit {
+    /// Seconds.
+    #[serde(rename = "s")]
+    Seconds,
+    /// Samples: a discrete loop that names no sample time.
+    #[serde(rename = "samples")]
+    Samples,
+}
+
+impl TimeUnit {
+    /// The unit of a loop's time.
+    pub fn of(model: &Model, sample_time: Option<f64>) -> TimeUnit {
+        if model.time() == Time::Continuous || sample_time.is_some() { TimeUnit::Seconds } else { TimeUnit::Samples }
+    }
+
+    /// The name used in all output.
+    pub fn name(self) -> &'static str {
+        match self {
+            TimeUnit::Seconds => "s",
+            TimeUnit::Samples => "samples",
+        }
+    }
+}
+
+/// A signal over time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SignalValues {
+    /// Its name.
+    pub name: String,
+    /// Its unit; `null` where the model names none.
+    pub unit: Option<String>,
+    /// The values, one for each instant.
+    pub values: Vec<Float>,
+}
+
+/// What is known of a switched circuit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct CircuitValues {
+    /// The periodic steady state under the first inputs; `null` where there is none without clamping.
+    pub steady_state: Option<SteadyState>,
+    /// In how many periods a modulator was at its limit.
+    pub clamped_periods: usize,
+}
+
+/// A periodic steady state.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SteadyState {
+    /// The share of the period that each source is on, 0 to 1.
+    pub duty: Vec<Float>,
+    /// The plant's states at every period's beginning.
+    pub state: Named<Float>,
+    /// Eigenvalues of the linearised period map, largest first.
+    pub multipliers: Vec<Point>,
+}
+
+/// A root locus, in floating point, with the exact crossings rounded.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Locus {
+    /// The kind of document.
+    pub schema: LocusName,
+    /// The model's title; empty where it has none.
+    pub title: String,
+    /// Always true: nothing here is exact but `set`.
+    pub floating_point: bool,
+    /// The values of all other parameters, and of constants that were replaced.
+    pub set: Named<Exact>,
+    /// The kind of time.
+    pub time: Time,
+    /// The name of the parameter.
+    pub parameter: String,
+    /// Its unit; `null` where the model names none.
+    pub unit: Option<String>,
+    /// Where roots cross the boundary of stability.
+    pub crossings: Vec<LocusCrossing>,
+    /// Pieces without gaps; a piece ends where the loop is undefined or loses degree.
+    pub branches: Vec<LocusBranch>,
+}
+
+/// A crossing of the boundary.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LocusCrossing {
+    /// The parameter, in its unit.
+    pub value: Float,
+    /// The roots on the boundary, of a pair the upper one.
+    pub at: Vec<Point>,
+    /// What a picture says there.
+    pub label: String,
+}
+
+/// A piece of the locus.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LocusBranch {
+    /// Values of the parameter, in its unit.
+    pub values: Vec<Float>,
+    /// The root at each of them.
+    pub roots: Vec<Point>,
+}
+
+/// The document of a time response.
+pub fn simulation_json(problem: &Problem, answer: &SimulationAnswer) -> Simulation {
+    let signal = |s: &crate::simulate::Signal| SignalValues {
+        name: s.name.clone(),
+        unit: Some(s.unit.clone()).filter(|unit| !unit.is_empty()),
+        values: floats(&s.values),
+    };
+    Simulation {
+        schema: SimulationName::V1,
+        title: problem.model().title().unwrap_or_default().to_owned(),
+        floating_point: true,
+        set: problem.set().into(),
+        kind: if answer.circuit.is_some() { SimulationKind::Switched } else { SimulationKind::Sampled },
+        sample_time: answer.sample_time.map(Float::from),
+        time_unit: TimeUnit::of(problem.model(), answer.sample_time),
+        time: floats(&answer.trace.time),
+        signals: answer.trace.signals.iter().map(signal).collect(),
+        circuit: answer.circuit.as_ref().map(CircuitAnswer::values),
+    }
+}
+
+impl CircuitAnswer {
+    fn values(&self) -> CircuitValues {
+        let steady = |operating: &Operating| SteadyState {
+            duty: floats(&operating.duty),
+            state: self.states.iter().cloned().zip(operating.state.plant.iter().map(|v| Float::from(*v))).collect(),
+            multipliers: points(&self.multipliers),
+        };
+        CircuitValues { steady_state: self.operating.as_ref().map(steady), clamped_periods: self.clamped }
+    }
+}
+
+/// The document of a root locus: the roots, branch by branch, and the certified crossings.
+pub fn locus_json(answer: &Answer<StableSet>, drawn: &DrawnLocus) -> Locus {
     let problem = answer.problem();
     let free = problem.parameter();
-    let mut out = head("jurist/locus/1", problem.title(), problem.set());
-    out.insert("time".into(), problem.time().name().into());
-    out.insert("parameter".into(), free.name.as_str().into());
-    out.insert("unit".into(), free.unit.as_deref().map_or(Value::Null, Value::from));
-    let crossing =
-        |c: &crate::simulate::Crossing| json!({ "value": c.parameter, "at": complex(&c.at), "label": c.label });
-    out.insert("crossings".into(), drawn.crossings.iter().map(crossing).collect::<Vec<_>>().into());
+    let crossing = |c: &crate::simulate::Crossing| LocusCrossing {
+        value: c.parameter.into(),
+        at: points(&c.at),
+        label: c.label.clone(),
+    };
     let branch = |b: &crate::simulate::Branch| {
         let (values, roots): (Vec<f64>, Vec<Complex<f64>>) = b.points.iter().copied().unzip();
-        json!({ "values": values, "roots": complex(&roots) })
+        LocusBranch { values: floats(&values), roots: points(&roots) }
     };
-    out.insert("branches".into(), drawn.locus.branches().iter().map(branch).collect::<Vec<_>>().into());
-    Value::Object(out)
+    Locus {
+        schema: LocusName::V1,
+        title: problem.title().unwrap_or_default().to_owned(),
+        floating_point: true,
+        set: problem.set().into(),
+        time: problem.time(),
+        parameter: free.name.clone(),
+        unit: free.unit.clone(),
+        crossings: drawn.crossings.iter().map(crossing).collect(),
+        branches: drawn.locus.branches().iter().map(branch).collect(),
+    }
 }
 
-fn head(schema: &str, title: Option<&str>, set: &[(String, Rational)]) -> Map<String, Value> {
-    let mut out = Map::new();
-    out.insert("schema".into(), schema.into());
-    out.insert("title".into(), title.unwrap_or_default().into());
-    out.insert("floating_point".into(), true.into());
-    out.insert("set".into(), json::set(set));
-    out
+fn floats(values: &[f64]) -> Vec<Float> {
+    values.iter().map(|v| Float::from(*v)).collect()
 }
 
-/// Pairs of real and imaginary part.
-fn complex(values: &[Complex<f64>]) -> Value {
-    values.iter().map(|z| json!([z.re, z.im])).collect::<Vec<_>>().into()
+fn points(values: &[Complex<f64>]) -> Vec<Point> {
+    values.iter().map(|z| [z.re.into(), z.im.into()]).collect()
+}
+
+/// JSON Schemas of these documents: kind with version, and schema.
+#[cfg(feature = "schema")]
+pub fn schemas() -> Vec<(&'static str, serde_json::Value)> {
+    use jurist_engine::show::documents::schemas::schema_of;
+    let names = ["jurist/locus/1", "jurist/simulate/1"];
+    vec![(names[0], schema_of::<Locus>(names[0])), (names[1], schema_of::<Simulation>(names[1]))]
+}
+
+#[cfg(all(test, feature = "schema"))]
+mod tests {
+    #[test]
+    fn the_schemas_that_are_published_are_those_of_the_types() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schema");
+        jurist_engine::show::documents::schemas::check_published(&folder, &super::schemas());
+    }
 }

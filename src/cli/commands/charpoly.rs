@@ -12,9 +12,8 @@ use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_engine::error::{Diagnostic, Diagnostics};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
-use jurist_engine::show::json;
+use jurist_engine::show::documents::{Charpoly, RootLocusForm, Transfer, to_text};
 use jurist_engine::show::notation::{NamedPolynomial, Notation, PolynomialReport, Relation, root_locus_form};
-use serde_json::Value;
 use std::ffi::OsString;
 use std::sync::Arc;
 
@@ -49,7 +48,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         Ok(report) => report,
         Err(stopped) => {
             if notation == Notation::Json {
-                write_answer(&json::to_text(&undecided(options, &problem, &stopped)), file)?;
+                write_answer(&undecided(options, &problem, &stopped), file)?;
             }
             return Ok(context.say_undecided(&stopped));
         }
@@ -127,16 +126,12 @@ fn problem(options: &Options, context: &Context, model: &Model) -> Result<Arc<Pr
 }
 
 /// The document of a polynomial that the budget does not allow.
-fn undecided(options: &Options, problem: &Problem, stopped: &Exhausted) -> Value {
-    let (schema, key) = match (&options.root_locus_form, &options.transfer) {
-        (Some(_), _) => ("jurist/root-locus-form/1", "numerator"),
-        (None, Some(_)) => ("jurist/transfer/1", "numerator"),
-        (None, None) => ("jurist/charpoly/1", "coefficients"),
-    };
-    let mut document = json::undecided_point(schema, key, problem, stopped);
-    document["variable"] = problem.time().variable().into();
-    document["parameters"] = parameters(problem).into();
-    document
+fn undecided(options: &Options, problem: &Problem, stopped: &Exhausted) -> String {
+    match (&options.root_locus_form, &options.transfer) {
+        (Some(_), _) => to_text(&RootLocusForm::undecided(problem, stopped)),
+        (None, Some(_)) => to_text(&Transfer::undecided(problem, stopped)),
+        (None, None) => to_text(&Charpoly::undecided(problem, stopped)),
+    }
 }
 
 /// The names of what is free.

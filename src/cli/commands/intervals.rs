@@ -8,7 +8,8 @@ use crate::cli::status::{Outcome, Status};
 use crate::cli::written::check_certificate;
 use clap::Args;
 use jurist_engine::problem::{DECAY, RADIUS};
-use jurist_engine::show::{intervals_json, intervals_text};
+use jurist_engine::show::documents::Intervals;
+use jurist_engine::show::intervals_text;
 use std::ffi::OsString;
 use std::slice::from_ref;
 
@@ -42,7 +43,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         Err(stopped) => {
             let known = Err(&stopped);
             let text = || Some(intervals_text(&problem, known, digits));
-            return context.undecided(output, &stopped, text, || intervals_json(&problem, known, digits));
+            return context.undecided(output, &stopped, text, || Intervals::new(&problem, known, digits));
         }
     };
     context.warn(None, problem.warnings());

@@ -6,7 +6,8 @@ use crate::cli::input::{decision, known_names};
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
 use jurist_engine::problem::{DECAY, RADIUS};
-use jurist_engine::show::{point_table_json, table_json, table_text};
+use jurist_engine::show::documents::{JuryAtPoint, JuryInParameter};
+use jurist_engine::show::table_text;
 use std::slice::from_ref;
 
 /// Options of `jurist jury`.
@@ -29,7 +30,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         let answer = match decided(problem.point_table(&context.budget))? {
             Ok(answer) => answer,
             Err(stopped) => {
-                return context.undecided(output, &stopped, || None, || point_table_json(&problem, Err(&stopped)));
+                return context.undecided(output, &stopped, || None, || JuryAtPoint::new(&problem, Err(&stopped)));
             }
         };
         context.warn(None, problem.warnings());
@@ -45,7 +46,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         Err(stopped) => {
             let known = Err(&stopped);
             let text = || Some(table_text(&problem, known, digits));
-            return context.undecided(output, &stopped, text, || table_json(&problem, known, digits));
+            return context.undecided(output, &stopped, text, || JuryInParameter::new(&problem, known, digits));
         }
     };
     context.warn(None, problem.warnings());

@@ -13,6 +13,7 @@ use jurist_draw::figures::locus_of;
 use jurist_draw::simulate::ParameterScale;
 use jurist_engine::answer::Answer;
 use jurist_engine::error::Diagnostic;
+use jurist_engine::show::documents::to_text;
 use jurist_engine::stability::StableSet;
 use std::slice::from_ref;
 
@@ -56,7 +57,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         crate::cli::output::note(&format!("crossing: {}", crossing.label));
     }
     let table = || picture.locus.to_csv(&options.param);
-    let document = || locus_json(&answer, &picture);
+    let document = || to_text(&locus_json(&answer, &picture));
     let out = Picture { figure: &picture.figure, csv: &table, json: &document, csv_beside: options.picture.csv };
     deliver(&out, kind, options.picture.output.as_ref())?;
     Ok(Status::Holds)

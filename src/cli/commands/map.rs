@@ -13,7 +13,7 @@ use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trac
 use jurist_draw::page::map_page;
 use jurist_drive::published_limits;
 use jurist_engine::answer::{Answer, Map, MapOrBoxes};
-use jurist_engine::show::{map_boxes_json, map_boxes_text, map_json, map_text};
+use jurist_engine::show::{documents, map_boxes_text, map_text};
 use std::path::Path;
 
 /// Digits to which places and frequencies are enclosed, at least and at most.
@@ -85,23 +85,20 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
             return map_boxes::answer(&boxes, &options.output, context);
         }
         Err(stopped) => {
-            let known = Err(&stopped);
             let by_boxes = problem.ends_in_boxes(options.method.method(), &boxes);
-            let text = || {
-                let text = match by_boxes {
-                    true => map_boxes_text(&problem, Err(&stopped), digits),
-                    false => map_text(&problem, known, digits),
-                };
-                Some(text)
-            };
-            let document = || match by_boxes {
-                true => map_boxes_json(&problem, Err(&stopped)),
-                false => map_json(&problem, known, digits),
-            };
-            // There is nothing to draw.
-            let status = match picture {
-                Some(_) => context.say_undecided(&stopped),
-                None => context.undecided(&options.output, &stopped, text, document)?,
+            let output = &options.output;
+            let status = match (picture, by_boxes) {
+                // There is nothing to draw.
+                (Some(_), _) => context.say_undecided(&stopped),
+                (None, true) => {
+                    let text = || Some(map_boxes_text(&problem, Err(&stopped), digits));
+                    context.undecided(output, &stopped, text, || documents::MapBoxes::new(&problem, Err(&stopped)))?
+                }
+                (None, false) => {
+                    let text = || Some(map_text(&problem, Err(&stopped), digits));
+                    context
+                        .undecided(output, &stopped, text, || documents::Map::new(&problem, Err(&stopped), digits))?
+                }
             };
             if let Some(hint) = options.method.hint(&boxes) {
                 note(&hint);

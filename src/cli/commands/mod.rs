@@ -23,8 +23,8 @@ use super::show;
 use super::status::{Error, Outcome, Status};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_engine::error::{Diagnostic, Diagnostics, Source};
-use jurist_engine::show::json;
-use serde_json::Value;
+use jurist_engine::show::documents::to_text;
+use serde::Serialize;
 use std::sync::Arc;
 
 /// What every command is given besides its options.
@@ -59,14 +59,14 @@ impl<'a> Context<'a> {
     }
 
     /// Writes an answer in the form that the options ask for.
-    pub fn answer(
+    pub fn answer<D: Serialize>(
         &self,
         options: &OutputOptions,
         text: impl FnOnce() -> String,
-        document: impl FnOnce() -> Value,
+        document: impl FnOnce() -> D,
     ) -> Result<(), Error> {
         let wants_json = self.wants_json(options)?;
-        let answer = self.budget.enter(|| if wants_json { json::to_text(&document()) } else { text() })?;
+        let answer = self.budget.enter(|| if wants_json { to_text(&document()) } else { text() })?;
         self.reporter.finish();
         write_answer(&answer, options.output.as_ref())
     }
@@ -87,14 +87,14 @@ impl<'a> Context<'a> {
     }
 
     /// Writes what is known of an answer that the budget did not allow, and says so on standard error.
-    pub fn undecided(
+    pub fn undecided<D: Serialize>(
         &self,
         options: &OutputOptions,
         stopped: &Exhausted,
         text: impl FnOnce() -> Option<String>,
-        document: impl FnOnce() -> Value,
+        document: impl FnOnce() -> D,
     ) -> Outcome {
-        let known = if self.wants_json(options)? { Some(json::to_text(&document())) } else { text() };
+        let known = if self.wants_json(options)? { Some(to_text(&document())) } else { text() };
         if let Some(known) = known {
             write_answer(&known, options.output.as_ref())?;
         }

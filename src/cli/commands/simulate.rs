@@ -9,12 +9,13 @@ use crate::cli::picture::{Picture, deliver, wanted};
 use crate::cli::status::{Error, Outcome, Status};
 use clap::{Args, ValueEnum};
 use jurist_algebra::number::parse_number;
-use jurist_draw::document::{CircuitAnswer, SimulationAnswer, simulation_json, time_unit};
+use jurist_draw::document::{CircuitAnswer, SimulationAnswer, TimeUnit, simulation_json};
 use jurist_draw::figures::{Figure, response_panels, stacked};
 use jurist_draw::simulate::{Excitation, Pulse, Record, SampledModel, SwitchedModel, excitation, signal_unit};
 use jurist_engine::error::{Diagnostic, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
+use jurist_engine::show::documents::to_text;
 use jurist_engine::show::layout::called;
 
 /// The built-in drive as blocks, which is what a switched simulation reads.
@@ -101,7 +102,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     context.reporter.finish();
     let figure = figure(&model, &answer);
     let table = || answer.trace.to_csv();
-    let document = || simulation_json(&problem, &answer);
+    let document = || to_text(&simulation_json(&problem, &answer));
     let out = Picture { figure: &figure, csv: &table, json: &document, csv_beside: options.picture.csv };
     deliver(&out, kind, options.picture.output.as_ref())?;
     Ok(Status::Holds)
@@ -117,7 +118,7 @@ fn figure(model: &Model, answer: &SimulationAnswer) -> Figure {
         None => (outputs, "sampled linear model"),
     };
     let title = format!("{}, {kind}", called(model.title()));
-    let unit = time_unit(model, answer.sample_time);
+    let unit = TimeUnit::of(model, answer.sample_time).name();
     stacked(&response_panels(&title, unit, &answer.trace, &shown), 760.0, 240.0)
 }
 

@@ -8,7 +8,7 @@ use crate::cli::status::{Outcome, Status};
 use crate::cli::written::check_certificate;
 use clap::Args;
 use jurist_engine::answer::Verdict;
-use jurist_engine::show::verdict_json;
+use jurist_engine::show::documents;
 use std::ffi::OsString;
 
 /// Options of `jurist verdict`.
@@ -28,7 +28,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let answer = match decided(problem.verdict(&context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => {
-            return context.undecided(output, &stopped, || None, || verdict_json(&problem, Err(&stopped)));
+            return context.undecided(output, &stopped, || None, || documents::Verdict::new(&problem, Err(&stopped)));
         }
     };
     context.warn(None, problem.warnings());

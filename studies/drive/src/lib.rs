@@ -4,6 +4,7 @@
 #![deny(missing_docs)]
 
 mod diagrams;
+pub mod document;
 mod errata;
 mod facts;
 mod html;

@@ -1,5 +1,6 @@
 //! The main job: the paper's drive on one page, each limit beside the paper's.
 
+use crate::document::{Main, MainAnswer, MainName, PaperLimit, PaperLimits, Rounding};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, enclosed_decimal, to_decimal};
@@ -7,12 +8,12 @@ use jurist_algebra::poly::{RationalFunction, RealAlgebraic};
 use jurist_engine::answer::{Answer, ParametricTable};
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::Model;
+use jurist_engine::show::documents::{Answered, Exact};
 use jurist_engine::show::intervals::{domain_text, set_lines};
 use jurist_engine::show::layout::{Columns, short, visible, wrapped};
 use jurist_engine::show::notation::Coefficient;
-use jurist_engine::show::{json, real};
+use jurist_engine::show::real;
 use jurist_engine::stability::{AlgebraicInterval, ClassicalTest, End, IntervalSet, StableInterval, StableSet};
-use serde_json::{Map, Value, json};
 
 /// Eq. 23 with the digits that the paper prints.
 const PRINTED_23: &str = include_str!("../../../examples/equation-23-as-printed.toml");
@@ -64,33 +65,28 @@ fn equation<T>(answer: &Answer<T>) -> &CharacteristicPolynomial {
 }
 
 /// The document `jurist/main/1`.
-pub fn main_job_json(job: &MainJob, digits: usize) -> Value {
+pub fn main_job_json(job: &MainJob, digits: usize) -> Main {
     let at_one = |p: &CharacteristicPolynomial| value_at_one(p).display(&p.variables).to_string();
-    let paper: Map<String, Value> = PAPER
-        .iter()
-        .map(|(name, locus, jury)| ((*name).to_owned(), json!({ "root_locus": locus, "jury": jury })))
-        .collect();
-    json!({
-        "schema": "jurist/main/1",
-        "title": job.amplitude.problem().title().unwrap_or_default(),
-        "jury": [job.amplitude.json(digits), job.period.json(digits)],
-        "frequency_limit_hz": period_end(job).map(|end| reciprocal(&end.value, digits)),
-        "paper": paper,
-        "rounding": {
-            "exact_value_at_one": at_one(equation(&job.amplitude)),
-            "printed_value_at_one": at_one(equation(&job.printed)),
-            "printed_zero": json::exact(printed_zero(job).as_ref()),
-            "printed_polynomial": job.printed.json(digits),
+    let [lower, upper, period] =
+        PAPER.map(|(_, locus, jury)| PaperLimit { root_locus: locus.to_owned(), jury: jury.to_owned() });
+    let answer = MainAnswer {
+        title: job.amplitude.problem().title().unwrap_or_default().to_owned(),
+        jury: [job.amplitude.json(digits), job.period.json(digits)],
+        frequency_limit_hz: period_end(job).map(|end| reciprocal(&end.value, digits)),
+        paper: PaperLimits { lower, upper, period },
+        rounding: Rounding {
+            exact_value_at_one: at_one(equation(&job.amplitude)),
+            printed_value_at_one: at_one(equation(&job.printed)),
+            printed_zero: printed_zero(job).as_ref().map(Exact::from),
+            printed_polynomial: job.printed.json(digits),
         },
-    })
+    };
+    Main { schema: MainName::V1, answer: Answered::Known(answer) }
 }
 
 /// The document `jurist/main/1` of a job that the budget did not allow.
-pub fn main_job_undecided(stopped: &Exhausted) -> Value {
-    let mut out = Map::new();
-    out.insert("schema".into(), "jurist/main/1".into());
-    json::undecided(&mut out, &["jury"], stopped);
-    Value::Object(out)
+pub fn main_job_undecided(stopped: &Exhausted) -> Main {
+    Main { schema: MainName::V1, answer: Answered::Undecided(stopped.into()) }
 }
 
 /// The page.

@@ -10,7 +10,7 @@ use jurist_algebra::poly::{Monomial, RealAlgebraic};
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::error::Error;
 use jurist_engine::problem::Free;
-use jurist_engine::show::json;
+use jurist_engine::show::documents::Exact;
 use jurist_engine::show::layout::{named_values, short};
 use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::{Curve, Strip};
@@ -91,8 +91,8 @@ fn data(
         let (from, to) = window.ends();
         json!({
             "name": axis.name,
-            "lower": json::exact(axis.domain.lower.as_ref()),
-            "upper": json::exact(axis.domain.upper.as_ref()),
+            "lower": axis.domain.lower.as_ref().map(Exact::from),
+            "upper": axis.domain.upper.as_ref().map(Exact::from),
             "nominal": axis.nominal.as_ref().map(short),
             "from": from,
             "to": to,
@@ -129,7 +129,7 @@ fn strip(strip: &Strip, answer: &Answer<Map>, budget: &Budget) -> Result<Value, 
     let end = |value: &Option<RealAlgebraic>| {
         value.as_ref().map_or(Value::Null, |value| {
             let (lo, hi) = value.enclosure();
-            let polynomial = json::polynomial(value.polynomial());
+            let polynomial = Exact::coefficients(value.polynomial());
             json!({ "enclosure": [lo.to_string(), hi.to_string()], "polynomial": polynomial })
         })
     };

@@ -191,7 +191,7 @@ mod tests {
             assert!(!text.contains(|c: char| is_unseen(c) && c != '\n'), "{text}");
             assert!(!text.lines().any(|line| line.starts_with("stable")), "{text}");
         }
-        let exact = one.json(12).to_string();
+        let exact = crate::show::documents::to_text(&one.json(12));
         assert!(exact.contains("loop\\n\\u001b[1Astable for all K\\n"), "{exact}");
     }
 }

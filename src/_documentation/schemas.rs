@@ -1,0 +1,33 @@
+//! JSON Schemas of all documents that the program writes, and of model files.
+//!
+//! A document names its kind and version under `schema`. The schemas are made of the types in
+//! [`documents`](crate::documents), `jurist_draw::document` and `jurist_drive::document`, with one test each that the
+//! files of the folder `schema` are still those of the types. A kind keeps its version while keys are only added, so a
+//! reader should let keys pass that it does not know.
+//!
+//! Exact numbers are texts, `p/q` or an integer; JSON numbers are rounded values and counts. An answer that the budget did
+//! not allow has `null` where the answer would stand and says why under `undecided`.
+
+macro_rules! schemas {
+    ($($name:ident: $about:literal, $file:literal;)*) => {$(
+        #[doc = $about]
+        #[doc = concat!("\n\n```json\n", include_str!(concat!("../../schema/", $file, ".schema.json")), "```")]
+        pub mod $name {}
+    )*};
+}
+
+schemas! {
+    analyze: "`jurist/analyze/1`, of `jurist analyze`.", "analyze-1";
+    charpoly: "`jurist/charpoly/1`, of `jurist charpoly`.", "charpoly-1";
+    intervals: "`jurist/intervals/1`, of `jurist intervals`.", "intervals-1";
+    jury: "`jurist/jury/1`, of `jurist jury`.", "jury-1";
+    locus: "`jurist/locus/1`, of `jurist locus`.", "locus-1";
+    main: "`jurist/main/1`, of `jurist` without a command.", "main-1";
+    map: "`jurist/map/1`, of `jurist map`.", "map-1";
+    map_boxes: "`jurist/map-boxes/1`, of `jurist map --method boxes`.", "map-boxes-1";
+    model: "Model files; the line `#:schema` names it to editors.", "model";
+    root_locus_form: "`jurist/root-locus-form/1`, of `jurist charpoly --root-locus-form`.", "root-locus-form-1";
+    simulate: "`jurist/simulate/1`, of `jurist simulate`.", "simulate-1";
+    transfer: "`jurist/transfer/1`, of `jurist charpoly --transfer`.", "transfer-1";
+    verdict: "`jurist/verdict/1`, of `jurist verdict`.", "verdict-1";
+}

@@ -1,0 +1,141 @@
+//! The JSON documents: each fits the schema that it names, and is read by its type without loss.
+
+use crate::helpers::program::jurist;
+use crate::helpers::schema::{fits, folder};
+use jurist_draw::document::{Locus, Simulation};
+use jurist_drive::document::Main;
+use jurist_engine::error::Source;
+use jurist_engine::model::Model;
+use jurist_engine::show::documents::{
+    Analysis, Charpoly, Intervals, Jury, Map, MapBoxes, RootLocusForm, Transfer, Verdict,
+};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// The document that a command writes, checked; the statuses are those of an answer.
+fn document(arguments: &[&str]) -> Value {
+    let run = jurist(&[arguments, &["--json"]].concat());
+    assert!([0, 1, 3].contains(&run.status), "{arguments:?}: {}", run.stderr);
+    let document: Value = serde_json::from_str(&run.stdout).expect("the program writes JSON");
+    fits(&document).unwrap_or_else(|why| panic!("{arguments:?}: {why}"));
+    assert_eq!(read_and_written(&document).as_ref(), Ok(&document), "{arguments:?}");
+    document
+}
+
+/// A document once through its type.
+fn read_and_written(document: &Value) -> Result<Value, String> {
+    fn through<T: Serialize + DeserializeOwned>(document: &Value) -> Result<Value, String> {
+        let typed: T = serde_json::from_value(document.clone()).map_err(|e| e.to_string())?;
+        serde_json::to_value(typed).map_err(|e| e.to_string())
+    }
+    match document["schema"].as_str().expect("a schema") {
+        "jurist/analyze/1" => through::<Analysis>(document),
+        "jurist/charpoly/1" => through::<Charpoly>(document),
+        "jurist/intervals/1" => through::<Intervals>(document),
+        "jurist/jury/1" => through::<Jury>(document),
+        "jurist/locus/1" => through::<Locus>(document),
+        "jurist/main/1" => through::<Main>(document),
+        "jurist/map/1" => through::<Map>(document),
+        "jurist/map-boxes/1" => through::<MapBoxes>(document),
+        "jurist/root-locus-form/1" => through::<RootLocusForm>(document),
+        "jurist/simulate/1" => through::<Simulation>(document),
+        "jurist/transfer/1" => through::<Transfer>(document),
+        "jurist/verdict/1" => through::<Verdict>(document),
+        other => panic!("the schema {other}"),
+    }
+}
+
+#[test]
+fn every_document_of_the_examples_fits_its_schema() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let models: BTreeSet<_> = files.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    assert!(models.len() > 10);
+    for path in models {
+        let file = path.to_str().unwrap();
+        let (model, _) = Model::from_toml(&Source::new(file, std::fs::read_to_string(&path).unwrap())).unwrap();
+        for command in ["analyze", "charpoly", "jury", "verdict"] {
+            document(&[command, file]);
+        }
+        for parameter in model.parameters() {
+            document(&["intervals", file, "--param", &parameter.name]);
+            document(&["jury", file, "--param", &parameter.name]);
+        }
+    }
+}
+
+/// Commands that together write every kind of document, and every form of it.
+const FORMS: [&[&str]; 25] = [
+    &[],
+    &["analyze"],
+    &["charpoly", "--digits", "5"],
+    &["charpoly", "--root-locus-form", "K_pwm"],
+    &["charpoly", "examples/drive-blocks.toml", "--transfer", "omega_ref", "omega"],
+    &["intervals", "--param", "K_pwm", "--radius", "9/10"],
+    &["intervals", "--param", "radius"],
+    &["jury", "--param", "T", "--radius", "9/10"],
+    &["locus", "--param", "K_pwm"],
+    &["map", "-x", "T", "-y", "K_pwm"],
+    &["map", "-x", "T", "-y", "K_pwm", "--radius", "99/100"],
+    &["map", "-x", "T=0..1/100", "-y", "K_pwm=0..600", "--method", "boxes", "--undecided", "1/5"],
+    &["simulate", "--duration", "0.01"],
+    &["simulate", "--switched", "--duration", "0.01"],
+    &["verdict", "--set", "K_pwm=551"],
+    &["--timeout", "0"],
+    &["analyze", "--timeout", "0"],
+    &["charpoly", "--timeout", "0"],
+    &["charpoly", "--root-locus-form", "K_pwm", "--timeout", "0"],
+    &["intervals", "--param", "T", "--timeout", "0"],
+    &["jury", "--timeout", "0"],
+    &["jury", "--param", "T", "--timeout", "0"],
+    &["map", "-x", "T", "-y", "K_pwm", "--timeout", "0"],
+    &["map", "-x", "T=0..1", "-y", "K_pwm=0..600", "--method", "boxes", "--timeout", "0"],
+    &["verdict", "--timeout", "0"],
+];
+
+#[test]
+fn every_kind_of_document_fits_its_schema_and_every_schema_is_used() {
+    let mut used = BTreeSet::new();
+    for arguments in FORMS {
+        let name = document(arguments)["schema"].as_str().unwrap().to_owned();
+        used.insert(format!("{}.schema.json", name.trim_start_matches("jurist/").replace('/', "-")));
+    }
+    let files = std::fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let published: BTreeSet<String> = files.filter(|name| name != "model.schema.json").collect();
+    assert_eq!(used, published);
+}
+
+#[test]
+fn a_document_with_a_fault_does_not_fit() {
+    let good = document(&["intervals", "--param", "K_pwm"]);
+    let faulty = |fault: &dyn Fn(&mut Value)| {
+        let mut bad = good.clone();
+        fault(&mut bad);
+        assert_ne!(bad, good);
+        assert!(fits(&bad).is_err(), "{bad}");
+    };
+    faulty(&|d| d["schema"] = "jurist/intervals/2".into());
+    faulty(&|d| d["schema"] = "jurist/verdict/1".into());
+    faulty(&|d| d["tittle"] = "".into());
+    faulty(&|d| d["time"] = "discret".into());
+    faulty(&|d| d["set"]["T"] = 0.0001.into());
+    faulty(&|d| d["set"]["T"] = "0.0001".into());
+    faulty(&|d| d["domain"]["lower"] = "1/".into());
+    faulty(&|d| d["radius"] = 1.into());
+    faulty(&|d| d["stable"] = Value::Null);
+    faulty(&|d| d["undecided"] = serde_json::json!({ "budget": "", "reached": "" }));
+    faulty(&|d| d["stable"][0]["lower"]["decimal"] = 1.5.into());
+    faulty(&|d| d["stable"][0]["lower"]["frequency_hz"] = "1".into());
+    faulty(&|d| d["stable"][0]["lower"]["closed"] = Value::Null);
+    faulty(&|d| d["stable"][0]["lower"]["caus"] = "z=1".into());
+    for key in ["schema", "title", "unit", "set", "stable"] {
+        faulty(&|d| drop(d.as_object_mut().unwrap().remove(key)));
+    }
+    for key in ["exact", "enclosure", "cause", "angle", "margin_db"] {
+        faulty(&|d| drop(d["stable"][0]["lower"].as_object_mut().unwrap().remove(key)));
+    }
+    faulty(&|d| drop(d["stable"][0]["lower"]["enclosure"].as_array_mut().unwrap().pop()));
+}
