@@ -72,7 +72,7 @@ impl Schema<'_> {
                         return refuse(rule);
                     }
                 }
-                "minimum" if value.as_f64() < rule.as_f64() => return refuse(rule),
+                "minimum" if value.as_f64().is_some_and(|v| Some(v) < rule.as_f64()) => return refuse(rule),
                 "minimum" => {}
                 "minItems" if items.is_some_and(|items| (items.len() as u64) < bound.unwrap()) => return refuse(rule),
                 "maxItems" if items.is_some_and(|items| (items.len() as u64) > bound.unwrap()) => return refuse(rule),
