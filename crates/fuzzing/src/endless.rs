@@ -73,7 +73,7 @@ pub const JOBS: [Job; 14] = [
         }
     }),
     ("digits of pi", || {
-        Enclosure::pi(1 << 27);
+        Enclosure::pi(1 << 24);
     }),
 ];
 

@@ -5,6 +5,9 @@
 use crate::limits::checkpoint;
 use crate::poly::modular::prime_field::PrimeField;
 
+/// In matrices of at least this size rows are counted one by one.
+const COUNTED_SIZE: usize = 64;
+
 /// Divides row `i` of each matrix by entry `i` of its diagonal, none of which is zero.
 pub(super) fn invert_and_scale_rows(
     f: &PrimeField,
@@ -34,6 +37,7 @@ pub(super) fn invert_and_scale_rows(
 pub(super) fn reduce_to_hessenberg(f: &PrimeField, matrices: &mut [u64], n: usize, which: &[usize]) {
     let mut pivots = vec![0; which.len()];
     for k in 1..n.saturating_sub(1) {
+        checkpoint((which.len() * n) as u64);
         // The pivot is brought to row k, column k - 1; zero means that nothing is left to do there.
         for (&point, pivot) in which.iter().zip(&mut pivots) {
             let matrix = &mut matrices[point * n * n..(point + 1) * n * n];
@@ -54,6 +58,9 @@ pub(super) fn reduce_to_hessenberg(f: &PrimeField, matrices: &mut [u64], n: usiz
         }
         f.invert_all(&mut pivots);
         for (&point, &inverse) in which.iter().zip(&pivots).filter(|(_, inverse)| **inverse != 0) {
+            if n < COUNTED_SIZE {
+                checkpoint((n * n) as u64);
+            }
             eliminate(f, &mut matrices[point * n * n..(point + 1) * n * n], n, k, inverse);
         }
     }
@@ -66,7 +73,9 @@ fn eliminate(f: &PrimeField, matrix: &mut [u64], n: usize, k: usize, inverse: u6
         if entry == 0 {
             continue;
         }
-        checkpoint(n as u64 / 2);
+        if n >= COUNTED_SIZE {
+            checkpoint(n as u64 / 2);
+        }
         let factor = f.mul(entry, inverse);
         let negated = f.negated(factor);
         let (above, below) = matrix.split_at_mut(i * n);
@@ -92,7 +101,9 @@ pub(super) fn from_hessenberg(f: &PrimeField, h: &[u64], n: usize, room: &mut Ve
     room.resize(width * width, 0);
     room[0] = f.one();
     for k in 1..=n {
-        checkpoint((k * k / 8 + 1) as u64);
+        if n >= COUNTED_SIZE {
+            checkpoint((k * k / 8) as u64);
+        }
         let (known, rest) = room.split_at_mut(k * width);
         let current = &mut rest[..=k];
         let previous = &known[(k - 1) * width..(k - 1) * width + k];
@@ -157,7 +168,9 @@ fn determinant(f: &PrimeField, m: &mut [u64], n: usize) -> u64 {
             if factor == 0 {
                 continue;
             }
-            checkpoint(n as u64 / 4);
+            if n >= COUNTED_SIZE {
+                checkpoint(n as u64 / 4);
+            }
             let (above, below) = m.split_at_mut(i * n);
             for (x, &y) in below[k..n].iter_mut().zip(&above[k * n + k..(k + 1) * n]) {
                 *x = f.add(*x, f.mul(factor, y));

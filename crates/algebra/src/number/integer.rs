@@ -233,6 +233,10 @@ impl Integer {
     /// # Panics
     /// When `modulus` is zero.
     pub fn mod_u64(&self, modulus: u64) -> u64 {
+        // A division of 128 bits for each limb.
+        if limbs_of(&self.0) >= COUNTED_LIMBS / 4 {
+            checkpoint(2 * limbs_of(&self.0));
+        }
         let modulus_wide = u128::from(modulus);
         let step = |r: u64, limb: &u64| ((u128::from(r) << 64 | u128::from(*limb)) % modulus_wide) as u64;
         let residue = self.as_limbs().iter().rev().fold(0, step);

@@ -121,8 +121,11 @@ impl<R: Domain> Poly<R> {
         let mut c = self.coeffs.clone();
         let n = c.len();
         for i in 0..n {
-            checkpoint(4 * (n - i) as u64);
+            checkpoint(4 * (n - i) as u64 % 4096);
             for j in (i..n.saturating_sub(1)).rev() {
+                if j % 1024 == 0 {
+                    checkpoint(4096);
+                }
                 let (low, high) = c.split_at_mut(j + 1);
                 if a.is_one() {
                     low[j] = low[j].plus(&high[0]);

@@ -6,6 +6,9 @@ use crate::limits::checkpoint;
 
 use std::ops::Range;
 
+/// Triangles of fewer numbers are counted at once, others row by row.
+const COUNTED_ROW: usize = 128;
+
 /// Bits that must be free above every coefficient (the sign's included) before [`split`].
 pub const HEADROOM: u64 = 34;
 
@@ -16,6 +19,10 @@ const STAGES: u32 = 32;
 /// `error + stages / 32 + 1` units for `stages` the degree: means of neighbours never amplify an
 /// error, and each shift to the right adds less than a unit.
 pub fn split(coeffs: &mut [u64], limbs: usize, left: &mut [u64], right: &mut [u64]) {
+    let n = coeffs.len() / limbs;
+    if n < COUNTED_ROW {
+        checkpoint((n * n * limbs / 16) as u64);
+    }
     macro_rules! by_width {
         ($($l:literal),*) => {
             match limbs {
@@ -53,7 +60,9 @@ fn split_fixed<const L: usize>(work: &mut [[u64; L]], left: &mut [[u64; L]], rig
     let (mut stage, mut pending) = (0, 0);
     while stage < n {
         let m = n - stage;
-        checkpoint((m * L / 4) as u64);
+        if n >= COUNTED_ROW {
+            checkpoint((m * L / 4) as u64);
+        }
         if m >= 2 {
             // Two stages in one sweep.
             let mut before = work[1];
@@ -91,7 +100,9 @@ fn split_any(work: &mut [u64], limbs: usize, left: &mut [u64], right: &mut [u64]
     let mut pending = 0;
     for stage in 1..=n {
         let m = n - stage;
-        checkpoint((m * limbs / 4) as u64);
+        if n >= COUNTED_ROW {
+            checkpoint((m * limbs / 4) as u64);
+        }
         for i in 0..=m {
             let (low, high) = work.split_at_mut((i + 1) * limbs);
             add_assign(&mut low[i * limbs..], &high[..limbs]);
@@ -125,19 +136,27 @@ pub fn shift_by_one(flat: &mut [u64], limbs: usize) {
 }
 
 fn running_sums(flat: &mut [u64], limbs: usize, ranges: impl Iterator<Item = Range<usize>>) {
+    let n = flat.len() / limbs;
+    if n < COUNTED_ROW {
+        checkpoint((n * n * limbs / 16) as u64);
+    }
     macro_rules! by_width {
         ($($l:literal),*) => {
             match limbs {
                 $($l => {
                     let c = flat.as_chunks_mut::<$l>().0;
                     ranges.for_each(|range| {
-                        checkpoint((range.len() * limbs / 8) as u64);
+                        if n >= COUNTED_ROW {
+                            checkpoint((range.len() * limbs / 8) as u64);
+                        }
                         running_sum(&mut c[range]);
                     });
                 })*
                 _ => {
                     for range in ranges {
-                        checkpoint((range.len() * limbs / 8) as u64);
+                        if n >= COUNTED_ROW {
+                            checkpoint((range.len() * limbs / 8) as u64);
+                        }
                         for i in range.skip(1) {
                             let (low, high) = flat.split_at_mut(i * limbs);
                             add_assign(&mut high[..limbs], &low[(i - 1) * limbs..]);
