@@ -57,6 +57,7 @@ mod certificates {
     mod attacks;
     mod blocks;
     mod check;
+    mod coq;
     mod program;
     mod smt;
 }
