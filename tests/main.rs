@@ -58,6 +58,7 @@ mod certificates {
     mod attacks;
     mod blocks;
     mod check;
+    mod coq;
     mod program;
     mod readers;
     mod smt;

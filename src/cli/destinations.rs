@@ -70,6 +70,7 @@ impl<'a> Names<'a> {
                 names.question(&o.decision.model.model, &o.decision.output.output);
                 names.outputs.extend(o.certificate.iter().map(|file| ("the certificate", file.clone())));
                 names.outputs.extend(o.smt2.iter().map(|file| ("the SMT-LIB script", file.clone())));
+                names.outputs.extend(o.coq.iter().map(|file| ("the file for Coq", file.clone())));
             }
             Some(Command::Verdict(o)) => {
                 names.question(&o.decision.model.model, &o.decision.output.output);

@@ -27,6 +27,9 @@ pub(in crate::cli) struct Options {
     /// Writes the statement as SMT-LIB 2; a solver answers 'unsat' if it is true
     #[arg(long, value_name = "FILE")]
     pub smt2: Option<OsString>,
+    /// Writes the answer as a theorem for Coq, proved with the library in proofs/
+    #[arg(long, value_name = "FILE")]
+    pub coq: Option<OsString>,
 }
 
 /// Answers on standard output or in a file.
@@ -56,6 +59,9 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     }
     if let Some(file) = &options.smt2 {
         write_answer(&answer.smt2(&context.budget)?, Some(file))?;
+    }
+    if let Some(file) = &options.coq {
+        write_answer(&answer.coq(&context.budget)?, Some(file))?;
     }
     context.answer(output, || answer.text(digits), || answer.json(digits))?;
     if let Some((text, file)) = &certificate {

@@ -180,7 +180,7 @@ impl Proof {
 }
 
 /// Square-free, pairwise coprime polynomials of which all given ones are products.
-fn coprime_basis(polynomials: &[UniPoly], budget: &Budget) -> Result<Vec<UniPoly>, Exhausted> {
+pub(super) fn coprime_basis(polynomials: &[UniPoly], budget: &Budget) -> Result<Vec<UniPoly>, Exhausted> {
     let mut basis: Vec<UniPoly> = Vec::new();
     for p in polynomials {
         // Roots of different multiplicities belong to different factors: p is a product of the parts' powers.

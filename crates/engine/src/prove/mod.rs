@@ -1,6 +1,7 @@
-//! What independent programs can check: certificates, and statements for SMT solvers.
+//! What independent programs can check: certificates, statements for SMT solvers, theorems for Coq.
 
 mod cofactors;
+mod coq;
 mod emit;
 mod line;
 mod smt2;

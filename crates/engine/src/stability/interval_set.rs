@@ -183,7 +183,7 @@ pub(super) fn cells(range: &Range, points: &[RealAlgebraic]) -> Vec<AlgebraicInt
 }
 
 /// The distinct zeros of a polynomial inside a range, ascending; none for the zero polynomial.
-pub(super) fn zeros_in(f: &UniPoly, range: &Range, budget: &Budget) -> Result<Vec<RealAlgebraic>, Exhausted> {
+pub(crate) fn zeros_in(f: &UniPoly, range: &Range, budget: &Budget) -> Result<Vec<RealAlgebraic>, Exhausted> {
     let Some(f) = budget.enter(|| SquareFree::part_of(f))? else { return Ok(Vec::new()) };
     isolate_real_roots_in(&f, range.lower.as_ref(), range.upper.as_ref(), budget)
 }

@@ -1,0 +1,216 @@
+//! The answer as a theorem for Coq, over the library in `proofs/`.
+
+mod checker;
+mod formula;
+mod pieces;
+mod statement;
+
+use crate::answer::Answer;
+use crate::error::{Diagnostic, Error};
+use crate::model::{Form, Matrix, Model};
+use crate::problem::Problem;
+use crate::stability::{ParametricPolynomial, StableSet, zeros_in};
+use formula::{Formulas, Names, number_of, polynomial};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, UniPoly};
+use statement::{File, Subject};
+use std::collections::BTreeSet;
+
+/// The largest order for which a file is written.
+const LARGEST_ORDER: usize = 12;
+
+impl Answer<StableSet> {
+    /// A file for Coq that states this answer as a theorem and proves it, with the library in `proofs/`: for every value of the
+    /// parameter in its domain the loop is stable if and only if the value lies between the limits, each of which is the only
+    /// root of a polynomial between two decimals, or a rational number.
+    ///
+    /// A loop given by matrices is stated by the entries as they are typed and by their eigenvalues; one given by a
+    /// polynomial or by blocks by the coefficients of its characteristic polynomial.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::model::Model;
+    /// let (drive, budget) = (Model::drive(), Budget::unlimited());
+    /// let answer = drive.ask().free("K_pwm").stable_set(&budget).unwrap();
+    /// let file = answer.coq(&budget).unwrap();
+    /// assert!(file.contains("<-> lower_limit < K_pwm < upper_limit."));
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Refused`] (`E-coq`) where there is no such file: an order of 0 or above 12, a free bound of the region, a model
+    /// that is undefined somewhere on the domain, or signs that the checker does not see. [`Error::Stopped`] when the budget
+    /// runs out.
+    pub fn coq(&self, budget: &Budget) -> Result<String, Error> {
+        budget.enter(|| {
+            budget.step("theorem for Coq");
+            let problem = self.problem();
+            let loop_ = Loop::of(problem, budget)?;
+            let conditions = checker::conditions(&loop_.cleared, problem.region())
+                .ok_or_else(|| refused("a row of Jury's table is zero for every value of the parameter", OTHERS))?;
+            let way = pieces::way(&conditions, self.value(), &problem.parameter().domain, budget)?;
+            let (subject, definitions, names, parameter) = loop_.model(problem);
+            Ok(File { problem, order: loop_.order, subject, definitions, names, parameter, way: &way }.text())
+        })?
+    }
+}
+
+const OTHERS: &str = "take '--certificate' or '--smt2'";
+
+fn refused(why: impl Into<String>, help: impl Into<String>) -> Error {
+    Diagnostic::error("E-coq", format!("no file for Coq: {}", why.into())).help(help).into()
+}
+
+/// The loop without the region.
+struct Loop {
+    order: usize,
+    raw: CharacteristicPolynomial,
+    /// The coefficients times a common denominator.
+    cleared: Vec<UniPoly>,
+}
+
+impl Loop {
+    fn of(problem: &Problem, budget: &Budget) -> Result<Loop, Error> {
+        if problem.region().is_free() {
+            let name = problem.region().bound_name();
+            let help = format!("set it, and ask for a parameter: --{name} VALUE --param NAME");
+            return Err(refused(format!("'{name}' is the question"), help));
+        }
+        let parameter = problem.parameter();
+        let raw = problem.model().evaluate(std::slice::from_ref(&parameter.name), problem.set(), budget)?.polynomial;
+        let order = raw.formal_degree;
+        if order == 0 || order > LARGEST_ORDER {
+            return Err(refused(format!("the order is {order}, and has to be 1 to {LARGEST_ORDER}"), OTHERS));
+        }
+        let side = |p: &MultiPoly| p.to_univariate(0).expect("one variable is kept");
+        let coefficients: Vec<_> =
+            raw.coefficients.iter().map(|c| (side(c.numerator()), side(c.denominator()))).collect();
+        let poles: Vec<UniPoly> = raw.poles.iter().map(side).collect();
+        let p = ParametricPolynomial::new(&coefficients, order, Vec::new());
+        for pole in poles.iter().chain(coefficients.iter().map(|(_, d)| d)) {
+            if let Some(x) = zeros_in(pole, &parameter.domain, budget)?.first() {
+                let why = format!("the model is undefined at {} = {}", parameter.name, x.decimal(6));
+                return Err(refused(
+                    why,
+                    format!("choose a domain without it: --domain {}=LOWER:UPPER", parameter.name),
+                ));
+            }
+        }
+        let mut cleared: Vec<UniPoly> = p.polynomial().coeffs().iter().map(|c| c.times(p.content())).collect();
+        cleared.resize(order + 1, UniPoly::zero());
+        // The denominator has one sign on the domain; the checker multiplies by it or by a multiple.
+        Ok(Loop { order, raw, cleared })
+    }
+
+    /// What the theorem is about, the definitions before it, and the parameter's name.
+    fn model(&self, problem: &Problem) -> (Subject, String, Names, String) {
+        let model = problem.model();
+        let parameter = &problem.parameter().name;
+        let matrices: Vec<(&str, &Matrix)> = match model.form() {
+            Form::Matrix { matrix, .. } => vec![("A", matrix)],
+            Form::OutputFeedback { a, b, c, k, .. } => vec![("A", a), ("B", b), ("K", k), ("C", c)],
+            Form::Characteristic(_) | Form::Blocks(_) => Vec::new(),
+        };
+        let taken: Vec<&str> = matrices.iter().map(|(name, _)| *name).collect();
+        let mut formulas = Formulas { source: model.source(), names: Names::new(&taken) };
+        let own = formulas.names.name(parameter);
+        let mut out = String::new();
+        if matrices.is_empty() {
+            let list: Vec<String> = self
+                .raw
+                .coefficients
+                .iter()
+                .map(|c| {
+                    let side = |p: &MultiPoly| p.to_univariate(0).expect("one variable is kept");
+                    let (numerator, denominator) = (side(c.numerator()), side(c.denominator()));
+                    if denominator.is_constant() {
+                        polynomial(&numerator, &denominator.coeff(0), &own)
+                    } else {
+                        let whole = |f: &UniPoly| polynomial(f, &Integer::ONE, &own);
+                        format!("({})/({})", whole(&numerator), whole(&denominator))
+                    }
+                })
+                .collect();
+            out.push_str(&format!("Definition {own} : expr := Par.\n\n"));
+            out.push_str("(** The characteristic polynomial, lowest power first. *)\n");
+            out.push_str(&format!("Definition coefficients : list expr := [\n  {}].\n", list.join(";\n  ")));
+            let blocks = matches!(model.form(), Form::Blocks(_));
+            return (Subject::Coefficients { blocks }, out, formulas.names, own);
+        }
+        let mut defined =
+            Definitions { model, set: problem.set(), parameter, seen: BTreeSet::new(), out: String::new() };
+        let entries = || matrices.iter().flat_map(|(_, m)| m.entries());
+        let used = used_names(model, problem.set(), parameter, entries());
+        for name in model.constants().iter().map(|c| &c.name).chain(model.parameters().iter().map(|p| &p.name)) {
+            if used.contains(name.as_str()) {
+                defined.define(name, &mut formulas);
+            }
+        }
+        out.push_str(&defined.out);
+        for (name, matrix) in &matrices {
+            let rows: Vec<String> = matrix
+                .rows
+                .iter()
+                .map(|row| {
+                    let row: Vec<String> = row.iter().map(|e| formulas.text(e)).collect();
+                    format!("  [{}]", row.join("; "))
+                })
+                .collect();
+            out.push_str(&format!("\nDefinition {name} : matrix := [\n{}].\n", rows.join(";\n")));
+        }
+        let subject = match model.form() {
+            Form::OutputFeedback { k, .. } => Subject::Feedback { inputs: k.size().0, outputs: k.size().1 },
+            _ => Subject::Matrix,
+        };
+        (subject, out.trim_start().to_owned(), formulas.names, own)
+    }
+}
+
+/// The names that the entries depend on, with the parameter.
+fn used_names<'a>(
+    model: &'a Model,
+    set: &[(String, Rational)],
+    parameter: &'a str,
+    entries: impl Iterator<Item = &'a crate::model::Expression>,
+) -> BTreeSet<&'a str> {
+    let mut used = BTreeSet::from([parameter]);
+    let mut open: Vec<&str> = entries.flat_map(|e| e.names()).collect();
+    while let Some(name) = open.pop() {
+        let replaced = name == parameter || set.iter().any(|(other, _)| other == name);
+        if used.insert(name) && !replaced {
+            open.extend(model.constant(name).iter().flat_map(|c| c.expression.names()));
+        }
+    }
+    used
+}
+
+/// Constants and parameters in an order in which each is defined before it is used.
+struct Definitions<'a> {
+    model: &'a Model,
+    set: &'a [(String, Rational)],
+    parameter: &'a str,
+    seen: BTreeSet<String>,
+    out: String,
+}
+
+impl Definitions<'_> {
+    fn define(&mut self, name: &str, formulas: &mut Formulas) {
+        if !self.seen.insert(name.to_owned()) {
+            return;
+        }
+        let value = if name == self.parameter {
+            "Par".to_owned()
+        } else if let Some((_, value)) = self.set.iter().find(|(other, _)| other == name) {
+            number_of(value)
+        } else if let Some(constant) = self.model.constant(name) {
+            for other in constant.expression.names() {
+                self.define(other, formulas);
+            }
+            formulas.text(&constant.expression)
+        } else {
+            return;
+        };
+        self.out.push_str(&format!("Definition {} : expr := {value}.\n", formulas.names.name(name)));
+    }
+}
