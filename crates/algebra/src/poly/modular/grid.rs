@@ -3,9 +3,6 @@
 use super::prime_field::PrimeField;
 use crate::limits::checkpoint;
 
-/// Rows of fewer residues are counted together.
-const COUNTED_ROW: usize = 1024;
-
 /// The grid `0..lengths[0] x 0..lengths[1] x ...` together with the tables of one prime.
 ///
 /// Data over a grid are stored with the last axis fastest. The prime must exceed every length.
@@ -65,13 +62,9 @@ impl<'a> Grid<'a> {
         let mut out = vec![0; outer * count * inner];
         let direct = terms.min(count);
         let mut differences = vec![0; terms * inner];
-        let per_block = if terms * inner < COUNTED_ROW { count * terms * inner / 4 } else { 0 };
         for (coefficients, values) in data.chunks_exact(terms * inner).zip(out.chunks_exact_mut(count * inner)) {
-            checkpoint(per_block as u64);
             for (row, &x) in values.chunks_exact_mut(inner).zip(&self.points).take(direct) {
-                if terms * inner >= COUNTED_ROW {
-                    checkpoint((terms * inner / 4) as u64);
-                }
+                checkpoint((terms * inner / 4) as u64);
                 row.copy_from_slice(&coefficients[(terms - 1) * inner..]);
                 for c in coefficients.chunks_exact(inner).rev().skip(1) {
                     for (v, &c) in row.iter_mut().zip(c) {
@@ -85,9 +78,7 @@ impl<'a> Grid<'a> {
             // The backward differences at the last point: of order 0, 1, ..., terms - 1.
             differences.copy_from_slice(&values[..terms * inner]);
             for order in 1..terms {
-                if terms * inner >= COUNTED_ROW {
-                    checkpoint(((terms - order) * inner / 8) as u64);
-                }
+                checkpoint(((terms - order) * inner / 8) as u64);
                 for k in 0..terms - order {
                     for i in 0..inner {
                         let at = k * inner + i;
@@ -96,9 +87,7 @@ impl<'a> Grid<'a> {
                 }
             }
             for row in values.chunks_exact_mut(inner).skip(terms) {
-                if terms * inner >= COUNTED_ROW {
-                    checkpoint((terms * inner / 8) as u64);
-                }
+                checkpoint((terms * inner / 8) as u64);
                 for k in 1..terms {
                     for i in 0..inner {
                         let at = k * inner + i;
@@ -122,14 +111,9 @@ impl<'a> Grid<'a> {
     fn interpolate_line(&self, v: &mut [u64]) {
         let f = self.field;
         let n = v.len();
-        if n < COUNTED_ROW {
-            checkpoint((n * n / 4) as u64);
-        }
         for level in 1..n {
             // Both triangles.
-            if n >= COUNTED_ROW {
-                checkpoint((n - level) as u64 / 2);
-            }
+            checkpoint((n - level) as u64 / 2);
             let mut previous = v[level - 1];
             for x in &mut v[level..] {
                 let current = *x;
