@@ -166,7 +166,7 @@ impl Answer<Map> {
     /// The exact stable set on a line through the map: one parameter (0 for `x`) has a value, also that of a wall between
     /// strips.
     ///
-    /// Cost: that of [`stable_set`](crate::stability::stable_set) on the line; the model is not evaluated again.
+    /// Cost: that of [`stable_set`] on the line; the model is not evaluated again.
     ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out.

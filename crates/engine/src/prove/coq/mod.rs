@@ -38,6 +38,9 @@ impl Answer<StableSet> {
     /// assert!(file.contains("<-> lower_limit < K_pwm < upper_limit."));
     /// ```
     ///
+    /// Cost: a table of the conditions, as for [`jury_table`](crate::stability::jury_table), and for each piece of the domain the
+    /// signs of their coefficients; more where a limit needs more digits.
+    ///
     /// # Errors
     /// [`Error::Refused`] (`E-coq`) where there is no such file: an order of 0 or above 12, a free bound of the region, a model
     /// that is undefined somewhere on the domain, or signs that the checker does not see. [`Error::Stopped`] when the budget

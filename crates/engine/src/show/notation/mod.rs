@@ -22,6 +22,12 @@ pub(super) use terms::plain_number;
 pub use text::coefficient_text;
 
 /// How polynomials are written.
+///
+/// ```
+/// use jurist_engine::show::notation::Notation;
+/// // `charpoly --format latex` and `--format python`.
+/// assert_ne!(Notation::Latex, Notation::Python);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Notation {
     /// For people: a line per coefficient.
