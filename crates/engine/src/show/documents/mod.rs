@@ -18,6 +18,7 @@
 mod analyze;
 mod boxes;
 mod charpoly;
+mod check;
 mod end;
 mod intervals;
 mod jury;
@@ -37,6 +38,7 @@ pub use charpoly::{
     OpenPolynomials, Polynomials, PolynomialsOrNone, QuotientOpen, RootLocusForm, RootLocusFormName, Term, Transfer,
     TransferName, TransferQuotient,
 };
+pub use check::{Check, CheckName, Finding, FindingPlace, FindingSeverity};
 pub use end::{Bounds, End, FrequencyOfPair, PlainEnd};
 pub use intervals::{Intervals, IntervalsName, IntervalsOpen, Stable};
 pub use jury::{
