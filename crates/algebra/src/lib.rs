@@ -8,6 +8,7 @@
 //! | [`limits`] | budgets, cancellation and progress |
 //! | [`number`] | exact integers and rationals, parsing, correctly rounded printing, certified enclosures |
 //! | [`poly`] | polynomials in one and many variables, gcd, resultants, real root isolation, real algebraic numbers |
+//! | [`real`] | real numbers of any kind: algebraic, or known by enclosures of any width |
 //! | [`matrix`] | matrices over any domain, determinants, characteristic polynomials |
 //!
 //! # Budgets
@@ -30,3 +31,4 @@ pub mod limits;
 pub mod matrix;
 pub mod number;
 pub mod poly;
+pub mod real;

@@ -2,6 +2,7 @@
 
 use super::cofactors::{Identity, identity};
 use super::line::{Line, Separator};
+use super::refuse_transcendental;
 use super::text::to_text;
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
@@ -33,9 +34,11 @@ impl Answer<StableSet> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Stopped`] when the budget runs out.
+    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where the limits are not
+    /// algebraic numbers.
     pub fn certificate(&self, budget: &Budget) -> Result<String, Error> {
         budget.enter(|| {
+            refuse_transcendental(self.value(), "no certificate")?;
             budget.step("certificate");
             let problem = self.problem();
             let mut proof = Proof::default();

@@ -24,6 +24,7 @@ mod intervals;
 mod jury;
 mod map;
 mod number;
+mod over;
 mod question;
 #[cfg(feature = "schema")]
 pub mod schemas;
@@ -40,7 +41,7 @@ pub use charpoly::{
 };
 pub use check::{Check, CheckName, Finding, FindingPlace, FindingSeverity};
 pub use end::{Bounds, End, FrequencyOfPair, PlainEnd};
-pub use intervals::{Intervals, IntervalsName, IntervalsOpen, Stable};
+pub use intervals::{Intervals, IntervalsName, IntervalsOpen, Stable, UndecidedEnclosure};
 pub use jury::{
     Condition, Holds, Jury, JuryAtPoint, JuryInParameter, JuryName, PointTable, Relation, Row, RowsOpen, Solution,
     SolvedTable, TableKind, TableOpen,
@@ -49,7 +50,8 @@ pub use map::{
     Branch, Cell, CellVerdict, Curve, CurveTerm, Map, MapName, MapOpen, MapQuestion, Pair, Place, PlaneRegion,
     RegionEnd, RegionLimit, Regions, Strip, Wall,
 };
-pub use number::{Enclosure, Exact, Named, Number};
+pub use number::{Enclosure, Exact, Named, Number, NumberKind};
+pub use over::{AlgebraicPlace, Over};
 pub use question::{ParameterQuestion, PointQuestion, RegionBound};
 pub use undecided::{Answered, Open, Undecided};
 pub use verdict::{RootsByPlace, Verdict, VerdictName, VerdictOpen};
