@@ -156,12 +156,6 @@ impl Real {
             (Real::Transcendental(x), Real::Transcendental(y)) if x.is_same(y) => return Ok(Ordering::Equal),
             _ => {}
         }
-        if let Some(x) = self.exact() {
-            return budget.enter(|| other.compare_rational(&x).reverse());
-        }
-        if let Some(y) = other.exact() {
-            return budget.enter(|| self.compare_rational(&y));
-        }
         let (mut x, mut y) = (self.clone(), other.clone());
         let mut bits = 64;
         loop {
