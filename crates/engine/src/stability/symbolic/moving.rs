@@ -63,7 +63,7 @@ pub(super) fn moving_stable_set(
         })?);
     }
     let rests: Vec<MultiPoly> = split.iter().map(|(_, _, _, rest)| rest.clone()).collect();
-    let basis = budget.enter(|| coprime(&rests))?;
+    let basis = budget.enter(|| coprime(&rests, |p| !p.is_constant()))?;
     let boundaries: Vec<Boundary> = budget.enter(|| {
         let parts = |rest: &MultiPoly| (0..basis.len()).filter(|&k| rest.div_exact(&basis[k]).is_some()).collect();
         let boundary =

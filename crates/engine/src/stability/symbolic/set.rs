@@ -142,7 +142,7 @@ fn boundaries(
         found.push((cause, polynomial));
     }
     let rests: Vec<MultiPoly> = found.iter().map(|(_, b)| b.rest().clone()).collect();
-    let basis = budget.enter(|| coprime(&rests))?;
+    let basis = budget.enter(|| coprime(&rests, |p| p.degree_in(0) > 0))?;
     let mut boundaries = Vec::with_capacity(found.len());
     for (cause, polynomial) in found {
         let divides = |part: &MultiPoly| polynomial.rest().div_exact(part).is_some();
@@ -158,25 +158,26 @@ fn boundaries(
     Ok(Some((boundaries, parts)))
 }
 
-/// Square-free, pairwise coprime polynomials of which all given ones, square-free themselves, are products.
-pub(super) fn coprime(polynomials: &[MultiPoly]) -> Vec<MultiPoly> {
+/// Square-free, pairwise coprime polynomials of which all given ones, square-free themselves, are products; those that may
+/// have zeros.
+pub(super) fn coprime(polynomials: &[MultiPoly], varies: impl Fn(&MultiPoly) -> bool) -> Vec<MultiPoly> {
     let mut basis: Vec<MultiPoly> = Vec::new();
     for p in polynomials {
         let mut part = p.clone();
         let mut k = 0;
-        while k < basis.len() && part.degree_in(0) > 0 {
+        while k < basis.len() && varies(&part) {
             let common = part.gcd(&basis[k]).primitive_over_integers();
-            if common.degree_in(0) > 0 {
+            if varies(&common) {
                 let rest = basis[k].div_exact(&common).expect("a gcd divides");
                 part = part.div_exact(&common).expect("a gcd divides");
                 basis[k] = common;
-                if rest.degree_in(0) > 0 {
+                if varies(&rest) {
                     basis.push(rest);
                 }
             }
             k += 1;
         }
-        if part.degree_in(0) > 0 {
+        if varies(&part) {
             basis.push(part);
         }
     }
