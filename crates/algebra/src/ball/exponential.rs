@@ -78,6 +78,11 @@ pub fn exponential(m: &BallMatrix) -> BallMatrix {
     }
     let bits = m.at(0, 0).bits;
     let norm = m.norm_units();
+    if norm.is_zero() {
+        // Exactly, so that what vanishes at the time 0 is seen to.
+        let one = Ball::from_integer(&Integer::ONE, bits);
+        return BallMatrix::from_fn(n, |i, j| if i == j { one.clone() } else { Ball::zero(bits) });
+    }
     // 2^halvings >= 4 norm.
     let halvings = (norm.bit_length() + 2).saturating_sub(bits);
     let working = bits + 2 * halvings + 16;
