@@ -152,6 +152,7 @@ fn report(options: &Options, context: &Context, problem: &Problem) -> Result<Pol
         title: problem.title().unwrap_or_default().to_owned(),
         variable: problem.time().variable().to_owned(),
         parameters: parameters(problem),
+        symbols: Vec::new(),
         set: problem.set().to_vec(),
         relation: Relation::Characteristic,
         polynomials: Vec::new(),
@@ -166,7 +167,9 @@ fn report(options: &Options, context: &Context, problem: &Problem) -> Result<Pol
         ];
         return Ok(report);
     }
-    let algebra = problem.algebra(&context.budget)?;
+    let algebra = problem.algebra_over_symbols(&context.budget)?;
+    report.symbols = algebra.symbols().definitions();
+    report.parameters.extend(report.symbols.iter().map(|(name, _)| name.clone()));
     let Some(polynomial) = algebra.polynomial().cloned() else {
         return Err(Error::Undefined(algebra.undefined().unwrap_or_default().to_owned()));
     };

@@ -190,10 +190,53 @@ impl RationalFunction {
         RationalFunction::new(numerator, denominator)
     }
 
+    /// The function with `images[i]` in the place of variable `i`; variables beyond the list stay. `None` when the
+    /// denominator vanishes identically then.
+    ///
+    /// Cost: a product of powers for each term of numerator and denominator; powers are computed once.
+    ///
+    /// ```
+    /// use jurist_algebra::poly::RationalFunction;
+    /// let (x, t) = (RationalFunction::variable(0), RationalFunction::variable(1));
+    /// // x^2 + 1 where x = 1/t
+    /// let f = &(&x * &x) + &RationalFunction::one();
+    /// let g = f.compose(&[t.recip().unwrap()]).unwrap();
+    /// assert_eq!(g.display(&["x", "t"]).to_string(), "(t^2 + 1)/t^2");
+    /// ```
+    pub fn compose(&self, images: &[RationalFunction]) -> Option<Self> {
+        composed(&self.numerator, images).checked_div(&composed(&self.denominator, images))
+    }
+
     /// Text such as `(3*K^2 - 1)/(2*T)`. Variables beyond the names are written `x_i`.
     pub fn display<'a, S: AsRef<str>>(&'a self, names: &'a [S]) -> DisplayRationalFunction<'a, S> {
         DisplayRationalFunction { function: self, names }
     }
+}
+
+/// The polynomial with functions in the place of its first variables.
+fn composed(p: &MultiPoly, images: &[RationalFunction]) -> RationalFunction {
+    let degrees = p.degrees();
+    let powers: Vec<Vec<RationalFunction>> = degrees
+        .iter()
+        .enumerate()
+        .map(|(i, &degree)| {
+            let x = images.get(i).cloned().unwrap_or_else(|| RationalFunction::variable(i));
+            let mut list = vec![RationalFunction::one()];
+            for k in 0..degree as usize {
+                list.push(&list[k] * &x);
+            }
+            list
+        })
+        .collect();
+    let mut sum = RationalFunction::zero();
+    for (monomial, c) in p.terms() {
+        let mut term = RationalFunction::from(c.clone());
+        for (i, &e) in monomial.exponents().iter().enumerate().filter(|(_, e)| **e > 0) {
+            term = &term * &powers[i][e as usize];
+        }
+        sum = &sum + &term;
+    }
+    sum
 }
 
 /// `p / d`, where `d` is a divisor of `p`.

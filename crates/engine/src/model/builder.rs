@@ -315,9 +315,15 @@ impl BlockBuilder {
         self.key("D", &matrix(d))
     }
 
-    /// Makes a continuous block discrete: `forward`, `backward` or `tustin`.
+    /// Makes a continuous block discrete: `zoh`, `foh`, `tustin`, `forward` or `backward`.
     pub fn discretize(self, method: &str, sample_time: &str) -> Self {
         let value = format!("{{ method = {}, T = {} }}", quoted(method), quoted(sample_time));
+        self.key("discretize", &value)
+    }
+
+    /// What a continuous block does behind a zero-order hold, its inputs delayed by dead time in units of time.
+    pub fn held(self, sample_time: &str, delay: &str) -> Self {
+        let value = format!("{{ method = \"zoh\", T = {}, delay = {} }}", quoted(sample_time), quoted(delay));
         self.key("discretize", &value)
     }
 }

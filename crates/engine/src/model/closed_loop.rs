@@ -2,9 +2,10 @@
 
 use super::connect::state_space::{Stop, assemble};
 use super::definition::{Model, Time};
-use super::evaluate::scalar::{Scope, Symbol};
+use super::evaluate::scalar::{Scope, Symbol, Variable};
 use super::evaluate::symbolic::{Values, Wiring, symbolic};
 use super::evaluate::walk::Failure as Wrong;
+use super::symbols::{Definition, Symbols};
 use super::text::Expression;
 use super::text::names::{did_you_mean, known_names, shorten};
 use crate::error::{Diagnostic, Diagnostics, Error};
@@ -12,6 +13,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+use std::cell::RefCell;
 
 /// A closed loop in state space: `x' = A x + E r`, `y = C x + D r`, where `x'` is the next sample
 /// or the derivative.
@@ -93,41 +95,49 @@ pub struct Evaluated {
     pub closed_loop: Option<ClosedLoop>,
     /// The sample time as a function of the kept names; `None` when the model has none or it divides by zero.
     pub sample_time: Option<RationalFunction>,
+    /// What the variables beyond the kept names stand for; none where everything is rational.
+    pub symbols: Symbols,
 }
 
 /// The expressions of the model with values set for what is not kept.
 struct Answer<'m> {
     wiring: Wiring<'m>,
     values: Values,
-    /// For each variable of `values`, its value; `None` for the kept ones.
-    set: Vec<Option<Rational>>,
-    /// For each variable of `values`, its number among the kept ones.
-    numbers: Vec<usize>,
-    kept: Vec<String>,
+    /// For each variable of `values`, what it is in kept names and symbols: a number, a variable, or a function of both.
+    images: Vec<RationalFunction>,
+    symbols: RefCell<Symbols>,
     poles: Vec<MultiPoly>,
     sample_time: Option<RationalFunction>,
 }
 
 impl Answer<'_> {
     fn substituted(&self, f: &RationalFunction) -> Option<RationalFunction> {
-        let mut f = f.clone();
-        for i in f.variables() {
-            if let Some(Some(value)) = self.set.get(i) {
-                f = f.substitute(i, value)?;
-            }
-        }
-        f.map_variables(|i| self.numbers[i])
+        substituted(f, &self.images)
     }
 
-    fn substituted_polynomial(&self, p: &MultiPoly) -> MultiPoly {
-        let mut p = p.clone();
-        for i in p.variables() {
-            if let Some(Some(value)) = self.set.get(i) {
-                p = p.substitute(i, value).0;
-            }
-        }
-        p.map_variables(|i| self.numbers[i])
+    /// A polynomial that is zero where the image of `p` is.
+    fn substituted_polynomial(&self, p: &MultiPoly) -> Option<MultiPoly> {
+        Some(self.substituted(&p.clone().into())?.numerator().clone())
     }
+}
+
+/// A function with these images in the place of its variables. Numbers are put in first: they make it smaller.
+fn substituted(f: &RationalFunction, images: &[RationalFunction]) -> Option<RationalFunction> {
+    let mut f = f.clone();
+    for i in f.variables() {
+        if let Some(value) = images[i].as_constant() {
+            f = f.substitute(i, &value)?;
+        }
+    }
+    let variables = f.variables();
+    let number = |i: usize| match images[i].variables().as_slice() {
+        [j] if images[i] == RationalFunction::variable(*j) => Some(*j),
+        _ => None,
+    };
+    if variables.iter().all(|&i| number(i).is_some()) {
+        return f.map_variables(|i| number(i).unwrap_or(i));
+    }
+    f.compose(images)
 }
 
 impl Model {
@@ -151,7 +161,6 @@ impl Model {
         budget: &Budget,
     ) -> Result<Evaluated, Error> {
         let answer = self.answer(kept, values, budget)?;
-        let sample_time = answer.sample_time.as_ref().and_then(|t| answer.substituted(t));
         if let Values::Characteristic(p) = &answer.values {
             let undefined = || Error::Undefined("a coefficient divides by zero".into());
             let mut coefficients = Vec::with_capacity(p.coefficients().len());
@@ -162,18 +171,23 @@ impl Model {
             if coefficients.is_empty() {
                 coefficients.push(RationalFunction::zero());
             }
+            let sample_time = answer.sample_time.as_ref().and_then(|t| answer.substituted(t));
+            let (symbols, images) = merged(&answer.symbols.into_inner())?;
+            let kept = |f: &RationalFunction| substituted(f, &images).ok_or_else(undefined);
             let polynomial = CharacteristicPolynomial {
-                variables: answer.kept,
-                coefficients,
+                variables: symbols.variables(),
+                coefficients: coefficients.iter().map(kept).collect::<Result<_, _>>()?,
                 formal_degree,
-                poles: answer.poles,
+                poles: poles_in(&answer.poles, &symbols, &images)?,
                 monic: false,
             };
-            return Ok(Evaluated { polynomial, closed_loop: None, sample_time });
+            let sample_time = sample_time.and_then(|t| substituted(&t, &images));
+            return Ok(Evaluated { polynomial, closed_loop: None, sample_time, symbols });
         }
-        let closed_loop = self.connected(answer, budget)?;
-        let polynomial = closed_loop.characteristic_polynomial(budget)?;
-        Ok(Evaluated { polynomial, closed_loop: Some(closed_loop), sample_time })
+        let (closed_loop, sample_time, symbols) = self.connected(answer, budget)?;
+        let mut polynomial = closed_loop.characteristic_polynomial(budget)?;
+        polynomial.poles = polynomial.poles.iter().filter_map(|pole| pole_beside(pole, &symbols)).collect();
+        Ok(Evaluated { polynomial, closed_loop: Some(closed_loop), sample_time, symbols })
     }
 
     /// The value of an expression in constants and parameters, all of which have values.
@@ -205,7 +219,16 @@ impl Model {
         let mut scope = Scope::new(self.parameters().iter(), self.ordered_constants(), symbol, budget, &mut report);
         let value = scope.scalar(expression).map_err(&mut report).ok();
         let Some(value) = value.filter(|_| failures.is_empty()) else { return Err(self.failed(failures)) };
-        value.as_constant().ok_or_else(|| Error::Undefined("a parameter has no value".into()))
+        if let Some(number) = value.as_constant() {
+            return Ok(number);
+        }
+        let named = |i: usize| matches!(scope.variables[i], Variable::Named(_));
+        if value.variables().into_iter().all(named) {
+            return Err(Error::Undefined("a parameter has no value".into()));
+        }
+        let error = Diagnostic::error("E-function", "a rational number is needed here");
+        let error = error.at(expression.span, "not rational").help("write as many digits of it as you mean");
+        Err(Diagnostics::new(Some(self.source().clone()), vec![error]).into())
     }
 
     /// That a model given by its characteristic polynomial has no states.
@@ -233,22 +256,49 @@ impl Model {
             None => None,
         };
         let (Some(values), true) = (values, failures.is_empty()) else { return Err(self.failed(failures)) };
-        let value = |name: &String| given.iter().find(|(n, _)| n == name).map(|(_, v)| v.clone());
-        let set: Vec<Option<Rational>> = scope.variables.iter().map(value).collect();
-        let number = |name: &String| kept.iter().position(|k| k == name).unwrap_or(0);
-        let numbers = scope.variables.iter().map(number).collect();
-        let mut answer = Answer { wiring, values, set, numbers, kept: kept.to_vec(), poles: Vec::new(), sample_time };
+        let (images, symbols) = self.images(&scope.variables, kept, given)?;
+        let symbols = RefCell::new(symbols);
+        let mut answer = Answer { wiring, values, images, symbols, poles: Vec::new(), sample_time };
         let divisors = std::mem::take(&mut scope.divisors);
         for divisor in divisors {
             budget.check()?;
-            let parts: Vec<MultiPoly> = divisor.iter().map(|p| answer.substituted_polynomial(p)).collect();
-            let pole = parts.iter().fold(MultiPoly::zero(), |g, p| g.gcd(p));
+            let parts: Option<Vec<MultiPoly>> = divisor.iter().map(|p| answer.substituted_polynomial(p)).collect();
+            let pole = parts.unwrap_or_default().iter().fold(MultiPoly::zero(), |g, p| g.gcd(p));
             if pole.is_zero() {
                 return Err(Error::Undefined("division by zero at these values of the parameters".into()));
             }
             add_pole(&mut answer.poles, &pole);
         }
         Ok(answer)
+    }
+
+    /// What each variable of the values is in kept names and symbols.
+    fn images(
+        &self,
+        variables: &[Variable],
+        kept: &[String],
+        given: &[(String, Rational)],
+    ) -> Result<(Vec<RationalFunction>, Symbols), Error> {
+        let mut symbols = Symbols::new(kept);
+        let mut images: Vec<RationalFunction> = Vec::with_capacity(variables.len());
+        for variable in variables {
+            images.push(match variable {
+                Variable::Named(name) => match kept.iter().position(|k| k == name) {
+                    Some(i) => RationalFunction::variable(i),
+                    None => {
+                        let value = given.iter().find(|(n, _)| n == name).map(|(_, value)| value.clone());
+                        value.map(RationalFunction::from).unwrap_or_else(|| RationalFunction::variable(0))
+                    }
+                },
+                Variable::Pi => symbols.pi(),
+                Variable::Call(function, argument) => {
+                    let undefined = || Error::Undefined(format!("'{}' has no value there", function.name()));
+                    let argument = substituted(argument, &images).ok_or_else(undefined)?;
+                    symbols.call(*function, argument).ok_or_else(undefined)?
+                }
+            });
+        }
+        Ok((images, symbols))
     }
 
     fn failed(&self, failures: Vec<Wrong>) -> Error {
@@ -267,30 +317,84 @@ impl Model {
         Error::Refused(Diagnostics::new(Some(self.source().clone()), diagnostics))
     }
 
-    fn connected(&self, answer: Answer<'_>, budget: &Budget) -> Result<ClosedLoop, Error> {
+    fn connected(
+        &self,
+        answer: Answer<'_>,
+        budget: &Budget,
+    ) -> Result<(ClosedLoop, Option<RationalFunction>, Symbols), Error> {
         let substitution = |f: &RationalFunction| answer.substituted(f);
-        let assembled = match assemble(self, &answer.wiring, &answer.values, &substitution, budget) {
+        let symbols = Some(&answer.symbols);
+        let assembled = match assemble(self, &answer.wiring, &answer.values, &substitution, symbols, budget) {
             Ok(assembled) => assembled,
             Err(Stop::Exhausted(exhausted)) => return Err(exhausted.into()),
             Err(Stop::Undefined(diagnostic)) => return Err(Error::Undefined(diagnostic.message)),
+            Err(Stop::Refused(diagnostic)) => {
+                return Err(Diagnostics::new(Some(self.source().clone()), vec![*diagnostic]).into());
+            }
         };
-        let mut poles = answer.poles;
+        let mut poles = answer.poles.clone();
         for pole in &assembled.poles {
             add_pole(&mut poles, pole);
         }
-        Ok(ClosedLoop {
-            variables: answer.kept,
+        let sample_time = answer.sample_time.as_ref().and_then(|t| answer.substituted(t));
+        let (symbols, images) = merged(&answer.symbols.into_inner())?;
+        let matrix = |m: &RationalMatrix| -> Result<RationalMatrix, Error> {
+            if symbols.is_empty() {
+                return Ok(m.clone());
+            }
+            let entries: Option<Vec<RationalFunction>> = m.entries().iter().map(|f| substituted(f, &images)).collect();
+            let entries = entries.ok_or_else(|| Error::Undefined("division by zero".into()))?;
+            Ok(RationalMatrix::from_fn(m.rows(), m.columns(), |i, j| entries[i * m.columns() + j].clone()))
+        };
+        let system = &assembled.system;
+        let closed_loop = ClosedLoop {
+            variables: symbols.variables(),
             time: self.time(),
-            a: assembled.system.a,
-            e: assembled.system.b,
-            c: assembled.system.c,
-            d: assembled.system.d,
+            a: matrix(&system.a)?,
+            e: matrix(&system.b)?,
+            c: matrix(&system.c)?,
+            d: matrix(&system.d)?,
             states: assembled.states,
             inputs: answer.wiring.inputs.iter().map(|s| (*s).to_owned()).collect(),
             outputs: self.outputs().iter().map(|o| o.name.name.clone()).collect(),
-            poles,
-        })
+            poles: poles_in(&poles, &symbols, &images)?,
+        };
+        Ok((closed_loop, sample_time.and_then(|t| substituted(&t, &images)), symbols))
     }
+}
+
+/// The symbols without relations between powers and multiple angles.
+fn merged(symbols: &Symbols) -> Result<(Symbols, Vec<RationalFunction>), Error> {
+    symbols.merged().ok_or_else(|| Error::Undefined("a function has no value there".into()))
+}
+
+/// The poles in merged symbols, without factors that have no zero.
+fn poles_in(poles: &[MultiPoly], symbols: &Symbols, images: &[RationalFunction]) -> Result<Vec<MultiPoly>, Error> {
+    let mut out = Vec::new();
+    for pole in poles {
+        let image = substituted(&pole.clone().into(), images).filter(|f| !f.is_zero());
+        let image = image.ok_or_else(|| Error::Undefined("division by zero".into()))?;
+        if let Some(pole) = pole_beside(image.numerator(), symbols) {
+            add_pole(&mut out, &pole);
+        }
+    }
+    Ok(out)
+}
+
+/// A pole without the factors in symbols that have no zero; `None` when nothing else is left.
+fn pole_beside(pole: &MultiPoly, symbols: &Symbols) -> Option<MultiPoly> {
+    if symbols.is_empty() {
+        return Some(pole.clone());
+    }
+    let mut rest = pole.clone();
+    let exponentials = symbols.iter().enumerate().filter(|(_, s)| matches!(s.definition, Definition::Exponential(_)));
+    let exponentials = exponentials.map(|(i, _)| MultiPoly::variable(symbols.first() + i));
+    for factor in symbols.nonzero().iter().cloned().chain(exponentials) {
+        while let Some(quotient) = rest.div_exact(&factor) {
+            rest = quotient;
+        }
+    }
+    (!rest.is_constant()).then(|| rest.primitive_over_integers())
 }
 
 fn add_pole(poles: &mut Vec<MultiPoly>, pole: &MultiPoly) {

@@ -228,8 +228,10 @@ pub enum Dynamics {
     },
     /// A factor.
     Gain(Expression),
-    /// A number of samples.
-    Delay(usize),
+    /// A number of samples: a whole number that does not depend on parameters.
+    Delay(Expression),
+    /// Dead time in a continuous loop, in units of time.
+    DeadTime(Expression),
     /// State space; a missing matrix has its usual meaning.
     StateSpace {
         /// State matrix.
@@ -248,18 +250,30 @@ pub enum Dynamics {
 /// How a continuous block is made discrete.
 #[derive(Clone, Debug)]
 pub struct Discretization {
-    /// The rule.
+    /// The rule or the hold.
     pub method: Method,
-    /// The sample time, which forward and backward need.
+    /// The sample time; that of the loop where the block names none. Tustin's rule with a factor needs none.
     pub sample_time: Option<Expression>,
     /// The factor of the bilinear map, `2/T` when missing.
     pub factor: Option<Expression>,
+    /// The angular frequency at which the bilinear map is exact: its factor is `w/tan(w T/2)`.
+    pub prewarp: Option<Expression>,
+    /// The dead time of the inputs of a held block, in units of time.
+    pub delay: Option<Expression>,
     /// Where it stands.
     pub span: Span,
 }
 
-/// The rules of discretisation that keep rational functions rational.
+/// The ways to make a continuous block discrete: rules that keep rational functions rational, and what a block behind a
+/// hold does exactly.
+///
+/// ```
+/// use jurist_engine::model::Method;
+/// assert_eq!((Method::Forward.words(), Method::ZeroOrderHold.words()), ("forward rule", "zero-order hold"));
+/// assert_eq!(Method::named("foh"), Some(Method::FirstOrderHold));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Method {
     /// `s = (z - 1)/T`.
     Forward,
@@ -267,6 +281,48 @@ pub enum Method {
     Backward,
     /// `s = c (z - 1)/(z + 1)`.
     Tustin,
+    /// The inputs are constant between samples: the outputs at the samples are exact.
+    ZeroOrderHold,
+    /// The inputs are straight between samples (triangle hold, not causal by itself).
+    FirstOrderHold,
+}
+
+impl Method {
+    /// All of them, in the order of the words in model files.
+    pub const ALL: [Method; 5] =
+        [Method::Forward, Method::Backward, Method::Tustin, Method::ZeroOrderHold, Method::FirstOrderHold];
+
+    /// The word of model files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Forward => "forward",
+            Method::Backward => "backward",
+            Method::Tustin => "tustin",
+            Method::ZeroOrderHold => "zoh",
+            Method::FirstOrderHold => "foh",
+        }
+    }
+
+    /// The method of this word.
+    pub fn named(word: &str) -> Option<Method> {
+        Method::ALL.into_iter().find(|method| method.name() == word)
+    }
+
+    /// What it is called: `forward rule`, `zero-order hold`.
+    pub fn words(self) -> &'static str {
+        match self {
+            Method::Forward => "forward rule",
+            Method::Backward => "backward rule",
+            Method::Tustin => "Tustin's rule",
+            Method::ZeroOrderHold => "zero-order hold",
+            Method::FirstOrderHold => "first-order hold",
+        }
+    }
+
+    /// Whether it is exact for a signal of a kind rather than a rule.
+    pub fn is_hold(self) -> bool {
+        matches!(self, Method::ZeroOrderHold | Method::FirstOrderHold)
+    }
 }
 
 /// A pulse-width modulator: what a switched simulation needs beside its gain.
@@ -431,6 +487,52 @@ impl Model {
             Form::Matrix { ports, .. } | Form::OutputFeedback { ports, .. } => &ports.outputs,
             Form::Blocks(diagram) => &diagram.outputs,
         }
+    }
+
+    /// By which rule or hold the continuous blocks of a discrete loop are made discrete: `motor: forward rule`. Empty where
+    /// there are none.
+    ///
+    /// ```
+    /// use jurist_engine::error::Source;
+    /// use jurist_engine::model::Model;
+    /// let text = "
+    ///     time = 'discrete'
+    ///     sample_time = 1
+    ///     parameters.K = 1
+    ///     [loop]
+    ///     inputs = ['r']
+    ///     [[block]]
+    ///     name = 'motor'
+    ///     input = 'r - K*y'
+    ///     output = 'y'
+    ///     transfer = '1/(s + 1)'
+    ///     discretize = 'zoh'
+    /// ";
+    /// let (model, _) = Model::from_toml(&Source::new("model.toml", text))?;
+    /// assert_eq!(model.rules(), "motor: zero-order hold");
+    /// # Ok::<(), jurist_engine::error::Diagnostics>(())
+    /// ```
+    pub fn rules(&self) -> String {
+        /// Blocks of one kind that are named.
+        const NAMED: usize = 4;
+        let Form::Blocks(diagram) = &self.form else { return String::new() };
+        let method = |b: &Block| b.discretization.as_ref().map(|d| d.method);
+        let mut methods: Vec<Method> = Vec::new();
+        for found in diagram.blocks.iter().filter_map(method) {
+            if !methods.contains(&found) {
+                methods.push(found);
+            }
+        }
+        let group = |m: &Method| {
+            let blocks: Vec<&str> =
+                diagram.blocks.iter().filter(|b| method(b) == Some(*m)).map(|b| b.name.as_str()).collect();
+            let mut text = blocks[..blocks.len().min(NAMED)].join(", ");
+            if blocks.len() > NAMED {
+                text.push_str(&format!(" and {} more", blocks.len() - NAMED));
+            }
+            format!("{text}: {}", m.words())
+        };
+        methods.iter().map(group).collect::<Vec<_>>().join("; ")
     }
 
     /// The constants, each after those it uses.

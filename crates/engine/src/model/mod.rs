@@ -17,6 +17,7 @@ pub mod examples;
 mod free;
 mod parts;
 mod read;
+mod symbols;
 mod text;
 
 pub use builder::{BlockBuilder, ModelBuilder, ParameterBuilder};
@@ -26,5 +27,6 @@ pub use definition::{
     Pwm, Simulation, Time,
 };
 pub use read::{DRIVE, schema, source_from_bytes};
+pub use symbols::{Definition, Symbol, Symbols, value_approximate};
 pub(crate) use text::names::shorten;
-pub use text::{Expression, Factor, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};
+pub use text::{Expression, Factor, Function, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};

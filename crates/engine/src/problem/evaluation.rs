@@ -4,7 +4,7 @@ use super::region::{Bound, Region};
 use super::resolved::Problem;
 use super::substitution::{scaled_by_radius, shifted_by_decay};
 use crate::error::Error;
-use crate::model::{ClosedLoop, Evaluated, Model, Time};
+use crate::model::{ClosedLoop, Evaluated, Model, Symbols, Time};
 use crate::stability::ParametricPolynomial;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
@@ -34,6 +34,7 @@ pub struct Algebra {
     formal_degree: usize,
     sample_time: Option<RationalFunction>,
     closed_loop: Option<ClosedLoop>,
+    symbols: Symbols,
 }
 
 impl Algebra {
@@ -50,17 +51,12 @@ impl Algebra {
             Err(Error::Undefined(why)) => {
                 let formal_degree = symbolic_degree(model, &kept, problem.set(), budget)?;
                 let undefined = Some(why);
-                return Ok(Algebra {
-                    polynomial: None,
-                    undefined,
-                    formal_degree,
-                    sample_time: None,
-                    closed_loop: None,
-                });
+                let (sample_time, closed_loop, symbols) = (None, None, Symbols::default());
+                return Ok(Algebra { polynomial: None, undefined, formal_degree, sample_time, closed_loop, symbols });
             }
             Err(failure) => return Err(failure),
         };
-        let Evaluated { polynomial, closed_loop, sample_time } = evaluated;
+        let Evaluated { polynomial, closed_loop, sample_time, symbols } = evaluated;
         let polynomial = match bound {
             None => polynomial,
             Some(at) => make_room(polynomial, at, problem.region().bound_name()),
@@ -76,7 +72,15 @@ impl Algebra {
             undefined: None,
             sample_time,
             closed_loop,
+            symbols,
         })
+    }
+
+    /// What the polynomial's variables beyond the free names stand for; none where everything is rational.
+    ///
+    /// Where the bound of the region is free it is one more variable before the symbols.
+    pub fn symbols(&self) -> &Symbols {
+        &self.symbols
     }
 
     /// The characteristic polynomial in the free parameters, the region's bound put in; `None` where the loop is undefined
@@ -113,7 +117,14 @@ impl Algebra {
         let left = |f: &RationalFunction| f.substitute(fixed, value)?.map_variables(|_| 0);
         let sample_time = self.sample_time.as_ref().and_then(left);
         let undefined = self.undefined.clone();
-        Algebra { polynomial: None, undefined, formal_degree: self.formal_degree, sample_time, closed_loop: None }
+        Algebra {
+            polynomial: None,
+            undefined,
+            formal_degree: self.formal_degree,
+            sample_time,
+            closed_loop: None,
+            symbols: Symbols::default(),
+        }
     }
 
     /// What is left where one of two free parameters has a value.

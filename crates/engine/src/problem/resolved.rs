@@ -143,9 +143,29 @@ impl Problem {
     /// bound into the polynomial, `O(n^2)` operations on its coefficients; then nothing.
     ///
     /// # Errors
-    /// [`Error::Refused`] where the model is not complete, [`Error::Stopped`] when the budget runs out. A model that is
-    /// undefined at the values set has algebra without a polynomial.
+    /// [`Error::Refused`] where the model is not complete, and with `E-function` where it is not rational in what is free
+    /// (see [`Problem::algebra_over_symbols`]); [`Error::Stopped`] when the budget runs out. A model that is undefined at
+    /// the values set has algebra without a polynomial.
     pub fn algebra(&self, budget: &Budget) -> Result<&Algebra, Error> {
+        let algebra = self.algebra_over_symbols(budget)?;
+        if algebra.symbols().is_empty() {
+            return Ok(algebra);
+        }
+        let error =
+            Diagnostic::error("E-function", "the loop is not rational: this question cannot be asked of it yet");
+        let list: Vec<String> =
+            algebra.symbols().definitions().iter().take(4).map(|(name, text)| format!("{name} = {text}")).collect();
+        Err(error.help(format!("it contains {}", list.join(", "))).into())
+    }
+
+    /// The characteristic polynomial and what goes with it, for a question that can treat symbols: variables beyond those
+    /// that are free are the [symbols](Algebra::symbols).
+    ///
+    /// Cost: that of [`Problem::algebra`], with the symbols as further variables.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra`], without `E-function` for symbols.
+    pub fn algebra_over_symbols(&self, budget: &Budget) -> Result<&Algebra, Error> {
         if let Some(algebra) = self.algebra.get() {
             return Ok(algebra);
         }

@@ -1,7 +1,7 @@
 //! Everything that is said about a loop one parameter at a time.
 
 use super::intervals::{answer_lines, undecided_text};
-use super::layout::{called, named_values, short};
+use super::layout::{headline, named_values, short};
 use super::verdict::verdict_line;
 use crate::answer::Analysis;
 
@@ -10,7 +10,7 @@ impl Analysis {
     pub fn text(&self, digits: usize) -> String {
         let mut out = String::new();
         if let Some((point, verdict)) = &self.verdict {
-            out.push_str(&format!("{}, {} time\n", called(point.title()), point.time().name()));
+            out.push_str(&format!("{}\n", headline(point.model())));
             if !point.set().is_empty() {
                 out.push_str(&format!("at {}\n", named_values(point.set())));
             }
@@ -20,7 +20,7 @@ impl Analysis {
             };
             out.push_str(&format!("    {line}\n"));
         } else if let Some((first, _)) = self.sets.first() {
-            out.push_str(&format!("{}, {} time\n", called(first.title()), first.time().name()));
+            out.push_str(&format!("{}\n", headline(first.model())));
             // One parameter alone may be without a value: the one that is asked about.
             out.push_str(&format!("    no verdict: parameter {} has no nominal value\n", first.parameter().name));
         }

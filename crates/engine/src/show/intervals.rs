@@ -1,6 +1,6 @@
 //! The stable set of one parameter.
 
-use super::layout::{Columns, called, fraction, named_values, short, visible};
+use super::layout::{Columns, fraction, headline, named_values, short, visible};
 use super::margins::margin;
 use super::{real, region};
 use crate::answer::{Answer, Frequency};
@@ -25,8 +25,7 @@ pub fn intervals_text(problem: &Problem, set: Result<&StableSet, &Exhausted>, di
 
 /// The model and the values of the other parameters.
 pub fn heading(problem: &Problem) -> String {
-    let title = called(problem.title());
-    let mut line = format!("{title}, {} time", problem.time().name());
+    let mut line = headline(problem.model());
     if !problem.set().is_empty() {
         line.push_str(&format!(", {}", named_values(problem.set())));
     }

@@ -1,5 +1,6 @@
 //! Aligned columns and short numbers in text for people.
 
+use crate::model::Model;
 use jurist_algebra::number::{Rational, parse_number, to_decimal};
 use std::borrow::Cow;
 use std::fmt;
@@ -32,6 +33,15 @@ pub fn visible(text: &str) -> Cow<'_, str> {
         }
     }
     Cow::Owned(out)
+}
+
+/// The headline of an answer: the loop, its kind of time, and by what its continuous blocks are made discrete.
+pub fn headline(model: &Model) -> String {
+    let line = format!("{}, {} time", called(model.title()), model.time().name());
+    match model.rules() {
+        rules if rules.is_empty() => line,
+        rules => format!("{line}, {}", visible(&rules)),
+    }
 }
 
 /// What a loop is called in text for people: its title, made [`visible`].

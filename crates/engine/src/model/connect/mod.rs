@@ -1,3 +1,6 @@
 //! From the values of a model's parts to one closed loop.
 
+mod exponential;
+mod factor;
+mod hold;
 pub(in crate::model) mod state_space;

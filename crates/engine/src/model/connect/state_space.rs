@@ -3,21 +3,29 @@
 //! The controllable canonical form of a numerator and a denominator keeps every mode, common
 //! factors included: its characteristic polynomial is the denominator.
 
+use super::hold::held;
 use crate::error::{Diagnostic, Span};
 use crate::model::definition::{Dynamics, Form, Method, Model};
-use crate::model::evaluate::symbolic::{BlockValues, DynamicValues, PortValues, Row, Values, Wiring};
+use crate::model::evaluate::symbolic::{
+    BlockValues, DiscretizationValues, DynamicValues, PortValues, Row, Values, Wiring,
+};
 use crate::model::evaluate::walk::Failure;
 use crate::model::evaluate::work::count_work;
 use crate::model::evaluate::zpoly::ZPoly;
+use crate::model::symbols::Symbols;
 use crate::model::text::names::shorten;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::RationalMatrix;
+use jurist_algebra::number::Enclosure;
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
+use std::cell::RefCell;
 
 /// Why there is no closed loop.
 pub(in crate::model) enum Stop {
     /// The loop is undefined for these values of the parameters.
     Undefined(Box<Diagnostic>),
+    /// What the model asks for has no meaning at these values.
+    Refused(Box<Diagnostic>),
     /// The budget ran out.
     Exhausted(Exhausted),
 }
@@ -31,7 +39,7 @@ impl From<Exhausted> for Stop {
 impl From<Stop> for Failure {
     fn from(stop: Stop) -> Self {
         match stop {
-            Stop::Undefined(diagnostic) => Failure::Wrong(diagnostic),
+            Stop::Undefined(diagnostic) | Stop::Refused(diagnostic) => Failure::Wrong(diagnostic),
             Stop::Exhausted(exhausted) => Failure::Exhausted(exhausted),
         }
     }
@@ -60,7 +68,7 @@ fn undefined(message: String, span: Span) -> Stop {
     Stop::Undefined(Box::new(Diagnostic::error("E-division-by-zero", message).at(span, "undefined")))
 }
 
-fn substituted(f: &RationalFunction, substitution: &Substitution<'_>) -> Result<RationalFunction, Stop> {
+pub(super) fn substituted(f: &RationalFunction, substitution: &Substitution<'_>) -> Result<RationalFunction, Stop> {
     substitution(f)
         .ok_or_else(|| undefined("division by zero at these values of the parameters".into(), Span::default()))
 }
@@ -74,12 +82,14 @@ fn substituted_matrix(m: &RationalMatrix, substitution: &Substitution<'_>) -> Re
     Ok(RationalMatrix::from_fn(m.rows(), columns, |i, j| entries[i * columns + j].clone()))
 }
 
-/// Connects the parts of the model's form. `Characteristic` has no parts and gives order 0.
+/// Connects the parts of the model's form. `Characteristic` has no parts and gives order 0. Without `symbols` blocks behind
+/// a hold are replaced by systems that pass on at once what they do: enough for checks of what divides by zero.
 pub(in crate::model) fn assemble(
     model: &Model,
     wiring: &Wiring<'_>,
     values: &Values,
     substitution: &Substitution<'_>,
+    symbols: Option<&RefCell<Symbols>>,
     budget: &Budget,
 ) -> Result<Assembled, Stop> {
     let set = |m: &RationalMatrix| substituted_matrix(m, substitution);
@@ -117,7 +127,7 @@ pub(in crate::model) fn assemble(
             };
             with_ports(closed, ports)
         }
-        Values::Blocks { blocks, outputs } => connect(model, wiring, blocks, outputs, substitution, budget),
+        Values::Blocks { blocks, outputs } => connect(model, wiring, blocks, outputs, substitution, symbols, budget),
     }
 }
 
@@ -172,6 +182,25 @@ fn realise(
         b[(n - 1, 0)] = RationalFunction::one();
     }
     Ok(System { a, b, c, d: RationalMatrix::from_fn(1, 1, |_, _| direct.clone()) })
+}
+
+/// Refuses an angle `w T` that is a number and not below pi.
+fn below_half_the_sampling_rate(angle: &RationalFunction, span: Span) -> Result<(), Stop> {
+    let Some(angle) = angle.as_constant() else { return Ok(()) };
+    // A rational number is no multiple of pi but 0.
+    let is_below =
+        (1..).map(|k| Enclosure::pi(64 * k)).find(|pi| !pi.contains(&angle)).is_some_and(|pi| angle < *pi.lower());
+    if is_below && !angle.is_negative() && !angle.is_zero() {
+        return Ok(());
+    }
+    let error = if is_below {
+        Diagnostic::error("E-discretize", "the frequency of 'prewarp' must be positive").at(span, "not positive")
+    } else {
+        Diagnostic::error("E-discretize", "the frequency of 'prewarp' is not below half the sampling rate")
+            .at(span, "an angle of pi or more in a sample")
+            .help("'prewarp' is in radians per unit of time: 2*pi times the frequency")
+    };
+    Err(Stop::Refused(Box::new(error)))
 }
 
 /// The discrete system that the rule makes of a continuous one.
@@ -304,6 +333,7 @@ fn connect(
     blocks: &[BlockValues],
     outputs: &[Row],
     set: &Substitution<'_>,
+    symbols: Option<&RefCell<Symbols>>,
     budget: &Budget,
 ) -> Result<Assembled, Stop> {
     let mut poles = Vec::new();
@@ -318,8 +348,15 @@ fn connect(
                 System { a: set(a)?, b: set(b)?, c: set(c)?, d: set(d)? }
             }
         };
-        if let Some((method, value)) = &block.discretization {
-            system = discretised(system, *method, &substituted(value, set)?, block, &mut poles, budget)?;
+        match &block.discretization {
+            None => {}
+            Some(DiscretizationValues::Rule { method, value, prewarp }) => {
+                if let Some(prewarp) = prewarp {
+                    below_half_the_sampling_rate(&substituted(&prewarp.angle, set)?, prewarp.span)?;
+                }
+                system = discretised(system, *method, &substituted(value, set)?, block, &mut poles, budget)?;
+            }
+            Some(DiscretizationValues::Hold(hold)) => system = held(system, hold, block, set, symbols, budget)?,
         }
         let n = system.a.rows();
         states.extend(state_names(model, i, block, n));
@@ -372,9 +409,10 @@ fn state_names(model: &Model, i: usize, values: &BlockValues, n: usize) -> Vec<S
     if let Form::Blocks(diagram) = &model.form
         && let Some(block) = diagram.blocks.get(i)
         && matches!(block.dynamics, Dynamics::StateSpace { c: None, .. })
-        && block.discretization.as_ref().is_none_or(|d| d.method == Method::Forward)
+        && block.discretization.as_ref().is_none_or(|d| matches!(d.method, Method::Forward | Method::ZeroOrderHold))
     {
-        return block.outputs.iter().map(|o| o.name.clone()).collect();
+        let own = block.outputs.iter().map(|o| o.name.clone());
+        return own.chain((block.outputs.len() + 1..=n).map(|k| format!("{}.{k}", values.name))).collect();
     }
     (1..=n).map(|k| format!("{}.{k}", values.name)).collect()
 }

@@ -3,7 +3,7 @@
 use super::scalar::{Scope, checked_product, checked_sum};
 use super::walk::{Failure, Meaning, evaluate};
 use crate::error::{Diagnostic, Span};
-use crate::model::text::{Expression, Sign};
+use crate::model::text::{Expression, Function, Sign};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 use std::collections::{BTreeMap, HashMap};
@@ -108,5 +108,12 @@ impl Meaning for InSignals<'_, '_> {
             return Ok(Linear { constant: self.scope.power(base.constant, exponent, span)?, ..Linear::default() });
         }
         if exponent == 1 { Ok(base) } else { Err(not_linear("a power of a signal", span)) }
+    }
+
+    fn call(&mut self, function: Function, value: Linear, span: Span) -> Result<Linear, Failure> {
+        if !value.coefficients.is_empty() {
+            return Err(not_linear("a function of a signal", span));
+        }
+        Ok(Linear { constant: self.scope.call(function, value.constant, span)?, ..Linear::default() })
     }
 }

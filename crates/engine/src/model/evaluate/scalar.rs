@@ -4,7 +4,7 @@ use super::walk::{Failure, Meaning, division_by_zero, evaluate, too_large};
 use super::work::count_work;
 use crate::error::{Diagnostic, Span};
 use crate::model::definition::{Constant, Parameter};
-use crate::model::text::{Expression, Sign};
+use crate::model::text::{Expression, Function, PI, Sign};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
@@ -16,12 +16,23 @@ const MAX_BITS: u64 = 1 << 23;
 /// What every name of a model stands for, and what has been divided by so far.
 pub(in crate::model) struct Scope<'a> {
     values: HashMap<&'a str, Option<RationalFunction>>,
-    /// The names of the variables of all values.
-    pub variables: Vec<String>,
+    /// What the variables of all values stand for.
+    pub variables: Vec<Variable>,
     /// The model is undefined where all polynomials of one of these are zero together.
     pub divisors: Vec<Vec<MultiPoly>>,
     seen: HashSet<Vec<MultiPoly>>,
     pub budget: &'a Budget,
+}
+
+/// What a variable of the values stands for.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::model) enum Variable {
+    /// A parameter, or a constant that is kept.
+    Named(String),
+    /// The circle number.
+    Pi,
+    /// A function of a value in the variables before this one.
+    Call(Function, RationalFunction),
 }
 
 /// What a parameter stands for.
@@ -70,7 +81,7 @@ impl<'a> Scope<'a> {
     fn bind(&mut self, name: &'a str, symbol: Symbol) {
         let value = match symbol {
             Symbol::Variable => {
-                self.variables.push(name.to_owned());
+                self.variables.push(Variable::Named(name.to_owned()));
                 RationalFunction::variable(self.variables.len() - 1)
             }
             Symbol::Value(value) => value.into(),
@@ -83,6 +94,35 @@ impl<'a> Scope<'a> {
         evaluate(e, self)
     }
 
+    /// A function of a value: a number where that is rational for a reason, else a variable that stands for it.
+    pub fn call(
+        &mut self,
+        function: Function,
+        value: RationalFunction,
+        span: Span,
+    ) -> Result<RationalFunction, Failure> {
+        self.budget.check()?;
+        if let Some(x) = value.as_constant() {
+            if function == Function::Sqrt && x.is_negative() {
+                let error = Diagnostic::error("E-value", "the square root of a negative number");
+                return Err(error.at(span, "not a real number").into());
+            }
+            if let Some(exact) = rational_value(function, &x) {
+                return Ok(exact.into());
+            }
+        }
+        Ok(self.variable(Variable::Call(function, value)))
+    }
+
+    /// The variable that stands for this, the same each time.
+    fn variable(&mut self, wanted: Variable) -> RationalFunction {
+        let at = self.variables.iter().position(|v| *v == wanted).unwrap_or_else(|| {
+            self.variables.push(wanted);
+            self.variables.len() - 1
+        });
+        RationalFunction::variable(at)
+    }
+
     /// Notes that the model is undefined where all of `polynomials` are zero.
     pub fn divides_by(&mut self, polynomials: Vec<MultiPoly>) {
         let divisor: Vec<MultiPoly> =
@@ -91,6 +131,24 @@ impl<'a> Scope<'a> {
             self.divisors.push(divisor);
         }
     }
+}
+
+/// The value of a function where it is rational: at 0, and the roots of squares.
+pub(in crate::model) fn rational_value(function: Function, x: &Rational) -> Option<Rational> {
+    match function {
+        Function::Sqrt => rational_root(x),
+        Function::Exp | Function::Cos => x.is_zero().then_some(Rational::ONE),
+        Function::Sin | Function::Tan => x.is_zero().then_some(Rational::ZERO),
+    }
+}
+
+/// The square root of a rational square.
+pub(in crate::model) fn rational_root(x: &Rational) -> Option<Rational> {
+    if x.is_negative() {
+        return None;
+    }
+    let root = Rational::new(x.numerator().sqrt_floor(), x.denominator().sqrt_floor());
+    (&root * &root == *x).then_some(root)
 }
 
 fn fits(a: &MultiPoly, b: &MultiPoly) -> bool {
@@ -133,6 +191,7 @@ impl Meaning for Scope<'_> {
         match self.values.get(name) {
             Some(Some(value)) => Ok(value.clone()),
             Some(None) => Err(Failure::Poisoned),
+            None if name == PI => Ok(self.variable(Variable::Pi)),
             None => {
                 let message = format!("unknown name '{}'", crate::model::text::names::shorten(name));
                 Err(Diagnostic::error("E-unknown-name", message).at(span, "not defined").into())
@@ -174,5 +233,9 @@ impl Meaning for Scope<'_> {
         let power = base.pow(exponent).ok_or_else(|| too_large(span))?;
         count_work(&power, &base);
         Ok(power)
+    }
+
+    fn call(&mut self, function: Function, value: RationalFunction, span: Span) -> Result<RationalFunction, Failure> {
+        Scope::call(self, function, value, span)
     }
 }

@@ -2,14 +2,15 @@
 
 use super::linear::linear;
 use super::scalar::Scope;
-use super::transfer::{Fraction, fraction, polynomial};
-use super::walk::{Failure, division_by_zero};
+use super::transfer::{Fraction, MAX_ORDER, fraction, polynomial};
+use super::walk::{Failure, Meaning, division_by_zero};
 use super::zpoly::ZPoly;
 use crate::error::{Diagnostic, Span};
-use crate::model::definition::{Block, Dynamics, Form, Matrix, Method, Model, Output, Ports};
-use crate::model::text::Expression;
+use crate::model::definition::{Block, Discretization, Dynamics, Form, Matrix, Method, Model, Output, Ports};
 use crate::model::text::names::shorten;
+use crate::model::text::{Expression, Function};
 use jurist_algebra::matrix::RationalMatrix;
+use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 use std::collections::{BTreeMap, HashMap};
 
@@ -61,7 +62,32 @@ pub(in crate::model) struct BlockValues {
     pub inputs: Vec<Row>,
     pub outputs: usize,
     pub dynamics: DynamicValues,
-    pub discretization: Option<(Method, RationalFunction)>,
+    pub discretization: Option<DiscretizationValues>,
+}
+
+/// How a continuous block is made discrete.
+pub(in crate::model) enum DiscretizationValues {
+    /// By a rule with the sample time, or Tustin's with its factor.
+    Rule { method: Method, value: RationalFunction, prewarp: Option<Prewarp> },
+    /// By what it does behind a hold.
+    Hold(Hold),
+}
+
+/// A bilinear map that is exact at one frequency.
+pub(in crate::model) struct Prewarp {
+    /// The angle `w T` of that frequency: below pi.
+    pub angle: RationalFunction,
+    pub span: Span,
+}
+
+/// A hold.
+pub(in crate::model) struct Hold {
+    /// Whether inputs are straight between samples instead of constant.
+    pub is_first_order: bool,
+    pub time: RationalFunction,
+    /// Dead time of the inputs, in units of time.
+    pub delay: RationalFunction,
+    pub span: Span,
 }
 
 pub(in crate::model) enum DynamicValues {
@@ -131,34 +157,7 @@ impl Evaluator<'_, '_> {
         let dynamics = self.dynamics(block, variable);
         let discretization = match &block.discretization {
             None => Some(None),
-            Some(d) => {
-                let time = d.sample_time.as_ref().map(|e| (self.scalar(e), e.span));
-                let factor = d.factor.as_ref().map(|e| self.scalar(e));
-                match (d.method, factor, time) {
-                    (Method::Tustin, Some(factor), _) => factor.map(|c| Some((d.method, c))),
-                    (Method::Tustin, None, Some((Some(time), span))) => {
-                        // c = 2/T is an expression of the model like any other.
-                        let two = RationalFunction::from(2);
-                        match time.recip() {
-                            Some(inverse) => {
-                                self.scope.divides_by(vec![time.numerator().clone()]);
-                                Some(Some((d.method, &two * &inverse)))
-                            }
-                            None => {
-                                (self.report)(division_by_zero(span));
-                                None
-                            }
-                        }
-                    }
-                    (_, _, Some((Some(time), _))) => Some(Some((d.method, time))),
-                    (_, _, Some((None, _))) => None,
-                    (_, _, None) => {
-                        let error = Diagnostic::error("E-discretize", "'discretize' has no sample time");
-                        (self.report)(error.at(d.span, "how long is a step?").help("give T = \"..\"").into());
-                        None
-                    }
-                }
-            }
+            Some(d) => self.discretization(d).map(Some),
         };
         if let Some(pwm) = &block.pwm {
             for e in [&pwm.amplitude, &pwm.carrier, &pwm.period] {
@@ -173,6 +172,53 @@ impl Evaluator<'_, '_> {
             dynamics: dynamics?,
             discretization: discretization?,
         })
+    }
+
+    fn discretization(&mut self, d: &Discretization) -> Option<DiscretizationValues> {
+        // All of them, so that every mistake is reported.
+        let mut value = |e: &Option<Expression>| e.as_ref().map(|e| (self.scalar(e), e.span));
+        let (time, factor, prewarp, delay) =
+            (value(&d.sample_time), value(&d.factor), value(&d.prewarp), value(&d.delay));
+        if d.method == Method::Tustin
+            && let Some((factor, _)) = factor
+        {
+            return Some(DiscretizationValues::Rule { method: d.method, value: factor?, prewarp: None });
+        }
+        let Some((time, time_span)) = time else {
+            let error = Diagnostic::error("E-discretize", "'discretize' has no sample time");
+            (self.report)(error.at(d.span, "how long is a step?").help("give T = \"..\"").into());
+            return None;
+        };
+        let time = time?;
+        if d.method.is_hold() {
+            let delay = match delay {
+                Some((delay, _)) => delay?,
+                None => RationalFunction::zero(),
+            };
+            let is_first_order = d.method == Method::FirstOrderHold;
+            return Some(DiscretizationValues::Hold(Hold { is_first_order, time, delay, span: d.span }));
+        }
+        if d.method != Method::Tustin {
+            return Some(DiscretizationValues::Rule { method: d.method, value: time, prewarp: None });
+        }
+        // c = 2/T, or c = w/tan(w T/2): expressions of the model like any other.
+        let Some((frequency, span)) = prewarp else {
+            let value = self.quotient(2.into(), time, time_span)?;
+            return Some(DiscretizationValues::Rule { method: d.method, value, prewarp: None });
+        };
+        let frequency = frequency?;
+        let angle = &frequency * &time;
+        let half = &angle * &RationalFunction::from(Rational::new(1.into(), 2.into()));
+        let tangent = self.scope.call(Function::Tan, half, span);
+        let tangent = self.keep(tangent)?;
+        let value = self.quotient(frequency, tangent, span)?;
+        Some(DiscretizationValues::Rule { method: d.method, value, prewarp: Some(Prewarp { angle, span }) })
+    }
+
+    /// A quotient, by whose divisor the model divides.
+    fn quotient(&mut self, a: RationalFunction, b: RationalFunction, span: Span) -> Option<RationalFunction> {
+        let value = self.scope.quotient(a, b, span);
+        self.keep(value)
     }
 
     fn dynamics(&mut self, block: &Block, variable: &str) -> Option<DynamicValues> {
@@ -193,8 +239,15 @@ impl Evaluator<'_, '_> {
                 (Fraction { numerator: numerator?, denominator: denominator? }, span)
             }
             Dynamics::Gain(e) => (self.constant(e)?, e.span),
-            Dynamics::Delay(n) => {
-                (Fraction { numerator: ZPoly::one(), denominator: ZPoly::power_of_variable(*n) }, block.span)
+            Dynamics::Delay(e) => {
+                let samples = self.samples(e)?;
+                (Fraction { numerator: ZPoly::one(), denominator: ZPoly::power_of_variable(samples) }, block.span)
+            }
+            Dynamics::DeadTime(e) => {
+                self.scalar(e)?;
+                let error = Diagnostic::error("E-dead-time", "dead time in a continuous loop is not treated");
+                (self.report)(error.at(e.span, "dead time").into());
+                return None;
             }
             Dynamics::StateSpace { a, b, c, d } => {
                 let (n, inputs, outputs) = (a.size().0, block.inputs.len(), block.outputs.len());
@@ -237,6 +290,30 @@ impl Evaluator<'_, '_> {
             return None;
         }
         Some(DynamicValues::Ratio(ratio))
+    }
+
+    /// A number of samples, on which the order of the loop depends.
+    fn samples(&mut self, e: &Expression) -> Option<usize> {
+        let value = self.scalar(e)?.as_constant();
+        let samples = value.as_ref().filter(|v| v.is_integer()).and_then(|v| v.numerator().to_i64());
+        let samples = samples.and_then(|n| usize::try_from(n).ok()).filter(|&n| n <= MAX_ORDER);
+        if samples.is_none() {
+            let message = format!("a delay is a whole number of samples from 0 to {MAX_ORDER}");
+            let error = Diagnostic::error("E-value", message);
+            (self.report)(
+                match value {
+                    None => error
+                        .at(e.span, "not a number of samples")
+                        .help("the order of the loop depends on it: it is made of numbers and constants only"),
+                    Some(value) => error.at(e.span, format!("this is {}", shorten(&value.to_string()))).help(
+                        "fractions of a sample go with a held block: discretize = { method = \"zoh\", T = \"T\", \
+                         delay = \"1.5*T\" }",
+                    ),
+                }
+                .into(),
+            );
+        }
+        samples
     }
 
     fn constant(&mut self, e: &Expression) -> Option<Fraction> {

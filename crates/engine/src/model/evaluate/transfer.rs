@@ -5,7 +5,7 @@ use super::scalar::Scope;
 use super::walk::{Failure, Meaning, division_by_zero, evaluate, too_large};
 use super::zpoly::ZPoly;
 use crate::error::{Diagnostic, Span};
-use crate::model::text::{Expression, Sign};
+use crate::model::text::{Expression, Function, Sign};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 
@@ -155,4 +155,26 @@ impl Meaning for InVariable<'_, '_> {
         };
         Ok(Fraction { numerator: raise(&base.numerator)?, denominator: raise(&base.denominator)? })
     }
+
+    fn call(&mut self, function: Function, value: Fraction, span: Span) -> Result<Fraction, Failure> {
+        if value.numerator.degree() == 0 && value.denominator.degree() == 0 {
+            let inner = value.numerator.leading().checked_div(&value.denominator.leading());
+            let inner = inner.ok_or_else(|| division_by_zero(span))?;
+            return self.scope.call(function, inner, span).map(Fraction::constant);
+        }
+        Err(of_the_variable(function, self.variable, span).into())
+    }
+}
+
+/// The error of a function of z or s.
+fn of_the_variable(function: Function, variable: &str, span: Span) -> Diagnostic {
+    let message = format!("'{}' of {variable} is not rational in {variable}", function.name());
+    let error = Diagnostic::error("E-function", message).at(span, format!("contains {variable}"));
+    error.help(match (function, variable) {
+        (Function::Exp, "s") => {
+            "dead time of a continuous block behind a hold: discretize = { method = \"zoh\", T = \"..\", delay = \"..\" }"
+        }
+        (Function::Exp, _) => "a delay of whole samples is 1/z^n; z itself is exp(s*T)",
+        _ => "functions have arguments of constants and parameters",
+    })
 }

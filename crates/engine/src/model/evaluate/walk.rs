@@ -1,7 +1,7 @@
 //! Walking an expression with a meaning for each of its operations.
 
 use crate::error::{Diagnostic, Span};
-use crate::model::text::{Expression, Factor, Node, Sign};
+use crate::model::text::{Expression, Factor, Function, Node, Sign};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;
 
@@ -41,6 +41,8 @@ pub(in crate::model) trait Meaning {
     fn quotient(&mut self, a: Self::Value, b: Self::Value, span: Span) -> Result<Self::Value, Failure>;
     /// `span` is the base's.
     fn power(&mut self, base: Self::Value, exponent: i64, span: Span) -> Result<Self::Value, Failure>;
+    /// `span` is that of the whole call.
+    fn call(&mut self, function: Function, value: Self::Value, span: Span) -> Result<Self::Value, Failure>;
 }
 
 /// The value of `e`. Recursion is as deep as the nesting of the text, which the parser limits.
@@ -83,6 +85,10 @@ pub(in crate::model) fn evaluate<M: Meaning>(e: &Expression, meaning: &mut M) ->
         Node::Power(base, exponent) => {
             let value = evaluate(base, meaning)?;
             meaning.power(value, *exponent, base.span)
+        }
+        Node::Call(function, inner) => {
+            let value = evaluate(inner, meaning)?;
+            meaning.call(*function, value, e.span)
         }
     }
 }

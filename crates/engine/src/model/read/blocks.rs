@@ -1,18 +1,25 @@
 //! `[[block]]` entries.
 
+use super::discretize::discretize;
 use super::keys;
 use super::reader::{Meant, Reader, count};
 use crate::error::{Diagnostic, Span};
-use crate::model::definition::{Block, Diagram, Discretization, Dynamics, Method, Pwm, Time};
-use crate::model::evaluate::transfer::MAX_ORDER;
-use crate::model::text::names::{did_you_mean, shorten};
+use crate::model::definition::{Block, Diagram, Dynamics, Pwm, Time};
+use crate::model::text::Expression;
+use crate::model::text::names::shorten;
 use crate::model::text::toml_value::{Entry, Kind, Table, Value};
 use std::collections::HashMap;
 
 const DYNAMICS: [&str; 9] = ["transfer", "num", "den", "gain", "delay", "A", "B", "C", "D"];
 
 /// The diagram of `[loop]` and its blocks.
-pub(super) fn diagram(table: &Table, blocks: &Entry, time: Time, reader: &mut Reader) -> Option<Diagram> {
+pub(super) fn diagram(
+    table: &Table,
+    blocks: &Entry,
+    time: Time,
+    sample_time: Option<&Expression>,
+    reader: &mut Reader,
+) -> Option<Diagram> {
     let inputs = table.get("inputs").map(|v| reader.names(v, "an external signal")).unwrap_or_default();
     let outputs = table.get("outputs").map(|v| reader.outputs(v)).unwrap_or_default();
     for key in ["states", "E"] {
@@ -28,7 +35,7 @@ pub(super) fn diagram(table: &Table, blocks: &Entry, time: Time, reader: &mut Re
     };
     let before = reader.errors();
     distinct_names(items, reader);
-    let blocks: Vec<Block> = items.iter().filter_map(|item| block(item, time, reader)).collect();
+    let blocks: Vec<Block> = items.iter().filter_map(|item| block(item, time, sample_time, reader)).collect();
     (reader.errors() == before || blocks.len() == items.len()).then_some(Diagram { inputs, outputs, blocks })
 }
 
@@ -46,7 +53,7 @@ fn distinct_names(items: &[Value], reader: &mut Reader) {
     }
 }
 
-fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
+fn block(value: &Value, time: Time, sample_time: Option<&Expression>, reader: &mut Reader) -> Option<Block> {
     let Kind::Table(table) = &value.kind else {
         reader.wrong_type(value, "a block", "a table");
         return None;
@@ -81,7 +88,7 @@ fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
             None
         }
     };
-    let discretization = table.entry("discretize").and_then(|entry| discretize(entry, reader));
+    let discretization = table.entry("discretize").and_then(|entry| discretize(entry, sample_time, reader));
     let continuous = table.entry("discretize").is_some();
     if let Some(entry) = table.entry("discretize")
         && time == Time::Continuous
@@ -97,6 +104,7 @@ fn block(value: &Value, time: Time, reader: &mut Reader) -> Option<Block> {
     }
     if let Some(entry) = table.entry("discretize")
         && matches!(dynamics, Dynamics::Gain(_) | Dynamics::Static(_))
+        && discretization.as_ref().is_none_or(|d| d.delay.is_none())
     {
         let message = format!("the block '{}' has no states: there is nothing to discretise", shorten(&name));
         reader.unused(message, entry.key_span);
@@ -159,27 +167,14 @@ fn dynamics(
         "transfer" => reader.expression(&first.value, "'transfer'").map(Dynamics::Transfer),
         "gain" => reader.expression(&first.value, "'gain'").map(Dynamics::Gain),
         "delay" => {
-            let number = reader.number(&first.value, "'delay'")?;
-            if time == Time::Continuous || continuous {
+            let delay = reader.expression(&first.value, "'delay'")?;
+            if continuous {
                 let error =
-                    Diagnostic::error("E-value", "a delay is a number of samples; continuous delays are not rational");
-                reader.report(
-                    error
-                        .at(first.value.span, "not in a continuous block")
-                        .help("use a Padé approximation as a 'transfer'"),
-                );
+                    Diagnostic::error("E-value", "a delay has nothing to discretise").at(first.key_span, "a delay");
+                reader.report(error.help("dead time of a held block goes into its 'discretize': delay = \"..\""));
                 return None;
             }
-            let samples = number.numerator().to_i64().and_then(|n| usize::try_from(n).ok());
-            match samples.filter(|&n| number.is_integer() && n <= MAX_ORDER) {
-                Some(samples) => Some(Dynamics::Delay(samples)),
-                None => {
-                    let message = format!("a delay is a whole number of samples from 0 to {MAX_ORDER}");
-                    let error = Diagnostic::error("E-value", message).at(first.value.span, "not a number of samples");
-                    reader.report(error.help("fractions of a sample are not rational in z"));
-                    None
-                }
-            }
+            Some(if time == Time::Continuous { Dynamics::DeadTime(delay) } else { Dynamics::Delay(delay) })
         }
         "num/den" => {
             need("num", reader);
@@ -268,74 +263,6 @@ fn sizes(block: &Block, in_span: Span, out_span: Span, reader: &mut Reader) -> b
             })
     });
     reader.diagnostics.len() == before
-}
-
-fn discretize(entry: &Entry, reader: &mut Reader) -> Option<Discretization> {
-    let table = reader.table(entry)?;
-    let wrong = |message: &str, span: Span, label: &str, help: &str| {
-        Diagnostic::error("E-discretize", message).at(span, label).help(help)
-    };
-    if let Some(prewarp) = table.iter().find(|e| e.key.to_lowercase().contains("warp")) {
-        reader.report(wrong(
-            "prewarping by a frequency makes the factor c of the bilinear map irrational",
-            prewarp.key_span,
-            "not rational",
-            "give c itself as a number: s = c (z-1)/(z+1), c = w/tan(w*T/2) to as many digits as you mean",
-        ));
-        return None;
-    }
-    let meant = reader.unknown_keys(table, &keys::DISCRETIZE, "'discretize'");
-    let Some(method) = table.get("method") else {
-        if meant.includes("method") {
-            return None;
-        }
-        let help = "give method = \"forward\", \"backward\" or \"tustin\"";
-        reader.report(wrong("'discretize' has no 'method'", entry.key_span, "by which rule?", help));
-        return None;
-    };
-    let text = reader.string(method, "'method'")?;
-    let rule = match text.as_str() {
-        "forward" => Method::Forward,
-        "backward" => Method::Backward,
-        "tustin" => Method::Tustin,
-        "zoh" | "zero-order hold" | "zero-order-hold" => {
-            reader.report(wrong(
-                "zero-order hold is not rational in the sample time, so it cannot be exact here",
-                method.span,
-                "contains exponentials of the sample time",
-                "use \"forward\", \"backward\" or \"tustin\", or give the discrete block for one sample time",
-            ));
-            return None;
-        }
-        other => {
-            let message = format!("unknown method '{}'", shorten(other));
-            let help =
-                did_you_mean(other, keys::METHODS).unwrap_or_else(|| "known: 'forward', 'backward', 'tustin'".into());
-            reader.report(wrong(&message, method.span, "not known", &help));
-            return None;
-        }
-    };
-    let sample_time = table.get("T").and_then(|v| reader.expression(v, "'T'"));
-    let factor = table.get("c").and_then(|v| reader.expression(v, "'c'"));
-    if let Some(c) = table.entry("c")
-        && rule != Method::Tustin
-    {
-        reader.report(wrong("'c' belongs to the method 'tustin'", c.key_span, "has no meaning here", "leave it out"));
-        return None;
-    }
-    if table.get("T").is_none() && table.get("c").is_none() {
-        reader.report(wrong(
-            "'discretize' has no sample time",
-            entry.key_span,
-            "how long is a step?",
-            "give T = \"..\"",
-        ));
-        return None;
-    }
-    if let (Some(time), Some(_)) = (table.entry("T"), &factor) {
-        reader.unused("'T' says nothing beside 'c': the rule is s = c (z-1)/(z+1)", time.key_span);
-    }
-    Some(Discretization { method: rule, sample_time, factor, span: entry.key_span })
 }
 
 fn pwm(entry: &Entry, reader: &mut Reader) -> Option<Pwm> {

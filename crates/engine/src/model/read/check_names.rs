@@ -6,8 +6,8 @@ use crate::error::{Diagnostic, Span};
 use crate::model::definition::{
     Block, Constant, Discretization, Dynamics, Form, Matrix, Model, Name, Output, Parameter, Ports, Position, Time,
 };
-use crate::model::text::Expression;
 use crate::model::text::names::{did_you_mean, known_names, nearest_name, shorten};
+use crate::model::text::{Expression, Function, PI, hint};
 use std::collections::{HashMap, HashSet};
 
 /// Names with a meaning of their own.
@@ -36,6 +36,19 @@ pub(super) fn definitions(
     index: &mut HashMap<String, Position>,
     reader: &mut Reader,
 ) {
+    let named = constants.iter().map(|c| (&c.name, c.span)).chain(parameters.iter().map(|p| (&p.name, p.span)));
+    for (name, span) in named.filter(|(name, _)| *name == PI || Function::named(name).is_some()) {
+        let what = if name == PI { "the circle number" } else { "a function" };
+        let message = format!("here '{name}' is not {what}");
+        reader.report(Diagnostic::warning("W-own-meaning", message).at(span, "has a meaning of its own in this model"));
+    }
+    for matrix in &reader.matrices {
+        if let Some(p) = parameters.iter().find(|p| p.name == matrix.name.name) {
+            let message = format!("'{}' is both a constant and a parameter", shorten(&p.name));
+            let error = Diagnostic::error("E-duplicate-name", message).at(p.span, "a parameter here");
+            reader.diagnostics.push(error.also(matrix.name.span, "a constant here").help("rename one of them"));
+        }
+    }
     for (i, c) in constants.iter().enumerate() {
         check_reserved(&c.name, c.span, time, reader);
         index.insert(c.name.clone(), Position::Constant(i));
@@ -145,6 +158,13 @@ impl<'m> Names<'m, '_> {
         e.each_name(&mut |name, span| {
             if further.contains(name) || self.model.index.contains_key(name) {
                 self.used.insert(name);
+            } else if name == PI {
+                // The circle number.
+            } else if let Some(matrix) = self.reader.matrices.iter().find(|m| m.name.name == name) {
+                let message = format!("'{}' is a matrix", shorten(name));
+                let error = Diagnostic::error("E-type", message).at(span, "a number belongs here");
+                let error = error.also(matrix.name.span, "a matrix here");
+                self.reader.report(error.help("blocks take matrices by name as a whole: A = \"..\""));
             } else if !self.reader.refused.contains(name) && self.reported.insert(name) {
                 let allowed = Allowed { model: self.model, further: further.iter().copied().collect(), what };
                 let error = unknown(name, span, &allowed);
@@ -184,11 +204,10 @@ fn unknown(name: &str, span: Span, allowed: &Allowed<'_>) -> Diagnostic {
         format!("neither defined nor {}", allowed.what)
     };
     let mut error = Diagnostic::error("E-unknown-name", format!("unknown name '{}'", shorten(name))).at(span, label);
-    error.help = did_you_mean(name, allowed.names());
+    error.help = hint(name).or_else(|| did_you_mean(name, allowed.names()));
     if error.help.is_none() {
         let variable = model.time.variable();
         error.help = Some(match name {
-            "pi" | "e" => format!("{name} is irrational: write as many digits of it as you mean"),
             "z" | "s" if name != variable => format!("the variable of a {} loop is {variable}", model.time.name()),
             _ if name == variable => format!("{variable} is known in 'characteristic' and 'transfer' only"),
             _ => known_names(allowed.names()).unwrap_or_else(|| "define it in [constants] or [parameters]".into()),
@@ -204,6 +223,7 @@ pub(super) fn names(model: &Model, form_is_broken: bool, reader: &mut Reader) {
     for c in &model.constants {
         names.expression(&c.expression, &none, "");
     }
+    matrices_without_use(&mut names);
     if let Some(e) = &model.sample_time {
         names.expression(e, &none, "");
         if model.time == Time::Continuous {
@@ -258,6 +278,20 @@ pub(super) fn names(model: &Model, form_is_broken: bool, reader: &mut Reader) {
     for (name, span, what) in constants.chain(parameters).filter(|(name, ..)| !used.contains(name.as_str())) {
         let message = format!("the {what} '{}' is not used", shorten(name));
         reader.unused(message, span);
+    }
+}
+
+/// Warns of matrices that no block uses. What stands in them is not unused as well.
+fn matrices_without_use(names: &mut Names<'_, '_>) {
+    let model = names.model;
+    for matrix in names.reader.matrices.iter().filter(|m| !m.is_used) {
+        for name in matrix.matrix.entries().flat_map(Expression::names) {
+            names.used.extend(model.index.get_key_value(name).map(|(name, _)| name.as_str()));
+        }
+    }
+    let unused: Vec<Name> = names.reader.matrices.iter().filter(|m| !m.is_used).map(|m| m.name.clone()).collect();
+    for name in unused {
+        names.reader.unused(format!("the constant '{}' is not used", shorten(&name.name)), name.span);
     }
 }
 
@@ -335,15 +369,14 @@ fn check_block<'m>(names: &mut Names<'m, '_>, block: &'m Block, signals: &HashSe
         Dynamics::Ratio { numerator, denominator } => {
             numerator.iter().chain(denominator).for_each(|e| names.expression(e, &none, ""));
         }
-        Dynamics::Gain(e) => names.expression(e, &none, ""),
-        Dynamics::Delay(_) => {}
+        Dynamics::Gain(e) | Dynamics::Delay(e) | Dynamics::DeadTime(e) => names.expression(e, &none, ""),
         Dynamics::StateSpace { a, b, c, d } => {
             [Some(a), Some(b), c.as_ref(), d.as_ref()].into_iter().flatten().for_each(|m| names.matrix(m, &none));
         }
         Dynamics::Static(d) => names.matrix(d, &none),
     }
-    if let Some(Discretization { sample_time, factor, .. }) = &block.discretization {
-        sample_time.iter().chain(factor).for_each(|e| names.expression(e, &none, ""));
+    if let Some(Discretization { sample_time, factor, prewarp, delay, .. }) = &block.discretization {
+        [sample_time, factor, prewarp, delay].into_iter().flatten().for_each(|e| names.expression(e, &none, ""));
     }
     if let Some(pwm) = &block.pwm {
         [&pwm.amplitude, &pwm.carrier, &pwm.period].into_iter().for_each(|e| names.expression(e, &none, ""));

@@ -84,7 +84,7 @@ fn problems(model: &Model, symbol: &mut dyn FnMut(&str, bool) -> Option<Symbol>)
         let wiring = Wiring::of(model);
         let form = symbolic(model, &wiring, &mut scope, &mut report);
         if let Some(form) = form
-            && let Err(stop) = assemble(model, &wiring, &form, &|f| Some(f.clone()), &budget)
+            && let Err(stop) = assemble(model, &wiring, &form, &|f| Some(f.clone()), None, &budget)
         {
             report(stop.into());
         }

@@ -24,7 +24,7 @@ pub(super) enum Shape {
     Expressions,
     /// One name or an array of names.
     Names,
-    /// An array of rows.
+    /// An array of rows, or the name of a constant that is one.
     Matrix,
     /// A parameter: its table, or its nominal value alone.
     Parameter,
@@ -32,6 +32,10 @@ pub(super) enum Shape {
     Named(&'static Shape),
     /// A table with these keys.
     Table(&'static [Key]),
+    /// A table with these keys, or one word.
+    TableOrWord(&'static [Key]),
+    /// A number, an expression, or an array of rows.
+    Constant,
     /// An array of tables with these keys.
     Tables(&'static [Key]),
 }
@@ -47,8 +51,8 @@ const fn needed(name: &'static str, shape: Shape, about: &'static str) -> Key {
 /// The words of `time`.
 pub(super) const TIMES: [&str; 2] = ["discrete", "continuous"];
 
-/// The rules of `discretize`.
-pub(super) const METHODS: [&str; 3] = ["forward", "backward", "tustin"];
+/// The methods of `discretize`.
+pub(super) const METHODS: [&str; 5] = ["zoh", "foh", "tustin", "forward", "backward"];
 
 /// The whole file.
 pub(super) const MODEL: [Key; 8] = [
@@ -61,8 +65,8 @@ pub(super) const MODEL: [Key; 8] = [
     key("sample_time", Shape::Expression, "turns angles into frequencies (discrete time)"),
     key(
         "constants",
-        Shape::Named(&Shape::Expression),
-        "named values, in any order, in terms of each other and of parameters",
+        Shape::Named(&Shape::Constant),
+        "named values and matrices, in any order, in terms of each other and of parameters",
     ),
     key("parameters", Shape::Named(&Shape::Parameter), "what stays free"),
     needed("loop", Shape::Table(&LOOP), "the loop, in exactly one form: characteristic, matrix, A B C K, or blocks"),
@@ -98,13 +102,17 @@ pub(super) const BLOCK: [Key; 14] = [
     key("name", Shape::Text, "its name, for people"),
     needed("input", Shape::Expressions, "linear expressions in signals"),
     needed("output", Shape::Names, "the signals it drives"),
-    key("discretize", Shape::Table(&DISCRETIZE), "how a continuous block is made discrete"),
+    key(
+        "discretize",
+        Shape::TableOrWord(&DISCRETIZE),
+        "how a continuous block is made discrete; the method alone takes the loop's sample_time",
+    ),
     key("pwm", Shape::Table(&PWM), "what a switched simulation needs to know of a pulse-width modulator"),
     key("transfer", Shape::Expression, "a proper rational expression in z or s"),
     key("num", Shape::Expressions, "coefficients of the numerator, highest power first"),
     key("den", Shape::Expressions, "coefficients of the denominator, highest power first"),
     key("gain", Shape::Expression, "a factor"),
-    key("delay", Shape::Number, "a whole number of samples"),
+    key("delay", Shape::Expression, "a whole number of samples; in continuous time dead time"),
     key("A", Shape::Matrix, "state matrix"),
     key("B", Shape::Matrix, "input matrix"),
     key("C", Shape::Matrix, "output matrix, the identity when missing"),
@@ -112,14 +120,17 @@ pub(super) const BLOCK: [Key; 14] = [
 ];
 
 /// The table `discretize` of a block.
-pub(super) const DISCRETIZE: [Key; 3] = [
+pub(super) const DISCRETIZE: [Key; 5] = [
     needed(
         "method",
         Shape::OneOf(&METHODS),
-        "forward: s = (z-1)/T; backward: s = (z-1)/(T z); tustin: s = c (z-1)/(z+1)",
+        "zoh, foh: exact behind a zero-order or first-order hold; tustin: s = c (z-1)/(z+1); forward: s = (z-1)/T; \
+         backward: s = (z-1)/(T z)",
     ),
-    key("T", Shape::Expression, "the sample time"),
+    key("T", Shape::Expression, "the sample time, that of the loop when missing"),
     key("c", Shape::Expression, "the factor of tustin, 2/T when missing"),
+    key("prewarp", Shape::Expression, "the angular frequency at which tustin is exact, below half the sampling rate"),
+    key("delay", Shape::Expression, "dead time of the inputs of a held block, in units of time"),
 ];
 
 /// The table `pwm` of a block.

@@ -5,13 +5,20 @@ use super::keys;
 use super::reader::{Meant, Reader, count};
 use crate::error::{Diagnostic, Span};
 use crate::model::definition::{Form, Matrix, Ports, Time};
+use crate::model::text::Expression;
 use crate::model::text::toml_value::{Entry, Kind, Table};
 
 /// The keys of `[loop]` that make a form.
 const FORM_KEYS: [&str; 6] = ["characteristic", "matrix", "A", "B", "C", "K"];
 
 /// The form of the loop, from `[loop]` and the blocks.
-pub(super) fn read_form(root: &Table, meant: &Meant, time: Time, reader: &mut Reader) -> Option<Form> {
+pub(super) fn read_form(
+    root: &Table,
+    meant: &Meant,
+    time: Time,
+    sample_time: Option<&Expression>,
+    reader: &mut Reader,
+) -> Option<Form> {
     let blocks = root.entry("block");
     let Some(entry) = root.entry("loop") else {
         if meant.includes("loop") {
@@ -25,7 +32,10 @@ pub(super) fn read_form(root: &Table, meant: &Meant, time: Time, reader: &mut Re
             Some(_) => {
                 "add [loop] with the external signals and those of interest: inputs = [\"r\"], outputs = [\"y\"]"
             }
-            None => "add [loop] with 'characteristic', with 'matrix', or with 'A', 'B', 'C', 'K'",
+            None => {
+                "add [loop] with 'characteristic', with 'matrix', or with 'A', 'B', 'C', 'K'; or with 'inputs' and \
+                 'outputs', and [[block]] entries"
+            }
         }));
         return None;
     };
@@ -62,7 +72,7 @@ pub(super) fn read_form(root: &Table, meant: &Meant, time: Time, reader: &mut Re
             }
             "matrix" => read_matrix_form(table, &meant_in_loop, reader),
             "A, B, C, K" => read_feedback_form(table, &meant_in_loop, &given, reader),
-            _ => blocks::diagram(table, blocks?, time, reader).map(Form::Blocks),
+            _ => blocks::diagram(table, blocks?, time, sample_time, reader).map(Form::Blocks),
         },
         [(a, first), (b, second), ..] => {
             let message = format!("the loop is given twice: by {a} and by {b}");

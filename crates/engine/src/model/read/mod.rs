@@ -3,7 +3,9 @@
 
 mod blocks;
 mod check_names;
+mod check_rules;
 mod check_values;
+mod discretize;
 mod keys;
 mod loop_forms;
 mod model_file;

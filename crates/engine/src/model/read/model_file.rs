@@ -2,9 +2,9 @@
 
 use super::keys;
 use super::loop_forms::read_form;
-use super::reader::{Meant, Reader};
+use super::reader::{Meant, NamedMatrix, Reader};
 use super::simulation;
-use super::{check_names, check_values};
+use super::{check_names, check_rules, check_values};
 use crate::error::{Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::model::definition::{Constant, Diagram, Form, Model, Name, Parameter, Time};
 use crate::model::evaluate::work::constant_value;
@@ -101,7 +101,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
     let sample_time = root.get("sample_time").and_then(|v| reader.expression(v, "'sample_time'"));
     let constants = read_constants(root, reader);
     let parameters = read_parameters(root, reader);
-    let form = read_form(root, &meant, time.unwrap_or(Time::Discrete), reader);
+    let form = read_form(root, &meant, time.unwrap_or(Time::Discrete), sample_time.as_ref(), reader);
     let simulation = simulation::read(root, reader);
     let mut index = HashMap::new();
     check_names::definitions(&constants, &parameters, time.unwrap_or(Time::Discrete), &mut index, reader);
@@ -125,6 +125,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
     if !broken {
         check_values::values(&model, reader);
         check_values::sample_time(&model, reader);
+        check_rules::rules(&model, reader);
     }
     model.form = form?;
     Some(model)
@@ -162,6 +163,15 @@ fn read_constants(root: &Table, reader: &mut Reader) -> Vec<Constant> {
     for entry in section(root, "constants", reader).into_iter().flat_map(Table::iter) {
         let Some(name) = reader.name(&entry.key, entry.key_span, "a constant") else { continue };
         let what = format!("the constant '{}'", shorten(&entry.key));
+        if let Kind::Array(_) = &entry.value.kind {
+            match reader.matrix(&entry.value, &what) {
+                Some(matrix) => reader.matrices.push(NamedMatrix { name, matrix, is_used: false }),
+                None => {
+                    reader.refused.insert(name.name);
+                }
+            }
+            continue;
+        }
         let Some(expression) = reader.expression(&entry.value, &what) else {
             reader.refused.insert(name.name);
             continue;

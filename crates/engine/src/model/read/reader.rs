@@ -18,6 +18,15 @@ pub(super) struct Reader {
     pub diagnostics: Vec<Diagnostic>,
     /// Names whose definitions were refused: using them is no second mistake.
     pub refused: HashSet<String>,
+    /// The constants that are matrices.
+    pub matrices: Vec<NamedMatrix>,
+}
+
+/// A constant that is a matrix: blocks use it by its name.
+pub(super) struct NamedMatrix {
+    pub name: Name,
+    pub matrix: Matrix,
+    pub is_used: bool,
 }
 
 /// The keys that misspelt keys of a table were probably meant to be: these are not missing as well.
@@ -164,7 +173,8 @@ impl Reader {
             Err(None) => {
                 let error = Diagnostic::error("E-not-a-number", format!("{what} must be a number"));
                 let help = "write a number, or a formula of numbers such as \"1/3\"";
-                self.report(error.at(expression.span, "contains a name").help(help));
+                let label = if expression.has_function() { "contains a function" } else { "contains a name" };
+                self.report(error.at(expression.span, label).help(help));
                 None
             }
         }
@@ -221,8 +231,35 @@ impl Reader {
         outputs
     }
 
-    /// A rectangle of expressions.
+    /// The matrix that a constant of this name is.
+    fn named_matrix(&mut self, text: &Text, what: &str) -> Option<Matrix> {
+        let (name, span) = (text.as_str().trim(), text.span());
+        if let Some(found) = self.matrices.iter_mut().find(|m| m.name.name == name) {
+            found.is_used = true;
+            return Some(found.matrix.clone());
+        }
+        if self.refused.contains(name) {
+            return None;
+        }
+        let names = || self.matrices.iter().map(|m| m.name.name.as_str());
+        let error = if is_name(name) {
+            let error = Diagnostic::error("E-unknown-name", format!("no constant '{}' is a matrix", shorten(name)));
+            let help = || format!("write rows, or name them in [constants]: {name} = [[0, 1], [\"-k\", -2]]");
+            error.at(span, "not a matrix").help(did_you_mean(name, names()).unwrap_or_else(help))
+        } else {
+            let error = Diagnostic::error("E-type", format!("{what} must be an array of rows"));
+            let help = "rows in brackets, expressions in quotes: [[0, 1], [\"-k\", -2]]; or the name of a matrix";
+            error.at(span, "this is a string").help(help)
+        };
+        self.report(error);
+        None
+    }
+
+    /// A rectangle of expressions, or the name of a constant that is one.
     pub fn matrix(&mut self, value: &Value, what: &str) -> Option<Matrix> {
+        if let Kind::String(text) = &value.kind {
+            return self.named_matrix(text, what);
+        }
         let Kind::Array(rows) = &value.kind else {
             self.wrong_type(value, what, "an array of rows");
             return None;

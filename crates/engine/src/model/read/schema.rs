@@ -47,7 +47,17 @@ fn shape(shape: &Shape) -> Map<String, Value> {
         Shape::Number | Shape::Expression => number(),
         Shape::Expressions => json!({ "type": ["number", "string", "array"], "items": number() }),
         Shape::Names => json!({ "type": ["string", "array"], "items": { "type": "string" } }),
-        Shape::Matrix => json!({ "type": "array", "items": { "type": "array", "items": number() } }),
+        Shape::Matrix => {
+            json!({ "type": ["array", "string"], "items": { "type": "array", "items": number() } })
+        }
+        Shape::Constant => {
+            json!({ "type": ["number", "string", "array"], "items": { "type": "array", "items": number() } })
+        }
+        Shape::TableOrWord(keys) => {
+            let mut table = table(keys);
+            table.insert("type".into(), json!(["object", "string"]));
+            return table;
+        }
         Shape::Parameter => {
             let mut parameter = table(&PARAMETER);
             parameter.insert("type".into(), json!(["number", "string", "object"]));

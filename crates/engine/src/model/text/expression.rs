@@ -4,12 +4,13 @@
 //! of the tree is the depth of nesting in the text, which the parser limits; walking the tree by
 //! recursion is therefore safe for any input.
 
+use super::function::Function;
 use crate::error::Span;
 use jurist_algebra::number::Rational;
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// An expression: names, exact numbers, `+ - * / ^` with integer exponents, parentheses.
+/// An expression: names, exact numbers, `+ - * / ^` with integer exponents, parentheses, functions.
 ///
 /// ```
 /// use jurist_engine::model::Expression;
@@ -42,6 +43,8 @@ pub enum Node {
     Product(Vec<(Factor, Expression)>),
     /// An integer power.
     Power(Box<Expression>, i64),
+    /// A function of a value.
+    Call(Function, Box<Expression>),
 }
 
 /// How a term enters a sum.
@@ -100,17 +103,28 @@ impl Expression {
         match &self.node {
             Node::Number(_) => {}
             Node::Name(name) => visit(name, self.span),
-            Node::Negative(inner) | Node::Power(inner, _) => inner.each_name(visit),
+            Node::Negative(inner) | Node::Power(inner, _) | Node::Call(_, inner) => inner.each_name(visit),
             Node::Sum(terms) => terms.iter().for_each(|(_, e)| e.each_name(visit)),
             Node::Product(factors) => factors.iter().for_each(|(_, e)| e.each_name(visit)),
         }
     }
 
-    /// Whether no name occurs, so that the value is a number.
+    /// Whether a function occurs.
+    pub fn has_function(&self) -> bool {
+        match &self.node {
+            Node::Number(_) | Node::Name(_) => false,
+            Node::Call(..) => true,
+            Node::Negative(inner) | Node::Power(inner, _) => inner.has_function(),
+            Node::Sum(terms) => terms.iter().any(|(_, e)| e.has_function()),
+            Node::Product(factors) => factors.iter().any(|(_, e)| e.has_function()),
+        }
+    }
+
+    /// Whether no name and no function occurs, so that the value is a rational number.
     pub fn is_constant(&self) -> bool {
         match &self.node {
             Node::Number(_) => true,
-            Node::Name(_) => false,
+            Node::Name(_) | Node::Call(..) => false,
             Node::Negative(inner) | Node::Power(inner, _) => inner.is_constant(),
             Node::Sum(terms) => terms.iter().all(|(_, e)| e.is_constant()),
             Node::Product(factors) => factors.iter().all(|(_, e)| e.is_constant()),
@@ -126,7 +140,7 @@ impl Expression {
             Node::Power(..) => Level::Power,
             Node::Number(r) if r.is_negative() => Level::Negative,
             Node::Number(r) if !r.is_integer() => Level::Product,
-            Node::Number(_) | Node::Name(_) => Level::Atom,
+            Node::Number(_) | Node::Name(_) | Node::Call(..) => Level::Atom,
         }
     }
 
@@ -173,6 +187,11 @@ impl Expression {
             Node::Power(base, exponent) => {
                 base.write(f, Level::Atom)?;
                 write!(f, "^{exponent}")
+            }
+            Node::Call(function, value) => {
+                write!(f, "{}(", function.name())?;
+                value.write(f, Level::Sum)?;
+                f.write_str(")")
             }
         }
     }

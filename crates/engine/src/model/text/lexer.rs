@@ -127,6 +127,6 @@ fn strange_character(text: &Text, at: usize, c: char) -> Diagnostic {
         '[' | ']' | '{' | '}' => error.help("only round parentheses group terms"),
         ',' => error.help("the decimal point is '.'"),
         '=' => error.help("an expression has no '='; write the side that is compared with zero"),
-        _ => error.help("expressions are made of names, numbers, + - * / ^ and parentheses"),
+        _ => error.help("expressions are made of names, numbers, functions, + - * / ^ and parentheses"),
     }
 }

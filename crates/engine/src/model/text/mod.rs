@@ -2,6 +2,7 @@
 //! decided elsewhere.
 
 mod expression;
+mod function;
 mod lexer;
 mod located;
 pub(in crate::model) mod names;
@@ -10,6 +11,8 @@ pub(in crate::model) mod toml_reader;
 pub(in crate::model) mod toml_value;
 
 pub use expression::{Expression, Factor, Node, Sign};
+pub use function::Function;
+pub(in crate::model) use function::{PI, hint};
 pub(in crate::model) use lexer::is_name;
 pub(in crate::model) use located::Text;
 pub use names::nearest_name;

@@ -4,6 +4,7 @@
 //! exponents are integers, known when the text is read.
 
 use super::expression::{Expression, Factor, Node, Sign};
+use super::function::{Function, call_hint};
 use super::lexer::{Token, TokenKind, lex};
 use super::located::Text;
 use crate::error::{Diagnostic, Diagnostics, Source, Span};
@@ -154,13 +155,7 @@ impl Parser<'_> {
             TokenKind::Number(value) => Ok(Expression { span: token.span, node: Node::Number(value) }),
             TokenKind::Name(name) => {
                 if self.peek().kind == TokenKind::Open {
-                    let what = super::names::shorten(&name).into_owned();
-                    return Err(Diagnostic::error(
-                        "E-syntax",
-                        format!("'{what}(' looks like a call, but there are no functions"),
-                    )
-                    .at(token.span.to(self.peek().span), "no operator here")
-                    .help("multiplication is written out: 'a*(b + c)'"));
+                    return self.call(&name, token.span);
                 }
                 Ok(Expression { span: token.span, node: Node::Name(name) })
             }
@@ -175,20 +170,8 @@ impl Parser<'_> {
                 Ok(Expression { span, node: Node::Negative(Box::new(inner)) })
             }
             TokenKind::Open => {
-                self.deeper(token.span)?;
-                let inner = self.expression(SUM)?;
-                self.depth -= 1;
-                let close = self.peek().clone();
-                if close.kind != TokenKind::Close {
-                    if close.kind == TokenKind::End {
-                        return Err(Diagnostic::error("E-syntax", "')' is missing")
-                            .at(close.span, "expected ')'")
-                            .also(token.span, "to close this"));
-                    }
-                    return Err(self.missing_operator(&close.kind));
-                }
-                self.advance();
-                Ok(Expression { span: token.span.to(close.span), node: inner.node })
+                let (inner, span) = self.group(token.span)?;
+                Ok(Expression { span, node: inner.node })
             }
             kind => Err(Diagnostic::error(
                 "E-syntax",
@@ -197,13 +180,44 @@ impl Parser<'_> {
             .at(token.span, "unexpected")),
         }
     }
+
+    /// What stands between the parenthesis at `open`, which has been read, and the one that closes it; and the place of both.
+    fn group(&mut self, open: Span) -> Result<(Expression, Span), Diagnostic> {
+        self.deeper(open)?;
+        let inner = self.expression(SUM)?;
+        self.depth -= 1;
+        let close = self.peek().clone();
+        if close.kind != TokenKind::Close {
+            if close.kind == TokenKind::End {
+                return Err(Diagnostic::error("E-syntax", "')' is missing")
+                    .at(close.span, "expected ')'")
+                    .also(open, "to close this"));
+            }
+            return Err(self.missing_operator(&close.kind));
+        }
+        self.advance();
+        Ok((inner, open.to(close.span)))
+    }
+
+    /// A function of what stands in the parentheses that begin here.
+    fn call(&mut self, name: &str, place: Span) -> Result<Expression, Diagnostic> {
+        let open = self.advance().span;
+        let Some(function) = Function::named(name) else {
+            let message =
+                format!("'{}(' looks like a call, but there is no such function", super::names::shorten(name));
+            let error = Diagnostic::error("E-syntax", message).at(place.to(open), "no function, and no operator here");
+            return Err(error.help(call_hint(name)));
+        };
+        let (value, end) = self.group(open)?;
+        Ok(Expression { span: place.to(end), node: Node::Call(function, Box::new(value)) })
+    }
 }
 
 /// The value of an exponent, which must be an integer of moderate size.
 fn integer_exponent(exponent: &Expression) -> Result<i64, Diagnostic> {
     if !exponent.is_constant() {
         return Err(Diagnostic::error("E-exponent", "an exponent must be a whole number, written as a number")
-            .at(exponent.span, "contains a name")
+            .at(exponent.span, "contains a name or a function")
             .help("exponents fix the order of the loop: write its value as a number, such as 'z^3'"));
     }
     let too_large = || {
@@ -219,7 +233,7 @@ fn integer_exponent(exponent: &Expression) -> Result<i64, Diagnostic> {
     if !value.is_integer() {
         return Err(Diagnostic::error("E-exponent", "an exponent must be a whole number")
             .at(exponent.span, "not a whole number")
-            .help("roots are not rational; name the root in [parameters] or square the equation"));
+            .help("the square root is written sqrt(..)"));
     }
     let value = value.numerator();
     if value.abs() > Integer::from(MAX_EXPONENT) {
@@ -243,7 +257,7 @@ fn small_value(e: &Expression) -> Option<Option<Rational>> {
     }
     let result = match &e.node {
         Node::Number(value) => value.clone(),
-        Node::Name(_) => return Some(None),
+        Node::Name(_) | Node::Call(..) => return Some(None),
         Node::Negative(inner) => -value!(inner),
         Node::Sum(terms) => {
             let mut sum = Rational::ZERO;

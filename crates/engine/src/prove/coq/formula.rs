@@ -119,6 +119,7 @@ impl Formulas<'_> {
                 (Level::Product, format!("1/{}^{}", self.at(base, Level::Atom), k.unsigned_abs()))
             }
             Node::Power(base, k) => (Level::Power, format!("{}^{k}", self.at(base, Level::Atom))),
+            Node::Call(..) => unreachable!("a model with functions has no polynomial over the rationals"),
         };
         if level < least { format!("({text})") } else { text }
     }

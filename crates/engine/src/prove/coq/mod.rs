@@ -84,7 +84,11 @@ impl Loop {
             return Err(refused(format!("'{name}' is the question"), help));
         }
         let parameter = problem.parameter();
-        let raw = problem.model().evaluate(std::slice::from_ref(&parameter.name), problem.set(), budget)?.polynomial;
+        let evaluated = problem.model().evaluate(std::slice::from_ref(&parameter.name), problem.set(), budget)?;
+        if let Some((name, text)) = evaluated.symbols.definitions().into_iter().next() {
+            return Err(refused(format!("the loop is not rational, it contains {name} = {text}"), OTHERS));
+        }
+        let raw = evaluated.polynomial;
         let order = raw.formal_degree;
         if order == 0 || order > LARGEST_ORDER {
             return Err(refused(format!("the order is {order}, and has to be 1 to {LARGEST_ORDER}"), OTHERS));

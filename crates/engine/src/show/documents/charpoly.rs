@@ -52,6 +52,10 @@ pub struct KnownPolynomials<P> {
     pub variable: String,
     /// The parameters that are kept, in the order of a term's powers.
     pub parameters: Vec<String>,
+    /// The symbols, whose powers follow those of the parameters, with their definitions; left out where everything is
+    /// rational.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub symbols: Option<Named<String>>,
     /// The values of the others, and of constants that were replaced.
     pub set: Named<Exact>,
     /// To how many significant digits the coefficients are rounded; left out where they are exact.
@@ -160,7 +164,8 @@ impl<S: Default, P, N> Polynomials<S, P, N> {
             answer: PolynomialsOrNone::Known(KnownPolynomials {
                 title: report.title.clone(),
                 variable: report.variable.clone(),
-                parameters: report.parameters.clone(),
+                parameters: report.parameters[..report.parameters.len() - report.symbols.len()].to_vec(),
+                symbols: (!report.symbols.is_empty()).then(|| report.symbols.iter().cloned().collect()),
                 set: report.set.as_slice().into(),
                 rounded_to_digits: digits,
                 polynomials,

@@ -91,8 +91,10 @@ pub struct PolynomialReport {
     pub title: String,
     /// The polynomial variable: `z` or `s`.
     pub variable: String,
-    /// The names of the kept parameters: of variables 0, 1, ... of the coefficients.
+    /// The names of the kept parameters and of the symbols: of variables 0, 1, ... of the coefficients.
     pub parameters: Vec<String>,
+    /// The symbols, the last of the parameters, with their definitions.
+    pub symbols: Vec<(String, String)>,
     /// The values of the others.
     pub set: Vec<(String, Rational)>,
     /// What the polynomials say.
@@ -113,6 +115,7 @@ impl PolynomialReport {
     ///     title: "example".into(),
     ///     variable: "z".into(),
     ///     parameters: vec!["K".into()],
+    ///     symbols: vec![],
     ///     set: vec![],
     ///     relation: Relation::Characteristic,
     ///     polynomials: vec![NamedPolynomial {
@@ -162,6 +165,7 @@ impl PolynomialReport {
             let values: Vec<String> = self.set.iter().map(|(name, value)| format!("{name} = {value}")).collect();
             lines.push(format!("at {}", values.join(", ")));
         }
+        lines.extend(self.symbols.iter().map(|(name, definition)| format!("{name} = {definition}")));
         lines.extend(digits.map(|digits| format!("coefficients rounded to {digits} digits")));
         lines.retain(|line| !line.is_empty());
         lines

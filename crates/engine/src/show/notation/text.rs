@@ -19,6 +19,9 @@ pub(super) fn write(report: &PolynomialReport, digits: Option<usize>) -> String 
     if !about.is_empty() {
         out.push_str(&format!("({})\n", about.join(", ")));
     }
+    for (name, definition) in &report.symbols {
+        out.push_str(&format!("{name} = {definition}\n"));
+    }
     for polynomial in &report.polynomials {
         out.push('\n');
         let width = (polynomial.coefficients.len().max(1) - 1).to_string().len();

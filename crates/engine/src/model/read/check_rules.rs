@@ -1,0 +1,79 @@
+//! Remarks on how continuous blocks are made discrete: by a rule where nothing is behind a hold, and with sample times that
+//! differ.
+
+use super::reader::Reader;
+use crate::error::{Diagnostic, Span};
+use crate::model::definition::{Block, Dynamics, Form, Model, Time};
+use crate::model::evaluate::scalar::{Scope, Symbol};
+use crate::model::text::Expression;
+use crate::model::text::names::shorten;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::poly::RationalFunction;
+use std::collections::BTreeSet;
+
+/// Units of work that the comparison of sample times may take. What is not found within it is not remarked upon.
+const COMPARISON_WORK: u64 = 10_000_000;
+
+/// Reports both.
+pub(super) fn rules(model: &Model, reader: &mut Reader) {
+    let Form::Blocks(diagram) = &model.form else { return };
+    if model.time != Time::Discrete {
+        return;
+    }
+    without_hold(&diagram.blocks, reader);
+    between_holds(&diagram.blocks, reader);
+    let times: Vec<(&Expression, Span)> = diagram
+        .blocks
+        .iter()
+        .filter_map(|b| b.discretization.as_ref())
+        .filter(|d| d.factor.is_none())
+        .filter_map(|d| d.sample_time.as_ref().map(|e| (e, d.span)))
+        .collect();
+    let own = model.sample_time.as_ref().map(|e| (e, e.span));
+    let Some((first, place)) = own.or_else(|| times.first().copied()) else { return };
+    let budget = Budget::with_work(COMPARISON_WORK);
+    let different = budget.enter(|| {
+        let symbol = |_: &str, constant: bool| (!constant).then_some(Symbol::Variable);
+        let mut scope = Scope::new(model.parameters.iter(), model.ordered_constants(), symbol, &budget, &mut |_| {});
+        let reference: RationalFunction = scope.scalar(first).ok()?;
+        times.into_iter().find(|(e, _)| scope.scalar(e).is_ok_and(|time| time != reference))
+    });
+    if let Ok(Some((e, span))) = different {
+        let span = if e.span == place { span } else { e.span };
+        let message = "two different sample times in one loop";
+        let warning =
+            Diagnostic::warning("W-sample-times", message).at(span, "one here").also(place, "another one here");
+        reader.report(warning.help("z is one step for all blocks: give all the same, by the name of one parameter"));
+    }
+}
+
+/// That no block is behind a hold although continuous blocks are made discrete, said once.
+fn without_hold(blocks: &[Block], reader: &mut Reader) {
+    let held = |b: &Block| b.discretization.as_ref().is_some_and(|d| d.method.is_hold());
+    if blocks.iter().any(held) {
+        return;
+    }
+    let by_rule = |b: &&Block| !matches!(b.dynamics, Dynamics::Gain(_) | Dynamics::Static(_));
+    let Some((block, d)) = blocks.iter().filter(by_rule).find_map(|b| Some((b, b.discretization.as_ref()?))) else {
+        return;
+    };
+    let message = format!("'{}' is made discrete by the {}", shorten(&block.name), d.method.words());
+    let message = message.replace("the Tustin's", "Tustin's");
+    let warning = Diagnostic::warning("W-rule", message).at(d.span, "the answer is about this rule");
+    reader.report(warning.help("a plant behind a digital controller sees a hold: method = \"zoh\" is exact for it"));
+}
+
+/// That a held block reads a signal of a held block: between continuous blocks there is no hold.
+fn between_holds(blocks: &[Block], reader: &mut Reader) {
+    let held = |b: &&Block| b.discretization.as_ref().is_some_and(|d| d.method.is_hold());
+    for block in blocks.iter().filter(held) {
+        let read: BTreeSet<&str> = block.inputs.iter().flat_map(Expression::names).collect();
+        let source = blocks.iter().filter(held).find(|b| b.outputs.iter().any(|o| read.contains(o.name.as_str())));
+        let Some((source, d)) = source.zip(block.discretization.as_ref()) else { continue };
+        let (name, other) = (shorten(&block.name), shorten(&source.name));
+        let message = format!("'{name}' is behind a hold of its own and reads '{other}', which is continuous");
+        let warning = Diagnostic::warning("W-rule", message).at(d.span, "a hold where no signal is sampled");
+        let warning = warning.also(source.span, "continuous as well");
+        reader.report(warning.help("write both as one block: its product, or one A, B, C, D"));
+    }
+}

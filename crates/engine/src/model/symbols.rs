@@ -1,0 +1,351 @@
+//! Numbers and functions that are not rational, as further variables of the polynomials: exponentials, tangents, roots.
+//!
+//! A sampled loop with a block behind a hold is rational in the parameters and in finitely many such symbols, each with a
+//! definition from which its value can be enclosed. Symbols that are powers or multiple angles of one another are expressed
+//! by one of them, so that identities like `exp(-2*T) = exp(-T)^2` and `cos^2 + sin^2 = 1` hold by themselves.
+
+mod approximate;
+mod merge;
+
+pub use approximate::value_approximate;
+
+use super::evaluate::scalar::rational_root;
+use super::text::Function;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{MultiPoly, RationalFunction};
+
+/// What a symbol stands for. Arguments are rational functions of the kept names and of earlier symbols.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Definition {
+    /// The circle number.
+    Pi,
+    /// The square root that is not negative.
+    Root(RationalFunction),
+    /// `exp(x)`.
+    Exponential(RationalFunction),
+    /// `tan(sqrt(w) t)/sqrt(w)`, for negative `w` that is `tanh(sqrt(-w) t)/sqrt(-w)`, for 0 it is `t`: one power series in `w`.
+    Tangent {
+        /// `w`.
+        square: RationalFunction,
+        /// `t`.
+        time: RationalFunction,
+    },
+    /// The solution `f` of the linear differential equation with this monic characteristic polynomial whose derivative of
+    /// order `index` is 1 at 0 and whose other derivatives below the order of the equation are 0 there, at `time`. It is
+    /// the entry `(0, index)` of `exp(companion * time)`, with ones above the diagonal of the companion matrix.
+    Fundamental {
+        /// The coefficients from the constant term up; the last is 1.
+        polynomial: Vec<RationalFunction>,
+        /// Where it is evaluated.
+        time: RationalFunction,
+        /// Which of the solutions.
+        index: usize,
+    },
+}
+
+/// A symbol: a variable of the polynomials after the kept names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Symbol {
+    /// What it is called in formulas.
+    pub name: String,
+    /// What it stands for.
+    pub definition: Definition,
+    /// Whether it depends on a kept name.
+    pub is_moving: bool,
+}
+
+/// The symbols of an evaluated model. Variables `0, 1, ..` are the kept names, then come the symbols.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{BlockBuilder, Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .inputs(["r"])
+///     .outputs(["y"])
+///     .block(BlockBuilder::new("plant", "K*(r - y)", "y").transfer("1/(s + 1)").held("1/10", "0"))
+///     .build()?;
+/// let evaluated = model.evaluate(&["K".into()], &[], &Budget::unlimited()).unwrap();
+/// assert_eq!(evaluated.symbols.definitions(), [("X1".to_owned(), "exp(-1/10)".to_owned())]);
+/// // z - X1 + K (1 - X1)
+/// let p = &evaluated.polynomial;
+/// assert_eq!(p.coefficients[0].display(&p.variables).to_string(), "-K*X1 + K - X1");
+/// # Ok::<(), jurist_engine::error::Diagnostics>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Symbols {
+    kept: Vec<String>,
+    table: Vec<Symbol>,
+    /// Polynomials in the symbols that have no zero, whatever the symbols' arguments are.
+    nonzero: Vec<MultiPoly>,
+}
+
+impl Symbols {
+    /// No symbols beside these kept names.
+    pub(in crate::model) fn new(kept: &[String]) -> Symbols {
+        Symbols { kept: kept.to_vec(), table: Vec::new(), nonzero: Vec::new() }
+    }
+
+    /// Whether there are none: everything is rational in the kept names.
+    pub fn is_empty(&self) -> bool {
+        self.table.is_empty()
+    }
+
+    /// How many kept names there are: the number of the first symbol's variable.
+    pub fn first(&self) -> usize {
+        self.kept.len()
+    }
+
+    /// The symbols, each after those it is defined by.
+    pub fn iter(&self) -> impl Iterator<Item = &Symbol> {
+        self.table.iter()
+    }
+
+    /// Whether a symbol depends on a kept name: then the question has its parameter inside a function.
+    pub fn is_moving(&self) -> bool {
+        self.table.iter().any(|s| s.is_moving)
+    }
+
+    /// The names of all variables: kept names, then symbols.
+    pub fn variables(&self) -> Vec<String> {
+        self.kept.iter().cloned().chain(self.table.iter().map(|s| s.name.clone())).collect()
+    }
+
+    /// Names and definitions, as text.
+    pub fn definitions(&self) -> Vec<(String, String)> {
+        let variables = self.variables();
+        self.table.iter().map(|s| (s.name.clone(), s.definition.text(&variables))).collect()
+    }
+
+    /// The polynomials in kept names and symbols that are known to have no zero.
+    pub(in crate::model) fn nonzero(&self) -> &[MultiPoly] {
+        &self.nonzero
+    }
+
+    /// Whether a value depends on a kept name, be it by way of a symbol.
+    fn moves(&self, f: &RationalFunction) -> bool {
+        let moving = |i: usize| i < self.kept.len() || self.table[i - self.kept.len()].is_moving;
+        f.variables().into_iter().any(moving)
+    }
+
+    /// The variable of a symbol, the same each time.
+    fn intern(&mut self, definition: Definition) -> RationalFunction {
+        if let Some(i) = self.table.iter().position(|s| s.definition == definition) {
+            return RationalFunction::variable(self.kept.len() + i);
+        }
+        let is_moving = definition.arguments().into_iter().any(|f| self.moves(f));
+        let letter = definition.letter();
+        let name = (1..)
+            .map(
+                |k| if matches!(definition, Definition::Pi) && k == 1 { letter.into() } else { format!("{letter}{k}") },
+            )
+            .find(|name| !self.kept.contains(name) && self.table.iter().all(|s| s.name != *name))
+            .unwrap_or_default();
+        self.table.push(Symbol { name, definition, is_moving });
+        RationalFunction::variable(self.kept.len() + self.table.len() - 1)
+    }
+
+    /// The circle number.
+    pub(in crate::model) fn pi(&mut self) -> RationalFunction {
+        self.intern(Definition::Pi)
+    }
+
+    /// `exp(x)`.
+    pub(in crate::model) fn exponential(&mut self, x: RationalFunction) -> RationalFunction {
+        if x.is_zero() { RationalFunction::one() } else { self.intern(Definition::Exponential(x)) }
+    }
+
+    /// The square root; `None` of a negative number.
+    fn root(&mut self, x: RationalFunction) -> Option<RationalFunction> {
+        let Some(number) = x.as_constant() else { return Some(self.intern(Definition::Root(x))) };
+        if let Some(root) = rational_root(&number) {
+            return Some(root.into());
+        }
+        if number.is_negative() {
+            return None;
+        }
+        // Of two numbers whose ratio is a square, one root is enough.
+        for (i, symbol) in self.table.iter().enumerate() {
+            if let Definition::Root(other) = &symbol.definition
+                && let Some(ratio) = other.as_constant().and_then(|other| number.checked_div(&other))
+                && let Some(factor) = rational_root(&ratio)
+            {
+                return Some(&RationalFunction::variable(self.kept.len() + i) * &RationalFunction::from(factor));
+            }
+        }
+        Some(self.intern(Definition::Root(x)))
+    }
+
+    /// `tan(sqrt(w) t)/sqrt(w)` where `1 + w x^2` has no zero: for fixed `w`, `t`.
+    pub(in crate::model) fn tangent(&mut self, square: RationalFunction, time: RationalFunction) -> RationalFunction {
+        if time.is_zero() {
+            return RationalFunction::zero();
+        }
+        let x = self.intern(Definition::Tangent { square: square.clone(), time });
+        let one = &RationalFunction::one() + &(&square * &(&x * &x));
+        let polynomial = one.numerator().primitive_over_integers();
+        if !self.nonzero.contains(&polynomial) {
+            self.nonzero.push(polynomial);
+        }
+        x
+    }
+
+    /// A fundamental solution.
+    pub(in crate::model) fn fundamental(
+        &mut self,
+        polynomial: Vec<RationalFunction>,
+        time: RationalFunction,
+        index: usize,
+    ) -> RationalFunction {
+        self.intern(Definition::Fundamental { polynomial, time, index })
+    }
+
+    /// The value of a function; `None` where it has none.
+    pub(in crate::model) fn call(&mut self, function: Function, x: RationalFunction) -> Option<RationalFunction> {
+        match function {
+            Function::Sqrt => self.root(x),
+            Function::Exp => Some(self.exponential(x)),
+            Function::Sin | Function::Cos | Function::Tan => self.circular(function, x),
+        }
+    }
+
+    /// Sine, cosine or tangent.
+    fn circular(&mut self, function: Function, x: RationalFunction) -> Option<RationalFunction> {
+        let (sine, cosine) = match self.multiple_of_pi(&x) {
+            Some(turns) => self.at_multiple_of_pi(&turns)?,
+            None if self.moves(&x) => {
+                // A tangent would leave the line where the angle passes a right one.
+                let circle = [1.into(), RationalFunction::zero(), 1.into()].to_vec();
+                (self.fundamental(circle.clone(), x.clone(), 1), self.fundamental(circle, x, 0))
+            }
+            None if function == Function::Tan => return Some(self.tangent(RationalFunction::one(), x)),
+            None => {
+                let half = &x * &RationalFunction::from(Rational::new(Integer::ONE, 2.into()));
+                let t = self.tangent(RationalFunction::one(), half);
+                half_angle(&t)?
+            }
+        };
+        match function {
+            Function::Sin => Some(sine),
+            Function::Cos => Some(cosine),
+            _ => sine.checked_div(&cosine),
+        }
+    }
+
+    /// `q` where `x = q pi`.
+    fn multiple_of_pi(&self, x: &RationalFunction) -> Option<Rational> {
+        if x.is_zero() {
+            return Some(Rational::ZERO);
+        }
+        let at = self.table.iter().position(|s| s.definition == Definition::Pi)?;
+        x.checked_div(&RationalFunction::variable(self.kept.len() + at))?.as_constant()
+    }
+
+    /// Sine and cosine of `q pi`.
+    fn at_multiple_of_pi(&mut self, q: &Rational) -> Option<(RationalFunction, RationalFunction)> {
+        // Reduced to [0, 2), then to the first quadrant.
+        let two = Rational::from(2);
+        let q = q - &(&two * &Rational::from((q * &Rational::new(1.into(), 2.into())).floor()));
+        let half = Rational::new(1.into(), 2.into());
+        let quadrant = (&q * &two).floor().to_i64()?;
+        let rest = &q - &(&half * &Rational::from(quadrant));
+        let twelfths = &rest * &Rational::from(12);
+        let over_two = |root: RationalFunction| &root * &RationalFunction::from(half.clone());
+        let (sine, cosine): (RationalFunction, RationalFunction) = match twelfths.numerator().to_i64() {
+            _ if rest.is_zero() => (RationalFunction::zero(), RationalFunction::one()),
+            Some(2) if twelfths.is_integer() => (half.clone().into(), over_two(self.root(3.into())?)),
+            Some(3) if twelfths.is_integer() => {
+                let root = over_two(self.root(2.into())?);
+                (root.clone(), root)
+            }
+            Some(4) if twelfths.is_integer() => (over_two(self.root(3.into())?), half.clone().into()),
+            _ => {
+                let pi = self.pi();
+                let t = self.tangent(RationalFunction::one(), &pi * &RationalFunction::from(&rest * &half));
+                half_angle(&t)?
+            }
+        };
+        Some(match quadrant {
+            0 => (sine, cosine),
+            1 => (cosine, -sine),
+            2 => (-sine, -cosine),
+            _ => (-cosine, sine),
+        })
+    }
+}
+
+/// Sine and cosine by the tangent of half the angle.
+fn half_angle(t: &RationalFunction) -> Option<(RationalFunction, RationalFunction)> {
+    let square = t * t;
+    let one = RationalFunction::one();
+    let below = &one + &square;
+    Some(((t + t).checked_div(&below)?, (&one - &square).checked_div(&below)?))
+}
+
+impl Definition {
+    /// The functions it is made of.
+    pub fn arguments(&self) -> Vec<&RationalFunction> {
+        match self {
+            Definition::Pi => Vec::new(),
+            Definition::Root(x) | Definition::Exponential(x) => vec![x],
+            Definition::Tangent { square, time } => vec![square, time],
+            Definition::Fundamental { polynomial, time, .. } => polynomial.iter().chain([time]).collect(),
+        }
+    }
+
+    /// The same with other arguments.
+    pub(in crate::model) fn try_map(
+        &self,
+        mut f: impl FnMut(&RationalFunction) -> Option<RationalFunction>,
+    ) -> Option<Definition> {
+        Some(match self {
+            Definition::Pi => Definition::Pi,
+            Definition::Root(x) => Definition::Root(f(x)?),
+            Definition::Exponential(x) => Definition::Exponential(f(x)?),
+            Definition::Tangent { square, time } => Definition::Tangent { square: f(square)?, time: f(time)? },
+            Definition::Fundamental { polynomial, time, index } => Definition::Fundamental {
+                polynomial: polynomial.iter().map(&mut f).collect::<Option<_>>()?,
+                time: f(time)?,
+                index: *index,
+            },
+        })
+    }
+
+    fn letter(&self) -> &'static str {
+        match self {
+            Definition::Pi => "pi",
+            Definition::Root(_) => "r",
+            Definition::Exponential(_) => "X",
+            Definition::Tangent { .. } => "t",
+            Definition::Fundamental { .. } => "f",
+        }
+    }
+
+    /// The definition as a formula in these variables.
+    pub fn text(&self, variables: &[String]) -> String {
+        let shown = |f: &RationalFunction| f.display(variables).to_string();
+        match self {
+            Definition::Pi => "pi".into(),
+            Definition::Root(x) => format!("sqrt({})", shown(x)),
+            Definition::Exponential(x) => format!("exp({})", shown(x)),
+            Definition::Tangent { square, time } if square.is_one() => format!("tan({})", shown(time)),
+            Definition::Tangent { square, time } => {
+                let hyperbolic = square.as_constant().is_some_and(|w| w.is_negative());
+                let (name, w) = if hyperbolic { ("tanh", -square) } else { ("tan", square.clone()) };
+                match w.as_constant().and_then(|w| rational_root(&w)) {
+                    Some(root) => {
+                        let angle = shown(&(time * &RationalFunction::from(root.clone())));
+                        format!("{name}({angle})/({root})")
+                    }
+                    None => format!("{name}(({})*sqrt({}))/sqrt({1})", shown(time), shown(&w)),
+                }
+            }
+            Definition::Fundamental { polynomial, time, index } => {
+                let list: Vec<String> = polynomial.iter().map(shown).collect();
+                format!("fundamental solution {index} of [{}] at {}", list.join(", "), shown(time))
+            }
+        }
+    }
+}
