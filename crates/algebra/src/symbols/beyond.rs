@@ -8,8 +8,14 @@ use crate::poly::{MultiPoly, RationalFunction};
 /// Bits of the bounds.
 const BITS: u64 = 128;
 
-/// The pieces of the time for which the exponential of a matrix is bounded one by one.
-const PIECES: usize = 64;
+/// The pieces into which a time is divided at least.
+const PIECES: u64 = 64;
+
+/// Doublings of a piece after which a time is too long for what happens in it.
+const MOST_DOUBLINGS: u32 = 24;
+
+/// Bounds of more bits than this are of no use.
+const LARGEST_BITS: u64 = 48;
 
 impl MovingSymbols {
     /// A bound of a polynomial in symbols, without the parameter itself, for every value of the parameter from `start` on;
@@ -98,19 +104,34 @@ fn dies_away(coefficients: &[Rational], time: &Rational) -> Option<Ball> {
         let units = (0..n).map(row).max().unwrap_or(Integer::ZERO);
         Ball::from_units(units.clone(), units, BITS)
     };
-    let q = norm(&at(&Ball::from_rational(time, BITS)));
+    let too_large = Rational::from(&(Integer::ONE << LARGEST_BITS));
+    // A piece short enough for its exponential to be near one, and how often it is doubled to make the whole.
+    let size = coefficients.iter().fold(Rational::ONE, |sum, c| sum + c.abs());
+    let mut doublings = PIECES.ilog2();
+    let mut piece = time * &Rational::new(Integer::ONE, Integer::from(PIECES));
+    while &piece * &size > Rational::ONE {
+        piece = piece * Rational::dyadic(&Integer::ONE, 1);
+        doublings += 1;
+        if doublings > MOST_DOUBLINGS {
+            return None;
+        }
+    }
+    let mut whole = at(&Ball::from_rational(&piece, BITS));
+    // The norm within the first piece, within twice as much, and so on.
+    let mut within = norm(&at(&Ball::between(&Rational::ZERO, &piece, BITS)));
+    let one = Ball::from_integer(&Integer::ONE, BITS);
+    for _ in 0..doublings {
+        // What lies in the second half is what lies in the first, times the step to the middle.
+        let step = norm(&whole);
+        within = within.union(&within.mul(&step)).union(&one);
+        whole = whole.mul(&whole);
+        if within.upper() > too_large {
+            return None;
+        }
+    }
+    let q = norm(&whole);
     if q.upper() >= Rational::dyadic(&Integer::ONE, 1) {
         return None;
     }
-    let piece = time * &Rational::new(Integer::ONE, Integer::from(PIECES as u64));
-    let step = at(&Ball::from_rational(&piece, BITS));
-    let within = norm(&at(&Ball::between(&Rational::ZERO, &piece, BITS)));
-    let mut power = BallMatrix::from_fn(n, |i, j| Ball::from_integer(&Integer::from(u64::from(i == j)), BITS));
-    let mut greatest = Ball::zero(BITS);
-    for _ in 0..PIECES {
-        greatest = greatest.union(&norm(&power));
-        power = power.mul(&step);
-    }
-    let bound = q.mul(&greatest).mul(&within).upper();
-    Some(Ball::from_rational(&bound, BITS))
+    Some(Ball::from_rational(&q.mul(&within).upper(), BITS))
 }

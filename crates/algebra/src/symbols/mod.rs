@@ -138,7 +138,7 @@ impl Symbols {
     }
 
     /// Adds a symbol, also one that has the same definition as another.
-    pub(super) fn push(&mut self, name: &str, definition: Definition) {
+    pub fn push(&mut self, name: &str, definition: Definition) {
         self.table.push((name.to_owned(), definition));
         self.values = Mutex::default();
     }

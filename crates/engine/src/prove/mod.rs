@@ -17,7 +17,11 @@ fn refuse_transcendental(set: &StableSet, what: &str) -> Result<(), Error> {
     if set.is_algebraic() {
         return Ok(());
     }
-    Err(Diagnostic::error("E-no-certificate", format!("{what}: the limits are not algebraic numbers"))
+    Err(no_certificate(format!("{what}: the limits are not algebraic numbers")))
+}
+
+fn no_certificate(why: impl Into<String>) -> Error {
+    Diagnostic::error("E-no-certificate", why)
         .help("there is none yet for held plants and dead time; the answer itself is printed without it")
-        .into())
+        .into()
 }

@@ -55,6 +55,9 @@ pub(super) fn moving_stable_set(
     let mut split = Vec::with_capacity(conditions.len());
     for (cause, function) in conditions {
         split.push(budget.enter(|| {
+            if function.terms().len() > MOST_TERMS {
+                return (cause, function.clone(), UniPoly::one(), without_exponentials(function, symbols));
+            }
             let square_free = function.square_free_part();
             let algebraic = common_factor(&square_free);
             let divisor = MultiPoly::from_univariate(&algebraic, 0);
@@ -63,9 +66,15 @@ pub(super) fn moving_stable_set(
         })?);
     }
     let rests: Vec<MultiPoly> = split.iter().map(|(_, _, _, rest)| rest.clone()).collect();
-    let basis = budget.enter(|| coprime(&rests, |p| !p.is_constant()))?;
+    let (short, long): (Vec<MultiPoly>, Vec<MultiPoly>) =
+        rests.into_iter().partition(|rest| rest.terms().len() <= MOST_TERMS);
+    let mut basis = budget.enter(|| coprime(&short, |p| !p.is_constant()))?;
+    basis.extend(long);
     let boundaries: Vec<Boundary> = budget.enter(|| {
-        let parts = |rest: &MultiPoly| (0..basis.len()).filter(|&k| rest.div_exact(&basis[k]).is_some()).collect();
+        let divides = |part: &MultiPoly, rest: &MultiPoly| {
+            part == rest || (rest.terms().len() <= MOST_TERMS && rest.div_exact(part).is_some())
+        };
+        let parts = |rest: &MultiPoly| (0..basis.len()).filter(|&k| divides(&basis[k], rest)).collect();
         let boundary =
             |(cause, function, algebraic, rest)| Boundary { cause, function, algebraic, parts: parts(&rest) };
         split.into_iter().map(boundary).collect()
@@ -132,6 +141,9 @@ pub(super) fn moving_stable_set(
     Ok(StableSet::from_intervals(stable, brackets.collect()))
 }
 
+/// Functions with more terms are not divided into factors: a zero of even order then stays an undecided bracket.
+const MOST_TERMS: usize = 120;
+
 /// The values that are tried for the beginning of the tail: powers of two from this one on.
 const FIRST_POWER: i64 = -40;
 
@@ -148,6 +160,9 @@ impl SymbolicPolynomial {
     /// [`Exhausted`] when the budget runs out.
     pub fn tail_start(&self, lower: &Rational, region: Shape, budget: &Budget) -> Result<Option<Rational>, Exhausted> {
         let Table::Moving(symbols) = &self.symbols else { return Ok(None) };
+        if self.polynomial.coeffs().iter().chain(&self.poles).any(|c| c.degree_in(0) > 0) {
+            return Ok(None);
+        }
         budget.step("bounding what dies away");
         for power in FIRST_POWER..=LAST_POWER {
             budget.check()?;
