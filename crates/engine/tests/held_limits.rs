@@ -48,10 +48,8 @@ fn drive() -> Model {
 #[test]
 fn the_held_drive_has_two_limits_of_the_amplitude() {
     let answer = solved(drive().ask().free("K_pwm"));
-    let expected = pair(
-        "0.038114430517689891928183804626597 complex pair",
-        "551.37662150715876981225860647781 complex pair",
-    );
+    let expected =
+        pair("0.038114430517689891928183804626597 complex pair", "551.37662150715876981225860647781 complex pair");
     assert_eq!(ends(&answer, 32), [expected]);
     let upper = answer.value().intervals()[0].upper.as_ref().unwrap();
     let frequency = answer.problem().frequency(upper, 80).unwrap();
@@ -141,16 +139,16 @@ fn a_gain_behind_a_first_order_hold_loses_the_degree_in_the_end() {
     let found = ends(&answer, 12);
     assert!(found.iter().flatten().all(|end| !end.is_empty()));
     for interval in answer.value().intervals() {
-        for (end, inner) in [(&interval.lower, 1), (&interval.upper, -1)] {
+        for (end, is_lower) in [(&interval.lower, true), (&interval.upper, false)] {
             let Some(end) = end else { continue };
-            let step = &number("1e-9") * &Rational::from(inner);
+            let step = number("1e-9");
             let (lo, hi) = end.value.refined(&number("1e-20")).enclosure();
-            let verdict = |k: Rational| {
+            let (below, above) = (lo - &step, hi + &step);
+            let is_stable = |k: Rational| {
                 let model = unity("transfer = '1/(s + 1)'\ndiscretize = 'foh'");
-                model.ask().set("K", k).verdict(&Budget::unlimited()).unwrap().into_value().verdict
+                model.ask().set("K", k).verdict(&Budget::unlimited()).unwrap().into_value().verdict == Verdict::Stable
             };
-            assert_eq!(verdict(&hi + &step) == Verdict::Stable, inner > 0);
-            assert_eq!(verdict(&lo - &step.abs()) == Verdict::Stable, inner < 0);
+            assert_eq!((is_stable(below), is_stable(above)), (!is_lower, is_lower), "{found:?}");
         }
     }
 }
@@ -160,7 +158,10 @@ fn documents_and_refusals_of_transcendental_limits() {
     let answer = solved(unity("transfer = '1/(s*(s + 1))'\ndiscretize = 'zoh'").domain_of_gain());
     let text = serde_json::to_value(answer.json(12)).unwrap();
     let upper = &text["stable"][0]["upper"];
-    assert_eq!((upper["kind"].as_str(), upper["exact"].is_null(), upper["polynomial"].is_null()), (Some("transcendental"), true, true));
+    assert_eq!(
+        (upper["kind"].as_str(), upper["exact"].is_null(), upper["polynomial"].is_null()),
+        (Some("transcendental"), true, true)
+    );
     assert_eq!(upper["decimal"], "2.39221119118");
     let symbols = upper["over"]["symbols"].as_object().unwrap();
     assert_eq!(symbols.values().collect::<Vec<_>>(), ["exp(-1)"]);
@@ -182,4 +183,24 @@ fn documents_and_refusals_of_transcendental_limits() {
 fn an_unbounded_sample_time_that_occurs_by_itself_asks_for_bounds() {
     let refused = drive().ask().free("T").stable_set(&Budget::unlimited()).unwrap_err();
     assert!(refused.to_string().contains("its domain is not bounded"), "{refused}");
+}
+
+#[test]
+fn a_resonance_with_computation_delay_has_windows_in_the_sample_time_out_to_infinity() {
+    for delay in ["0", "T", "2*T"] {
+        let model = read(&format!(
+            "time = 'discrete'\nsample_time = 'T'\n[parameters]\nT = {{ nominal = 1, min = 0 }}\n[loop]\ninputs = ['r']\n\
+             outputs = ['y']\n[[block]]\nname = 'plant'\ninput = '(r - y)/2'\noutput = 'y'\ntransfer = '1/(s^2 + s/5 + 1)'\n\
+             discretize = {{ method = 'zoh', delay = '{delay}' }}\n"
+        ));
+        let answer = solved(model.ask().free("T"));
+        let set = answer.value();
+        assert!(set.undecided().is_empty(), "{delay}: {:?}", set.undecided());
+        assert!(set.intervals().last().unwrap().upper.is_none(), "{delay}: a gain of 1/2 is stable in the end");
+        for k in 1..120 {
+            let t = number(&format!("{k}/4"));
+            let verdict = model.ask().set("T", t.clone()).verdict(&Budget::unlimited()).unwrap().into_value();
+            assert_eq!(set.contains(&t), verdict.verdict == Verdict::Stable, "delay {delay}, T = {t}");
+        }
+    }
 }

@@ -14,9 +14,11 @@ mod normal_form;
 mod rational_series;
 mod roots;
 mod sign;
+mod specialise;
 
 pub use moving::{MovingSymbols, Zeros};
 pub use roots::{SymbolicPoly, common_factor, merged};
+pub use specialise::{are_coprime_in, is_square_free_in};
 
 use crate::ball::{Ball, BallMatrix, exp, exponential, exponential_of_rationals};
 use crate::matrix::Matrix;

@@ -25,8 +25,8 @@ fn sum(a: &Series, b: &Series) -> Series {
 fn quotient(a: &Series, b: &Series) -> Option<Series> {
     let inverse = b[0].recip()?;
     let mut out: Series = Vec::with_capacity(a.len());
-    for k in 0..a.len() {
-        let rest = out.iter().enumerate().fold(a[k].clone(), |rest, (j, q)| rest - q * &b[k - j]);
+    for (k, first) in a.iter().enumerate() {
+        let rest = out.iter().enumerate().fold(first.clone(), |rest, (j, q)| rest - q * &b[k - j]);
         out.push(&rest * &inverse);
     }
     Some(out)

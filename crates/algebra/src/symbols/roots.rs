@@ -1,6 +1,7 @@
 //! Real roots of polynomials whose coefficients are polynomials in symbols.
 
 use super::Symbols;
+use super::specialise::is_square_free_in;
 use crate::ball::Ball;
 use crate::limits::{Budget, Exhausted, checkpoint};
 use crate::number::{Enclosure, Integer, Rational, Sign};
@@ -40,10 +41,11 @@ pub struct SymbolicPoly {
 }
 
 impl SymbolicPoly {
-    /// The square-free part of a polynomial in an unknown (variable 0) and symbols (symbol `i` is variable `i + 1`);
-    /// `None` where it vanishes for every value of the unknown.
+    /// The polynomial in an unknown (variable 0) and symbols (symbol `i` is variable `i + 1`), with factors in which the
+    /// unknown occurs once only; `None` where it vanishes for every value of the unknown.
     ///
-    /// Cost: greatest common divisors of its coefficients and with its derivatives, and the sign of its content.
+    /// Cost: the signs of coefficients until one is not zero, and a few checks of polynomials in one variable; greatest common
+    /// divisors in several variables where a factor is repeated.
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out, and where the sign of a constant is not found.
@@ -51,15 +53,24 @@ impl SymbolicPoly {
         if p.is_zero() {
             return Ok(None);
         }
-        let (content, primitive) = budget.enter(|| {
-            let in_unknown = p.as_poly_in(0);
-            let content = in_unknown.content();
-            let primitive = in_unknown.div_exact_scalar(&content).expect("the content divides");
-            (content, MultiPoly::from_poly_in(&primitive, 0).square_free_part())
-        })?;
-        if symbols.is_zero(&of_symbols(&content), budget)? {
+        // A polynomial is zero where all its coefficients are.
+        let mut is_zero = true;
+        for coefficient in p.as_poly_in(0).coeffs().iter().rev() {
+            if !symbols.is_zero(&of_symbols(coefficient), budget)? {
+                is_zero = false;
+                break;
+            }
+        }
+        if is_zero {
             return Ok(None);
         }
+        let primitive = budget.enter(|| {
+            let monomial = p.monomial_content();
+            let repeated = monomial.with_exponent(0, monomial.exponent(0).saturating_sub(1));
+            // Symbols that are factors of all coefficients are not zero then; K^2 is K.
+            let p = p.div_exact_monomial(&repeated).expect("the content divides").primitive_over_integers();
+            if is_square_free_in(&p, 0) { p } else { p.square_free_part() }
+        })?;
         let (algebraic, rest) = budget.enter(|| {
             let algebraic = common_factor(&primitive);
             let divisor = MultiPoly::from_univariate(&algebraic, 0);

@@ -124,11 +124,11 @@ impl Problem {
                 }
             } else {
                 match self.parametric(budget)? {
-                None => AtPoint::Undefined,
-                Some(p) => {
-                    budget.step("counting the roots");
-                    budget.enter(|| p.at(&Rational::ZERO, self.shape()))?
-                }
+                    None => AtPoint::Undefined,
+                    Some(p) => {
+                        budget.step("counting the roots");
+                        budget.enter(|| p.at(&Rational::ZERO, self.shape()))?
+                    }
                 }
             };
             let algebra = self.algebra_over_symbols(budget)?;

@@ -2,8 +2,8 @@
 
 use super::cofactors::{Identity, identity};
 use super::line::{Line, Separator};
-use super::{no_certificate, refuse_transcendental};
 use super::text::to_text;
+use super::{no_certificate, refuse_transcendental};
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
 use crate::problem::{Bound, Problem, Region};

@@ -143,8 +143,8 @@ fn is_regular(mut rows: Vec<Vec<Ball>>) -> bool {
                 continue;
             }
             let Some(factor) = row[column].div(&pivot[column]) else { return false };
-            for j in column + 1..n {
-                row[j] = row[j].sub(&factor.mul(&pivot[j]));
+            for (x, y) in row[column + 1..].iter_mut().zip(&pivot[column + 1..]) {
+                *x = x.sub(&factor.mul(y));
             }
         }
     }

@@ -10,7 +10,7 @@ use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, SquareFree, UniPoly, isolate_real_roots_in};
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::{MovingSymbols, common_factor, merged};
+use jurist_algebra::symbols::{MovingSymbols, common_factor, is_square_free_in, merged};
 use std::sync::Arc;
 
 impl Values for MovingSymbols {
@@ -55,10 +55,14 @@ pub(super) fn moving_stable_set(
     let mut split = Vec::with_capacity(conditions.len());
     for (cause, function) in conditions {
         split.push(budget.enter(|| {
-            if function.terms().len() > MOST_TERMS {
+            let unknowns = function.variables();
+            let square_free = if unknowns.iter().all(|&j| is_square_free_in(&function, j)) {
+                function.clone()
+            } else if function.terms().len() > MOST_TERMS {
                 return (cause, function.clone(), UniPoly::one(), without_exponentials(function, symbols));
-            }
-            let square_free = function.square_free_part();
+            } else {
+                function.square_free_part()
+            };
             let algebraic = common_factor(&square_free);
             let divisor = MultiPoly::from_univariate(&algebraic, 0);
             let rest = without_exponentials(square_free.div_exact(&divisor).expect("a common factor divides"), symbols);
@@ -68,7 +72,7 @@ pub(super) fn moving_stable_set(
     let rests: Vec<MultiPoly> = split.iter().map(|(_, _, _, rest)| rest.clone()).collect();
     let (short, long): (Vec<MultiPoly>, Vec<MultiPoly>) =
         rests.into_iter().partition(|rest| rest.terms().len() <= MOST_TERMS);
-    let mut basis = budget.enter(|| coprime(&short, |p| !p.is_constant()))?;
+    let mut basis = budget.enter(|| coprime(&short, &all_variables(&short)))?;
     basis.extend(long);
     let boundaries: Vec<Boundary> = budget.enter(|| {
         let divides = |part: &MultiPoly, rest: &MultiPoly| {
@@ -141,7 +145,8 @@ pub(super) fn moving_stable_set(
     Ok(StableSet::from_intervals(stable, brackets.collect()))
 }
 
-/// Functions with more terms are not divided into factors: a zero of even order then stays an undecided bracket.
+/// Functions with more terms that may have repeated factors are not divided into them: a zero of even order then stays an
+/// undecided bracket.
 const MOST_TERMS: usize = 120;
 
 /// The values that are tried for the beginning of the tail: powers of two from this one on.
@@ -182,6 +187,12 @@ impl SymbolicPolynomial {
         }
         Ok(None)
     }
+}
+
+/// All variables that occur.
+fn all_variables(polynomials: &[MultiPoly]) -> Vec<usize> {
+    let all: std::collections::BTreeSet<usize> = polynomials.iter().flat_map(MultiPoly::variables).collect();
+    all.into_iter().collect()
 }
 
 /// Without factors that are powers of exponentials, which are never zero.

@@ -8,7 +8,7 @@ use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly};
 use jurist_algebra::real::{Real, rational_between};
-use jurist_algebra::symbols::{SymbolicPoly, Symbols, merged};
+use jurist_algebra::symbols::{SymbolicPoly, Symbols, are_coprime_in, merged};
 use std::sync::Arc;
 
 /// A boundary condition and the polynomials over symbols it is made of.
@@ -142,10 +142,13 @@ fn boundaries(
         found.push((cause, polynomial));
     }
     let rests: Vec<MultiPoly> = found.iter().map(|(_, b)| b.rest().clone()).collect();
-    let basis = budget.enter(|| coprime(&rests, |p| p.degree_in(0) > 0))?;
+    let basis = budget.enter(|| coprime(&rests, &[0]))?;
     let mut boundaries = Vec::with_capacity(found.len());
     for (cause, polynomial) in found {
-        let divides = |part: &MultiPoly| polynomial.rest().div_exact(part).is_some();
+        let divides = |part: &MultiPoly| {
+            polynomial.rest() == part
+                || (!are_coprime_in(polynomial.rest(), part, 0) && polynomial.rest().gcd(part).degree_in(0) > 0)
+        };
         let parts = budget.enter(|| (0..basis.len()).filter(|&k| divides(&basis[k])).collect())?;
         boundaries.push(Boundary { cause, polynomial, parts });
     }
@@ -158,21 +161,24 @@ fn boundaries(
     Ok(Some((boundaries, parts)))
 }
 
-/// Square-free, pairwise coprime polynomials of which all given ones, square-free themselves, are products; those that may
-/// have zeros.
-pub(super) fn coprime(polynomials: &[MultiPoly], varies: impl Fn(&MultiPoly) -> bool) -> Vec<MultiPoly> {
+/// Square-free, pairwise coprime polynomials of which all given ones, square-free themselves, are products, as far as factors
+/// are concerned in which one of `unknowns` occurs.
+pub(super) fn coprime(polynomials: &[MultiPoly], unknowns: &[usize]) -> Vec<MultiPoly> {
+    let varies = |p: &MultiPoly| unknowns.iter().any(|&j| p.degree_in(j) > 0);
     let mut basis: Vec<MultiPoly> = Vec::new();
     for p in polynomials {
         let mut part = p.clone();
         let mut k = 0;
         while k < basis.len() && varies(&part) {
-            let common = part.gcd(&basis[k]).primitive_over_integers();
-            if varies(&common) {
-                let rest = basis[k].div_exact(&common).expect("a gcd divides");
-                part = part.div_exact(&common).expect("a gcd divides");
-                basis[k] = common;
-                if varies(&rest) {
-                    basis.push(rest);
+            if !unknowns.iter().all(|&j| are_coprime_in(&part, &basis[k], j)) {
+                let common = part.gcd(&basis[k]).primitive_over_integers();
+                if varies(&common) {
+                    let rest = basis[k].div_exact(&common).expect("a gcd divides");
+                    part = part.div_exact(&common).expect("a gcd divides");
+                    basis[k] = common;
+                    if varies(&rest) {
+                        basis.push(rest);
+                    }
                 }
             }
             k += 1;
