@@ -8,6 +8,7 @@
 mod boundary;
 mod cause;
 mod conditions;
+pub mod dead_time;
 mod half_size;
 mod interval_set;
 mod jury;
