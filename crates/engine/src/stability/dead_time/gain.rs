@@ -66,6 +66,13 @@ pub struct GainCells {
     pub right: Vec<Option<usize>>,
 }
 
+impl GainCells {
+    /// One cell of values that all have the same roots.
+    pub(crate) fn constant(is_stable: bool) -> GainCells {
+        GainCells { points: Vec::new(), right: vec![is_stable.then_some(0)] }
+    }
+}
+
 impl GainLoop {
     /// The loop of the parts with and without the parameter, as many of each, at a positive dead time.
     ///
@@ -114,8 +121,10 @@ impl GainLoop {
         if count.inside < count.total() {
             return None;
         }
-        let divide = |list: &[UniPoly]| list.iter().map(|p| p.div_exact(&content).expect("the content divides"));
-        Some(GainLoop { a: divide(&self.a).collect(), b: divide(&self.b).collect(), tau: self.tau.clone() })
+        let divide = |list: &[UniPoly]| -> Vec<UniPoly> {
+            list.iter().map(|p| p.div_exact(&content).expect("the content divides")).collect()
+        };
+        Some(GainLoop { a: divide(&self.a), b: divide(&self.b), tau: self.tau.clone() })
     }
 }
 
@@ -136,6 +145,22 @@ impl GainLoop {
 /// # Errors
 /// [`NotSolved`].
 pub fn gain_cells(gain: &GainLoop, range: &Range, budget: &Budget) -> Result<Result<GainCells, Never>, NotSolved> {
+    match direct_cells(gain, range, budget) {
+        // A time constant in the highest power of s, say, whose reciprocal enters as a gain does.
+        Err(reason @ (NotSolved::Unbounded | NotSolved::Neutral)) => match inverse_cells(gain, range, budget) {
+            Err(NotSolved::Unbounded | NotSolved::Neutral) => Err(reason),
+            other => other,
+        },
+        other => other,
+    }
+}
+
+/// [`gain_cells`] by the parameter itself.
+pub(super) fn direct_cells(
+    gain: &GainLoop,
+    range: &Range,
+    budget: &Budget,
+) -> Result<Result<GainCells, Never>, NotSolved> {
     budget.step("quasi-polynomial");
     let Some(gain) = budget.enter(|| gain.without_fixed_roots())? else { return Ok(Err(Never::FixedRoot)) };
     let sum = |list: &[UniPoly]| list.iter().fold(Integer::ZERO, |sum, p| sum + p.coeff(0));
