@@ -31,6 +31,7 @@ mod models {
 /// Whole loops in one parameter, beyond what the corpus says of them.
 mod loops {
     mod corridor;
+    mod dead_time;
     mod drive;
     mod examples;
     mod large;

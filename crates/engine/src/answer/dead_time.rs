@@ -7,9 +7,12 @@ use crate::stability::dead_time::{
     Crossing, DelayCells, GainCells, GainLoop, Happening, NotCounted, NotSolved, count_delayed_roots, delay_cells,
     gain_cells,
 };
-use crate::stability::{Cause, Causes, ComplexPair, End, Range, Shape, StableInterval, StableSet, zeros_in};
+use crate::stability::{
+    Cause, Causes, ComplexPair, End, HalfSizePair, Range, Shape, StableInterval, StableSet, zeros_in,
+};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Rational, Sign};
+use jurist_algebra::poly::{Domain, UniPoly};
 use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -108,6 +111,41 @@ fn domain_end(value: &Rational) -> End {
     End::new(value.clone(), causes, None)
 }
 
+/// Adds the roots of a polynomial on the imaginary axis to what happens at an end: `s = 0`, and the pair of lowest
+/// frequency.
+fn note_axis(end: &mut End, p: &UniPoly, budget: &Budget) -> Result<(), Exhausted> {
+    if p.is_constant() {
+        return Ok(());
+    }
+    if p.coeff(0).is_zero() {
+        end.causes.insert(Cause::RootAtZero);
+    }
+    let pair = HalfSizePair::new(p, p.degree().unwrap_or(1), Shape::LeftHalfPlane);
+    let common = budget.enter(|| pair.a.gcd(&pair.b))?;
+    let below_zero = Range { lower: None, upper: Some(Rational::ZERO) };
+    if let Some(lowest) = zeros_in(&common, &below_zero, budget)?.pop() {
+        end.causes.insert(Cause::ComplexPair);
+        end.pair = Some(ComplexPair::at_half_size_root(Shape::LeftHalfPlane, Real::from(lowest)));
+    }
+    Ok(())
+}
+
+/// The end of the domain of a gain, with the roots that are on the axis there.
+fn domain_end_of_gain(gain: &GainLoop, value: &Rational, budget: &Budget) -> Result<End, Exhausted> {
+    let mut end = domain_end(value);
+    let Some(p) = gain.at(value) else { return Ok(end) };
+    note_axis(&mut end, &p.content(), budget)?;
+    if p.without_delay().coeff(0).is_zero() {
+        end.causes.insert(Cause::RootAtZero);
+    }
+    if p.order() < gain.order() {
+        end.causes.insert(Cause::DegreeLost);
+    } else if !budget.enter(|| p.has_stable_difference())? {
+        end.causes.insert(Cause::Neutral);
+    }
+    Ok(end)
+}
+
 /// A dead time that is free: all its windows.
 fn windows(
     delayed: &DelayedLoop,
@@ -132,18 +170,21 @@ fn windows(
     let DelayCells { switches, right, touching_for_ever, .. } = &cells;
     if *touching_for_ever && right.last() == Some(&0) {
         let message = "roots touch the imaginary axis at infinitely many dead times, and cross it nowhere";
-        return Err(refused(message, "give the domain an upper end, --domain NAME=0..10: the touches below it are listed"));
+        return Err(refused(
+            message,
+            "give the domain an upper end, --domain NAME=0..10: the touches below it are listed",
+        ));
     }
     let to_parameter = |tau: &Rational| (tau - offset) / slope;
-    let mut ends: Vec<Option<End>> = vec![Some(domain_end(&to_parameter(&lower)))];
+    let mut first = domain_end(&to_parameter(&lower));
+    if lower.is_zero() {
+        note_axis(&mut first, &p.without_delay(), budget)?;
+    }
+    let mut ends: Vec<Option<End>> = vec![Some(first)];
     for switch in switches {
         let (crossing, turns) = &switch.members[0];
-        let time = SwitchTime {
-            crossing: Arc::clone(crossing),
-            turns: *turns,
-            slope: slope.clone(),
-            offset: offset.clone(),
-        };
+        let time =
+            SwitchTime { crossing: Arc::clone(crossing), turns: *turns, slope: slope.clone(), offset: offset.clone() };
         let lowest = switch.members.iter().map(|(c, _)| c).max_by(|a, b| a.half_size_root().cmp(b.half_size_root()));
         let pair = lowest
             .map(|c| ComplexPair::at_half_size_root(Shape::LeftHalfPlane, Real::from(c.half_size_root().clone())));
@@ -179,15 +220,16 @@ fn gains(
             None => false,
         };
         let cells = GainCells::constant(stable);
-        return assembled(delayed, cells, domain, budget);
+        return assembled(delayed, gain, cells, domain, budget);
     }
     match gain_cells(gain, domain, budget) {
-        Ok(Ok(cells)) => assembled(delayed, cells, domain, budget),
+        Ok(Ok(cells)) => assembled(delayed, gain, cells, domain, budget),
         Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::NotCounted(reason)) => Err(not_counted(reason)),
         Err(NotSolved::Unbounded) => {
             let name = &problem.parameter().name;
-            let message = format!("'{name}' enters in several terms with different dead times, and its domain has no end");
+            let message =
+                format!("'{name}' enters in several terms with different dead times, and its domain has no end");
             Err(refused(message, format!("give the domain both ends: --domain {name}=LO..HI")))
         }
         Err(NotSolved::Neutral) => Err(undecided("the difference operator depends on the parameter, or is too large")),
@@ -201,18 +243,20 @@ fn gains(
 /// The cells cut at the poles as well, with their causes.
 fn assembled(
     delayed: &DelayedLoop,
+    gain: &GainLoop,
     cells: GainCells,
     domain: &Range,
     budget: &Budget,
 ) -> Result<StableSet, Error> {
-    let mut ends: Vec<Option<End>> = vec![domain.lower.as_ref().map(domain_end)];
+    let own = |end: &Option<Rational>| end.as_ref().map(|x| domain_end_of_gain(gain, x, budget)).transpose();
+    let mut ends: Vec<Option<End>> = vec![own(&domain.lower)?];
     ends.extend(cells.points.iter().map(|point| {
         let (mut causes, mut pair) = (Causes::default(), None);
         note(&point.happening, &mut causes, &mut pair, budget);
         let pair = pair.map(ComplexPair::at_angular_frequency);
         Some(End::new(point.value.clone(), causes, pair))
     }));
-    ends.push(domain.upper.as_ref().map(domain_end));
+    ends.push(own(&domain.upper)?);
     let mut stable: Vec<bool> = cells.right.iter().map(|count| *count == Some(0)).collect();
     for pole in delayed.poles() {
         for zero in zeros_in(pole, domain, budget)? {

@@ -3,6 +3,7 @@
 //! Whoever shows, proves or draws an answer reads it; nothing is decided or isolated again.
 
 mod analysis;
+mod dead_time;
 mod frequency;
 mod map;
 mod map_boxes;
@@ -17,7 +18,7 @@ pub use map::Map;
 pub use map_boxes::{BoxRequest, MapBoxes, MapMethod, MapOrBoxes};
 pub use map_limits::{MapLimit, RegionExtent};
 pub use table::{ParametricTable, PointTable};
-pub use verdict::{PointVerdict, Verdict};
+pub use verdict::{DelayedRoots, PointVerdict, Verdict};
 
 use crate::problem::Problem;
 use std::sync::Arc;

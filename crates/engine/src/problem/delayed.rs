@@ -58,8 +58,7 @@ impl DelayedLoop {
         let (delay, powers) = base_delay(&delays)?;
         let power_of = |variable: usize| delays.iter().position(|(v, _)| *v == variable).map(|i| powers[i]);
         budget.enter(|| {
-            let leading = algebra.delayed_leading();
-            let mut scaled: Vec<RationalFunction> = polynomial.coefficients.iter().map(|c| c * leading).collect();
+            let mut scaled = polynomial.coefficients.clone();
             let mut common = MultiPoly::one();
             for f in &scaled {
                 let d = f.denominator();

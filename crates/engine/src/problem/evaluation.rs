@@ -56,7 +56,12 @@ impl Algebra {
             }
             Err(failure) => return Err(failure),
         };
-        let Evaluated { polynomial, closed_loop, sample_time, symbols } = evaluated;
+        let Evaluated { mut polynomial, closed_loop, sample_time, symbols } = evaluated;
+        if let Some(closed_loop) = closed_loop.as_ref().filter(|_| !symbols.delays().is_empty()) {
+            // The monic polynomial would divide by functions of s.
+            polynomial.coefficients.iter_mut().for_each(|c| *c = &*c * &closed_loop.leading);
+            polynomial.monic = false;
+        }
         let polynomial = match bound {
             None => polynomial,
             Some(at) => make_room(polynomial, at, problem.region().bound_name()),

@@ -1,6 +1,7 @@
 //! A question resolved: every name known, every value in its place, the algebra computed once.
 
 use super::Region;
+use super::delayed::{DelayedLoop, refused};
 use super::evaluation::{Algebra, parametric};
 use crate::error::{Diagnostic, Error};
 use crate::model::{ClosedLoop, Model, Time};
@@ -66,6 +67,7 @@ pub struct Problem {
     algebra: OnceLock<Algebra>,
     parametric: OnceLock<Option<ParametricPolynomial>>,
     plane: OnceLock<Option<PlanePolynomial>>,
+    delayed: OnceLock<Option<DelayedLoop>>,
 }
 
 impl Problem {
@@ -77,7 +79,8 @@ impl Problem {
         warnings: Vec<Diagnostic>,
     ) -> Problem {
         let (algebra, parametric, plane) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        Problem { model, set, free, region, warnings, algebra, parametric, plane }
+        let delayed = OnceLock::new();
+        Problem { model, set, free, region, warnings, algebra, parametric, plane, delayed }
     }
 
     /// The model.
@@ -151,6 +154,10 @@ impl Problem {
         if algebra.symbols().is_empty() {
             return Ok(algebra);
         }
+        if !algebra.symbols().delays().is_empty() {
+            let help = "known of it: verdict, intervals of one parameter, analyze, charpoly";
+            return Err(refused("this cannot be asked of a loop with dead time yet", help));
+        }
         let error =
             Diagnostic::error("E-function", "the loop is not rational: this question cannot be asked of it yet");
         let list: Vec<String> =
@@ -186,6 +193,20 @@ impl Problem {
     /// As [`Problem::algebra`]; `E-no-states` for a model given by its characteristic polynomial, [`Error::Undefined`].
     pub fn closed_loop(&self, budget: &Budget) -> Result<&ClosedLoop, Error> {
         self.algebra(budget)?.closed_loop(&self.model)
+    }
+
+    /// The characteristic function of a loop with dead time; `None` for any other loop.
+    ///
+    /// Cost: that of [`Problem::algebra_over_symbols`]; on the first call also a common denominator.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`]; `E-dead-time` for what cannot be treated.
+    pub fn delayed(&self, budget: &Budget) -> Result<Option<&DelayedLoop>, Error> {
+        if let Some(delayed) = self.delayed.get() {
+            return Ok(delayed.as_ref());
+        }
+        let delayed = DelayedLoop::of(self, self.algebra_over_symbols(budget)?, budget)?;
+        Ok(self.delayed.get_or_init(|| delayed).as_ref())
     }
 
     /// The polynomial in the one free parameter (or none) in the form that is decided; `None` where the loop is undefined

@@ -97,7 +97,8 @@ impl GainLoop {
         QuasiPolynomial::new(parts.collect())
     }
 
-    pub(super) fn order(&self) -> usize {
+    /// The highest power of `s`, whatever the parameter is.
+    pub fn order(&self) -> usize {
         self.a.iter().chain(&self.b).filter_map(UniPoly::degree).max().unwrap_or(0)
     }
 

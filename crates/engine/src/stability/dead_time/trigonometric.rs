@@ -166,11 +166,6 @@ impl Zeros {
         Zeros { jet: Arc::new(Jet::new(form)), at, step: Step(-(e as i64)) }
     }
 
-    /// Where the walk has come to: all zeros up to here have been given.
-    pub fn reached(&self) -> Rational {
-        self.at.rational()
-    }
-
     /// The next zero that begins below a bound; `None` once the walk has come to the bound.
     pub fn next_below(&mut self, bound: &Rational, budget: &Budget) -> Result<Option<AxisZero>, Exhausted> {
         while self.at.rational() < *bound {
