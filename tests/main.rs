@@ -6,6 +6,7 @@ mod helpers;
 /// Laws of the algebra and of stability, on generated input: every algorithm against a second one.
 mod laws {
     mod cancelled;
+    mod dead_time;
     mod fast_algebra;
     mod fast_isolation;
     mod fuzz_corpus;

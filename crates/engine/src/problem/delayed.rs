@@ -137,7 +137,7 @@ impl DelayedLoop {
     /// The loop with the free parameter as a gain; `None` unless it enters affinely and the dead time is a number.
     pub fn gain_loop(&self) -> Option<GainLoop> {
         let BaseDelay::Number(tau) = &self.delay else { return None };
-        if self.degree_in_parameter() > 1 {
+        if self.degree_in_parameter() > 1 || self.parts.is_empty() {
             return None;
         }
         let part = |k: usize| {

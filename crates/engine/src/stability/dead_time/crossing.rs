@@ -60,7 +60,8 @@ pub(super) fn crossings(p: &QuasiPolynomial, budget: &Budget) -> Result<Vec<Cros
     let motion = Motion::of(p, pair);
     let zero = Rational::ZERO;
     let mut out = Vec::new();
-    let Some(candidates) = budget.enter(|| SquareFree::part_of(&eliminated))? else { return Ok(out) };
+    let candidates = budget.enter(|| SquareFree::part_of(&eliminated))?;
+    let candidates = candidates.expect("the resultant of a loop with a stable difference operator is not zero");
     for w in isolate_real_roots_in(&candidates, None, Some(&zero), budget)? {
         budget.check()?;
         let places = budget.enter(|| {
