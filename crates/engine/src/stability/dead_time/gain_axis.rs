@@ -199,7 +199,8 @@ impl Axis {
                     let mut zeros = Zeros::new(form.clone());
                     let mut quiet = true;
                     while let Some(zero) = zeros.next_below(&hi, budget)? {
-                        quiet &= zero.hi < lo;
+                        let (first, last) = budget.enter(|| zero.refined(bits, None))?;
+                        quiet &= last < lo || first > hi;
                     }
                     quiet
                 }
