@@ -320,3 +320,6 @@ fn note(happening: &Happening, causes: &mut Causes, pair: &mut Option<Real>, bud
         Happening::Several(all) => all.iter().for_each(|one| note(one, causes, pair, budget)),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -93,8 +93,16 @@ impl Axis {
 
     /// By how much the number of roots to the right grows as the parameter grows through the value at a zero: the sign of
     /// `Im(A conj B)` before and behind tells.
-    pub(super) fn change(&self, zero: &AxisZero) -> i64 {
-        match (self.sign(&zero.lo), self.sign(&zero.hi)) {
+    ///
+    /// The bracket is narrowed until none of the algebraic frequencies at which `Im(A conj B)` vanishes, too, is in it.
+    pub(super) fn change(&self, zero: &AxisZero, fixed: &[RealAlgebraic]) -> i64 {
+        let (mut lo, mut hi) = (zero.lo.clone(), zero.hi.clone());
+        let mut bits = 8;
+        while fixed.iter().any(|w| w.compare_rational(&lo).is_ge() && w.compare_rational(&hi).is_le()) {
+            (lo, hi) = zero.refined(bits, Some((lo, hi)));
+            bits *= 2;
+        }
+        match (self.sign(&lo), self.sign(&hi)) {
             (Sign::Greater, Sign::Less) => 2,
             (Sign::Less, Sign::Greater) => -2,
             _ => 0,

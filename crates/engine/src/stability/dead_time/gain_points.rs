@@ -8,6 +8,7 @@ use super::windows::Never;
 use crate::stability::Range;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::real::{Real, Transcendental};
 use std::sync::Arc;
 
@@ -98,7 +99,8 @@ pub(super) fn crossings_of_gain(
     }
     let mut points = Vec::new();
     let (content, form) = budget.enter(|| axis.form())?;
-    for omega in algebraic_frequencies(&content, budget)? {
+    let fixed = algebraic_frequencies(&content, budget)?;
+    for omega in fixed.iter().cloned() {
         match axis.fixed_frequency(&omega, budget)? {
             Fixture::Never => return Ok(Err(Never::FixedRoot)),
             Fixture::NoGain => {}
@@ -113,7 +115,7 @@ pub(super) fn crossings_of_gain(
     }
     let axis = Arc::new(axis);
     let Some(form) = form else { return Ok(Ok((points, Beyond::default()))) };
-    let mut walk = Walk { zeros: Zeros::new(form), axis: &axis, points, budget };
+    let mut walk = Walk { zeros: Zeros::new(form), axis: &axis, fixed: &fixed, points, budget };
     if let (Some(low), Some(high)) = (&range.lower, &range.upper)
         && let Some(limit) = gain.frequency_bound(&low.abs().max(high.abs()))
     {
@@ -200,6 +202,8 @@ fn within(
 struct Walk<'a> {
     zeros: Zeros,
     axis: &'a Arc<Axis>,
+    /// Algebraic frequencies at which `Im(A conj B)` vanishes, too.
+    fixed: &'a [RealAlgebraic],
     points: Vec<GainPoint>,
     budget: &'a Budget,
 }
@@ -208,7 +212,7 @@ impl Walk<'_> {
     fn up_to(&mut self, limit: &Rational) -> Result<(), Exhausted> {
         self.budget.step("crossings of the imaginary axis");
         while let Some(zero) = self.zeros.next_below(limit, self.budget)? {
-            let change = self.budget.enter(|| self.axis.change(&zero))?;
+            let change = self.budget.enter(|| self.axis.change(&zero, self.fixed))?;
             let zero = Arc::new(zero);
             let value = GainAt { axis: Arc::clone(self.axis), zero: Arc::clone(&zero) };
             let value = Real::from(Transcendental::new(value));
