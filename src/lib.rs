@@ -76,7 +76,7 @@ pub use jurist_engine::show::documents;
 pub use jurist_engine::show::notation::Notation;
 pub use jurist_engine::stability::{
     AlgebraicInterval, Boundary, Cause, Causes, ClassicalTest, ComplexPair, Condition, End, HalfSizePair, IntervalSet,
-    JuryTable, ParametricPolynomial, Range, RootCount, RouthTable, Shape, StableInterval, StableSet,
+    JuryTable, ParametricPolynomial, Range, RootCount, RouthTable, Shape, StableInterval, StableSet, UndecidedBracket,
     boundary_polynomials, classical_test, count_roots, is_hurwitz_routh, is_schur_jury, is_stable, jury_table,
     routh_table, stable_set,
 };
@@ -91,6 +91,7 @@ pub use jurist_algebra::poly::{
     Domain, Monomial, MultiPoly, Poly, RationalFunction, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots,
     isolate_real_roots_in,
 };
+pub use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
 // Certificates, checked by code of their own.
 pub use jurist_check::{Limits, Proved, Rejection, Step, check};
 

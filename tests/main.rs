@@ -80,6 +80,7 @@ mod pictures {
 /// The program as people and other programs see it.
 mod program {
     mod bad_models;
+    mod beginning;
     mod documents;
     mod drive;
     #[cfg(unix)]

@@ -61,7 +61,11 @@ pub(super) enum Command {
     /// Re-checks a certificate against a model, with code that shares nothing with the engine
     #[command(mut_arg("timeout", |timeout| timeout.help("Rejects the certificate after this time, with exit status 4")))]
     Verify(commands::verify::Options),
-    /// What an error code means
+    /// Only reads a model: every mistake with its place
+    Check(commands::check::Options),
+    /// A commented model file to begin with
+    New(commands::new::Options),
+    /// What an error code or a word of the answers means
     Explain(commands::explain::Options),
     /// A completion script for a shell
     Completions(commands::completions::Options),

@@ -65,9 +65,15 @@ impl CommandLine {
         CommandLine { arguments, shown, source: Source::new("<command line>", text) }
     }
 
-    /// The arguments as they came, the program's name first.
-    pub fn arguments(&self) -> &[OsString] {
-        &self.arguments
+    /// The arguments, the program's name first, with the command 'analyze' where there is only a model: `jurist loop.toml`.
+    pub fn arguments(&self) -> Vec<OsString> {
+        let mut arguments = self.arguments.clone();
+        let definition = Arguments::command();
+        let is_command = |a: &OsString| definition.get_subcommands().any(|c| a == c.get_name());
+        if arguments.get(1).is_some_and(|first| is_model_file(first) && !is_command(first)) {
+            arguments.insert(1, "analyze".into());
+        }
+        arguments
     }
 
     /// The text that spans refer to.
@@ -152,8 +158,7 @@ impl CommandLine {
             return None;
         }
         if let Some(word) = text(ContextKind::InvalidSubcommand) {
-            let is_file = word == "-" || word.ends_with(".toml") || word.contains('/');
-            return is_file.then(|| format!("to ask about a model, name a command: 'jurist analyze {word}'"));
+            return meant(word).map(str::to_owned);
         }
         let option = text(ContextKind::InvalidArg)?.split([' ', '=']).next()?;
         let takes = |c: &&clap::Command| {
@@ -226,9 +231,67 @@ impl Shown {
     }
 }
 
+/// Whether an argument can only be the name of a model file: standard input, a path, or a file in TOML.
+fn is_model_file(argument: &OsString) -> bool {
+    let text = argument.to_string_lossy();
+    text == "-" || (!text.starts_with('-') && (text.ends_with(".toml") || text.contains(['/', '\\'])))
+}
+
+/// What does the work of a command of another program.
+fn meant(word: &str) -> Option<&'static str> {
+    Some(match word.to_ascii_lowercase().as_str() {
+        "margin" | "allmargin" | "gain-margin" | "gm" | "pm" | "stability_margins" => {
+            "gain margins stand beside each limit: 'jurist analyze MODEL', 'jurist intervals MODEL --param GAIN'"
+        }
+        "rlocus" | "root_locus" | "root-locus" => "the root locus: 'jurist locus MODEL --param NAME -o locus.svg'",
+        "step" | "impulse" | "lsim" | "stepinfo" | "response" => {
+            "a time response: 'jurist simulate MODEL -o response.svg'"
+        }
+        "c2d" | "zoh" | "tustin" | "discretize" => {
+            "a continuous block is made discrete in the model: 'discretize = { method = ..., T = ... }' in its [[block]]"
+        }
+        "poles" | "pole" | "roots" | "eig" | "pzmap" => {
+            "how many roots are inside: 'jurist verdict MODEL'; where: 'jurist locus'"
+        }
+        "hurwitz" | "routh" => "the Routh table of a continuous loop: 'jurist jury MODEL'",
+        "stable" | "isstable" => "one point: 'jurist verdict MODEL'; all values: 'jurist intervals MODEL --param NAME'",
+        "tf" | "transfer" | "feedback" => {
+            "a closed-loop transfer function: 'jurist charpoly MODEL --transfer INPUT OUTPUT'"
+        }
+        "interval" | "limits" | "range" => "the stable set of one parameter: 'jurist intervals MODEL --param NAME'",
+        "help" => "'jurist --help' lists the commands, 'jurist COMMAND --help' its options",
+        "init" | "template" | "example" => "a model file to begin with: 'jurist new'",
+        "lint" | "validate" => "every mistake of a model: 'jurist check MODEL'",
+        _ => return None,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_model_alone_is_analysed() {
+        for (arguments, analysed) in [
+            (&["loop.toml"][..], true),
+            (&["-", "--json"], true),
+            (&["./analyze"], true),
+            (&["verdict", "loop.toml"], false),
+            (&["loop"], false),
+            (&["--json"], false),
+            (&[], false),
+        ] {
+            let whole = line(arguments).arguments();
+            assert_eq!(whole.get(1).is_some_and(|a| a == "analyze") && whole.len() == arguments.len() + 2, analysed);
+        }
+    }
+
+    #[test]
+    fn no_command_of_other_programs_is_one_of_ours() {
+        for command in Arguments::command().get_subcommands() {
+            assert_eq!(meant(command.get_name()), None, "{}", command.get_name());
+        }
+    }
 
     fn line(arguments: &[&str]) -> CommandLine {
         CommandLine::new(std::iter::once("jurist").chain(arguments.iter().copied()).map(OsString::from))

@@ -82,7 +82,8 @@ impl<'a> Names<'a> {
                 names.inputs = vec![("the model", &o.model), ("the certificate", &o.certificate)];
                 names.answer(None);
             }
-            Some(Command::Paper(_) | Command::Explain(_) | Command::Completions(_)) => {}
+            Some(Command::Check(o)) => names.question(&o.model, &o.output),
+            Some(Command::New(_) | Command::Paper(_) | Command::Explain(_) | Command::Completions(_)) => {}
         }
         Ok(names)
     }

@@ -7,6 +7,7 @@ use super::output::plain;
 use jurist_engine::error::{Diagnostic, Diagnostics, Error, Span};
 use jurist_engine::model::Model;
 use jurist_engine::problem::{DECAY, Question, RADIUS, Region};
+use jurist_engine::show::layout::visible;
 use jurist_engine::stability::Range;
 use std::ffi::OsString;
 use std::fs::File;
@@ -17,7 +18,21 @@ const MAX_MODEL_BYTES: u64 = 64 << 20;
 
 /// Reads the model and shows its warnings.
 pub(super) fn load(model: Option<&OsString>, context: &Context) -> Result<Model, Error> {
-    let Some(path) = model else { return Ok(Model::drive()) };
+    if model.is_none() {
+        return Ok(Model::drive());
+    }
+    let (name, bytes) = read_model(model, context)?;
+    let (model, warnings) = Model::from_bytes(&name, &bytes)?;
+    context.warn(Some(model.source()), &warnings);
+    Ok(model)
+}
+
+/// The name and the bytes of a model file, or of the built-in drive.
+pub(super) fn read_model(model: Option<&OsString>, context: &Context) -> Result<(String, Vec<u8>), Error> {
+    let Some(path) = model else {
+        let drive = Model::drive();
+        return Ok((drive.source().name.clone(), drive.source().text.clone().into_bytes()));
+    };
     let (name, bytes) = if path == "-" {
         ("<stdin>".to_owned(), read_all(std::io::stdin().lock()))
     } else {
@@ -28,9 +43,7 @@ pub(super) fn load(model: Option<&OsString>, context: &Context) -> Result<Model,
         let message = format!("{name} is longer than {} megabytes", MAX_MODEL_BYTES >> 20);
         return Err(Diagnostic::error("E-read", message).into());
     }
-    let (model, warnings) = Model::from_bytes(&name, &bytes)?;
-    context.warn(Some(model.source()), &warnings);
-    Ok(model)
+    Ok((name, bytes))
 }
 
 fn read_all(from: impl Read) -> std::io::Result<Vec<u8>> {
@@ -108,6 +121,20 @@ pub(super) fn question(
         question = question.within(Region::half_plane(decay));
     }
     Ok(question)
+}
+
+/// The parameter of a model that has one, where the command line names none.
+pub(super) fn only_parameter(model: &Model) -> Result<String, Error> {
+    if let [only] = model.parameters() {
+        return Ok(only.name.clone());
+    }
+    let names: Vec<String> = model.parameters().iter().map(|p| format!("'--param {}'", visible(&p.name))).collect();
+    let help = match names.is_empty() {
+        true => "name a constant that is given as a number: '--param NAME'".to_owned(),
+        false => format!("the question is about one of them: {}", names.join(", ")),
+    };
+    let message = format!("the model has {} parameters, so one has to be named", names.len());
+    Err(Diagnostic::error("E-usage", message).help(help).into())
 }
 
 /// Refuses names that cannot vary; the caret points into the command line.

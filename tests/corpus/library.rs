@@ -6,6 +6,7 @@ use crate::helpers::corpus::{
 use crate::helpers::model::read;
 use crate::helpers::number::number;
 use jurist_algebra::limits::Budget;
+use jurist_algebra::poly::{Domain, UniPoly};
 use jurist_engine::problem::Problem;
 use jurist_engine::stability::End;
 
@@ -33,7 +34,7 @@ fn found_end(end: &End, problem: &Problem) -> FoundEnd {
     FoundEnd {
         exact: end.value.exact(),
         enclosure: [low, high],
-        polynomial: end.value.polynomial().clone(),
+        polynomial: end.value.algebraic().map_or_else(UniPoly::zero, |x| x.polynomial().clone()),
         causes: Some(end.causes.to_string()),
         frequencies: Some(frequencies),
     }

@@ -4,7 +4,7 @@ use super::number::ratio;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Poly, UniPoly};
 use jurist_draw::simulate::{Controller, Plant, Pulse, Pwm, SampledModel, SwitchedModel};
-use nalgebra::{DMatrix, dmatrix};
+use nalgebra::DMatrix;
 
 pub const R_A: f64 = 1.0;
 pub const L_A: f64 = 46e-3;
@@ -17,6 +17,10 @@ pub const K_II: f64 = 500.0;
 pub const K_PS: f64 = 1.0;
 pub const K_IS: f64 = 5.0;
 
+pub fn matrix<const R: usize, const C: usize>(rows: [[f64; C]; R]) -> DMatrix<f64> {
+    DMatrix::from_fn(R, C, |i, j| rows[i][j])
+}
+
 pub fn names(list: &[&str]) -> Vec<String> {
     list.iter().map(|s| s.to_string()).collect()
 }
@@ -25,16 +29,16 @@ pub fn names(list: &[&str]) -> Vec<String> {
 pub fn sampled_drive(k_pwm: f64, t: f64) -> SampledModel {
     let g = k_pwm * t / (L_A * E_SW);
     SampledModel {
-        transition: dmatrix![
-            1.0 - R_A * t / L_A, -K_A * t / L_A, g * K_PI, g * K_II, 0.0, 0.0;
-            K_A * t / INERTIA, 1.0 - B_V * t / INERTIA, 0.0, 0.0, 0.0, 0.0;
-            -1.0, 0.0, 0.0, 0.0, K_PS, K_IS;
-            -t / 2.0, 0.0, t / 2.0, 1.0, t / 2.0 * K_PS, t / 2.0 * K_IS;
-            0.0, -1.0, 0.0, 0.0, 0.0, 0.0;
-            0.0, -t / 2.0, 0.0, 0.0, t / 2.0, 1.0
-        ],
-        input: dmatrix![0.0, 0.0; 0.0, -t / INERTIA; 0.0, 0.0; 0.0, 0.0; 1.0, 0.0; t / 2.0, 0.0],
-        output: dmatrix![0.0, 0.0, K_PI, K_II, 0.0, 0.0],
+        transition: matrix([
+            [1.0 - R_A * t / L_A, -K_A * t / L_A, g * K_PI, g * K_II, 0.0, 0.0],
+            [K_A * t / INERTIA, 1.0 - B_V * t / INERTIA, 0.0, 0.0, 0.0, 0.0],
+            [-1.0, 0.0, 0.0, 0.0, K_PS, K_IS],
+            [-t / 2.0, 0.0, t / 2.0, 1.0, t / 2.0 * K_PS, t / 2.0 * K_IS],
+            [0.0, -1.0, 0.0, 0.0, 0.0, 0.0],
+            [0.0, -t / 2.0, 0.0, 0.0, t / 2.0, 1.0],
+        ]),
+        input: matrix([[0.0, 0.0], [0.0, -t / INERTIA], [0.0, 0.0], [0.0, 0.0], [1.0, 0.0], [t / 2.0, 0.0]]),
+        output: matrix([[0.0, 0.0, K_PI, K_II, 0.0, 0.0]]),
         feedthrough: DMatrix::zeros(1, 2),
         states: names(&["i_a", "omega", "eps_1i", "eps_2i", "eps_1s", "eps_2s"]),
         inputs: names(&["omega_ref", "T_L"]),
@@ -48,20 +52,20 @@ pub fn sampled_drive(k_pwm: f64, t: f64) -> SampledModel {
 /// The same drive as a circuit.
 pub fn switched_drive(k_pwm: f64, t: f64, pulse: Pulse) -> SwitchedModel {
     let plant = Plant {
-        matrix: dmatrix![-R_A / L_A, -K_A / L_A; K_A / INERTIA, -B_V / INERTIA],
-        source: dmatrix![1.0 / L_A; 0.0],
-        input: dmatrix![0.0, 0.0; 0.0, -1.0 / INERTIA],
+        matrix: matrix([[-R_A / L_A, -K_A / L_A], [K_A / INERTIA, -B_V / INERTIA]]),
+        source: matrix([[1.0 / L_A], [0.0]]),
+        input: matrix([[0.0, 0.0], [0.0, -1.0 / INERTIA]]),
     };
     let controller = Controller {
-        transition: dmatrix![
-            0.0, 0.0, K_PS, K_IS;
-            t / 2.0, 1.0, t / 2.0 * K_PS, t / 2.0 * K_IS;
-            0.0, 0.0, 0.0, 0.0;
-            0.0, 0.0, t / 2.0, 1.0
-        ],
-        from_plant: dmatrix![-1.0, 0.0; -t / 2.0, 0.0; 0.0, -1.0; 0.0, -t / 2.0],
-        from_input: dmatrix![0.0, 0.0; 0.0, 0.0; 1.0, 0.0; t / 2.0, 0.0],
-        output: dmatrix![K_PI, K_II, 0.0, 0.0],
+        transition: matrix([
+            [0.0, 0.0, K_PS, K_IS],
+            [t / 2.0, 1.0, t / 2.0 * K_PS, t / 2.0 * K_IS],
+            [0.0, 0.0, 0.0, 0.0],
+            [0.0, 0.0, t / 2.0, 1.0],
+        ]),
+        from_plant: matrix([[-1.0, 0.0], [-t / 2.0, 0.0], [0.0, -1.0], [0.0, -t / 2.0]]),
+        from_input: matrix([[0.0, 0.0], [0.0, 0.0], [1.0, 0.0], [t / 2.0, 0.0]]),
+        output: matrix([[K_PI, K_II, 0.0, 0.0]]),
         direct_plant: DMatrix::zeros(1, 2),
         direct_input: DMatrix::zeros(1, 2),
     };

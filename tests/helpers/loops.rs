@@ -3,7 +3,7 @@
 use super::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::real::Real;
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
 use jurist_engine::stability::StableSet;
@@ -20,7 +20,7 @@ pub fn stable_set_of(question: Question) -> StableSet {
 
 /// Asserts that an irrational number is a simple zero of a function given in exact arithmetic: it
 /// changes sign within 1e-40.
-pub fn assert_changes_sign(value: &RealAlgebraic, f: impl Fn(&Rational) -> Rational) {
+pub fn assert_changes_sign(value: &Real, f: impl Fn(&Rational) -> Rational) {
     let (lo, hi) = value.refined(&number("1e-40")).enclosure();
     assert!(lo < hi, "{lo} is rational");
     assert_ne!(f(&lo).sign(), f(&hi).sign(), "no change of sign at {}", value.decimal(15));

@@ -9,6 +9,6 @@ fn jury_conditions_intersect_in_the_stable_set() {
         let answer = Model::drive().ask().free(parameter).parametric_table(&Budget::unlimited()).unwrap();
         let test = answer.value().test.as_ref().unwrap();
         assert_eq!(test.conditions.len(), 7);
-        assert!(test.intersection.same_as(&answer.value().stable.to_interval_set()));
+        assert!(test.intersection.same_as(&answer.value().stable.to_interval_set().unwrap()));
     }
 }

@@ -67,7 +67,7 @@ fn order_twenty_with_two_parameters() {
         assert_eq!(set.intervals().len(), 1, "{parameter}");
         // The sample in the middle is stable, the ends are not, by the exact count.
         let p = problem.parametric(&budget).unwrap().unwrap();
-        let bare = set.to_interval_set();
+        let bare = set.to_interval_set().unwrap();
         let i = &bare.intervals()[0];
         assert!(p.is_stable_at(&i.sample(), problem.shape()));
     }

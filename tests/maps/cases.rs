@@ -166,7 +166,7 @@ fn an_isolated_point_is_not_stable_and_does_not_split() {
     // x = 0 is a wall between strips: there the exact set in y has a hole.
     let set =
         jurist_engine::stability::stable_set(&p.at_x(&number("0")).unwrap(), &Range::all(), Shape::UnitDisc, &budget);
-    let set = set.unwrap().to_interval_set();
+    let set = set.unwrap().to_interval_set().unwrap();
     assert_eq!(set.intervals().len(), 2);
     assert!(!set.contains(&number("0")) && set.contains(&number("1e-9")));
 }

@@ -73,7 +73,7 @@ proptest! {
         let m = map(&p, &domain, region);
         for x in xs.iter().filter(|x| domain[0].contains(x)) {
             let Some(one) = p.at_x(x) else { continue };
-            let set = stable_set(&one, &domain[1], region, &budget).unwrap().to_interval_set();
+            let set = stable_set(&one, &domain[1], region, &budget).unwrap().to_interval_set().unwrap();
             if m.never_stable {
                 prop_assert!(set.intervals().is_empty());
             } else if let Some(slice) = m.slice(x, &domain[1], &budget).unwrap() {

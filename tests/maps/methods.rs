@@ -143,7 +143,7 @@ fn exact_maps_of_filtered_drives() {
         let at = number("1e-4");
         let slice = exact.slice(&at, &problem.axes()[1].domain, &budget).unwrap().unwrap();
         let one = generated.ask().free("K_pwm").stable_set(&budget).unwrap();
-        assert!(slice.same_as(&one.value().to_interval_set()));
+        assert!(slice.same_as(&one.value().to_interval_set().unwrap()));
     }
 }
 

@@ -10,7 +10,7 @@ use jurist_drive::{chopper, drive_blocks, pwm_signal, tracker};
 use jurist_engine::answer::Verdict;
 use jurist_engine::error::Error;
 use jurist_engine::model::{Model, Time};
-use nalgebra::dvector;
+use nalgebra::DVector;
 
 fn small_panel() -> Panel {
     Panel {
@@ -129,7 +129,7 @@ fn the_block_model_gives_the_circuit_and_the_matrix_model_the_sampled_loop() {
     let [blocks, drive] = [blocks, Model::drive()].map(|model| model.ask().problem().unwrap());
     let circuit = SwitchedModel::from_loop(&blocks, Pulse::Beginning, &budget).unwrap();
     let expected = switched_drive(110.0, 1e-4, Pulse::Beginning);
-    let r = dvector![80.0, 0.0];
+    let r = DVector::from_vec(vec![80.0, 0.0]);
     let (a, b) = (circuit.periodic_steady_state(&r).unwrap(), expected.periodic_steady_state(&r).unwrap());
     assert!((a.state.plant - b.state.plant).norm() < 1e-9);
     assert_eq!(circuit.plant_states(), ["i_a", "omega"]);

@@ -7,7 +7,7 @@ use jurist_drive::document::Main;
 use jurist_engine::error::Source;
 use jurist_engine::model::Model;
 use jurist_engine::show::documents::{
-    Analysis, Charpoly, Intervals, Jury, Map, MapBoxes, RootLocusForm, Transfer, Verdict,
+    Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, RootLocusForm, Transfer, Verdict,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -34,6 +34,7 @@ fn read_and_written(document: &Value) -> Result<Value, String> {
     match document["schema"].as_str().expect("a schema") {
         "jurist/analyze/1" => through::<Analysis>(document),
         "jurist/charpoly/1" => through::<Charpoly>(document),
+        "jurist/check/1" => through::<Check>(document),
         "jurist/intervals/1" => through::<Intervals>(document),
         "jurist/jury/1" => through::<Jury>(document),
         "jurist/locus/1" => through::<Locus>(document),
@@ -68,9 +69,10 @@ fn every_document_of_the_examples_fits_its_schema() {
 }
 
 /// Commands that together write every kind of document, and every form of it.
-const FORMS: [&[&str]; 25] = [
+const FORMS: [&[&str]; 26] = [
     &[],
     &["analyze"],
+    &["check"],
     &["charpoly", "--digits", "5"],
     &["charpoly", "--root-locus-form", "K_pwm"],
     &["charpoly", "examples/drive-blocks.toml", "--transfer", "omega_ref", "omega"],

@@ -65,8 +65,8 @@ fn usage_names_the_program_and_the_command_that_was_meant() {
     assert!(run.stderr.contains("'jurist analyze --set ...'") && run.stderr.contains("verdict"), "{}", run.stderr);
     let run = refused(&["--param", "K_pwm"], "E-usage");
     assert!(run.stderr.contains("'jurist intervals --param ...'"), "{}", run.stderr);
-    let run = refused(&["model.toml"], "E-usage");
-    assert!(run.stderr.contains("'jurist analyze model.toml'"), "{}", run.stderr);
+    let run = refused(&["model.toml"], "E-read");
+    assert!(run.stderr.contains("model.toml"), "{}", run.stderr);
 }
 
 #[test]

@@ -3,10 +3,10 @@
 use crate::helpers::budget::{cancelled_after, spent};
 use crate::helpers::drive::{E_SW, K_A, L_A, names, sampled_drive, switched_drive};
 use jurist_draw::simulate::{Excitation, Pulse, Record, Step, SwitchedModel, SwitchedState, eigenvalues, growth_limit};
-use nalgebra::{DMatrix, DVector, dvector};
+use nalgebra::{DMatrix, DVector};
 
 fn inputs() -> DVector<f64> {
-    dvector![80.0, 0.0]
+    DVector::from_vec(vec![80.0, 0.0])
 }
 
 fn reference_step() -> Excitation {

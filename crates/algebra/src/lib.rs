@@ -7,7 +7,10 @@
 //! |---|---|
 //! | [`limits`] | budgets, cancellation and progress |
 //! | [`number`] | exact integers and rationals, parsing, correctly rounded printing, certified enclosures |
+//! | [`ball`] | interval arithmetic in fixed point, exponentials of matrices |
 //! | [`poly`] | polynomials in one and many variables, gcd, resultants, real root isolation, real algebraic numbers |
+//! | [`real`] | real numbers of any kind: algebraic, or known by enclosures of any width |
+//! | [`symbols`] | constants such as `exp(-1/2)` as variables of polynomials, with a test for zero |
 //! | [`matrix`] | matrices over any domain, determinants, characteristic polynomials |
 //!
 //! # Budgets
@@ -26,7 +29,10 @@
 
 #[doc = include_str!("bibliography.md")]
 pub mod bibliography {}
+pub mod ball;
 pub mod limits;
 pub mod matrix;
 pub mod number;
 pub mod poly;
+pub mod real;
+pub mod symbols;

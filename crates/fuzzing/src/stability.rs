@@ -71,6 +71,6 @@ pub fn interval_answer(data: &[u8]) {
         }
     }
     if let Ok(test) = classical_test(&p, &range, region, &budget) {
-        assert!(test.intersection.same_as(&set.to_interval_set()));
+        assert!(test.intersection.same_as(&set.to_interval_set().unwrap()));
     }
 }

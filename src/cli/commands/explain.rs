@@ -1,28 +1,32 @@
-//! `jurist explain`: what an error code means.
+//! `jurist explain`: what an error code or a word of the answers means.
 
 use crate::cli::output::write_answer;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_engine::error::{Diagnostic, codes};
+use jurist_engine::show::words;
 
 /// Options of `jurist explain`.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
-    /// The code in the brackets of an error, such as E-unknown-name; left out: a list of all codes
+    /// The code in the brackets of an error, such as E-unknown-name, or a word such as 'complex pair'; left out: a list of all
     #[arg(value_name = "CODE")]
-    pub code: Option<String>,
+    pub code: Vec<String>,
 }
 
-/// Prints the explanation of one code, or the list of all.
+/// Prints the explanation of one code or word, or the list of all.
 pub(in crate::cli) fn run(options: &Options) -> Outcome {
-    let Some(code) = &options.code else {
+    if options.code.is_empty() {
         let width = codes().map(|(c, _)| c.len()).max().unwrap_or(0);
         let line = |(code, text): (&str, String)| format!("{code:width$}  {}", text.lines().next().unwrap_or_default());
-        let lines: Vec<String> = codes().map(line).collect();
+        let mut lines: Vec<String> = codes().map(line).collect();
+        let words: Vec<&str> = words().map(|(word, _)| word).collect();
+        lines.push(format!("\nand the words {}", words.join(", ")));
         write_answer(&lines.join("\n"), None)?;
         return Ok(Status::Holds);
-    };
-    let wanted = code.trim().trim_start_matches("error").trim_matches(['[', ']']);
+    }
+    let text = options.code.join(" ");
+    let wanted = text.trim().trim_start_matches("error").trim_matches(['[', ']']);
     let same = |known: &str| {
         known.eq_ignore_ascii_case(wanted)
             || known.split_once('-').is_some_and(|(_, name)| name.eq_ignore_ascii_case(wanted))
@@ -32,20 +36,26 @@ pub(in crate::cli) fn run(options: &Options) -> Outcome {
             write_answer(&format!("{known}\n\n{text}"), None)?;
             Ok(Status::Holds)
         }
-        None => Err(unknown(wanted)),
+        None => match words().find(|(known, _)| known.eq_ignore_ascii_case(wanted)) {
+            Some((known, text)) => {
+                write_answer(&format!("{known}\n\n{text}"), None)?;
+                Ok(Status::Holds)
+            }
+            None => Err(unknown(wanted)),
+        },
     }
 }
 
 fn unknown(wanted: &str) -> Error {
     let shown: String = wanted.chars().take(60).collect();
-    let diagnostic = Diagnostic::error("E-unknown-code", format!("there is no error code '{shown}'"));
-    let near = codes().map(|(c, _)| c).max_by(|a, b| {
+    let diagnostic = Diagnostic::error("E-unknown-code", format!("there is no error code or word '{shown}'"));
+    let near = codes().map(|(c, _)| c).chain(words().map(|(word, _)| word)).max_by(|a, b| {
         let likeness_for_display = |c: &str| strsim::jaro_winkler(c, &shown);
         likeness_for_display(a).total_cmp(&likeness_for_display(b))
     });
     let help = match near {
         Some(near) if strsim::jaro_winkler(near, &shown) > 0.8 => format!("did you mean '{near}'?"),
-        _ => "'jurist explain' lists all codes".to_owned(),
+        _ => "'jurist explain' lists all codes and words".to_owned(),
     };
     Error::from(diagnostic.help(help))
 }

@@ -2,7 +2,7 @@
 
 use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
-use crate::cli::input::{decision, known_names};
+use crate::cli::input::{decision, known_names, only_parameter};
 use crate::cli::output::write_answer;
 use crate::cli::status::{Outcome, Status};
 use crate::cli::written::check_certificate;
@@ -16,9 +16,9 @@ use std::slice::from_ref;
 /// Options of `jurist intervals`.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
-    /// The parameter in question: a parameter, a constant given as a number, 'radius' or 'decay'
+    /// The parameter in question: a parameter, a constant given as a number, 'radius' or 'decay'; left out: the model's only one
     #[arg(long, value_name = "NAME")]
-    pub param: String,
+    pub param: Option<String>,
     #[command(flatten)]
     pub decision: DecisionOptions,
     /// Writes a certificate that 'jurist verify' re-checks
@@ -36,11 +36,15 @@ pub(in crate::cli) struct Options {
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
     let (model, question) = decision(&options.decision, context)?;
-    if options.param != RADIUS && options.param != DECAY {
-        known_names(context, &model, "--param", from_ref(&options.param))?;
+    let name = match &options.param {
+        Some(name) => name.clone(),
+        None => only_parameter(&model)?,
+    };
+    if name != RADIUS && name != DECAY {
+        known_names(context, &model, "--param", from_ref(&name))?;
     }
     let digits = output.digits() as usize;
-    let problem = question.free(&options.param).problem()?;
+    let problem = question.free(&name).problem()?;
     let answer = match decided(problem.stable_set(&context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => {

@@ -3,7 +3,7 @@
 use super::Context;
 use crate::cli::arguments::{ModelOptions, PictureOptions, RunOptions};
 use crate::cli::assignments::in_line;
-use crate::cli::input::{known_names, load, question};
+use crate::cli::input::{known_names, load, only_parameter, question};
 use crate::cli::picture::{Picture, deliver, wanted};
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
@@ -22,9 +22,9 @@ use std::slice::from_ref;
 pub(in crate::cli) struct Options {
     #[command(flatten)]
     pub model: ModelOptions,
-    /// The parameter that moves
+    /// The parameter that moves; left out: the model's only one
     #[arg(long, value_name = "NAME")]
-    pub param: String,
+    pub param: Option<String>,
     /// From where to where [default: around the stable set and nominal]
     #[arg(long, value_name = "LO..HI", allow_hyphen_values = true)]
     pub range: Option<String>,
@@ -42,8 +42,12 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let kind = wanted(&options.picture)?;
     let model = load(options.model.model.as_ref(), context)?;
     let question = question(context, &model, &options.model, &Default::default())?;
-    known_names(context, &model, "--param", from_ref(&options.param))?;
-    let answer = question.free(&options.param).stable_set(&context.budget)?;
+    let name = match &options.param {
+        Some(name) => name.clone(),
+        None => only_parameter(&model)?,
+    };
+    known_names(context, &model, "--param", from_ref(&name))?;
+    let answer = question.free(&name).stable_set(&context.budget)?;
     context.warn(None, answer.problem().warnings());
     let range = match &options.range {
         Some(text) => range_of(text, context)?,
@@ -56,7 +60,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     for crossing in &picture.crossings {
         crate::cli::output::note(&format!("crossing: {}", crossing.label));
     }
-    let table = || picture.locus.to_csv(&options.param);
+    let table = || picture.locus.to_csv(&name);
     let document = || to_text(&locus_json(&answer, &picture));
     let out = Picture { figure: &picture.figure, csv: &table, json: &document, csv_beside: options.picture.csv };
     deliver(&out, kind, options.picture.output.as_ref())?;

@@ -2,6 +2,7 @@
 
 pub(super) mod analyze;
 pub(super) mod charpoly;
+pub(super) mod check;
 pub(super) mod completions;
 pub(super) mod explain;
 pub(super) mod intervals;
@@ -10,6 +11,7 @@ pub(super) mod locus;
 pub(super) mod main_job;
 pub(super) mod map;
 mod map_boxes;
+pub(super) mod new;
 pub(super) mod paper;
 pub(super) mod simulate;
 pub(super) mod verdict;
@@ -133,7 +135,8 @@ impl Arguments {
             Some(Command::Simulate(options)) => &options.run,
             Some(Command::Paper(options)) => &options.run,
             Some(Command::Verify(options)) => &options.run,
-            Some(Command::Explain(_) | Command::Completions(_)) => NONE,
+            Some(Command::Check(options)) => &options.run,
+            Some(Command::New(_) | Command::Explain(_) | Command::Completions(_)) => NONE,
         }
     }
 }
@@ -152,6 +155,8 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Simulate(options)) => simulate::run(options, context),
         Some(Command::Paper(options)) => paper::run(options, context),
         Some(Command::Verify(options)) => verify::run(options, context),
+        Some(Command::Check(options)) => check::run(options, context),
+        Some(Command::New(options)) => new::run(options),
         Some(Command::Explain(options)) => explain::run(options),
         Some(Command::Completions(options)) => completions::run(options),
     }

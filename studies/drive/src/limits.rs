@@ -5,7 +5,7 @@ use super::html::Table;
 use super::runs::at;
 use jurist_algebra::limits::{Budget, Exhausted, join};
 use jurist_algebra::number::{Rational, enclosed_decimal};
-use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::real::Real;
 use jurist_draw::simulate::{Pulse, SampledModel, SwitchedModel, growth_limit};
 use jurist_engine::answer::Answer;
 use jurist_engine::error::Error;
@@ -15,11 +15,10 @@ use jurist_engine::stability::StableSet;
 use nalgebra::DVector;
 
 /// The ends of the stable interval around the nominal value (or of the first).
-pub(super) fn ends(answer: &Answer<StableSet>) -> (Option<&RealAlgebraic>, Option<&RealAlgebraic>) {
+pub(super) fn ends(answer: &Answer<StableSet>) -> (Option<&Real>, Option<&Real>) {
     let set = answer.value();
-    let bare = set.to_interval_set();
     let nominal = answer.problem().parameter().nominal.as_ref();
-    let around = bare.intervals().iter().position(|i| nominal.is_some_and(|n| i.contains(n)));
+    let around = set.intervals().iter().position(|i| nominal.is_some_and(|n| i.contains(n)));
     match set.intervals().get(around.unwrap_or(0)) {
         Some(i) => (i.lower.as_ref().map(|e| &e.value), i.upper.as_ref().map(|e| &e.value)),
         None => (None, None),
@@ -27,12 +26,12 @@ pub(super) fn ends(answer: &Answer<StableSet>) -> (Option<&RealAlgebraic>, Optio
 }
 
 /// The number to that many digits.
-pub(super) fn decimal(x: Option<&RealAlgebraic>, digits: usize) -> String {
+pub(super) fn decimal(x: Option<&Real>, digits: usize) -> String {
     x.map_or_else(|| "none".into(), |x| real::rounded(x, digits).decimal)
 }
 
 /// `1/x` of a positive number, correctly rounded.
-pub(super) fn reciprocal(x: Option<&RealAlgebraic>, digits: usize) -> String {
+pub(super) fn reciprocal(x: Option<&Real>, digits: usize) -> String {
     let Some(x) = x.filter(|x| x.sign().is_gt()) else { return "none".into() };
     let mut accuracy = digits + 2;
     loop {

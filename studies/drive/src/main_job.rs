@@ -4,7 +4,8 @@ use crate::document::{Main, MainAnswer, MainName, PaperLimit, PaperLimits, Round
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, enclosed_decimal, to_decimal};
-use jurist_algebra::poly::{RationalFunction, RealAlgebraic};
+use jurist_algebra::poly::RationalFunction;
+use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, ParametricTable};
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::Model;
@@ -267,7 +268,7 @@ fn period_end(job: &MainJob) -> Option<&End> {
 }
 
 /// `1/x` of a positive number, correctly rounded.
-fn reciprocal(x: &RealAlgebraic, digits: usize) -> String {
+fn reciprocal(x: &Real, digits: usize) -> String {
     let mut accuracy = digits;
     loop {
         let (lo, hi) = x.refined_to_digits(accuracy).enclosure();

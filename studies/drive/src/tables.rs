@@ -8,7 +8,7 @@ use super::printed::{EQUATION_23, EQUATION_37, LIST_AFTER_36, Printed};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, to_decimal};
-use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::real::Real;
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
@@ -74,14 +74,14 @@ fn erratum(c: &Comparison, parameter: &str) -> Vec<String> {
 pub(super) fn sensitivity(model: &Model, budget: &Budget) -> Result<Table, Error> {
     let head = ["constant", "value", "K_pwm, lower", "change / %", "upper", "change / %", "f, lower", "change / %"];
     let mut table = Table::new("The limits when one constant is 10 % smaller or larger: K_pwm in V, f in Hz", &head);
-    let limits = |question: Question| -> Result<[Option<RealAlgebraic>; 3], Error> {
+    let limits = |question: Question| -> Result<[Option<Real>; 3], Error> {
         let k = question.clone().free("K_pwm").stable_set(budget)?;
         let t = question.free("T").stable_set(budget)?;
         let ((lower, upper), (_, longest)) = (ends(&k), ends(&t));
         Ok([lower.cloned(), upper.cloned(), longest.cloned()])
     };
     let base = limits(model.ask())?;
-    let cells = |now: &[Option<RealAlgebraic>; 3], first: [String; 2]| {
+    let cells = |now: &[Option<Real>; 3], first: [String; 2]| {
         let mut row = first.to_vec();
         for (k, (x, x0)) in now.iter().zip(&base).enumerate() {
             let frequency = k == 2;
@@ -104,8 +104,8 @@ pub(super) fn sensitivity(model: &Model, budget: &Budget) -> Result<Table, Error
 }
 
 /// The relative change in percent to three digits; of the reciprocals for frequencies.
-fn change(x: Option<&RealAlgebraic>, base: Option<&RealAlgebraic>, reciprocal: bool) -> Option<String> {
-    let middle = |x: &RealAlgebraic| {
+fn change(x: Option<&Real>, base: Option<&Real>, reciprocal: bool) -> Option<String> {
+    let middle = |x: &Real| {
         let (lo, hi) = x.refined_to_digits(20).enclosure();
         lo.midpoint(&hi)
     };

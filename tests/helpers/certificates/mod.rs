@@ -240,7 +240,7 @@ pub fn is_true(model: &str, certificate: &Json) -> bool {
             let f = jurist_algebra::poly::UniPoly::new(coefficients);
             end.value.compare_rational(&side(0)).is_gt()
                 && end.value.compare_rational(&side(1)).is_lt()
-                && end.value.sign_of(&f).is_eq()
+                && end.value.algebraic().is_some_and(|x| x.sign_of(&f).is_eq())
         }
         _ => false,
     };

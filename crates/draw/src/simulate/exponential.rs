@@ -41,9 +41,9 @@ impl Exponential {
     ///
     /// ```
     /// use jurist_draw::simulate::Exponential;
-    /// use nalgebra::{dmatrix, dvector};
-    /// let flow = Exponential::new(dmatrix![-1.0]);
-    /// let x = flow.advance(&dvector![1.0], &dvector![0.0], 1.0);
+    /// use nalgebra::{DMatrix, DVector};
+    /// let flow = Exponential::new(DMatrix::from_row_slice(1, 1, &[-1.0]));
+    /// let x = flow.advance(&DVector::from_vec(vec![1.0]), &DVector::from_vec(vec![0.0]), 1.0);
     /// assert!((x[0] - (-1.0f64).exp()).abs() < 1e-15);
     /// ```
     pub fn advance(&self, x: &DVector<f64>, b: &DVector<f64>, t: f64) -> DVector<f64> {
@@ -104,12 +104,12 @@ impl Exponential {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::{dmatrix, dvector};
+    use nalgebra::{DMatrix, DVector};
 
     #[test]
     fn the_series_agrees_with_the_dense_exponential() {
-        let flow = Exponential::new(dmatrix![-21.7, -11.9; 5.9, -0.086]);
-        let (x, b) = (dvector![3.0, 80.0], dvector![2391.0, -1.0]);
+        let flow = Exponential::new(DMatrix::from_row_slice(2, 2, &[-21.7, -11.9, 5.9, -0.086]));
+        let (x, b) = (DVector::from_vec(vec![3.0, 80.0]), DVector::from_vec(vec![2391.0, -1.0]));
         for t in [0.0, 1e-9, 1e-4, 0.01, 0.3, 1.0] {
             let (series, dense) = (flow.advance(&x, &b, t), flow.advance_dense(&x, &b, t));
             assert!((&series - &dense).norm() <= 1e-12 * dense.norm(), "t = {t}: {series} {dense}");
@@ -118,19 +118,19 @@ mod tests {
 
     #[test]
     fn a_rotation_comes_back_after_a_turn_and_long_spans_use_the_dense_way() {
-        let flow = Exponential::new(dmatrix![0.0, 1.0; -1.0, 0.0]);
+        let flow = Exponential::new(DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -1.0, 0.0]));
         let tau = std::f64::consts::TAU;
         for turns in [1.0, 3.0, 20.0] {
-            let x = flow.advance(&dvector![1.0, 0.0], &dvector![0.0, 0.0], turns * tau);
-            assert!((x - dvector![1.0, 0.0]).norm() < 1e-12);
+            let x = flow.advance(&DVector::from_vec(vec![1.0, 0.0]), &DVector::from_vec(vec![0.0, 0.0]), turns * tau);
+            assert!((x - DVector::from_vec(vec![1.0, 0.0])).norm() < 1e-12);
         }
-        assert!((flow.transition(tau / 4.0) - dmatrix![0.0, 1.0; -1.0, 0.0]).norm() < 1e-14);
+        assert!((flow.transition(tau / 4.0) - DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -1.0, 0.0])).norm() < 1e-14);
     }
 
     #[test]
     fn the_integral_of_a_decay_is_known() {
-        let flow = Exponential::new(dmatrix![-2.0]);
-        let end = flow.advance_with_integral(&dvector![1.0], &dvector![0.0], 1.5);
+        let flow = Exponential::new(DMatrix::from_row_slice(1, 1, &[-2.0]));
+        let end = flow.advance_with_integral(&DVector::from_vec(vec![1.0]), &DVector::from_vec(vec![0.0]), 1.5);
         assert!((end.state[0] - (-3.0f64).exp()).abs() < 1e-15);
         assert!((end.integral[0] - (1.0 - (-3.0f64).exp()) / 2.0).abs() < 1e-15);
     }

@@ -36,8 +36,8 @@ pub use trace::{Signal, Trace};
 /// converge or an entry is not finite.
 ///
 /// ```
-/// use nalgebra::dmatrix;
-/// let values = jurist_draw::simulate::eigenvalues(&dmatrix![0.0, 1.0; -0.25, 0.0]).unwrap();
+/// use nalgebra::DMatrix;
+/// let values = jurist_draw::simulate::eigenvalues(&DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -0.25, 0.0])).unwrap();
 /// assert!((values[0].norm() - 0.5).abs() < 1e-12);
 /// ```
 pub fn eigenvalues(matrix: &nalgebra::DMatrix<f64>) -> Option<Vec<nalgebra::Complex<f64>>> {

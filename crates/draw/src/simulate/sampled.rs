@@ -107,12 +107,12 @@ impl SampledModel {
     /// # Example
     /// ```
     /// use jurist_draw::simulate::{Excitation, SampledModel, Step};
-    /// use nalgebra::dmatrix;
+    /// use nalgebra::DMatrix;
     /// let model = SampledModel {
-    ///     transition: dmatrix![0.5],
-    ///     input: dmatrix![1.0],
-    ///     output: dmatrix![3.0],
-    ///     feedthrough: dmatrix![0.0],
+    ///     transition: DMatrix::from_row_slice(1, 1, &[0.5]),
+    ///     input: DMatrix::from_row_slice(1, 1, &[1.0]),
+    ///     output: DMatrix::from_row_slice(1, 1, &[3.0]),
+    ///     feedthrough: DMatrix::from_row_slice(1, 1, &[0.0]),
     ///     states: vec!["x".into()],
     ///     inputs: vec!["r".into()],
     ///     outputs: vec!["y".into()],
@@ -220,14 +220,14 @@ pub(super) fn simulation_error(message: impl Into<String>) -> Diagnostics {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::dmatrix;
+    use nalgebra::DMatrix;
 
     fn scalar(a: f64) -> SampledModel {
         SampledModel {
-            transition: dmatrix![a],
-            input: dmatrix![1.0],
-            output: dmatrix![1.0],
-            feedthrough: dmatrix![0.0],
+            transition: DMatrix::from_row_slice(1, 1, &[a]),
+            input: DMatrix::from_row_slice(1, 1, &[1.0]),
+            output: DMatrix::from_row_slice(1, 1, &[1.0]),
+            feedthrough: DMatrix::from_row_slice(1, 1, &[0.0]),
             states: vec!["x".into()],
             inputs: vec!["r".into()],
             outputs: vec!["x".into()],
@@ -254,7 +254,7 @@ mod tests {
     #[test]
     fn shapes_are_checked() {
         let mut model = scalar(0.5);
-        model.input = dmatrix![1.0, 2.0];
+        model.input = DMatrix::from_row_slice(1, 2, &[1.0, 2.0]);
         assert_eq!(model.checked().unwrap_err().code(), "E-simulation");
         let mut model = scalar(0.5);
         model.sample_time = 0.0;

@@ -70,7 +70,8 @@ impl Question {
         for parameter in &open {
             if without_value.iter().all(|missing| missing.name == parameter.name) {
                 let problem = self.clone().free(&parameter.name).problem()?;
-                let set = stopped(Problem::stable_set(&problem, budget).map(Answer::into_value))?;
+                let set = open_in_functions(Problem::stable_set(&problem, budget).map(Answer::into_value));
+                let set = stopped(set)?;
                 sets.push((problem, set));
             }
         }
@@ -79,6 +80,17 @@ impl Question {
             self.free(&without_value[0].name).problem()?;
         }
         Ok(Analysis { verdict, sets })
+    }
+}
+
+/// A parameter inside of a function whose domain is not bounded: this question of the analysis stays open, not the others.
+fn open_in_functions<T>(result: Result<T, Error>) -> Result<T, Error> {
+    match result {
+        Err(Error::Refused(why)) if why.code() == "E-function" => {
+            let reason = why.diagnostics().first().map(|d| d.message.clone()).unwrap_or_default();
+            Err(Error::Stopped(Exhausted::new("the bounds of its domain", reason)))
+        }
+        other => other,
     }
 }
 

@@ -3,7 +3,8 @@
 use crate::problem::Problem;
 use crate::stability::{End, Shape};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{RealAlgebraic, UniPoly};
+use jurist_algebra::poly::UniPoly;
+use jurist_algebra::real::Real;
 
 /// Certified enclosures of where a complex pair sits on the boundary.
 ///
@@ -71,15 +72,21 @@ impl Problem {
     }
 }
 
-/// An enclosure of `numerator/denominator` at an algebraic number, of relative width about `2^-bits`;
+/// Doublings of precision after which a value at a number that is not algebraic is given up.
+const MOST_DOUBLINGS: usize = 10;
+
+/// An enclosure of `numerator/denominator` at a real number, of relative width about `2^-bits`;
 /// `None` unless the value is finite and positive.
-fn positive_value_at(f: &(UniPoly, UniPoly), at: &RealAlgebraic, bits: u64) -> Option<Enclosure> {
-    let (numerator, denominator) = (at.sign_of(&f.0), at.sign_of(&f.1));
-    if numerator.is_eq() || numerator != denominator {
-        return None;
+fn positive_value_at(f: &(UniPoly, UniPoly), at: &Real, bits: u64) -> Option<Enclosure> {
+    if let Some(at) = at.algebraic() {
+        let (numerator, denominator) = (at.sign_of(&f.0), at.sign_of(&f.1));
+        if numerator.is_eq() || numerator != denominator {
+            return None;
+        }
     }
     let mut working = 2 * bits;
-    loop {
+    // An algebraic number has a positive value there, which shows in the end.
+    while at.algebraic().is_some() || working >> MOST_DOUBLINGS <= 2 * bits {
         let (lo, hi) = at.refined(&Rational::dyadic(&Integer::ONE, working)).enclosure();
         let x = Enclosure::new(lo, hi);
         let value = |p: &UniPoly| p.eval_enclosure(&x, working);
@@ -91,4 +98,5 @@ fn positive_value_at(f: &(UniPoly, UniPoly), at: &RealAlgebraic, bits: u64) -> O
         }
         working *= 2;
     }
+    None
 }

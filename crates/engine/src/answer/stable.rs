@@ -3,7 +3,7 @@
 use super::Answer;
 use crate::error::Error;
 use crate::problem::{Problem, Question, Region};
-use crate::stability::{Cause, StableSet, stable_set};
+use crate::stability::{Cause, StableSet, stable_set, symbolic_stable_set};
 use jurist_algebra::limits::Budget;
 use std::sync::Arc;
 
@@ -36,12 +36,20 @@ impl Problem {
     /// Cost: that of [`Problem::algebra`], once, and of [`stable_set`](crate::stability::stable_set).
     ///
     /// # Errors
-    /// [`Error::Stopped`] when the budget runs out.
+    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] as [`Problem::symbolic`].
     ///
     /// # Panics
     /// Unless one parameter is free.
     pub fn stable_set(self: &Arc<Self>, budget: &Budget) -> Result<Answer<StableSet>, Error> {
         budget.enter(|| {
+            if !self.algebra_over_symbols(budget)?.symbols().is_empty() {
+                let domain = &self.parameter().domain;
+                let set = match self.symbolic(budget)? {
+                    None => StableSet::from_intervals(Vec::new(), Vec::new()),
+                    Some(p) => symbolic_stable_set(&p, domain, self.shape(), budget)?,
+                };
+                return Ok(Answer::new(Arc::clone(self), own_causes(set, self)));
+            }
             let set = match self.parametric(budget)? {
                 None => StableSet::default(),
                 Some(p) => own_causes(stable_set(p, &self.parameter().domain, self.shape(), budget)?, self),

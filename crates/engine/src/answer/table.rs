@@ -21,7 +21,7 @@ use std::sync::Arc;
 /// let test = answer.value().test.as_ref().unwrap();
 /// let names: Vec<&str> = test.conditions.iter().map(|condition| condition.name.as_str()).collect();
 /// assert_eq!(names, ["Q(1) > 0", "(-1)^2*Q(-1) > 0", "|a_0| < a_2"]);
-/// assert!(test.intersection.same_as(&answer.value().stable.to_interval_set()));
+/// assert!(test.intersection.same_as(&answer.value().stable.to_interval_set().unwrap()));
 /// # Ok::<(), jurist_engine::error::Error>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -101,7 +101,7 @@ impl Problem {
             let domain = &self.parameter().domain;
             let stable = stable_set(p, domain, self.shape(), budget)?;
             let test = classical_test(p, domain, self.shape(), budget)?;
-            if !test.intersection.same_as(&stable.to_interval_set()) {
+            if !stable.to_interval_set().is_some_and(|set| test.intersection.same_as(&set)) {
                 return Err(Diagnostic::error(
                     "E-internal",
                     "the table's conditions and the boundary polynomials disagree",

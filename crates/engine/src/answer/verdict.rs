@@ -116,14 +116,22 @@ impl Problem {
     pub fn verdict(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointVerdict>, Error> {
         budget.enter(|| {
             assert!(self.free().is_empty(), "a point has no free parameters");
-            let at = match self.parametric(budget)? {
+            let at = if !self.algebra_over_symbols(budget)?.symbols().is_empty() {
+                budget.step("counting the roots");
+                match self.symbolic(budget)? {
+                    None => AtPoint::Undefined,
+                    Some(p) => p.at(&Rational::ZERO, self.shape(), budget)?,
+                }
+            } else {
+                match self.parametric(budget)? {
                 None => AtPoint::Undefined,
                 Some(p) => {
                     budget.step("counting the roots");
                     budget.enter(|| p.at(&Rational::ZERO, self.shape()))?
                 }
+                }
             };
-            let algebra = self.algebra(budget)?;
+            let algebra = self.algebra_over_symbols(budget)?;
             let degree = algebra.formal_degree();
             let (verdict, count, infinite) = match at {
                 AtPoint::Undefined => (Verdict::Undefined, None, 0),

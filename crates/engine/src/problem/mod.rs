@@ -4,6 +4,7 @@
 //! name is known, every value has its place, and the algebra is computed at most once, when it is first needed.
 
 mod evaluation;
+mod over_symbols;
 mod question;
 mod region;
 mod resolved;

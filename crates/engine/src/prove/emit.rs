@@ -2,6 +2,7 @@
 
 use super::cofactors::{Identity, identity};
 use super::line::{Line, Separator};
+use super::{no_certificate, refuse_transcendental};
 use super::text::to_text;
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
@@ -33,9 +34,11 @@ impl Answer<StableSet> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Stopped`] when the budget runs out.
+    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where the limits are not
+    /// algebraic numbers.
     pub fn certificate(&self, budget: &Budget) -> Result<String, Error> {
         budget.enter(|| {
+            refuse_transcendental(self.value(), "no certificate")?;
             budget.step("certificate");
             let problem = self.problem();
             let mut proof = Proof::default();
@@ -85,11 +88,14 @@ impl Answer<PointVerdict> {
     /// Cost: `O(n)` greatest common divisors of integers; no root is counted again.
     ///
     /// # Errors
-    /// [`Error::Stopped`] when the budget runs out.
+    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where the loop is not rational.
     pub fn certificate(&self, budget: &Budget) -> Result<String, Error> {
         budget.enter(|| {
             budget.step("certificate");
             let (problem, verdict) = (self.problem(), self.value());
+            if problem.evaluated().is_some_and(|a| !a.symbols().is_empty()) {
+                return Err(no_certificate("no certificate: the loop has constants that are not rational"));
+            }
             let characteristic = match problem.parametric(budget)? {
                 None => Vec::new(),
                 Some(p) => primitive(with_content(p), verdict.degree),

@@ -7,4 +7,21 @@ mod line;
 mod smt2;
 mod text;
 
+use crate::error::{Diagnostic, Error};
+use crate::stability::StableSet;
+
 pub use emit::SCHEMA;
+
+/// Certificates are made of polynomials over the integers.
+fn refuse_transcendental(set: &StableSet, what: &str) -> Result<(), Error> {
+    if set.is_algebraic() {
+        return Ok(());
+    }
+    Err(no_certificate(format!("{what}: the limits are not algebraic numbers")))
+}
+
+fn no_certificate(why: impl Into<String>) -> Error {
+    Diagnostic::error("E-no-certificate", why)
+        .help("there is none yet for held plants and dead time; the answer itself is printed without it")
+        .into()
+}

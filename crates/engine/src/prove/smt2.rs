@@ -1,5 +1,6 @@
 //! The statement about one parameter in the language of SMT solvers.
 
+use super::refuse_transcendental;
 use crate::answer::Answer;
 use crate::error::Error;
 use crate::stability::{Shape, StableSet, jury_table_with, routh_table};
@@ -21,11 +22,13 @@ impl Answer<StableSet> {
     /// Cost: one table, `O(n^2)` operations on polynomials in the parameter, and its text.
     ///
     /// # Errors
-    /// [`Error::Stopped`] when the budget runs out.
+    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where the limits are not
+    /// algebraic numbers.
     pub fn smt2(&self, budget: &Budget) -> Result<String, Error> {
         budget.enter(|| {
             let problem = self.problem();
             let (parameter, set) = (problem.parameter(), self.value());
+            refuse_transcendental(set, "no statement for solvers")?;
             let mut domain = Vec::new();
             if let Some(lower) = &parameter.domain.lower {
                 domain.push(format!("(< {} p)", real(lower)));
@@ -48,8 +51,8 @@ impl Answer<StableSet> {
             }
             let mut claimed = Vec::new();
             for interval in set.intervals() {
-                let lower = interval.lower.as_ref().map(|e| above(&e.value));
-                let upper = interval.upper.as_ref().map(|e| below(&e.value));
+                let lower = interval.lower.as_ref().and_then(|e| e.value.algebraic()).map(above);
+                let upper = interval.upper.as_ref().and_then(|e| e.value.algebraic()).map(below);
                 claimed.push(joined("and", lower.into_iter().chain(upper).collect(), "true"));
             }
             let mut out = String::new();

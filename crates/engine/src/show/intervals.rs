@@ -7,8 +7,9 @@ use crate::answer::{Answer, Frequency};
 use crate::problem::Problem;
 use crate::stability::{Cause, End, IntervalSet, Range, StableSet};
 use jurist_algebra::limits::Exhausted;
-use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, parse_number};
+use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, parse_number, to_decimal};
 use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::real::Real;
 
 impl Answer<StableSet> {
     /// The answer for people.
@@ -54,13 +55,14 @@ pub fn answer_lines(problem: &Problem, set: Result<&StableSet, &Exhausted>, digi
         Ok(set) if set.is_empty() && problem.evaluated().is_some_and(|a| a.undefined().is_some()) => {
             format!("{asked}: {goal} nowhere, undefined for every {name}\n")
         }
-        Ok(set) if set.is_empty() => format!("{asked}: {goal} nowhere\n"),
+        Ok(set) if set.is_empty() => format!("{asked}: {goal} nowhere\n{}", undecided_lines(set, digits)),
         Ok(set) => {
             let mut out = format!("{asked}: {goal} for\n");
-            for interval in set_lines(name, &set.to_interval_set(), digits) {
+            for interval in stable_lines(name, set, digits) {
                 out.push_str(&format!("    {interval}\n"));
             }
             out.push_str(&end_lines(set, problem, digits));
+            out.push_str(&undecided_lines(set, digits));
             out
         }
     }
@@ -78,16 +80,27 @@ pub fn domain_text(name: &str, range: &Range) -> String {
 
 /// `0.038 < K < 550.9`, one line for each interval.
 pub fn set_lines(name: &str, set: &IntervalSet, digits: usize) -> Vec<String> {
-    let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten().collect::<Vec<_>>();
+    let real = |end: &Option<RealAlgebraic>| end.clone().map(Real::from);
+    lines(name, set.intervals().iter().map(|i| [real(&i.lower), real(&i.upper)]).collect(), digits)
+}
+
+/// The same for a stable set.
+pub fn stable_lines(name: &str, set: &StableSet, digits: usize) -> Vec<String> {
+    let real = |end: &Option<End>| end.as_ref().map(|end| end.value.clone());
+    lines(name, set.intervals().iter().map(|i| [real(&i.lower), real(&i.upper)]).collect(), digits)
+}
+
+fn lines(name: &str, intervals: Vec<[Option<Real>; 2]>, digits: usize) -> Vec<String> {
+    let ends: Vec<&Real> = intervals.iter().flatten().flatten().collect();
     let mut decimals = distinct_decimals(&ends, digits).into_iter();
-    let mut decimal = |end: &Option<RealAlgebraic>| end.as_ref().and_then(|_| decimals.next());
-    let line = |i: &crate::stability::AlgebraicInterval| match (decimal(&i.lower), decimal(&i.upper)) {
+    let mut decimal = |end: &Option<Real>| end.as_ref().and_then(|_| decimals.next());
+    let line = |[lower, upper]: &[Option<Real>; 2]| match (decimal(lower), decimal(upper)) {
         (None, None) => format!("every {name}"),
         (Some(l), None) => format!("{name} > {l}"),
         (None, Some(u)) => format!("{name} < {u}"),
         (Some(l), Some(u)) => format!("{l} < {name} < {u}"),
     };
-    set.intervals().iter().map(line).collect()
+    intervals.iter().map(line).collect()
 }
 
 /// Digits up to which two ends that are close are told apart.
@@ -95,16 +108,15 @@ const MOST_DIGITS: usize = 100;
 
 /// Decimals of ascending values. Different values that round to the same decimal have more digits, so many
 /// that all of them can be told apart.
-fn distinct_decimals(values: &[&RealAlgebraic], digits: usize) -> Vec<String> {
-    let decimals = |values: &[&RealAlgebraic], digits| -> Vec<String> {
-        values.iter().map(|x| real::rounded(x, digits).decimal).collect()
-    };
+fn distinct_decimals(values: &[&Real], digits: usize) -> Vec<String> {
+    let decimals =
+        |values: &[&Real], digits| -> Vec<String> { values.iter().map(|x| real::rounded(x, digits).decimal).collect() };
     let mut out = decimals(values, digits);
     let mut first = 0;
     while first < values.len() {
         let same = out[first..].iter().take_while(|d| **d == out[first]).count();
         let group = &values[first..first + same];
-        let differ: Vec<bool> = group.windows(2).map(|pair| pair[0].compare(pair[1]).is_ne()).collect();
+        let differ: Vec<bool> = group.windows(2).map(|pair| !pair[0].is_same(pair[1])).collect();
         if differ.contains(&true) {
             // Exact decimals have no trailing zeros, so that only their values tell.
             let tell = |d: &Vec<String>| {
@@ -121,13 +133,23 @@ fn distinct_decimals(values: &[&RealAlgebraic], digits: usize) -> Vec<String> {
     out
 }
 
+/// A line for each bracket in which nothing is known.
+fn undecided_lines(set: &StableSet, digits: usize) -> String {
+    let line = |b: &crate::stability::UndecidedBracket| {
+        let width = to_decimal(&(&b.upper - &b.lower), 2);
+        let ends = [&b.lower, &b.upper].map(|x| to_decimal(x, digits));
+        format!("undecided in [{}, {}] (width {width}): {}\n", ends[0], ends[1], b.why)
+    };
+    set.undecided().iter().map(line).collect()
+}
+
 /// A row for each end: value, cause, frequency, margin.
 fn end_lines(set: &StableSet, problem: &Problem, digits: usize) -> String {
     let mut columns = Columns::new("    ");
     let mut ends: Vec<&End> = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten().collect();
     // Two intervals that touch share an end.
-    ends.dedup_by(|b, a| a.value.compare(&b.value).is_eq());
-    let values: Vec<&RealAlgebraic> = ends.iter().map(|end| &end.value).collect();
+    ends.dedup_by(|b, a| a.value.is_same(&b.value));
+    let values: Vec<&Real> = ends.iter().map(|end| &end.value).collect();
     for (end, decimal) in ends.iter().zip(distinct_decimals(&values, digits)) {
         columns.row(end_cells(end, decimal, problem, digits));
     }
@@ -179,7 +201,7 @@ fn end_cells(end: &End, decimal: String, problem: &Problem, digits: usize) -> Ve
 /// An exact factor as a decimal.
 fn decimal_factor(factor: &str, digits: usize) -> String {
     match parse_number(factor) {
-        Ok(value) => jurist_algebra::number::to_decimal(&value, digits),
+        Ok(value) => to_decimal(&value, digits),
         Err(_) => factor.to_owned(),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::real;
 use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal};
-use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::real::Real;
 
 /// The way from nominal to an end, as a factor and in decibels.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,7 +18,7 @@ const DECIBEL_DIGITS: usize = 17;
 
 /// The margin of an end; `None` where nominal is 0 or absent, or the end lies beyond 0, where no
 /// positive factor leads.
-pub fn margin(end: &RealAlgebraic, nominal: Option<&Rational>, digits: usize) -> Option<Margin> {
+pub fn margin(end: &Real, nominal: Option<&Rational>, digits: usize) -> Option<Margin> {
     let nominal = nominal.filter(|n| !n.is_zero())?;
     if end.sign().is_eq() {
         return Some(Margin { factor: "0".into(), decibels: None });
@@ -42,13 +42,13 @@ pub fn margin(end: &RealAlgebraic, nominal: Option<&Rational>, digits: usize) ->
 }
 
 /// The quotient of an end and a nominal value of the same sign.
-fn ratio(end: &RealAlgebraic, nominal: &Rational) -> Enclosure {
+fn ratio(end: &Real, nominal: &Rational) -> Enclosure {
     let (lo, hi) = end.enclosure();
     let (a, b) = (lo / nominal, hi / nominal);
     if a <= b { Enclosure::new(a, b) } else { Enclosure::new(b, a) }
 }
 
-fn irrational_factor(end: &RealAlgebraic, nominal: &Rational, digits: usize) -> String {
+fn irrational_factor(end: &Real, nominal: &Rational, digits: usize) -> String {
     let mut accuracy = digits;
     loop {
         let ratio = ratio(&end.refined_to_digits(accuracy), nominal);
@@ -68,7 +68,7 @@ mod tests {
 
     fn exact(end: &str, nominal: &str) -> Option<(String, Option<String>)> {
         let value = |text| parse_number(text).unwrap();
-        let m = margin(&RealAlgebraic::from_rational(value(end)), Some(&value(nominal)), 6)?;
+        let m = margin(&Real::from(value(end)), Some(&value(nominal)), 6)?;
         Some((m.factor, m.decibels))
     }
 
@@ -80,14 +80,14 @@ mod tests {
         assert_eq!(exact("0", "3"), Some(("0".into(), None)));
         assert_eq!(exact("-3", "-3"), Some(("1".into(), Some("0".into()))));
         assert_eq!(exact("1", "10").unwrap().1.unwrap().parse::<f64>(), Ok(-20.0));
-        assert_eq!(margin(&RealAlgebraic::from_rational(Rational::ONE), None, 6), None);
+        assert_eq!(margin(&Real::from(Rational::ONE), None, 6), None);
     }
 
     #[test]
     fn irrational_ends() {
         let p = SquareFree::part_of(&UniPoly::from_i64(&[-2, 0, 1])).unwrap();
         let roots = isolate_real_roots(&p, &Budget::unlimited()).unwrap();
-        let m = margin(&roots[0], Some(&Rational::from(-10)), 8).unwrap();
+        let m = margin(&roots[0].clone().into(), Some(&Rational::from(-10)), 8).unwrap();
         assert_eq!(m.factor, "0.14142136");
         assert_eq!(m.decibels.as_deref(), Some("-16.989700"));
     }

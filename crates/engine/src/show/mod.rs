@@ -12,7 +12,9 @@ pub mod real;
 pub mod region;
 mod table;
 mod verdict;
+mod words;
 
 pub use intervals::intervals_text;
 pub use map::{map_boxes_text, map_text};
 pub use table::table_text;
+pub use words::words;

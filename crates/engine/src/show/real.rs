@@ -1,9 +1,9 @@
-//! Algebraic numbers and enclosures as correctly rounded decimals.
+//! Real numbers and enclosures as correctly rounded decimals.
 
 use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, to_decimal_refining};
-use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::real::Real;
 
-/// An algebraic number, refined as far as its decimal needs.
+/// A real number, refined as far as its decimal needs.
 #[derive(Clone, Debug)]
 pub struct Rounded {
     /// Correctly rounded, ties to even.
@@ -13,9 +13,9 @@ pub struct Rounded {
 }
 
 /// The number to so many significant digits.
-pub fn rounded(number: &RealAlgebraic, digits: usize) -> Rounded {
+pub fn rounded(number: &Real, digits: usize) -> Rounded {
     let mut accuracy = digits;
-    loop {
+    while number.algebraic().is_some() || accuracy < MOST_ACCURACY * (digits + 1) {
         let refined = number.refined_to_digits(accuracy);
         let (lo, hi) = refined.enclosure();
         // An irrational number is no tie, so that a narrow enclosure decides the last digit.
@@ -24,7 +24,13 @@ pub fn rounded(number: &RealAlgebraic, digits: usize) -> Rounded {
         }
         accuracy = accuracy + accuracy / 2 + 4;
     }
+    // So near to a tie, either decimal is as good.
+    let enclosure = number.refined_to_digits(digits).enclosure();
+    Rounded { decimal: number.decimal(digits), enclosure }
 }
+
+/// How many times the digits asked for tell a number that is not algebraic from a tie.
+const MOST_ACCURACY: usize = 64;
 
 /// The decimal of a real number that is given by ever narrower enclosures.
 pub fn enclosed(digits: usize, mut enclose: impl FnMut(u64) -> Option<Enclosure>) -> Option<String> {
@@ -59,11 +65,11 @@ mod tests {
     fn decimals_of_algebraic_numbers() {
         let p = SquareFree::part_of(&UniPoly::from_i64(&[-2, 0, 1])).unwrap();
         let roots = isolate_real_roots(&p, &Budget::unlimited()).unwrap();
-        assert_eq!(rounded(&roots[1], 40).decimal, "1.414213562373095048801688724209698078570");
-        assert_eq!(rounded(&roots[0], 3).decimal, "-1.41");
-        let (lo, hi) = rounded(&roots[1], 3).enclosure;
+        assert_eq!(rounded(&roots[1].clone().into(), 40).decimal, "1.414213562373095048801688724209698078570");
+        assert_eq!(rounded(&roots[0].clone().into(), 3).decimal, "-1.41");
+        let (lo, hi) = rounded(&roots[1].clone().into(), 3).enclosure;
         assert!((&hi - &lo) * Rational::from(100_000) <= lo);
-        assert_eq!(rounded(&RealAlgebraic::from_rational(Rational::new(1.into(), 4.into())), 5).decimal, "0.25");
+        assert_eq!(rounded(&Real::from(Rational::new(1.into(), 4.into())), 5).decimal, "0.25");
     }
 
     #[test]

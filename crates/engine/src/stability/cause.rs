@@ -20,6 +20,8 @@ pub enum Cause {
     RootAtZero,
     /// The leading coefficient vanishes: a root leaves through infinity.
     DegreeLost,
+    /// Infinitely many roots come up to the boundary: the difference operator of a neutral loop is no longer stable.
+    Neutral,
     /// The loop is undefined there: an expression divides by zero, a block loses its order, or the loop is
     /// not well posed.
     Pole,
@@ -36,6 +38,7 @@ impl Cause {
             Cause::ComplexPair => "complex pair",
             Cause::RootAtZero => "s=0",
             Cause::DegreeLost => "infinity",
+            Cause::Neutral => "neutral",
             Cause::Pole => "pole",
             Cause::Domain => "domain",
         }

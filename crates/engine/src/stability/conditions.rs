@@ -115,7 +115,7 @@ pub struct ClassicalTest {
 /// let (all, budget) = (Range::all(), Budget::unlimited());
 /// let test = classical_test(&p, &all, Shape::UnitDisc, &budget).unwrap();
 /// let set = stable_set(&p, &all, Shape::UnitDisc, &budget).unwrap();
-/// assert!(test.intersection.same_as(&set.to_interval_set()));
+/// assert!(test.intersection.same_as(&set.to_interval_set().unwrap()));
 /// ```
 ///
 /// # Errors

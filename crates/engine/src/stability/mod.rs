@@ -19,6 +19,7 @@ mod routh;
 mod stable_set;
 #[cfg(feature = "strategies")]
 pub mod strategies;
+mod symbolic;
 
 pub use boundary::{Boundary, boundary_polynomials};
 pub use cause::{Cause, Causes};
@@ -31,7 +32,8 @@ pub use pair_location::ComplexPair;
 pub use parametric::{AtPoint, ParametricPolynomial};
 pub use root_count::{RootCount, count_roots, is_stable};
 pub use routh::{RouthTable, is_hurwitz_routh, routh_table};
-pub use stable_set::{Cells, End, StableInterval, StableSet, end_at, stable_set};
+pub use stable_set::{Cells, End, StableInterval, StableSet, UndecidedBracket, end_at, stable_set};
+pub use symbolic::{SymbolicPolynomial, symbolic_stable_set};
 
 /// Where the roots of the characteristic polynomial of a stable loop lie.
 ///

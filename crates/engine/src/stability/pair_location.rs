@@ -5,6 +5,7 @@ use super::{HalfSizePair, ParametricPolynomial, Range, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, UniPoly, subresultant_chain};
+use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 
 /// A pair of complex conjugate roots on the boundary, located by the half-size variable
@@ -32,8 +33,10 @@ pub struct ComplexPair {
 
 #[derive(Clone, Debug)]
 enum HalfSizeRoot {
-    /// The parameter value is rational, so the root is an algebraic number.
-    Number(RealAlgebraic),
+    /// A real number of its own, such as an algebraic one where the parameter value is rational.
+    Number(Real),
+    /// The angular frequency instead.
+    Frequency(Real),
     /// The largest root of a polynomial with only real roots, whose coefficients are polynomials in
     /// an algebraic parameter value.
     Over { polynomial: Poly<UniPoly>, parameter: RealAlgebraic },
@@ -66,7 +69,7 @@ pub(super) fn complex_pair_at(
             Shape::LeftHalfPlane => Range::between(None, Some(Rational::ZERO)),
         };
         let roots = zeros_in(&common, &range, budget)?;
-        return Ok(roots.into_iter().last().map(|x| ComplexPair { region, x: HalfSizeRoot::Number(x) }));
+        return Ok(roots.into_iter().last().map(|x| ComplexPair { region, x: HalfSizeRoot::Number(x.into()) }));
     }
     let pair = HalfSizePair::new(p.polynomial(), p.formal_degree(), region);
     let (first, second) = if pair.a.degree() >= pair.b.degree() { (pair.a, pair.b) } else { (pair.b, pair.a) };
@@ -123,6 +126,16 @@ fn divide_by_linear(p: &Poly<UniPoly>, a: i64) -> (Poly<UniPoly>, UniPoly) {
 }
 
 impl ComplexPair {
+    /// The pair with a given `2 cos(theta)` in `(-2, 2)`, or `-omega^2 < 0`.
+    pub fn at_half_size_root(region: Shape, x: impl Into<Real>) -> ComplexPair {
+        ComplexPair { region, x: HalfSizeRoot::Number(x.into()) }
+    }
+
+    /// The pair `+-i omega` with a given positive `omega`.
+    pub fn at_angular_frequency(omega: impl Into<Real>) -> ComplexPair {
+        ComplexPair { region: Shape::LeftHalfPlane, x: HalfSizeRoot::Frequency(omega.into()) }
+    }
+
     /// The region on whose boundary the pair sits.
     pub fn region(&self) -> Shape {
         self.region
@@ -138,6 +151,10 @@ impl ComplexPair {
         match &self.x {
             HalfSizeRoot::Number(x) => {
                 let (lo, hi) = self.refine_number(x, bits);
+                Enclosure::new(lo, hi)
+            }
+            HalfSizeRoot::Frequency(omega) => {
+                let (lo, hi) = self.refine_square(omega, bits);
                 Enclosure::new(lo, hi)
             }
             HalfSizeRoot::Over { polynomial, parameter } => {
@@ -186,7 +203,22 @@ impl ComplexPair {
         distance.sign() == Ordering::Greater && (hi - lo) * Rational::from(&Integer::ONE << bits) <= distance
     }
 
-    fn refine_number(&self, x: &RealAlgebraic, bits: u64) -> (Rational, Rational) {
+    /// `-omega^2`.
+    fn refine_square(&self, omega: &Real, bits: u64) -> (Rational, Rational) {
+        let mut width_bits = bits + 8;
+        let mut omega = omega.clone();
+        loop {
+            omega = omega.refined(&Rational::dyadic(&Integer::ONE, width_bits));
+            let (lo, hi) = omega.enclosure();
+            let (a, b) = (-(&hi * &hi), -(&lo * &lo));
+            if lo.sign().is_gt() && (lo == hi || self.is_fine(&a, &b, bits)) {
+                return (a, b);
+            }
+            width_bits *= 2;
+        }
+    }
+
+    fn refine_number(&self, x: &Real, bits: u64) -> (Rational, Rational) {
         let mut x = x.clone();
         let mut width_bits = bits + 4;
         loop {

@@ -9,6 +9,7 @@ use super::{
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{RealAlgebraic, isolate_real_roots_in};
+use jurist_algebra::real::Real;
 
 /// One end of a stable interval.
 ///
@@ -27,11 +28,18 @@ use jurist_algebra::poly::{RealAlgebraic, isolate_real_roots_in};
 #[non_exhaustive]
 pub struct End {
     /// The exact value.
-    pub value: RealAlgebraic,
+    pub value: Real,
     /// Why stability ends here: all that holds.
     pub causes: Causes,
     /// The complex pair on the boundary, if there is one; the lowest frequency of several.
     pub pair: Option<ComplexPair>,
+}
+
+impl End {
+    /// An end with what happens there.
+    pub fn new(value: impl Into<Real>, causes: Causes, pair: Option<ComplexPair>) -> End {
+        End { value: value.into(), causes, pair }
+    }
 }
 
 /// An open interval of stable parameter values; `None` is an infinite end.
@@ -56,6 +64,44 @@ pub struct StableInterval {
     pub upper: Option<End>,
 }
 
+impl StableInterval {
+    /// The interval between two ends.
+    pub fn new(lower: Option<End>, upper: Option<End>) -> StableInterval {
+        StableInterval { lower, upper }
+    }
+
+    /// Whether a value lies strictly between the ends.
+    pub fn contains(&self, value: &Rational) -> bool {
+        self.lower.as_ref().is_none_or(|l| l.value.compare_rational(value).is_lt())
+            && self.upper.as_ref().is_none_or(|u| u.value.compare_rational(value).is_gt())
+    }
+}
+
+/// A short interval about which nothing is known, between neighbours that are decided.
+///
+/// ```
+/// use jurist_engine::stability::UndecidedBracket;
+/// let bracket = UndecidedBracket::new(1.into(), 2.into(), "touching or crossing");
+/// assert_eq!(bracket.why, "touching or crossing");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct UndecidedBracket {
+    /// The lower end.
+    pub lower: Rational,
+    /// The upper end.
+    pub upper: Rational,
+    /// What could not be told.
+    pub why: String,
+}
+
+impl UndecidedBracket {
+    /// The bracket between two numbers.
+    pub fn new(lower: Rational, upper: Rational, why: impl Into<String>) -> Self {
+        UndecidedBracket { lower, upper, why: why.into() }
+    }
+}
+
 /// All parameter values of a range for which a loop is stable: a finite union of open intervals.
 ///
 /// Two neighbouring intervals may share an end, where the loop is only marginally stable (the roots
@@ -75,7 +121,20 @@ pub struct StableInterval {
 #[derive(Clone, Debug, Default)]
 pub struct StableSet {
     intervals: Vec<StableInterval>,
-    cells: Option<Cells>,
+    undecided: Vec<UndecidedBracket>,
+    way: Way,
+}
+
+/// How a set was found.
+#[derive(Clone, Debug, Default)]
+enum Way {
+    /// A boundary condition holds for every value, or the loop is undefined.
+    #[default]
+    Nowhere,
+    /// By the zeros of boundary polynomials.
+    Cells(Cells),
+    /// By anything else.
+    Other,
 }
 
 /// How the range was cut: between two neighbouring zeros of the boundary polynomials lies a cell in which the number of
@@ -90,14 +149,34 @@ pub struct Cells {
 }
 
 impl StableSet {
+    /// A set that was found in another way than by boundary polynomials over the integers: its intervals, ascending and
+    /// disjoint, and where nothing is known.
+    pub fn from_intervals(intervals: Vec<StableInterval>, undecided: Vec<UndecidedBracket>) -> StableSet {
+        StableSet { intervals, undecided, way: Way::Other }
+    }
+
+    /// Whether the set was decided by boundary polynomials over the integers alone, which certificates are made of.
+    pub fn is_algebraic(&self) -> bool {
+        !matches!(self.way, Way::Other)
+    }
+
+    /// Where nothing is known, ascending; what lies between is decided.
+    pub fn undecided(&self) -> &[UndecidedBracket] {
+        &self.undecided
+    }
+
     /// The intervals, ascending and disjoint.
     pub fn intervals(&self) -> &[StableInterval] {
         &self.intervals
     }
 
-    /// How the range was cut; `None` when the loop is stable nowhere because a boundary condition holds for every value.
+    /// How the range was cut; `None` when the loop is stable nowhere because a boundary condition holds for every value,
+    /// and for a set that is not [algebraic](StableSet::is_algebraic).
     pub fn cells(&self) -> Option<&Cells> {
-        self.cells.as_ref()
+        match &self.way {
+            Way::Cells(cells) => Some(cells),
+            Way::Nowhere | Way::Other => None,
+        }
     }
 
     /// Every end, to take back a cause that belongs to the question's form and not to the loop.
@@ -112,13 +191,17 @@ impl StableSet {
 
     /// Whether a value is in the set.
     pub fn contains(&self, value: &Rational) -> bool {
-        self.to_interval_set().contains(value)
+        self.intervals.iter().any(|i| i.contains(value))
     }
 
-    /// The intervals without their causes.
-    pub fn to_interval_set(&self) -> IntervalSet {
-        let bare = |e: &Option<End>| e.as_ref().map(|e| e.value.clone());
-        self.intervals.iter().map(|i| AlgebraicInterval { lower: bare(&i.lower), upper: bare(&i.upper) }).collect()
+    /// The intervals without their causes; `None` where an end is not algebraic.
+    pub fn to_interval_set(&self) -> Option<IntervalSet> {
+        let bare = |e: &Option<End>| match e {
+            None => Some(None),
+            Some(e) => e.value.algebraic().cloned().map(Some),
+        };
+        let interval = |i: &StableInterval| Some(AlgebraicInterval { lower: bare(&i.lower)?, upper: bare(&i.upper)? });
+        self.intervals.iter().map(interval).collect()
     }
 }
 
@@ -189,7 +272,7 @@ pub fn stable_set(
         let upper = cell.upper.as_ref().map(|value| examiner.examine(value)).transpose()?;
         intervals.push(StableInterval { lower, upper });
     }
-    Ok(StableSet { intervals, cells: Some(Cells { zeros: points, samples }) })
+    Ok(StableSet { intervals, undecided: Vec::new(), way: Way::Cells(Cells { zeros: points, samples }) })
 }
 
 /// What happens at an end of a stable interval that was found elsewhere; `None` when the loop is stable
@@ -246,6 +329,6 @@ impl EndExaminer<'_> {
         if is_end(&self.range.lower) || is_end(&self.range.upper) {
             causes.insert(Cause::Domain);
         }
-        Ok(End { value: value.clone(), causes, pair })
+        Ok(End { value: value.clone().into(), causes, pair })
     }
 }

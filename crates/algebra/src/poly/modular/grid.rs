@@ -3,6 +3,13 @@
 use super::prime_field::PrimeField;
 use crate::limits::checkpoint;
 
+/// Work of so many steps is counted by row; less is counted at once, which costs nothing beside it.
+const LONG: usize = 1 << 16;
+
+fn is_long(steps: usize) -> bool {
+    steps >= LONG
+}
+
 /// The grid `0..lengths[0] x 0..lengths[1] x ...` together with the tables of one prime.
 ///
 /// Data over a grid are stored with the last axis fastest. The prime must exceed every length.
@@ -62,9 +69,15 @@ impl<'a> Grid<'a> {
         let mut out = vec![0; outer * count * inner];
         let direct = terms.min(count);
         let mut differences = vec![0; terms * inner];
+        let by_row = is_long(terms * inner * count);
         for (coefficients, values) in data.chunks_exact(terms * inner).zip(out.chunks_exact_mut(count * inner)) {
+            if !by_row {
+                checkpoint((terms * inner * count / 4) as u64);
+            }
             for (row, &x) in values.chunks_exact_mut(inner).zip(&self.points).take(direct) {
-                checkpoint((terms * inner / 4) as u64);
+                if by_row {
+                    checkpoint((terms * inner / 4) as u64);
+                }
                 row.copy_from_slice(&coefficients[(terms - 1) * inner..]);
                 for c in coefficients.chunks_exact(inner).rev().skip(1) {
                     for (v, &c) in row.iter_mut().zip(c) {
@@ -78,7 +91,9 @@ impl<'a> Grid<'a> {
             // The backward differences at the last point: of order 0, 1, ..., terms - 1.
             differences.copy_from_slice(&values[..terms * inner]);
             for order in 1..terms {
-                checkpoint(((terms - order) * inner / 8) as u64);
+                if by_row {
+                    checkpoint(((terms - order) * inner / 8) as u64);
+                }
                 for k in 0..terms - order {
                     for i in 0..inner {
                         let at = k * inner + i;
@@ -87,7 +102,9 @@ impl<'a> Grid<'a> {
                 }
             }
             for row in values.chunks_exact_mut(inner).skip(terms) {
-                checkpoint((terms * inner / 8) as u64);
+                if by_row {
+                    checkpoint((terms * inner / 8) as u64);
+                }
                 for k in 1..terms {
                     for i in 0..inner {
                         let at = k * inner + i;
@@ -111,9 +128,15 @@ impl<'a> Grid<'a> {
     fn interpolate_line(&self, v: &mut [u64]) {
         let f = self.field;
         let n = v.len();
+        // Both triangles.
+        let by_level = is_long(n * n);
+        if !by_level {
+            checkpoint((n * n / 4) as u64);
+        }
         for level in 1..n {
-            // Both triangles.
-            checkpoint((n - level) as u64 / 2);
+            if by_level {
+                checkpoint((n - level) as u64 / 2);
+            }
             let mut previous = v[level - 1];
             for x in &mut v[level..] {
                 let current = *x;
@@ -134,9 +157,15 @@ impl<'a> Grid<'a> {
 
     fn interpolate_block(&self, v: &mut [u64], n: usize, inner: usize) {
         let f = self.field;
+        // Both triangles.
+        let by_level = is_long(n * n * inner);
+        if !by_level {
+            checkpoint((n * n * inner / 4) as u64);
+        }
         for level in 1..n {
-            // Both triangles.
-            checkpoint(((n - level) * inner / 2) as u64);
+            if by_level {
+                checkpoint(((n - level) * inner / 2) as u64);
+            }
             for k in (level..n).rev() {
                 let (before, current) = v[(k - 1) * inner..(k + 1) * inner].split_at_mut(inner);
                 for (x, &y) in current.iter_mut().zip(before.iter()) {

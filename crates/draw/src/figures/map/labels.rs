@@ -1,7 +1,7 @@
 //! Where names and frequencies stand beside the walls.
 
 use super::lines::{Role, Wall, mechanism_words};
-use super::trace::approximate;
+use super::trace::approximate_real;
 use jurist_algebra::limits::{Budget, parallel_map};
 use jurist_algebra::number::{parse_number, to_decimal};
 use jurist_engine::answer::{Answer, Frequency, Map};
@@ -89,7 +89,7 @@ pub(super) fn limits_on_lines(answer: &Answer<Map>) -> Vec<((f64, f64), String)>
     for (line, set) in &answer.value().slices {
         let Some((fixed, at)) = line.set().last() else { continue };
         for end in set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
-            let value = approximate(&end.value);
+            let value = approximate_real(&end.value);
             let at = at.to_f64_approximate();
             let place = if *fixed == answer.problem().free()[0].name { (at, value) } else { (value, at) };
             let decimal = printed(&end.value.decimal(5));

@@ -42,7 +42,7 @@ pub fn mechanism_colour(causes: &Causes) -> (&'static str, Option<&'static str>)
         Some(Cause::ComplexPair) => (COLOURS[0], None),
         Some(Cause::RootAtOne | Cause::RootAtZero) => (COLOURS[1], Some("9 3")),
         Some(Cause::RootAtMinusOne) => (COLOURS[3], Some("4 3")),
-        Some(Cause::DegreeLost) => (COLOURS[5], Some("9 3 2 3")),
+        Some(Cause::DegreeLost | Cause::Neutral) => (COLOURS[5], Some("9 3 2 3")),
         Some(Cause::Pole) => ("#777777", Some("2 3")),
         Some(Cause::Domain) | None => ("#999999", Some("1 3")),
     }
@@ -67,6 +67,7 @@ pub fn mechanism_words(causes: &Causes, answer: &Answer<Map>) -> String {
         (Cause::RootAtZero, _) if edge.is_some() => format!("root at s = {}", printed("")),
         (Cause::RootAtZero, _) => "root at s = 0".into(),
         (Cause::DegreeLost, _) => "degree lost".into(),
+        (Cause::Neutral, _) => "difference operator not stable".into(),
         (Cause::Pole, _) => "loop undefined".into(),
         (Cause::Domain, _) => "end of the domain".into(),
     };

@@ -5,6 +5,7 @@ use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::poly::algebraic::simplest_between;
+use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::stability::plane::{StabilityMap, Strip};
 
@@ -178,6 +179,11 @@ fn steep(a: &TracedLine, b: &TracedLine) -> bool {
 
 /// The nearest floating-point number, about.
 pub(super) fn approximate(value: &RealAlgebraic) -> f64 {
+    approximate_real(&value.clone().into())
+}
+
+/// The nearest floating-point number, about.
+pub(super) fn approximate_real(value: &Real) -> f64 {
     let (lo, hi) = value.refined_to_digits(15).enclosure();
     lo.midpoint(&hi).to_f64_approximate()
 }

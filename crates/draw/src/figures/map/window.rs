@@ -1,6 +1,6 @@
 //! Which part of the plane is shown, and on what scales.
 
-use super::trace::approximate;
+use super::trace::{approximate, approximate_real};
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::stability::{AlgebraicInterval, Range};
@@ -68,7 +68,7 @@ fn choose(answer: &Answer<Map>, marks: &[(f64, f64)], request: &WindowRequest, p
     values.extend(marks.iter().map(|m| if parameter == 0 { m.0 } else { m.1 }));
     for (_, set) in answer.value().slices.iter().filter(|(line, _)| line.parameter().name == axis.name) {
         let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
-        values.extend(ends.map(|e| approximate(&e.value)));
+        values.extend(ends.map(|e| approximate_real(&e.value)));
     }
     let limits = answer.value().limits();
     let places = limits.iter().flat_map(|l| l.ends[1 - parameter].iter().flatten()).flat_map(|l| &l.limit.at);

@@ -49,6 +49,9 @@ impl Answer<StableSet> {
         budget.enter(|| {
             budget.step("theorem for Coq");
             let problem = self.problem();
+            if !self.value().is_algebraic() {
+                return Err(refused("a limit is not algebraic", "there is none yet for held plants and dead time"));
+            }
             let loop_ = Loop::of(problem, budget)?;
             let conditions = checker::conditions(&loop_.cleared, problem.region())
                 .ok_or_else(|| refused("a row of Jury's table is zero for every value of the parameter", OTHERS))?;

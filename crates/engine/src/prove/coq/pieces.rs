@@ -68,7 +68,7 @@ pub(super) fn way(conditions: &[UniPoly], set: &StableSet, domain: &Range, budge
 /// Whether the set begins with the domain, and its ends inside the domain.
 fn events(set: &StableSet, domain: &Range) -> (bool, Vec<(Kind, RealAlgebraic)>) {
     let inside = |end: &Option<crate::stability::End>, of: &Option<Rational>| {
-        let value = end.as_ref()?.value.clone();
+        let value = end.as_ref()?.value.algebraic()?.clone();
         of.as_ref().is_none_or(|q| value.compare_rational(q) != Ordering::Equal).then_some(value)
     };
     let mut starts = false;

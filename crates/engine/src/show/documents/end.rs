@@ -40,7 +40,7 @@ pub struct PlainEnd {
 
 impl PlainEnd {
     pub(super) fn new(value: &RealAlgebraic, digits: usize) -> Self {
-        PlainEnd { number: Number::new(value, digits), closed: false }
+        PlainEnd { number: Number::new(&value.clone().into(), digits), closed: false }
     }
 
     /// A union of open intervals.
@@ -95,8 +95,8 @@ pub struct End {
     /// The value, in the parameter's unit.
     #[serde(flatten)]
     pub number: Number,
-    /// Why stability ends: `z=1`, `z=-1`, `complex pair`, `s=0`, `infinity` (the degree is lost), `pole` (undefined there),
-    /// `domain`; several are joined by `+` in this order.
+    /// Why stability ends: `z=1`, `z=-1`, `complex pair`, `s=0`, `infinity` (the degree is lost), `neutral`
+    /// (infinitely many roots reach the boundary), `pole` (undefined there), `domain`; several are joined by `+` in this order.
     pub cause: String,
     /// The same with the points where the loop's own roots are; only where a smaller region is asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]

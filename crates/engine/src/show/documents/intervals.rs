@@ -1,10 +1,11 @@
 //! The document `jurist/intervals/1`.
 
+use super::number::{Enclosure, enclosure};
 use super::schema_name;
 use super::{Answered, Bounds, End, ParameterQuestion};
 use crate::answer::Answer;
 use crate::problem::Problem;
-use crate::stability::StableSet;
+use crate::stability::{StableSet, UndecidedBracket};
 use jurist_algebra::limits::Exhausted;
 use serde::{Deserialize, Serialize};
 
@@ -30,6 +31,19 @@ pub struct Intervals {
 pub struct Stable {
     /// The stable set as intervals in ascending order; two that touch share an end that is not stable. Empty: never stable.
     pub stable: Vec<Bounds<End>>,
+    /// Where nothing is known, in ascending order; what lies between is decided.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub undecided: Vec<UndecidedEnclosure>,
+}
+
+/// A bracket in which nothing is known.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct UndecidedEnclosure {
+    /// Its ends.
+    pub enclosure: Enclosure,
+    /// What could not be told.
+    pub why: String,
 }
 
 /// No answer.
@@ -46,8 +60,17 @@ impl Intervals {
         Intervals {
             schema: IntervalsName::V1,
             question: ParameterQuestion::new(problem),
-            answer: Answered::of(set, |set| Stable { stable: End::intervals(set, problem, digits) }),
+            answer: Answered::of(set, |set| Stable {
+                stable: End::intervals(set, problem, digits),
+                undecided: set.undecided().iter().map(UndecidedEnclosure::from).collect(),
+            }),
         }
+    }
+}
+
+impl From<&UndecidedBracket> for UndecidedEnclosure {
+    fn from(bracket: &UndecidedBracket) -> Self {
+        UndecidedEnclosure { enclosure: enclosure(&bracket.lower, &bracket.upper), why: bracket.why.clone() }
     }
 }
 

@@ -269,7 +269,7 @@ impl MapQuestion {
 impl Strip {
     fn new(strip: &plane::Strip, map: &StabilityMap, x: &Free, digits: usize) -> Self {
         let wall = |value: &RealAlgebraic| Wall {
-            number: Number::new(value, digits),
+            number: Number::new(&value.clone().into(), digits),
             cause: wall_cause(map, x, value),
             frequency: FrequencyOfPair::default(),
             closed: false,
@@ -314,7 +314,7 @@ impl RegionLimit {
     fn new(limit: &MapLimit, parameter: usize, problem: &Problem, digits: usize) -> Self {
         let place = |at: &[number::Enclosure; 2]| Place::new(&at[1 - parameter], digits);
         RegionLimit {
-            number: Number::new(&limit.limit.value, digits),
+            number: Number::new(&limit.limit.value.clone().into(), digits),
             cause: limit.limit.causes.to_string(),
             boundary: boundary_point(problem).map(|_| causes_text(&limit.limit.causes, problem)),
             frequency: FrequencyOfPair::new(digits.min(JSON_NUMBER_DIGITS), |_| limit.frequency.clone()),

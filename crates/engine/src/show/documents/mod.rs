@@ -18,11 +18,13 @@
 mod analyze;
 mod boxes;
 mod charpoly;
+mod check;
 mod end;
 mod intervals;
 mod jury;
 mod map;
 mod number;
+mod over;
 mod question;
 #[cfg(feature = "schema")]
 pub mod schemas;
@@ -37,8 +39,9 @@ pub use charpoly::{
     OpenPolynomials, Polynomials, PolynomialsOrNone, QuotientOpen, RootLocusForm, RootLocusFormName, Term, Transfer,
     TransferName, TransferQuotient,
 };
+pub use check::{Check, CheckName, Finding, FindingPlace, FindingSeverity};
 pub use end::{Bounds, End, FrequencyOfPair, PlainEnd};
-pub use intervals::{Intervals, IntervalsName, IntervalsOpen, Stable};
+pub use intervals::{Intervals, IntervalsName, IntervalsOpen, Stable, UndecidedEnclosure};
 pub use jury::{
     Condition, Holds, Jury, JuryAtPoint, JuryInParameter, JuryName, PointTable, Relation, Row, RowsOpen, Solution,
     SolvedTable, TableKind, TableOpen,
@@ -47,7 +50,8 @@ pub use map::{
     Branch, Cell, CellVerdict, Curve, CurveTerm, Map, MapName, MapOpen, MapQuestion, Pair, Place, PlaneRegion,
     RegionEnd, RegionLimit, Regions, Strip, Wall,
 };
-pub use number::{Enclosure, Exact, Named, Number};
+pub use number::{Enclosure, Exact, Named, Number, NumberKind};
+pub use over::{AlgebraicPlace, Over};
 pub use question::{ParameterQuestion, PointQuestion, RegionBound};
 pub use undecided::{Answered, Open, Undecided};
 pub use verdict::{RootsByPlace, Verdict, VerdictName, VerdictOpen};

@@ -1,8 +1,10 @@
 //! Numbers and names with values.
 
+use super::over::Over;
 use crate::show::real;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{RealAlgebraic, UniPoly};
+use jurist_algebra::poly::UniPoly;
+use jurist_algebra::real::Real;
 use serde::de::{MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -47,28 +49,47 @@ pub(super) fn enclosure(lower: &Rational, upper: &Rational) -> Enclosure {
     [lower.into(), upper.into()]
 }
 
-/// A real algebraic number.
+/// Whether a number is algebraic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum NumberKind {
+    /// A root of a polynomial over the integers.
+    Algebraic,
+    /// Known by enclosures of any width, and not rational.
+    Transcendental,
+}
+
+/// A real number.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Number {
     /// Correctly rounded to the digits asked for, ties to even; plain notation for 1e-6 <= |v| < 1e15, else `d.ddde-7`.
     pub decimal: String,
+    /// Whether the number is a root of a polynomial over the integers.
+    pub kind: NumberKind,
     /// The number itself where it is rational, else `null`.
     pub exact: Option<Exact>,
     /// Lower and upper bound, equal exactly when the number is rational; no other root of `polynomial` lies between.
     pub enclosure: Enclosure,
-    /// A square-free primitive integer polynomial that has the number as a root, coefficients from the constant term up.
-    pub polynomial: Vec<Exact>,
+    /// A square-free primitive integer polynomial that has the number as a root, coefficients from the constant term up;
+    /// `null` for a transcendental number.
+    pub polynomial: Option<Vec<Exact>>,
+    /// What a transcendental number is a root of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over: Option<Over>,
 }
 
 impl Number {
-    pub(super) fn new(value: &RealAlgebraic, digits: usize) -> Self {
+    pub(super) fn new(value: &Real, digits: usize) -> Self {
         let rounded = real::rounded(value, digits);
         Number {
             decimal: rounded.decimal,
+            kind: if value.algebraic().is_some() { NumberKind::Algebraic } else { NumberKind::Transcendental },
             exact: value.exact().as_ref().map(Exact::from),
             enclosure: enclosure(&rounded.enclosure.0, &rounded.enclosure.1),
-            polynomial: Exact::coefficients(value.polynomial()),
+            polynomial: value.algebraic().map(|x| Exact::coefficients(x.polynomial())),
+            over: Over::of(value),
         }
     }
 }

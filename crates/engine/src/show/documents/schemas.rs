@@ -1,6 +1,6 @@
 //! JSON Schemas of the documents, made of their types.
 
-use super::{Analysis, Charpoly, Intervals, Jury, Map, MapBoxes, RootLocusForm, Transfer, Verdict};
+use super::{Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, RootLocusForm, Transfer, Verdict};
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
@@ -22,6 +22,7 @@ pub fn schemas() -> Vec<(&'static str, Value)> {
     vec![
         entry::<Analysis>("jurist/analyze/1"),
         entry::<Charpoly>("jurist/charpoly/1"),
+        entry::<Check>("jurist/check/1"),
         entry::<Intervals>("jurist/intervals/1"),
         entry::<Jury>("jurist/jury/1"),
         entry::<Map>("jurist/map/1"),

@@ -1,6 +1,6 @@
 //! The answer for people: each region, how far it reaches, and what limits it there.
 
-use super::super::intervals::{domain_text, heading, set_lines, undecided_text};
+use super::super::intervals::{domain_text, heading, set_lines, stable_lines, undecided_text};
 use super::super::layout::{Columns, named_values, short, visible};
 use super::super::real;
 use super::super::region::{causes_text, goal_or_stable};
@@ -104,10 +104,12 @@ fn region_text(
             let limit = limits.and_then(|l| l.ends[k][side].as_ref());
             let cells = match (limit, end) {
                 (_, None) => vec![format!("no {word} {}", axis.name)],
-                (None, Some(value)) => vec![format!("{word} {}", axis.name), real::rounded(value, digits).decimal],
+                (None, Some(value)) => {
+                    vec![format!("{word} {}", axis.name), real::rounded(&value.clone().into(), digits).decimal]
+                }
                 (Some(limit), Some(value)) => vec![
                     format!("{word} {}", axis.name),
-                    real::rounded(value, digits).decimal,
+                    real::rounded(&value.clone().into(), digits).decimal,
                     mechanism(limit, problem),
                     place(limit, k, axes),
                 ],
@@ -210,7 +212,7 @@ fn nominal_text(problem: &Problem, answer: &Map, digits: usize) -> String {
     for (line, set) in &answer.slices {
         let fixed = line.set().last().map(|(name, value)| format!("{name} = {}", short(value))).unwrap_or_default();
         let name = &line.parameter().name;
-        let lines = set_lines(name, &set.to_interval_set(), digits);
+        let lines = stable_lines(name, set, digits);
         let lines = if lines.is_empty() { vec![format!("no {name}")] } else { lines };
         for line in lines {
             out.push_str(&format!("    {line}   at {fixed}\n"));

@@ -1,0 +1,323 @@
+//! Real numbers of any kind: algebraic ones, and others that can be enclosed as narrowly as is asked for.
+
+mod transcendental;
+
+pub use transcendental::{Enclosing, Origin, Transcendental};
+
+use crate::limits::{Budget, Exhausted};
+use crate::number::{Integer, Rational, Sign, enclosed_decimal, to_decimal};
+use crate::poly::RealAlgebraic;
+use crate::poly::algebraic::{rational_between as between_algebraic, simplest_between};
+use std::cmp::Ordering;
+
+/// A real number.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::number::{Enclosure, Rational};
+/// use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
+///
+/// #[derive(Debug)]
+/// struct Pi;
+/// impl Enclosing for Pi {
+///     fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
+///         Enclosure::pi(bits + 2)
+///     }
+///     fn origin(&self) -> Origin {
+///         Origin::Function { function: "pi".into(), details: Vec::new() }
+///     }
+/// }
+///
+/// let pi = Real::from(Transcendental::new(Pi));
+/// assert_eq!(pi.decimal(12), "3.14159265359");
+/// assert!(pi.compare(&Real::from(Rational::from(3)), &Budget::unlimited()).unwrap().is_gt());
+/// assert!(pi.exact().is_none() && pi.algebraic().is_none());
+/// ```
+#[derive(Clone, Debug)]
+pub enum Real {
+    /// A root of a polynomial over the integers; rational numbers among them.
+    Algebraic(RealAlgebraic),
+    /// A number that is known by its enclosures and is not rational.
+    Transcendental(Transcendental),
+}
+
+/// Bits beyond which two numbers that are not known to differ are not told apart by refinement alone.
+const MOST_BITS: u64 = 1 << 14;
+
+impl From<RealAlgebraic> for Real {
+    fn from(value: RealAlgebraic) -> Self {
+        Real::Algebraic(value)
+    }
+}
+
+impl From<Rational> for Real {
+    fn from(value: Rational) -> Self {
+        Real::Algebraic(RealAlgebraic::from_rational(value))
+    }
+}
+
+impl From<Transcendental> for Real {
+    fn from(value: Transcendental) -> Self {
+        Real::Transcendental(value)
+    }
+}
+
+impl Real {
+    /// The number, if it is known to be algebraic.
+    pub fn algebraic(&self) -> Option<&RealAlgebraic> {
+        match self {
+            Real::Algebraic(x) => Some(x),
+            Real::Transcendental(_) => None,
+        }
+    }
+
+    /// The value, if it is rational.
+    pub fn exact(&self) -> Option<Rational> {
+        self.algebraic()?.exact()
+    }
+
+    /// Lower and upper end, equal exactly for a rational number.
+    ///
+    /// Cost: nothing, but for a transcendental number that has not been refined: then a first enclosure.
+    pub fn enclosure(&self) -> (Rational, Rational) {
+        match self {
+            Real::Algebraic(x) => x.enclosure(),
+            Real::Transcendental(x) => x.enclosure(),
+        }
+    }
+
+    /// The same number with an enclosure of at most the given positive width.
+    ///
+    /// Cost: that of [`RealAlgebraic::refined`], or of one enclosure of the number's own kind.
+    pub fn refined(&self, width: &Rational) -> Real {
+        match self {
+            Real::Algebraic(x) => Real::Algebraic(x.refined(width)),
+            Real::Transcendental(x) => Real::Transcendental(x.refined(width)),
+        }
+    }
+
+    /// The same number with an enclosure of relative width at most `10^-(digits + 2)`.
+    ///
+    /// Cost: that of [`Real::refined`] to about `3.4 digits` bits.
+    pub fn refined_to_digits(&self, digits: usize) -> Real {
+        match self {
+            Real::Algebraic(x) => Real::Algebraic(x.refined_to_digits(digits)),
+            Real::Transcendental(x) => Real::Transcendental(x.refined_to_digits(digits)),
+        }
+    }
+
+    /// About twice as many bits of the enclosure.
+    pub fn refined_further(&self) -> Real {
+        let (lo, hi) = self.enclosure();
+        let width = &hi - &lo;
+        if width.is_zero() {
+            return self.clone();
+        }
+        let half = Rational::dyadic(&Integer::ONE, 32);
+        let square = &width * &width;
+        self.refined(&square.min(&width * &half))
+    }
+
+    /// The sign.
+    pub fn sign(&self) -> Sign {
+        self.compare_rational(&Rational::ZERO)
+    }
+
+    /// Exact comparison with a rational number, which a transcendental number never equals.
+    ///
+    /// Cost: that of [`RealAlgebraic::compare_rational`], or refinement until the enclosure leaves the number aside.
+    pub fn compare_rational(&self, x: &Rational) -> Ordering {
+        match self {
+            Real::Algebraic(value) => value.compare_rational(x),
+            Real::Transcendental(value) => value.compare_rational(x),
+        }
+    }
+
+    /// Whether both are the same object, which is how a number that is shared by two intervals is recognised; equal
+    /// algebraic numbers are always recognised, equal transcendental ones of different origin are not.
+    pub fn is_same(&self, other: &Real) -> bool {
+        match (self, other) {
+            (Real::Algebraic(x), Real::Algebraic(y)) => x.compare(y).is_eq(),
+            (Real::Transcendental(x), Real::Transcendental(y)) => x.is_same(y),
+            _ => false,
+        }
+    }
+
+    /// Comparison. Equality is decided for algebraic numbers, and for transcendental ones that are the same object;
+    /// else the numbers are refined until they part.
+    ///
+    /// Cost: that of [`RealAlgebraic::compare`], or of refining both until their enclosures part.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out, and when the numbers are the same to some thousands of bits.
+    pub fn compare(&self, other: &Real, budget: &Budget) -> Result<Ordering, Exhausted> {
+        match (self, other) {
+            (Real::Algebraic(x), Real::Algebraic(y)) => return budget.enter(|| x.compare(y)),
+            (Real::Transcendental(x), Real::Transcendental(y)) if x.is_same(y) => return Ok(Ordering::Equal),
+            _ => {}
+        }
+        let (mut x, mut y) = (self.clone(), other.clone());
+        let mut bits = 64;
+        loop {
+            let ((a, b), (c, d)) = (x.enclosure(), y.enclosure());
+            if b < c {
+                return Ok(Ordering::Less);
+            }
+            if d < a {
+                return Ok(Ordering::Greater);
+            }
+            budget.check()?;
+            if bits > MOST_BITS {
+                return Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "comparing two real numbers"));
+            }
+            let width = Rational::dyadic(&Integer::ONE, bits);
+            (x, y) = budget.enter(|| (x.refined(&width), y.refined(&width)))?;
+            bits *= 2;
+        }
+    }
+
+    /// Rounded to so many significant digits, correctly; ties to even for rational numbers.
+    ///
+    /// Cost: that of [`Real::refined_to_digits`].
+    pub fn decimal(&self, digits: usize) -> String {
+        let x = match self {
+            Real::Algebraic(x) => return x.decimal(digits),
+            Real::Transcendental(x) => x,
+        };
+        let mut accuracy = digits;
+        for _ in 0..8 {
+            let (lo, hi) = x.refined_to_digits(accuracy).enclosure();
+            if let Some(text) = enclosed_decimal(&lo, &hi, digits) {
+                return text;
+            }
+            accuracy *= 2;
+        }
+        // Two hundred times the digits do not tell the number from a tie: either decimal is as near.
+        let (lo, hi) = x.refined_to_digits(accuracy).enclosure();
+        to_decimal(&lo.midpoint(&hi), digits)
+    }
+
+    /// The greatest integer that is not above this number.
+    ///
+    /// Cost: refinement until no integer is inside of the enclosure.
+    pub fn floor(&self) -> Integer {
+        match self {
+            Real::Algebraic(x) => x.floor(),
+            Real::Transcendental(x) => {
+                let (lo, hi) = x.refined(&Rational::ONE).enclosure();
+                // One integer at most is left to ask about.
+                let above = hi.floor();
+                if lo.floor() == above || x.compare_rational(&Rational::from(&above)).is_gt() {
+                    above
+                } else {
+                    above - Integer::ONE
+                }
+            }
+        }
+    }
+
+    /// A rational number below this one: the greatest such integer.
+    pub fn rational_below(&self) -> Rational {
+        let floor = Rational::from(self.floor());
+        if self.compare_rational(&floor).is_eq() { floor - Rational::ONE } else { floor }
+    }
+
+    /// A rational number above this one: the least such integer.
+    pub fn rational_above(&self) -> Rational {
+        Rational::from(self.floor()) + Rational::ONE
+    }
+}
+
+/// The rational with the smallest denominator strictly between two numbers; `None` when they are equal.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::number::Rational;
+/// use jurist_algebra::real::{Real, rational_between};
+/// let real = |n: i64, d: i64| Real::from(Rational::new(n.into(), d.into()));
+/// let between = rational_between(&real(1, 3), &real(1, 2), &Budget::unlimited()).unwrap();
+/// assert_eq!(between.unwrap().to_string(), "2/5");
+/// ```
+///
+/// # Errors
+/// As [`Real::compare`].
+pub fn rational_between(a: &Real, b: &Real, budget: &Budget) -> Result<Option<Rational>, Exhausted> {
+    if let (Real::Algebraic(x), Real::Algebraic(y)) = (a, b) {
+        return budget.enter(|| between_algebraic(x, y));
+    }
+    let (mut a, mut b) = match a.compare(b, budget)? {
+        Ordering::Less => (a.clone(), b.clone()),
+        Ordering::Greater => (b.clone(), a.clone()),
+        Ordering::Equal => return Ok(None),
+    };
+    loop {
+        // The simplest of a slightly longer interval is the simplest of this one if it is in it.
+        let Some(candidate) = simplest_between(&a.enclosure().0, &b.enclosure().1) else { return Ok(None) };
+        let inside = || a.compare_rational(&candidate).is_lt() && b.compare_rational(&candidate).is_gt();
+        if budget.enter(inside)? {
+            return Ok(Some(candidate));
+        }
+        budget.check()?;
+        (a, b) = budget.enter(|| (halved(&a), halved(&b)))?;
+    }
+}
+
+fn halved(x: &Real) -> Real {
+    let (lo, hi) = x.enclosure();
+    x.refined(&((hi - lo) * Rational::dyadic(&Integer::ONE, 1)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::{Enclosure, parse_number};
+    use crate::poly::{SquareFree, UniPoly, isolate_real_roots};
+
+    #[derive(Debug)]
+    struct Logarithm(i64);
+
+    impl Enclosing for Logarithm {
+        fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
+            Enclosure::from_rational(Rational::from(self.0)).ln(bits + 8).expect("positive")
+        }
+
+        fn origin(&self) -> Origin {
+            Origin::Function { function: "ln".into(), details: vec![("at".into(), self.0.to_string())] }
+        }
+    }
+
+    fn ln(n: i64) -> Real {
+        Transcendental::new(Logarithm(n)).into()
+    }
+
+    #[test]
+    fn logarithms_have_digits_signs_and_floors() {
+        assert_eq!(ln(2).decimal(30), "0.693147180559945309417232121458");
+        assert_eq!(ln(10).floor(), Integer::from(2));
+        assert_eq!(ln(10).rational_above(), Rational::from(3));
+        assert!(ln(2).sign().is_gt());
+        assert!(ln(2).compare_rational(&parse_number("0.69314718055994530941723212146").unwrap()).is_lt());
+        let (lo, hi) = ln(3).refined(&parse_number("1e-50").unwrap()).enclosure();
+        assert!(lo < hi && hi - lo <= parse_number("1e-50").unwrap());
+    }
+
+    #[test]
+    fn numbers_of_both_kinds_are_compared() {
+        let budget = Budget::unlimited();
+        let p = SquareFree::new(UniPoly::from_i64(&[-2, 0, 1])).unwrap();
+        let root: Real = isolate_real_roots(&p, &budget).unwrap().pop().unwrap().into();
+        assert!(ln(4).compare(&root, &budget).unwrap().is_lt()); // 1.386 < 1.414
+        assert!(root.compare(&ln(4), &budget).unwrap().is_gt());
+        assert!(ln(4).compare(&Rational::from(1).into(), &budget).unwrap().is_gt());
+        let between = rational_between(&ln(4), &root, &budget).unwrap().unwrap();
+        assert_eq!(between, parse_number("7/5").unwrap());
+        let twin = ln(4);
+        assert!(twin.compare(&twin.clone(), &budget).unwrap().is_eq());
+    }
+
+    #[test]
+    fn equal_numbers_of_unknown_origin_end_the_comparison_with_a_message() {
+        let refused = ln(4).compare(&ln(4), &Budget::unlimited()).unwrap_err();
+        assert_eq!(refused.budget, "precision (16384 bits)");
+    }
+}

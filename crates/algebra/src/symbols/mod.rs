@@ -1,0 +1,355 @@
+//! Constants such as `exp(-1/2)` as variables of polynomials.
+//!
+//! A sampled loop with a held plant has entries of `exp(A T)` in its characteristic polynomial. Each transcendental constant
+//! that occurs becomes a [`Definition`] in a table of [`Symbols`] and, in polynomials and rational functions, the variable of
+//! the same index. A polynomial in symbols is a number: [`Symbols::enclose`] encloses it to any width, [`Symbols::sign`]
+//! decides its sign, zero included.
+//!
+//! In polynomials with other variables, such as parameters, symbol `i` is variable `first + i`;
+//! [`MultiPoly::map_variables`] renames.
+
+mod beyond;
+mod moving;
+mod normal_form;
+mod rational_series;
+mod roots;
+mod sign;
+
+pub use moving::{MovingSymbols, Zeros};
+pub use roots::{SymbolicPoly, common_factor, merged};
+
+use crate::ball::{Ball, BallMatrix, exp, exponential, exponential_of_rationals};
+use crate::matrix::Matrix;
+use crate::number::{Enclosure, Integer, Rational};
+use crate::poly::{MultiPoly, RationalFunction};
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// What a symbol stands for. Arguments are rational functions of earlier symbols, numbered as in the table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Definition {
+    /// The circle number.
+    Pi,
+    /// The square root that is not negative.
+    Root(RationalFunction),
+    /// `exp(x)`.
+    Exponential(RationalFunction),
+    /// `tan(sqrt(w) t)/sqrt(w)`; for negative `w` that is `tanh(sqrt(-w) t)/sqrt(-w)`. With `X = exp(-b t)` the solutions of
+    /// `y'' + b y' + c y = 0`, `w = c - b^2/4`, at the time `2 t` are rational functions of it.
+    Tangent {
+        /// `w`.
+        square: RationalFunction,
+        /// `t`.
+        time: RationalFunction,
+    },
+    /// The solution of the linear differential equation with this characteristic polynomial whose derivative of order `index`
+    /// is 1 at 0 and whose other derivatives below the order of the equation are 0 there, at a time: entry `(0, index)` of
+    /// `exp(companion * time)`.
+    Fundamental {
+        /// The monic polynomial's coefficients from the constant term up, the leading 1 last.
+        polynomial: Vec<RationalFunction>,
+        /// Which of the solutions.
+        index: usize,
+        /// The time.
+        time: RationalFunction,
+    },
+}
+
+impl Definition {
+    /// The exponential of a rational number.
+    pub fn exponential(x: impl Into<Rational>) -> Definition {
+        Definition::Exponential(x.into().into())
+    }
+
+    /// The square root of a rational number.
+    pub fn root(x: impl Into<Rational>) -> Definition {
+        Definition::Root(x.into().into())
+    }
+
+    /// The tangent of a rational number.
+    pub fn tangent(x: impl Into<Rational>) -> Definition {
+        Definition::Tangent { square: RationalFunction::one(), time: x.into().into() }
+    }
+}
+
+/// A table of symbols.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::{Domain, MultiPoly};
+/// use jurist_algebra::symbols::{Definition, Symbols};
+/// let mut symbols = Symbols::new();
+/// let x = symbols.insert("X", Definition::exponential(-1));
+/// assert_eq!(symbols.definition_text(x), "exp(-1)");
+/// // 10 X - 3 > 0
+/// let p = MultiPoly::variable(x).scaled_by(&10.into()).minus(&MultiPoly::constant(3.into()));
+/// assert!(symbols.sign(&p, &Budget::unlimited()).unwrap().is_gt());
+/// ```
+#[derive(Default)]
+pub struct Symbols {
+    table: Vec<(String, Definition)>,
+    /// All values, by the bits after the point.
+    values: Mutex<BTreeMap<u64, Arc<Vec<Ball>>>>,
+}
+
+impl Clone for Symbols {
+    fn clone(&self) -> Self {
+        Symbols { table: self.table.clone(), values: Mutex::default() }
+    }
+}
+
+impl PartialEq for Symbols {
+    fn eq(&self, other: &Self) -> bool {
+        self.table == other.table
+    }
+}
+
+impl fmt::Debug for Symbols {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(&self.table).finish()
+    }
+}
+
+impl Symbols {
+    /// No symbols.
+    pub fn new() -> Self {
+        Symbols::default()
+    }
+
+    /// The number of symbols.
+    pub fn len(&self) -> usize {
+        self.table.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.table.is_empty()
+    }
+
+    /// Adds a symbol with its name and returns its index; the index of the symbol that has the same definition, if there is one.
+    pub fn insert(&mut self, name: impl Into<String>, definition: Definition) -> usize {
+        if let Some(known) = self.table.iter().position(|(_, d)| *d == definition) {
+            return known;
+        }
+        self.table.push((name.into(), definition));
+        self.values = Mutex::default();
+        self.table.len() - 1
+    }
+
+    /// Adds a symbol, also one that has the same definition as another.
+    pub fn push(&mut self, name: &str, definition: Definition) {
+        self.table.push((name.to_owned(), definition));
+        self.values = Mutex::default();
+    }
+
+    /// What a symbol stands for.
+    pub fn definition(&self, i: usize) -> &Definition {
+        &self.table[i].1
+    }
+
+    /// All names.
+    pub fn names(&self) -> Vec<String> {
+        self.table.iter().map(|(name, _)| name.clone()).collect()
+    }
+
+    /// What a symbol stands for, as text: `exp(-1/2)`.
+    pub fn definition_text(&self, i: usize) -> String {
+        let names = self.names();
+        let shown = |f: &RationalFunction| f.display(&names).to_string();
+        match &self.table[i].1 {
+            Definition::Pi => "pi".to_owned(),
+            Definition::Root(x) => format!("sqrt({})", shown(x)),
+            Definition::Exponential(x) => format!("exp({})", shown(x)),
+            Definition::Tangent { square, time } if square.is_one() => format!("tan({})", shown(time)),
+            Definition::Tangent { square, time } => {
+                let is_hyperbolic = square.as_constant().is_some_and(|w| w.is_negative());
+                let (function, w) = if is_hyperbolic { ("tanh", -square) } else { ("tan", square.clone()) };
+                format!("{function}(({})*sqrt({}))/sqrt({1})", shown(time), shown(&w))
+            }
+            Definition::Fundamental { polynomial, index, time } => {
+                let list: Vec<String> = polynomial.iter().map(shown).collect();
+                format!("fundamental solution {index} of [{}] at {}", list.join(", "), shown(time))
+            }
+        }
+    }
+
+    /// The values of all symbols, with that many bits after the point.
+    ///
+    /// Cost: on the first call for these bits, an exponential of a matrix for each symbol.
+    pub fn values(&self, bits: u64) -> Arc<Vec<Ball>> {
+        let known = || self.values.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(values) = known().get(&bits) {
+            return Arc::clone(values);
+        }
+        let mut values = Vec::with_capacity(self.len());
+        for (_, definition) in &self.table {
+            let value = self.value(definition, bits);
+            values.push(value);
+        }
+        let values = Arc::new(values);
+        known().insert(bits, Arc::clone(&values));
+        values
+    }
+
+    /// The value of a definition, narrow unless an argument is at a pole.
+    fn value(&self, definition: &Definition, bits: u64) -> Ball {
+        if let Some(value) = at_rationals(definition, bits) {
+            return value;
+        }
+        let narrow = Integer::from(1 << 8);
+        let mut working = bits + 32;
+        loop {
+            let value = self.attempt(definition, working).map(|v| v.with_bits(bits));
+            let is_last = working > 16 * (bits + 64);
+            match value {
+                Some(value) if is_last || value.width_units() <= narrow => return value,
+                None if is_last => {
+                    let wide = Integer::ONE << (2 * bits + 64);
+                    return Ball::from_units(-&wide, wide, bits);
+                }
+                _ => working *= 2,
+            }
+        }
+    }
+
+    /// The value computed with that many bits; `None` where a divisor may vanish.
+    fn attempt(&self, definition: &Definition, bits: u64) -> Option<Ball> {
+        let at = |f: &RationalFunction| self.quotient_at(f, bits);
+        match definition {
+            Definition::Pi => Some(Ball::from_enclosure(&Enclosure::pi(bits + 8), bits)),
+            Definition::Root(x) => at(x)?.sqrt(),
+            Definition::Exponential(x) => Some(exp(&at(x)?)),
+            Definition::Tangent { square, time } => {
+                let (w, t) = (at(square)?, at(time)?);
+                let turn = BallMatrix::from_fn(2, |i, j| match (i, j) {
+                    (0, 1) => t.clone(),
+                    (1, 0) => w.mul(&t).neg(),
+                    _ => Ball::zero(bits),
+                });
+                let e = exponential(&turn);
+                e.at(0, 1).div(e.at(0, 0))
+            }
+            Definition::Fundamental { polynomial, index, time } => {
+                let (n, t) = (polynomial.len() - 1, at(time)?);
+                let last: Vec<Ball> =
+                    polynomial[..n].iter().map(|c| Some(at(c)?.mul(&t).neg())).collect::<Option<_>>()?;
+                let companion = BallMatrix::from_fn(n, |i, j| {
+                    if i + 1 == n {
+                        last[j].clone()
+                    } else if j == i + 1 {
+                        t.clone()
+                    } else {
+                        Ball::zero(bits)
+                    }
+                });
+                Some(exponential(&companion).at(0, *index).clone())
+            }
+        }
+    }
+
+    /// The value of a rational function of symbols; `None` where the denominator may vanish.
+    pub fn quotient_at(&self, f: &RationalFunction, bits: u64) -> Option<Ball> {
+        self.enclose(f.numerator(), bits).div(&self.enclose(f.denominator(), bits))
+    }
+
+    /// The value of a polynomial in symbols, computed with that many bits after the point.
+    ///
+    /// Cost: a product of balls for each factor of each term, and the powers that occur.
+    pub fn enclose(&self, p: &MultiPoly, bits: u64) -> Ball {
+        let highest = p.degrees();
+        // The arguments of a symbol are asked for while the table of values is made: then only what they have is there.
+        let needed = highest.iter().rposition(|d| *d > 0).map_or(0, |i| i + 1);
+        let values = self.first_values(needed, bits);
+        let powers: Vec<Vec<Ball>> = (0..needed)
+            .map(|i| {
+                let mut powers = vec![Ball::from_integer(&Integer::ONE, bits)];
+                for k in 0..highest[i] as usize {
+                    powers.push(powers[k].mul(&values[i]));
+                }
+                powers
+            })
+            .collect();
+        let mut sum = Ball::zero(bits);
+        for (monomial, c) in p.terms() {
+            let mut term: Option<Ball> = None;
+            for (i, powers) in powers.iter().enumerate() {
+                let e = monomial.exponent(i) as usize;
+                if e > 0 {
+                    term = Some(term.map_or_else(|| powers[e].clone(), |t| t.mul(&powers[e])));
+                }
+            }
+            let term = term.map_or_else(|| Ball::from_integer(c, bits), |t| t.scaled(c));
+            sum = sum.add(&term);
+        }
+        sum
+    }
+
+    fn first_values(&self, count: usize, bits: u64) -> Arc<Vec<Ball>> {
+        let known = self.values.lock().unwrap_or_else(PoisonError::into_inner).get(&bits).cloned();
+        match known {
+            Some(values) => values,
+            None if count == self.len() => self.values(bits),
+            None => Arc::new(self.table[..count].iter().map(|(_, d)| self.value(d, bits)).collect()),
+        }
+    }
+}
+
+/// The value of a definition with rational arguments.
+fn at_rationals(definition: &Definition, bits: u64) -> Option<Ball> {
+    match definition {
+        Definition::Pi => Some(Ball::from_enclosure(&Enclosure::pi(bits + 8), bits)),
+        Definition::Root(x) => {
+            let x = x.as_constant()?;
+            Ball::from_rational(&x, 2 * bits + 2).sqrt().map(|root| root.with_bits(bits))
+        }
+        Definition::Exponential(x) => {
+            let x = x.as_constant()?;
+            Some(exponential_of_rationals(&Matrix::from_fn(1, 1, |_, _| x.clone()), bits).at(0, 0).clone())
+        }
+        Definition::Tangent { square, time } => Some(tangent(&square.as_constant()?, &time.as_constant()?, bits)),
+        Definition::Fundamental { polynomial, index, time } => {
+            let n = polynomial.len() - 1;
+            let factor: Vec<Rational> =
+                polynomial[..n].iter().map(RationalFunction::as_constant).collect::<Option<_>>()?;
+            Some(exponential_of_rationals(&companion(&factor, &time.as_constant()?), bits).at(0, *index).clone())
+        }
+    }
+}
+
+/// The companion matrix of a monic polynomial, times a number: the first row of its exponential are the fundamental
+/// solutions.
+fn companion(factor: &[Rational], time: &Rational) -> Matrix<Rational> {
+    let n = factor.len();
+    Matrix::from_fn(n, n, |i, j| {
+        if i + 1 == n {
+            -(&factor[j] * time)
+        } else if j == i + 1 {
+            time.clone()
+        } else {
+            Rational::ZERO
+        }
+    })
+}
+
+/// `sin(v)/(v cos(v)) t` with `v = sqrt(w) t`.
+fn tangent(w: &Rational, time: &Rational, bits: u64) -> Ball {
+    if time.is_zero() {
+        return Ball::zero(bits);
+    }
+    let mut working = bits + 16;
+    loop {
+        let e = exponential_of_rationals(&companion(&[w.clone(), Rational::ZERO], time), working);
+        // The angle is algebraic and not 0, so that its cosine is not 0.
+        if let Some(tangent) = e.at(0, 1).div(e.at(0, 0)) {
+            let tangent = tangent.with_bits(bits);
+            if tangent.width_units() <= Integer::from(4) {
+                return tangent;
+            }
+        }
+        working *= 2;
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,423 @@
+//! Symbols that depend on a parameter, such as `exp(-2*T)` in `T`, and the zeros of polynomials in the parameter and in them.
+
+use super::{Definition, Symbols};
+use crate::ball::{Ball, Series, fundamental_solutions};
+use crate::limits::{Budget, Exhausted, checkpoint};
+use crate::number::{Enclosure, Integer, Rational, Sign};
+use crate::poly::{MultiPoly, RationalFunction};
+use crate::real::{Enclosing, Origin, Real, Transcendental};
+use std::sync::Arc;
+
+/// A table of symbols whose arguments are rational functions of a parameter (variable 0) and of earlier symbols (symbol `i` is
+/// variable `i + 1`).
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::number::Rational;
+/// use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+/// use jurist_algebra::symbols::{Definition, MovingSymbols};
+/// use std::sync::Arc;
+/// // exp(-T) - T = 0
+/// let minus = -&RationalFunction::variable(0);
+/// let symbols = Arc::new(MovingSymbols::new(vec![("X".into(), Definition::Exponential(minus))]));
+/// let p = MultiPoly::variable(1).minus(&MultiPoly::variable(0));
+/// let (zero, one) = (Rational::ZERO, Rational::ONE);
+/// let found = symbols.zeros_in(&p, &zero, &one, &Budget::unlimited()).unwrap();
+/// assert_eq!(found.zeros[0].decimal(20), "0.56714329040978387300");
+/// assert!(found.zeros.len() == 1 && found.undecided.is_empty());
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct MovingSymbols {
+    table: Vec<(String, Definition)>,
+}
+
+/// The zeros of a function in an interval.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct Zeros {
+    /// Zeros at which the function changes its sign with a derivative that is not zero, ascending.
+    pub zeros: Vec<Real>,
+    /// Short intervals that may have zeros, ascending; elsewhere there are no others.
+    pub undecided: Vec<(Rational, Rational)>,
+}
+
+/// Terms of the Taylor polynomials; halving an interval makes what is left out 2^12 times smaller.
+const TERMS: usize = 12;
+
+/// Bits of the first attempt.
+const FIRST_BITS: u64 = 192;
+
+/// The orders of a zero at the lower end that are looked for.
+const MOST_ORDER: usize = 32;
+
+/// An interval this much shorter than the first one is given up.
+const MOST_HALVINGS: usize = 56;
+
+impl MovingSymbols {
+    /// The table of these names and definitions.
+    pub fn new(table: Vec<(String, Definition)>) -> Self {
+        MovingSymbols { table }
+    }
+
+    pub(super) fn table(&self) -> &[(String, Definition)] {
+        &self.table
+    }
+
+    /// Whether a symbol is an exponential, which is never zero.
+    pub fn is_exponential(&self, i: usize) -> bool {
+        matches!(self.table[i].1, Definition::Exponential(_))
+    }
+
+    /// The symbols where the parameter has a value; `None` where an argument divides by zero.
+    pub fn at(&self, value: &Rational) -> Option<Symbols> {
+        let put = |f: &RationalFunction| f.substitute(0, value)?.map_variables(|i| i.saturating_sub(1));
+        let mut symbols = Symbols::new();
+        for (name, definition) in &self.table {
+            let definition = match definition {
+                Definition::Pi => Definition::Pi,
+                Definition::Root(x) => Definition::Root(put(x)?),
+                Definition::Exponential(x) => Definition::Exponential(put(x)?),
+                Definition::Tangent { square, time } => Definition::Tangent { square: put(square)?, time: put(time)? },
+                Definition::Fundamental { polynomial, index, time } => Definition::Fundamental {
+                    polynomial: polynomial.iter().map(put).collect::<Option<_>>()?,
+                    index: *index,
+                    time: put(time)?,
+                },
+            };
+            symbols.push(name, definition);
+        }
+        Some(symbols)
+    }
+
+    /// The parameter and all symbols as series, from the parameter's; `None` where a divisor may vanish.
+    pub fn series(&self, parameter: &Series) -> Option<Vec<Series>> {
+        let terms = parameter.terms();
+        let bits = parameter.coefficients()[0].bits();
+        let mut values = vec![parameter.clone()];
+        // All solutions of an equation at once.
+        let mut rows: Vec<(&Vec<RationalFunction>, &RationalFunction, Vec<Series>)> = Vec::new();
+        for (_, definition) in &self.table {
+            let at = |f: &RationalFunction| -> Option<Series> {
+                polynomial_at(f.numerator(), &values).div(&polynomial_at(f.denominator(), &values))
+            };
+            let zero = Series::constant(&Ball::zero(bits), terms);
+            let value = match definition {
+                Definition::Pi => Series::constant(&Ball::from_enclosure(&Enclosure::pi(bits + 8), bits), terms),
+                Definition::Root(x) => at(x)?.sqrt()?,
+                Definition::Exponential(x) => at(x)?.exp(),
+                Definition::Tangent { square, time } => {
+                    let (w, t) = (at(square)?, at(time)?);
+                    let row = fundamental_solutions(&[w, zero], &t);
+                    row[1].div(&row[0])?
+                }
+                Definition::Fundamental { polynomial, index, time } => {
+                    let known = rows.iter().find(|(of, at, _)| *of == polynomial && *at == time);
+                    match known {
+                        Some((_, _, row)) => row[*index].clone(),
+                        None => {
+                            let n = polynomial.len() - 1;
+                            let coefficients = polynomial[..n].iter().map(at).collect::<Option<Vec<Series>>>()?;
+                            let row = fundamental_solutions(&coefficients, &at(time)?);
+                            let value = row[*index].clone();
+                            rows.push((polynomial, time, row));
+                            value
+                        }
+                    }
+                }
+            };
+            values.push(value);
+        }
+        Some(values)
+    }
+
+    /// The value of a polynomial in the parameter and symbols, the parameter anywhere in a ball.
+    pub fn enclose(&self, p: &MultiPoly, parameter: &Ball) -> Option<Ball> {
+        let values = self.series(&Series::constant(parameter, 1))?;
+        Some(polynomial_at(p, &values).coefficients()[0].clone())
+    }
+
+    /// The Taylor polynomial of `f(m + r x)` for `|x| <= 1` around the middle of an interval, the last coefficient a bound
+    /// of the rest: that of the power `terms`.
+    fn taylor(&self, f: &MultiPoly, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> Option<Vec<Ball>> {
+        let half = Rational::dyadic(&Integer::ONE, 1);
+        let radius = Ball::from_rational(&(&(hi - lo) * &half), bits);
+        let middle = Ball::from_rational(&lo.midpoint(hi), bits);
+        let whole = Ball::between(lo, hi, bits);
+        let series = |at: &Ball, terms| {
+            Some(polynomial_at(f, &self.series(&Series::linear(at, &radius, terms))?).coefficients().to_vec())
+        };
+        let mut out = series(&middle, terms)?;
+        out.push(series(&whole, terms + 1)?.pop()?);
+        Some(out)
+    }
+
+    /// The zeros of a polynomial in the parameter and symbols strictly between two numbers.
+    ///
+    /// On each of the intervals that the range is divided into, a Taylor polynomial with a bound of its rest shows that the
+    /// function has no zero, or that it is monotone. At the lower end the function may have a zero of any order that its
+    /// exact series shows.
+    ///
+    /// Cost: for each interval the series of the symbols, exponentials of small matrices, and a product for each factor of
+    /// each term of the polynomial.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn zeros_in(
+        self: &Arc<Self>,
+        f: &MultiPoly,
+        lower: &Rational,
+        upper: &Rational,
+        budget: &Budget,
+    ) -> Result<Zeros, Exhausted> {
+        let mut found = Zeros::default();
+        let mut brackets: Vec<(Rational, Rational)> = Vec::new();
+        let mut start = lower.clone();
+        if self.vanishes_at(f, lower, budget)? {
+            match budget.enter(|| self.clear_above(f, lower, upper))? {
+                Some(end) => start = end,
+                None => {
+                    let width = (upper - lower) * Rational::dyadic(&Integer::ONE, 40);
+                    start = lower + &width;
+                    found.undecided.push((lower.clone(), start.clone()));
+                }
+            }
+        }
+        let mut end = upper.clone();
+        if self.vanishes_at(f, upper, budget)? {
+            end = upper - &((upper - lower) * Rational::dyadic(&Integer::ONE, 40));
+            found.undecided.push((end.clone(), upper.clone()));
+        }
+        let mut todo = vec![(start, end, MOST_HALVINGS)];
+        while let Some((lo, hi, left)) = todo.pop() {
+            budget.check()?;
+            match budget.enter(|| self.look(f, &lo, &hi))? {
+                Look::None => {}
+                Look::One => brackets.push((lo, hi)),
+                Look::Unknown if left == 0 => found.undecided.push((lo, hi)),
+                Look::Unknown => {
+                    let middle = budget.enter(|| self.split_point(f, &lo, &hi))?;
+                    todo.push((middle.clone(), hi, left - 1));
+                    todo.push((lo, middle, left - 1));
+                }
+            }
+        }
+        found.undecided.sort();
+        found.undecided = joined(found.undecided);
+        let shared = Arc::new(f.clone());
+        found.zeros = brackets
+            .into_iter()
+            .map(|(lo, hi)| {
+                let place = Enclosure::new(lo, hi);
+                let root =
+                    MovingRoot { symbols: Arc::clone(self), function: Arc::clone(&shared), place: place.clone() };
+                Real::from(Transcendental::within(root, place))
+            })
+            .collect();
+        Ok(found)
+    }
+
+    /// Whether the function is zero at a rational value of the parameter.
+    ///
+    /// # Errors
+    /// As [`Symbols::sign`].
+    pub fn vanishes_at(&self, f: &MultiPoly, value: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
+        let Some(symbols) = self.at(value) else { return Ok(false) };
+        let at = f.substitute(0, value).0.map_variables(|i| i.saturating_sub(1));
+        symbols.is_zero(&at, budget)
+    }
+
+    fn sign_at(&self, f: &MultiPoly, at: &Rational, bits: u64) -> Option<Sign> {
+        self.enclose(f, &Ball::from_rational(at, bits))?.sign().filter(|s| s.is_ne())
+    }
+
+    /// A number about in the middle at which the function is certainly not zero.
+    fn split_point(&self, f: &MultiPoly, lo: &Rational, hi: &Rational) -> Rational {
+        let at = |n: i64| lo + &(&(hi - lo) * &Rational::new(Integer::from(n), Integer::from(64)));
+        [32, 31, 33, 29, 35].into_iter().map(at).find(|x| self.sign_at(f, x, FIRST_BITS).is_some()).unwrap_or(at(32))
+    }
+
+    fn look(&self, f: &MultiPoly, lo: &Rational, hi: &Rational) -> Look {
+        // Twice the bits that the interval's width takes away.
+        let width = hi - lo;
+        let small = width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
+        let bits = FIRST_BITS + small * 4;
+        let Some(taylor) = self.taylor(f, lo, hi, TERMS, bits) else { return Look::Unknown };
+        let tail = |from: usize, weight: fn(usize) -> u64| {
+            let terms = taylor.iter().enumerate().skip(from);
+            terms.fold(Integer::ZERO, |sum, (k, c)| sum + c.magnitude_units() * Integer::from(weight(k)))
+        };
+        if taylor[0].least_magnitude_units() > tail(1, |_| 1) {
+            return Look::None;
+        }
+        if taylor[1].least_magnitude_units() > tail(2, |k| k as u64) {
+            let signs = [lo, hi].map(|x| self.sign_at(f, x, bits));
+            return match signs {
+                [Some(a), Some(b)] if a != b => Look::One,
+                [Some(_), Some(_)] => Look::None,
+                _ => Look::Unknown,
+            };
+        }
+        Look::Unknown
+    }
+
+    /// A number above `lower`, at which the function is zero, up to which it has no other zero.
+    fn clear_above(&self, f: &MultiPoly, lower: &Rational, upper: &Rational) -> Option<Rational> {
+        let order = self.order_at(f, lower)?;
+        // f = (T - lower)^order (a + ...): the later coefficients on a short interval are less than the first one.
+        let mut step = (upper - lower) * Rational::dyadic(&Integer::ONE, 3);
+        for _ in 0..MOST_HALVINGS {
+            let small = step.denominator().bit_length().saturating_sub(step.numerator().bit_length());
+            let bits = FIRST_BITS + small * (2 * order as u64 + 4);
+            let terms = order + TERMS;
+            let radius = Ball::from_rational(&step, bits);
+            let series = |at: &Ball, terms| {
+                Some(polynomial_at(f, &self.series(&Series::linear(at, &radius, terms))?).coefficients().to_vec())
+            };
+            let point = series(&Ball::from_rational(lower, bits), terms);
+            let whole = series(&Ball::between(lower, &(lower + &step), bits), terms + 1);
+            if let (Some(point), Some(mut whole)) = (point, whole) {
+                let rest = whole.pop().map_or(Integer::ZERO, |c| c.magnitude_units());
+                let later = point[order + 1..].iter().fold(rest, |sum, c| sum + c.magnitude_units());
+                if point[order].least_magnitude_units() > later {
+                    return Some(lower + &step);
+                }
+            }
+            step = step * Rational::dyadic(&Integer::ONE, 1);
+        }
+        None
+    }
+
+    /// The order of the zero at a rational number, where the series there is rational: then that of its first coefficient that
+    /// is not zero.
+    fn order_at(&self, f: &MultiPoly, at: &Rational) -> Option<usize> {
+        let mut terms = 4;
+        while terms <= MOST_ORDER {
+            let values = super::rational_series::values(&self.table, at, terms)?;
+            let series = super::rational_series::polynomial_at(f, &values);
+            if let Some(order) = series.iter().position(|c| !c.is_zero()) {
+                return Some(order);
+            }
+            terms *= 2;
+        }
+        None
+    }
+}
+
+/// What a Taylor polynomial says of a function on an interval.
+enum Look {
+    None,
+    /// One zero, with a derivative that is not zero on the interval.
+    One,
+    Unknown,
+}
+
+/// Intervals that touch, as one.
+fn joined(intervals: Vec<(Rational, Rational)>) -> Vec<(Rational, Rational)> {
+    let mut out: Vec<(Rational, Rational)> = Vec::new();
+    for (lo, hi) in intervals {
+        match out.last_mut() {
+            Some(last) if last.1 >= lo => last.1 = hi.max(last.1.clone()),
+            _ => out.push((lo, hi)),
+        }
+    }
+    out
+}
+
+/// A polynomial at series.
+fn polynomial_at(p: &MultiPoly, values: &[Series]) -> Series {
+    let first = &values[0];
+    let (terms, bits) = (first.terms(), first.coefficients()[0].bits());
+    // Horner's scheme in the variables, the last one outermost: as few products as the shape of the polynomial allows.
+    fn horner(p: &MultiPoly, values: &[Series], zero: &Series) -> Series {
+        checkpoint(16);
+        if let Some(c) = p.as_constant() {
+            let one = Ball::from_integer(&c, zero.coefficients()[0].bits());
+            return Series::constant(&one, zero.terms());
+        }
+        let last = *p.variables().last().expect("not constant");
+        let parts = p.as_poly_in(last);
+        let mut sum: Option<Series> = None;
+        for part in parts.coeffs().iter().rev() {
+            let shifted = sum.map(|s| s.mul(&values[last]));
+            sum = Some(match (shifted, part.terms().is_empty()) {
+                (Some(s), true) => s,
+                (Some(s), false) => s.add(&horner(part, values, zero)),
+                (None, _) => horner(part, values, zero),
+            });
+        }
+        sum.unwrap_or_else(|| zero.clone())
+    }
+    horner(p, values, &Series::constant(&Ball::zero(bits), terms))
+}
+
+/// The only zero of a function in an interval on which it is monotone.
+#[derive(Debug)]
+struct MovingRoot {
+    symbols: Arc<MovingSymbols>,
+    function: Arc<MultiPoly>,
+    place: Enclosure,
+}
+
+impl Enclosing for MovingRoot {
+    fn enclose(&self, bits: u64, known: Option<&Enclosure>) -> Enclosure {
+        let known = known.unwrap_or(&self.place);
+        let (mut lo, mut hi) = (known.lower().clone(), known.upper().clone());
+        let target = Rational::dyadic(&Integer::ONE, bits);
+        let half = Rational::dyadic(&Integer::ONE, 1);
+        let mut working = bits + 96;
+        let rising = self.rises();
+        while &hi - &lo > target {
+            checkpoint(bits);
+            let width = &hi - &lo;
+            // A dyadic number in the middle, so that it is exact.
+            let middle = Ball::from_rational(&lo.midpoint(&hi), working).lower();
+            let point = Ball::from_rational(&middle, working);
+            let whole = Ball::between(&lo, &hi, working);
+            let at_middle = self.symbols.enclose(&self.function, &point);
+            let one = Ball::from_integer(&Integer::ONE, working);
+            let slope = self.symbols.series(&Series::linear(&whole, &one, 2));
+            let slope = slope.map(|values| polynomial_at(&self.function, &values).coefficients()[1].clone());
+            if let (Some(at_middle), Some(slope)) = (&at_middle, slope)
+                && let Some(newton) = at_middle.div(&slope).and_then(|step| point.sub(&step).intersection(&whole))
+                && (newton.upper() - newton.lower()) <= &width * &half
+            {
+                (lo, hi) = (newton.lower().max(lo), newton.upper().min(hi));
+                continue;
+            }
+            match at_middle.and_then(|v| v.sign()).filter(|s| s.is_ne()) {
+                Some(sign) if middle > lo && middle < hi => {
+                    if sign.is_gt() == rising {
+                        hi = middle;
+                    } else {
+                        lo = middle;
+                    }
+                }
+                _ => working *= 2,
+            }
+        }
+        Enclosure::new(lo, hi)
+    }
+
+    fn origin(&self) -> Origin {
+        let names: Vec<String> =
+            std::iter::once("p".to_owned()).chain(self.symbols.table.iter().map(|(n, _)| n.clone())).collect();
+        Origin::Function { function: self.function.display(&names).to_string(), details: Vec::new() }
+    }
+}
+
+impl MovingRoot {
+    /// Whether the function is negative below the zero.
+    fn rises(&self) -> bool {
+        let mut working = FIRST_BITS;
+        loop {
+            let below = self.symbols.sign_at(&self.function, self.place.lower(), working);
+            let above = self.symbols.sign_at(&self.function, self.place.upper(), working);
+            if let (Some(a), Some(b)) = (below, above)
+                && a != b
+            {
+                return b.is_gt();
+            }
+            working *= 2;
+        }
+    }
+}

@@ -1,0 +1,501 @@
+//! Real roots of polynomials whose coefficients are polynomials in symbols.
+
+use super::Symbols;
+use crate::ball::Ball;
+use crate::limits::{Budget, Exhausted, checkpoint};
+use crate::number::{Enclosure, Integer, Rational, Sign};
+use crate::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
+use crate::real::{Enclosing, Origin, Real, Transcendental, rational_between};
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+/// Bits of the first attempt.
+const FIRST_BITS: u64 = 128;
+
+/// Bits after which roots are not told apart.
+const MOST_BITS: u64 = 1 << 13;
+
+/// A polynomial over symbols, split into what does not depend on them and the rest.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::{Domain, MultiPoly};
+/// use jurist_algebra::symbols::{Definition, SymbolicPoly, Symbols};
+/// use std::sync::Arc;
+/// let mut symbols = Symbols::new();
+/// symbols.insert("X", Definition::exponential(-1));
+/// // (K - 3) (K - X) with K as variable 0 and X = exp(-1) as variable 1
+/// let (k, x) = (MultiPoly::variable(0), MultiPoly::variable(1));
+/// let p = k.minus(&MultiPoly::constant(3.into())).times(&k.minus(&x));
+/// let p = SymbolicPoly::new(&p, &Arc::new(symbols), &Budget::unlimited()).unwrap().unwrap();
+/// let roots = p.real_roots_in(None, None, &Budget::unlimited()).unwrap();
+/// assert_eq!((roots[0].decimal(6), roots[1].decimal(6)), ("0.367879".into(), "3".into()));
+/// assert!(roots[0].exact().is_none() && roots[1].exact().is_some());
+/// ```
+#[derive(Clone, Debug)]
+pub struct SymbolicPoly {
+    symbols: Arc<Symbols>,
+    algebraic: SquareFree,
+    rest: MultiPoly,
+}
+
+impl SymbolicPoly {
+    /// The square-free part of a polynomial in an unknown (variable 0) and symbols (symbol `i` is variable `i + 1`);
+    /// `None` where it vanishes for every value of the unknown.
+    ///
+    /// Cost: greatest common divisors of its coefficients and with its derivatives, and the sign of its content.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out, and where the sign of a constant is not found.
+    pub fn new(p: &MultiPoly, symbols: &Arc<Symbols>, budget: &Budget) -> Result<Option<SymbolicPoly>, Exhausted> {
+        if p.is_zero() {
+            return Ok(None);
+        }
+        let (content, primitive) = budget.enter(|| {
+            let in_unknown = p.as_poly_in(0);
+            let content = in_unknown.content();
+            let primitive = in_unknown.div_exact_scalar(&content).expect("the content divides");
+            (content, MultiPoly::from_poly_in(&primitive, 0).square_free_part())
+        })?;
+        if symbols.is_zero(&of_symbols(&content), budget)? {
+            return Ok(None);
+        }
+        let (algebraic, rest) = budget.enter(|| {
+            let algebraic = common_factor(&primitive);
+            let divisor = MultiPoly::from_univariate(&algebraic, 0);
+            (algebraic, primitive.div_exact(&divisor).expect("a common factor divides"))
+        })?;
+        let algebraic = SquareFree::part_of(&algebraic).expect("not zero");
+        Ok(Some(SymbolicPoly { symbols: Arc::clone(symbols), algebraic, rest }))
+    }
+
+    /// The factor without symbols.
+    pub fn algebraic(&self) -> &SquareFree {
+        &self.algebraic
+    }
+
+    /// The factor with symbols; constant where there is none.
+    pub fn rest(&self) -> &MultiPoly {
+        &self.rest
+    }
+
+    /// Whether the polynomial is zero at a rational number.
+    ///
+    /// # Errors
+    /// As [`Symbols::sign`].
+    pub fn vanishes_at(&self, x: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
+        if self.algebraic.poly().sign_at(x).is_eq() {
+            return Ok(true);
+        }
+        let (value, _) = budget.enter(|| self.rest.substitute(0, x))?;
+        self.symbols.is_zero(&of_symbols(&value), budget)
+    }
+
+    /// The real roots strictly between two numbers, ascending, each once.
+    ///
+    /// Cost: enclosures of the coefficients, and the real roots of the two polynomials with the lower and the upper ends of
+    /// the coefficients, with more and more bits until they part.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out, and where roots are not told apart with some thousand bits.
+    pub fn real_roots_in(
+        &self,
+        lower: Option<&Rational>,
+        upper: Option<&Rational>,
+        budget: &Budget,
+    ) -> Result<Vec<Real>, Exhausted> {
+        let exact = isolate_real_roots_in(&self.algebraic, lower, upper, budget)?;
+        let exact = exact.into_iter().map(Real::from).collect();
+        let others = real_roots(&self.rest, &self.symbols, lower, upper, budget)?;
+        merged(exact, others, budget)
+    }
+}
+
+/// A polynomial in symbols as the table numbers them, without the unknown.
+fn of_symbols(p: &MultiPoly) -> MultiPoly {
+    p.map_variables(|i| i.saturating_sub(1))
+}
+
+/// The greatest divisor in the unknown (variable 0) alone.
+pub fn common_factor(p: &MultiPoly) -> UniPoly {
+    let mut parts: std::collections::BTreeMap<Vec<u32>, Vec<(Vec<u32>, Integer)>> = Default::default();
+    for (monomial, c) in p.terms() {
+        let symbols = monomial.with_exponent(0, 0).exponents().to_vec();
+        parts.entry(symbols).or_default().push((vec![monomial.exponent(0)], c.clone()));
+    }
+    let mut common = UniPoly::zero();
+    for terms in parts.into_values() {
+        let part = MultiPoly::from_terms(terms).to_univariate(0).expect("one variable is left");
+        common = common.gcd(&part);
+        if common.is_constant() {
+            break;
+        }
+    }
+    common.primitive_part()
+}
+
+/// Two ascending lists as one, each number once.
+pub fn merged(a: Vec<Real>, b: Vec<Real>, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+    let mut out = Vec::with_capacity(a.len() + b.len());
+    let (mut a, mut b) = (a.into_iter().peekable(), b.into_iter().peekable());
+    while let (Some(x), Some(y)) = (a.peek(), b.peek()) {
+        let order = x.compare(y, budget)?;
+        if order.is_le() {
+            out.extend(a.next());
+        }
+        if order.is_eq() {
+            b.next();
+        }
+        if order.is_gt() {
+            out.extend(b.next());
+        }
+    }
+    out.extend(a);
+    out.extend(b);
+    Ok(out)
+}
+
+/// The real roots between two numbers of a square-free polynomial without factors that are free of symbols.
+fn real_roots(
+    p: &MultiPoly,
+    symbols: &Arc<Symbols>,
+    lower: Option<&Rational>,
+    upper: Option<&Rational>,
+    budget: &Budget,
+) -> Result<Vec<Real>, Exhausted> {
+    if p.degree_in(0) == 0 {
+        return Ok(Vec::new());
+    }
+    let in_unknown = p.as_poly_in(0);
+    let mut coefficients: Vec<MultiPoly> = in_unknown.coeffs().iter().map(of_symbols).collect();
+    // Leading coefficients that vanish although they are no zero polynomials.
+    while coefficients.len() > 1 && symbols.is_zero(&coefficients[coefficients.len() - 1], budget)? {
+        coefficients.pop();
+    }
+    let root_of = Arc::new(Coefficients { symbols: Arc::clone(symbols), list: coefficients });
+    let real = |(lo, hi): (Rational, Rational), mirrored: bool| {
+        let (lo, hi) = if mirrored { (-hi, -lo) } else { (lo, hi) };
+        let place = Enclosure::new(lo, hi);
+        let root = SymbolicRoot { of: Arc::clone(&root_of), place: place.clone() };
+        Real::from(Transcendental::within(root, place))
+    };
+    let zero = Rational::ZERO;
+    let below = lower.is_none_or(Rational::is_negative);
+    let above = upper.is_none_or(|u| u.sign().is_gt());
+    let mut out = Vec::new();
+    let has_zero = root_of.list.len() > 1 && symbols.is_zero(&root_of.list[0], budget)?;
+    if below {
+        let near = upper.filter(|u| u.is_negative()).map(|u| -u);
+        let far = lower.map(|l| -l);
+        let found = positive_roots(&root_of, true, near.as_ref(), far.as_ref(), budget)?;
+        out.extend(found.into_iter().rev().map(|b| real(b, true)));
+    }
+    if has_zero && below && above {
+        out.push(Real::from(zero.clone()));
+    }
+    if above {
+        let near = lower.filter(|l| l.sign().is_gt());
+        let found = positive_roots(&root_of, false, near, upper, budget)?;
+        out.extend(found.into_iter().map(|b| real(b, false)));
+    }
+    Ok(out)
+}
+
+/// A polynomial by its coefficients from the constant term up, polynomials in symbols.
+#[derive(Debug)]
+struct Coefficients {
+    symbols: Arc<Symbols>,
+    list: Vec<MultiPoly>,
+}
+
+impl Coefficients {
+    fn enclose(&self, bits: u64) -> Vec<Ball> {
+        self.list.iter().map(|c| self.symbols.enclose(c, bits)).collect()
+    }
+}
+
+/// The value at a ball.
+fn value(coefficients: &[Ball], x: &Ball) -> Ball {
+    let zero = Ball::zero(x.bits());
+    coefficients.iter().rev().fold(zero, |sum, c| sum.mul(x).add(c))
+}
+
+fn derivative(coefficients: &[Ball]) -> Vec<Ball> {
+    coefficients.iter().enumerate().skip(1).map(|(k, c)| c.scaled(&Integer::from(k as u64))).collect()
+}
+
+/// Brackets of the positive roots between `near` (0 where missing) and `far` (unbounded where missing), of `p(x)` or
+/// `p(-x)`: in each there is one root, the derivative keeps its sign, and brackets are disjoint.
+fn positive_roots(
+    p: &Coefficients,
+    mirrored: bool,
+    near: Option<&Rational>,
+    far: Option<&Rational>,
+    budget: &Budget,
+) -> Result<Vec<(Rational, Rational)>, Exhausted> {
+    let mut list = p.list.clone();
+    let mut zeros = 0;
+    while zeros + 1 < list.len() && p.symbols.is_zero(&list[zeros], budget)? {
+        zeros += 1;
+    }
+    list.drain(..zeros);
+    if list.len() < 2 {
+        return Ok(Vec::new());
+    }
+    if mirrored {
+        list.iter_mut().enumerate().filter(|(k, _)| (k + zeros) % 2 == 1).for_each(|(_, c)| *c = c.negated());
+    }
+    let p = Coefficients { symbols: Arc::clone(&p.symbols), list };
+    // A root at an end of the range is none inside, and is told from one by its exact zero.
+    let at_end = |x: Option<&Rational>| -> Result<bool, Exhausted> {
+        let Some(x) = x else { return Ok(false) };
+        let mut sum = MultiPoly::zero();
+        let (n, d) = (x.numerator(), x.denominator());
+        let degree = p.list.len() - 1;
+        for (k, c) in p.list.iter().enumerate() {
+            sum = sum.plus(&c.scaled_by(&(n.pow(k as u64) * d.pow((degree - k) as u64))));
+        }
+        p.symbols.is_zero(&sum, budget)
+    };
+    let ends = [near.map_or(Ok(false), |x| at_end(Some(x)))?, at_end(far)?];
+    let zero = Rational::ZERO;
+    let mut bits = FIRST_BITS;
+    while bits <= MOST_BITS {
+        budget.check()?;
+        let attempt = Attempt { bits, near: near.unwrap_or(&zero), far, ends, budget };
+        if let Some(found) = attempt.isolate(&budget.enter(|| p.enclose(bits))?)? {
+            return Ok(found);
+        }
+        bits *= 2;
+    }
+    Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "isolating real roots"))
+}
+
+struct Attempt<'a> {
+    bits: u64,
+    near: &'a Rational,
+    far: Option<&'a Rational>,
+    /// Whether the ends are roots.
+    ends: [bool; 2],
+    budget: &'a Budget,
+}
+
+/// A function between two polynomials for positive arguments.
+struct Band {
+    lower: UniPoly,
+    upper: UniPoly,
+}
+
+impl Band {
+    fn new(coefficients: &[Ball]) -> Band {
+        let unit = Rational::from(&(Integer::ONE << coefficients.first().map_or(0, Ball::bits)));
+        let side = |end: fn(&Ball) -> Rational| {
+            Poly::new(coefficients.iter().map(|c| (&end(c) * &unit).numerator()).collect())
+        };
+        Band { lower: side(Ball::lower), upper: side(Ball::upper) }
+    }
+
+    fn sign_at(&self, x: &Rational) -> Option<Sign> {
+        if self.lower.sign_at(x).is_gt() {
+            Some(Sign::Greater)
+        } else if self.upper.sign_at(x).is_lt() {
+            Some(Sign::Less)
+        } else {
+            None
+        }
+    }
+
+    /// The zeros of either polynomial, ascending.
+    fn zeros(&self, lo: &Rational, hi: Option<&Rational>, budget: &Budget) -> Result<Vec<RealAlgebraic>, Exhausted> {
+        let mut out: Vec<RealAlgebraic> = Vec::new();
+        for side in [&self.lower, &self.upper] {
+            let Some(part) = budget.enter(|| SquareFree::part_of(side))? else { continue };
+            out.extend(isolate_real_roots_in(&part, Some(lo), hi, budget)?);
+        }
+        budget.enter(|| out.sort_by(RealAlgebraic::compare))?;
+        Ok(out)
+    }
+}
+
+impl Attempt<'_> {
+    /// The brackets; `None` where more bits are needed.
+    fn isolate(&self, coefficients: &[Ball]) -> Result<Option<Vec<(Rational, Rational)>>, Exhausted> {
+        if coefficients[0].contains_zero() || coefficients[coefficients.len() - 1].contains_zero() {
+            return Ok(None);
+        }
+        let (band, slope) = (Band::new(coefficients), Band::new(&derivative(coefficients)));
+        let zeros = band.zeros(self.near, self.far, self.budget)?;
+        if zeros.is_empty() {
+            return Ok(self.sign_between(&band, None, None)?.map(|_| Vec::new()));
+        }
+        let mut out: Vec<(Rational, Rational)> = Vec::new();
+        // From a stretch of certain sign to the next: the first and the last zero between them.
+        let mut first = 0;
+        // Where the range begins at a root, the sign beside it is not known before the first stretch.
+        let mut sign = self.sign_between(&band, None, zeros.first())?;
+        for i in 0..zeros.len() {
+            let next = self.sign_between(&band, Some(&zeros[i]), zeros.get(i + 1))?;
+            let is_last = i + 1 == zeros.len();
+            if next.is_none() && !is_last {
+                continue;
+            }
+            let touches = [first == 0 && sign.is_none(), next.is_none()];
+            let clear = match touches {
+                // A root at an end of the range disturbs its neighbourhood, in which there is no other where the slope
+                // keeps its sign.
+                [true, _] if self.ends[0] => self.around(&zeros[first], &zeros[i], &slope, Some(0))?.is_some(),
+                [_, true] if self.ends[1] => self.around(&zeros[first], &zeros[i], &slope, Some(1))?.is_some(),
+                [false, false] if sign != next => match self.around(&zeros[first], &zeros[i], &slope, None)? {
+                    Some((lo, hi)) if band.sign_at(&lo) == sign && band.sign_at(&hi) == next => {
+                        out.push((lo, hi));
+                        true
+                    }
+                    _ => false,
+                },
+                _ => false,
+            };
+            if !clear {
+                return Ok(None);
+            }
+            (first, sign) = (i + 1, next);
+        }
+        let disjoint = out.windows(2).all(|pair| pair[0].1 < pair[1].0);
+        let inside = out.iter().all(|(lo, hi)| lo > self.near && self.far.is_none_or(|far| hi < far));
+        Ok((disjoint && inside).then_some(out))
+    }
+
+    /// The certain sign between two neighbouring zeros, or beside the first or the last.
+    fn sign_between(
+        &self,
+        band: &Band,
+        after: Option<&RealAlgebraic>,
+        before: Option<&RealAlgebraic>,
+    ) -> Result<Option<Sign>, Exhausted> {
+        let real = |x: &RealAlgebraic| Real::from(x.clone());
+        let after = after.map_or_else(|| Real::from(self.near.clone()), real);
+        let before = before.map(real).or_else(|| self.far.cloned().map(Real::from));
+        let sample = match before {
+            None => Some(after.rational_above()),
+            Some(before) => rational_between(&after, &before, self.budget)?,
+        };
+        Ok(sample.and_then(|x| band.sign_at(&x)))
+    }
+
+    /// A short interval around two zeros on which the slope keeps its sign; at an end of the range where there is one.
+    fn around(
+        &self,
+        first: &RealAlgebraic,
+        last: &RealAlgebraic,
+        slope: &Band,
+        end: Option<usize>,
+    ) -> Result<Option<(Rational, Rational)>, Exhausted> {
+        let width = Rational::dyadic(&Integer::ONE, self.bits);
+        let (lo, _) = self.budget.enter(|| first.refined(&width))?.enclosure();
+        let (_, hi) = self.budget.enter(|| last.refined(&width))?.enclosure();
+        let room = (&hi - &lo).max(width);
+        let (mut lo, mut hi) = (&lo - &room, &hi + &room);
+        match (end, self.far) {
+            (Some(0), _) => lo = self.near.clone(),
+            (Some(_), Some(far)) => hi = far.clone(),
+            _ => {}
+        }
+        if lo < *self.near {
+            return Ok(None);
+        }
+        let keeps = |side: &UniPoly, sign: Sign| -> Result<bool, Exhausted> {
+            if side.sign_at(&lo) != sign || side.sign_at(&hi) != sign {
+                return Ok(false);
+            }
+            let Some(part) = self.budget.enter(|| SquareFree::part_of(side))? else { return Ok(false) };
+            Ok(isolate_real_roots_in(&part, Some(&lo), Some(&hi), self.budget)?.is_empty())
+        };
+        let monotone = keeps(&slope.lower, Sign::Greater)? || keeps(&slope.upper, Sign::Less)?;
+        Ok(monotone.then_some((lo, hi)))
+    }
+}
+
+/// The only root of a polynomial over symbols between two numbers, a simple one.
+#[derive(Debug)]
+struct SymbolicRoot {
+    of: Arc<Coefficients>,
+    place: Enclosure,
+}
+
+impl Enclosing for SymbolicRoot {
+    fn enclose(&self, bits: u64, known: Option<&Enclosure>) -> Enclosure {
+        let known = known.unwrap_or(&self.place);
+        let (mut lo, mut hi) = (known.lower().clone(), known.upper().clone());
+        let target = Rational::dyadic(&Integer::ONE, bits);
+        let mut working = bits + 64;
+        let rising = self.rises();
+        'precision: loop {
+            let coefficients = self.of.enclose(working);
+            let slope = derivative(&coefficients);
+            while &hi - &lo > target {
+                checkpoint(bits);
+                let whole = Ball::between(&lo, &hi, working);
+                let middle = middle(&lo, &hi, working);
+                let at_middle = value(&coefficients, &middle);
+                let step = at_middle.div(&value(&slope, &whole));
+                let newton = step.and_then(|step| middle.sub(&step).intersection(&whole));
+                let width = &hi - &lo;
+                if let Some(newton) = newton
+                    && (newton.upper() - newton.lower()) * Rational::from(2) <= width
+                {
+                    (lo, hi) = (newton.lower().max(lo), newton.upper().min(hi));
+                    continue;
+                }
+                // Bisection; one of two points is not the root.
+                let quarter = Ball::from_rational(&(&lo + &(&width * &Rational::dyadic(&Integer::ONE, 2))), working);
+                let known = [(at_middle, middle), (value(&coefficients, &quarter), quarter)];
+                let Some((sign, at)) = known.iter().find_map(|(v, at)| Some((v.sign()?, at))) else {
+                    working *= 2;
+                    continue 'precision;
+                };
+                match (sign == Ordering::Greater) == rising {
+                    true => hi = at.upper(),
+                    false => lo = at.lower(),
+                }
+                if &hi - &lo >= width {
+                    working *= 2;
+                    continue 'precision;
+                }
+            }
+            return Enclosure::new(lo, hi);
+        }
+    }
+
+    fn origin(&self) -> Origin {
+        let symbols = &self.of.symbols;
+        let names = symbols.names();
+        let used: std::collections::BTreeSet<usize> = self.of.list.iter().flat_map(MultiPoly::variables).collect();
+        Origin::Symbols {
+            symbols: used.into_iter().map(|i| (names[i].clone(), symbols.definition_text(i))).collect(),
+            polynomial: self.of.list.iter().map(|c| c.display(&names).to_string()).collect(),
+        }
+    }
+}
+
+/// A number between two others, exact in that many bits unless they are as near as that.
+fn middle(lo: &Rational, hi: &Rational, bits: u64) -> Ball {
+    let ball = Ball::from_rational(&lo.midpoint(hi), bits);
+    let unit = ball.lower();
+    Ball::from_rational(&unit, bits)
+}
+
+impl SymbolicRoot {
+    /// Whether the polynomial is negative below the root.
+    fn rises(&self) -> bool {
+        let mut working = FIRST_BITS;
+        loop {
+            let coefficients = self.of.enclose(working);
+            let at = |x: &Rational| value(&coefficients, &Ball::from_rational(x, working)).sign();
+            if let (Some(a), Some(b)) = (at(self.place.lower()), at(self.place.upper()))
+                && a != b
+            {
+                return b.is_gt();
+            }
+            working *= 2;
+        }
+    }
+}

@@ -1,0 +1,145 @@
+use super::*;
+use crate::limits::Budget;
+use crate::number::parse_number;
+use crate::poly::Domain;
+
+fn number(text: &str) -> Rational {
+    parse_number(text).unwrap()
+}
+
+fn symbol(s: &mut Symbols, definition: Definition) -> MultiPoly {
+    MultiPoly::variable(s.insert("x", definition))
+}
+
+fn decimal(s: &Symbols, x: &MultiPoly) -> String {
+    s.enclose(x, 200).to_enclosure().decimal(30).unwrap()
+}
+
+#[test]
+fn known_values_of_functions() {
+    let budget = Budget::unlimited();
+    let mut s = Symbols::new();
+    let pi = symbol(&mut s, Definition::Pi);
+    let sixth = &RationalFunction::from(pi) * &RationalFunction::from(number("1/6"));
+    let tan = symbol(&mut s, Definition::Tangent { square: RationalFunction::one(), time: sixth.clone() });
+    let root = symbol(&mut s, Definition::root(3));
+    let e = symbol(&mut s, Definition::exponential(1));
+    let power = symbol(&mut s, Definition::Exponential(sixth));
+    assert_eq!(decimal(&s, &e), "2.71828182845904523536028747135");
+    assert_eq!(decimal(&s, &tan), "0.577350269189625764509148780502");
+    assert_eq!(decimal(&s, &root), "1.73205080756887729352744634151");
+    assert_eq!(decimal(&s, &power), "1.68809179496446860061684762810");
+    // tan(pi/6) sqrt(3) = 1
+    let x = tan.times(&root).minus(&MultiPoly::one());
+    assert!(s.enclose(&x, 300).contains_zero());
+    assert!(s.sign(&root.minus(&e), &budget).unwrap().is_lt());
+    // tanh(1)
+    let tanh = symbol(&mut s, Definition::Tangent { square: (-1).into(), time: 1.into() });
+    assert_eq!(decimal(&s, &tanh), "0.761594155955764888119458282605");
+}
+
+#[test]
+fn fundamental_solutions_of_a_product_are_those_of_its_factors() {
+    // (D + 1)(D + 2)(D + 3): the last is (exp(-t) - 2 exp(-2 t) + exp(-3 t))/2
+    let mut s = Symbols::new();
+    let polynomial = [6, 11, 6, 1].map(RationalFunction::from).to_vec();
+    let time = RationalFunction::from(number("7/5"));
+    let last = symbol(&mut s, Definition::Fundamental { polynomial, index: 2, time });
+    let powers = [-1, -2, -3].map(|k| symbol(&mut s, Definition::exponential(&number("7/5") * &Rational::from(k))));
+    let two = Integer::from(2);
+    let zero = last.scaled_by(&two).minus(&powers[0]).plus(&powers[1].scaled_by(&two)).minus(&powers[2]);
+    let value = s.enclose(&zero, 400);
+    assert!(value.contains_zero() && value.width_units().bit_length() < 10);
+}
+
+#[test]
+fn zeros_by_relations_of_exponentials_are_proved() {
+    let budget = Budget::unlimited();
+    let mut s = Symbols::new();
+    // exp(-2) and exp(-1) as symbols of their own.
+    let (a, b) = (symbol(&mut s, Definition::exponential(-2)), symbol(&mut s, Definition::exponential(-1)));
+    assert!(s.sign(&a.minus(&b.times(&b)), &budget).unwrap().is_eq());
+    // exp(sqrt(2)) exp(sqrt(8)) = exp(sqrt(18))
+    let roots = [2, 8, 18].map(|n| symbol(&mut s, Definition::root(n)));
+    let powers = roots.map(|r| symbol(&mut s, Definition::Exponential(r.into())));
+    let zero = powers[0].times(&powers[1]).minus(&powers[2]);
+    assert!(s.sign(&zero, &budget).unwrap().is_eq());
+    assert!(s.sign(&powers[0].minus(&powers[1]), &budget).unwrap().is_lt());
+    // Nearly the same: exp(-2) and exp(-1)^2 with an exponent that is 10^-300 larger.
+    let near = symbol(&mut s, Definition::exponential(&number("-2") + &number("1e-300")));
+    assert!(s.sign(&near.minus(&b.times(&b)), &budget).unwrap().is_gt());
+}
+
+#[test]
+fn tangents_satisfy_double_angles_and_the_hyperbolic_ones_are_exponentials() {
+    let budget = Budget::unlimited();
+    let mut s = Symbols::new();
+    let mut at = |square: i64, time: &str| {
+        symbol(&mut s, Definition::Tangent { square: square.into(), time: number(time).into() })
+    };
+    let (t, u, h) = (at(3, "1/10"), at(3, "1/5"), at(-1, "1/2"));
+    // tan(2v) (1 - tan(v)^2) = 2 tan(v), with tan = sqrt(3) t
+    let one = MultiPoly::one();
+    let zero = u.times(&one.minus(&t.times(&t).scaled_by(&3.into()))).minus(&t.scaled_by(&2.into()));
+    assert!(s.sign(&zero, &budget).unwrap().is_eq());
+    assert!(s.sign(&u.minus(&t), &budget).unwrap().is_gt());
+    // tanh(1/2) (e + 1) = e - 1
+    let e = symbol(&mut s, Definition::exponential(1));
+    let zero = h.times(&e.plus(&one)).minus(&e.minus(&one));
+    assert!(s.sign(&zero, &budget).unwrap().is_eq());
+}
+
+#[test]
+fn a_zero_that_is_not_recognised_ends_with_a_message() {
+    let mut s = Symbols::new();
+    let polynomial = [1, 1, 1].map(RationalFunction::from).to_vec();
+    let fundamental = |index| Definition::Fundamental { polynomial: polynomial.clone(), index, time: 1.into() };
+    let (a, b) = (symbol(&mut s, fundamental(0)), symbol(&mut s, fundamental(1)));
+    let x = symbol(&mut s, Definition::exponential(-1));
+    // The determinant of the exponential: a (a - b) + b^2 = exp(-1).
+    let zero = a.times(&a.minus(&b)).plus(&b.times(&b)).minus(&x);
+    let refused = s.sign(&zero, &Budget::unlimited()).unwrap_err();
+    assert_eq!(refused.budget, "precision (8192 bits)");
+}
+
+/// Symbols `exp(-T)` and, for `1 + y'' = 0`, cosine and sine of `T`.
+fn moving() -> Arc<MovingSymbols> {
+    let t = RationalFunction::variable(0);
+    let circle = [1, 0, 1].map(RationalFunction::from).to_vec();
+    let solution = |index| Definition::Fundamental { polynomial: circle.clone(), index, time: t.clone() };
+    Arc::new(MovingSymbols::new(vec![
+        ("X".into(), Definition::Exponential(-&t)),
+        ("c".into(), solution(0)),
+        ("s".into(), solution(1)),
+    ]))
+}
+
+#[test]
+fn zeros_of_exponential_polynomials_are_found() {
+    let (symbols, budget) = (moving(), Budget::unlimited());
+    let [t, x, c, s] = [0, 1, 2, 3].map(MultiPoly::variable);
+    let zeros = |f: &MultiPoly, lo: &str, hi: &str| {
+        let found = symbols.zeros_in(f, &number(lo), &number(hi), &budget).unwrap();
+        assert!(found.undecided.is_empty(), "{:?}", found.undecided);
+        found.zeros.iter().map(|z| z.decimal(20)).collect::<Vec<_>>()
+    };
+    // sin(T) from 0, where it vanishes, to 10: pi, 2 pi, 3 pi.
+    assert_eq!(zeros(&s, "0", "10"), ["3.1415926535897932385", "6.2831853071795864769", "9.4247779607693797154"]);
+    // T - sin(T): of order three at 0, and no other zero.
+    assert!(zeros(&t.minus(&s), "0", "10").is_empty());
+    // cos(T) = T
+    assert_eq!(zeros(&c.minus(&t), "0", "10"), ["0.73908513321516064166"]);
+    // exp(-T) sin(T) = 1/10, twice
+    let f = x.times(&s).scaled_by(&10.into()).minus(&MultiPoly::one());
+    assert_eq!(zeros(&f, "0", "10").len(), 2);
+}
+
+#[test]
+fn a_function_that_touches_zero_is_undecided_there_and_only_there() {
+    let (symbols, budget) = (moving(), Budget::unlimited());
+    let s = MultiPoly::variable(3);
+    let found = symbols.zeros_in(&MultiPoly::one().minus(&s), &number("1"), &number("3"), &budget).unwrap();
+    assert!(found.zeros.is_empty() && found.undecided.len() == 1);
+    let (lo, hi) = &found.undecided[0];
+    assert!(*lo < number("1.570796326794897") && number("1.570796326794896") < *hi && hi - lo < number("1e-12"));
+}

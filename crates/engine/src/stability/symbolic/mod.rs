@@ -1,0 +1,185 @@
+//! Loops whose characteristic polynomial has transcendental constants, such as those of a plant behind a hold.
+//!
+//! The constants are variables of the coefficients ([`Symbols`]). Everything that is decided by signs of rational numbers in
+//! a loop without them is decided by signs of polynomials in symbols: the boundary polynomials are the same, and so is the
+//! half-size pair.
+
+mod count;
+mod moving;
+mod pair;
+mod set;
+
+pub use set::symbolic_stable_set;
+
+use super::{AtPoint, Cause, HalfSizePair, Shape};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly};
+use jurist_algebra::symbols::{MovingSymbols, Symbols};
+use std::sync::Arc;
+
+/// A characteristic polynomial in one parameter, or none, whose coefficients contain symbols.
+///
+/// In its polynomials the parameter is variable 0 and symbol `i` is variable `i + 1`, also where there is no parameter.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::matrix::CharacteristicPolynomial;
+/// use jurist_algebra::poly::RationalFunction;
+/// use jurist_algebra::symbols::{Definition, Symbols};
+/// use jurist_engine::stability::{Range, Shape, SymbolicPolynomial, symbolic_stable_set};
+/// use std::sync::Arc;
+/// // z - X + K with X = exp(-1): a pole at s = -1 behind a hold of one second
+/// let mut symbols = Symbols::new();
+/// symbols.insert("X1", Definition::exponential(-1));
+/// let (k, x) = (RationalFunction::variable(0), RationalFunction::variable(1));
+/// let d = CharacteristicPolynomial {
+///     variables: vec!["K".into(), "X1".into()],
+///     coefficients: vec![&k - &x, RationalFunction::one()],
+///     formal_degree: 1,
+///     poles: Vec::new(),
+///     monic: true,
+/// };
+/// let p = SymbolicPolynomial::new(&d, 1, &Arc::new(symbols));
+/// let set = symbolic_stable_set(&p, &Range::all(), Shape::UnitDisc, &Budget::unlimited()).unwrap();
+/// let interval = &set.intervals()[0];
+/// let end = |end: &Option<jurist_engine::stability::End>| end.as_ref().unwrap().value.decimal(6);
+/// assert_eq!((end(&interval.lower), end(&interval.upper)), ("-0.632121".into(), "1.36788".into()));
+/// ```
+#[derive(Clone, Debug)]
+pub struct SymbolicPolynomial {
+    symbols: Table,
+    polynomial: Poly<MultiPoly>,
+    degree_loss: MultiPoly,
+    formal_degree: usize,
+    /// The common denominator first.
+    poles: Vec<MultiPoly>,
+}
+
+/// What the symbols stand for.
+#[derive(Clone, Debug)]
+enum Table {
+    /// Numbers.
+    Fixed(Arc<Symbols>),
+    /// Functions of the parameter.
+    Moving(Arc<MovingSymbols>),
+}
+
+impl SymbolicPolynomial {
+    /// From a characteristic polynomial whose first `free` (0 or 1) variables are parameters and whose others are symbols.
+    ///
+    /// Cost: `O(n)` least common multiples.
+    ///
+    /// # Panics
+    /// When more than one variable is free.
+    pub fn new(d: &CharacteristicPolynomial, free: usize, symbols: &Arc<Symbols>) -> Self {
+        SymbolicPolynomial::over(d, free, Table::Fixed(Arc::clone(symbols)))
+    }
+
+    /// The same where symbols depend on the parameter.
+    ///
+    /// Cost: `O(n)` least common multiples.
+    pub fn with_moving(d: &CharacteristicPolynomial, symbols: &Arc<MovingSymbols>) -> Self {
+        SymbolicPolynomial::over(d, 1, Table::Moving(Arc::clone(symbols)))
+    }
+
+    fn over(d: &CharacteristicPolynomial, free: usize, symbols: Table) -> Self {
+        assert!(free <= 1, "one parameter is free");
+        let place = |p: &MultiPoly| p.map_variables(|i| i + 1 - free);
+        let (polynomial, denominator) = d.cleared();
+        let loss = d.coefficients.get(d.formal_degree).map_or_else(MultiPoly::zero, |c| place(c.numerator()));
+        let poles = std::iter::once(place(&denominator)).chain(d.poles.iter().map(place)).collect();
+        SymbolicPolynomial {
+            symbols,
+            polynomial: Poly::new(polynomial.coeffs().iter().map(place).collect()),
+            degree_loss: loss,
+            formal_degree: d.formal_degree,
+            poles,
+        }
+    }
+
+    /// The polynomial without denominators.
+    pub fn polynomial(&self) -> &Poly<MultiPoly> {
+        &self.polynomial
+    }
+
+    /// The degree the polynomial is meant to have.
+    pub fn formal_degree(&self) -> usize {
+        self.formal_degree
+    }
+
+    /// The half-size pair.
+    fn pair(&self, region: Shape) -> HalfSizePair<MultiPoly> {
+        HalfSizePair::new(&self.polynomial, self.formal_degree, region)
+    }
+
+    /// The exact root count at a value of the parameter.
+    ///
+    /// Cost: enclosures of the coefficients with more and more bits until the boundary is left aside for certain, and
+    /// a root count of integers; signs of constants where it is not.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out, and where the sign of a constant is not found.
+    pub fn at(&self, value: &Rational, region: Shape, budget: &Budget) -> Result<AtPoint, Exhausted> {
+        let symbols = match &self.symbols {
+            Table::Fixed(symbols) => Arc::clone(symbols),
+            Table::Moving(symbols) => match symbols.at(value) {
+                Some(symbols) => Arc::new(symbols),
+                None => return Ok(AtPoint::Undefined),
+            },
+        };
+        let number = |p: &MultiPoly| p.substitute(0, value).0.map_variables(|i| i.saturating_sub(1));
+        for pole in &self.poles {
+            if symbols.is_zero(&number(pole), budget)? {
+                return Ok(AtPoint::Undefined);
+            }
+        }
+        let coefficients = budget.enter(|| common_scale(&self.polynomial, value))?;
+        count::at_point(coefficients, self.formal_degree, &symbols, region, budget)
+    }
+
+    /// The boundary conditions; `None` where one of them holds for every value of the parameter because it is zero, or the
+    /// degree is not reached.
+    fn conditions(&self, region: Shape, budget: &Budget) -> Result<Option<Vec<(Cause, MultiPoly)>>, Exhausted> {
+        let n = self.formal_degree;
+        if self.polynomial.degree() != Some(n) {
+            return Ok(None);
+        }
+        budget.step("boundary polynomials");
+        let value = |x: i64| budget.enter(|| self.polynomial.eval(&MultiPoly::constant(Integer::from(x))));
+        let mut found = Vec::new();
+        if n > 0 {
+            match region {
+                Shape::UnitDisc => {
+                    found.push((Cause::RootAtOne, value(1)?));
+                    found.push((Cause::RootAtMinusOne, value(-1)?));
+                }
+                Shape::LeftHalfPlane => found.push((Cause::RootAtZero, value(0)?)),
+            }
+            found.push((Cause::ComplexPair, self.pair(region).critical_constraint(budget)?));
+        }
+        found.push((Cause::DegreeLost, self.degree_loss.clone()));
+        found.extend(self.poles.iter().map(|q| (Cause::Pole, q.clone())));
+        Ok((!found.iter().any(|(_, p)| p.is_zero())).then_some(found))
+    }
+}
+
+/// The coefficients at a rational value of the parameter, times a common positive integer, in symbols as their table numbers
+/// them.
+fn common_scale(p: &Poly<MultiPoly>, value: &Rational) -> Vec<MultiPoly> {
+    let degree = p.coeffs().iter().map(|c| c.degree_in(0)).max().unwrap_or(0);
+    let (n, d) = (value.numerator(), value.denominator());
+    let at = |c: &MultiPoly| {
+        let in_parameter = c.as_poly_in(0);
+        let mut sum = MultiPoly::zero();
+        for (k, part) in in_parameter.coeffs().iter().enumerate() {
+            sum = sum.plus(&part.scaled_by(&(n.pow(k as u64) * d.pow(u64::from(degree) - k as u64))));
+        }
+        sum.map_variables(|i| i.saturating_sub(1))
+    };
+    p.coeffs().iter().map(at).collect()
+}
+
+#[cfg(test)]
+mod tests;

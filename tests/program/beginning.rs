@@ -1,0 +1,116 @@
+//! The first minutes: templates, a model that is only read, a model without a command, words of other programs.
+
+use crate::helpers::program::{json, jurist, jurist_with_input, refused};
+use crate::helpers::schema::fits;
+use serde_json::Value;
+
+/// The names that `jurist new --list` prints.
+fn templates() -> Vec<String> {
+    let run = jurist(&["new", "--list"]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    run.stdout.lines().map(|line| line.split_whitespace().next().unwrap().to_owned()).collect()
+}
+
+#[test]
+fn every_template_is_a_model_without_remarks_that_is_stable_at_its_nominal_point() {
+    let names = templates();
+    assert!(names.len() >= 3, "{names:?}");
+    for name in names {
+        let text = jurist(&["new", &name]).stdout;
+        let checked = jurist_with_input(&["check", "-", "--json"], text.as_bytes());
+        let document: Value = serde_json::from_str(&checked.stdout).unwrap();
+        fits(&document).unwrap();
+        assert_eq!((checked.status, &document["diagnostics"]), (0, &Value::Array(Vec::new())), "{name}");
+        let verdict = jurist_with_input(&["verdict", "-"], text.as_bytes());
+        assert_eq!((verdict.status, verdict.stderr.as_str()), (0, ""), "{name}: {}", verdict.stdout);
+    }
+}
+
+#[test]
+fn templates_replace_nothing() {
+    let folder = tempfile();
+    let file = folder.join("loop.toml");
+    let name = file.to_str().unwrap();
+    assert_eq!(jurist(&["new", "polynomial", "-o", name]).status, 0);
+    let written = std::fs::read(&file).unwrap();
+    let run = refused(&["new", "matrix", "-o", name], "E-write");
+    assert!(run.stderr.contains("exists already"), "{}", run.stderr);
+    assert_eq!(std::fs::read(&file).unwrap(), written);
+    let run = refused(&["new", "cascade"], "E-unknown-template");
+    assert!(run.stderr.contains("gain-loop"), "{}", run.stderr);
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+/// A new folder of this process.
+fn tempfile() -> std::path::PathBuf {
+    let folder = std::env::temp_dir().join(format!("jurist-beginning-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+#[test]
+fn a_model_alone_is_analysed_and_one_parameter_needs_no_name() {
+    let file = "examples/heavy-ball.toml";
+    assert_eq!(jurist(&[file]).stdout, jurist(&["analyze", file]).stdout);
+    assert_eq!(jurist(&[file, "--json"]).stdout, jurist(&["analyze", file, "--json"]).stdout);
+    let one = b"time = 'discrete'\nparameters.K = { nominal = 1 }\nloop.characteristic = 'z - K/2'\n";
+    for command in ["intervals", "locus"] {
+        let (left_out, named) = ([command, "-", "--json"], [command, "-", "--json", "--param", "K"]);
+        assert_eq!(jurist_with_input(&left_out, one).stdout, jurist_with_input(&named, one).stdout);
+        assert_eq!(jurist_with_input(&left_out, one).status, 0);
+    }
+    let run = refused(&["intervals"], "E-usage");
+    assert!(run.stderr.contains("'--param K_pwm', '--param T'"), "{}", run.stderr);
+    let none = b"time = 'discrete'\nconstants.a = 0.5\nloop.characteristic = 'z - a'\n";
+    assert!(jurist_with_input(&["intervals", "-"], none).stderr.contains("0 parameters"));
+}
+
+#[test]
+fn words_of_other_programs_lead_to_commands_of_this_one() {
+    for (word, command) in [
+        ("rlocus", "jurist locus"),
+        ("step", "jurist simulate"),
+        ("c2d", "discretize"),
+        ("isstable", "jurist verdict"),
+        ("routh", "jurist jury"),
+        ("lint", "jurist check"),
+    ] {
+        let run = refused(&[word], "E-usage");
+        assert!(run.stderr.contains(command), "{word}: {}", run.stderr);
+    }
+}
+
+#[test]
+fn words_of_the_answers_are_explained() {
+    for word in ["complex pair", "z=-1", "gain margin", "Marginal"] {
+        let run = jurist(&["explain", word]);
+        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{word}");
+    }
+    assert_eq!(jurist(&["explain", "complex", "pair"]).stdout, jurist(&["explain", "complex pair"]).stdout);
+    assert!(jurist(&["explain"]).stdout.contains("complex pair"));
+    refused(&["explain", "hodograph"], "E-unknown-code");
+}
+
+#[test]
+fn a_model_is_only_read() {
+    let good = json(&["check", "--json"]);
+    assert_eq!(good["accepted"], true);
+    assert_eq!(jurist(&["check"]).stdout, "<built-in drive>: a model\n");
+    let bad =
+        "time = 'discrete'\n[parameters]\nK = { nominal = 1, maximum = 2 }\n[loop]\ncharacteristic = 'z - k + Q'\n";
+    let run = jurist_with_input(&["check", "-", "--json"], bad.as_bytes());
+    let document: Value = serde_json::from_str(&run.stdout).unwrap();
+    fits(&document).unwrap();
+    assert_eq!((run.status, &document["accepted"]), (2, &Value::Bool(false)));
+    let place = &document["diagnostics"][0]["place"];
+    assert_eq!((&place["line"], &place["column"]), (&3.into(), &20.into()), "{document}");
+    let text = jurist_with_input(&["check", "-"], bad.as_bytes());
+    assert_eq!((text.status, text.stdout.as_str()), (2, ""));
+    assert!(text.stderr.contains("<stdin>:3:20"), "{}", text.stderr);
+    let log = jurist_with_input(&["check", "-", "--sarif"], bad.as_bytes());
+    let log: Value = serde_json::from_str(&log.stdout).unwrap();
+    let results = log["runs"][0]["results"].as_array().unwrap();
+    assert_eq!(results.len(), document["diagnostics"].as_array().unwrap().len());
+    assert_eq!(results[0]["level"], "error");
+    assert_eq!(results[0]["locations"][0]["physicalLocation"]["region"]["startColumn"], 20);
+}
