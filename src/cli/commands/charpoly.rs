@@ -158,7 +158,9 @@ fn report(options: &Options, context: &Context, problem: &Problem) -> Result<Pol
         polynomials: Vec::new(),
     };
     if let Some([input, output]) = options.transfer.as_deref() {
-        let transfer = problem.closed_loop(&context.budget)?.transfer_function(input, output, &context.budget);
+        let (closed_loop, symbols) = problem.closed_loop_over_symbols(&context.budget)?;
+        report.with_symbols(symbols);
+        let transfer = closed_loop.transfer_function(input, output, &context.budget);
         let transfer = transfer.map_err(|e| unknown_signal(context, e, [input, output]))?;
         report.relation = Relation::Transfer { input: input.clone(), output: output.clone() };
         report.polynomials = vec![
@@ -168,8 +170,7 @@ fn report(options: &Options, context: &Context, problem: &Problem) -> Result<Pol
         return Ok(report);
     }
     let algebra = problem.algebra_over_symbols(&context.budget)?;
-    report.symbols = algebra.symbols().definitions();
-    report.parameters.extend(report.symbols.iter().map(|(name, _)| name.clone()));
+    report.with_symbols(algebra.symbols());
     let Some(polynomial) = algebra.polynomial().cloned() else {
         return Err(Error::Undefined(algebra.undefined().unwrap_or_default().to_owned()));
     };

@@ -16,7 +16,7 @@ use jurist_engine::error::{Diagnostic, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
 use jurist_engine::show::documents::to_text;
-use jurist_engine::show::layout::called;
+use jurist_engine::show::layout::{called, visible};
 
 /// The built-in drive as blocks, which is what a switched simulation reads.
 const DRIVE_BLOCKS: &str = include_str!("../../../examples/drive-blocks.toml");
@@ -117,7 +117,10 @@ fn figure(model: &Model, answer: &SimulationAnswer) -> Figure {
         None if outputs.is_empty() => (all().collect(), "sampled linear model"),
         None => (outputs, "sampled linear model"),
     };
-    let title = format!("{}, {kind}", called(model.title()));
+    let mut title = format!("{}, {kind}", called(model.title()));
+    if !model.rules().is_empty() && answer.circuit.is_none() {
+        title.push_str(&format!(" ({})", visible(&model.rules())));
+    }
     let unit = TimeUnit::of(model, answer.sample_time).name();
     stacked(&response_panels(&title, unit, &answer.trace, &shown), 760.0, 240.0)
 }
@@ -215,7 +218,7 @@ fn sampled(problem: &Problem, course: &Course, context: &Context) -> Result<Simu
         let last = trace.time.last().copied().unwrap_or(0.0);
         note(&format!("the response leaves the range of floating point after t = {last} s"));
     }
-    let sampled = problem.algebra(&context.budget)?.sample_time().is_some();
+    let sampled = problem.algebra_over_symbols(&context.budget)?.sample_time().is_some();
     Ok(SimulationAnswer { trace, sample_time: sampled.then_some(system.sample_time), circuit: None })
 }
 

@@ -110,7 +110,7 @@ fn dies_away(coefficients: &[Rational], time: &Rational) -> Option<Ball> {
     let mut doublings = PIECES.ilog2();
     let mut piece = time * &Rational::new(Integer::ONE, Integer::from(PIECES));
     while &piece * &size > Rational::ONE {
-        piece = piece * Rational::dyadic(&Integer::ONE, 1);
+        piece *= Rational::dyadic(&Integer::ONE, 1);
         doublings += 1;
         if doublings > MOST_DOUBLINGS {
             return None;

@@ -12,6 +12,7 @@ mod beyond;
 mod moving;
 mod normal_form;
 mod rational_series;
+mod root;
 mod roots;
 mod sign;
 mod specialise;

@@ -282,7 +282,7 @@ impl MovingSymbols {
                     return Some(lower + &step);
                 }
             }
-            step = step * Rational::dyadic(&Integer::ONE, 1);
+            step *= Rational::dyadic(&Integer::ONE, 1);
         }
         None
     }

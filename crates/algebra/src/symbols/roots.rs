@@ -1,13 +1,13 @@
 //! Real roots of polynomials whose coefficients are polynomials in symbols.
 
 use super::Symbols;
+use super::root::{Coefficients, SymbolicRoot, derivative};
 use super::specialise::is_square_free_in;
 use crate::ball::Ball;
-use crate::limits::{Budget, Exhausted, checkpoint};
+use crate::limits::{Budget, Exhausted};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
-use crate::real::{Enclosing, Origin, Real, Transcendental, rational_between};
-use std::cmp::Ordering;
+use crate::real::{Real, Transcendental, rational_between};
 use std::sync::Arc;
 
 /// Bits of the first attempt.
@@ -212,29 +212,6 @@ fn real_roots(
     Ok(out)
 }
 
-/// A polynomial by its coefficients from the constant term up, polynomials in symbols.
-#[derive(Debug)]
-struct Coefficients {
-    symbols: Arc<Symbols>,
-    list: Vec<MultiPoly>,
-}
-
-impl Coefficients {
-    fn enclose(&self, bits: u64) -> Vec<Ball> {
-        self.list.iter().map(|c| self.symbols.enclose(c, bits)).collect()
-    }
-}
-
-/// The value at a ball.
-fn value(coefficients: &[Ball], x: &Ball) -> Ball {
-    let zero = Ball::zero(x.bits());
-    coefficients.iter().rev().fold(zero, |sum, c| sum.mul(x).add(c))
-}
-
-fn derivative(coefficients: &[Ball]) -> Vec<Ball> {
-    coefficients.iter().enumerate().skip(1).map(|(k, c)| c.scaled(&Integer::from(k as u64))).collect()
-}
-
 /// Brackets of the positive roots between `near` (0 where missing) and `far` (unbounded where missing), of `p(x)` or
 /// `p(-x)`: in each there is one root, the derivative keeps its sign, and brackets are disjoint.
 fn positive_roots(
@@ -422,91 +399,5 @@ impl Attempt<'_> {
         };
         let monotone = keeps(&slope.lower, Sign::Greater)? || keeps(&slope.upper, Sign::Less)?;
         Ok(monotone.then_some((lo, hi)))
-    }
-}
-
-/// The only root of a polynomial over symbols between two numbers, a simple one.
-#[derive(Debug)]
-struct SymbolicRoot {
-    of: Arc<Coefficients>,
-    place: Enclosure,
-}
-
-impl Enclosing for SymbolicRoot {
-    fn enclose(&self, bits: u64, known: Option<&Enclosure>) -> Enclosure {
-        let known = known.unwrap_or(&self.place);
-        let (mut lo, mut hi) = (known.lower().clone(), known.upper().clone());
-        let target = Rational::dyadic(&Integer::ONE, bits);
-        let mut working = bits + 64;
-        let rising = self.rises();
-        'precision: loop {
-            let coefficients = self.of.enclose(working);
-            let slope = derivative(&coefficients);
-            while &hi - &lo > target {
-                checkpoint(bits);
-                let whole = Ball::between(&lo, &hi, working);
-                let middle = middle(&lo, &hi, working);
-                let at_middle = value(&coefficients, &middle);
-                let step = at_middle.div(&value(&slope, &whole));
-                let newton = step.and_then(|step| middle.sub(&step).intersection(&whole));
-                let width = &hi - &lo;
-                if let Some(newton) = newton
-                    && (newton.upper() - newton.lower()) * Rational::from(2) <= width
-                {
-                    (lo, hi) = (newton.lower().max(lo), newton.upper().min(hi));
-                    continue;
-                }
-                // Bisection; one of two points is not the root.
-                let quarter = Ball::from_rational(&(&lo + &(&width * &Rational::dyadic(&Integer::ONE, 2))), working);
-                let known = [(at_middle, middle), (value(&coefficients, &quarter), quarter)];
-                let Some((sign, at)) = known.iter().find_map(|(v, at)| Some((v.sign()?, at))) else {
-                    working *= 2;
-                    continue 'precision;
-                };
-                match (sign == Ordering::Greater) == rising {
-                    true => hi = at.upper(),
-                    false => lo = at.lower(),
-                }
-                if &hi - &lo >= width {
-                    working *= 2;
-                    continue 'precision;
-                }
-            }
-            return Enclosure::new(lo, hi);
-        }
-    }
-
-    fn origin(&self) -> Origin {
-        let symbols = &self.of.symbols;
-        let names = symbols.names();
-        let used: std::collections::BTreeSet<usize> = self.of.list.iter().flat_map(MultiPoly::variables).collect();
-        Origin::Symbols {
-            symbols: used.into_iter().map(|i| (names[i].clone(), symbols.definition_text(i))).collect(),
-            polynomial: self.of.list.iter().map(|c| c.display(&names).to_string()).collect(),
-        }
-    }
-}
-
-/// A number between two others, exact in that many bits unless they are as near as that.
-fn middle(lo: &Rational, hi: &Rational, bits: u64) -> Ball {
-    let ball = Ball::from_rational(&lo.midpoint(hi), bits);
-    let unit = ball.lower();
-    Ball::from_rational(&unit, bits)
-}
-
-impl SymbolicRoot {
-    /// Whether the polynomial is negative below the root.
-    fn rises(&self) -> bool {
-        let mut working = FIRST_BITS;
-        loop {
-            let coefficients = self.of.enclose(working);
-            let at = |x: &Rational| value(&coefficients, &Ball::from_rational(x, working)).sign();
-            if let (Some(a), Some(b)) = (at(self.place.lower()), at(self.place.upper()))
-                && a != b
-            {
-                return b.is_gt();
-            }
-            working *= 2;
-        }
     }
 }

@@ -6,16 +6,22 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Diagnostics, Error, Span};
-use jurist_engine::model::{Block, ClosedLoop, Diagram, Discretization, Form, Model, Name, Output, Time};
+use jurist_engine::model::{
+    Block, ClosedLoop, Diagram, Discretization, Form, Model, Name, Output, Time, value_approximate,
+};
 use jurist_engine::problem::Problem;
 use nalgebra::DMatrix;
 
-/// Entries of a matrix without symbols, rounded.
-fn rounded(matrix: &RationalMatrix) -> Result<DMatrix<f64>, Error> {
+/// Entries of a matrix without free names, rounded; `symbols` are the values of its variables.
+fn rounded(matrix: &RationalMatrix, symbols: &[f64]) -> Result<DMatrix<f64>, Error> {
     let undefined = || Error::Undefined("an entry of the closed loop divides by zero".into());
     let mut values = Vec::with_capacity(matrix.entries().len());
     for entry in matrix.entries() {
-        values.push(entry.as_constant().ok_or_else(undefined)?.to_f64_approximate());
+        let value = match entry.as_constant() {
+            Some(number) => number.to_f64_approximate(),
+            None => Some(value_approximate(entry, symbols)).filter(|v| v.is_finite()).ok_or_else(undefined)?,
+        };
+        values.push(value);
     }
     Ok(DMatrix::from_row_slice(matrix.rows(), matrix.columns(), &values))
 }
@@ -29,7 +35,10 @@ impl SampledModel {
     /// # Errors
     /// [`Error`] as for the closed loop; `E-simulation` when the step is not positive.
     pub fn from_loop(problem: &Problem, step: f64, budget: &Budget) -> Result<SampledModel, Error> {
-        let ClosedLoop { a, e, c, d, states, inputs, outputs, .. } = problem.closed_loop(budget)?;
+        let (ClosedLoop { a, e, c, d, states, inputs, outputs, .. }, symbols) =
+            problem.closed_loop_over_symbols(budget)?;
+        let symbols = symbols.values_approximate(&[]);
+        let rounded = |matrix| rounded(matrix, &symbols);
         let (mut transition, mut input) = (rounded(a)?, rounded(e)?);
         let mut sample_time = 1.0;
         if problem.time() == Time::Continuous {
@@ -41,8 +50,8 @@ impl SampledModel {
             transition = flow.view((0, 0), (n, n)).into_owned();
             input = flow.view((0, n), (n, m)).into_owned();
             sample_time = step;
-        } else if let Some(time) = problem.algebra(budget)?.sample_time() {
-            sample_time = time.as_constant().map_or(1.0, |t| t.to_f64_approximate());
+        } else if let Some(time) = problem.algebra_over_symbols(budget)?.sample_time() {
+            sample_time = value_approximate(time, &symbols);
         }
         let model = SampledModel {
             transition,
@@ -138,6 +147,12 @@ impl SwitchedModel {
             return Err(simulation_error("a switched simulation needs a model made of blocks").into());
         };
         let parts = Parts::of(diagram)?;
+        if let Some(late) =
+            parts.continuous.iter().find(|b| b.discretization.as_ref().is_some_and(|d| d.delay.is_some()))
+        {
+            let message = format!("the switched simulation has no dead time for '{}'", late.name);
+            return Err(simulation_error(message).into());
+        }
         let value = |e: &jurist_engine::model::Expression| model.value(e, problem.set(), budget);
         let (mut period, mut sources): (Option<Rational>, Vec<Pwm>) = (None, Vec::new());
         for block in &parts.sources {
@@ -164,19 +179,23 @@ impl SwitchedModel {
         let (r, m) = (diagram.inputs.len(), sources.len());
         let part = |diagram: Diagram, time: Time| {
             let part = model.with_diagram(diagram, time);
-            part.evaluate(&[], problem.set(), budget)?.closed_loop.ok_or_else(|| part.has_no_states())
+            let evaluated = part.evaluate(&[], problem.set(), budget)?;
+            let symbols = evaluated.symbols.values_approximate(&[]);
+            Ok::<_, Error>((evaluated.closed_loop.ok_or_else(|| part.has_no_states())?, symbols))
         };
-        let plant = part(parts.plant(diagram), Time::Continuous)?;
-        let sampled = part(parts.controller(diagram), Time::Discrete)?;
+        let (plant, in_plant) = part(parts.plant(diagram), Time::Continuous)?;
+        let (sampled, in_sampled) = part(parts.controller(diagram), Time::Discrete)?;
         let signals = plant.outputs.len();
-        let (a, e, c, d) = (rounded(&plant.a)?, rounded(&plant.e)?, rounded(&plant.c)?, rounded(&plant.d)?);
+        let [a, e, c, d] = [&plant.a, &plant.e, &plant.c, &plant.d].map(|m| rounded(m, &in_plant));
+        let (a, e, c, d) = (a?, e?, c?, d?);
         let held = e.ncols() - r - m;
         if e.columns(r + m, held).iter().chain(d.columns(r, m + held).iter()).any(|v| *v != 0.0) {
             let message = "a continuous block has to be driven by external inputs, continuous blocks and modulators, \
                 and must not pass a modulator's pulses on at once";
             return Err(simulation_error(message).into());
         }
-        let (f, g, h, k) = (rounded(&sampled.a)?, rounded(&sampled.e)?, rounded(&sampled.c)?, rounded(&sampled.d)?);
+        let [f, g, h, k] = [&sampled.a, &sampled.e, &sampled.c, &sampled.d].map(|m| rounded(m, &in_sampled));
+        let (f, g, h, k) = (f?, g?, h?, k?);
         // Inputs of the sampled part: external, pulses, the continuous signals.
         if g.columns(r, m).iter().chain(k.columns(r, m).iter()).any(|v| *v != 0.0) {
             return Err(simulation_error("a sampled block must not read a modulator's pulses").into());

@@ -102,6 +102,30 @@ pub struct Evaluated {
     pub symbols: Symbols,
 }
 
+impl Evaluated {
+    /// The same without symbols where none occurs: then everything is rational.
+    fn without_unused_symbols(mut self) -> Evaluated {
+        let first = self.symbols.first();
+        let is_free = |f: &RationalFunction| f.variables().last().is_none_or(|last| *last < first);
+        let p = &self.polynomial;
+        let closed_loop = self.closed_loop.iter();
+        let mut entries = closed_loop.flat_map(|l| [&l.a, &l.e, &l.c, &l.d]).flat_map(|m| m.entries());
+        let is_rational = p.coefficients.iter().all(is_free)
+            && p.poles.iter().all(|pole| pole.variables().last().is_none_or(|last| *last < first))
+            && entries.all(is_free)
+            && self.sample_time.iter().all(is_free);
+        drop(entries);
+        if is_rational && !self.symbols.is_empty() {
+            self.polynomial.variables.truncate(first);
+            if let Some(closed_loop) = &mut self.closed_loop {
+                closed_loop.variables.truncate(first);
+            }
+            self.symbols = Symbols::new(&self.polynomial.variables);
+        }
+        self
+    }
+}
+
 /// The expressions of the model with values set for what is not kept.
 struct Answer<'m> {
     wiring: Wiring<'m>,
@@ -185,12 +209,13 @@ impl Model {
                 monic: false,
             };
             let sample_time = sample_time.and_then(|t| substituted(&t, &images));
-            return Ok(Evaluated { polynomial, closed_loop: None, sample_time, symbols });
+            return Ok(Evaluated { polynomial, closed_loop: None, sample_time, symbols }.without_unused_symbols());
         }
         let (closed_loop, sample_time, symbols) = self.connected(answer, budget)?;
         let mut polynomial = closed_loop.characteristic_polynomial(budget)?;
         polynomial.poles = polynomial.poles.iter().filter_map(|pole| pole_beside(pole, &symbols)).collect();
-        Ok(Evaluated { polynomial, closed_loop: Some(closed_loop), sample_time, symbols })
+        let closed_loop = Some(closed_loop);
+        Ok(Evaluated { polynomial, closed_loop, sample_time, symbols }.without_unused_symbols())
     }
 
     /// The value of an expression in constants and parameters, all of which have values.

@@ -4,7 +4,7 @@ use super::Region;
 use super::delayed::{DelayedLoop, refused};
 use super::evaluation::{Algebra, parametric};
 use crate::error::{Diagnostic, Error};
-use crate::model::{ClosedLoop, Model, Time};
+use crate::model::{ClosedLoop, Model, Symbols, Time};
 use crate::stability::plane::PlanePolynomial;
 use crate::stability::{ParametricPolynomial, Range, Shape};
 use jurist_algebra::limits::Budget;
@@ -207,6 +207,18 @@ impl Problem {
         }
         let delayed = DelayedLoop::of(self, self.algebra_over_symbols(budget)?, budget)?;
         Ok(self.delayed.get_or_init(|| delayed).as_ref())
+    }
+
+    /// The closed loop in state space with what its variables beyond the free names stand for, for one who can treat
+    /// [`Symbols`].
+    ///
+    /// Cost: that of [`Problem::algebra_over_symbols`].
+    ///
+    /// # Errors
+    /// As [`Problem::closed_loop`], without `E-function` for symbols.
+    pub fn closed_loop_over_symbols(&self, budget: &Budget) -> Result<(&ClosedLoop, &Symbols), Error> {
+        let algebra = self.algebra_over_symbols(budget)?;
+        Ok((algebra.closed_loop(&self.model)?, algebra.symbols()))
     }
 
     /// The polynomial in the one free parameter (or none) in the form that is decided; `None` where the loop is undefined

@@ -77,3 +77,48 @@ fn between_holds(blocks: &[Block], reader: &mut Reader) {
         reader.report(warning.help("write both as one block: its product, or one A, B, C, D"));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::error::Source;
+    use crate::model::Model;
+
+    /// Messages of all warnings of a loop with a sampled controller and this plant.
+    fn warnings(sample_time: &str, plant: &str) -> Vec<(&'static str, String)> {
+        let text = format!(
+            "time = 'discrete'\nsample_time = '{sample_time}'\n[parameters]\nT = {{ nominal = 1, min = 0 }}\n[loop]\ninputs = ['r']\n\
+             [[block]]\nname = 'controller'\ninput = 'r - y*T'\noutput = 'u'\ngain = 1\n\
+             [[block]]\nname = 'plant'\ninput = 'u'\noutput = 'x'\n{plant}\n\
+             [[block]]\nname = 'filter'\ninput = 'x'\noutput = 'y'\ntransfer = '1/(s + 2)'\ndiscretize = {{ method = 'tustin', T = 'T' }}\n"
+        );
+        let (_, warnings) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
+        warnings.into_iter().map(|w| (w.code, w.message)).collect()
+    }
+
+    #[test]
+    fn rules_without_a_hold_are_remarked_upon_once() {
+        let by_rule = warnings("T", "transfer = '1/(s + 1)'\ndiscretize = 'forward'");
+        assert_eq!(by_rule, [("W-rule", "'plant' is made discrete by the forward rule".to_owned())]);
+        assert_eq!(warnings("T", "transfer = '1/(s + 1)'\ndiscretize = 'zoh'"), []);
+    }
+
+    #[test]
+    fn a_hold_between_continuous_blocks_is_remarked_upon() {
+        let text = "time = 'discrete'\nsample_time = 1\n[loop]\ninputs = ['r']\n[[block]]\nname = 'a'\ninput = 'r - y'\noutput = 'x'\n\
+            transfer = '1/(s + 1)'\ndiscretize = 'zoh'\n[[block]]\nname = 'b'\ninput = '2*x'\noutput = 'y'\n\
+            transfer = '1/(s + 2)'\ndiscretize = 'zoh'\n";
+        let (_, warnings) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
+        let found: Vec<&str> = warnings.iter().map(|w| w.code).collect();
+        assert_eq!(found, ["W-rule", "W-rule"], "each reads the other");
+    }
+
+    #[test]
+    fn two_sample_times_in_one_loop_are_remarked_upon() {
+        let held = |time: &str| format!("transfer = '1/(s + 1)'\ndiscretize = {{ method = 'zoh', T = '{time}' }}");
+        let other = [("W-sample-times", "two different sample times in one loop".to_owned())];
+        assert_eq!(warnings("T", &held("T")), []);
+        assert_eq!(warnings("T", &held("T + T - T")), []);
+        assert_eq!(warnings("T", &held("2*T")), other);
+        assert_eq!(warnings("1/1000", &held("T")), other);
+    }
+}

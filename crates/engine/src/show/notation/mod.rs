@@ -12,6 +12,7 @@ mod text;
 
 use super::documents::report_text;
 use super::layout::is_unseen;
+use crate::model::Symbols;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 
@@ -104,6 +105,12 @@ pub struct PolynomialReport {
 }
 
 impl PolynomialReport {
+    /// Adds symbols as further variables with their definitions.
+    pub fn with_symbols(&mut self, symbols: &Symbols) {
+        self.symbols = symbols.definitions();
+        self.parameters.extend(self.symbols.iter().map(|(name, _)| name.clone()));
+    }
+
     /// The text in the given notation; exact fractions, or decimals of so many significant digits.
     ///
     /// ```

@@ -90,7 +90,8 @@ pub(super) fn moving_stable_set(
         let roots = isolate_real_roots_in(&algebraic, Some(lower), Some(upper), budget)?;
         all = merged(all, roots.into_iter().map(Real::from).collect(), budget)?;
     }
-    let (mut from, mut undecided): (Vec<(usize, Real)>, Vec<(Rational, Rational, usize)>) = Default::default();
+    let mut from: Vec<(usize, Real)> = Vec::new();
+    let mut undecided: Vec<(Rational, Rational, usize)> = Vec::new();
     for (k, part) in basis.iter().enumerate() {
         let found = symbols.zeros_in(part, lower, upper, budget)?;
         from.extend(found.zeros.iter().map(|zero| (k, zero.clone())));

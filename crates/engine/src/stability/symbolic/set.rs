@@ -19,6 +19,9 @@ struct Boundary {
     parts: Vec<usize>,
 }
 
+/// The boundary conditions, and the pairwise coprime polynomials over symbols they are made of.
+type Split = (Vec<Boundary>, Vec<SymbolicPoly>);
+
 /// A zero of the boundary polynomials, and from which polynomial of the basis it comes.
 struct Zero {
     value: Real,
@@ -133,7 +136,7 @@ fn boundaries(
     symbols: &Arc<Symbols>,
     region: Shape,
     budget: &Budget,
-) -> Result<Option<(Vec<Boundary>, Vec<SymbolicPoly>)>, Exhausted> {
+) -> Result<Option<Split>, Exhausted> {
     let Some(conditions) = p.conditions(region, budget)? else { return Ok(None) };
     let mut found: Vec<(Cause, SymbolicPoly)> = Vec::new();
     for (cause, polynomial) in conditions {
