@@ -75,6 +75,7 @@ impl<'a> Names<'a> {
             Some(Command::Verdict(o)) => {
                 names.question(&o.decision.model.model, &o.decision.output.output);
                 names.outputs.extend(o.certificate.iter().map(|file| ("the certificate", file.clone())));
+                names.outputs.extend(o.coq.iter().map(|file| ("the file for Coq", file.clone())));
             }
             Some(Command::Locus(o)) => names.picture(&o.model.model, &o.picture)?,
             Some(Command::Simulate(o)) => names.picture(&o.model.model, &o.picture)?,
