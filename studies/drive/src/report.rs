@@ -258,7 +258,7 @@ fn locus_section(model: &Model, figures: &mut Vec<NamedFigure>, budget: &Budget)
     let mut html = format!(
         "<div class=\"grid two\">{}{}</div>\n",
         figure("root-locus-whole", whole, caption),
-        figure("root-locus-near", near, "The same near z = 1")
+        figure("root-locus-near", near, "The same, magnified where roots cross the circle")
     );
     let labels: Vec<String> = drawn.crossings.iter().map(|c| format!("<li>{}</li>", math(&c.label))).collect();
     html.push_str(&format!("<p>The unit circle is crossed at</p><ul>{}</ul>\n", labels.concat()));

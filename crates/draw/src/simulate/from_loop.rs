@@ -11,7 +11,7 @@ use jurist_engine::problem::Problem;
 use nalgebra::DMatrix;
 
 /// Entries of a matrix without symbols, rounded.
-fn rounded(matrix: &RationalMatrix) -> Result<DMatrix<f64>, Error> {
+pub(super) fn rounded(matrix: &RationalMatrix) -> Result<DMatrix<f64>, Error> {
     let undefined = || Error::Undefined("an entry of the closed loop divides by zero".into());
     let mut values = Vec::with_capacity(matrix.entries().len());
     for entry in matrix.entries() {
