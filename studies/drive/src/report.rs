@@ -219,7 +219,7 @@ fn jury_tables(amplitude: &Answer<ParametricTable>, period: &Answer<ParametricTa
         scheme.rows.push((0..=top).rev().map(|k| format!("{letter}_{k}")).collect());
     }
     scheme.rows.push((0..=2).map(|k| format!("e_{k}")).collect());
-    let head = ["condition", "holds for K_pwm / V (T = 0.0001 s)", "holds for T / s (K_pwm = 110 V)"];
+    let head = ["condition", "holds for K_pwm in V (T = 0.0001 s)", "holds for T in s (K_pwm = 110 V)"];
     let mut table = Table::new("Conditions 30 to 36, each with its exact solution set", &head);
     let (Some(a), Some(b)) = (&amplitude.value().test, &period.value().test) else {
         return [scheme, table];
