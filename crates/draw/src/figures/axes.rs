@@ -85,7 +85,7 @@ impl Axis {
 
     fn linear(&self, count: f64) -> Vec<Tick> {
         let (lo, hi) = self.range;
-        let step = tick_step(self.range, count);
+        let step = if self.unit == "°" { angle_step(self.range, count) } else { tick_step(self.range, count) };
         let factor = 1000f64.powi(-self.thousands());
         let largest = factor * lo.abs().max(hi.abs());
         // Numbers on a linear part of a logarithmic axis are few and have their own prefix.
@@ -156,6 +156,17 @@ pub(super) fn tick_step(range: (f64, f64), count: f64) -> f64 {
     factor * decade
 }
 
+/// A distance between ticks of an angle in degrees: a part of a turn.
+fn angle_step(range: (f64, f64), count: f64) -> f64 {
+    let raw = ((range.1 - range.0) / count).abs();
+    let parts = [15.0, 30.0, 45.0, 90.0, 180.0, 360.0];
+    if raw <= 10.0 {
+        tick_step(range, count)
+    } else {
+        parts.into_iter().find(|p| *p >= raw).unwrap_or_else(|| (raw / 360.0).ceil() * 360.0)
+    }
+}
+
 /// Sizes of letters: at ticks, and of the titles of axes.
 const TICK_SIZE: f64 = 11.0;
 const TITLE_SIZE: f64 = 12.0;
@@ -184,7 +195,7 @@ impl Frame {
     }
 
     fn y_ticks(&self) -> Vec<Tick> {
-        let count = if self.equal { self.plot.width / 80.0 } else { self.plot.height / 50.0 };
+        let count = if self.equal { self.plot.width / 80.0 } else { self.plot.height / 40.0 };
         self.y.ticks(count.max(2.0))
     }
 
@@ -313,6 +324,7 @@ mod tests {
         assert_eq!(labels("s", (1e-5, 0.1), Logarithmic), ["10 µs", "100 µs", "1 ms", "10 ms", "0.1 s"]);
         assert_eq!(labels("Hz", (10.0, 1e5), Logarithmic), ["10 Hz", "100 Hz", "1000 Hz", "10 kHz", "100 kHz"]);
         assert_eq!(labels("", (3.0, 7.0), Logarithmic).len(), 5);
+        assert_eq!(labels("°", (-190.0, 0.0), Linear), ["\u{2212}180", "\u{2212}135", "\u{2212}90", "\u{2212}45", "0"]);
         assert_eq!(labels("", (1e-30, 1e30), Logarithmic).len(), 7);
     }
 

@@ -25,7 +25,7 @@ const SIZE: f64 = 11.0;
 const SAMPLE: f64 = 28.0;
 /// Between two entries in a row, and two rows.
 const GAP: f64 = 16.0;
-pub(super) const ROW: f64 = 17.0;
+const ROW: f64 = 17.0;
 
 /// The rows that entries take in a width.
 fn rows(entries: &[Entry], room: f64) -> Vec<Vec<&Entry>> {
@@ -43,11 +43,6 @@ fn rows(entries: &[Entry], room: f64) -> Vec<Vec<&Entry>> {
         }
     }
     out
-}
-
-/// How high the entries are in rows of this width.
-pub(super) fn height(entries: &[Entry], room: f64) -> f64 {
-    ROW * rows(entries, room).len() as f64
 }
 
 /// Rows of entries from a place (left, top) on; returns where they end.
