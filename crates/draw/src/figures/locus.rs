@@ -171,7 +171,7 @@ pub fn locus_panels(figure: &LocusFigure<'_>) -> [Panel; 2] {
     let near_window = windows::near(figure, &whole_window);
     let times = whole_window.half / near_window.half;
     let times = if times < 9.5 { format!("{times:.1}") } else { format!("{times:.0}") };
-    let mut whole = frame(figure, &whole_window, String::new());
+    let mut whole = frame(figure, &whole_window, "whole locus".to_owned());
     let mut near = frame(figure, &near_window, format!("{times} times larger"));
     whole.texts = labels(figure, &whole_window, |z| !near_window.contains(z));
     near.texts = labels(figure, &near_window, |z| near_window.contains(z));

@@ -6,6 +6,9 @@ use crate::simulate::{RootLocus, roots};
 use jurist_algebra::poly::{Poly, UniPoly};
 use nalgebra::Complex;
 
+/// The colour of the nominal closed loop.
+const NOMINAL: &str = super::super::COLOURS[2];
+
 /// The range of the parameter, for the legend.
 pub(super) struct Ends<'a> {
     pub parameter: &'a str,
@@ -36,7 +39,8 @@ pub(super) fn of(
             ]
         }
     };
-    out.extend(nominal.map(|(label, p)| mark(label, Shape::Square, places(&p))));
+    // Below the others: zeros and poles may be where the loop is closed.
+    out.splice(0..0, nominal.map(|(label, p)| mark(label, Shape::Square, places(&p))));
     out.retain(|m| !m.at.is_empty());
     out
 }
@@ -60,16 +64,17 @@ fn as_gain(p: &Poly<UniPoly>) -> Option<(UniPoly, UniPoly)> {
 /// The marks of a panel: those of the locus, and the crossings.
 pub(super) fn drawn(figure: &LocusFigure<'_>) -> Vec<Mark> {
     let mut out = Vec::new();
-    let colour = || "#222222".to_owned();
     for marks in figure.marks {
+        let colour = if marks.shape == Shape::Square { NOMINAL } else { "#222222" };
         for z in &marks.at {
-            out.push(Mark { at: (z.re, z.im), shape: marks.shape, colour: colour(), label: Some(marks.label.clone()) });
+            let label = Some(marks.label.clone());
+            out.push(Mark { at: (z.re, z.im), shape: marks.shape, colour: colour.into(), label });
         }
     }
     for z in figure.crossings.iter().flat_map(|c| &c.at) {
         for im in if z.im == 0.0 { vec![0.0] } else { vec![z.im, -z.im] } {
             let label = Some("crossing (certified)".into());
-            out.push(Mark { at: (z.re, im), shape: Shape::Diamond, colour: colour(), label });
+            out.push(Mark { at: (z.re, im), shape: Shape::Diamond, colour: "#222222".into(), label });
         }
     }
     out
