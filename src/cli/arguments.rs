@@ -129,7 +129,7 @@ pub(super) struct PictureOptions {
     /// Writes JSON: the numbers behind the picture, in floating point, and what is certain about it
     #[arg(long)]
     pub json: bool,
-    /// Writes the picture to a file: .svg, .png, or the data: .csv, .json
+    /// Writes the picture to a file: .svg, .png, .pdf, or the data: .csv, .json
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<OsString>,
     /// Also writes the data, beside the picture

@@ -325,6 +325,21 @@ impl Method {
     }
 }
 
+impl Method {
+    /// What it is called: `forward rule`.
+    ///
+    /// ```
+    /// assert_eq!(jurist_engine::model::Method::Tustin.words(), "Tustin's rule");
+    /// ```
+    pub fn words(self) -> &'static str {
+        match self {
+            Method::Forward => "forward rule",
+            Method::Backward => "backward rule",
+            Method::Tustin => "Tustin's rule",
+        }
+    }
+}
+
 /// A pulse-width modulator: what a switched simulation needs beside its gain.
 #[derive(Clone, Debug)]
 pub struct Pwm {
