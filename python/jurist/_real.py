@@ -1,0 +1,507 @@
+"""Real numbers as the engine knows them: exact order, any number of digits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+from . import _jurist
+from ._errors import undecided
+from ._exact import Exact, exact, fraction, fraction_text, integer, integer_text
+
+
+class Real:
+    """An exact real number: a root of an integer polynomial, or a transcendental number in a certified enclosure.
+
+    Comparisons are exact, also of two irrational numbers; equal numbers have equal hashes, as those of `int` and `Fraction`.
+    Floats are compared as the binary numbers they are, as Python compares fractions.
+
+    Parameters
+    ----------
+    value : exact number
+        A rational number; irrational ones are made by `root` and `roots`, or come with answers.
+
+    Examples
+    --------
+    >>> from jurist import Real
+    >>> x = Real.root((-2, 0, 1), 1, 2)
+    >>> x
+    Real.root((-2, 0, 1), 1, 2)
+    >>> x.decimal(30), float(x)
+    ('1.41421356237309504880168872421', 1.4142135623730951)
+    >>> x > 1.4142, x == Real.root((-4, 0, 0, 0, 1), 0, 2), f"{x:.20f}"
+    (True, True, '1.41421356237309504880')
+    >>> 2*x - 1 > x
+    True
+    """
+
+    __slots__ = ("_core", "_enclosed", "_over")
+
+    _core: _jurist.Algebraic | None
+    _enclosed: tuple[Fraction, Fraction] | None
+    _over: Any
+
+    def __init__(self, value: Exact = 0) -> None:
+        if isinstance(value, Real):
+            self._core, self._enclosed, self._over = value._core, value._enclosed, value._over
+            return
+        self._core = _jurist.Algebraic.rational(fraction_text(exact(value)))
+        self._enclosed = self._over = None
+
+    @classmethod
+    def _of(cls, core: _jurist.Algebraic) -> Real:
+        self = cls.__new__(cls)
+        self._core, self._enclosed, self._over = core, None, None
+        return self
+
+    @classmethod
+    def _from_document(cls, end: dict[str, Any]) -> Real:
+        """The number that stands in a document."""
+        if end["exact"] is not None:
+            return cls._of(_jurist.Algebraic.rational(end["exact"]))
+        lower, upper = end["enclosure"]
+        if end["polynomial"] is not None:
+            return cls._of(_jurist.Algebraic.root(end["polynomial"], lower, upper))
+        self = cls.__new__(cls)
+        self._core, self._enclosed, self._over = None, (fraction(lower), fraction(upper)), end.get("over")
+        return self
+
+    @classmethod
+    def root(cls, polynomial: Sequence[int], lower: Exact, upper: Exact) -> Real:
+        """The only root of a polynomial in a closed interval.
+
+        Parameters
+        ----------
+        polynomial : sequence of int
+            Coefficients from the constant term up.
+        lower, upper : exact number
+            The interval.
+
+        Raises
+        ------
+        ValueError
+            Where there is no root, or more than one.
+
+        Examples
+        --------
+        >>> from jurist import Real
+        >>> print(Real.root((-2, 0, 1), 0, 2))
+        1.41421356237
+        """
+        texts = [integer_text(int(c)) for c in polynomial]
+        return cls._of(_jurist.Algebraic.root(texts, fraction_text(exact(lower)), fraction_text(exact(upper))))
+
+    @classmethod
+    def roots(cls, polynomial: Sequence[int]) -> list[Real]:
+        """All real roots of a polynomial, each once, in ascending order.
+
+        Examples
+        --------
+        >>> from jurist import Real
+        >>> [float(x) for x in Real.roots((-2, 0, 1))]
+        [-1.4142135623730951, 1.4142135623730951]
+        """
+        return [cls._of(core) for core in _jurist.Algebraic.roots([integer_text(int(c)) for c in polynomial])]
+
+    @property
+    def kind(self) -> str:
+        """``"algebraic"`` or ``"transcendental"``."""
+        return "transcendental" if self._core is None else "algebraic"
+
+    @property
+    def over(self) -> Any:
+        """What a transcendental number is a root of, as the document says it."""
+        return self._over
+
+    @property
+    def polynomial(self) -> tuple[int, ...] | None:
+        """A square-free primitive polynomial with this root, coefficients from the constant term up."""
+        return None if self._core is None else tuple(integer(c) for c in self._core.polynomial())
+
+    @property
+    def degree(self) -> int | None:
+        """The degree of that polynomial."""
+        return None if self._core is None else len(self._core.polynomial()) - 1
+
+    @property
+    def exact(self) -> Fraction | None:
+        """The value, if it is rational."""
+        text = None if self._core is None else self._core.exact()
+        return None if text is None else fraction(text)
+
+    def _jurist_exact_(self) -> Fraction | None:
+        return self.exact
+
+    def decimal(self, digits: int = 12) -> str:
+        """Correctly rounded to so many significant digits: the program's text.
+
+        Examples
+        --------
+        >>> from jurist import Real
+        >>> Real("1/3").decimal(5)
+        '0.33333'
+        """
+        if digits < 1:
+            raise ValueError("at least one digit")
+        if self._core is not None:
+            return self._core.decimal(digits)
+        lower, upper = (Real(x).decimal(digits) for x in self._bounds())
+        if lower != upper:
+            raise undecided(f"the enclosure does not give {digits} digits", "digits", "the enclosure", None)
+        return lower
+
+    def _bounds(self) -> tuple[Fraction, Fraction]:
+        assert self._enclosed is not None
+        return self._enclosed
+
+    def enclosure(self, digits: int = 12) -> tuple[Fraction, Fraction]:
+        """Lower and upper bound, of relative width at most ``10**-(digits + 2)``; equal where the number is rational.
+
+        Examples
+        --------
+        >>> from jurist import Real
+        >>> lower, upper = Real.root((-2, 0, 1), 1, 2).enclosure(6)
+        >>> lower**2 < 2 < upper**2
+        True
+        """
+        if self._core is None:
+            return self._bounds()
+        lower, upper = self._core.enclosure(digits)
+        return fraction(lower), fraction(upper)
+
+    def __float__(self) -> float:
+        value = self.exact
+        if value is not None:
+            return float(value)
+        digits = 17
+        while True:
+            lower, upper = (float(x) for x in self.enclosure(digits))
+            if lower == upper or self._core is None:
+                return lower
+            digits *= 2
+
+    def __format__(self, spec: str) -> str:
+        if not spec:
+            return str(self)
+        body, kind = (spec[:-1], spec[-1]) if spec[-1].isalpha() or spec[-1] == "%" else (spec, "g")
+        before, point, after = body.partition(".")
+        precision = int(after) if point else 6
+        if kind in "eE":
+            value = Decimal(self.decimal(precision + 1))
+        elif kind in "gG":
+            value = Decimal(self.decimal(max(precision, 1)))
+        elif kind in "fF":
+            value = self._scaled(precision)
+        else:
+            raise ValueError(f"a real number is formatted with e, f or g, not {kind!r}")
+        return format(value, f"{before}.{precision}{kind}")
+
+    def _scaled(self, places: int) -> Decimal:
+        count = self._rounded(places)
+        text = integer_text(abs(count)).zfill(places + 1)
+        whole = len(text) - places
+        return Decimal(f"{'-' if count < 0 else ''}{text[:whole]}.{text[whole:]}")
+
+    def _rounded(self, places: int) -> int:
+        """The nearest multiple of ``10**-places``, ties to even, as a count."""
+        scale: int = 10**places
+        digits = places + 12
+        while True:
+            lower, upper = (round(x * scale) for x in self.enclosure(digits))
+            if lower == upper:
+                return lower
+            if self._core is None:
+                raise undecided("the enclosure does not give so many digits", "digits", "the enclosure", None)
+            digits *= 2
+
+    def _compare(self, other: Any) -> float | None:
+        """-1, 0, 1, not-a-number as it comes, or `None` for what is no number."""
+        if isinstance(other, Real):
+            if self._core is not None and other._core is not None:
+                return self._core.compare(other._core)
+            if self is other:
+                return 0
+            return _parted(self.enclosure(40), other.enclosure(40))
+        if isinstance(other, str):
+            return None
+        if isinstance(other, float) and not math.isfinite(other):
+            return other if math.isnan(other) else (-1 if other > 0 else 1)
+        try:
+            value = exact(other, "binary")
+        except (TypeError, ValueError):
+            return None
+        if self._core is None:
+            return _parted(self._bounds(), (value, value))
+        return self._core.compare_rational(fraction_text(value))
+
+    def __eq__(self, other: object) -> bool:
+        return self._compare(other) == 0
+
+    def __lt__(self, other: Any) -> bool:
+        order = self._compare(other)
+        return NotImplemented if order is None else order < 0
+
+    def __le__(self, other: Any) -> bool:
+        order = self._compare(other)
+        return NotImplemented if order is None else order <= 0
+
+    def __gt__(self, other: Any) -> bool:
+        order = self._compare(other)
+        return NotImplemented if order is None else order > 0
+
+    def __ge__(self, other: Any) -> bool:
+        order = self._compare(other)
+        return NotImplemented if order is None else order >= 0
+
+    def __hash__(self) -> int:
+        value = self.exact
+        if value is not None:
+            return hash(value)
+        try:
+            return hash(float(self))
+        except OverflowError:
+            return hash(math.floor(self))
+
+    def __bool__(self) -> bool:
+        return self != 0
+
+    def _sent(self, factor: Fraction, term: Fraction) -> Real:
+        """``factor*self + term``."""
+        value = self.exact
+        if value is not None:
+            return Real(factor * value + term)
+        if factor == 0:
+            return Real(term)
+        if self._core is None:
+            raise TypeError("a transcendental number is not computed with")
+        # p((y - term)/factor), by Horner's rule.
+        inner = (-term / factor, 1 / factor)
+        zero = Fraction(0)
+        out = [zero]
+        for c in reversed([integer(c) for c in self._core.polynomial()]):
+            out = [
+                (out[k] * inner[0] if k < len(out) else zero) + (out[k - 1] * inner[1] if k else zero) for k in range(len(out) + 1)
+            ]
+            out[0] += c
+        while len(out) > 1 and out[-1] == 0:
+            out.pop()
+        ends = sorted(factor * x + term for x in self.enclosure(3))
+        return Real.root(_cleared(out), *ends)
+
+    def __neg__(self) -> Real:
+        return self._sent(Fraction(-1), Fraction(0))
+
+    def __pos__(self) -> Real:
+        return self
+
+    def __abs__(self) -> Real:
+        return -self if self < 0 else self
+
+    def __add__(self, other: Any) -> Real:
+        if isinstance(other, Real) and self.exact is not None:
+            return other._sent(Fraction(1), self.exact)
+        value = _operand(other)
+        return NotImplemented if value is None else self._sent(Fraction(1), value)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Real:
+        if isinstance(other, Real) and self.exact is not None:
+            return other._sent(Fraction(-1), self.exact)
+        value = _operand(other)
+        return NotImplemented if value is None else self._sent(Fraction(1), -value)
+
+    def __rsub__(self, other: Any) -> Real:
+        value = _operand(other)
+        return NotImplemented if value is None else self._sent(Fraction(-1), value)
+
+    def __mul__(self, other: Any) -> Real:
+        if isinstance(other, Real) and self.exact is not None:
+            return other._sent(self.exact, Fraction(0))
+        value = _operand(other)
+        return NotImplemented if value is None else self._sent(value, Fraction(0))
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Real:
+        if isinstance(other, Real) and self.exact is not None:
+            return other._reciprocal()._sent(self.exact, Fraction(0))
+        value = _operand(other)
+        return NotImplemented if value is None else self._sent(1 / value, Fraction(0))
+
+    def __rtruediv__(self, other: Any) -> Real:
+        value = _operand(other)
+        return NotImplemented if value is None else self._reciprocal()._sent(value, Fraction(0))
+
+    def _reciprocal(self) -> Real:
+        value = self.exact
+        if value is not None:
+            return Real(1 / value)
+        if self._core is None:
+            raise TypeError("a transcendental number is not computed with")
+        coefficients = [integer(c) for c in reversed(self._core.polynomial())]
+        while coefficients[-1] == 0:
+            coefficients.pop()
+        lower, upper = self.enclosure(3)
+        return Real.root(coefficients, 1 / upper, 1 / lower)
+
+    def __floor__(self) -> int:
+        if self._core is not None:
+            return integer(self._core.floor())
+        lower, upper = (math.floor(x) for x in self._bounds())
+        if lower != upper:
+            raise undecided("an integer lies in the enclosure", "digits", "the enclosure", None)
+        return lower
+
+    def __ceil__(self) -> int:
+        return -math.floor(-self) if self._core is not None else math.floor(self) + 1
+
+    def __trunc__(self) -> int:
+        return math.ceil(self) if self < 0 else math.floor(self)
+
+    def __int__(self) -> int:
+        return math.trunc(self)
+
+    def __round__(self, ndigits: int | None = None) -> Any:
+        if ndigits is None:
+            return self._rounded(0)
+        if ndigits < 0:
+            value = self.exact
+            return round(value if value is not None else self.enclosure(40)[0], ndigits)
+        return Fraction(self._rounded(ndigits), 10**ndigits)
+
+    def sympy(self) -> Any:
+        """The same number in SymPy: a `Rational` or a `CRootOf`.
+
+        Examples
+        --------
+        >>> from jurist import Real
+        >>> Real("1/3").sympy()
+        1/3
+        """
+        import sympy
+
+        value = self.exact
+        if value is not None:
+            return sympy.Rational(value.numerator, value.denominator)
+        if self._core is None:
+            raise TypeError("a transcendental number has no polynomial")
+        coefficients = self.polynomial or ()
+        rank = sum(1 for root in Real.roots(coefficients) if root < self)
+        return sympy.rootof(sympy.Poly(list(reversed(coefficients)), sympy.Symbol("x")), rank, radicals=False)
+
+    def _sympy_(self) -> Any:
+        return self.sympy()
+
+    def _mpmath_(self, prec: int, rounding: str) -> Any:
+        import mpmath
+        from mpmath.libmp import from_rational
+
+        digits = int(prec * 0.30103) + 3
+        while True:
+            ends = [from_rational(x.numerator, x.denominator, prec, rounding) for x in self.enclosure(digits)]
+            if ends[0] == ends[1] or self._core is None:
+                return mpmath.mp.make_mpf(ends[0])
+            digits *= 2
+
+    def flint(self, digits: int = 50) -> Any:
+        """A ball of python-flint that contains the number.
+
+        Examples
+        --------
+        >>> from jurist import Real
+        >>> ball = Real.root((-2, 0, 1), 1, 2).flint(20)
+        >>> bool(ball.contains(ball)) and abs(float(ball) - 2**0.5) < 1e-15
+        True
+        """
+        import flint
+
+        before = flint.ctx.prec
+        flint.ctx.prec = max(before, int(digits * 3.33) + 16)
+        try:
+            lower, upper = (flint.arb(flint.fmpq(x.numerator, x.denominator)) for x in self.enclosure(digits))
+            return lower.union(upper)
+        finally:
+            flint.ctx.prec = before
+
+    def __str__(self) -> str:
+        return self.decimal(12)
+
+    def __repr__(self) -> str:
+        value = self.exact
+        if value is not None:
+            return f"Real({fraction_text(value)!r})" if value.denominator != 1 else f"Real({integer_text(value.numerator)})"
+        if self._core is None:
+            return f"<Real {self.decimal(8)}..., transcendental>"
+        lower, upper = _short_bounds(self)
+        polynomial = ", ".join(self._core.polynomial())
+        return f"Real.root(({polynomial}), {lower}, {upper})"
+
+    def _repr_latex_(self) -> str:
+        value = self.exact
+        if value is None:
+            return f"${self.decimal(12)}\\ldots$"
+        if value.denominator == 1:
+            return f"${value.numerator}$"
+        sign = "-" if value < 0 else ""
+        return f"${sign}\\frac{{{abs(value.numerator)}}}{{{value.denominator}}}$"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        value = self.exact
+        if value is not None:
+            return Real, (value,)
+        if self._core is None:
+            return _enclosed, (self._enclosed, self._over)
+        return Real.root, (self.polynomial, *self.enclosure(3))
+
+
+def _enclosed(bounds: tuple[Fraction, Fraction], over: Any) -> Real:
+    self = Real.__new__(Real)
+    self._core, self._enclosed, self._over = None, bounds, over
+    return self
+
+
+def _parted(a: tuple[Fraction, Fraction], b: tuple[Fraction, Fraction]) -> int:
+    if a[1] < b[0]:
+        return -1
+    if b[1] < a[0]:
+        return 1
+    raise undecided("the enclosures do not tell the numbers apart", "digits", "comparing", None)
+
+
+def _operand(x: Any) -> Fraction | None:
+    """A rational operand; `None` for what is no number."""
+    if isinstance(x, Real):
+        if x.exact is None:
+            raise TypeError("two irrational numbers are not computed with: use .sympy() or .flint()")
+        return x.exact
+    if isinstance(x, (str, float)):
+        return None
+    try:
+        return exact(x, "refuse")
+    except (TypeError, ValueError):
+        return None
+
+
+def _cleared(coefficients: list[Fraction]) -> list[int]:
+    common = math.lcm(*(c.denominator for c in coefficients))
+    return [int(c * common) for c in coefficients]
+
+
+def _short_bounds(x: Real) -> tuple[str, str]:
+    """Bounds with few digits that hold no other root."""
+    roots = Real.roots(x.polynomial or ())
+    at = next(i for i, root in enumerate(roots) if root == x)
+    digits = 0
+    while True:
+        scale = 10**digits
+        low = math.floor(x * scale)
+        lower, upper = Fraction(low, scale), Fraction(low + 1, scale)
+        alone = (at == 0 or roots[at - 1] < lower) and (at + 1 == len(roots) or roots[at + 1] > upper)
+        if alone:
+            show = [integer_text(int(b)) if b.denominator == 1 else repr(fraction_text(b)) for b in (lower, upper)]
+            return show[0], show[1]
+        digits += 1
