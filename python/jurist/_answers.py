@@ -524,7 +524,7 @@ class Simulation(Document):
         import numpy
 
         values = numpy.array([self[name] for name in self.names])
-        return control.TimeResponseData(self.time, values, output_labels=self.names, title=self.title)
+        return control.TimeResponseData(self.time, values, output_labels=self.names, title=self.title, issiso=False)
 
     def plot(self, ax: Any = None, *, signals: list[str] | None = None, **kw: Any) -> Any:
         """Draws signals over time; returns the Axes."""

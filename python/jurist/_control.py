@@ -149,7 +149,7 @@ def to_control(loop: Loop, input: str, output: str, values: Mapping[str, Exact] 
             out.pop(0)
         return out
 
-    num, den = (numbers(document[side]) for side in ("num", "den"))
+    num, den = (numbers(document[side]) for side in ("numerator", "denominator"))
     if loop.time == "continuous":
         dt: Any = 0
     else:

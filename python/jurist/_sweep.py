@@ -10,7 +10,6 @@ import queue
 import sys
 import time
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from fractions import Fraction
 from pathlib import Path
 from typing import Any, Literal, Protocol
 
@@ -141,8 +140,8 @@ def arrow_schema(parameters: Iterable[str]) -> Any:
 
 def _order(row: Mapping[str, Any]) -> tuple[Any, ...]:
     names = sorted(n for n in row if n.startswith("p."))
-    values = [(n, row[n] is not None, Fraction(row[n]) if row[n] is not None else 0) for n in names]
-    return row["model"], row["parameter"], values, row["key"], row.get("interval") or 0
+    values = [(n, fraction(row[n])) for n in names]
+    return row["model"], row["parameter"], values, row["key"], row.get("interval", 0)
 
 
 _RANK = {"decided": 0, "refused": 1, "undecided": 2, "defect": 3}
@@ -162,6 +161,8 @@ class SweepResult:
     """
 
     def __init__(self, rows: list[dict[str, Any]], names: Collection[str], asked: int, resumed: int, out: Path | None) -> None:
+        # What a row has nothing to say of is left out: so a row is the same before and after it was a file.
+        rows = [{name: value for name, value in row.items() if value is not None} for row in rows]
         best: dict[str, int] = {}
         for row in rows:
             best[row["key"]] = min(best.get(row["key"], 9), _RANK[row["status"]])
@@ -242,8 +243,7 @@ def _known(out: Path, retry: Collection[str]) -> list[dict[str, Any]]:
     for part in sorted(out.glob("part-*.parquet")):
         # A file that was not finished has another name: it was renamed last.
         rows += pyarrow.parquet.read_table(part).to_pylist()
-    plain = [{k: v for k, v in row.items() if v is not None or k in ("key", "model")} for row in rows]
-    return [row for row in plain if row["status"] not in retry]
+    return [row for row in rows if row["status"] not in retry]
 
 
 def _write_part(out: Path, rows: list[dict[str, Any]], names: Collection[str]) -> None:

@@ -77,7 +77,11 @@ def from_sympy(
 
     from ._loop import Loop
 
-    if hasattr(expr, "doit") and not isinstance(expr, (sympy.Expr, sympy.Poly)) or hasattr(expr, "to_expr"):
+    if all(hasattr(expr, part) for part in ("sys1", "sys2", "sign")):
+        # SymPy's own closed loop keeps the plant's poles as well.
+        one, two = expr.sys1.doit(), expr.sys2.doit()
+        variable, expr = one.var, one.den * two.den - expr.sign * one.num * two.num
+    elif hasattr(expr, "doit") and not isinstance(expr, (sympy.Expr, sympy.Poly)) or hasattr(expr, "to_expr"):
         system = expr.doit() if hasattr(expr, "doit") else expr
         if hasattr(system, "den") and hasattr(system, "var"):
             variable, expr = system.var, system.den

@@ -3,6 +3,7 @@
 use crate::errors::defect_of;
 use crate::pool::pool;
 use jurist::{Budget, Error, Progress};
+use jurist_algebra::limits::apart;
 use pyo3::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -65,7 +66,8 @@ pub(crate) fn waited<T: Send + 'static>(
     let receiver = Mutex::new(receiver);
     let receive = |time| receiver.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(time);
     pool()?.spawn(move || {
-        let result = catch_unwind(AssertUnwindSafe(|| work(&budget)));
+        // This thread may be waiting for a part of another question, whose budget is none of this one's.
+        let result = catch_unwind(AssertUnwindSafe(|| apart(|| work(&budget))));
         // Nobody listens any more where the wait was given up.
         let _ = sender.send(result);
     });

@@ -202,6 +202,31 @@ def test_many_threads_ask_at_the_same_time(drive):
     assert found == [EXPECTED] * 64
 
 
+def test_a_question_that_is_given_up_takes_no_other_with_it(drive):
+    """A thread that waits for a part of one question takes up another: the first one's budget is none of the second's."""
+    loop = jurist.Loop.from_toml(HARD)
+
+    def give_up(k):
+        with pytest.raises(jurist.Undecided):
+            loop.map("a", "b", timeout=0.05 + 0.01 * k)
+
+    jurist.set_threads(2)
+    try:
+        with ThreadPoolExecutor(6) as pool:
+            hard = [pool.submit(give_up, k) for k in range(20)]
+            easy = [pool.submit(map_of_two_here, drive) for _ in range(20)]
+            assert {f.result() for f in easy} == {map_of_two_here(drive)}
+            for f in hard:
+                f.result()
+    finally:
+        jurist.set_threads(None)
+
+
+def map_of_two_here(loop):
+    """A question with parts on several threads."""
+    return str(loop.analyze())
+
+
 def test_errors_have_the_programs_text_code_and_place():
     with pytest.raises(jurist.ModelError) as caught:
         jurist.Loop.from_toml("time = 'discrete'\n[loop]\ncharacteristic = 'z - Q + R'", name="model.toml")
