@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any
@@ -11,6 +11,12 @@ from typing import Any
 from . import _jurist
 from ._errors import undecided
 from ._exact import Exact, exact, fraction, fraction_text, integer, integer_text
+
+
+_Bounds = tuple[Fraction, Fraction]
+
+_MOST_DIGITS = 2000
+"""Transcendental numbers that are not told apart by so many digits may be equal."""
 
 
 class Real:
@@ -38,36 +44,41 @@ class Real:
     True
     """
 
-    __slots__ = ("_core", "_enclosed", "_over")
+    __slots__ = ("_core", "_enclosed", "_over", "_refine")
 
     _core: _jurist.Algebraic | None
-    _enclosed: tuple[Fraction, Fraction] | None
+    _enclosed: _Bounds | None
     _over: Any
+    _refine: Callable[[int], _Bounds] | None
 
     def __init__(self, value: Exact = 0) -> None:
         if isinstance(value, Real):
-            self._core, self._enclosed, self._over = value._core, value._enclosed, value._over
+            self._core, self._enclosed, self._over, self._refine = value._core, value._enclosed, value._over, value._refine
             return
         self._core = _jurist.Algebraic.rational(fraction_text(exact(value)))
-        self._enclosed = self._over = None
+        self._enclosed = self._over = self._refine = None
 
     @classmethod
     def _of(cls, core: _jurist.Algebraic) -> Real:
         self = cls.__new__(cls)
-        self._core, self._enclosed, self._over = core, None, None
+        self._core, self._enclosed, self._over, self._refine = core, None, None, None
         return self
 
     @classmethod
-    def _from_document(cls, end: dict[str, Any]) -> Real:
-        """The number that stands in a document."""
+    def _transcendental(cls, bounds: _Bounds, over: Any, refine: Callable[[int], _Bounds] | None) -> Real:
+        self = cls.__new__(cls)
+        self._core, self._enclosed, self._over, self._refine = None, bounds, over, refine
+        return self
+
+    @classmethod
+    def _from_document(cls, end: dict[str, Any], refine: Callable[[int], _Bounds] | None = None) -> Real:
+        """The number that stands in a document; a transcendental one is narrowed by asking for more digits."""
         if end["exact"] is not None:
             return cls._of(_jurist.Algebraic.rational(end["exact"]))
         lower, upper = end["enclosure"]
         if end["polynomial"] is not None:
             return cls._of(_jurist.Algebraic.root(end["polynomial"], lower, upper))
-        self = cls.__new__(cls)
-        self._core, self._enclosed, self._over = None, (fraction(lower), fraction(upper)), end.get("over")
-        return self
+        return cls._transcendental((fraction(lower), fraction(upper)), end.get("over"), refine)
 
     @classmethod
     def root(cls, polynomial: Sequence[int], lower: Exact, upper: Exact) -> Real:
@@ -148,14 +159,11 @@ class Real:
             raise ValueError("at least one digit")
         if self._core is not None:
             return self._core.decimal(digits)
-        lower, upper = (Real(x).decimal(digits) for x in self._bounds())
-        if lower != upper:
-            raise undecided(f"the enclosure does not give {digits} digits", "digits", "the enclosure", None)
-        return lower
-
-    def _bounds(self) -> tuple[Fraction, Fraction]:
-        assert self._enclosed is not None
-        return self._enclosed
+        for more in (2, 20, 200):
+            lower, upper = (Real(x).decimal(digits) for x in self.enclosure(digits + more))
+            if lower == upper:
+                return lower
+        raise undecided(f"the enclosure does not give {digits} digits", "digits", "the enclosure", None)
 
     def enclosure(self, digits: int = 12) -> tuple[Fraction, Fraction]:
         """Lower and upper bound, of relative width at most ``10**-(digits + 2)``; equal where the number is rational.
@@ -168,7 +176,11 @@ class Real:
         True
         """
         if self._core is None:
-            return self._bounds()
+            assert self._enclosed is not None
+            low, high = self._enclosed
+            if self._refine is not None and high - low > min(abs(low), abs(high)) / 10 ** (digits + 2):
+                self._enclosed = self._refine(digits)
+            return self._enclosed
         lower, upper = self._core.enclosure(digits)
         return fraction(lower), fraction(upper)
 
@@ -179,9 +191,15 @@ class Real:
         digits = 17
         while True:
             lower, upper = (float(x) for x in self.enclosure(digits))
-            if lower == upper or self._core is None:
+            if lower == upper:
                 return lower
-            digits *= 2
+            digits = self._more(digits)
+
+    def _more(self, digits: int) -> int:
+        """Twice as many digits, if they can be had."""
+        if self._core is None and (self._refine is None or digits > _MOST_DIGITS):
+            raise undecided(f"the enclosure does not give {digits} digits", "digits", "the enclosure", None)
+        return 2 * digits
 
     def __format__(self, spec: str) -> str:
         if not spec:
@@ -213,9 +231,7 @@ class Real:
             lower, upper = (round(x * scale) for x in self.enclosure(digits))
             if lower == upper:
                 return lower
-            if self._core is None:
-                raise undecided("the enclosure does not give so many digits", "digits", "the enclosure", None)
-            digits *= 2
+            digits = self._more(digits)
 
     def _compare(self, other: Any) -> float | None:
         """-1, 0, 1, not-a-number as it comes, or `None` for what is no number."""
@@ -224,7 +240,7 @@ class Real:
                 return self._core.compare(other._core)
             if self is other:
                 return 0
-            return _parted(self.enclosure(40), other.enclosure(40))
+            return _parted(self, other)
         if isinstance(other, str):
             return None
         if isinstance(other, float) and not math.isfinite(other):
@@ -234,7 +250,7 @@ class Real:
         except (TypeError, ValueError):
             return None
         if self._core is None:
-            return _parted(self._bounds(), (value, value))
+            return _parted(self, Real(value))
         return self._core.compare_rational(fraction_text(value))
 
     def __eq__(self, other: object) -> bool:
@@ -351,10 +367,12 @@ class Real:
     def __floor__(self) -> int:
         if self._core is not None:
             return integer(self._core.floor())
-        lower, upper = (math.floor(x) for x in self._bounds())
-        if lower != upper:
-            raise undecided("an integer lies in the enclosure", "digits", "the enclosure", None)
-        return lower
+        digits = 12
+        while True:
+            lower, upper = (math.floor(x) for x in self.enclosure(digits))
+            if lower == upper:
+                return lower
+            digits = self._more(digits)
 
     def __ceil__(self) -> int:
         return -math.floor(-self) if self._core is not None else math.floor(self) + 1
@@ -403,9 +421,9 @@ class Real:
         digits = int(prec * 0.30103) + 3
         while True:
             ends = [from_rational(x.numerator, x.denominator, prec, rounding) for x in self.enclosure(digits)]
-            if ends[0] == ends[1] or self._core is None:
+            if ends[0] == ends[1]:
                 return mpmath.mp.make_mpf(ends[0])
-            digits *= 2
+            digits = self._more(digits)
 
     def flint(self, digits: int = 50) -> Any:
         """A ball of python-flint that contains the number.
@@ -454,22 +472,26 @@ class Real:
         if value is not None:
             return Real, (value,)
         if self._core is None:
-            return _enclosed, (self._enclosed, self._over)
+            return _enclosed, (self.enclosure(60), self._over)
         return Real.root, (self.polynomial, *self.enclosure(3))
 
 
-def _enclosed(bounds: tuple[Fraction, Fraction], over: Any) -> Real:
-    self = Real.__new__(Real)
-    self._core, self._enclosed, self._over = None, bounds, over
-    return self
+def _enclosed(bounds: _Bounds, over: Any) -> Real:
+    return Real._transcendental(bounds, over, None)
 
 
-def _parted(a: tuple[Fraction, Fraction], b: tuple[Fraction, Fraction]) -> int:
-    if a[1] < b[0]:
-        return -1
-    if b[1] < a[0]:
-        return 1
-    raise undecided("the enclosures do not tell the numbers apart", "digits", "comparing", None)
+def _parted(a: Real, b: Real) -> int:
+    """The order of two numbers that are not equal, or not known to be."""
+    digits = 20
+    while True:
+        (low, high), (least, most) = a.enclosure(digits), b.enclosure(digits)
+        if high < least:
+            return -1
+        if most < low:
+            return 1
+        if a._refine is None and b._refine is None or digits > _MOST_DIGITS:
+            raise undecided("the enclosures do not tell the numbers apart", "digits", f"{digits} digits", None)
+        digits *= 2
 
 
 def _operand(x: Any) -> Fraction | None:

@@ -49,17 +49,18 @@ class End:
     ('550.941166686675', [<Cause.PAIR: 'complex pair'>], 1664.06519915)
     """
 
-    __slots__ = ("_document", "_value")
+    __slots__ = ("_document", "_refine", "_value")
 
-    def __init__(self, document: dict[str, Any], value: Real | None = None) -> None:
+    def __init__(self, document: dict[str, Any], value: Real | None = None, refine: Any = None) -> None:
         self._document = document
         self._value = value
+        self._refine = refine
 
     @property
     def value(self) -> Real:
         """Where it is."""
         if self._value is None:
-            self._value = Real._from_document(self._document)
+            self._value = Real._from_document(self._document, self._refine)
         return self._value
 
     @property
@@ -134,7 +135,7 @@ class End:
         return f"<End {self._document['decimal']}{': ' + self.cause if self.cause else ''}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return End, (self._document,)
+        return End, (self._document, self._value)
 
 
 def _end_at(value: Real, cause: str, closed: bool) -> End:
@@ -143,12 +144,15 @@ def _end_at(value: Real, cause: str, closed: bool) -> End:
     own = value.exact
     document = {
         "decimal": value.decimal(12),
+        "kind": value.kind,
         "exact": None if own is None else fraction_text(own),
         "enclosure": [fraction_text(lower), fraction_text(upper)],
         "polynomial": None if value.polynomial is None else [str(c) for c in value.polynomial],
         "cause": cause,
         "closed": closed,
     }
+    if value.over is not None:
+        document["over"] = value.over
     return End(document, value)
 
 
@@ -251,11 +255,23 @@ class StableSet(Sequence[Interval]):
     def intervals(self) -> tuple[Interval, ...]:
         """The intervals in ascending order."""
         if self._intervals is None:
-            end = [
-                [None if i[side] is None else End(i[side]) for side in ("lower", "upper")] for i in self._document["stable"]
-            ]
-            self._intervals = tuple(Interval(lower, upper) for lower, upper in end)
+            out = []
+            for k, i in enumerate(self._document["stable"]):
+                lower, upper = (None if i[side] is None else End(i[side], None, self._refiner(k, side)) for side in ("lower", "upper"))
+                out.append(Interval(lower, upper))
+            self._intervals = tuple(out)
         return self._intervals
+
+    def _refiner(self, k: int, side: str) -> Callable[[int], tuple[Fraction, Fraction]] | None:
+        """Narrower bounds of an end: the engine's answer with more digits."""
+        if self._loop is None:
+            return None
+
+        def refine(digits: int) -> tuple[Fraction, Fraction]:
+            lower, upper = json.loads(self._answered().json(digits))["stable"][k][side]["enclosure"]
+            return fraction(lower), fraction(upper)
+
+        return refine
 
     @property
     def parameter(self) -> str:
