@@ -18,16 +18,15 @@ from ._answers import (
     Analysis,
     Condition,
     Document,
-    Locus,
-    Map,
     PointVerdict,
-    Polynomial,
     Proved,
-    Simulation,
     Table,
     Verdict,
 )
 from ._builder import LoopBuilder
+from ._check import verify
+from ._curves import Locus, Map, Simulation
+from ._ends import Cause, End, Interval
 from ._errors import (
     CertificateRejected,
     Diagnostic,
@@ -40,13 +39,16 @@ from ._errors import (
     Undecided,
 )
 from ._exact import exact
-from ._loop import Loop, Parameter, verify
+from ._loop import Loop
+from ._polynomial import Polynomial
+from ._question import Parameter
 from ._real import Real
-from ._sets import Cause, End, Interval, StableSet
+from ._sets import StableSet
 
 if TYPE_CHECKING:
     from ._control import from_control
-    from ._sweep import SweepResult, ray_executor, sweep, sweep_batches
+    from ._rows import SweepResult
+    from ._sweep import ray_executor, sweep, sweep_batches
     from ._sympy import from_sympy
 
 __version__: str = _jurist.__version__
@@ -54,7 +56,7 @@ __version__: str = _jurist.__version__
 _LATER = {
     "from_control": "_control",
     "from_sympy": "_sympy",
-    "SweepResult": "_sweep",
+    "SweepResult": "_rows",
     "ray_executor": "_sweep",
     "sweep": "_sweep",
     "sweep_batches": "_sweep",

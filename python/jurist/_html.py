@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import html
 import math
 from typing import TYPE_CHECKING, Any
-
-from ._sets import escaped
 
 if TYPE_CHECKING:
     from ._sets import StableSet
 
 _CELL = 'style="text-align:left;padding:2px 10px"'
+
+
+def escaped(text: object) -> str:
+    """Text for a page."""
+    return html.escape(str(text))
 
 
 def table(head: list[str], rows: list[list[Any]]) -> str:

@@ -3,46 +3,19 @@
 from __future__ import annotations
 
 import os
-import sys
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from typing import Any, Literal, NamedTuple, TypedDict, Unpack
+from typing import Any, Literal, Unpack
 
 from . import _jurist
-from ._answers import Analysis, Locus, Map, PointVerdict, Polynomial, Proved, Simulation, Table
-from ._errors import JuristWarning, rejected, undecided
+from ._answers import Analysis, PointVerdict, Proved, Table
+from ._curves import Locus, Map, Simulation
+from ._errors import JuristWarning, undecided
 from ._exact import Exact, Floats, fraction, text_of
+from ._polynomial import Polynomial
+from ._question import Asking, Bounds, Listener, Parameter, bound, listener, number_text, plain, warn
 from ._sets import StableSet
-
-Bounds = tuple["Exact | None", "Exact | None"]
-"""An open interval; `None` is no bound."""
-
-Listener = Callable[[str, "float | None"], None]
-"""Told the name of a step and the share done."""
-
-
-class Asking(TypedDict, total=False):
-    """What every question takes besides its own arguments."""
-
-    domain: Bounds | Mapping[str, Bounds] | None
-    radius: Exact | None
-    decay: Exact | None
-    timeout: float | None
-    progress: Listener | bool
-    digits: int
-
-
-class Parameter(NamedTuple):
-    """A parameter of a model: `None` where the model says nothing."""
-
-    name: str
-    nominal: Fraction | None
-    min: Fraction | None
-    max: Fraction | None
-    unit: str | None
-    description: str | None
-
 
 class Loop:
     """A control loop, and the questions about it. It is never changed.
@@ -72,7 +45,7 @@ class Loop:
     @classmethod
     def _read(cls, name: str, content: bytes, said: str | None = None) -> Loop:
         core, remarks = _jurist.Model.read(name, content)
-        _warn(remarks)
+        warn(remarks)
         return cls._of(core, said)
 
     @classmethod
@@ -222,11 +195,11 @@ class Loop:
             raise ValueError("at least one digit")
         return {
             "values": [(str(name), text_of(value)) for name, value in (values or {}).items()],
-            "domains": [(str(name), _bound(low), _bound(high)) for name, (low, high) in domains.items()],
-            "radius": _bound(radius),
-            "decay": _bound(decay),
+            "domains": [(str(name), bound(low), bound(high)) for name, (low, high) in domains.items()],
+            "radius": bound(radius),
+            "decay": bound(decay),
             "timeout": timeout,
-            "progress": _listener(progress),
+            "progress": listener(progress),
             "digits": digits,
         }
 
@@ -261,7 +234,7 @@ class Loop:
         """Runs a command of the program; gives its output, the words and the status."""
         done = self._core.command(list(words), asked["timeout"], asked["progress"])
         status, output, notes, remarks = done
-        _warn(remarks)
+        warn(remarks)
         if status == 3:
             said = next((n for n in notes if n.startswith("undecided: ")), "undecided: the budget ran out")
             budget, _, reached = said.removeprefix("undecided: the budget ran out: ").partition("; reached: ")
@@ -341,7 +314,7 @@ class Loop:
             values, parameter=parameter, domain=domain, radius=radius, decay=decay, timeout=timeout, progress=progress, digits=digits
         )
         answer, text, remarks = self._core.intervals(asked, parameter)
-        _warn(remarks)
+        warn(remarks)
         import json
 
         kept = {**asked, "timeout": None, "progress": None}
@@ -358,7 +331,7 @@ class Loop:
         """
         asked = self._asked(values, **question)
         _, text, remarks = self._core.verdict(asked)
-        _warn(remarks)
+        warn(remarks)
         return PointVerdict(text, self, tuple(self._words("verdict", asked)))
 
     def analyze(self, values: Mapping[str, Exact] | None = None, **question: Unpack[Asking]) -> Analysis:
@@ -518,8 +491,8 @@ class Loop:
 
             text = self._core.text()
             try:
-                content = tomllib.loads(text, parse_float=_number_text)
-                self._canonical = json.dumps(_plain(content), sort_keys=True, ensure_ascii=False)
+                content = tomllib.loads(text, parse_float=number_text)
+                self._canonical = json.dumps(plain(content), sort_keys=True, ensure_ascii=False)
             except (tomllib.TOMLDecodeError, ValueError):
                 self._canonical = text
         return self._canonical
@@ -542,8 +515,7 @@ class Loop:
         return self.to_toml()
 
     def _repr_html_(self) -> str:
-        from ._html import table
-        from ._sets import escaped
+        from ._html import escaped, table
 
         rows = [[p.name, *("" if x is None else x for x in (p.nominal, p.min, p.max, p.unit, p.description))] for p in self.parameters.values()]
         head = ["parameter", "nominal", "above", "below", "unit", ""]
@@ -560,65 +532,3 @@ def _loop_again(text: str, name: str, said: str | None, version: str) -> Loop:
         # They were shown where the loop was made.
         warnings.simplefilter("ignore", JuristWarning)
         return Loop._read(name, text.encode(), said)
-
-
-def _bound(x: Exact | None) -> str | None:
-    return None if x is None else text_of(x)
-
-
-def _number_text(text: str) -> str:
-    return text_of(text.replace("_", ""))
-
-
-def _plain(content: Any) -> Any:
-    if isinstance(content, dict):
-        return {key: _plain(value) for key, value in content.items()}
-    if isinstance(content, list):
-        return [_plain(value) for value in content]
-    return content if isinstance(content, (str, bool)) else str(content)
-
-
-def _warn(remarks: Sequence[tuple[str, str]]) -> None:
-    for code, text in remarks:
-        warnings.warn(JuristWarning(text, code), stacklevel=4)
-
-
-def _listener(progress: Listener | bool | None) -> Listener | None:
-    if progress is True:
-        return lambda step, share: print(f"jurist: {step}{'' if share is None else f' {share:.0%}'}", file=sys.stderr)
-    return None if progress is False or progress is None else progress
-
-
-def verify(model: str | Loop, certificate: str, *, timeout: float = 60) -> Proved:
-    """Checks a certificate against a model, by code that shares nothing with the engine.
-
-    Parameters
-    ----------
-    model : str or Loop
-        The text of the model file, or a loop.
-    certificate : str
-    timeout : float
-        Seconds, after which the certificate is rejected.
-
-    Returns
-    -------
-    Proved
-        The statement in a sentence or two.
-
-    Raises
-    ------
-    CertificateRejected
-        With the step that failed. That says nothing about the statement.
-
-    Examples
-    --------
-    >>> import jurist
-    >>> loop = jurist.Loop.from_toml("time = 'discrete'\\nparameters.K = {}\\nloop.characteristic = 'z - 1 + K'")
-    >>> jurist.verify(loop, loop.intervals("K").certificate()).statement
-    'For all real K, the loop is stable exactly for 0 < K < 2.'
-    """
-    text = model.to_toml() if isinstance(model, Loop) else model
-    is_proved, what, statement = _jurist.check(text, certificate, timeout)
-    if not is_proved:
-        raise rejected(what, statement)
-    return Proved(statement, what)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ._exact import exact
 
 if TYPE_CHECKING:
-    from ._answers import Locus, Map, Simulation
+    from ._curves import Locus, Map, Simulation
     from ._sets import StableSet
 
 _STABLE = "#2a7f62"

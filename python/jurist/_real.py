@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
 from . import _jurist
 from ._errors import undecided
 from ._exact import Exact, exact, fraction, fraction_text, integer, integer_text
+from ._views import Views
 
 
 _Bounds = tuple[Fraction, Fraction]
@@ -19,7 +19,7 @@ _MOST_DIGITS = 2000
 """Transcendental numbers that are not told apart by so many digits may be equal."""
 
 
-class Real:
+class Real(Views):
     """An exact real number: a root of an integer polynomial, or a transcendental number in a certified enclosure.
 
     Comparisons are exact, also of two irrational numbers; equal numbers have equal hashes, as those of `int` and `Fraction`.
@@ -201,28 +201,6 @@ class Real:
             raise undecided(f"the enclosure does not give {digits} digits", "digits", "the enclosure", None)
         return 2 * digits
 
-    def __format__(self, spec: str) -> str:
-        if not spec:
-            return str(self)
-        body, kind = (spec[:-1], spec[-1]) if spec[-1].isalpha() or spec[-1] == "%" else (spec, "g")
-        before, point, after = body.partition(".")
-        precision = int(after) if point else 6
-        if kind in "eE":
-            value = Decimal(self.decimal(precision + 1))
-        elif kind in "gG":
-            value = Decimal(self.decimal(max(precision, 1)))
-        elif kind in "fF":
-            value = self._scaled(precision)
-        else:
-            raise ValueError(f"a real number is formatted with e, f or g, not {kind!r}")
-        return format(value, f"{before}.{precision}{kind}")
-
-    def _scaled(self, places: int) -> Decimal:
-        count = self._rounded(places)
-        text = integer_text(abs(count)).zfill(places + 1)
-        whole = len(text) - places
-        return Decimal(f"{'-' if count < 0 else ''}{text[:whole]}.{text[whole:]}")
-
     def _rounded(self, places: int) -> int:
         """The nearest multiple of ``10**-places``, ties to even, as a count."""
         scale: int = 10**places
@@ -390,60 +368,6 @@ class Real:
             value = self.exact
             return round(value if value is not None else self.enclosure(40)[0], ndigits)
         return Fraction(self._rounded(ndigits), 10**ndigits)
-
-    def sympy(self) -> Any:
-        """The same number in SymPy: a `Rational` or a `CRootOf`.
-
-        Examples
-        --------
-        >>> from jurist import Real
-        >>> Real("1/3").sympy()
-        1/3
-        """
-        import sympy
-
-        value = self.exact
-        if value is not None:
-            return sympy.Rational(value.numerator, value.denominator)
-        if self._core is None:
-            raise TypeError("a transcendental number has no polynomial")
-        coefficients = self.polynomial or ()
-        rank = sum(1 for root in Real.roots(coefficients) if root < self)
-        return sympy.rootof(sympy.Poly(list(reversed(coefficients)), sympy.Symbol("x")), rank, radicals=False)
-
-    def _sympy_(self) -> Any:
-        return self.sympy()
-
-    def _mpmath_(self, prec: int, rounding: str) -> Any:
-        import mpmath
-        from mpmath.libmp import from_rational
-
-        digits = int(prec * 0.30103) + 3
-        while True:
-            ends = [from_rational(x.numerator, x.denominator, prec, rounding) for x in self.enclosure(digits)]
-            if ends[0] == ends[1]:
-                return mpmath.mp.make_mpf(ends[0])
-            digits = self._more(digits)
-
-    def flint(self, digits: int = 50) -> Any:
-        """A ball of python-flint that contains the number.
-
-        Examples
-        --------
-        >>> from jurist import Real
-        >>> ball = Real.root((-2, 0, 1), 1, 2).flint(20)
-        >>> bool(ball.contains(ball)) and abs(float(ball) - 2**0.5) < 1e-15
-        True
-        """
-        import flint
-
-        before = flint.ctx.prec
-        flint.ctx.prec = max(before, int(digits * 3.33) + 16)
-        try:
-            lower, upper = (flint.arb(flint.fmpq(x.numerator, x.denominator)) for x in self.enclosure(digits))
-            return lower.union(upper)
-        finally:
-            flint.ctx.prec = before
 
     def __str__(self) -> str:
         return self.decimal(12)

@@ -2,211 +2,20 @@
 
 from __future__ import annotations
 
-import enum
-import html
 import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
 
+from ._combine import membership, pieces, simplest
+from ._ends import End, Interval, end_at
 from ._exact import Exact, exact, fraction, fraction_text
 from ._real import Real
 
 if TYPE_CHECKING:
     from . import _jurist
     from ._loop import Loop
-
-
-class Cause(str, enum.Enum):
-    """Why stability ends.
-
-    Examples
-    --------
-    >>> import jurist
-    >>> jurist.Cause("complex pair")
-    <Cause.PAIR: 'complex pair'>
-    """
-
-    Z1 = "z=1"
-    ZM1 = "z=-1"
-    PAIR = "complex pair"
-    S0 = "s=0"
-    INFINITY = "infinity"
-    POLE = "pole"
-    NEUTRAL = "neutral"
-    DOMAIN = "domain"
-
-
-class End:
-    """An end of an interval: its exact value, why stability ends there, and at which frequency.
-
-    Examples
-    --------
-    >>> import jurist
-    >>> end = jurist.Loop.drive().intervals("K_pwm")[0].upper
-    >>> end.value.decimal(15), sorted(end.causes), end.frequency_hz
-    ('550.941166686675', [<Cause.PAIR: 'complex pair'>], 1664.06519915)
-    """
-
-    __slots__ = ("_document", "_refine", "_value")
-
-    def __init__(self, document: dict[str, Any], value: Real | None = None, refine: Any = None) -> None:
-        self._document = document
-        self._value = value
-        self._refine = refine
-
-    @property
-    def value(self) -> Real:
-        """Where it is."""
-        if self._value is None:
-            self._value = Real._from_document(self._document, self._refine)
-        return self._value
-
-    @property
-    def causes(self) -> frozenset[Cause]:
-        """Why stability ends; empty for ends of sets of which only the place is known."""
-        text = self._document.get("cause")
-        return frozenset(Cause(cause) for cause in text.split("+")) if text else frozenset()
-
-    @property
-    def cause(self) -> str:
-        """The causes in the program's words and order."""
-        return str(self._document.get("cause") or "")
-
-    @property
-    def requirement(self) -> str | None:
-        """Which requirement binds, where the loop has any."""
-        return self._document.get("requirement")
-
-    @property
-    def closed(self) -> bool:
-        """Whether the end belongs to the set."""
-        return bool(self._document.get("closed"))
-
-    @property
-    def frequency_hz(self) -> float | None:
-        """The frequency of the complex pair in hertz."""
-        return self._document.get("frequency_hz")
-
-    @property
-    def omega(self) -> float | None:
-        """The same in radians per second."""
-        return self._document.get("radians_per_second")
-
-    @property
-    def angle(self) -> float | None:
-        """The angle of the pair in the z plane, in radians."""
-        return self._document.get("angle")
-
-    @property
-    def frequency_enclosure(self) -> tuple[Fraction, Fraction] | None:
-        """Certified bounds of the frequency in hertz."""
-        bounds = self._document.get("frequency_enclosure")
-        return None if bounds is None else (fraction(bounds[0]), fraction(bounds[1]))
-
-    @property
-    def margin_factor(self) -> str | None:
-        """The end divided by the nominal value, in the program's digits."""
-        return self._document.get("margin_factor")
-
-    @property
-    def db(self) -> float | None:
-        """That factor in decibels."""
-        return self._document.get("margin_db")
-
-    def to_dict(self) -> dict[str, Any]:
-        """The end as it stands in documents."""
-        return dict(self._document)
-
-    def __float__(self) -> float:
-        return float(self.value)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, End) and self._document == other._document
-
-    def __hash__(self) -> int:
-        return hash((self.value, self.cause, self.closed))
-
-    def __str__(self) -> str:
-        return str(self._document["decimal"])
-
-    def __repr__(self) -> str:
-        return f"<End {self._document['decimal']}{': ' + self.cause if self.cause else ''}>"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return End, (self._document, self._value)
-
-
-def _end_at(value: Real, cause: str, closed: bool) -> End:
-    """An end that no document has."""
-    lower, upper = value.enclosure(12)
-    own = value.exact
-    document = {
-        "decimal": value.decimal(12),
-        "kind": value.kind,
-        "exact": None if own is None else fraction_text(own),
-        "enclosure": [fraction_text(lower), fraction_text(upper)],
-        "polynomial": None if value.polynomial is None else [str(c) for c in value.polynomial],
-        "cause": cause,
-        "closed": closed,
-    }
-    if value.over is not None:
-        document["over"] = value.over
-    return End(document, value)
-
-
-class Interval:
-    """An interval; `None` is an end at infinity. Ends do not belong to it, unless they are `End.closed`.
-
-    Examples
-    --------
-    >>> import jurist
-    >>> i = jurist.Loop.drive().intervals("K_pwm")[0]
-    >>> 100 in i, "551" in i, [round(x, 3) for x in i]
-    (True, False, [0.038, 550.941])
-    """
-
-    __slots__ = ("lower", "upper")
-
-    lower: End | None
-    upper: End | None
-
-    def __init__(self, lower: End | None, upper: End | None) -> None:
-        self.lower = lower
-        self.upper = upper
-
-    def __contains__(self, x: Real | Exact) -> bool:
-        value = x if isinstance(x, Real) else Real(x)
-        low, high = self.lower, self.upper
-        above = low is None or low.value < value or (low.closed and low.value == value)
-        return above and (high is None or value < high.value or (high.closed and high.value == value))
-
-    def __iter__(self) -> Iterator[float]:
-        yield -math.inf if self.lower is None else float(self.lower)
-        yield math.inf if self.upper is None else float(self.upper)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Interval) and (self.lower, self.upper) == (other.lower, other.upper)
-
-    def __hash__(self) -> int:
-        return hash((self.lower, self.upper))
-
-    def __str__(self) -> str:
-        left = "(-inf" if self.lower is None else f"{'[' if self.lower.closed else '('}{self.lower}"
-        right = "inf)" if self.upper is None else f"{self.upper}{']' if self.upper.closed else ')'}"
-        return f"{left}, {right}"
-
-    def __repr__(self) -> str:
-        return f"<Interval {self}>"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Interval, (self.lower, self.upper)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The interval as it stands in documents."""
-        side = [None if end is None else end.to_dict() for end in (self.lower, self.upper)]
-        return {"lower": side[0], "upper": side[1]}
 
 
 class StableSet(Sequence[Interval]):
@@ -329,7 +138,7 @@ class StableSet(Sequence[Interval]):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, StableSet):
             return NotImplemented
-        return self.parameter == other.parameter and not any(_membership([self, other], lambda a, b: a != b)[1])
+        return self.parameter == other.parameter and not any(membership([self, other], lambda a, b: a != b)[1])
 
     def __hash__(self) -> int:
         return hash((self.parameter, tuple(end.value for i in self.intervals for end in (i.lower, i.upper) if end)))
@@ -355,7 +164,7 @@ class StableSet(Sequence[Interval]):
 
     def __invert__(self) -> StableSet:
         bounds = self._document["domain"]
-        ends = [None if bounds[side] is None else {**_end_at(Real(bounds[side]), "domain", False).to_dict()} for side in ("lower", "upper")]
+        ends = [None if bounds[side] is None else {**end_at(Real(bounds[side]), "domain", False).to_dict()} for side in ("lower", "upper")]
         whole = StableSet({**self._shared(), "stable": [{"lower": ends[0], "upper": ends[1]}]})
         return whole - self
 
@@ -363,7 +172,7 @@ class StableSet(Sequence[Interval]):
         return {key: value for key, value in self._document.items() if key not in ("schema", "stable")}
 
     def _derived(self, sets: list[StableSet], rule: Callable[[bool, bool], bool]) -> StableSet:
-        points, member, causes = _pieces(sets, rule)
+        points, member, causes = pieces(sets, rule)
         stable = []
         start: End | None | Literal[False] = False
         # Pieces: gap 0, point 0, gap 1, point 1, ..., gap n.
@@ -371,14 +180,14 @@ class StableSet(Sequence[Interval]):
             point = (k - 1) // 2 if k % 2 else None
             if inside and start is False:
                 if point is not None:
-                    start = _end_at(points[point], causes[point], True)
+                    start = end_at(points[point], causes[point], True)
                 else:
-                    start = None if k == 0 else _end_at(points[k // 2 - 1], causes[k // 2 - 1], False)
+                    start = None if k == 0 else end_at(points[k // 2 - 1], causes[k // 2 - 1], False)
             elif not inside and start is not False:
                 if point is not None:
-                    end = _end_at(points[point], causes[point], False)
+                    end = end_at(points[point], causes[point], False)
                 else:
-                    end = _end_at(points[k // 2 - 1], causes[k // 2 - 1], True)
+                    end = end_at(points[k // 2 - 1], causes[k // 2 - 1], True)
                 stable.append(Interval(start, end).to_dict())
                 start = False
         if start is not False:
@@ -422,7 +231,7 @@ class StableSet(Sequence[Interval]):
         out: list[Fraction] = []
         while gaps and len(out) < max(n, len(self)):
             lower, upper = gaps.pop(0)
-            middle = _simplest(lower, upper)
+            middle = simplest(lower, upper)
             if middle is None:
                 continue
             out.append(middle)
@@ -566,70 +375,3 @@ class StableSet(Sequence[Interval]):
 
 def _set_again(document: dict[str, Any], text: str | None, loop: Loop | None, asked: dict[str, Any] | None) -> StableSet:
     return StableSet(document, text=text, loop=loop, asked=asked)
-
-
-def _membership(sets: list[StableSet], rule: Callable[[bool, bool], bool]) -> tuple[list[Real], list[bool]]:
-    """All ends in ascending order; for each gap and each end in turn, whether it is a member by the rule."""
-    values = sorted(end.value for s in sets for i in s for end in (i.lower, i.upper) if end is not None)
-    points: list[Real] = []
-    for value in values:
-        if not points or points[-1] != value:
-            points.append(value)
-    of_set = []
-    for s in sets:
-        member = [False] * (2 * len(points) + 1)
-        for i in s:
-            low = -1 if i.lower is None else points.index(i.lower.value)
-            high = len(points) if i.upper is None else points.index(i.upper.value)
-            first = 2 * low + (1 if i.lower is not None and i.lower.closed else 2)
-            last = 2 * high + (1 if i.upper is not None and i.upper.closed else 0)
-            member[max(first, 0) : last + 1] = [True] * (last + 1 - max(first, 0))
-        of_set.append(member)
-    return points, [rule(a, b) for a, b in zip(*of_set, strict=True)]
-
-
-def _pieces(sets: list[StableSet], rule: Callable[[bool, bool], bool]) -> tuple[list[Real], list[bool], list[str]]:
-    points, member = _membership(sets, rule)
-    order = list(Cause)
-    causes = []
-    for point in points:
-        found = {c for s in sets for i in s for end in (i.lower, i.upper) if end and end.value == point for c in end.causes}
-        causes.append("+".join(c.value for c in sorted(found, key=order.index)))
-    return points, member, causes
-
-
-def _simplest(lower: Real | None, upper: Real | None) -> Fraction | None:
-    """The rational number with the smallest denominator strictly between, of those the one nearest to 0."""
-    if lower is not None and upper is not None and not lower < upper:
-        return None
-    if (lower is None or lower < 0) and (upper is None or upper > 0):
-        return Fraction(0)
-    if upper is None:
-        assert lower is not None
-        return Fraction(math.floor(lower) + 1)
-    if lower is None:
-        return Fraction(math.ceil(upper) - 1)
-    digits = 2
-    while True:
-        # The simplest of a slightly longer interval is the simplest of this one if it is in it.
-        candidate = _simplest_between(lower.enclosure(digits)[0], upper.enclosure(digits)[1])
-        if lower < candidate and upper > candidate:
-            return candidate
-        digits *= 2
-
-
-def _simplest_between(low: Fraction, high: Fraction) -> Fraction:
-    if high <= 0:
-        return -_simplest_between(-high, -low)
-    floor = math.floor(low)
-    if floor + 1 < high:
-        return Fraction(floor + 1)
-    low, high = low - floor, high - floor
-    if low == 0:
-        return floor + Fraction(1, math.floor(1 / high) + 1)
-    return floor + 1 / _simplest_between(1 / high, 1 / low)
-
-
-def escaped(text: object) -> str:
-    """Text for a page."""
-    return html.escape(str(text))
