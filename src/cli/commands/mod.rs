@@ -18,6 +18,7 @@ pub(super) mod verdict;
 pub(super) mod verify;
 
 use super::arguments::{Arguments, Command, OutputOptions, RunOptions};
+use super::captured;
 use super::command_line::CommandLine;
 use super::output::{ending, unknown_ending, write_answer};
 use super::progress::Reporter;
@@ -49,13 +50,13 @@ impl<'a> Context<'a> {
             let _ = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global();
         }
         let reporter = Reporter::new(options);
-        let budget = reporter.budget(options);
+        let budget = captured::budget().unwrap_or_else(|| reporter.budget(options));
         Context { line, reporter, budget, quiet: options.quiet }
     }
 
     /// Shows warnings, unless they are not wanted.
     pub fn warn(&self, source: Option<&Arc<Source>>, warnings: &[Diagnostic]) {
-        if !self.quiet && !warnings.is_empty() {
+        if !self.quiet && !warnings.is_empty() && !captured::warn(source, warnings) {
             show(&Diagnostics::new(source.cloned(), warnings.to_vec()));
         }
     }
