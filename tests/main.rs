@@ -55,6 +55,14 @@ mod maps {
     mod program;
 }
 
+/// Any number of parameters: boxes of tolerances.
+mod tolerances {
+    mod degenerate;
+    mod laws;
+    mod program;
+    mod published;
+}
+
 /// Certificates: true ones are accepted by both checkers, wrong ones by none.
 mod certificates {
     mod attacks;

@@ -14,6 +14,7 @@ mod map_boxes;
 pub(super) mod new;
 pub(super) mod paper;
 pub(super) mod simulate;
+pub(super) mod tolerance;
 pub(super) mod verdict;
 pub(super) mod verify;
 
@@ -135,6 +136,7 @@ impl Arguments {
             Some(Command::Locus(options)) => &options.run,
             Some(Command::Simulate(options)) => &options.run,
             Some(Command::Paper(options)) => &options.run,
+            Some(Command::Tolerance(options)) => &options.decision.output.run,
             Some(Command::Verify(options)) => &options.run,
             Some(Command::Check(options)) => &options.run,
             Some(Command::New(_) | Command::Explain(_) | Command::Completions(_)) => NONE,
@@ -155,6 +157,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Locus(options)) => locus::run(options, context),
         Some(Command::Simulate(options)) => simulate::run(options, context),
         Some(Command::Paper(options)) => paper::run(options, context),
+        Some(Command::Tolerance(options)) => tolerance::run(options, context),
         Some(Command::Verify(options)) => verify::run(options, context),
         Some(Command::Check(options)) => check::run(options, context),
         Some(Command::New(options)) => new::run(options),

@@ -10,6 +10,7 @@ mod map_boxes;
 mod map_limits;
 mod stable;
 mod table;
+mod tolerance;
 mod verdict;
 
 pub use analysis::Analysis;
@@ -18,6 +19,7 @@ pub use map::Map;
 pub use map_boxes::{BoxRequest, MapBoxes, MapMethod, MapOrBoxes};
 pub use map_limits::{MapLimit, RegionExtent};
 pub use table::{ParametricTable, PointTable};
+pub use tolerance::{LimitSide, ToleranceAnswer, ToleranceLimit, ToleranceRequest, WorstEnd};
 pub use verdict::{DelayedRoots, PointVerdict, Verdict};
 
 use crate::problem::Problem;

@@ -276,6 +276,33 @@ impl Problem {
         self.line_with(algebra, fixed, value, budget)
     }
 
+    /// The problem that is left where all free parameters move along the line `base + t step`: its one parameter is `t`, of this
+    /// name. Its algebra follows from what is known.
+    ///
+    /// Cost: that of [`Problem::algebra`], and of putting the line into the `n + 1` coefficients.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra`].
+    ///
+    /// # Panics
+    /// Unless base and step have one number for each free parameter.
+    pub fn on_ray(
+        &self,
+        name: &str,
+        base: &[Rational],
+        step: &[Rational],
+        domain: Range,
+        budget: &Budget,
+    ) -> Result<Problem, Error> {
+        assert_eq!((base.len(), step.len()), (self.free.len(), self.free.len()), "each free parameter moves");
+        let algebra = self.algebra(budget)?;
+        let algebra = budget.enter(|| algebra.on_ray(name, base, step))?;
+        let free = vec![Free { name: name.to_owned(), unit: None, nominal: None, domain }];
+        let problem = Problem::new(Arc::clone(&self.model), self.set.clone(), free, self.region.clone(), Vec::new());
+        problem.algebra.get_or_init(|| algebra);
+        Ok(problem)
+    }
+
     /// [`Problem::on_line`] for one who needs the polynomial only in the form that is decided.
     pub(crate) fn line(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Error> {
         let algebra = self.algebra(budget)?.beside_polynomial(fixed, value);

@@ -6,6 +6,7 @@
 //! the exact count of roots ([`count_roots`]) and the boundary in parameter space.
 
 mod boundary;
+pub mod boxes;
 mod cause;
 mod conditions;
 pub mod dead_time;
