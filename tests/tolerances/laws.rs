@@ -155,3 +155,20 @@ proptest! {
         prop_assert!(half.lower <= whole.upper.expect("an end") * two);
     }
 }
+
+/// `s^2 + a s + b` is stable exactly for a, b > 0.
+#[test]
+fn the_stable_share_of_a_box_is_that_of_its_quadrant() {
+    let model = load(
+        "time = 'continuous'\n[parameters]\na = { nominal = 1, tolerance = { low = -1, high = 3 } }\n\
+         b = { nominal = 1, tolerance = { low = -1, high = 1 } }\n[loop]\ncharacteristic = 's^2 + a*s + b'\n",
+    );
+    let goal = Rational::new(1.into(), 100.into());
+    let request = ToleranceRequest::of_model(&model).volume(goal.clone());
+    let answer = model.ask().tolerance(&request, &Budget::unlimited()).unwrap();
+    let volume = answer.value().volume.as_ref().unwrap();
+    assert_eq!(&(&volume.stable + &volume.unstable) + &volume.undecided, Rational::ONE);
+    // Three quarters times a half.
+    let share = Rational::new(3.into(), 8.into());
+    assert!(volume.undecided <= goal && volume.stable <= share && share <= &volume.stable + &volume.undecided);
+}

@@ -34,6 +34,9 @@ pub(in crate::cli) struct Options {
     /// Also proves the largest factor as an exact algebraic number
     #[arg(long)]
     pub exact: bool,
+    /// Also says which share of the box is stable, up to 1 % that may stay undecided (at most six parameters)
+    #[arg(long)]
+    pub volume: bool,
     #[command(flatten)]
     pub decision: DecisionOptions,
 }
@@ -127,6 +130,9 @@ fn request(options: &Options, model: &Model, context: &Context) -> Result<Tolera
         known_names(context, model, "--limit", from_ref(name))?;
         request.tolerances.retain(|(known, _)| known != name);
         request = request.limit(name);
+    }
+    if options.volume {
+        request = request.volume(Rational::new(1.into(), 100.into()));
     }
     if options.exact {
         request = request.exact();

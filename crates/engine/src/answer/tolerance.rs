@@ -4,7 +4,9 @@ use super::Answer;
 use crate::error::{Diagnostic, Error};
 use crate::model::{Model, Tolerance};
 use crate::problem::{Problem, Question};
-use crate::stability::boxes::{BoxDecision, BoxPolynomial, ExactProof, LargestFactor, Side, ToleranceProblem, ray};
+use crate::stability::boxes::{
+    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, LargestFactor, MOST_PARAMETERS, Side, ToleranceProblem, ray,
+};
 use crate::stability::{AtPoint, End, Range};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
@@ -34,6 +36,8 @@ pub struct ToleranceRequest {
     pub limit: Option<String>,
     /// Whether the largest factor is to be proved as an exact number.
     pub exact: bool,
+    /// The share of the box's volume that may stay undecided, where its stable share is asked for.
+    pub volume: Option<Rational>,
 }
 
 impl ToleranceRequest {
@@ -44,6 +48,7 @@ impl ToleranceRequest {
             gap: Rational::new(Integer::ONE, Integer::from(1_000_000)),
             limit: None,
             exact: false,
+            volume: None,
         }
     }
 
@@ -66,6 +71,12 @@ impl ToleranceRequest {
         self
     }
 
+    /// The same, asking also which share of the box is stable, up to an undecided share.
+    pub fn volume(mut self, undecided: Rational) -> Self {
+        self.volume = Some(undecided);
+        self
+    }
+
     /// The same, asking also how far one parameter may go while the others have their tolerances.
     pub fn limit(mut self, name: impl Into<String>) -> Self {
         self.limit = Some(name.into());
@@ -74,6 +85,20 @@ impl ToleranceRequest {
 }
 
 /// What is known of a box of tolerances.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::answer::ToleranceRequest;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Continuous)
+///     .parameter(ParameterBuilder::new("a").nominal("1").tolerance("10%"))
+///     .characteristic("s^2 + a*s + 1")
+///     .build()?;
+/// let answer = model.ask().tolerance(&ToleranceRequest::of_model(&model).exact(), &Budget::unlimited())?;
+/// let end = &answer.value().worst.as_ref().unwrap().end; // a = 0
+/// assert_eq!((end.value.exact(), answer.value().exact.is_some()), (Some(10.into()), true));
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ToleranceAnswer {
@@ -93,6 +118,8 @@ pub struct ToleranceAnswer {
     pub domain_factor: Option<Rational>,
     /// The range of one parameter that is safe for all values of the others.
     pub limit: Option<ToleranceLimit>,
+    /// Which share of the box is stable, where that was asked for.
+    pub volume: Option<BoxVolume>,
 }
 
 /// The end of stability on the line to the worst point.
@@ -224,9 +251,28 @@ impl Problem {
             (Some(worst), Some(cells)) if request.exact => boxes.exact(&factor, &worst.end, cells, budget)?,
             _ => None,
         };
+        let volume = match &request.volume {
+            None => None,
+            Some(_) if boxes.parameters() > MOST_PARAMETERS => {
+                let message = format!("the volume of a box is found for up to {MOST_PARAMETERS} parameters");
+                return Err(Diagnostic::error("E-tolerance", message)
+                    .help("leave some out with --fix; the shares of the margin are found for any number")
+                    .into());
+            }
+            Some(undecided) => Some(boxes.volume(&Rational::ONE, undecided, budget)?),
+        };
         let decision = agreed(decision, &factor, worst.as_ref().filter(|_| exact.is_some()));
-        let value =
-            ToleranceAnswer { sides, nominal: at, decision, factor: Some(factor), worst, exact, domain_factor, limit };
+        let value = ToleranceAnswer {
+            sides,
+            nominal: at,
+            decision,
+            factor: Some(factor),
+            worst,
+            exact,
+            domain_factor,
+            limit,
+            volume,
+        };
         Ok(Answer::new(Arc::clone(self), value))
     }
 
@@ -245,6 +291,7 @@ impl Problem {
             exact: None,
             domain_factor: None,
             limit: None,
+            volume: None,
         };
         Answer::new(Arc::clone(self), value)
     }

@@ -46,6 +46,17 @@ impl Shown<'_> {
         if let Some(factor) = &self.answer.factor {
             out.push_str(&self.factor(factor));
         }
+        if let Some(volume) = &self.answer.volume {
+            let percent = |share: &Rational| to_decimal(&(share * &Rational::from(100)), 4);
+            let _ = writeln!(
+                out,
+                "of the box       {} % stable, {} % not, {} % undecided ({} boxes)",
+                percent(&volume.stable),
+                percent(&volume.unstable),
+                percent(&volume.undecided),
+                volume.boxes
+            );
+        }
         if let Some(limit) = &self.answer.limit {
             out.push_str(&self.limit(limit));
         }

@@ -55,8 +55,8 @@ pub use number::{Enclosure, Exact, Named, Number, NumberKind};
 pub use over::{AlgebraicPlace, Over};
 pub use question::{ParameterQuestion, PointQuestion, RegionBound};
 pub use tolerance::{
-    Factor, LimitRange, Tolerance, ToleranceFound, ToleranceName, ToleranceOpen, ToleranceVerdict, WitnessPoint,
-    WorstPoint,
+    Factor, LimitRange, Tolerance, ToleranceFound, ToleranceName, ToleranceOpen, ToleranceVerdict, VolumeShares,
+    WitnessPoint, WorstPoint,
 };
 pub use undecided::{Answered, Open, Undecided};
 pub use verdict::{RootsByPlace, Verdict, VerdictName, VerdictOpen};

@@ -55,6 +55,9 @@ pub struct ToleranceFound {
     /// The range of one parameter that is safe for all values of the others, where it was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limit: Option<LimitRange>,
+    /// Shares of the box's volume, where they were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub volume: Option<VolumeShares>,
     /// The number of cells of frequency and parameters in the proof; `null` without one.
     pub cells: Option<usize>,
     /// What stopped the proof, where the verdict is `null`.
@@ -125,6 +128,20 @@ pub struct WitnessPoint {
     /// Where the roots are.
     #[serde(flatten)]
     pub roots: RootsByPlace,
+}
+
+/// Exact shares of the volume of the box; they add up to 1.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct VolumeShares {
+    /// Stable at every point.
+    pub stable: Exact,
+    /// Stable at no point.
+    pub unstable: Exact,
+    /// Not decided.
+    pub undecided: Exact,
+    /// The number of boxes that were decided.
+    pub boxes: usize,
 }
 
 /// The range of one parameter.
@@ -199,6 +216,12 @@ fn found(problem: &Problem, answer: &ToleranceAnswer, digits: usize) -> Toleranc
             named(problem, shares, |s| real::json_number(&to_decimal(s, 17)).unwrap_or_else(|| 0.into()))
         }),
         limit: answer.limit.as_ref().map(|limit| limit_range(problem, limit)),
+        volume: answer.volume.as_ref().map(|v| VolumeShares {
+            stable: (&v.stable).into(),
+            unstable: (&v.unstable).into(),
+            undecided: (&v.undecided).into(),
+            boxes: v.boxes,
+        }),
         cells,
         undecided,
     }

@@ -14,6 +14,9 @@ const CELLS: usize = 4000;
 /// How often a box that is not decided is made smaller.
 const RETREATS: u32 = 6;
 
+/// How often the upper end moves to a point at which a proof failed.
+const REFUTATIONS: u32 = 64;
+
 /// Without any crossing the largest factor that is proved.
 const FAR: i64 = 1 << 10;
 
@@ -207,7 +210,7 @@ impl<'a> ToleranceProblem<'a> {
         let mut proved: Option<(Rational, BoxProof)> = None;
         let mut open = None;
         let mut coarser = Rational::ONE;
-        let mut retreats = 0;
+        let (mut retreats, mut refutations) = (0, 0);
         budget.step("proving the largest box");
         loop {
             let end = search.best.as_ref().map(|b| &b.lo).into_iter().chain(most).min();
@@ -232,6 +235,11 @@ impl<'a> ToleranceProblem<'a> {
                     break;
                 }
                 Outcome::Refuted(point) => {
+                    refutations += 1;
+                    if refutations > REFUTATIONS {
+                        open = Some(("too many points that are not stable", Vec::new()));
+                        break;
+                    }
                     budget.step("looking for the worst point");
                     let nearer = budget.enter(|| search.run_from(&point));
                     budget.step("proving the largest box");

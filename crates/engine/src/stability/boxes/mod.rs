@@ -16,6 +16,7 @@ mod separate;
 mod sides;
 mod tensor;
 mod tree;
+mod volume;
 
 pub use exact::{CriticalCell, ExactProof};
 pub use factor::{BoxDecision, LargestFactor, ToleranceProblem, Witness};
@@ -25,6 +26,7 @@ pub use prove::{BoxProof, MOST_COEFFICIENTS};
 pub(crate) use search::ray;
 pub use sides::Side;
 pub use tree::Tree;
+pub use volume::{BoxVolume, MOST_PARAMETERS};
 
 #[cfg(test)]
 mod published;

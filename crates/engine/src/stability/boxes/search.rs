@@ -18,6 +18,12 @@ const ROUNDS: usize = 12;
 /// Halvings while one coordinate is sought.
 const COORDINATE_BITS: u32 = 26;
 
+/// A coordinate whose weight is `2^-LEAST_WEIGHT` of the greatest is not sought on its own.
+const LEAST_WEIGHT: u32 = 12;
+
+/// Rounds of turning such coordinates at the end.
+const SETTLINGS: usize = 4;
+
 /// Frequencies that give directions to begin with: `4^scale` times powers of two up to this one.
 const OCTAVES: i64 = 5;
 
@@ -170,8 +176,11 @@ impl<'a> Search<'a> {
                 continue;
             }
             let before = current.hi.clone();
+            let weights = self.weights(&gradient, &wanted);
+            let most = weights.iter().max().cloned().unwrap_or_default();
             for (i, towards) in wanted.iter().enumerate() {
-                if *towards != current.direction[i] && !self.sides[i].width(towards.sign()).is_zero() {
+                let matters = &weights[i] * &Rational::from(1 << LEAST_WEIGHT) >= most;
+                if *towards != current.direction[i] && matters && !weights[i].is_zero() {
                     current = self.along_coordinate(current, i, towards.clone());
                 }
             }
@@ -183,6 +192,33 @@ impl<'a> Search<'a> {
         }
         if self.best.as_ref().is_none_or(|best| current.hi < best.hi) {
             self.best = Some(current);
+        }
+    }
+
+    /// How much each parameter moves the polynomial that vanishes, over its width on the side of a direction.
+    fn weights(&self, gradient: &Gradient, direction: &[Rational]) -> Vec<Rational> {
+        let parts = gradient.by_parameter.iter().zip(self.sides.iter().zip(direction));
+        parts.map(|(g, (side, c))| (g * side.width(c.sign())).abs()).collect()
+    }
+
+    /// Turns the coordinates that hardly matter to their sides, where that brings the crossing no farther.
+    fn settle(&mut self) {
+        for _ in 0..SETTLINGS {
+            let Some(best) = &self.best else { return };
+            let Some(gradient) = self.line(&best.direction).gradient(&best.lo, &best.hi) else { return };
+            let weights = self.weights(&gradient, &best.direction);
+            let most = weights.iter().max().cloned().unwrap_or_default();
+            let turn = |((new, old), weight): ((Rational, &Rational), &Rational)| {
+                if weight * &Rational::from(1 << LEAST_WEIGHT) < most || old.abs() == Rational::ONE {
+                    new
+                } else {
+                    old.clone()
+                }
+            };
+            let turned = wanted(&gradient).into_iter().zip(&best.direction).zip(&weights).map(turn).collect();
+            let Some(turned) = self.normalised(turned).filter(|turned| *turned != best.direction) else { return };
+            let Some((lo, hi)) = self.line(&turned).crossing(Some(&best.hi), FINE) else { return };
+            self.best = Some(Crossing { direction: turned, lo, hi });
         }
     }
 
@@ -230,17 +266,18 @@ impl<'a> Search<'a> {
                 (best.lo, best.hi) = (lo, hi);
             }
         }
+        self.settle();
     }
 
     /// The derivative of what crosses by each parameter times its width, as shares that sum to 1.
     pub fn shares(&self, crossing: &Crossing) -> Option<Vec<Rational>> {
         let line = self.line(&crossing.direction);
         let gradient = line.gradient(&crossing.lo, &crossing.hi)?;
-        let weights: Vec<Rational> = gradient
-            .by_parameter
+        let weights: Vec<Rational> = self
+            .weights(&gradient, &crossing.direction)
             .iter()
-            .zip(self.sides.iter().zip(&crossing.direction))
-            .map(|(g, (side, c))| (g * side.width(c.sign())).abs() * c.abs())
+            .zip(&crossing.direction)
+            .map(|(w, c)| w * &c.abs())
             .collect();
         let sum = weights.iter().fold(Rational::ZERO, |a, b| a + b);
         weights.iter().map(|w| Some(rounded_share(&w.checked_div(&sum)?))).collect()

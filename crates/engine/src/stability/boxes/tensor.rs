@@ -116,6 +116,16 @@ impl Tensor {
         best.1
     }
 
+    /// The parameter along which the values change most.
+    pub fn steepest_parameter(&self) -> usize {
+        let steepness = |axis: usize| {
+            let (stride, count) = (self.stride(axis), self.counts[axis]);
+            let blocks = self.planes.iter().flat_map(|plane| plane.chunks(stride * count));
+            blocks.map(|b| (stride..b.len()).map(|at| (b[at] - b[at - stride]).abs()).max().unwrap_or(0)).max()
+        };
+        (0..self.axes() - 1).max_by_key(|&axis| (steepness(axis), std::cmp::Reverse(axis))).unwrap_or(0)
+    }
+
     /// The sum over neighbouring frequencies of the greatest difference.
     fn variation(&self) -> i128 {
         let count = self.counts[self.axes() - 1];
