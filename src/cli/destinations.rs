@@ -63,6 +63,7 @@ impl<'a> Names<'a> {
         match &arguments.command {
             None => names.answer(arguments.main_job.output.output.as_ref()),
             Some(Command::Analyze(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
+            Some(Command::Tolerance(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
             Some(Command::Jury(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
             Some(Command::Charpoly(o)) => names.question(&o.model.model, &o.output.output),
             Some(Command::Map(o)) => names.question(&o.model.model, &o.output.output),

@@ -86,7 +86,8 @@ proptest! {
                     prop_assert!(low <= x && x <= high, "the witness is in the box");
                 }
             }
-            BoxDecision::Undecided { .. } => {}
+            // Undecided, or a kind of answer that is new.
+            _ => {}
         }
     }
 
@@ -136,7 +137,7 @@ proptest! {
              p1 = {{ nominal = 2, tolerance = '{percent}%' }}\n[loop]\n\
              characteristic = 's^3 + 2*s^2 + p1*s + p0/{unit}'\n"
         ));
-        let end = |unit| asked(&model(unit)).value().worst.as_ref().expect("an end").end.value.clone();
+        let end = |unit| asked(&model(unit)).value().worst.as_ref().expect("an end").end.value.algebraic().cloned();
         prop_assert_eq!(end(1), end(scale));
     }
 

@@ -4,6 +4,7 @@ use crate::helpers::model::example;
 use crate::helpers::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
+use jurist_algebra::poly::Domain;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest, Verdict};
 use jurist_engine::model::Model;
 use jurist_engine::stability::boxes::BoxDecision;
@@ -56,7 +57,8 @@ fn de_gaston_and_safonov_1988() {
     confirm(&answer, "3.41739553123723210518");
     assert!(answer.value().decision.is_stable());
     assert!(answer.value().exact.is_some());
-    let polynomial = answer.value().worst.as_ref().unwrap().end.value.polynomial();
+    let end = &answer.value().worst.as_ref().unwrap().end;
+    let polynomial = end.value.algebraic().unwrap().polynomial();
     let quoted = [-428_800_000i64, 114_000_000, 3_380_000, -5000, -450, 9];
     let quoted = jurist_algebra::poly::UniPoly::from_i64(&quoted);
     assert!(polynomial.gcd(&quoted).degree() == Some(5), "the published corner's polynomial of degree 5");

@@ -314,6 +314,10 @@ impl Method {
     }
 
     /// What it is called: `forward rule`, `zero-order hold`.
+    ///
+    /// ```
+    /// assert_eq!(jurist_engine::model::Method::Tustin.words(), "Tustin's rule");
+    /// ```
     pub fn words(self) -> &'static str {
         match self {
             Method::Forward => "forward rule",
@@ -327,21 +331,6 @@ impl Method {
     /// Whether it is exact for a signal of a kind rather than a rule.
     pub fn is_hold(self) -> bool {
         matches!(self, Method::ZeroOrderHold | Method::FirstOrderHold)
-    }
-}
-
-impl Method {
-    /// What it is called: `forward rule`.
-    ///
-    /// ```
-    /// assert_eq!(jurist_engine::model::Method::Tustin.words(), "Tustin's rule");
-    /// ```
-    pub fn words(self) -> &'static str {
-        match self {
-            Method::Forward => "forward rule",
-            Method::Backward => "backward rule",
-            Method::Tustin => "Tustin's rule",
-        }
     }
 }
 

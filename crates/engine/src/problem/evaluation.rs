@@ -180,6 +180,7 @@ impl Algebra {
             formal_degree: self.formal_degree,
             sample_time: self.sample_time.as_ref().and_then(left),
             closed_loop: None,
+            symbols: self.symbols.clone(),
         }
     }
 }

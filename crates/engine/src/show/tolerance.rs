@@ -132,7 +132,7 @@ impl Shown<'_> {
         }
         if let (Some(proof), Some(worst)) = (&self.answer.exact, &self.answer.worst) {
             let value = &worst.end.value;
-            let degree = value.polynomial().degree().unwrap_or(0);
+            let degree = value.algebraic().and_then(|v| v.polynomial().degree()).unwrap_or(0);
             let kind = match value.exact() {
                 Some(exact) => format!("exactly {}", short(&exact)),
                 None => format!(
@@ -281,5 +281,5 @@ pub(crate) fn verdict_of(witness: &Witness, problem: &Problem) -> PointVerdict {
             (verdict, Some(*count), *infinite)
         }
     };
-    PointVerdict { verdict, undefined: None, degree, count, infinite }
+    PointVerdict { verdict, undefined: None, degree, count, infinite, delayed: None }
 }
