@@ -324,3 +324,18 @@ Definition check_poly (fuel : nat) (r : region) (p : bipoly) (ans : answer) : bo
   | None => false
   | Some cs => check_pieces fuel cs (lower ans) (upper ans) (starts ans) (pieces ans)
   end.
+
+(** ** One point
+
+    Numbers instead of a parameter: constants, read at 0. The table ends with the first row that does not go
+    on, so a row of zeros is an answer as well. *)
+Fixpoint point_jury (n : nat) (l : bipoly) : bool :=
+  match n with
+  | O => negb (0 =? pval 0 (hd [] l))
+  | S n' =>
+      let r := bprim (jrow l) in
+      if 0 <? pval 0 (last r []) then point_jury n' r else false
+  end.
+
+Definition point_in (r : region) (n : nat) (p : bipoly) : bool := point_jury n (bprim (to_disc r p)).
+Definition point_nonzero (gs : list poly) : bool := forallb (fun g => negb (0 =? pval 0 g)) gs.

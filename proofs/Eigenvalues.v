@@ -344,13 +344,11 @@ Qed.
 (** A polynomial given by its coefficients, lowest power first. *)
 Definition poly_of (l : list expr) x : {poly R} := Poly [seq val e x | e <- l].
 
-Theorem poly_answer fuel r (l : list expr) ans : check_coefs fuel r l ans ->
-  says (fun x => all_in r (size l).-1 (poly_of l x)) (lower ans) (upper ans) ans.
+Lemma all_in_cleared r n (l : list expr) x : char_row_ok (coefs l) ->
+  nonzero (flat_map guards l ++ [:: row_den (coefs l)])%list x ->
+  all_in r n (bpev (cleared (coefs l)) x) <-> all_in r n (poly_of l x).
 Proof.
-case/andP => /andP[gs ok] /(check_poly_conditions R)[cs [k [lk pieces_ok conds]]].
-have lE : size l = k.+2 by rewrite -lk /cleared /coefs !map_length.
-apply: (says_ok pieces_ok) => x dx; rewrite lE -conds.
-have nz := all_nonzero_ok gs dx.
+move=> ok nz.
 have d0 : pev (row_den (coefs l)) x != 0 by apply: nz; apply/in_or_app; right; left.
 have -> : bpev (cleared (coefs l)) x = pev (row_den (coefs l)) x *: poly_of l x; last first.
   have cC : (pev (row_den (coefs l)) x)%:C%C != 0 :> C by rewrite C0.
@@ -362,11 +360,20 @@ have fs_ok f : List.In f (coefs l) -> pev (row_den (coefs l)) x = pev f.2 x * pe
 have e_ok e : List.In e l -> stands (normal e) x (val e x).
   move=> el; apply: normal_ok => p pi; apply: nz; apply/in_or_app; left.
   by apply/in_flat_map; exists e.
-move: (row_den _) fs_ok {gs ok nz d0 lk pieces_ok conds lE} => d; rewrite /coefs.
+move: (row_den _) fs_ok {ok nz d0} => d; rewrite /coefs.
 elim: l i e_ok => [|e l IH] [|i] e_ok fs_ok /=; rewrite ?mulr0 //; last first.
   by apply: IH => [f fi|f fi]; [apply: e_ok | apply: fs_ok]; right.
 have [f0 fE] := e_ok e (or_introl erefl).
 by rewrite pevM (fs_ok _ (or_introl erefl)) -fE; ring.
+Qed.
+
+Theorem poly_answer fuel r (l : list expr) ans : check_coefs fuel r l ans ->
+  says (fun x => all_in r (size l).-1 (poly_of l x)) (lower ans) (upper ans) ans.
+Proof.
+case/andP => /andP[gs ok] /(check_poly_conditions R)[cs [k [lk pieces_ok conds]]].
+have lE : size l = k.+2 by rewrite -lk /cleared /coefs !map_length.
+apply: (says_ok pieces_ok) => x dx; rewrite lE -conds.
+by rewrite (all_in_cleared _ _ ok (all_nonzero_ok gs dx)).
 Qed.
 
 End Model.

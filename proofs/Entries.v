@@ -190,3 +190,18 @@ Definition cleared (l : list frac) : bipoly :=
 Definition check_coefs (fuel : nat) (r : region) (l : list expr) (ans : answer) : bool :=
   let fs := coefs l in
   all_nonzero fuel ans (flat_map guards l ++ [row_den fs]) && char_row_ok fs && check_poly fuel r (cleared fs) ans.
+
+(** ** One point *)
+
+Definition point_matrix_ok (r : region) (n : nat) (m : matrix) : bool :=
+  point_nonzero (matrix_guards n m) && forallb char_row_ok (fractions n m) &&
+  Nat.eqb (length (charpoly n m)) (S n) && region_ok r.
+Definition check_matrix_point (r : region) (n : nat) (m : matrix) (stable : bool) : bool :=
+  point_matrix_ok r n m && Bool.eqb (point_in r n (charpoly n m)) stable.
+
+Definition point_coefs_ok (r : region) (l : list expr) : bool :=
+  let fs := coefs l in
+  point_nonzero (flat_map guards l ++ [row_den fs]) && char_row_ok fs && region_ok r &&
+  Nat.eqb (length l) (S (pred (length l))).
+Definition check_coefs_point (r : region) (l : list expr) (stable : bool) : bool :=
+  point_coefs_ok r l && Bool.eqb (point_in r (pred (length l)) (cleared (coefs l))) stable.

@@ -64,11 +64,11 @@
 // The model, the question, the answer.
 pub use jurist_engine::answer::{
     Analysis, Answer, BoxRequest, Frequency, Map, MapBoxes, MapLimit, MapMethod, MapOrBoxes, ParametricTable,
-    PointTable, PointVerdict, RegionExtent, Verdict,
+    PointTable, PointVerdict, RegionExtent, ToleranceAnswer, ToleranceRequest, Verdict,
 };
 pub use jurist_engine::error::{Diagnostic, Diagnostics, Error, Label, Severity, Source, Span};
 pub use jurist_engine::model::{
-    BlockBuilder, ClosedLoop, Constant, Expression, Model, ModelBuilder, Parameter, ParameterBuilder, Time,
+    BlockBuilder, ClosedLoop, Constant, Expression, Model, ModelBuilder, Parameter, ParameterBuilder, Time, Tolerance,
     TransferFunction,
 };
 pub use jurist_engine::problem::{Algebra, Bound, Free, Problem, Question, Region};

@@ -6,6 +6,7 @@ mod helpers;
 /// Laws of the algebra and of stability, on generated input: every algorithm against a second one.
 mod laws {
     mod cancelled;
+    mod dead_time;
     mod fast_algebra;
     mod fast_isolation;
     mod fuzz_corpus;
@@ -31,6 +32,7 @@ mod models {
 /// Whole loops in one parameter, beyond what the corpus says of them.
 mod loops {
     mod corridor;
+    mod dead_time;
     mod drive;
     mod examples;
     mod large;
@@ -51,6 +53,14 @@ mod maps {
     mod laws;
     mod methods;
     mod program;
+}
+
+/// Any number of parameters: boxes of tolerances.
+mod tolerances {
+    mod degenerate;
+    mod laws;
+    mod program;
+    mod published;
 }
 
 /// Certificates: true ones are accepted by both checkers, wrong ones by none.

@@ -468,6 +468,27 @@ NOT_DECIMAL = re.compile(
     r""" "{3}(?:[^\\]|\\.)*?"{3} | '{3}.*?'{3} | "(?:[^"\\\n]|\\.)*" | '[^'\n]*' | \#[^\n]*
        | (?<![\w.-]) [+-]? (?P<number> 0[xob])""", re.VERBOSE | re.DOTALL)
 
+BOUND = re.compile(r"\s*([+-]?)([0-9._eE/]+(?:[eE][+-]?[0-9]+)?)\s*(%?)\s*")
+
+def tolerance(toml):
+    """Refuses what is no tolerance; it has no influence on what is proved."""
+    def bound(part):
+        match = BOUND.fullmatch(str(part))
+        need(match and match[2].count("/") <= 1, "a bound of a tolerance is not a number")
+        value = constant(match[2])
+        return (-value if match[1] == "-" else value), match[3]
+    if isinstance(toml, dict):
+        need(set(toml) == {"low", "high"} and constant(toml["low"]) <= constant(toml["high"]), "no range")
+        return
+    if isinstance(toml, str) and not isinstance(toml, Number) and ".." in toml:
+        toml = toml.split("..", 1)
+    if isinstance(toml, list):
+        need(len(toml) == 2, "a tolerance has two bounds")
+        (low, is_share), (high, too) = map(bound, toml)
+        need(is_share == too and (low <= 0 <= high if is_share else low <= high), "the bounds do not go together")
+    else:
+        need(isinstance(toml, (str, int, Number)) and not isinstance(toml, bool) and bound(toml)[0] >= 0, "no tolerance")
+
 class Model:
     """What does not depend on a question."""
 
@@ -481,14 +502,30 @@ class Model:
         need(self.discrete or self.root["time"] == "continuous", "the model has no time")
         self.z = "z" if self.discrete else "s"
         self.constants, self.parameters = (table(self.root.get(key, {})) for key in ("constants", "parameters"))
+        self.constants = {name: self.value(c) for name, c in self.constants.items()}
         self.taken = distinct([*self.constants, *self.parameters, self.z, "radius", "decay"])
         for parameter in self.parameters.values():
             if not isinstance(parameter, dict):
                 parameter = {"nominal": parameter}
-            table(parameter, "nominal min max unit description")
+            table(parameter, "nominal min max unit description tolerance")
+            if "tolerance" in parameter:
+                tolerance(parameter["tolerance"])
             numbers = {key: constant(parameter[key]) for key in ("nominal", "min", "max") if key in parameter}
             need(not {"min", "max"} <= set(numbers) or numbers["min"] < numbers["max"], "a domain is empty")
             [text_of(parameter[key]) for key in ("unit", "description") if key in parameter]
+
+    @staticmethod
+    def value(toml):
+        """The value of a constant, which may stand in a table."""
+        if not isinstance(toml, dict):
+            return toml
+        value = table(toml, "value unit description tolerance").get("value")
+        need(value is not None, "a constant has no value")
+        [text_of(toml[key]) for key in ("unit", "description") if key in toml]
+        if "tolerance" in toml:
+            tolerance(toml["tolerance"])
+            constant(value)
+        return value
 
 class Loop:
     """Equations of signals and states, and everything that is divided by."""

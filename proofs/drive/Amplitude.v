@@ -1,6 +1,7 @@
-(** PWM DC motor drive (Gürbüz and Akpınar 2002): the amplitude of the PWM voltage at T = 1e-4 s.
+(** PWM DC motor drive (Gürbüz and Akpınar 2002): for which K_pwm it is stable.
 
-    The entries are those of examples/drive.toml, with T = 1e-4; the parameter is K_pwm. *)
+    With T = 0.0001.
+    The entries are those of the model, as typed; the statement is about the eigenvalues of A - B K C. *)
 
 From Coq Require Import ZArith QArith List.
 From Jurist Require Import Compute Entries.
@@ -23,7 +24,7 @@ Definition K_is : expr := 5.
 Definition k_1 : expr := 1.
 Definition k_2 : expr := 1.
 Definition K_pwm : expr := Par.
-Definition T : expr := 1e-4.
+Definition T : expr := 0.0001.
 
 Definition A : matrix := [
   [(L_a - R_a*T)/L_a; -K_a*T/L_a; 0; 0; 0; 0];
@@ -67,9 +68,9 @@ Definition upper_limit_factor : poly := [
 Definition limits : answer := {|
   lower := Some 0; upper := None; starts := false;
   pieces := [
-    Along 0.0381005333482; Up lower_limit_factor 0.0381005333483; Along 550.941166686674; Down
-    upper_limit_factor 550.941166686675; Along 550.9411666866774; Along 550.941177; Along 554.559;
-    Along 791034470.218] |}%Q.
+    Along 0.0381005333482; Up lower_limit_factor 0.0381005333483; Along 550.941166686674;
+    Down upper_limit_factor 550.941166686675; Along 550.9411666866772; Along 550.941177; Along 554.2;
+    Along 1000000000] |}%Q.
 
 Lemma checked : check_matrix 8 (Disc 1) 6 (feedback 6 2 4 Model.A Model.B Model.K Model.C) limits = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
@@ -81,7 +82,7 @@ From Jurist Require Import Real Sound Answer Region Eigenvalues.
 Local Open Scope ring_scope.
 
 (** [only_root F a b x]: F(x) = 0, a < x < b, and F has no other root there. *)
-Theorem drive (R : rcfType) :
+Theorem stable_set (R : rcfType) :
   exists lower_limit : R, only_root lower_limit_factor 0.0381005333482 0.0381005333483 lower_limit /\
   exists upper_limit : R, only_root upper_limit_factor 550.941166686674 550.941166686675 upper_limit /\
   forall K_pwm : R, 0 < K_pwm ->
@@ -91,4 +92,4 @@ Theorem drive (R : rcfType) :
     <-> lower_limit < K_pwm < upper_limit.
 Proof. exact: (feedback_answer R checked). Qed.
 
-Print Assumptions drive.
+Print Assumptions stable_set.

@@ -1,6 +1,7 @@
-(** PWM DC motor drive (Gürbüz and Akpınar 2002): the chopping period at K_pwm = 110 V.
+(** PWM DC motor drive (Gürbüz and Akpınar 2002): for which T it is stable.
 
-    The entries are those of examples/drive.toml, with K_pwm = 110; the parameter is T. *)
+    With K_pwm = 110.
+    The entries are those of the model, as typed; the statement is about the eigenvalues of A - B K C. *)
 
 From Coq Require Import ZArith QArith List.
 From Jurist Require Import Compute Entries.
@@ -56,18 +57,17 @@ End Model.
     parameter's domain that is checked. *)
 Definition upper_limit_factor : poly := [
   -428441701800082585323258; 900193406559880719671845875; -77959174405586121099054900000;
-  2866758430021930111435453125000; 502063016590742144138493750000;
-  -2234055513355342504775716054687500; 26745675763766775271767265625000000;
-  363133041965089715861389160156250000; -5013560061035860435281372070312500000;
-  -5920822598295512706565856933593750000; 159229432780859937286376953125000000000;
-  -550398563360880196094512939453125000000; 866716692098855972290039062500000000000;
-  -595917235859669744968414306640625000000]%Z.
+  2866758430021930111435453125000; 502063016590742144138493750000; -2234055513355342504775716054687500;
+  26745675763766775271767265625000000; 363133041965089715861389160156250000;
+  -5013560061035860435281372070312500000; -5920822598295512706565856933593750000;
+  159229432780859937286376953125000000000; -550398563360880196094512939453125000000;
+  866716692098855972290039062500000000000; -595917235859669744968414306640625000000]%Z.
 
 Definition limits : answer := {|
   lower := Some 0; upper := None; starts := true;
   pieces := [
-    Along 0.000496939745106; Down upper_limit_factor 0.000496939745107; Along 0.000496939745115; Along
-    0.000496941; Along 0.000513; Along 0.046; Along 0.397; Along 0.699] |}%Q.
+    Along 0.000496939745106; Down upper_limit_factor 0.000496939745107; Along 0.000496939745115;
+    Along 0.000496941; Along 0.000513; Along 0.044; Along 0.3; Along 0.4; Along 0.6] |}%Q.
 
 Lemma checked : check_matrix 8 (Disc 1) 6 (feedback 6 2 4 Model.A Model.B Model.K Model.C) limits = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
@@ -79,7 +79,7 @@ From Jurist Require Import Real Sound Answer Region Eigenvalues.
 Local Open Scope ring_scope.
 
 (** [only_root F a b x]: F(x) = 0, a < x < b, and F has no other root there. *)
-Theorem drive_period (R : rcfType) :
+Theorem stable_set (R : rcfType) :
   exists upper_limit : R, only_root upper_limit_factor 0.000496939745106 0.000496939745107 upper_limit /\
   forall T : R, 0 < T ->
     (forall z : R[i],
@@ -88,4 +88,4 @@ Theorem drive_period (R : rcfType) :
     <-> T < upper_limit.
 Proof. exact: (feedback_answer R checked). Qed.
 
-Print Assumptions drive_period.
+Print Assumptions stable_set.

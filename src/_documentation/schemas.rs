@@ -28,6 +28,7 @@ schemas! {
     model: "Model files; the line `#:schema` names it to editors.", "model";
     root_locus_form: "`jurist/root-locus-form/1`, of `jurist charpoly --root-locus-form`.", "root-locus-form-1";
     simulate: "`jurist/simulate/1`, of `jurist simulate`.", "simulate-1";
+    tolerance: "`jurist/tolerance/1`, of `jurist tolerance`.", "tolerance-1";
     transfer: "`jurist/transfer/1`, of `jurist charpoly --transfer`.", "transfer-1";
     verdict: "`jurist/verdict/1`, of `jurist verdict`.", "verdict-1";
 }

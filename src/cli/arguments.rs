@@ -56,6 +56,8 @@ pub(super) enum Command {
     Locus(commands::locus::Options),
     /// Time response, of the sampled loop or of the switched circuit
     Simulate(commands::simulate::Options),
+    /// Stable for every value within tolerances: proof or counterexample, and how far they can grow
+    Tolerance(commands::tolerance::Options),
     /// The built-in drive's paper once more, as one HTML report with figures
     Paper(commands::paper::Options),
     /// Re-checks a certificate against a model, with code that shares nothing with the engine
@@ -129,7 +131,7 @@ pub(super) struct PictureOptions {
     /// Writes JSON: the numbers behind the picture, in floating point, and what is certain about it
     #[arg(long)]
     pub json: bool,
-    /// Writes the picture to a file: .svg, .png, or the data: .csv, .json
+    /// Writes the picture to a file: .svg, .png, .pdf, or the data: .csv, .json
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<OsString>,
     /// Also writes the data, beside the picture

@@ -63,6 +63,7 @@ impl<'a> Names<'a> {
         match &arguments.command {
             None => names.answer(arguments.main_job.output.output.as_ref()),
             Some(Command::Analyze(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
+            Some(Command::Tolerance(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
             Some(Command::Jury(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
             Some(Command::Charpoly(o)) => names.question(&o.model.model, &o.output.output),
             Some(Command::Map(o)) => names.question(&o.model.model, &o.output.output),
@@ -75,6 +76,7 @@ impl<'a> Names<'a> {
             Some(Command::Verdict(o)) => {
                 names.question(&o.decision.model.model, &o.decision.output.output);
                 names.outputs.extend(o.certificate.iter().map(|file| ("the certificate", file.clone())));
+                names.outputs.extend(o.coq.iter().map(|file| ("the file for Coq", file.clone())));
             }
             Some(Command::Locus(o)) => names.picture(&o.model.model, &o.picture)?,
             Some(Command::Simulate(o)) => names.picture(&o.model.model, &o.picture)?,

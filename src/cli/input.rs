@@ -2,6 +2,7 @@
 
 use super::arguments::{DecisionOptions, ModelOptions, RegionOptions};
 use super::assignments::{assignments, domains, in_line, plain_number};
+use super::captured;
 use super::commands::Context;
 use super::output::plain;
 use jurist_engine::error::{Diagnostic, Diagnostics, Error, Span};
@@ -21,6 +22,11 @@ pub(super) fn load(model: Option<&OsString>, context: &Context) -> Result<Model,
     if model.is_none() {
         return Ok(Model::drive());
     }
+    if model.is_some_and(|path| path == "-")
+        && let Some(model) = captured::model()
+    {
+        return Ok(model);
+    }
     let (name, bytes) = read_model(model, context)?;
     let (model, warnings) = Model::from_bytes(&name, &bytes)?;
     context.warn(Some(model.source()), &warnings);
@@ -33,6 +39,11 @@ pub(super) fn read_model(model: Option<&OsString>, context: &Context) -> Result<
         let drive = Model::drive();
         return Ok((drive.source().name.clone(), drive.source().text.clone().into_bytes()));
     };
+    if path == "-"
+        && let Some(model) = captured::model()
+    {
+        return Ok((model.source().name.clone(), model.source().text.clone().into_bytes()));
+    }
     let (name, bytes) = if path == "-" {
         ("<stdin>".to_owned(), read_all(std::io::stdin().lock()))
     } else {

@@ -4,6 +4,7 @@
 
 mod arguments;
 mod assignments;
+mod captured;
 mod command_line;
 mod commands;
 mod destinations;
@@ -15,6 +16,8 @@ mod replace;
 mod status;
 mod written;
 
+pub use captured::{Captured, captured};
+
 use arguments::Arguments;
 use clap::Parser;
 use command_line::CommandLine;
@@ -22,17 +25,23 @@ use commands::Context;
 use jurist_engine::error::Diagnostic;
 use jurist_engine::show::diagnostics::render_error;
 use status::{Error, Status};
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Runs the program on the process's arguments, given whether standard output was closed when it began: the
 /// runtime has replaced it by then with one that loses everything.
 pub fn main(output_closed: bool) -> ExitCode {
+    ExitCode::from(program(std::env::args_os(), output_closed))
+}
+
+/// Runs the program on a list of arguments, its name first; gives the exit status.
+pub fn program(arguments: impl IntoIterator<Item = OsString>, output_closed: bool) -> u8 {
     quiet_panics();
     output::note_closed(output_closed);
-    let line = CommandLine::new(std::env::args_os());
+    let line = CommandLine::new(arguments);
     // A panic is a defect of this program; even then there is a message and no backtrace.
     let status = std::panic::catch_unwind(|| run(&line));
-    ExitCode::from(status.unwrap_or(101))
+    status.unwrap_or(101)
 }
 
 fn run(line: &CommandLine) -> u8 {

@@ -1,5 +1,6 @@
 //! Where answers and remarks go: standard output or a file, and standard error.
 
+use super::captured;
 use super::replace::{Destination, replace};
 use super::status::Error;
 use jurist_engine::error::Diagnostic;
@@ -38,6 +39,9 @@ pub(super) fn note_closed(closed: bool) {
 
 /// Writes to standard output; a reader that stops reading is no error.
 pub(super) fn write_standard(bytes: &[u8]) -> std::io::Result<()> {
+    if captured::write(bytes) {
+        return Ok(());
+    }
     if CLOSED.load(Ordering::Relaxed) {
         return Err(std::io::Error::other("it is closed"));
     }
@@ -81,7 +85,9 @@ pub(super) fn plain(error: &std::io::Error) -> String {
 
 /// Writes a line to standard error; nobody may be listening.
 pub(super) fn note(line: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{line}");
+    if !captured::note(line) {
+        let _ = writeln!(std::io::stderr().lock(), "{line}");
+    }
 }
 
 /// The format a file's ending asks for, in lower case; `None` without an ending.

@@ -18,6 +18,7 @@ const PNG_SCALE: f32 = 2.0;
 pub(super) enum Kind {
     Svg,
     Png,
+    Pdf,
     Csv,
     Json,
     /// A drawing in characters on a terminal, a table into a pipe.
@@ -42,9 +43,10 @@ pub(super) fn wanted(options: &PictureOptions) -> Result<Kind, Error> {
     match ending(file).as_deref() {
         Some("svg") => Ok(Kind::Svg),
         Some("png") => Ok(Kind::Png),
+        Some("pdf") => Ok(Kind::Pdf),
         Some("csv") => Ok(Kind::Csv),
         Some("json") => Ok(Kind::Json),
-        _ => Err(unknown_ending(file, &["svg", "png", "csv", "json"]).into()),
+        _ => Err(unknown_ending(file, &["svg", "png", "pdf", "csv", "json"]).into()),
     }
 }
 
@@ -68,6 +70,7 @@ pub(super) fn deliver(picture: &Picture<'_>, kind: Kind, file: Option<&OsString>
     match kind {
         Kind::Svg => write(path, picture.figure.svg().as_bytes())?,
         Kind::Png => write(path, &png(picture.figure)?)?,
+        Kind::Pdf => write(path, &pdf(picture.figure)?)?,
         Kind::Json => {}
         Kind::Csv | Kind::Standard => write(path, (picture.csv)().as_bytes())?,
     }
@@ -85,5 +88,14 @@ fn terminal_columns() -> usize {
 
 /// The PNG's bytes.
 pub(super) fn png(figure: &Figure) -> Result<Vec<u8>, Error> {
-    figure.png(PNG_SCALE).map_err(|e| Diagnostic::error("E-write", format!("cannot draw the picture: {e}")).into())
+    figure.png(PNG_SCALE).map_err(cannot_draw)
+}
+
+/// The PDF's bytes.
+pub(super) fn pdf(figure: &Figure) -> Result<Vec<u8>, Error> {
+    figure.pdf().map_err(cannot_draw)
+}
+
+fn cannot_draw(message: String) -> Error {
+    Diagnostic::error("E-write", format!("cannot draw the picture: {message}")).into()
 }

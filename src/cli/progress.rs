@@ -1,6 +1,7 @@
 //! What is being done: remembered for an undecided answer, shown on a terminal.
 
 use crate::cli::arguments::RunOptions;
+use crate::cli::captured;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jurist_algebra::limits::{Budget, Progress};
 use std::io::IsTerminal;
@@ -28,7 +29,8 @@ struct State {
 impl Reporter {
     /// A listener that draws only if standard error is a terminal.
     pub fn new(options: &RunOptions) -> Arc<Self> {
-        let drawn = !options.quiet && !options.verbose && std::io::stderr().is_terminal();
+        let listens = captured::budget().is_none() && std::io::stderr().is_terminal();
+        let drawn = listens && !options.quiet && !options.verbose;
         let bar = drawn.then(|| ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()));
         Arc::new(Reporter { state: Mutex::default(), bar, verbose: options.verbose, begun: Instant::now() })
     }

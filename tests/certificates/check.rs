@@ -127,6 +127,10 @@ fn every_example_is_certified() {
     for file in files {
         let model = std::fs::read_to_string(&file).unwrap();
         let lp = read(&model);
+        // There are no certificates of loops with dead time yet.
+        if lp.ask().verdict(&Budget::unlimited()).unwrap().value().delayed.is_some() {
+            continue;
+        }
         checkers::certified_verdict_of(lp.ask());
         for parameter in lp.parameters().iter().map(|p| p.name.as_str()) {
             let answer = lp.ask().free(parameter).stable_set(&Budget::unlimited()).unwrap();

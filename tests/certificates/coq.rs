@@ -2,6 +2,7 @@
 
 use crate::helpers::model::{example_text, read};
 use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
 use jurist_engine::error::Error;
 use jurist_engine::model::Model;
 
@@ -14,12 +15,76 @@ fn refusal(model: &str, parameter: &str) -> String {
     file(&read(model), parameter).unwrap_err().to_string()
 }
 
+fn point_file(model: &Model, set: &[(&str, Rational)]) -> Result<String, Error> {
+    let budget = Budget::unlimited();
+    let question = set.iter().fold(model.ask(), |question, (name, value)| question.set(*name, value.clone()));
+    question.verdict(&budget).unwrap().coq(&budget)
+}
+
 #[test]
-fn the_drives_amplitude_has_the_statement_of_the_committed_file() {
+fn the_committed_files_of_the_drive_are_what_the_program_writes() {
+    let drive = Model::drive();
+    assert_eq!(file(&drive, "K_pwm").unwrap(), include_str!("../../proofs/drive/Amplitude.v"));
+    assert_eq!(file(&drive, "T").unwrap(), include_str!("../../proofs/drive/Period.v"));
+}
+
+#[test]
+fn the_limits_of_the_drive_are_roots_of_their_own_polynomials() {
+    let degree = |text: &str, name: &str| {
+        let list = text.split_once(&format!("{name}_factor : poly := [")).unwrap().1.split_once(']').unwrap().0;
+        list.matches(';').count()
+    };
     let text = file(&Model::drive(), "K_pwm").unwrap();
-    let statement =
-        |text: &str| text.split_once("  exists lower_limit").unwrap().1.split_once("Print").unwrap().0.to_owned();
-    assert_eq!(statement(&text), statement(include_str!("../../proofs/drive/Amplitude.v")));
+    assert_eq!((degree(&text, "lower_limit"), degree(&text, "upper_limit")), (4, 4));
+    assert_eq!(degree(&file(&Model::drive(), "T").unwrap(), "upper_limit"), 13);
+}
+
+#[test]
+fn a_typing_error_states_the_other_model() {
+    let text = example_text("drive");
+    let other = read(&text.replace("K_ii = 500 ", "K_ii = 501 "));
+    let (text, other) = (file(&read(&text), "K_pwm").unwrap(), file(&other, "K_pwm").unwrap());
+    assert!(text.contains("Definition K_ii : expr := 500.") && other.contains("Definition K_ii : expr := 501."));
+    let limits = |text: &str| text.split_once("Definition limits").unwrap().1.split_once("Lemma").unwrap().0.to_owned();
+    assert_ne!(limits(&text), limits(&other));
+}
+
+#[test]
+fn one_point_is_stated_by_the_entries_and_the_values() {
+    let stable = point_file(&Model::drive(), &[]).unwrap();
+    assert!(stable.contains("Definition K_pwm : expr := 110.\nDefinition T : expr := 0.0001."), "{stable}");
+    let closed = "(feedback 6 2 4 Model.A Model.B Model.K Model.C)";
+    assert!(stable.contains(&format!("check_matrix_point (Disc 1) 6 {closed} true = true")), "{stable}");
+    assert!(stable.contains("Theorem stable (R : rcfType) :\n  forall z : R[i],\n      eigenvalue"), "{stable}");
+    assert!(stable.contains(" z -> `|z| < 1.\nProof. exact: (feedback_stable R checked). Qed."), "{stable}");
+    let unstable = point_file(&Model::drive(), &[("K_pwm", Rational::from(551))]).unwrap();
+    assert!(unstable.contains("Theorem not_stable (R : rcfType) :\n  exists z : R[i],\n"), "{unstable}");
+    assert!(unstable.contains(" z /\\ 1 <= `|z|.\nProof. exact: (feedback_not_stable R checked). Qed."), "{unstable}");
+}
+
+#[test]
+fn a_point_on_the_boundary_is_not_stable() {
+    let model =
+        "time = \"continuous\"\n[parameters]\nK = { nominal = 0 }\n[loop]\ncharacteristic = \"s^2 + K*s + 1\"\n";
+    let text = point_file(&read(model), &[]).unwrap();
+    assert!(text.contains("check_coefs_point (Left 0) Model.coefficients false = true"), "{text}");
+    assert!(text.contains("p`_2 = 0 \\/ exists z : R[i], root (map_poly (real_complex R) p) z /\\ 0 <= complex.Re z."));
+}
+
+#[test]
+fn a_point_where_the_degree_is_lost_is_stated_with_the_degree_of_the_model() {
+    let model =
+        "time = \"discrete\"\n[parameters]\nK = { nominal = 0 }\n[loop]\ncharacteristic = \"K*z^2 + z + 1/2\"\n";
+    let text = point_file(&read(model), &[]).unwrap();
+    assert!(text.contains("list expr := [\n  1/2;\n  1;\n  0].\nEnd"), "{text}");
+    assert!(text.contains("p`_2 = 0 \\/ exists z"), "{text}");
+}
+
+#[test]
+fn a_point_where_the_model_is_undefined_has_no_file() {
+    let model = "time = \"discrete\"\n[parameters]\nK = { nominal = 0 }\n[loop]\ncharacteristic = \"z - 1/K\"\n";
+    let said = point_file(&read(model), &[]).unwrap_err().to_string();
+    assert!(said.contains("E-coq") && said.contains("undefined at the point"), "{said}");
 }
 
 #[test]
@@ -67,6 +132,7 @@ fn what_has_no_file_is_refused_with_a_remedy() {
     let gap = "time = \"discrete\"\n[parameters]\nK = {}\n[loop]\ncharacteristic = \"z - 1/(2*K)\"\n";
     let said = refusal(gap, "K");
     assert!(said.contains("E-coq") && said.contains("undefined at K = 0"), "{said}");
+    assert!(said.contains("--domain K=LOWER..UPPER"), "{said}");
     let large = "time = \"discrete\"\n[parameters]\nK = {}\n[loop]\ncharacteristic = \"z^13 + K/2\"\n";
     let said = refusal(large, "K");
     assert!(said.contains("the order is 13"), "{said}");

@@ -63,6 +63,9 @@ fn end(json: &Json) -> Option<FoundEnd> {
 #[test]
 fn both_checkers_prove_what_is_expected() {
     ask_all(|case, expectation| {
+        if !case.is_proved {
+            return Ok(());
+        }
         let certificate = certificate(case, expectation)?;
         accept(&case.model, &certificate);
         expectation.answer.compare(&statement(&certificate))

@@ -16,7 +16,10 @@ fn found(case: &Case, expectation: &Expectation) -> Result<Found, String> {
     if expectation.parameter.is_none() {
         let answer = question.verdict(&budget).map_err(|e| e.to_string())?.into_value();
         let count = answer.count.unwrap_or_default();
-        let roots = [count.inside, count.on, count.outside, answer.infinite].map(|n| n as u64);
+        let mut roots = [count.inside, count.on, count.outside, answer.infinite].map(|n| n as u64);
+        if let Some(delayed) = answer.delayed {
+            roots = [0, delayed.on as u64, delayed.right.unwrap_or_default() as u64, 0];
+        }
         return Ok(Found::Verdict { verdict: answer.verdict.name().to_owned(), roots });
     }
     let answer = question.stable_set(&budget).map_err(|e| e.to_string())?;

@@ -8,18 +8,23 @@ use jurist_algebra::number::Rational;
 use jurist_algebra::poly::UniPoly;
 use serde_json::Value;
 
-/// What the program answers, and its certificate.
-fn found(case: &Case, expectation: &Expectation) -> Result<(Found, String), String> {
+/// What the program answers, and its certificate where there is one.
+fn found(case: &Case, expectation: &Expectation) -> Result<(Found, Option<String>), String> {
     let file = std::env::temp_dir().join(format!("jurist-corpus-{}.json", std::process::id()));
     let mut arguments = expectation.arguments();
-    arguments.extend(["-", "--json", "--digits", "40", "--certificate"].map(str::to_owned));
-    arguments.push(file.to_str().unwrap().to_owned());
+    arguments.extend(["-", "--json", "--digits", "40"].map(str::to_owned));
+    if case.is_proved {
+        arguments.extend(["--certificate".to_owned(), file.to_str().unwrap().to_owned()]);
+    }
     let run = jurist_with_input(&arguments.iter().map(String::as_str).collect::<Vec<_>>(), case.model.as_bytes());
     let document: Value =
         serde_json::from_str(&run.stdout).map_err(|e| format!("{e}: {}{}", run.stdout, run.stderr))?;
+    if !case.is_proved {
+        return Ok((answer(&document), None));
+    }
     let certificate = std::fs::read_to_string(&file).map_err(|e| format!("no certificate: {e}; {}", run.stderr))?;
     std::fs::remove_file(&file).unwrap();
-    Ok((answer(&document), certificate))
+    Ok((answer(&document), Some(certificate)))
 }
 
 fn answer(document: &Value) -> Found {
@@ -36,7 +41,8 @@ fn end(end: &Value) -> Option<FoundEnd> {
     if end.is_null() {
         return None;
     }
-    let coefficients = end["polynomial"].as_array().unwrap().iter().map(|c| number_in(c).numerator()).collect();
+    let coefficients = end["polynomial"].as_array().into_iter().flatten();
+    let coefficients = coefficients.map(|c| number_in(c).numerator()).collect();
     let mut frequencies = Vec::new();
     if let Some(bounds) = end["frequency_enclosure"].as_array() {
         frequencies.push(("Hz", [number_in(&bounds[0]), number_in(&bounds[1])]));
@@ -65,7 +71,9 @@ fn rounded(value: &Rational) -> [Rational; 2] {
 fn the_program_answers_as_expected_and_proves_it() {
     ask_all(|case, expectation| {
         let (found, certificate) = found(case, expectation)?;
-        accept(&case.model, &certificate);
+        if let Some(certificate) = certificate {
+            accept(&case.model, &certificate);
+        }
         expectation.answer.compare(&found)
     });
 }

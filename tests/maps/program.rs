@@ -219,10 +219,10 @@ const DRIVE: [&str; 4] = ["-x", "T", "-y", "K_pwm"];
 fn pictures_have_the_same_bytes_every_time() {
     let svg = String::from_utf8(drawn("a.svg", &DRIVE)).unwrap();
     assert_eq!(svg, String::from_utf8(drawn("b.svg", &DRIVE)).unwrap());
-    for words in ["complex pair on the circle", "= 550.94, 1664 Hz", "= 0.038101, 0.506 Hz", "333 Hz"] {
+    for words in ["complex pair on the circle", "= 550.94 V, 1664 Hz", "= 38.101 mV, 0.506 Hz", "unstable", "333 Hz"] {
         assert!(svg.contains(words), "{words}");
     }
-    assert!(svg.contains("T = 0.062065, 1.15 Hz") && svg.contains("published limits") && !svg.contains("NaN"));
+    assert!(svg.contains("T = 62.065 ms, 1.15 Hz") && svg.contains("published limits") && !svg.contains("NaN"));
     let one_thread = command(&["map", "-o", "-"]).args(DRIVE).env("RAYON_NUM_THREADS", "1").output().unwrap();
     assert!(one_thread.status.success());
     assert_eq!(drawn("a.png", &DRIVE)[..8], *b"\x89PNG\r\n\x1a\n");
@@ -303,13 +303,30 @@ fn windows_are_those_asked_for() {
         String::from_utf8(drawn("w.svg", &arguments)).unwrap()
     };
     let linear = svg("T=0..0.07", &[]);
-    assert!(linear.contains(">0.07<") || linear.contains(">0.070<"));
+    assert!(linear.contains(">70<") && linear.contains(">T (ms)<"));
     assert!(linear.contains("root at z = 1"));
     let logarithmic = svg("T=1e-4..0.1", &["--log-x"]);
-    assert!(logarithmic.contains(">10⁻⁴<") && logarithmic.contains(">0.001<"));
+    assert!(logarithmic.contains(">100 µs<") && logarithmic.contains(">1 ms<"));
     // An end at or below zero has no logarithm: the axis stays linear.
     assert!(svg("T=0..0.07", &["--log-x"]).contains("root at z = 1"));
-    assert!(svg("T=..inf", &[]).contains("T / s"));
+    assert!(svg("T=..inf", &[]).contains("T ("));
+}
+
+#[test]
+fn unstable_points_and_points_outside_the_domain_are_told_apart() {
+    let svg = |window: &str| String::from_utf8(drawn("d.svg", &["-x", window, "-y", "K_pwm=0.01..600"])).unwrap();
+    let (inside, beyond) = (svg("T=1e-5..0.07"), svg("T=-0.02..0.07"));
+    assert!(inside.contains(">unstable<") && !inside.contains("outside the domain"));
+    assert!(beyond.contains(">unstable<") && beyond.contains(">outside the domain<"));
+    // Each label stands once.
+    for svg in [inside, beyond] {
+        let mut labels: Vec<&str> = svg.split("</text>").filter_map(|t| t.rsplit('>').next()).collect();
+        labels.retain(|l| l.contains("Hz") && !l.is_empty());
+        let count = labels.len();
+        labels.sort_unstable();
+        labels.dedup();
+        assert!(count > 2 && labels.len() == count, "{labels:?}");
+    }
 }
 
 #[test]

@@ -4,7 +4,9 @@ use crate::helpers::drive::{sampled_drive, switched_drive};
 use crate::helpers::number::ratio;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_draw::figures::{Curve, DrawnLocus, Figure, Panel, locus_of};
+use jurist_draw::figures::{
+    Curve, DrawnLocus, Figure, Mark, Panel, Scale, Shape, dark_style, facts, locus_of, stacked,
+};
 use jurist_draw::simulate::{Excitation, Pulse, SampledModel, SwitchedModel};
 use jurist_drive::{chopper, drive_blocks, pwm_signal, tracker};
 use jurist_engine::answer::Verdict;
@@ -15,8 +17,8 @@ use nalgebra::DVector;
 fn small_panel() -> Panel {
     Panel {
         title: "step".into(),
-        x_label: "time / s".into(),
-        y_label: "ω / (rad/s)".into(),
+        x_label: "time (s)".into(),
+        y_label: "ω (rad/s)".into(),
         x: (0.0, 2.0),
         y: (0.0, 100.0),
         curves: vec![Curve {
@@ -56,6 +58,8 @@ fn check(figure: &Figure, width: u32, height: u32) {
     let png = figure.png(2.0).unwrap();
     assert_eq!(png_size(&png), Some((2 * width, 2 * height)));
     assert!(png.ends_with(b"IEND\xaeB`\x82"));
+    let pdf = figure.pdf().unwrap();
+    assert!(pdf.starts_with(b"%PDF-") && pdf.ends_with(b"%%EOF") && pdf == figure.pdf().unwrap());
     let svg = figure.svg();
     assert!(svg.starts_with(&format!("<svg viewBox=\"0 0 {width} {height}\"")), "{}", &svg[..80]);
     assert!(svg.trim_end().ends_with("</svg>") && !svg.contains("NaN") && !svg.contains("inf\""));
@@ -82,7 +86,7 @@ fn a_small_locus_looks_as_it_did() {
         .map(|l| format!("{l}\n"))
         .collect();
     assert_eq!(drawn.crossings.len(), 1);
-    assert!(words(&svg).contains("k = 1 (0.167 Hz)"), "{}", words(&svg));
+    assert!(words(&svg).contains("k = 1, 0.167 Hz"), "{}", words(&svg));
     insta::assert_snapshot!(svg);
 }
 
@@ -94,7 +98,62 @@ fn the_same_data_give_the_same_bytes() {
     let plain = draw().terminal(60, false);
     assert_eq!(plain, draw().terminal(60, false));
     assert!(!plain.contains('\u{1b}') && draw().terminal(60, true).contains('\u{1b}'));
-    assert!(plain.lines().all(|l| l.chars().count() <= 60) && plain.contains("time / s"), "{plain}");
+    assert!(plain.lines().all(|l| l.chars().count() <= 60) && plain.contains("time (s)"), "{plain}");
+}
+
+#[test]
+fn panels_below_each_other_begin_at_the_same_place() {
+    let wide = Panel { y: (-100_000.0, 100_000.0), y_label: "u".into(), ..small_panel() };
+    let svg = stacked(&[small_panel(), wide], 400.0, 200.0).svg();
+    let frames = svg.split("<path d=\"M").filter(|p| p.contains("Z\" fill=\"none\" stroke=\"#333333\""));
+    let left: Vec<&str> = frames.filter_map(|p| p.split(' ').next()).collect();
+    assert!(left.len() == 2 && left[0] == left[1], "{left:?}");
+}
+
+#[test]
+fn every_colour_of_a_picture_has_one_for_dark_pages() {
+    let budget = Budget::unlimited();
+    let answer = Model::drive().ask().free("K_pwm").stable_set(&budget).unwrap();
+    let drawn = locus_of(&answer, &(ratio(1, 1000), ratio(1000, 1)), None, &budget).unwrap();
+    let css = dark_style(".figure");
+    for svg in [drawn.figure.svg(), drive_blocks().svg(), small_panel().figure(300.0, 200.0).svg()] {
+        for colour in svg.split("=\"#").skip(1).filter_map(|p| p.get(..6)) {
+            assert!(css.contains(&format!("=\"#{colour}\"")), "#{colour}");
+        }
+    }
+}
+
+#[test]
+fn a_picture_says_what_is_fixed_and_how_blocks_were_made_discrete() {
+    let text = include_str!("../../examples/drive-blocks.toml");
+    let (blocks, _) = Model::from_toml(&jurist_engine::error::Source::new("drive-blocks.toml", text)).unwrap();
+    let facts = facts(&blocks.ask().free("K_pwm").problem().unwrap());
+    assert_eq!(facts.len(), 2, "{facts:?}");
+    assert_eq!(facts[0], "T = 100 µs");
+    assert!(facts[1].ends_with(" made discrete by: forward rule"), "{facts:?}");
+}
+
+#[test]
+fn on_a_logarithmic_axis_decades_are_equally_far_apart() {
+    let panel = Panel {
+        x_label: "frequency (Hz)".into(),
+        x: (1.0, 1000.0),
+        x_scale: Scale::Logarithmic,
+        marks: [1.0, 10.0, 100.0, 1000.0]
+            .map(|f| Mark { at: (f, 50.0), shape: Shape::Dot, colour: "#d55e00".into(), label: None })
+            .to_vec(),
+        ..small_panel()
+    };
+    let svg = panel.figure(400.0, 200.0).svg();
+    let dots = svg.split("<circle cx=\"").skip(1).filter_map(|p| p.split('"').next()?.parse::<f64>().ok());
+    let places: Vec<f64> = dots.collect();
+    assert_eq!(places.len(), 4);
+    for pair in places.windows(3) {
+        assert!((pair[2] - 2.0 * pair[1] + pair[0]).abs() < 0.03, "{places:?}");
+    }
+    for label in [">1 Hz<", ">10 Hz<", ">1000 Hz<"] {
+        assert!(svg.contains(label), "{label}");
+    }
 }
 
 #[test]
@@ -113,12 +172,16 @@ fn the_locus_of_the_drive_shows_every_certified_crossing() {
     let range = (ratio(1, 1000), ratio(1000, 1));
     let drawn = locus_of(&answer, &range, None, &budget).unwrap();
     let labels: Vec<&str> = drawn.crossings.iter().map(|c| c.label.as_str()).collect();
-    assert_eq!(labels, ["K_pwm = 0.0381 (0.506 Hz)", "K_pwm = 550.94 (1664 Hz)"]);
+    assert_eq!(labels, ["K_pwm = 38.101 mV, 0.506 Hz", "K_pwm = 550.94 V, 1664 Hz"]);
     let said = words(&drawn.figure.svg());
-    for label in ["Kpwm = 0.0381 (0.506 Hz)", "Kpwm = 550.94 (1664 Hz)", "Kpwm from 0.001 V (×) to 1000 V (○)"] {
+    for label in ["Kpwm = 38.101 mV, 0.506 Hz", "Kpwm = 550.94 V, 1664 Hz", "Kpwm from 1 mV to 1000 V"] {
         assert_eq!(said.matches(label).count(), 1, "{label}: {said}");
     }
-    check(&drawn.figure, 1040, 520);
+    for other in ["T = 100 µs", "open-loop poles (Kpwm = 0)", "closed loop at Kpwm = 110 V"] {
+        assert!(said.contains(other), "{other}: {said}");
+    }
+    let (width, height) = drawn.figure.size();
+    check(&drawn.figure, width as u32, height as u32);
 }
 
 #[test]

@@ -43,7 +43,7 @@ fn no_name_is_given_twice_and_every_reference_has_its_name() {
     let mut names: Vec<&str> = html.split(" id=\"").skip(1).filter_map(|p| p.split('"').next()).collect();
     assert!(names.len() > 30);
     let referred: Vec<&str> = html.split("url(#").skip(1).filter_map(|p| p.split(')').next()).collect();
-    assert!(referred.len() > 20 && referred.iter().all(|r| names.contains(r)));
+    assert!(referred.iter().all(|r| names.contains(r)));
     let count = names.len();
     names.sort_unstable();
     names.dedup();
@@ -107,7 +107,7 @@ fn limits_are_in_the_tables() {
     ] {
         assert!(html.contains(limit), "{limit}");
     }
-    for crossing in ["0.0381 (0.506 Hz)", "550.94 (1664 Hz)"] {
+    for crossing in ["38.101 mV", "0.506 Hz", "550.94 V", "1664 Hz"] {
         assert!(html.contains(crossing), "{crossing}");
     }
     for (name, limit) in [("J", "0.0837"), ("K_is", "5.5")] {

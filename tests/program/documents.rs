@@ -7,7 +7,7 @@ use jurist_drive::document::Main;
 use jurist_engine::error::Source;
 use jurist_engine::model::Model;
 use jurist_engine::show::documents::{
-    Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, RootLocusForm, Transfer, Verdict,
+    Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, RootLocusForm, Tolerance, Transfer, Verdict,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -43,6 +43,7 @@ fn read_and_written(document: &Value) -> Result<Value, String> {
         "jurist/map-boxes/1" => through::<MapBoxes>(document),
         "jurist/root-locus-form/1" => through::<RootLocusForm>(document),
         "jurist/simulate/1" => through::<Simulation>(document),
+        "jurist/tolerance/1" => through::<Tolerance>(document),
         "jurist/transfer/1" => through::<Transfer>(document),
         "jurist/verdict/1" => through::<Verdict>(document),
         other => panic!("the schema {other}"),

@@ -167,6 +167,7 @@ fn two_outputs_with_one_name_are_refused_before_any_work() {
         &["intervals", &model, "--param", "K", "--smt2", &x, "-o", &x],
         &["verdict", &model, "-o", &old, "--certificate", &link],
         &["verdict", &model, "-o", &old, "--certificate", &hard],
+        &["verdict", &model, "-o", &x, "--coq", &spelt],
         &["verdict", &model, "--certificate", "-"],
         &["verdict", &model, "-o", "-", "--certificate", "-"],
         &["verdict", &model, "--certificate", "/dev/stdout"],

@@ -63,10 +63,12 @@ fn files_say_the_same_as_standard_output() {
     assert_eq!(with(&["-o", &file("run.svg"), "--csv"]).status, 0);
     assert_eq!(with(&["-o", &file("run.json")]).status, 0);
     let svg = std::fs::read_to_string(file("run.svg")).unwrap();
-    assert!(svg.contains("omega / (rad/s)") && svg.contains("time / ms"), "{}", &svg[..400]);
+    assert!(svg.contains("omega (rad/s)") && svg.contains("time (ms)"), "{}", &svg[..400]);
     assert_eq!(std::fs::read_to_string(file("run.csv")).unwrap(), with(&[]).stdout);
     assert_eq!(std::fs::read_to_string(file("run.json")).unwrap(), with(&["--json"]).stdout);
-    refused(&["simulate", "-o", &file("run.pdf")], "E-output-format");
+    assert_eq!(with(&["-o", &file("run.pdf")]).status, 0);
+    assert!(std::fs::read(file("run.pdf")).unwrap().starts_with(b"%PDF-"));
+    refused(&["simulate", "-o", &file("run.gif")], "E-output-format");
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
@@ -83,7 +85,7 @@ fn the_locus_as_json_has_the_crossings_and_the_branches() {
     assert_eq!(document["floating_point"], true);
     let labels: Vec<&str> =
         document["crossings"].as_array().unwrap().iter().map(|c| c["label"].as_str().unwrap()).collect();
-    assert_eq!(labels, ["K_pwm = 0.0381 (0.506 Hz)", "K_pwm = 550.94 (1664 Hz)"]);
+    assert_eq!(labels, ["K_pwm = 38.101 mV, 0.506 Hz", "K_pwm = 550.94 V, 1664 Hz"]);
     let branches = document["branches"].as_array().unwrap();
     assert_eq!(branches.len(), 6);
     for branch in branches {

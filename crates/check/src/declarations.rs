@@ -4,6 +4,7 @@ use super::clock::Clock;
 use super::expression::{Scope, is_name, names_in, number};
 use super::multivariate::Fraction;
 use super::number::{Q, shorten};
+use super::tolerance::tolerance;
 use super::toml::Toml;
 use num_traits::Zero;
 use std::collections::{BTreeMap, BTreeSet};
@@ -37,6 +38,13 @@ impl<'t> Declarations<'t> {
             other => return Err(format!("unknown time '{}'", shorten(other))),
         };
         let constants = in_order(root.section("constants")?)?;
+        for (_, constant) in root.section("constants")? {
+            if let Some(value) = constant.get("tolerance") {
+                tolerance(value, clock)?;
+                // A formula has none.
+                number(value_of(constant), clock)?;
+            }
+        }
         let mut parameters = Vec::new();
         for (name, parameter) in root.section("parameters")? {
             parameters.push(name.as_str());
@@ -143,11 +151,17 @@ fn domain(parameter: &Toml, clock: &Clock) -> Result<(), String> {
         return Ok(());
     }
     let read = |key: &str| parameter.get(key).map(|value| number(value, clock)).transpose();
+    parameter.get("tolerance").map(|value| tolerance(value, clock)).transpose()?;
     let (_, min, max) = (read("nominal")?, read("min")?, read("max")?);
     match (min, max) {
         (Some(min), Some(max)) if min >= max => Err("the domain of a parameter is empty".into()),
         _ => Ok(()),
     }
+}
+
+/// The value of a constant, which may stand in a table.
+fn value_of(constant: &Toml) -> &Toml {
+    constant.get("value").unwrap_or(constant)
 }
 
 /// The constants, each after those that it uses; depth first with a stack of its own, since chains may be long.
@@ -162,7 +176,7 @@ fn in_order(entries: &[(String, Toml)]) -> Result<Vec<(&str, &Toml)>, String> {
     let uses = |value: &Toml| -> Result<Vec<usize>, String> {
         Ok(names_in(value.expression()?).into_iter().filter_map(|name| index.get(name).copied()).collect())
     };
-    let uses = entries.iter().map(|(_, value)| uses(value)).collect::<Result<Vec<_>, _>>()?;
+    let uses = entries.iter().map(|(_, value)| uses(value_of(value))).collect::<Result<Vec<_>, _>>()?;
     let mut state = vec![State::New; entries.len()];
     let mut order = Vec::with_capacity(entries.len());
     for root in 0..entries.len() {
@@ -171,7 +185,7 @@ fn in_order(entries: &[(String, Toml)]) -> Result<Vec<(&str, &Toml)>, String> {
             state[current] = State::Open;
             let Some(&used) = uses[current].get(next) else {
                 state[current] = State::Done;
-                order.push((entries[current].0.as_str(), &entries[current].1));
+                order.push((entries[current].0.as_str(), value_of(&entries[current].1)));
                 continue;
             };
             stack.push((current, next + 1));

@@ -4,7 +4,8 @@ use super::number::shorten;
 use super::toml::Toml;
 
 const ROOT: [&str; 8] = ["title", "time", "sample_time", "constants", "parameters", "loop", "block", "simulation"];
-const PARAMETER: [&str; 5] = ["nominal", "min", "max", "unit", "description"];
+const PARAMETER: [&str; 6] = ["nominal", "min", "max", "unit", "description", "tolerance"];
+const CONSTANT: [&str; 4] = ["value", "unit", "description", "tolerance"];
 const LOOP: [&str; 10] = ["characteristic", "matrix", "A", "B", "C", "K", "states", "inputs", "E", "outputs"];
 const SIMULATION: [&str; 4] = ["inputs", "initial", "duration", "units"];
 const BLOCK: [&str; 14] =
@@ -16,7 +17,15 @@ const PWM: [&str; 3] = ["amplitude", "carrier", "period"];
 pub(super) fn known(model: &Toml) -> Result<(), String> {
     only(model, &ROOT, "the model")?;
     model.get("title").map(Toml::text).transpose()?;
-    model.section("constants")?;
+    for (_, constant) in model.section("constants")? {
+        if let Toml::Table(_) = constant {
+            only(constant, &CONSTANT, "a constant")?;
+            all(constant, &["value"], "a constant")?;
+        }
+        for key in ["unit", "description"] {
+            constant.get(key).map(Toml::text).transpose()?;
+        }
+    }
     for (_, parameter) in model.section("parameters")? {
         if parameter.expression().is_err() {
             only(parameter, &PARAMETER, "a parameter")?;

@@ -27,6 +27,7 @@ pub mod proved {}
 mod region;
 mod roots;
 mod statement;
+mod tolerance;
 mod toml;
 mod univariate;
 mod verdict;

@@ -3,7 +3,8 @@
 //! | room | what it does |
 //! |---|---|
 //! | [`simulate`] | responses and root loci in floating point: observations, never verdicts |
-//! | [`figures`] | drawings as SVG, PNG and on a terminal |
+//! | [`scene`] | a drawing as data, written as SVG, PNG, PDF or in characters |
+//! | [`figures`] | axes and what stands between them: maps, loci, responses, block diagrams |
 //! | [`page`] | self-contained HTML pages |
 //! | [`document`] | responses and root loci as JSON |
 
@@ -13,4 +14,5 @@
 pub mod document;
 pub mod figures;
 pub mod page;
+pub mod scene;
 pub mod simulate;

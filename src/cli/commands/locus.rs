@@ -104,6 +104,11 @@ fn default_range(answer: &Answer<StableSet>) -> Result<(Rational, Rational), Err
         high.abs()
     };
     let (mut from, mut to) = (&low - &(&width * &third), &high + &(&width * &third));
+    // A locus of positive values begins where the loop is open.
+    let zero = Rational::from(0);
+    if from < zero && low >= zero {
+        from = zero;
+    }
     let domain = &free.domain;
     let inside = |edge: &Rational, direction: i64| edge + &width * Rational::new(direction.into(), 1000.into());
     if let Some(lower) = domain.lower.as_ref().filter(|l| from <= **l) {

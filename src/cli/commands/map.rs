@@ -6,7 +6,7 @@ use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, question};
 use crate::cli::output::{ending, note, unknown_ending};
-use crate::cli::picture::{png, write};
+use crate::cli::picture::{pdf, png, write};
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
@@ -59,6 +59,7 @@ pub(in crate::cli) struct Options {
 enum Picture {
     Svg,
     Png,
+    Pdf,
     Page,
 }
 
@@ -128,9 +129,10 @@ fn picture_of(options: &Options) -> Result<Option<Picture>, Error> {
     match ending(file).as_deref() {
         Some("svg") => Ok(Some(Picture::Svg)),
         Some("png") => Ok(Some(Picture::Png)),
+        Some("pdf") => Ok(Some(Picture::Pdf)),
         Some("html" | "htm") => Ok(Some(Picture::Page)),
         Some("txt" | "json") | None => Ok(None),
-        Some(_) => Err(unknown_ending(file, &["txt", "json", "svg", "png", "html"]).into()),
+        Some(_) => Err(unknown_ending(file, &["txt", "json", "svg", "png", "pdf", "html"]).into()),
     }
 }
 
@@ -165,6 +167,7 @@ fn draw(
     let bytes = match kind {
         Picture::Svg => wide.figure.svg().into_bytes(),
         Picture::Png => png(&wide.figure)?,
+        Picture::Pdf => pdf(&wide.figure)?,
         Picture::Page => {
             let narrow = contents.draw(NARROW.0, NARROW.1, false);
             let text = answer.text(options.output.digits() as usize);

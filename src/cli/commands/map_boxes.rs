@@ -4,7 +4,7 @@ use super::Context;
 use crate::cli::arguments::OutputOptions;
 use crate::cli::assignments::{AxisRequest, in_line, plain_number};
 use crate::cli::output::ending;
-use crate::cli::picture::{png, write};
+use crate::cli::picture::{pdf, png, write};
 use crate::cli::status::{Error, Outcome, Status};
 use clap::{Args, ValueEnum};
 use jurist_algebra::limits::Exhausted;
@@ -86,13 +86,14 @@ const SIZE: (f64, f64) = (860.0, 600.0);
 pub(super) fn answer(boxes: &Answer<MapBoxes>, output: &OutputOptions, context: &Context) -> Outcome {
     let digits = output.digits() as usize;
     let file = output.output.as_ref().filter(|_| !output.json);
-    let kind = file.and_then(|f| ending(f)).filter(|e| ["svg", "png", "html", "htm"].contains(&e.as_str()));
+    let kind = file.and_then(|f| ending(f)).filter(|e| ["svg", "png", "pdf", "html", "htm"].contains(&e.as_str()));
     if let (Some(file), Some(kind)) = (file, kind) {
         let figure = boxes_figure(boxes, SIZE.0, SIZE.1);
         context.reporter.finish();
         let bytes = match kind.as_str() {
             "svg" => figure.svg().into_bytes(),
             "png" => png(&figure)?,
+            "pdf" => pdf(&figure)?,
             _ => map_boxes_page(boxes, &figure, digits).into_bytes(),
         };
         write(Path::new(file), &bytes)?;

@@ -14,10 +14,12 @@ mod map_boxes;
 pub(super) mod new;
 pub(super) mod paper;
 pub(super) mod simulate;
+pub(super) mod tolerance;
 pub(super) mod verdict;
 pub(super) mod verify;
 
 use super::arguments::{Arguments, Command, OutputOptions, RunOptions};
+use super::captured;
 use super::command_line::CommandLine;
 use super::output::{ending, unknown_ending, write_answer};
 use super::progress::Reporter;
@@ -49,13 +51,13 @@ impl<'a> Context<'a> {
             let _ = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global();
         }
         let reporter = Reporter::new(options);
-        let budget = reporter.budget(options);
+        let budget = captured::budget().unwrap_or_else(|| reporter.budget(options));
         Context { line, reporter, budget, quiet: options.quiet }
     }
 
     /// Shows warnings, unless they are not wanted.
     pub fn warn(&self, source: Option<&Arc<Source>>, warnings: &[Diagnostic]) {
-        if !self.quiet && !warnings.is_empty() {
+        if !self.quiet && !warnings.is_empty() && !captured::warn(source, warnings) {
             show(&Diagnostics::new(source.cloned(), warnings.to_vec()));
         }
     }
@@ -134,6 +136,7 @@ impl Arguments {
             Some(Command::Locus(options)) => &options.run,
             Some(Command::Simulate(options)) => &options.run,
             Some(Command::Paper(options)) => &options.run,
+            Some(Command::Tolerance(options)) => &options.decision.output.run,
             Some(Command::Verify(options)) => &options.run,
             Some(Command::Check(options)) => &options.run,
             Some(Command::New(_) | Command::Explain(_) | Command::Completions(_)) => NONE,
@@ -154,6 +157,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Locus(options)) => locus::run(options, context),
         Some(Command::Simulate(options)) => simulate::run(options, context),
         Some(Command::Paper(options)) => paper::run(options, context),
+        Some(Command::Tolerance(options)) => tolerance::run(options, context),
         Some(Command::Verify(options)) => verify::run(options, context),
         Some(Command::Check(options)) => check::run(options, context),
         Some(Command::New(options)) => new::run(options),

@@ -10,13 +10,15 @@ use crate::cli::status::{Error, Outcome, Status};
 use clap::{Args, ValueEnum};
 use jurist_algebra::number::parse_number;
 use jurist_draw::document::{CircuitAnswer, SimulationAnswer, TimeUnit, simulation_json};
-use jurist_draw::figures::{Figure, response_panels, stacked};
-use jurist_draw::simulate::{Excitation, Pulse, Record, SampledModel, SwitchedModel, excitation, signal_unit};
+use jurist_draw::figures::{Figure, heading, response_panels, stacked};
+use jurist_draw::simulate::{
+    Excitation, Pulse, Record, SampledModel, StepMeasures, SwitchedModel, excitation, natural_duration, signal_unit,
+};
+use jurist_engine::answer::Verdict;
 use jurist_engine::error::{Diagnostic, Source};
-use jurist_engine::model::Model;
+use jurist_engine::model::{Model, Time};
 use jurist_engine::problem::Problem;
 use jurist_engine::show::documents::to_text;
-use jurist_engine::show::layout::{called, visible};
 
 /// The built-in drive as blocks, which is what a switched simulation reads.
 const DRIVE_BLOCKS: &str = include_str!("../../../examples/drive-blocks.toml");
@@ -53,8 +55,8 @@ pub(in crate::cli) struct Options {
     /// Gives a state its value at the beginning [repeatable]
     #[arg(long, value_name = "NAME=VALUE")]
     pub initial: Vec<String>,
-    /// How long to simulate, in seconds (in samples without a sample time) [default: the model's, else 1 s
-    /// and at least 50 samples]
+    /// How long to simulate, in seconds (in samples without a sample time) [default: the model's, else until the
+    /// slowest root has died away or the fastest has grown, and at least 50 samples]
     #[arg(long, value_name = "SECONDS")]
     pub duration: Option<String>,
     /// Simulates the switching circuit, for every block with a 'pwm' entry
@@ -91,16 +93,17 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     };
     let problem = question(context, &model, &options.model, &Default::default())?.problem()?;
     context.warn(None, problem.warnings());
-    let course = Course::of(options, &model, context)?;
+    let course = Course::of(options, &problem, context)?;
     context.budget.step("simulating");
-    let mut answer = if options.switched {
-        switched(options, &problem, &course, context)?
+    let (mut answer, finals) = if options.switched {
+        (switched(options, &problem, &course, context)?, Vec::new())
     } else {
         sampled(&problem, &course, context)?
     };
     answer.trace = answer.trace.with_units(|name| signal_unit(&model, name));
+    let verdict = problem.verdict(&context.budget)?.value().verdict;
     context.reporter.finish();
-    let figure = figure(&model, &answer);
+    let figure = figure(&problem, &answer, if verdict == Verdict::Stable { &finals } else { &[] }, verdict);
     let table = || answer.trace.to_csv();
     let document = || to_text(&simulation_json(&problem, &answer));
     let out = Picture { figure: &figure, csv: &table, json: &document, csv_beside: options.picture.csv };
@@ -108,31 +111,48 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     Ok(Status::Holds)
 }
 
-/// The outputs over time, one panel each; of the circuit all but the duty ratios.
-fn figure(model: &Model, answer: &SimulationAnswer) -> Figure {
+/// The outputs over time, one panel each; of the circuit all but the duty ratios. Marked is how signals go to their
+/// final values, where these are known.
+fn figure(problem: &Problem, answer: &SimulationAnswer, finals: &[(String, f64)], verdict: Verdict) -> Figure {
+    let model = problem.model();
     let all = || answer.trace.signals.iter().map(|s| s.name.clone());
     let outputs: Vec<String> = model.outputs().iter().map(|o| o.name.name.clone()).collect();
     let (shown, kind) = match &answer.circuit {
-        Some(_) => (all().filter(|n| !n.ends_with(".duty")).collect(), "switched circuit"),
-        None if outputs.is_empty() => (all().collect(), "sampled linear model"),
-        None => (outputs, "sampled linear model"),
+        Some(_) => (all().filter(|n| !n.ends_with(".duty")).collect(), "Response of the switched circuit"),
+        None if outputs.is_empty() => (all().collect(), "Response"),
+        None => (outputs, "Response"),
     };
-    let mut title = format!("{}, {kind}", called(model.title()));
-    if !model.rules().is_empty() && answer.circuit.is_none() {
-        title.push_str(&format!(" ({})", visible(&model.rules())));
-    }
     let unit = TimeUnit::of(model, answer.sample_time).name();
-    stacked(&response_panels(&title, unit, &answer.trace, &shown), 760.0, 240.0)
+    let held = model.time() == Time::Discrete && answer.circuit.is_none();
+    let panels = response_panels(unit, &answer.trace, &shown, held);
+    let measured = panels.into_iter().zip(&shown).map(|(panel, name)| {
+        let last = finals.iter().find(|(n, _)| n == name).map(|(_, v)| *v);
+        let measures = last.and_then(|last| StepMeasures::of(&answer.trace, name, last));
+        let signal_unit = answer.trace.signal(name).map_or("", |s| &s.unit);
+        match measures {
+            Some(measures) => panel.with_step_measures(&measures, unit, signal_unit),
+            None => panel,
+        }
+    });
+    let panels: Vec<_> = measured.collect();
+    let mut heading = heading(kind, problem);
+    if verdict != Verdict::Stable && answer.circuit.is_none() {
+        heading.notes.push(format!("the loop is {}", verdict.name()));
+    }
+    stacked(&panels, 760.0, 230.0).headed(&heading)
 }
 
 impl Course {
-    fn of(options: &Options, model: &Model, context: &Context) -> Result<Course, Error> {
+    fn of(options: &Options, problem: &Problem, context: &Context) -> Result<Course, Error> {
+        let model = problem.model();
         let defaults = model.simulation();
         let duration = match &options.duration {
-            Some(text) => plain_number(context.line, "--duration", text)?,
-            None => defaults.duration.clone().unwrap_or_else(|| 1.into()),
+            Some(text) => plain_number(context.line, "--duration", text)?.to_f64_approximate(),
+            None => match &defaults.duration {
+                Some(duration) => duration.to_f64_approximate(),
+                None => natural_duration(problem, &context.budget)?.unwrap_or(1.0),
+            },
         };
-        let duration = duration.to_f64_approximate();
         if !(duration.is_finite() && duration > 0.0) {
             return Err(Diagnostic::error("E-simulation", "the duration has to be positive").into());
         }
@@ -206,7 +226,12 @@ fn parsed(option: &str, text: &str, context: &Context) -> Result<(String, f64, f
     }
 }
 
-fn sampled(problem: &Problem, course: &Course, context: &Context) -> Result<SimulationAnswer, Error> {
+/// The run, and where its signals go if the loop is stable and the inputs stay as they are at the beginning.
+fn sampled(
+    problem: &Problem,
+    course: &Course,
+    context: &Context,
+) -> Result<(SimulationAnswer, Vec<(String, f64)>), Error> {
     let step = course.duration / CONTINUOUS_SAMPLES;
     let system = SampledModel::from_loop(problem, step, &context.budget)?;
     let at = |name: &str| system.state_named(name);
@@ -219,7 +244,9 @@ fn sampled(problem: &Problem, course: &Course, context: &Context) -> Result<Simu
         note(&format!("the response leaves the range of floating point after t = {last} s"));
     }
     let sampled = problem.algebra_over_symbols(&context.budget)?.sample_time().is_some();
-    Ok(SimulationAnswer { trace, sample_time: sampled.then_some(system.sample_time), circuit: None })
+    let constant = drive.steps.iter().all(|s| s.sample == 0);
+    let finals = if constant { system.final_values(&drive.inputs_at(0, system.inputs.len())) } else { Vec::new() };
+    Ok((SimulationAnswer { trace, sample_time: sampled.then_some(system.sample_time), circuit: None }, finals))
 }
 
 fn switched(

@@ -19,6 +19,9 @@ pub(in crate::cli) struct Options {
     /// Writes a certificate that 'jurist verify' re-checks
     #[arg(long, value_name = "FILE")]
     pub certificate: Option<OsString>,
+    /// Writes the verdict as a theorem for Coq, proved with the library in proofs/
+    #[arg(long, value_name = "FILE")]
+    pub coq: Option<OsString>,
 }
 
 /// Answers on standard output or in a file; the status is 1 for anything but stable.
@@ -38,6 +41,9 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     };
     if let Some((text, file)) = &certificate {
         write_answer(text, Some(file))?;
+    }
+    if let Some(file) = &options.coq {
+        write_answer(&answer.coq(&context.budget)?, Some(file))?;
     }
     context.answer(output, || answer.text(), || answer.json())?;
     if let Some((text, file)) = &certificate {

@@ -81,7 +81,8 @@ pub fn chopper() -> Figure {
     s.block((390.0, 202.0), (26.0, 28.0), &[]);
     s.label_left((410.0, 207.0), "R_a");
     s.wire(&[(390.0, 180.0), (390.0, 188.0)]);
-    s.path("M390 216 C404 216 404 228 390 228 C404 228 404 240 390 240 C404 240 404 252 390 252".into(), None);
+    let turn = |y: f64| [(404.0, y), (404.0, y + 12.0), (390.0, y + 12.0)];
+    s.curves((390.0, 216.0), &[turn(216.0), turn(228.0), turn(240.0)]);
     s.label_left((410.0, 238.0), "L_a");
     s.wire(&[(390.0, 252.0), (390.0, 258.0)]);
     s.circle((390.0, 274.0), 16.0, "white");
@@ -106,7 +107,7 @@ pub fn chopper() -> Figure {
         s.line(&[(x, 150.0), (x, 70.0), (off, 70.0), (off, 150.0), (x + period, 150.0)], colour, 2.0, None);
         s.line(&[(x, 262.0), (off, 232.0), (x + period, 262.0)], COLOURS[1], 2.0, None);
         for at in [x, off] {
-            s.line(&[(at, 150.0), (at, 300.0)], "#aaaaaa", 0.8, Some("3,3"));
+            s.line(&[(at, 150.0), (at, 300.0)], "#aaaaaa", 0.8, Some(&[3.0, 3.0]));
         }
     }
     s.label_right((left - 8.0, 74.0), "K_pwm");
@@ -134,7 +135,7 @@ pub fn pwm_signal() -> Figure {
         let (e, off) = (base - level(k) * (base - top), x + level(k) * period);
         s.line(&[(x, e), (x + period, e)], COLOURS[1], 2.0, None);
         s.line(&[(x, 300.0), (x, 220.0), (off, 220.0), (off, 300.0), (x + period, 300.0)], COLOURS[0], 2.0, None);
-        s.line(&[(off, e), (off, 300.0)], "#999999", 0.8, Some("3,3"));
+        s.line(&[(off, e), (off, 300.0)], "#999999", 0.8, Some(&[3.0, 3.0]));
         let tick = if k == 0 { "nT".to_string() } else { format!("(n+{k})T") };
         s.label((x, 318.0), &tick);
     }

@@ -111,7 +111,9 @@ caption{text-align:left;font-style:italic;padding-bottom:.3rem}
 th,td{padding:.2rem .6rem;text-align:left;vertical-align:top;border-bottom:1px solid #ddd}
 .s{white-space:nowrap}
 .eq{display:flex;align-items:center;gap:.6rem}.eq span{white-space:nowrap}
-.matrix{min-width:0;border-left:2px solid #222;border-right:2px solid #222}
+.matrix{min-width:0;background:linear-gradient(#222,#222) 0 0/7px 2px,linear-gradient(#222,#222) 0 100%/7px 2px,\
+linear-gradient(#222,#222) 100% 0/7px 2px,linear-gradient(#222,#222) 100% 100%/7px 2px;background-repeat:no-repeat;\
+border-left:2px solid #222;border-right:2px solid #222;print-color-adjust:exact;-webkit-print-color-adjust:exact}
 .matrix td{border:0;text-align:center;white-space:nowrap}
 figure{margin:1rem 0;break-inside:avoid}figure .wide{margin:0 0 .2rem}figure svg{width:100%;height:auto;max-width:64rem}
 figcaption{font-size:.9rem}

@@ -51,7 +51,7 @@ type Seen<'a> = dyn Fn(f64, f64) -> Option<f64> + Sync + 'a;
 
 /// The limits by several ways.
 pub(super) fn limits(model: &Model, blocks: &Model, printed: [&Model; 2], budget: &Budget) -> Result<Table, Error> {
-    let head = ["way", "K_pwm / V, lower", "K_pwm / V, upper", "f / Hz, lower", "kind"];
+    let head = ["way", "K_pwm (V), lower", "K_pwm (V), upper", "f (Hz), lower", "kind"];
     let mut table = Table::new("Limits of stability at the nominal values of the other parameter", &head);
     let mut row = |cells: [&str; 5]| table.rows.push(cells.iter().map(|c| (*c).to_owned()).collect());
     for (way, [lower, upper, frequency]) in PUBLISHED_LIMITS {

@@ -219,7 +219,7 @@ fn jury_tables(amplitude: &Answer<ParametricTable>, period: &Answer<ParametricTa
         scheme.rows.push((0..=top).rev().map(|k| format!("{letter}_{k}")).collect());
     }
     scheme.rows.push((0..=2).map(|k| format!("e_{k}")).collect());
-    let head = ["condition", "holds for K_pwm / V (T = 0.0001 s)", "holds for T / s (K_pwm = 110 V)"];
+    let head = ["condition", "holds for K_pwm in V (T = 0.0001 s)", "holds for T in s (K_pwm = 110 V)"];
     let mut table = Table::new("Conditions 30 to 36, each with its exact solution set", &head);
     let (Some(a), Some(b)) = (&amplitude.value().test, &period.value().test) else {
         return [scheme, table];
@@ -258,7 +258,7 @@ fn locus_section(model: &Model, figures: &mut Vec<NamedFigure>, budget: &Budget)
     let mut html = format!(
         "<div class=\"grid two\">{}{}</div>\n",
         figure("root-locus-whole", whole, caption),
-        figure("root-locus-near", near, "The same near z = 1")
+        figure("root-locus-near", near, "The same, magnified where roots cross the circle")
     );
     let labels: Vec<String> = drawn.crossings.iter().map(|c| format!("<li>{}</li>", math(&c.label))).collect();
     html.push_str(&format!("<p>The unit circle is crossed at</p><ul>{}</ul>\n", labels.concat()));

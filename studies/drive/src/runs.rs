@@ -101,7 +101,7 @@ fn one_case(
         rest.clamped,
     )));
     for (number, signal, label, settled) in
-        [(case.speed, "omega", "ω / (rad/s)", SPEED_REFERENCE), (case.current, "i_a", "current / A", 1.0)]
+        [(case.speed, "omega", "ω (rad/s)", SPEED_REFERENCE), (case.current, "i_a", "current (A)", 1.0)]
     {
         let end = window(&trace, signal, settled);
         let shown = trace.between(0.0, end);
@@ -145,7 +145,7 @@ pub(super) fn ripple(blocks: &Model, budget: &Budget) -> Result<Option<NamedFigu
     Ok(circuit.periodic_steady_state(&inputs).map(|operating| {
         let run = circuit.simulate(&operating.state, &reference(), 4, Record::Waveform(3));
         let curve = ResponseCurve { trace: &run.trace, signal: "i_a", label: "" };
-        let panel = response_panel("Steady state at 80 rad/s, four periods", "s", "current / A", &[curve]);
+        let panel = response_panel("Steady state at 80 rad/s, four periods", "s", "current (A)", &[curve]);
         NamedFigure { name: "ripple".into(), figure: panel.figure(760.0, 260.0) }
     }))
 }

@@ -15,7 +15,7 @@ pub enum Found {
     },
 }
 
-/// An end of an interval: exactly one root of `polynomial` lies in the enclosure.
+/// An end of an interval: exactly one root of `polynomial` lies in the enclosure; zero for an end that is not algebraic.
 #[derive(Debug)]
 pub struct FoundEnd {
     pub exact: Option<Rational>,

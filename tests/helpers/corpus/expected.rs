@@ -136,7 +136,8 @@ impl ExpectedEnd {
                 // The zero of the answer's polynomial that the enclosure isolates is the one with these digits.
                 let place = numbers_with(digits);
                 let changes = |p: &UniPoly| p.sign_at(&place[0]) != p.sign_at(&place[1]);
-                if !overlap(&place, &found.enclosure) || !changes(&found.polynomial) {
+                let isolated = found.polynomial.is_zero() || changes(&found.polynomial);
+                if !overlap(&place, &found.enclosure) || !isolated {
                     return difference("value", digits, found);
                 }
                 if polynomial.as_ref().is_some_and(|p| !changes(&p.gcd(&found.polynomial))) {

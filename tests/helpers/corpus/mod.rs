@@ -19,6 +19,8 @@ pub struct Case {
     /// The file's name without its ending.
     pub name: String,
     pub model: String,
+    /// Whether there are certificates of the answers.
+    pub is_proved: bool,
     pub expectations: Vec<Expectation>,
 }
 

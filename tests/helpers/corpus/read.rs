@@ -16,7 +16,7 @@ pub fn cases() -> Vec<Case> {
 
 fn case(name: String, text: &str) -> Case {
     let table = DeTable::parse(text).unwrap_or_else(|e| panic!("{name}: {e}")).into_inner();
-    keys(&name, &table, &["why", "source", "model", "example", "expect"]);
+    keys(&name, &table, &["why", "source", "model", "example", "proved", "expect"]);
     for key in ["why", "source"] {
         assert!(!words(&name, &table, key).unwrap_or_default().is_empty(), "{name} has no '{key}'");
     }
@@ -28,7 +28,9 @@ fn case(name: String, text: &str) -> Case {
     let expectations = array(&name, &table, "expect");
     assert!(!expectations.is_empty(), "{name} expects nothing");
     let expectations = expectations.iter().map(|e| expectation(&name, e.as_table().expect("[[expect]]"))).collect();
-    Case { name, model, expectations }
+    let is_proved =
+        table.get("proved").is_none_or(|value| value.get_ref().as_bool().expect("'proved' is true or false"));
+    Case { name, model, is_proved, expectations }
 }
 
 fn expectation(name: &str, table: &DeTable) -> Expectation {

@@ -234,6 +234,20 @@ where
     items.into_par_iter().map(|item| ambient.run(|| f(item))).collect()
 }
 
+/// Does work that no budget of this thread ends: as if it began on a thread of its own.
+///
+/// A thread that waits for its part of parallel work takes up other work meanwhile, whoever gave it. What begins there is
+/// nobody's part: a question of its own has to begin with this, where questions share the threads of a pool.
+///
+/// ```
+/// use jurist_algebra::limits::{Budget, apart, checkpoint};
+/// let budget = Budget::with_work(100);
+/// assert_eq!(budget.enter(|| apart(|| checkpoint(1_000_000))), Ok(()));
+/// ```
+pub fn apart<T>(work: impl FnOnce() -> T) -> T {
+    Ambient(None).run(work)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -278,6 +292,17 @@ mod tests {
         let budget = Budget::with_work(1000);
         assert_eq!(budget.enter(|| budget.enter(endless).is_err()), Ok(true));
         assert!(Budget::unlimited().enter(|| outer.share(1, 1000).enter(endless).is_err()).unwrap());
+    }
+
+    #[test]
+    fn what_is_done_apart_has_its_own_budget_only() {
+        let (other, own) = (Budget::with_work(1000), Budget::with_work(1_000_000));
+        let ended = other.enter(|| apart(|| own.enter(endless)));
+        assert_eq!(ended.unwrap().unwrap_err().budget, "work (1000000 units)");
+        // What is around it counts on as before.
+        assert!(other.enter(|| (checkpoint(900), apart(|| checkpoint(1_000_000)))).is_ok());
+        assert!(other.enter(|| checkpoint(200)).is_err());
+        assert!(!is_limited());
     }
 
     #[test]

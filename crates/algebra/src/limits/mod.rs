@@ -8,7 +8,7 @@ mod ambient;
 mod clock;
 
 pub(crate) use ambient::is_limited;
-pub use ambient::{checkpoint, join, parallel_map};
+pub use ambient::{apart, checkpoint, join, parallel_map};
 pub use clock::Clock;
 
 use std::fmt;

@@ -1,6 +1,11 @@
-//! The root locus: the whole of it, and magnified where the action is.
+//! The root locus: the whole of it, and magnified where roots cross the boundary.
 
-use super::panel::{Corner, Curve, Mark, Panel, Shape, Text, side_by_side};
+mod marks;
+mod windows;
+
+use super::engineering::quantity;
+use super::facts::heading;
+use super::panel::{Corner, Curve, Panel, Text, side_by_side};
 use super::{COLOURS, Figure};
 use crate::simulate::{Crossing, LocusOptions, ParameterScale, RootLocus, trace_root_locus};
 use jurist_algebra::limits::Budget;
@@ -9,27 +14,36 @@ use jurist_engine::answer::Answer;
 use jurist_engine::error::Error;
 use jurist_engine::model::Time;
 use jurist_engine::problem::Problem;
-use jurist_engine::show::layout::visible;
+use jurist_engine::show::layout::{short, visible};
 use jurist_engine::stability::{Cause, End, StableSet};
+use marks::Ends;
 use nalgebra::Complex;
+use windows::Square;
 
 /// What a locus figure shows.
 #[derive(Clone, Debug)]
 pub struct LocusFigure<'a> {
     /// Discrete or continuous time.
     pub time: Time,
-    /// Heading.
-    pub title: &'a str,
-    /// The parameter's name.
-    pub parameter: &'a str,
     /// The roots.
     pub locus: &'a RootLocus,
     /// Parameter ranges that are certified stable (ends rounded), lower and upper.
     pub stable: &'a [(f64, f64)],
     /// Certified points of the boundary.
     pub crossings: &'a [Crossing],
-    /// Half the width of the magnified panel; `None` for what shows the crossings near the focus.
-    pub magnified: Option<f64>,
+    /// Marks: poles and zeros of the open loop, the nominal closed loop, or where the locus begins and ends.
+    pub marks: &'a [LocusMark],
+}
+
+/// Roots that are marked on a locus.
+#[derive(Clone, Debug)]
+pub struct LocusMark {
+    /// What they are, for the legend.
+    pub label: String,
+    /// What the marks look like.
+    pub shape: super::Shape,
+    /// Where they are.
+    pub at: Vec<Complex<f64>>,
 }
 
 /// A locus with its picture.
@@ -62,22 +76,20 @@ pub fn locus_of(
     let discrete = problem.time() == Time::Discrete;
     let focus = Complex::new(if discrete { 1.0 } else { 0.0 }, 0.0);
     let (mut through, mut crossings, mut stable) = (Vec::new(), Vec::new(), Vec::new());
-    {
-        for interval in answer.value().intervals() {
-            let mut ends = [range.0.to_f64_approximate(), range.1.to_f64_approximate()];
-            for (end, slot) in [(&interval.lower, 0), (&interval.upper, 1)] {
-                let Some(end) = end else { continue };
-                let (lo, hi) = end.value.refined_to_digits(15).enclosure();
-                let value = lo.midpoint(&hi);
-                ends[slot] = value.to_f64_approximate();
-                if value < range.0 || value > range.1 {
-                    continue;
-                }
-                crossings.extend(crossing(end, &value, problem));
-                through.push(value);
+    for interval in answer.value().intervals() {
+        let mut ends = [range.0.to_f64_approximate(), range.1.to_f64_approximate()];
+        for (end, slot) in [(&interval.lower, 0), (&interval.upper, 1)] {
+            let Some(end) = end else { continue };
+            let (lo, hi) = end.value.refined_to_digits(15).enclosure();
+            let value = lo.midpoint(&hi);
+            ends[slot] = value.to_f64_approximate();
+            if value < range.0 || value > range.1 {
+                continue;
             }
-            stable.push((ends[0], ends[1]));
+            crossings.extend(crossing(end, &value, problem));
+            through.push(value);
         }
+        stable.push((ends[0], ends[1]));
     }
     let wide = {
         let (a, b) = (range.0.to_f64_approximate(), range.1.to_f64_approximate());
@@ -96,26 +108,23 @@ pub fn locus_of(
         let far = ends.flat_map(|p| crate::simulate::roots(&p)).map(|r| r.value.norm()).fold(0.0, f64::max);
         reach = if far > 0.0 { far } else { 1.0 };
     }
+    through.extend(problem.parameter().nominal.clone());
     let options = LocusOptions { lower: range.0.clone(), upper: range.1.clone(), scale, focus, through, reach };
     let locus = trace_root_locus(of, &options, budget)?;
-    let unit = problem.parameter().unit.as_deref().map(|u| format!(" {}", visible(u))).unwrap_or_default();
-    let title = format!(
-        "{} from {}{unit} (×) to {}{unit} (○)",
-        problem.parameter().name,
-        to_decimal(&range.0, 4),
-        to_decimal(&range.1, 4)
-    );
-    let panels = locus_panels(&LocusFigure {
-        time: problem.time(),
-        title: &title,
-        parameter: &problem.parameter().name,
-        locus: &locus,
-        stable: &stable,
-        crossings: &crossings,
-        magnified: None,
-    });
-    let figure = side_by_side(&panels, SIDE, SIDE);
-    let parts = panels.map(|p| p.figure(SIDE, SIDE));
+    let name = &problem.parameter().name;
+    let unit = visible(problem.parameter().unit.as_deref().unwrap_or_default()).into_owned();
+    let shown = |value: &Rational| quantity(&to_decimal(value, 4), &unit);
+    let nominal = problem.parameter().nominal.as_ref().and_then(|value| Some((value, of(value)?)));
+    let nominal = nominal.map(|(value, p)| (format!("closed loop at {name} = {}", quantity(&short(value), &unit)), p));
+    let ends = Ends { parameter: name, range: [shown(&range.0), shown(&range.1)] };
+    let marks = marks::of(polynomial.map(|p| p.polynomial()), nominal, &locus, &ends);
+    let mut heading = heading(&format!("Root locus in {name}"), problem);
+    heading.notes.insert(0, format!("{name} from {} to {}", shown(&range.0), shown(&range.1)));
+    let figure =
+        LocusFigure { time: problem.time(), locus: &locus, stable: &stable, crossings: &crossings, marks: &marks };
+    let panels = locus_panels(&figure);
+    let figure = side_by_side(&panels, SIDE, HEIGHT).headed(&heading);
+    let parts = panels.map(|p| p.figure(SIDE, HEIGHT).headed(&heading));
     Ok(DrawnLocus { locus, crossings, figure, parts })
 }
 
@@ -137,13 +146,11 @@ fn crossing(end: &End, value: &Rational, problem: &Problem) -> Option<Crossing> 
             at.push(Complex::new(z, 0.0));
         }
     }
-    let hertz = rate.and_then(|r| r.hertz).map(|h| {
-        let f = h.lower().midpoint(h.upper());
-        let digits = if f < Rational::from(1000) { 3 } else { 4 };
-        format!(" ({} Hz)", to_decimal(&f, digits))
-    });
-    let digits = if value.abs() < Rational::from(1) { 3 } else { 5 };
-    let label = format!("{} = {}{}", problem.parameter().name, to_decimal(value, digits), hertz.unwrap_or_default());
+    let hertz = rate.and_then(|r| r.hertz).map(|h| approximate(&h));
+    let hertz = hertz.map(|f| format!(", {}", super::engineering::frequency_text(f, "Hz"))).unwrap_or_default();
+    let free = problem.parameter();
+    let unit = visible(free.unit.as_deref().unwrap_or_default());
+    let label = format!("{} = {}{hertz}", free.name, quantity(&to_decimal(value, 5), &unit));
     (!at.is_empty()).then(|| Crossing { parameter: value.to_f64_approximate(), at, label })
 }
 
@@ -153,99 +160,90 @@ const OTHER: &str = COLOURS[1];
 
 /// Width and height of a panel.
 const SIDE: f64 = 520.0;
+const HEIGHT: f64 = 580.0;
 
-/// The locus in two panels of equal axes, first the whole, then magnified at z = 1 (or s = 0).
+/// The locus in two panels of equal axes, first the whole, then magnified where roots cross the boundary.
 ///
 /// The colour follows the certified intervals, not the drawn roots; crossings are drawn where the
-/// certified answer has them, on the circle or the axis. Each is labelled in at least one panel.
+/// certified answer has them, on the circle or the axis. Each is labelled in one panel.
 pub fn locus_panels(figure: &LocusFigure<'_>) -> [Panel; 2] {
-    let discrete = figure.time == Time::Discrete;
-    let focus = if discrete { (1.0, 0.0) } else { (0.0, 0.0) };
-    let farthest = figure
-        .locus
-        .samples()
-        .flat_map(|s| s.roots.iter())
-        .map(|z| if discrete { z.re.abs().max(z.im.abs()) } else { z.norm() })
-        .filter(|v| v.is_finite())
-        .fold(0.0, f64::max);
-    let reach = if discrete { (farthest * 1.08).clamp(1.25, 3.0) } else { (farthest * 1.08).max(1e-9) };
-    let half = figure.magnified.unwrap_or_else(|| magnification(figure, focus, reach));
-    let name = if discrete { "z = 1" } else { "s = 0" };
-    let mut whole = frame(figure, (0.0, 0.0), reach, figure.title.to_string());
-    let mut near = frame(figure, focus, half, format!("near {name}, {:.0} times larger", reach / half));
-    let distance = |z: &Complex<f64>| (z.re - focus.0).abs().max((z.im - focus.1).abs());
-    // In the whole picture a crossing at the focus is a dot among dots: its label is in the other.
-    let in_both = |z: &Complex<f64>| distance(z) > reach / 50.0;
-    whole.texts = labels(figure, &whole, |z| in_both(z) || distance(z) >= half);
-    near.texts = labels(figure, &near, |z| distance(z) < half);
-    let right = (focus.0 + 0.55 * (reach - focus.0), -0.2 * reach);
-    whole.texts.push(Text { text: "magnified".into(), at: right, target: Some(focus) });
-    near.legend = Some(Corner::BottomRight);
+    let whole_window = windows::whole(figure);
+    let near_window = windows::near(figure, &whole_window);
+    let times = whole_window.half / near_window.half;
+    let times = if times < 9.5 { format!("{times:.1}") } else { format!("{times:.0}") };
+    let mut whole = frame(figure, &whole_window, "whole locus".to_owned());
+    let mut near = frame(figure, &near_window, format!("{times} times larger"));
+    whole.texts = labels(figure, &whole_window, |z| !near_window.contains(z));
+    near.texts = labels(figure, &near_window, |z| near_window.contains(z));
+    if whole_window.half > 1.5 * near_window.half {
+        outlined(&mut whole, &whole_window, &near_window);
+    }
+    whole.legend = Some(Corner::Above);
+    near.legend = Some(Corner::Above);
+    let outside = windows::outside(figure, &whole_window);
+    if outside > 0 {
+        let lie = if outside == 1 { "mark lies" } else { "marks lie" };
+        whole.notes.push(format!("{outside} {lie} outside the picture"));
+    }
     [whole, near]
 }
 
+/// What the other panel shows, as a rectangle with its name.
+fn outlined(whole: &mut Panel, window: &Square, near: &Square) {
+    let (x, y) = (near.x(), near.y());
+    whole.curves.push(Curve {
+        points: vec![(x.0, y.0), (x.1, y.0), (x.1, y.1), (x.0, y.1), (x.0, y.0)],
+        label: None,
+        colour: "#555555".into(),
+        width: 0.9,
+        dashed: false,
+    });
+    // Towards the middle of the picture, where there is room.
+    let (right, up) = (near.centre.0 > window.centre.0, near.centre.1 > window.centre.1);
+    let side = if right { -0.4 } else { 0.4 };
+    let down = if up { -0.12 } else { 0.16 };
+    let edge = if up { y.0 } else { y.1 };
+    whole.texts.push(Text {
+        text: "magnified".into(),
+        at: (near.centre.0 + side * window.half, edge + down * window.half),
+        target: Some((near.centre.0, edge)),
+    });
+}
+
 /// The labels of the crossings that are wanted in a panel, none over another.
-fn labels(figure: &LocusFigure<'_>, panel: &Panel, wanted: impl Fn(&Complex<f64>) -> bool) -> Vec<Text> {
-    let centre = (f64::midpoint(panel.x.0, panel.x.1), f64::midpoint(panel.y.0, panel.y.1));
-    let half = (panel.x.1 - panel.x.0) / 2.0;
+fn labels(figure: &LocusFigure<'_>, window: &Square, wanted: impl Fn((f64, f64)) -> bool) -> Vec<Text> {
+    let half = window.half;
     let mut texts: Vec<Text> = Vec::new();
     for crossing in figure.crossings {
-        for z in crossing.at.iter().filter(|z| wanted(z)) {
-            // Beside the point, on the side where there is room; above the middle, where no legend is.
-            let side = if z.re > centre.0 { -0.5 } else { 0.52 };
-            let mut at = (centre.0 + side * half, (z.im + 0.2 * half).min(centre.1 + 0.9 * half));
+        // Of a pair the upper one.
+        for z in crossing.at.iter().map(|z| (z.re, z.im)).filter(|z| wanted(*z) && window.contains(*z)) {
+            if texts.iter().any(|t| t.text == crossing.label) {
+                continue;
+            }
+            // Beside the point, on the side where there is room.
+            let side = if z.0 > window.centre.0 { -0.5 } else { 0.5 };
+            let mut at = (window.centre.0 + side * half, (z.1 + 0.2 * half).min(window.centre.1 + 0.9 * half));
             while texts.iter().any(|t| (t.at.0 - at.0).abs() < half && (t.at.1 - at.1).abs() < 0.07 * half) {
                 at.1 -= 0.08 * half;
             }
-            texts.push(Text { text: crossing.label.clone(), at, target: Some((z.re, z.im)) });
+            texts.push(Text { text: crossing.label.clone(), at, target: Some(z) });
         }
     }
     texts
 }
 
-/// Half the width of the inset: it shows the crossing nearest the focus, the focus, and what
-/// surrounds them.
-fn magnification(figure: &LocusFigure<'_>, focus: (f64, f64), reach: f64) -> f64 {
-    let distance = |z: &nalgebra::Complex<f64>| (z.re - focus.0).hypot(z.im - focus.1);
-    let nearest = figure
-        .crossings
-        .iter()
-        .flat_map(|c| c.at.iter())
-        .map(distance)
-        .filter(|d| *d > 1e-12)
-        .fold(f64::INFINITY, f64::min);
-    let half = if nearest.is_finite() { 3.0 * nearest } else { reach / 20.0 };
-    half.clamp(reach / 1e7, reach / 8.0)
-}
-
-fn frame(figure: &LocusFigure<'_>, centre: (f64, f64), half: f64, title: String) -> Panel {
+fn frame(figure: &LocusFigure<'_>, window: &Square, title: String) -> Panel {
     let discrete = figure.time == Time::Discrete;
     let mut panel = Panel {
         title,
-        x_label: if discrete { "Re z" } else { "Re s / (1/s)" }.into(),
-        y_label: if discrete { "Im z" } else { "Im s / (rad/s)" }.into(),
-        x: (centre.0 - half, centre.0 + half),
-        y: (centre.1 - half, centre.1 + half),
+        x_label: if discrete { "Re z" } else { "Re s (1/s)" }.into(),
+        y_label: if discrete { "Im z" } else { "Im s (rad/s)" }.into(),
+        x: window.x(),
+        y: window.y(),
         equal: true,
         ..Panel::default()
     };
-    let boundary = if discrete {
-        // Fine enough to be round also where the panel shows a millionth of it.
-        let fine = |k: i32| f64::from(k) / 2000.0 * half.min(3.0);
-        let mut angles: Vec<f64> = (-360..=360).map(|k| f64::from(k).to_radians() / 2.0).collect();
-        angles.extend((-2000..=2000).map(fine));
-        angles.sort_by(f64::total_cmp);
-        angles.into_iter().map(|a| (a.cos(), a.sin())).collect()
-    } else {
-        vec![(0.0, -1e12_f64.max(half * 2.0)), (0.0, 1e12_f64.max(half * 2.0))]
-    };
-    panel.curves.push(Curve {
-        points: boundary,
-        label: Some(if discrete { "unit circle" } else { "imaginary axis" }.into()),
-        colour: "#777777".into(),
-        width: 1.0,
-        dashed: false,
-    });
+    panel.curves.push(boundary(discrete, window));
     let is_stable = |value: f64| figure.stable.iter().any(|(a, b)| value >= *a && value <= *b);
     for branch in figure.locus.branches() {
         for (inside, points) in runs(&branch.points, is_stable) {
@@ -259,27 +257,35 @@ fn frame(figure: &LocusFigure<'_>, centre: (f64, f64), half: f64, title: String)
             });
         }
     }
-    for piece in &figure.locus.pieces {
-        for (sample, shape) in [(piece.first(), Shape::Cross), (piece.last(), Shape::Circle)] {
-            for z in sample.iter().flat_map(|s| &s.roots) {
-                panel.marks.push(Mark { at: (z.re, z.im), shape, colour: "#222222".into(), label: None });
-            }
-        }
-    }
-    for crossing in figure.crossings {
-        for z in &crossing.at {
-            for im in if z.im == 0.0 { vec![0.0] } else { vec![z.im, -z.im] } {
-                let at = (z.re, im);
-                panel.marks.push(Mark { at, shape: Shape::Diamond, colour: "#000000".into(), label: None });
-            }
-        }
-    }
+    panel.marks = marks::drawn(figure);
     panel
+}
+
+/// The unit circle or the imaginary axis.
+fn boundary(discrete: bool, window: &Square) -> Curve {
+    let points = if discrete {
+        // Fine enough to be round also where the panel shows a millionth of it.
+        let towards = window.centre.1.atan2(window.centre.0);
+        let fine = |k: i32| towards + f64::from(k) / 2000.0 * window.half.min(3.0);
+        let mut angles: Vec<f64> = (-360..=360).map(|k| f64::from(k).to_radians() / 2.0).collect();
+        angles.extend((-2000..=2000).map(fine));
+        angles.sort_by(f64::total_cmp);
+        angles.into_iter().map(|a| (a.cos(), a.sin())).collect()
+    } else {
+        vec![(0.0, window.y().0), (0.0, window.y().1)]
+    };
+    Curve {
+        points,
+        label: Some(if discrete { "unit circle" } else { "imaginary axis" }.into()),
+        colour: "#777777".into(),
+        width: 1.0,
+        dashed: false,
+    }
 }
 
 /// The branch cut where it passes from certified stable to not, each part with its first point
 /// shared so that no gap is seen.
-fn runs(points: &[(f64, nalgebra::Complex<f64>)], is_stable: impl Fn(f64) -> bool) -> Vec<(bool, Vec<(f64, f64)>)> {
+fn runs(points: &[(f64, Complex<f64>)], is_stable: impl Fn(f64) -> bool) -> Vec<(bool, Vec<(f64, f64)>)> {
     let mut out: Vec<(bool, Vec<(f64, f64)>)> = Vec::new();
     for pair in points.windows(2) {
         let inside = is_stable(f64::midpoint(pair[0].0, pair[1].0));

@@ -1,15 +1,10 @@
 //! A panel: axes with curves, marks and words; and figures of several panels.
 
-use super::Figure;
+use super::axes::{Axis, BELOW, Frame, Heading, Scale};
 use super::clip::Window;
-use kuva::plot::annotations::{ReferenceLine, TextAnnotation};
-use kuva::plot::legend::LegendPosition;
-use kuva::plot::line::LinePlot;
-use kuva::plot::scatter::{MarkerShape, ScatterPlot};
-use kuva::render::layout::{Layout, TickFormat};
-use kuva::render::plots::Plot;
-use kuva::render::render::{Primitive, Scene, render_multiple};
-use std::sync::Arc;
+use super::legend::{self, Entry, Sample};
+use super::{FAINT_INK, Figure, INK};
+use crate::scene::{Anchor, Colour, Point, Rectangle, Scene, Stroke, Words, width};
 
 /// A line through points.
 #[derive(Clone, Debug, Default)]
@@ -29,10 +24,18 @@ pub struct Curve {
 /// Shape of a mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// x, where a locus starts.
+    /// x, a pole of an open loop.
     Cross,
-    /// o, where it ends.
+    /// o, a zero of an open loop.
     Circle,
+    /// +
+    Plus,
+    /// A small filled circle.
+    Dot,
+    /// A filled square.
+    Square,
+    /// A filled triangle.
+    Triangle,
     /// A filled diamond.
     Diamond,
 }
@@ -55,17 +58,38 @@ pub struct Mark {
 pub struct Text {
     /// The words.
     pub text: String,
-    /// Where they stand.
+    /// Where they stand: the middle of the line.
     pub at: (f64, f64),
     /// What they point at.
     pub target: Option<(f64, f64)>,
 }
 
 /// Axes with what is drawn between them.
+///
+/// Labels of axes end with their unit in parentheses: `frequency (Hz)`. On a linear axis the numbers are given with a
+/// prefix that suits them, and the label says so; on a logarithmic axis each number has its own.
+///
+/// ```
+/// use jurist_draw::figures::{Curve, Panel, Scale};
+/// let gain = Curve { points: vec![(1.0, 0.0), (1e4, -80.0)], colour: "#0072B2".into(), width: 1.5, ..Curve::default() };
+/// let panel = Panel {
+///     x_label: "frequency (Hz)".into(),
+///     y_label: "gain (dB)".into(),
+///     x: (1.0, 1e4),
+///     y: (-80.0, 20.0),
+///     x_scale: Scale::Logarithmic,
+///     curves: vec![gain],
+///     levels: vec![(0.0, "0 dB".into())],
+///     ..Panel::default()
+/// };
+/// assert!(panel.figure(500.0, 300.0).svg().contains(">10 kHz</text>"));
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Panel {
     /// Above the axes.
     pub title: String,
+    /// Smaller words below the title.
+    pub notes: Vec<String>,
     /// Along x, with the unit.
     pub x_label: String,
     /// Along y, with the unit.
@@ -74,6 +98,10 @@ pub struct Panel {
     pub x: (f64, f64),
     /// Ends of the y axis.
     pub y: (f64, f64),
+    /// How values lie along x.
+    pub x_scale: Scale,
+    /// How values lie along y.
+    pub y_scale: Scale,
     /// The curves, drawn in order.
     pub curves: Vec<Curve>,
     /// The marks, drawn over the curves.
@@ -82,13 +110,15 @@ pub struct Panel {
     pub texts: Vec<Text>,
     /// Horizontal dashed lines with their labels.
     pub levels: Vec<(f64, String)>,
-    /// Whether a unit is as long in x as in y; the ends of the axes then belong to a square.
+    /// Vertical dashed lines with their labels.
+    pub verticals: Vec<(f64, String)>,
+    /// Whether a unit is as long in x as in y.
     pub equal: bool,
     /// Where the legend stands; none if `None`.
     pub legend: Option<Corner>,
 }
 
-/// A corner of the axes.
+/// Where a legend stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Corner {
     /// Upper right.
@@ -99,181 +129,194 @@ pub enum Corner {
     TopLeft,
     /// Lower left.
     BottomLeft,
+    /// In rows above the axes, where it covers nothing.
+    Above,
 }
 
-/// A distance between ticks from the series 1, 2, 5 that gives about `count` of them.
-pub(super) fn tick_step(range: (f64, f64), count: f64) -> f64 {
-    let raw = ((range.1 - range.0) / count).abs().max(f64::MIN_POSITIVE);
-    let decade = 10f64.powf(raw.log10().floor());
-    let factor = [1.0, 2.0, 5.0, 10.0].into_iter().find(|f| f * decade >= raw * 0.999).unwrap_or(10.0);
-    factor * decade
-}
-
-/// `5e33` as people write it: 5·10³³.
-pub(super) fn power_of_ten(v: f64) -> String {
-    let text = format!("{v:.1e}").replace(".0e", "e").replace('-', "\u{2212}");
-    let Some((mantissa, exponent)) = text.split_once('e') else { return text };
-    let raised = |c: char| match c.to_digit(10) {
-        Some(d) => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][d as usize],
-        None => '⁻',
-    };
-    let exponent: String = exponent.chars().map(raised).collect();
-    match mantissa {
-        "1" => format!("10{exponent}"),
-        "\u{2212}1" => format!("\u{2212}10{exponent}"),
-        _ => format!("{mantissa}·10{exponent}"),
-    }
-}
-
-/// Numbers at ticks: as many decimals as the step needs, powers of ten where they would be long.
-fn tick_format(range: (f64, f64), step: f64) -> TickFormat {
-    let largest = range.0.abs().max(range.1.abs());
-    let decimals = (-step.log10() - 1e-9).ceil().max(0.0) as usize;
-    if largest >= 1e6 || (largest < 1e-3 && largest > 0.0) {
-        return TickFormat::Custom(Arc::new(|v| if v == 0.0 { "0".into() } else { power_of_ten(v) }));
-    }
-    TickFormat::Custom(Arc::new(move |v| {
-        let text = format!("{v:.decimals$}");
-        if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".into() } else { text.replace('-', "\u{2212}") }
-    }))
-}
+/// Right of the axes.
+const RIGHT: f64 = 20.0;
+const DASHES: [f64; 2] = [5.0, 4.0];
+const TEXT: f64 = 11.0;
 
 impl Panel {
-    fn render(&self, width: f64, height: f64) -> Scene {
-        let window = Window { x: self.x, y: self.y };
-        let mut plots: Vec<Plot> = Vec::new();
-        // Curves may share an entry of the legend; one that is not to be seen brings none.
-        let mut entered: Vec<&str> = Vec::new();
-        for curve in &self.curves {
-            for piece in window.pieces(&curve.points) {
-                let mut line =
-                    LinePlot::new().with_data(piece).with_color(&curve.colour).with_stroke_width(curve.width);
-                if curve.dashed {
-                    line = line.with_dashed();
-                }
-                if let Some(label) = curve.label.as_deref().filter(|l| !entered.contains(l)) {
-                    entered.push(label);
-                    line = line.with_legend(label);
-                }
-                plots.push(line.into());
+    fn axes(&self) -> (Axis, Axis) {
+        (Axis::labelled(&self.x_label, self.x, self.x_scale), Axis::labelled(&self.y_label, self.y, self.y_scale))
+    }
+
+    /// How much room the left side needs at a height.
+    fn left(&self, height: f64) -> f64 {
+        Frame::left_of(&self.axes().1, height - BELOW)
+    }
+
+    /// The entries of the legend, each once; what is not to be seen brings none.
+    fn entries(&self, window: &Window) -> Vec<Entry> {
+        let mut out: Vec<Entry> = Vec::new();
+        let mut enter = |sample: Sample, label: &str| {
+            if !label.is_empty() && !out.iter().any(|e| e.1 == label) {
+                out.push((sample, label.to_owned()));
             }
-        }
-        for mark in self.marks.iter().filter(|m| window.contains(m.at)) {
-            let (shape, size) = match mark.shape {
-                Shape::Cross => (MarkerShape::Cross, 4.5),
-                Shape::Circle => (MarkerShape::Circle, 4.0),
-                Shape::Diamond => (MarkerShape::Diamond, 5.0),
-            };
-            let mut plot =
-                ScatterPlot::new().with_data(vec![mark.at]).with_color(&mark.colour).with_marker(shape).with_size(size);
-            if mark.shape == Shape::Circle {
-                plot = plot.with_marker_opacity(0.15).with_marker_stroke_width(1.4);
-            }
-            if let Some(label) = &mark.label {
-                plot = plot.with_legend(label.clone());
-            }
-            plots.push(plot.into());
-        }
-        let (x_step, y_step) = (tick_step(self.x, width / 70.0), tick_step(self.y, height / 45.0));
-        let y_step = if self.equal { x_step } else { y_step };
-        let mut layout = Layout::new(self.x, self.y)
-            .with_width(width)
-            .with_height(height)
-            .with_x_axis_min(self.x.0)
-            .with_x_axis_max(self.x.1)
-            .with_y_axis_min(self.y.0)
-            .with_y_axis_max(self.y.1)
-            .with_x_tick_step(x_step)
-            .with_y_tick_step(y_step)
-            .with_x_tick_format(tick_format(self.x, x_step))
-            .with_y_tick_format(tick_format(self.y, y_step))
-            .with_x_label(&self.x_label)
-            .with_y_label(&self.y_label)
-            .with_title_size(14)
-            .with_label_size(12)
-            .with_tick_size(11)
-            .with_body_size(11)
-            .with_box_axes();
-        if !self.title.is_empty() {
-            layout = layout.with_title(&self.title);
-        }
-        layout = match self.legend {
-            Some(corner) => layout.with_legend_position(match corner {
-                Corner::TopRight => LegendPosition::InsideTopRight,
-                Corner::BottomRight => LegendPosition::InsideBottomRight,
-                Corner::TopLeft => LegendPosition::InsideTopLeft,
-                Corner::BottomLeft => LegendPosition::InsideBottomLeft,
-            }),
-            None => layout,
         };
-        if self.legend.is_some() && self.curves.iter().any(|c| c.label.is_some()) {
-            layout.show_legend = true;
-            let curves = self.curves.iter().filter_map(|c| c.label.as_ref());
-            let widest =
-                curves.chain(self.marks.iter().filter_map(|m| m.label.as_ref())).map(|l| l.chars().count()).max();
-            layout = layout.with_legend_width(52.0 + 7.2 * widest.unwrap_or(0) as f64);
-        }
-        for text in &self.texts {
-            let mut annotation = TextAnnotation::new(&text.text, text.at.0, text.at.1).with_font_size(11);
-            if let Some((x, y)) = text.target {
-                annotation = annotation.with_arrow(x, y);
+        for curve in &self.curves {
+            if let Some(label) = curve.label.as_deref().filter(|_| !window.pieces(&self.placed(curve)).is_empty()) {
+                enter(Sample::Line(stroke(curve)), label);
             }
-            layout = layout.with_annotation(annotation);
         }
-        for (level, label) in &self.levels {
-            let line = ReferenceLine::horizontal(*level).with_color("#888888").with_stroke_width(1.0);
-            layout = layout.with_reference_line(if label.is_empty() { line } else { line.with_label(label) });
+        for mark in self.marks.iter().filter(|m| window.contains(self.place(m.at))) {
+            if let Some(label) = &mark.label {
+                enter(Sample::Mark(mark.shape, Colour::css(&mark.colour)), label);
+            }
         }
-        if plots.is_empty() {
-            plots.push(LinePlot::new().with_data(vec![(self.x.0, self.y.0)]).with_color("none").into());
+        out
+    }
+
+    /// Places from 0 to 1 of values.
+    fn place(&self, (x, y): Point) -> Point {
+        let (x_axis, y_axis) = self.axes();
+        (x_axis.place(x), y_axis.place(y))
+    }
+
+    fn placed(&self, curve: &Curve) -> Vec<Point> {
+        let (x, y) = self.axes();
+        curve.points.iter().map(|p| (x.place(p.0), y.place(p.1))).collect()
+    }
+
+    /// The panel in a scene of its own; the axes begin at `left` where that is given.
+    fn render(&self, width: f64, height: f64, left: Option<f64>) -> Scene {
+        let mut scene = Scene::new(width, height);
+        let window = Window { x: (0.0, 1.0), y: (0.0, 1.0) };
+        let entries = if self.legend.is_some() { self.entries(&window) } else { Vec::new() };
+        let heading = Heading { title: self.title.clone(), notes: self.notes.clone() };
+        let mut top = heading.draw(&mut scene);
+        let left = left.unwrap_or_else(|| self.left(height));
+        let room = width - left - RIGHT;
+        if self.legend == Some(Corner::Above) {
+            top = legend::in_rows(&mut scene, &entries, (left, top), room);
         }
+        top += 6.0;
+        let mut plot = Rectangle { left, top, width: room.max(20.0), height: (height - top - BELOW).max(20.0) };
         if self.equal {
-            layout = layout.with_equal_aspect();
+            let (across, up) = (self.x.1 - self.x.0, self.y.1 - self.y.0);
+            let unit = (plot.width / across).min(plot.height / up);
+            plot.left += (plot.width - unit * across) / 2.0;
+            (plot.width, plot.height) = (unit * across, unit * up);
         }
-        render_multiple(plots, layout)
+        let (x, y) = self.axes();
+        let frame = Frame { x, y, plot, equal: self.equal };
+        frame.draw(&mut scene);
+        self.reference_lines(&mut scene, &frame);
+        for curve in &self.curves {
+            for piece in window.pieces(&self.placed(curve)) {
+                let points: Vec<Point> = piece.into_iter().map(|p| frame.at_places(p)).collect();
+                scene.polyline(&apart(points), stroke(curve));
+            }
+        }
+        for mark in self.marks.iter().filter(|m| window.contains(self.place(m.at))) {
+            legend::mark(&mut scene, mark.shape, Colour::css(&mark.colour), frame.at(mark.at));
+        }
+        self.labels(&mut scene, &frame);
+        if let Some(corner) = self.legend.filter(|c| *c != Corner::Above && !entries.is_empty()) {
+            let (w, h) = legend::box_size(&entries);
+            let right = plot.right() - w - 8.0;
+            let bottom = plot.bottom() - h - 8.0;
+            let at = match corner {
+                Corner::TopRight | Corner::Above => (right, plot.top + 8.0),
+                Corner::BottomRight => (right, bottom),
+                Corner::TopLeft => (plot.left + 8.0, plot.top + 8.0),
+                Corner::BottomLeft => (plot.left + 8.0, bottom),
+            };
+            legend::in_box(&mut scene, &entries, at);
+        }
+        scene
+    }
+
+    fn reference_lines(&self, scene: &mut Scene, frame: &Frame) {
+        let (left, right, top, bottom) = (frame.plot.left, frame.plot.right(), frame.plot.top, frame.plot.bottom());
+        let line = || Stroke::new(FAINT_INK, 0.9).dashed(&DASHES);
+        let inside = |v: f64| (0.0..=1.0).contains(&v);
+        let words = |text: &str, at: Point| Words::new(text, at, TEXT, FAINT_INK).with_halo(Colour::WHITE);
+        for (level, label) in self.levels.iter().filter(|(v, _)| inside(frame.y.place(*v))) {
+            let y = frame.at((self.x.0, *level)).1;
+            scene.line((left, y), (right, y), line());
+            let above = if y - 16.0 > top { y - 4.0 } else { y + 13.0 };
+            scene.words(words(label, (right - 6.0, above)).anchored(Anchor::End));
+        }
+        for (value, label) in self.verticals.iter().filter(|(v, _)| inside(frame.x.place(*v))) {
+            let x = frame.at((*value, self.y.0)).0;
+            scene.line((x, top), (x, bottom), line());
+            let length = width(label, TEXT);
+            let fits = x + length + 10.0 < right;
+            let (at, anchor) = if fits { (x + 5.0, Anchor::Start) } else { (x - 5.0, Anchor::End) };
+            scene.words(words(label, (at, bottom - 7.0)).anchored(anchor));
+        }
+    }
+
+    /// The words with their arrows, kept inside the axes.
+    fn labels(&self, scene: &mut Scene, frame: &Frame) {
+        for text in &self.texts {
+            let half = width(&text.text, TEXT) / 2.0;
+            let (x, y) = frame.at(text.at);
+            let (low, high) = (frame.plot.left + half + 4.0, frame.plot.right() - half - 4.0);
+            let x = if low < high { x.clamp(low, high) } else { f64::midpoint(low, high) };
+            let y = y.clamp(frame.plot.top + 14.0, frame.plot.bottom() - 5.0);
+            if let Some(target) = text.target.map(|t| frame.at(t)) {
+                // From the nearest point of the words' rectangle.
+                let from = (target.0.clamp(x - half, x + half), if target.1 > y { y + 4.0 } else { y - 10.0 });
+                pointer(scene, from, target);
+            }
+            let words = Words::new(&text.text, (x, y), TEXT, INK).anchored(Anchor::Middle);
+            scene.words(words.with_halo(Colour::WHITE));
+        }
     }
 
     /// The panel alone as a figure.
     pub fn figure(&self, width: f64, height: f64) -> Figure {
-        Figure::new(self.render(width, height))
+        self.render(width, height, None).into()
     }
 }
 
-/// Panels one below the other, each `width` by `height`.
+fn stroke(curve: &Curve) -> Stroke {
+    let stroke = Stroke::new(Colour::css(&curve.colour), curve.width);
+    if curve.dashed { stroke.dashed(&DASHES) } else { stroke }
+}
+
+/// A thin line that ends beside what it points at.
+fn pointer(scene: &mut Scene, from: Point, target: Point) {
+    let (dx, dy) = (target.0 - from.0, target.1 - from.1);
+    let length = dx.hypot(dy);
+    if length > 14.0 {
+        let end = (target.0 - 7.0 * dx / length, target.1 - 7.0 * dy / length);
+        scene.line(from, end, Stroke::new(INK, 0.8));
+    }
+}
+
+/// Without points that are nowhere near a pixel from the one before.
+pub(super) fn apart(points: Vec<Point>) -> Vec<Point> {
+    let mut out: Vec<Point> = Vec::with_capacity(points.len());
+    let last = points.len().saturating_sub(1);
+    for (k, p) in points.into_iter().enumerate() {
+        let near = out.last().is_some_and(|q: &Point| (q.0 - p.0).hypot(q.1 - p.1) < 0.3);
+        if !near || k == last {
+            out.push(p);
+        }
+    }
+    out
+}
+
+/// Panels one below the other, each `width` by `height`; their axes begin at the same place.
 pub fn stacked(panels: &[Panel], width: f64, height: f64) -> Figure {
-    let cells = panels.iter().enumerate().map(|(k, p)| (0.0, k as f64 * height, p.render(width, height)));
-    composed(cells, width, height * panels.len().max(1) as f64)
+    let left = panels.iter().map(|p| p.left(height)).fold(0.0, f64::max);
+    let mut whole = Scene::new(width, height * panels.len().max(1) as f64);
+    for (k, panel) in panels.iter().enumerate() {
+        whole.place((0.0, k as f64 * height), panel.render(width, height, Some(left)));
+    }
+    whole.into()
 }
 
 /// Panels side by side, each `width` by `height`.
 pub fn side_by_side(panels: &[Panel], width: f64, height: f64) -> Figure {
-    let cells = panels.iter().enumerate().map(|(k, p)| (k as f64 * width, 0.0, p.render(width, height)));
-    composed(cells, width * panels.len().max(1) as f64, height)
-}
-
-fn composed(cells: impl Iterator<Item = (f64, f64, Scene)>, width: f64, height: f64) -> Figure {
-    let mut whole = Scene::new(width, height);
-    for (x, y, scene) in cells {
-        whole.add(Primitive::GroupStart {
-            transform: Some(format!("translate({x},{y})")),
-            title: None,
-            extra_attrs: None,
-        });
-        whole.elements.extend(scene.elements);
-        whole.defs.extend(scene.defs);
-        whole.add(Primitive::GroupEnd);
+    let mut whole = Scene::new(width * panels.len().max(1) as f64, height);
+    for (k, panel) in panels.iter().enumerate() {
+        whole.place((k as f64 * width, 0.0), panel.render(width, height, None));
     }
-    Figure::new(whole)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::power_of_ten;
-
-    #[test]
-    fn large_numbers_are_powers_of_ten() {
-        assert_eq!(power_of_ten(5e33), "5·10³³");
-        assert_eq!(power_of_ten(-1e-4), "\u{2212}10⁻⁴");
-        assert_eq!(power_of_ten(2.5e6), "2.5·10⁶");
-    }
+    whole.into()
 }

@@ -1,8 +1,11 @@
 //! Time responses.
 
 use super::COLOURS;
-use super::panel::{Corner, Curve, Panel, tick_step};
-use crate::simulate::Trace;
+use super::axes::tick_step;
+use super::engineering::{frequency_text, quantity, unit_text};
+use super::panel::{Corner, Curve, Mark, Panel, Shape, Text};
+use crate::simulate::{StepMeasures, Trace};
+use jurist_algebra::number::{parse_number, to_decimal};
 use jurist_engine::show::layout::visible;
 
 /// Longest list of points a curve keeps; more would only make the file larger.
@@ -19,21 +22,13 @@ pub struct ResponseCurve<'a> {
     pub label: &'a str,
 }
 
-/// A panel with signals over time; the axes fit the data.
-///
-/// Times are in `time_unit`; short times in seconds are drawn in milli- or microseconds.
+/// A panel with signals over time; the axes fit the data. Times are in `time_unit`.
 pub fn response_panel(title: &str, time_unit: &str, y_label: &str, curves: &[ResponseCurve<'_>]) -> Panel {
-    let longest = curves.iter().filter_map(|c| c.trace.time.last()).fold(0.0f64, |m, t| m.max(t.abs()));
-    let (factor, shown) = match time_unit {
-        "s" if longest > 0.0 && longest < 1e-4 => (1e6, "µs"),
-        "s" if longest > 0.0 && longest < 0.1 => (1e3, "ms"),
-        unit => (1.0, unit),
-    };
     let drawn: Vec<Curve> = curves
         .iter()
         .enumerate()
         .map(|(k, c)| Curve {
-            points: thinned(&c.trace.points(c.signal)).into_iter().map(|(t, v)| (factor * t, v)).collect(),
+            points: thinned(&c.trace.points(c.signal)),
             label: (!c.label.is_empty()).then(|| c.label.to_string()),
             colour: COLOURS[k % COLOURS.len()].into(),
             width: if k == 0 { 1.3 } else { 1.1 },
@@ -42,11 +37,11 @@ pub fn response_panel(title: &str, time_unit: &str, y_label: &str, curves: &[Res
         .collect();
     let all = || drawn.iter().flat_map(|c| c.points.iter());
     let x = rounded_up(extent(all().map(|p| p.0), 0.0));
-    let y = extent(all().map(|p| p.1), 0.06);
+    let y = extent(all().map(|p| p.1), 0.08);
     let legend = drawn.iter().any(|c| c.label.is_some()).then_some(Corner::BottomRight);
     Panel {
         title: title.into(),
-        x_label: axis_label("time", shown),
+        x_label: axis_label("time", time_unit),
         y_label: y_label.into(),
         x,
         y,
@@ -56,24 +51,67 @@ pub fn response_panel(title: &str, time_unit: &str, y_label: &str, curves: &[Res
     }
 }
 
-/// A quantity with its unit as on an axis: `omega / (rad/s)`; the name alone where no unit is known.
+/// A quantity with its unit as on an axis: `omega (rad/s)`; the name alone where no unit is known.
 pub fn axis_label(name: &str, unit: &str) -> String {
-    let (name, unit) = (visible(name), visible(unit));
-    match unit.as_ref() {
-        "" => name.into_owned(),
-        u if u.contains(['/', ' ', '*', '·']) => format!("{name} / ({u})"),
-        u => format!("{name} / {u}"),
+    match (visible(name), unit_text(&visible(unit))) {
+        (name, unit) if unit.is_empty() => name.into_owned(),
+        (name, unit) => format!("{name} ({unit})"),
     }
 }
 
-/// One panel for each of these signals of a run, the title over the first.
-pub fn response_panels(title: &str, time_unit: &str, trace: &Trace, signals: &[String]) -> Vec<Panel> {
-    let panel = |(k, name): (usize, &String)| {
+/// One panel for each of these signals of a run; of a run that is `sampled` each value holds until the next.
+pub fn response_panels(time_unit: &str, trace: &Trace, signals: &[String], sampled: bool) -> Vec<Panel> {
+    let held = if sampled { stairs(trace) } else { trace.clone() };
+    let panel = |name: &String| {
         let label = axis_label(name, trace.signal(name).map_or("", |s| &s.unit));
-        let curve = ResponseCurve { trace, signal: name, label: "" };
-        response_panel(if k == 0 { title } else { "" }, time_unit, &label, &[curve])
+        response_panel("", time_unit, &label, &[ResponseCurve { trace: &held, signal: name, label: "" }])
     };
-    signals.iter().enumerate().map(panel).collect()
+    signals.iter().map(panel).collect()
+}
+
+/// The run with every value held until the next instant: a jump is two values at one time.
+///
+/// ```
+/// use jurist_draw::figures::stairs;
+/// use jurist_draw::simulate::Trace;
+/// let mut trace = Trace::with_names(&["x".into()]);
+/// (0..2).for_each(|k| trace.push(f64::from(k), [f64::from(k)]));
+/// assert_eq!(stairs(&trace).points("x"), [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)]);
+/// ```
+pub fn stairs(trace: &Trace) -> Trace {
+    let mut out = trace.clone();
+    let doubled = |values: &[f64], shift: usize| -> Vec<f64> {
+        let twice = values.iter().flat_map(|v| [*v, *v]);
+        // A time stands twice from the second on, a value twice but for the last.
+        twice.skip(shift).take((2 * values.len()).saturating_sub(1)).collect()
+    };
+    out.time = doubled(&trace.time, 1);
+    for signal in &mut out.signals {
+        signal.values = doubled(&signal.values, 0);
+    }
+    out
+}
+
+impl Panel {
+    /// The panel of a step response with its final value, overshoot and settling time marked.
+    pub fn with_step_measures(mut self, measures: &StepMeasures, time_unit: &str, unit: &str) -> Panel {
+        let unit = unit_text(&visible(unit));
+        let decimal = |v: f64| parse_number(&format!("{v:e}")).map(|v| to_decimal(&v, 4)).unwrap_or_default();
+        self.levels.push((measures.last, format!("final value {}", quantity(&decimal(measures.last), &unit))));
+        if let Some((time, value)) = measures.peak.filter(|_| measures.overshoot > 0.005) {
+            let high = self.y.1 - self.y.0;
+            let text = format!("overshoot {} %", frequency_text(100.0 * measures.overshoot, ""));
+            // Beside the peak, on the side of the final value.
+            let at = (time + 0.14 * (self.x.1 - self.x.0), value - 0.02 * high);
+            self.texts.push(Text { text, at, target: None });
+            let (at, colour) = ((time, value), "#222222".into());
+            self.marks.push(Mark { at, shape: Shape::Dot, colour, label: None });
+        }
+        if let Some(time) = measures.settled.filter(|t| *t > self.x.0 && *t < self.x.1) {
+            self.verticals.push((time, format!("within 2 % from {}", quantity(&decimal(time), time_unit))));
+        }
+        self
+    }
 }
 
 /// The range with its upper end moved to the next tick where only a sample is missing to it.
@@ -135,14 +173,14 @@ mod tests {
 
     #[test]
     fn axes_have_units_where_they_are_known() {
-        assert_eq!(axis_label("omega", "rad/s"), "omega / (rad/s)");
-        assert_eq!(axis_label("i_a", "A"), "i_a / A");
+        assert_eq!(axis_label("omega", "rad/s"), "omega (rad/s)");
+        assert_eq!(axis_label("i_a", "A"), "i_a (A)");
         assert_eq!(axis_label("x", ""), "x");
         let mut trace = Trace::with_names(&["x".into()]);
         (0..5).for_each(|k| trace.push(1e-4 * f64::from(k), [0.0]));
         let curve = [ResponseCurve { trace: &trace, signal: "x", label: "" }];
-        assert_eq!(response_panel("", "s", "x", &curve).x_label, "time / ms");
-        assert_eq!(response_panel("", "samples", "x", &curve).x_label, "time / samples");
+        let shown = |unit| response_panel("", unit, "x", &curve).figure(400.0, 200.0).svg();
+        assert!(shown("s").contains(">time (µs)<") && shown("samples").contains(">time (samples)<"));
     }
 
     #[test]
@@ -156,5 +194,6 @@ mod tests {
         assert_eq!(extent(std::iter::empty(), 0.1), (0.0, 1.0));
         assert_eq!(extent([0.0, 0.0].into_iter(), 0.1), (-1.0, 1.0));
         assert_eq!(extent([f64::NAN, 80.0].into_iter(), 0.1), (72.0, 88.0));
+        assert!(stairs(&Trace::with_names(&["x".into()])).time.is_empty());
     }
 }

@@ -1,10 +1,12 @@
 //! Boxes, wires and words: what block diagrams and circuits are drawn with.
 
-use super::Figure;
-use kuva::render::color::Color;
-use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
+use super::{Figure, INK};
+use crate::scene::{Anchor, Colour, Item, Rectangle, Scene, Segment, Stroke, Words};
 
-const INK: &str = "#222222";
+/// Ground of boxes.
+const GROUND: Colour = Colour::css("#f4f7fb");
+/// Width of wires and outlines.
+const WIRE: f64 = 1.4;
 
 /// A drawing in the making; coordinates in pixels from the upper left corner.
 #[derive(Debug)]
@@ -20,27 +22,17 @@ impl Sketch {
 
     /// The drawing as a figure.
     pub fn finish(self) -> Figure {
-        Figure::new(self.scene)
+        self.scene.into()
     }
 
     /// Straight wires through points.
     pub fn wire(&mut self, points: &[(f64, f64)]) {
-        self.line(points, INK, 1.4, None);
+        self.scene.polyline(points, Stroke::new(INK, WIRE));
     }
 
-    /// Straight lines through points, in a colour and a width, dashed on demand.
-    pub fn line(&mut self, points: &[(f64, f64)], colour: &str, width: f64, dashes: Option<&str>) {
-        for pair in points.windows(2) {
-            self.scene.add(Primitive::Line {
-                x1: pair[0].0,
-                y1: pair[0].1,
-                x2: pair[1].0,
-                y2: pair[1].1,
-                stroke: Color::from(colour),
-                stroke_width: width,
-                stroke_dasharray: dashes.map(str::to_string),
-            });
-        }
+    /// Straight lines through points, in a colour and a width; the lengths of dashes and gaps, if it has any.
+    pub fn line(&mut self, points: &[(f64, f64)], colour: &str, width: f64, dashes: Option<&[f64]>) {
+        self.scene.polyline(points, Stroke::new(Colour::css(colour), width).dashed(dashes.unwrap_or_default()));
     }
 
     /// A wire with an arrow head at its last point.
@@ -60,37 +52,24 @@ impl Sketch {
 
     /// A filled polygon.
     pub fn filled(&mut self, points: &[(f64, f64)]) {
-        let path: Vec<String> = points.iter().map(|(x, y)| format!("{x:.2},{y:.2}")).collect();
-        self.path(format!("M{}Z", path.join("L")), Some(INK));
+        self.scene.polygon(points, Some(INK), None);
     }
 
-    /// A path in SVG notation, drawn or filled.
-    pub fn path(&mut self, d: String, fill: Option<&str>) {
-        self.scene.add(Primitive::Path(Box::new(PathData {
-            d,
-            fill: fill.map(Color::from),
-            stroke: Color::from(INK),
-            stroke_width: if fill.is_some() { 0.5 } else { 1.4 },
-            opacity: None,
-            stroke_dasharray: None,
-        })));
+    /// Cubic curves from a point on, each with two control points and its end.
+    pub fn curves(&mut self, from: (f64, f64), curves: &[[(f64, f64); 3]]) {
+        let segments = curves.iter().map(|[a, b, end]| Segment::Cubic(*a, *b, *end));
+        let segments = std::iter::once(Segment::Move(from)).chain(segments).collect();
+        self.scene.add(Item::Path { segments, fill: None, stroke: Some(Stroke::new(INK, WIRE)) });
     }
 
     /// A box around lines of text, centred at a point.
     pub fn block(&mut self, centre: (f64, f64), size: (f64, f64), lines: &[&str]) {
-        self.scene.add(Primitive::Rect {
-            x: centre.0 - size.0 / 2.0,
-            y: centre.1 - size.1 / 2.0,
-            width: size.0,
-            height: size.1,
-            fill: Color::from("#f4f7fb"),
-            stroke: Some(Color::from(INK)),
-            stroke_width: Some(1.4),
-            opacity: None,
-        });
+        let (width, height) = size;
+        let outline = Rectangle { left: centre.0 - width / 2.0, top: centre.1 - height / 2.0, width, height };
+        self.scene.rectangle(&outline, Some(GROUND), Some(Stroke::new(INK, WIRE)));
         let first = centre.1 - 8.5 * (lines.len() as f64 - 1.0) + 4.5;
         for (k, line) in lines.iter().enumerate() {
-            self.words((centre.0, first + 17.0 * k as f64), line, 13, TextAnchor::Middle);
+            self.words((centre.0, first + 17.0 * k as f64), line, 13.0, Anchor::Middle);
         }
     }
 
@@ -103,47 +82,30 @@ impl Sketch {
 
     /// A dot where wires join.
     pub fn joint(&mut self, at: (f64, f64)) {
-        self.circle(at, 2.8, INK);
+        self.scene.circle(at, 2.8, Some(INK), None);
     }
 
     /// A circle, filled.
     pub fn circle(&mut self, at: (f64, f64), r: f64, fill: &str) {
-        self.scene.add(Primitive::Circle {
-            cx: at.0,
-            cy: at.1,
-            r,
-            fill: Color::from(fill),
-            fill_opacity: None,
-            stroke: Some(Color::from(INK)),
-            stroke_width: Some(1.4),
-        });
+        self.scene.circle(at, r, Some(Colour::css(fill)), Some(Stroke::new(INK, WIRE)));
     }
 
     /// Words around a point.
     pub fn label(&mut self, at: (f64, f64), text: &str) {
-        self.words(at, text, 12, TextAnchor::Middle);
+        self.words(at, text, 12.0, Anchor::Middle);
     }
 
     /// Words that begin at a point.
     pub fn label_left(&mut self, at: (f64, f64), text: &str) {
-        self.words(at, text, 12, TextAnchor::Start);
+        self.words(at, text, 12.0, Anchor::Start);
     }
 
     /// Words that end at a point.
     pub fn label_right(&mut self, at: (f64, f64), text: &str) {
-        self.words(at, text, 12, TextAnchor::End);
+        self.words(at, text, 12.0, Anchor::End);
     }
 
-    fn words(&mut self, at: (f64, f64), text: &str, size: u32, anchor: TextAnchor) {
-        self.scene.add(Primitive::Text {
-            x: at.0,
-            y: at.1,
-            content: text.to_string(),
-            size,
-            anchor,
-            rotate: None,
-            bold: false,
-            color: Some(Color::from(INK)),
-        });
+    fn words(&mut self, at: (f64, f64), text: &str, size: f64, anchor: Anchor) {
+        self.scene.words(Words::new(text, at, size, INK).anchored(anchor));
     }
 }

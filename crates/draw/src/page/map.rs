@@ -1,6 +1,7 @@
 //! A self-contained page: the picture, and the verdict at the pointer, looked up exactly.
 
 use super::{document, escaped};
+use crate::figures::dark_style;
 use crate::figures::map::{
     FrequencyPoint, MapContents, MapFigure, MapTrace, Role, Wall, frequency_unit, mechanism_words,
 };
@@ -59,8 +60,8 @@ pub fn map_page(
          <p class=\"small screen\">Move the pointer, tap, use the arrow keys (with Shift in larger steps), or enter exact \
          values: 110, 1e-4, 1/3.</p>\n\
          <h2>What is certain</h2>\n\
-         <p class=\"small\">The picture and the place of the nearest wall are drawn in floating point. The verdict and the \
-         number of roots are not: they hold for exactly the numbers shown in the two fields, which this page looks up with \
+         <p class=\"small\">The picture is drawn in floating point. The verdict, the number of roots and the values of one \
+         parameter at which the verdict changes (rounded to four digits) are not: they hold for exactly the numbers shown in the two fields, which this page looks up with \
          integers of any size in strips and cells that were computed and proved by exact algebra. A point on a boundary is \
          not stable.</p>\n\
          <h2>Limits</h2>\n<pre>{text}</pre>\n\
@@ -75,7 +76,8 @@ pub fn map_page(
         y_field = field("y", y),
         text = escaped(text),
     );
-    Ok(document(&title, STYLE, &body, true))
+    let dark = format!("{STYLE}@media screen and (prefers-color-scheme:dark){{\n{}}}\n", dark_style(".figure"));
+    Ok(document(&title, &dark, &body, true))
 }
 
 /// What the script needs: the exact strips, and the walls as they are drawn.

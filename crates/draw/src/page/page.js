@@ -164,23 +164,75 @@
     svg.setAttribute('aria-label', data.label);
     return { box, svg, plot, group, parts };
   });
-  const seen = () => figures.find(f => f.box.offsetParent !== null) || figures[0];
   const pixel = (f, p) => [f.plot[0] + p[0] * f.plot[2], f.plot[1] + (1 - p[1]) * f.plot[3]];
 
-  // The point of the drawn walls that is nearest in the picture.
-  function nearest(f, at) {
-    const [px, py] = pixel(f, at);
+  // Where the verdict changes as one parameter goes up or down from a point and the other stays: which values these
+  // are is decided by exact counts of roots; the value is rounded for the eye only.
+  const half = (a, b) => { const n = a[0] * b[1] + b[0] * a[1], d = 2n * a[1] * b[1], g = gcd(n, d) || 1n; return [n / g, d / g]; };
+  const distance = (a, b) => Math.abs(number(a) - number(b));
+  function change(k, point, direction, here) {
+    const at = point[k], with_ = value => k === 0 ? locate(value, point[1]) : locate(point[0], value);
+    const polys = curves.map(c => over(k === 1 ? c : c.map(t => [t[1], t[0], t[2]]), point[1 - k]));
+    const chains = polys.map(f => f.length > 1 ? sturm(f) : null);
+    const count = (a, b) => chains.map(c => c ? variations(c.map(p => signAt(p, a))) - variations(c.map(p => signAt(p, b))) : 0);
+    const between = (a, b) => (direction > 0 ? count(a, b) : count(b, a)).reduce((n, m) => n + m, 0);
+    const edge = direction > 0 ? domain[k].upper : domain[k].lower;
+    let far = edge;
+    if (!far) {
+      // Beyond all roots (Cauchy's bound).
+      let bound = 1n;
+      for (const f of polys.filter(f => f.length)) for (const c of f) { const q = abs(c) / abs(f[f.length - 1]) + 2n; if (q > bound) bound = q; }
+      far = [BigInt(direction) * bound, 1n];
+      if ((compare(far, at) > 0 ? 1 : -1) !== direction) return null;
+    }
+    let from = at;
+    for (let tries = 0; tries < 40; tries++) {
+      if (!between(from, far)) {
+        return edge ? { value: edge, curve: -1 } : null;
+      }
+      let lo = from, hi = far;
+      while (distance(lo, hi) > 2e-6 * Math.abs(number(hi)) && distance(lo, hi) > 1e-30) {
+        const middle = half(lo, hi);
+        if (between(lo, middle)) hi = middle; else lo = middle;
+      }
+      const roots = direction > 0 ? count(lo, hi) : count(hi, lo);
+      // A little further on, to the nearest point that lies on no curve.
+      let next = hi, found = with_(next);
+      for (let n = 0; n < 8 && found.kind !== 'cell' && found.kind !== 'domain'; n++) {
+        const width = [hi[0] * lo[1] - lo[0] * hi[1], hi[1] * lo[1]];
+        next = [next[0] * width[1] + width[0] * next[1], next[1] * width[1]];
+        found = with_(next);
+      }
+      if (found.kind !== 'cell' || found.stable !== here.stable) return { value: hi, curve: roots.findIndex(n => n !== 0) };
+      from = next;
+    }
+    return null;
+  }
+  // The four ways along the axes, the smallest relative change first; for a value of 0 that is its share of the window.
+  function changes(point, here) {
+    const out = [];
+    for (const k of [0, 1]) for (const direction of [-1, 1]) {
+      const found = change(k, point, direction, here);
+      if (!found) continue;
+      const from = number(point[k]), to = number(found.value);
+      const ratio = from > 0 && to > 0 || from < 0 && to < 0 ? to / from : null;
+      const relative = ratio !== null ? Math.abs(Math.log(ratio)) : from !== 0 ? Math.abs(to - from) / Math.abs(from) + 1 : Math.abs(to) / (data.axes[k].to - data.axes[k].from);
+      out.push({ k, direction, to, ratio, relative, curve: found.curve, at: [0, 1].map(j => place(j, j === k ? to : number(point[j]))) });
+    }
+    return out.sort((a, b) => a.relative - b.relative);
+  }
+  // The frequency where a drawn wall of that curve passes a place.
+  function frequencyAt(curve, at) {
     let best = null;
-    data.walls.forEach((w, k) => {
+    data.walls.filter(w => w.curve === curve && w.frequencies.length).forEach(w => {
       for (let i = 0; i + 3 < w.points.length; i += 2) {
-        const a = pixel(f, [w.points[i], w.points[i + 1]]), b = pixel(f, [w.points[i + 2], w.points[i + 3]]);
-        const dx = b[0] - a[0], dy = b[1] - a[1], l = dx * dx + dy * dy;
-        const t = l ? Math.max(0, Math.min(1, ((px - a[0]) * dx + (py - a[1]) * dy) / l)) : 0;
-        const x = a[0] + t * dx, y = a[1] + t * dy, d = Math.hypot(px - x, py - y);
-        if (!best || d < best.d) best = { d, wall: k, index: i / 2 + t, x, y, at: [w.points[i] + t * (w.points[i + 2] - w.points[i]), w.points[i + 1] + t * (w.points[i + 3] - w.points[i + 1])] };
+        const dx = w.points[i + 2] - w.points[i], dy = w.points[i + 3] - w.points[i + 1], l = dx * dx + dy * dy;
+        const t = l ? Math.max(0, Math.min(1, ((at[0] - w.points[i]) * dx + (at[1] - w.points[i + 1]) * dy) / l)) : 0;
+        const d = Math.hypot(at[0] - w.points[i] - t * dx, at[1] - w.points[i + 1] - t * dy);
+        if (!best || d < best.d) best = { d, w, index: i / 2 + t };
       }
     });
-    return best;
+    return best && best.d < 0.01 ? ', about ' + frequency(best.w.frequencies, best.index) : '';
   }
   // Between two known frequencies, geometrically.
   function frequency(known, index) {
@@ -192,8 +244,8 @@
     return data.unit === 'Hz' && f >= 1e4 ? `${Number((f / 1000).toPrecision(3))} kHz` : `${Number(f.toPrecision(3))} ${data.unit}`;
   }
   const point = { text: ['', ''], at: [0.5, 0.5] };
+  let later = 0;
   function show() {
-    const f = seen();
     const exact = point.text.map(rational);
     ['x', 'y'].forEach((id, k) => $(id).setAttribute('aria-invalid', exact[k] ? 'false' : 'true'));
     if (!exact[0] || !exact[1]) {
@@ -220,16 +272,30 @@
     $('verdict').className = kind;
     $('roots').textContent = roots;
     const inside = point.at.every(a => a >= 0 && a <= 1);
-    const wall = inside ? nearest(f, point.at) : null;
-    if (wall) {
-      const w = data.walls[wall.wall];
-      let text = 'nearest wall: ' + data.curves[w.curve].words;
-      if (w.frequencies.length) {
-        text += ', about ' + frequency(w.frequencies, wall.index);
+    $('near').textContent = inside ? '' : 'the point is outside the picture';
+    clearTimeout(later);
+    later = setTimeout(() => {
+      if (found.kind !== 'cell') return;
+      const all = changes(exact, found), name = k => data.axes[k].name, digits = v => String(Number(v.toPrecision(4)));
+      const words = c => {
+        const factor = c.ratio === null ? '' : ` (\u00d7 ${digits(c.ratio)})`;
+        const why = c.curve < 0 ? 'end of the domain' : data.curves[c.curve].words + frequencyAt(c.curve, c.at);
+        return `${name(c.k)} = ${digits(c.to)}${factor}: ${why}`;
+      };
+      const bounds = [0, 1].map(k => {
+        const end = d => all.find(c => c.k === k && c.direction === d);
+        const [lo, hi] = [end(-1), end(1)];
+        return `${lo ? digits(lo.to) + ' < ' : ''}${name(k)}${hi ? ' < ' + digits(hi.to) : ''}${lo || hi ? '' : ' has any value'}`;
+      });
+      const outside = inside ? '' : ' The point is outside the picture.';
+      $('near').textContent = (all.length ? `The verdict changes first, relatively, at ${words(all[0])}. ` : 'The verdict does not change. ')
+        + `One parameter alone: ${bounds.join('; ')}.` + outside;
+      for (const g of figures) {
+        const n = pixel(g, all.length ? all[0].at.map(a => Math.max(0, Math.min(1, a))) : point.at);
+        g.parts.link.setAttribute('x2', n[0].toFixed(1));
+        g.parts.link.setAttribute('y2', n[1].toFixed(1));
       }
-      const at = [0, 1].map(k => `${data.axes[k].name} \u2248 ${Number(value(k, wall.at[k]).toPrecision(3))}`);
-      $('near').textContent = `${text}; at ${at.join(', ')}`;
-    } else $('near').textContent = inside ? '' : 'the point is outside the picture';
+    }, 120);
     for (const g of figures) {
       g.group.setAttribute('visibility', inside ? 'visible' : 'hidden');
       if (!inside) continue;
@@ -238,8 +304,7 @@
       set(g.parts.h, { x1: l, y1: y, x2: l + w, y2: y });
       set(g.parts.v, { x1: x, y1: t, x2: x, y2: t + h });
       set(g.parts.dot, { cx: x, cy: y });
-      const n = wall ? pixel(g, wall.at) : [x, y];
-      set(g.parts.link, { x1: x, y1: y, x2: n[0], y2: n[1] });
+      set(g.parts.link, { x1: x, y1: y, x2: x, y2: y });
       g.parts.dot.setAttribute('class', kind);
     }
   }

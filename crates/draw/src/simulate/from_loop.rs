@@ -13,7 +13,7 @@ use jurist_engine::problem::Problem;
 use nalgebra::DMatrix;
 
 /// Entries of a matrix without free names, rounded; `symbols` are the values of its variables.
-fn rounded(matrix: &RationalMatrix, symbols: &[f64]) -> Result<DMatrix<f64>, Error> {
+pub(super) fn rounded(matrix: &RationalMatrix, symbols: &[f64]) -> Result<DMatrix<f64>, Error> {
     let undefined = || Error::Undefined("an entry of the closed loop divides by zero".into());
     let mut values = Vec::with_capacity(matrix.entries().len());
     for entry in matrix.entries() {

@@ -18,6 +18,7 @@ mod from_loop;
 mod root_locus;
 mod roots;
 mod sampled;
+mod step;
 mod switched;
 mod trace;
 
@@ -27,6 +28,7 @@ pub use from_loop::{excitation, signal_unit};
 pub use root_locus::{Branch, Crossing, LocusOptions, LocusSample, ParameterScale, RootLocus, trace_root_locus};
 pub use roots::{ApproximateRoot, roots};
 pub use sampled::{Excitation, SampledModel, Step};
+pub use step::{StepMeasures, natural_duration};
 pub use switched::{
     Controller, Growth, Operating, Plant, Pulse, Pwm, Record, SwitchedModel, SwitchedRun, SwitchedState, growth_limit,
 };

@@ -181,6 +181,14 @@ impl SampledModel {
         matrix.lu().solve(&(&self.input * inputs)).filter(|x| x.iter().all(|v| v.is_finite()))
     }
 
+    /// States and outputs of [`SampledModel::steady_state`] with their names; none where there is no such state.
+    pub fn final_values(&self, inputs: &DVector<f64>) -> Vec<(String, f64)> {
+        let Some(x) = self.steady_state(inputs) else { return Vec::new() };
+        let y = &self.output * &x + &self.feedthrough * inputs;
+        let values = x.iter().chain(y.iter()).copied();
+        self.states.iter().chain(&self.outputs).cloned().zip(values).collect()
+    }
+
     /// The factor by which a deviation grows per sample, measured on the run itself: the geometric
     /// mean over the last `measured` samples, after `settling` samples that let the other modes die.
     ///

@@ -97,6 +97,11 @@ fn open_in_functions<T>(result: Result<T, Error>) -> Result<T, Error> {
 fn stopped<T>(result: Result<T, Error>) -> Result<Result<T, Exhausted>, Error> {
     match result {
         Ok(value) => Ok(Ok(value)),
+        // Not every parameter of a loop with dead time can be asked for: the others are.
+        Err(Error::Refused(refused)) if refused.diagnostics().iter().all(|d| d.code == "E-dead-time") => {
+            let why = refused.diagnostics().first().map_or_else(String::new, |d| d.message.clone());
+            Ok(Err(Exhausted::new(why, "dead time")))
+        }
         Err(failure) => failure.stopped().map(Err),
     }
 }

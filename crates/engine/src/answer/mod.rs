@@ -3,12 +3,14 @@
 //! Whoever shows, proves or draws an answer reads it; nothing is decided or isolated again.
 
 mod analysis;
+mod dead_time;
 mod frequency;
 mod map;
 mod map_boxes;
 mod map_limits;
 mod stable;
 mod table;
+mod tolerance;
 mod verdict;
 
 pub use analysis::Analysis;
@@ -17,7 +19,8 @@ pub use map::Map;
 pub use map_boxes::{BoxRequest, MapBoxes, MapMethod, MapOrBoxes};
 pub use map_limits::{MapLimit, RegionExtent};
 pub use table::{ParametricTable, PointTable};
-pub use verdict::{PointVerdict, Verdict};
+pub use tolerance::{LimitSide, ToleranceAnswer, ToleranceLimit, ToleranceRequest, WorstEnd};
+pub use verdict::{DelayedRoots, PointVerdict, Verdict};
 
 use crate::problem::Problem;
 use std::sync::Arc;

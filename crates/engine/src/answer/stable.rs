@@ -42,6 +42,10 @@ impl Problem {
     /// Unless one parameter is free.
     pub fn stable_set(self: &Arc<Self>, budget: &Budget) -> Result<Answer<StableSet>, Error> {
         budget.enter(|| {
+            if let Some(delayed) = self.delayed(budget)? {
+                let set = super::dead_time::stable_set(self, delayed, budget)?;
+                return Ok(Answer::new(Arc::clone(self), set));
+            }
             if !self.algebra_over_symbols(budget)?.symbols().is_empty() {
                 let domain = &self.parameter().domain;
                 let set = match self.symbolic(budget)? {

@@ -76,6 +76,26 @@ pub struct PointVerdict {
     pub count: Option<RootCount>,
     /// Roots that have left through infinity.
     pub infinite: usize,
+    /// What is counted of a loop with dead time, whose roots to the left are infinitely many; `count` is `None` then.
+    pub delayed: Option<DelayedRoots>,
+}
+
+/// The roots of a loop with dead time on the imaginary axis and to the right of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct DelayedRoots {
+    /// On the axis.
+    pub on: usize,
+    /// To the right; `None` where infinitely many lie there or come as near to the axis as one likes.
+    pub right: Option<usize>,
+}
+
+impl PointVerdict {
+    /// The verdict on a loop with dead time.
+    pub(super) fn with_dead_time(verdict: Verdict, degree: usize, on: usize, right: Option<usize>) -> PointVerdict {
+        let delayed = Some(DelayedRoots { on, right });
+        PointVerdict { verdict, undefined: None, degree, count: None, infinite: 0, delayed }
+    }
 }
 
 impl Question {
@@ -116,6 +136,10 @@ impl Problem {
     pub fn verdict(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointVerdict>, Error> {
         budget.enter(|| {
             assert!(self.free().is_empty(), "a point has no free parameters");
+            if let Some(delayed) = self.delayed(budget)? {
+                let verdict = super::dead_time::verdict(self, delayed, budget)?;
+                return Ok(Answer::new(Arc::clone(self), verdict));
+            }
             let at = if !self.algebra_over_symbols(budget)?.symbols().is_empty() {
                 budget.step("counting the roots");
                 match self.symbolic(budget)? {
@@ -146,7 +170,10 @@ impl Problem {
                 }
             };
             let undefined = algebra.undefined().map(str::to_owned);
-            Ok(Answer::new(Arc::clone(self), PointVerdict { verdict, undefined, degree, count, infinite }))
+            Ok(Answer::new(
+                Arc::clone(self),
+                PointVerdict { verdict, undefined, degree, count, infinite, delayed: None },
+            ))
         })?
     }
 }

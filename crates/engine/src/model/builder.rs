@@ -244,6 +244,11 @@ impl ParameterBuilder {
         self.key("max", value)
     }
 
+    /// How far it may be from its nominal value: `10%`, `-20%..+30%`, `0.01`, `0.4..0.7`.
+    pub fn tolerance(self, value: &str) -> Self {
+        self.key("tolerance", value)
+    }
+
     /// Its unit.
     pub fn unit(self, unit: &str) -> Self {
         self.key("unit", unit)

@@ -56,6 +56,9 @@ pub struct ClosedLoop {
     pub outputs: Vec<String>,
     /// The loop is undefined where one of these is zero.
     pub poles: Vec<MultiPoly>,
+    /// What the characteristic function has been divided by to be monic, where the entries contain `exp(-tau s)`: without
+    /// dead time a factor without meaning.
+    pub leading: RationalFunction,
 }
 
 /// A transfer function of the closed loop as it stands: nothing is cancelled.
@@ -321,6 +324,17 @@ impl Model {
                     let argument = substituted(argument, &images).ok_or_else(undefined)?;
                     symbols.call(*function, argument).ok_or_else(undefined)?
                 }
+                Variable::Delay(time) => {
+                    let undefined = || Error::Undefined("a dead time has no value there".into());
+                    let time = substituted(time, &images).ok_or_else(undefined)?;
+                    match time.as_constant() {
+                        Some(x) if x.is_negative() => {
+                            return Err(Error::Undefined(format!("a dead time is negative there: {x}")));
+                        }
+                        Some(x) if x.is_zero() => RationalFunction::one(),
+                        _ => symbols.delay(time),
+                    }
+                }
             });
         }
         Ok((images, symbols))
@@ -383,6 +397,7 @@ impl Model {
             inputs: answer.wiring.inputs.iter().map(|s| (*s).to_owned()).collect(),
             outputs: self.outputs().iter().map(|o| o.name.name.clone()).collect(),
             poles: poles_in(&poles, &symbols, &images)?,
+            leading: substituted(&assembled.leading, &images).unwrap_or_else(RationalFunction::one),
         };
         Ok((closed_loop, sample_time.and_then(|t| substituted(&t, &images)), symbols))
     }
@@ -411,7 +426,9 @@ fn pole_beside(pole: &MultiPoly, symbols: &Symbols) -> Option<MultiPoly> {
     if symbols.is_empty() {
         return Some(pole.clone());
     }
-    let mut rest = pole.clone();
+    // For a function of s to divide by zero, all coefficients of the delays have to vanish.
+    let content = |p: &MultiPoly, i: usize| p.as_poly_in(i).coeffs().iter().fold(MultiPoly::zero(), |g, c| g.gcd(c));
+    let mut rest = symbols.delays().iter().fold(pole.clone(), |rest, (i, _)| content(&rest, *i));
     let exponentials = symbols.iter().enumerate().filter(|(_, s)| matches!(s.definition, Definition::Exponential(_)));
     let exponentials = exponentials.map(|(i, _)| MultiPoly::variable(symbols.first() + i));
     for factor in symbols.nonzero().iter().cloned().chain(exponentials) {

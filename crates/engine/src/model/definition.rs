@@ -1,6 +1,7 @@
 //! What a model says, as plain data.
 
 use super::text::Expression;
+use super::tolerance::Tolerance;
 use crate::error::{Source, Span};
 use jurist_algebra::number::Rational;
 use std::collections::HashMap;
@@ -69,6 +70,8 @@ pub struct Constant {
     pub expression: Expression,
     /// The value, if it is given as a number; such a constant can become a parameter.
     pub number: Option<Rational>,
+    /// How far the number may be from this value.
+    pub tolerance: Option<Tolerance>,
 }
 
 /// A quantity that stays free.
@@ -96,6 +99,8 @@ pub struct Parameter {
     pub unit: Option<String>,
     /// What it is, for people.
     pub description: Option<String>,
+    /// How far it may be from its nominal value.
+    pub tolerance: Option<Tolerance>,
 }
 
 impl Parameter {
@@ -309,6 +314,10 @@ impl Method {
     }
 
     /// What it is called: `forward rule`, `zero-order hold`.
+    ///
+    /// ```
+    /// assert_eq!(jurist_engine::model::Method::Tustin.words(), "Tustin's rule");
+    /// ```
     pub fn words(self) -> &'static str {
         match self {
             Method::Forward => "forward rule",

@@ -21,6 +21,7 @@ impl Model {
             max: None,
             unit: None,
             description: None,
+            tolerance: c.tolerance.clone(),
         };
         let found = self.parameter(name).cloned().or_else(|| self.constant(name).map(constant));
         found.ok_or_else(|| unknown_parameter(self, name).into())

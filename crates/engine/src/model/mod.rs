@@ -19,6 +19,7 @@ mod parts;
 mod read;
 mod symbols;
 mod text;
+pub(crate) mod tolerance;
 
 pub use builder::{BlockBuilder, ModelBuilder, ParameterBuilder};
 pub use closed_loop::{ClosedLoop, Evaluated, TransferFunction};
@@ -30,3 +31,4 @@ pub use read::{DRIVE, schema, source_from_bytes};
 pub use symbols::{Definition, Symbol, Symbols, value_approximate};
 pub(crate) use text::names::shorten;
 pub use text::{Expression, Factor, Function, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};
+pub use tolerance::Tolerance;

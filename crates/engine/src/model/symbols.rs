@@ -42,6 +42,8 @@ pub enum Definition {
         /// Which of the solutions.
         index: usize,
     },
+    /// `exp(-x s)` of a dead time, a function of the polynomial's own variable.
+    Delay(RationalFunction),
 }
 
 /// A symbol: a variable of the polynomials after the kept names.
@@ -150,6 +152,20 @@ impl Symbols {
     /// The circle number.
     pub(in crate::model) fn pi(&mut self) -> RationalFunction {
         self.intern(Definition::Pi)
+    }
+
+    /// `exp(-x s)` of a dead time other than zero.
+    pub(in crate::model) fn delay(&mut self, x: RationalFunction) -> RationalFunction {
+        self.intern(Definition::Delay(x))
+    }
+
+    /// The variables that stand for dead time, and the dead times.
+    pub fn delays(&self) -> Vec<(usize, RationalFunction)> {
+        let delay = |(i, symbol): (usize, &Symbol)| match &symbol.definition {
+            Definition::Delay(x) => Some((self.first() + i, x.clone())),
+            _ => None,
+        };
+        self.table.iter().enumerate().filter_map(delay).collect()
     }
 
     /// `exp(x)`.
@@ -289,7 +305,7 @@ impl Definition {
     pub fn arguments(&self) -> Vec<&RationalFunction> {
         match self {
             Definition::Pi => Vec::new(),
-            Definition::Root(x) | Definition::Exponential(x) => vec![x],
+            Definition::Root(x) | Definition::Exponential(x) | Definition::Delay(x) => vec![x],
             Definition::Tangent { square, time } => vec![square, time],
             Definition::Fundamental { polynomial, time, .. } => polynomial.iter().chain([time]).collect(),
         }
@@ -304,6 +320,7 @@ impl Definition {
             Definition::Pi => Definition::Pi,
             Definition::Root(x) => Definition::Root(f(x)?),
             Definition::Exponential(x) => Definition::Exponential(f(x)?),
+            Definition::Delay(x) => Definition::Delay(f(x)?),
             Definition::Tangent { square, time } => Definition::Tangent { square: f(square)?, time: f(time)? },
             Definition::Fundamental { polynomial, time, index } => Definition::Fundamental {
                 polynomial: polynomial.iter().map(&mut f).collect::<Option<_>>()?,
@@ -320,6 +337,7 @@ impl Definition {
             Definition::Exponential(_) => "X",
             Definition::Tangent { .. } => "t",
             Definition::Fundamental { .. } => "f",
+            Definition::Delay(_) => "z",
         }
     }
 
@@ -330,6 +348,10 @@ impl Definition {
             Definition::Pi => "pi".into(),
             Definition::Root(x) => format!("sqrt({})", shown(x)),
             Definition::Exponential(x) => format!("exp({})", shown(x)),
+            Definition::Delay(x) if x.is_polynomial() && x.numerator().terms().len() == 1 => {
+                format!("exp(-{}*s)", shown(x))
+            }
+            Definition::Delay(x) => format!("exp(-({})*s)", shown(x)),
             Definition::Tangent { square, time } if square.is_one() => format!("tan({})", shown(time)),
             Definition::Tangent { square, time } => {
                 let hyperbolic = square.as_constant().is_some_and(|w| w.is_negative());

@@ -6,6 +6,7 @@ use super::substitution::{scaled_by_radius, shifted_by_decay};
 use crate::error::Error;
 use crate::model::{ClosedLoop, Evaluated, Model, Symbols, Time};
 use crate::stability::ParametricPolynomial;
+use crate::stability::boxes::on_line;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
@@ -56,7 +57,12 @@ impl Algebra {
             }
             Err(failure) => return Err(failure),
         };
-        let Evaluated { polynomial, closed_loop, sample_time, symbols } = evaluated;
+        let Evaluated { mut polynomial, closed_loop, sample_time, symbols } = evaluated;
+        if let Some(closed_loop) = closed_loop.as_ref().filter(|_| !symbols.delays().is_empty()) {
+            // The monic polynomial would divide by functions of s.
+            polynomial.coefficients.iter_mut().for_each(|c| *c = &*c * &closed_loop.leading);
+            polynomial.monic = false;
+        }
         let polynomial = match bound {
             None => polynomial,
             Some(at) => make_room(polynomial, at, problem.region().bound_name()),
@@ -144,6 +150,38 @@ impl Algebra {
         });
         let undefined = polynomial.is_none().then(|| "an expression divides by zero".to_owned());
         Algebra { undefined: self.undefined.clone().or(undefined), polynomial, ..self.beside_polynomial(fixed, value) }
+    }
+}
+
+impl Algebra {
+    /// What is left where all free parameters move along the line `base + t step`; `t` is the only variable.
+    pub(super) fn on_ray(&self, name: &str, base: &[Rational], step: &[Rational]) -> Algebra {
+        let left = |f: &RationalFunction| {
+            let [above, below] = on_line([f.numerator(), f.denominator()], base, step);
+            RationalFunction::new(MultiPoly::from_univariate(&above, 0), MultiPoly::from_univariate(&below, 0))
+        };
+        let polynomial = self.polynomial.as_ref().and_then(|d| {
+            let one = MultiPoly::one();
+            let pole = |p: &MultiPoly| MultiPoly::from_univariate(&on_line([p, &one], base, step)[0], 0);
+            let poles: Vec<MultiPoly> = d.poles.iter().map(pole).collect();
+            let coefficients = d.coefficients.iter().map(left).collect::<Option<Vec<_>>>()?;
+            let variables = vec![name.to_owned()];
+            (!poles.iter().any(MultiPoly::is_zero)).then(|| CharacteristicPolynomial {
+                variables,
+                coefficients,
+                poles,
+                ..d.clone()
+            })
+        });
+        let undefined = polynomial.is_none().then(|| "an expression divides by zero".to_owned());
+        Algebra {
+            undefined: self.undefined.clone().or(undefined),
+            polynomial,
+            formal_degree: self.formal_degree,
+            sample_time: self.sample_time.as_ref().and_then(left),
+            closed_loop: None,
+            symbols: self.symbols.clone(),
+        }
     }
 }
 

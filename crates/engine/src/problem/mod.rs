@@ -3,6 +3,7 @@
 //! [`Question`] is what is being asked, built step by step from a model; [`Problem`] is the same question resolved: every
 //! name is known, every value has its place, and the algebra is computed at most once, when it is first needed.
 
+mod delayed;
 mod evaluation;
 mod over_symbols;
 mod question;
@@ -10,6 +11,8 @@ mod region;
 mod resolved;
 mod substitution;
 
+pub(crate) use delayed::refused;
+pub use delayed::{BaseDelay, DelayedLoop};
 pub use evaluation::Algebra;
 pub use question::Question;
 pub use region::{Bound, DECAY, RADIUS, Region};

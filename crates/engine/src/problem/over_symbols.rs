@@ -24,6 +24,10 @@ impl Problem {
     pub fn symbolic(&self, budget: &Budget) -> Result<Option<SymbolicPolynomial>, Error> {
         assert!(self.free().len() <= 1, "one parameter is free");
         let algebra = self.algebra_over_symbols(budget)?;
+        if !algebra.symbols().delays().is_empty() {
+            let help = "known of it: verdict, intervals of one parameter, analyze, charpoly";
+            return Err(super::delayed::refused("this cannot be asked of a loop with dead time yet", help));
+        }
         let Some(polynomial) = algebra.polynomial() else { return Ok(None) };
         let (symbols, free) = (algebra.symbols(), self.free().len());
         if !symbols.is_moving() {
@@ -63,6 +67,8 @@ fn definition(
     let made = || -> Option<Definition> {
         Some(match of {
             model::Definition::Pi => Definition::Pi,
+            // Dead time is a function of s; a loop with it is asked otherwise.
+            model::Definition::Delay(_) => return None,
             model::Definition::Root(x) => Definition::Root(place(x)?),
             model::Definition::Exponential(x) => Definition::Exponential(place(x)?),
             model::Definition::Tangent { square, time } => {

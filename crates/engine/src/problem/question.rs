@@ -62,6 +62,17 @@ impl Question {
         self
     }
 
+    /// The question without the value that was set for a name.
+    pub fn without_value(mut self, name: &str) -> Self {
+        self.set.remove(name);
+        self
+    }
+
+    /// Takes back a value that was set.
+    pub(crate) fn take_set(&mut self, name: &str) -> Option<Rational> {
+        self.set.remove(name)
+    }
+
     /// Replaces the open domain of a parameter; of `radius` and `decay`, too.
     pub fn domain(mut self, name: impl Into<String>, range: Range) -> Self {
         self.domain.insert(name.into(), range);

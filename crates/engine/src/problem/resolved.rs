@@ -1,6 +1,7 @@
 //! A question resolved: every name known, every value in its place, the algebra computed once.
 
 use super::Region;
+use super::delayed::{DelayedLoop, refused};
 use super::evaluation::{Algebra, parametric};
 use crate::error::{Diagnostic, Error};
 use crate::model::{ClosedLoop, Model, Symbols, Time};
@@ -66,6 +67,7 @@ pub struct Problem {
     algebra: OnceLock<Algebra>,
     parametric: OnceLock<Option<ParametricPolynomial>>,
     plane: OnceLock<Option<PlanePolynomial>>,
+    delayed: OnceLock<Option<DelayedLoop>>,
 }
 
 impl Problem {
@@ -77,7 +79,8 @@ impl Problem {
         warnings: Vec<Diagnostic>,
     ) -> Problem {
         let (algebra, parametric, plane) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        Problem { model, set, free, region, warnings, algebra, parametric, plane }
+        let delayed = OnceLock::new();
+        Problem { model, set, free, region, warnings, algebra, parametric, plane, delayed }
     }
 
     /// The model.
@@ -151,6 +154,10 @@ impl Problem {
         if algebra.symbols().is_empty() {
             return Ok(algebra);
         }
+        if !algebra.symbols().delays().is_empty() {
+            let help = "known of it: verdict, intervals of one parameter, analyze, charpoly";
+            return Err(refused("this cannot be asked of a loop with dead time yet", help));
+        }
         let error =
             Diagnostic::error("E-function", "the loop is not rational: this question cannot be asked of it yet");
         let list: Vec<String> =
@@ -186,6 +193,20 @@ impl Problem {
     /// As [`Problem::algebra`]; `E-no-states` for a model given by its characteristic polynomial, [`Error::Undefined`].
     pub fn closed_loop(&self, budget: &Budget) -> Result<&ClosedLoop, Error> {
         self.algebra(budget)?.closed_loop(&self.model)
+    }
+
+    /// The characteristic function of a loop with dead time; `None` for any other loop.
+    ///
+    /// Cost: that of [`Problem::algebra_over_symbols`]; on the first call also a common denominator.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`]; `E-dead-time` for what cannot be treated.
+    pub fn delayed(&self, budget: &Budget) -> Result<Option<&DelayedLoop>, Error> {
+        if let Some(delayed) = self.delayed.get() {
+            return Ok(delayed.as_ref());
+        }
+        let delayed = DelayedLoop::of(self, self.algebra_over_symbols(budget)?, budget)?;
+        Ok(self.delayed.get_or_init(|| delayed).as_ref())
     }
 
     /// The closed loop in state space with what its variables beyond the free names stand for, for one who can treat
@@ -253,6 +274,33 @@ impl Problem {
     pub fn on_line(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Error> {
         let algebra = self.algebra(budget)?.on_line(fixed, value);
         self.line_with(algebra, fixed, value, budget)
+    }
+
+    /// The problem that is left where all free parameters move along the line `base + t step`: its one parameter is `t`, of this
+    /// name. Its algebra follows from what is known.
+    ///
+    /// Cost: that of [`Problem::algebra`], and of putting the line into the `n + 1` coefficients.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra`].
+    ///
+    /// # Panics
+    /// Unless base and step have one number for each free parameter.
+    pub fn on_ray(
+        &self,
+        name: &str,
+        base: &[Rational],
+        step: &[Rational],
+        domain: Range,
+        budget: &Budget,
+    ) -> Result<Problem, Error> {
+        assert_eq!((base.len(), step.len()), (self.free.len(), self.free.len()), "each free parameter moves");
+        let algebra = self.algebra(budget)?;
+        let algebra = budget.enter(|| algebra.on_ray(name, base, step))?;
+        let free = vec![Free { name: name.to_owned(), unit: None, nominal: None, domain }];
+        let problem = Problem::new(Arc::clone(&self.model), self.set.clone(), free, self.region.clone(), Vec::new());
+        problem.algebra.get_or_init(|| algebra);
+        Ok(problem)
     }
 
     /// [`Problem::on_line`] for one who needs the polynomial only in the form that is decided.

@@ -1,6 +1,7 @@
 //! Results as text, JSON, LaTeX and code. Nothing is decided here.
 
 mod analysis;
+pub mod bounded;
 pub mod diagnostics;
 pub mod documents;
 pub mod intervals;
@@ -11,10 +12,12 @@ pub mod notation;
 pub mod real;
 pub mod region;
 mod table;
+mod tolerance;
 mod verdict;
 mod words;
 
 pub use intervals::intervals_text;
 pub use map::{map_boxes_text, map_text};
 pub use table::table_text;
+pub use tolerance::tolerance_text;
 pub use words::words;

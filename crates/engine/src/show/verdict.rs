@@ -16,6 +16,16 @@ impl Answer<PointVerdict> {
 /// `unstable: 4 roots inside the unit circle, 0 on it, 2 outside`.
 pub fn verdict_line(problem: &Problem, answer: &PointVerdict) -> String {
     let name = answer.verdict.name();
+    if let Some(delayed) = answer.delayed {
+        let roots = |n: usize| if n == 1 { "1 root".to_owned() } else { format!("{n} roots") };
+        return match (answer.verdict, delayed.right) {
+            (Verdict::Stable, _) => format!("{name}: all roots, infinitely many, are left of the imaginary axis"),
+            (_, Some(right)) => format!("{name}: {} on the imaginary axis, {right} right of it", roots(delayed.on)),
+            (_, None) => {
+                format!("{name}: a chain of infinitely many roots is right of the imaginary axis or comes up to it")
+            }
+        };
+    }
     let Some(count) = answer.count else {
         let unknown =
             "an expression of the model divides by zero, a block loses its order, or the loop is not well posed";

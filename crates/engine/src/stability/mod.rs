@@ -6,8 +6,10 @@
 //! the exact count of roots ([`count_roots`]) and the boundary in parameter space.
 
 mod boundary;
+pub mod boxes;
 mod cause;
 mod conditions;
+pub mod dead_time;
 mod half_size;
 mod interval_set;
 mod jury;

@@ -1,32 +1,28 @@
-//! The drawing: region, walls, labels, marks, axes, legend.
+//! The drawing: region, domain, walls, marks, axes.
 
-use super::super::Figure;
+use super::super::axes::{BELOW, Frame};
 use super::super::clip::Window;
-use super::axes::{Tick, ticks};
+use super::super::facts::heading;
+use super::super::legend::{self, hatched};
+use super::super::panel::{Shape, apart};
+use super::super::{FAINT, Figure, INK};
 use super::labels::{FrequencyPoint, extreme_points, frequencies, limits_on_lines, spaced};
 use super::lines::{Role, Wall, mechanism_colour, walls};
-use super::shapes::{broken, dashed, path, thinned};
 use super::trace::MapTrace;
+use super::{REGION, UNSTABLE};
+use crate::scene::{Item, Point, Rectangle, Scene, Stroke, through};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::error::Error;
-use jurist_engine::problem::Free;
-use jurist_engine::show::layout::visible;
+use jurist_engine::problem::Problem;
 use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::StabilityMap;
-use kuva::render::color::Color;
-use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 
-pub(super) const INK: &str = "#222222";
-pub(super) const FAINT: &str = "#999999";
-const GRID: &str = "#e4e4e4";
-pub(super) const PAPER: &str = "#ffffff";
-pub(super) const REGION: &str = "#cfe8d8";
-/// Width of a character of the text in the figure, on average.
-pub(super) const CHARACTER: f64 = 5.8;
 /// Frequencies for the page are this far apart.
 const FINE_SPACING: f64 = 14.0;
+/// Right of the axes.
+const RIGHT: f64 = 18.0;
 
 /// A picture of a map, with what is needed to look things up in it.
 #[derive(Debug)]
@@ -82,64 +78,72 @@ impl<'a> MapContents<'a> {
     pub fn draw(&self, width: f64, height: f64, titled: bool) -> MapFigure {
         Drawing::new(self, width, height, titled).finish()
     }
+
+    /// The domain in places of the window: left, lower, right, upper, each from 0 to 1.
+    fn domain(&self) -> [f64; 4] {
+        let end = |k: usize, end: &Option<Rational>, otherwise: f64| {
+            end.as_ref().map_or(otherwise, |e| self.trace.windows[k].place(e.to_f64_approximate())).clamp(0.0, 1.0)
+        };
+        let of = |k: usize| &self.answer.problem().free()[k].domain;
+        [end(0, &of(0).lower, 0.0), end(1, &of(1).lower, 0.0), end(0, &of(0).upper, 1.0), end(1, &of(1).upper, 1.0)]
+    }
+
+    /// Whether the window shows points outside the domain.
+    pub(super) fn leaves_domain(&self) -> bool {
+        self.domain() != [0.0, 0.0, 1.0, 1.0]
+    }
+}
+
+/// `Stable region`, or the region that was asked for.
+pub(super) fn what(problem: &Problem) -> String {
+    let asked = goal_or_stable(problem);
+    if asked == "stable" { "Stable region".to_owned() } else { format!("Region of {asked}") }
 }
 
 /// A picture in the making.
 pub(super) struct Drawing<'a> {
     pub contents: &'a MapContents<'a>,
     pub scene: Scene,
-    pub left: f64,
-    pub top: f64,
-    pub width: f64,
-    pub height: f64,
+    pub frame: Frame,
     /// Rectangles that words stand in: left, top, right, bottom.
     pub taken: Vec<(f64, f64, f64, f64)>,
+    /// Lines from words to their points.
+    pub leaders: Vec<(Point, Point)>,
     /// Where dots are.
-    pub dots: Vec<(f64, f64)>,
-    /// Mechanisms that are named beside a wall.
-    pub named: Vec<String>,
+    pub dots: Vec<Point>,
+    /// What is written beside walls: each once.
+    pub said: Vec<String>,
 }
 
 impl<'a> Drawing<'a> {
     fn new(contents: &'a MapContents<'a>, width: f64, height: f64, titled: bool) -> Self {
+        let problem = contents.answer.problem();
+        let [x, y] = [0, 1].map(|k| contents.trace.windows[k].axis(&problem.free()[k]));
+        let mut scene = Scene::new(width, height);
+        let mut top = if titled { heading(&what(problem), problem).draw(&mut scene) } else { 4.0 };
+        let left = Frame::left_of(&y, height - top - BELOW);
+        let plot = Rectangle { left, top: 0.0, width: width - left - RIGHT, height: 0.0 };
         let mut drawing = Drawing {
             contents,
-            scene: Scene::new(width, height),
-            left: 66.0,
-            top: 0.0,
-            width: width - 66.0 - 18.0,
-            height: 0.0,
+            scene,
+            frame: Frame { x, y, plot, equal: false },
             taken: Vec::new(),
+            leaders: Vec::new(),
             dots: Vec::new(),
-            named: Vec::new(),
+            said: Vec::new(),
         };
-        let narrow = width < 500.0;
-        let title = if titled { drawing.title() } else { String::new() };
-        let size = if narrow { 13 } else { 14 };
-        let mut y = if titled { 22.0 } else { 14.0 };
-        for line in broken(&title, (width - 20.0) / (f64::from(size) * 0.6)).iter().filter(|l| !l.is_empty()) {
-            drawing.text((width / 2.0, y), line, size, TextAnchor::Middle, INK);
-            y += 18.0;
-        }
-        y = drawing.legend(y + 2.0);
-        drawing.top = y + 8.0;
-        drawing.height = height - drawing.top - 50.0;
+        let entries = drawing.entries();
+        top = legend::in_rows(&mut drawing.scene, &entries, (14.0, top + 2.0), width - 28.0) + 6.0;
+        drawing.frame.plot.top = top;
+        drawing.frame.plot.height = (height - top - BELOW).max(20.0);
         drawing
     }
 
-    fn title(&self) -> String {
-        let answer = self.contents.answer;
-        let asked = goal_or_stable(answer.problem());
-        let what = if asked == "stable" { "Stable region".to_owned() } else { format!("Region of {asked}") };
-        match answer.problem().title().filter(|t| !t.is_empty()) {
-            Some(title) => format!("{what}: {}", visible(title)),
-            None => what,
-        }
-    }
-
     fn finish(mut self) -> MapFigure {
+        self.ground();
         self.region();
-        self.frame();
+        let frame = self.frame.clone();
+        frame.draw(&mut self.scene);
         self.lines_through_nominal();
         let edges: Vec<usize> = (0..self.contents.walls.len()).collect();
         for role in [Role::Count, Role::Stable] {
@@ -152,22 +156,35 @@ impl<'a> Drawing<'a> {
         for &k in edges.iter().filter(|k| self.contents.walls[**k].role == Role::Stable) {
             self.labels(k);
         }
-        let plot = (self.left, self.top, self.width, self.height);
-        MapFigure { figure: Figure::new(self.scene), plot }
+        let plot = self.frame.plot;
+        MapFigure { figure: self.scene.into(), plot: (plot.left, plot.top, plot.width, plot.height) }
     }
 
-    pub(super) fn at(&self, (u, v): (f64, f64)) -> (f64, f64) {
-        (self.left + u * self.width, self.top + (1.0 - v) * self.height)
+    pub(super) fn at(&self, place: Point) -> Point {
+        self.frame.at_places(place)
+    }
+
+    /// Unstable is what lies in the domain and is nothing else; beside it the domain ends, with a line.
+    fn ground(&mut self) {
+        let [left, lower, right, upper] = self.contents.domain();
+        let rectangle = |a: Point, b: Point| Rectangle { left: a.0, top: a.1, width: b.0 - a.0, height: b.1 - a.1 };
+        let whole = self.frame.plot;
+        let inside = rectangle(self.at((left, upper)), self.at((right, lower)));
+        if self.contents.leaves_domain() {
+            hatched(&mut self.scene, &whole);
+        }
+        if inside.width > 0.0 && inside.height > 0.0 {
+            self.scene.rectangle(&inside, Some(UNSTABLE), None);
+            if self.contents.leaves_domain() {
+                self.scene.rectangle(&inside, None, Some(Stroke::new(FAINT, 1.5)));
+            }
+        }
     }
 
     /// The stable cells, filled as one path so that no seams show between strips.
     fn region(&mut self) {
-        let (contents, mut d) = (self.contents, String::new());
-        let edge = |end: &Option<Rational>, otherwise: f64| {
-            end.as_ref().map_or(otherwise, |e| contents.trace.windows[1].place(e.to_f64_approximate()))
-        };
-        let domain = &contents.answer.problem().free()[1].domain;
-        let (bottom, top) = (edge(&domain.lower, -1.0), edge(&domain.upper, 2.0));
+        let (contents, mut segments) = (self.contents, Vec::new());
+        let [_, bottom, _, top] = contents.domain();
         for traced in &contents.trace.strips {
             let cells = &contents.map.strips[traced.strip].cells;
             for (number, _) in cells.iter().enumerate().filter(|(_, cell)| cell.stable) {
@@ -175,142 +192,67 @@ impl<'a> Drawing<'a> {
                 let above = |v: &[f64]| v.get(number).copied().unwrap_or(top);
                 let upper = traced.lines.iter().map(|l| (l.u, above(&l.v)));
                 let lower = traced.lines.iter().rev().map(|l| (l.u, below(&l.v)));
-                let points: Vec<(f64, f64)> =
-                    upper.chain(lower).map(|(u, v)| self.at((u, v.clamp(0.0, 1.0)))).collect();
-                let visible = traced.lines.iter().any(|l| above(&l.v) > 0.0 && below(&l.v) < 1.0);
-                if visible {
-                    d.push_str(&path(&points));
-                    d.push('Z');
+                let points: Vec<Point> = upper.chain(lower).map(|(u, v)| self.at((u, v.clamp(0.0, 1.0)))).collect();
+                if traced.lines.iter().any(|l| above(&l.v) > 0.0 && below(&l.v) < 1.0) {
+                    segments.extend(through(&apart(points), true));
                 }
             }
         }
-        if !d.is_empty() {
-            self.scene.add(Primitive::Path(Box::new(PathData {
-                d,
-                fill: Some(Color::from(REGION)),
-                stroke: Color::from("none"),
-                stroke_width: 0.0,
-                opacity: None,
-                stroke_dasharray: None,
-            })));
+        if !segments.is_empty() {
+            self.scene.add(Item::Path { segments, fill: Some(REGION), stroke: None });
         }
     }
 
-    /// Grid, frame, ticks and names of the axes.
-    fn frame(&mut self) {
-        let windows = &self.contents.trace.windows;
-        let x_ticks = ticks(&windows[0], (self.width / 90.0).max(3.0));
-        let y_ticks = ticks(&windows[1], (self.height / 50.0).max(3.0));
-        let (right, bottom) = (self.left + self.width, self.top + self.height);
-        let length = |t: &Tick| if t.label.is_some() { 6.0 } else { 3.0 };
-        for t in &x_ticks {
-            let x = self.left + t.place * self.width;
-            if t.label.is_some() && t.place > 0.001 && t.place < 0.999 {
-                self.line((x, self.top), (x, bottom), GRID, 0.6, None);
-            }
-            self.line((x, bottom), (x, bottom + length(t)), INK, 1.0, None);
-        }
-        for t in &y_ticks {
-            let y = bottom - t.place * self.height;
-            if t.label.is_some() && t.place > 0.001 && t.place < 0.999 {
-                self.line((self.left, y), (right, y), GRID, 0.6, None);
-            }
-            self.line((self.left - length(t), y), (self.left, y), INK, 1.0, None);
-        }
-        let mut last = f64::NEG_INFINITY;
-        for (t, label) in x_ticks.iter().filter_map(|t| Some((t, t.label.as_ref()?))) {
-            let x = self.left + t.place * self.width;
-            let half = label.chars().count() as f64 * CHARACTER / 2.0;
-            if x - half > last + 6.0 {
-                self.text((x, bottom + 19.0), label, 11, TextAnchor::Middle, INK);
-                last = x + half;
-            }
-        }
-        for (t, label) in y_ticks.iter().filter_map(|t| Some((t, t.label.as_ref()?))) {
-            let y = bottom - t.place * self.height;
-            self.text((self.left - 9.0, y + 4.0), label, 11, TextAnchor::End, INK);
-        }
-        for (a, b) in [
-            ((self.left, self.top), (right, self.top)),
-            ((right, self.top), (right, bottom)),
-            ((self.left, bottom), (right, bottom)),
-            ((self.left, self.top), (self.left, bottom)),
-        ] {
-            self.line(a, b, INK, 1.0, None);
-        }
-        let axes = &self.contents.answer.problem().free();
-        let (x_name, y_name) = (axis_name(&axes[0]), axis_name(&axes[1]));
-        self.text((self.left + self.width / 2.0, bottom + 40.0), &x_name, 12, TextAnchor::Middle, INK);
-        self.scene.add(Primitive::Text {
-            x: 16.0,
-            y: self.top + self.height / 2.0,
-            content: y_name,
-            size: 12,
-            anchor: TextAnchor::Middle,
-            rotate: Some(-90.0),
-            bold: false,
-            color: Some(Color::from(INK)),
-        });
-    }
-
-    pub(super) fn nominal(&self) -> Option<(f64, f64)> {
+    pub(super) fn nominal(&self) -> Option<Point> {
         let [Some(x), Some(y)] = [0, 1].map(|k| self.contents.answer.problem().free()[k].nominal.as_ref()) else {
             return None;
         };
         let windows = &self.contents.trace.windows;
         let at = (windows[0].place(x.to_f64_approximate()), windows[1].place(y.to_f64_approximate()));
-        let inside = |v: f64| (0.0..=1.0).contains(&v);
-        (inside(at.0) && inside(at.1)).then_some(at)
+        inside(at).then_some(at)
     }
 
     fn lines_through_nominal(&mut self) {
         let Some((u, v)) = self.nominal() else { return };
         for (a, b) in [((u, 0.0), (u, 1.0)), ((0.0, v), (1.0, v))] {
-            let (a, b) = (self.at(a), self.at(b));
-            self.line(a, b, FAINT, 0.8, Some("2 3"));
+            self.scene.line(
+                self.frame.at_places(a),
+                self.frame.at_places(b),
+                Stroke::new(FAINT, 0.8).dashed(&[2.0, 3.0]),
+            );
         }
     }
 
     fn marks(&mut self) {
         let windows = &self.contents.trace.windows;
-        for &(x, y) in &self.contents.published {
-            let at = (windows[0].place(x), windows[1].place(y));
-            if (0.0..=1.0).contains(&at.0) && (0.0..=1.0).contains(&at.1) {
-                let at = self.at(at);
-                self.circle(at);
-                self.taken.push((at.0 - 6.0, at.1 - 6.0, at.0 + 6.0, at.1 + 6.0));
-            }
-        }
-        if let Some(at) = self.nominal() {
+        let published = self.contents.published.iter().map(|&(x, y)| (windows[0].place(x), windows[1].place(y)));
+        let marks = published.filter(|at| inside(*at)).map(|at| (at, Shape::Circle));
+        for (at, shape) in marks.chain(self.nominal().map(|at| (at, Shape::Diamond))) {
             let at = self.at(at);
-            self.diamond(at);
+            legend::mark(&mut self.scene, shape, INK, at);
             self.taken.push((at.0 - 7.0, at.1 - 7.0, at.0 + 7.0, at.1 + 7.0));
         }
     }
 
     fn wall(&mut self, k: usize) {
         let wall = &self.contents.walls[k];
-        let (colour, dashes) = mechanism_colour(&self.contents.map.curves[wall.curve].causes);
-        let width = if wall.role == Role::Stable { 2.2 } else { 0.9 };
+        let stroke = wall_stroke(wall, self.contents.map);
         let window = Window { x: (0.0, 1.0), y: (0.0, 1.0) };
         for piece in window.pieces(&wall.points) {
-            let points = thinned(piece.into_iter().map(|p| self.at(p)).collect());
-            for points in dashed(points, dashes) {
-                self.scene.add(Primitive::PolyLine {
-                    points,
-                    stroke: Color::from(colour),
-                    stroke_width: width,
-                    stroke_dasharray: None,
-                });
-            }
+            let points = apart(piece.into_iter().map(|p| self.at(p)).collect());
+            self.scene.add(Item::Path { segments: through(&points, false), fill: None, stroke: Some(stroke.clone()) });
         }
     }
 }
 
-/// `K_pwm / V`.
-pub(super) fn axis_name(axis: &Free) -> String {
-    match axis.unit.as_deref().filter(|u| !u.is_empty()) {
-        Some(unit) => format!("{} / {}", axis.name, visible(unit)),
-        None => axis.name.clone(),
-    }
+/// How a wall is drawn.
+pub(super) fn wall_stroke(wall: &Wall, map: &StabilityMap) -> Stroke {
+    let (colour, dashes) = mechanism_colour(&map.curves[wall.curve].causes);
+    let width = if wall.role == Role::Stable { 2.2 } else { 0.9 };
+    Stroke::new(crate::scene::Colour::css(colour), width).dashed(dashes)
+}
+
+/// Whether a place is in the window.
+pub(super) fn inside((u, v): Point) -> bool {
+    (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v)
 }

@@ -1,12 +1,14 @@
 //! Where names and frequencies stand beside the walls.
 
+use super::super::engineering::{frequency_text, quantity};
 use super::lines::{Role, Wall, mechanism_words};
 use super::trace::approximate_real;
 use jurist_algebra::limits::{Budget, parallel_map};
-use jurist_algebra::number::{parse_number, to_decimal};
 use jurist_engine::answer::{Answer, Frequency, Map};
 use jurist_engine::error::Error;
 use jurist_engine::model::Time;
+use jurist_engine::problem::Free;
+use jurist_engine::show::layout::visible;
 use jurist_engine::stability::Cause;
 use jurist_engine::stability::plane::StabilityMap;
 
@@ -22,41 +24,26 @@ pub struct FrequencyPoint {
     pub value: f64,
 }
 
-/// The frequency in the unit that suits the loop: hertz in discrete time with a sample time, radians without,
-/// radians per second in continuous time.
-fn frequency_value(frequency: &Frequency, time: Time) -> Option<f64> {
-    let of = match (time, &frequency.hertz) {
-        (Time::Discrete, Some(hertz)) => hertz,
-        (Time::Discrete, None) => frequency.angle.as_ref()?,
-        (Time::Continuous, _) => frequency.radians_per_second.as_ref()?,
-    };
+/// The frequency in hertz; in radians per sample where a discrete loop names no sample time.
+fn frequency_value(frequency: &Frequency) -> Option<f64> {
+    let of = frequency.hertz.as_ref().or(frequency.angle.as_ref())?;
     Some(of.lower().midpoint(of.upper()).to_f64_approximate())
 }
 
 /// The unit of the frequencies of a map.
 pub fn frequency_unit(answer: &Answer<Map>) -> &'static str {
     match (answer.problem().time(), answer.problem().evaluated().and_then(|a| a.sample_time())) {
-        (Time::Discrete, Some(_)) => "Hz",
         (Time::Discrete, None) => "rad",
-        (Time::Continuous, _) => "rad/s",
+        _ => "Hz",
     }
 }
 
-/// `1664 Hz`, `12.0 kHz`, `0.506 Hz`.
-pub(super) fn frequency_text(value: f64, unit: &str) -> String {
-    match value {
-        _ if (1e4..1e6).contains(&value) && unit == "Hz" => format!("{:.1} kHz", value / 1000.0),
-        _ if (1000.0..1e6).contains(&value) => format!("{value:.0} {unit}"),
-        _ => {
-            let exact = parse_number(&format!("{value:e}")).map(|v| to_decimal(&v, 3));
-            format!("{} {unit}", exact.unwrap_or_default())
-        }
-    }
-}
-
-/// A decimal with the sign that print has for minus.
-fn printed(decimal: &str) -> String {
-    decimal.replace('-', "\u{2212}")
+/// `K_pwm = 550.94 V, 1664 Hz`: a value of a parameter to five digits and the frequency there.
+fn limit_text(answer: &Answer<Map>, free: &Free, decimal: &str, frequency: Option<&Frequency>) -> String {
+    let frequency = frequency.and_then(frequency_value);
+    let frequency = frequency.map(|f| format!(", {}", frequency_text(f, frequency_unit(answer)))).unwrap_or_default();
+    let unit = visible(free.unit.as_deref().unwrap_or_default());
+    format!("{} = {}{frequency}", free.name, quantity(decimal, &unit))
 }
 
 /// The extreme values of the regions that are taken at points, with what is written there.
@@ -69,11 +56,8 @@ pub(super) fn extreme_points(answer: &Answer<Map>) -> Vec<((f64, f64), String)> 
         .flat_map(|l| l.ends.iter().enumerate())
         .flat_map(|(k, ends)| ends.iter().flatten().map(move |end| (k, end)))
     {
-        let name = &answer.problem().free()[parameter].name;
-        let frequency = limit.frequency.as_ref().and_then(|f| frequency_value(f, answer.problem().time()));
-        let frequency =
-            frequency.map(|f| format!(", {}", frequency_text(f, frequency_unit(answer)))).unwrap_or_default();
-        let text = format!("{name} = {}{frequency}", printed(&limit.limit.value.decimal(5)));
+        let free = &answer.problem().free()[parameter];
+        let text = limit_text(answer, free, &limit.limit.value.decimal(5), limit.frequency.as_ref());
         for at in &limit.limit.at {
             let middle = |k: usize| at[k].lower().midpoint(at[k].upper()).to_f64_approximate();
             out.push(((middle(0), middle(1)), text.clone()));
@@ -82,21 +66,19 @@ pub(super) fn extreme_points(answer: &Answer<Map>) -> Vec<((f64, f64), String)> 
     out
 }
 
-/// The exact limits on the two lines through the nominal point, in floating point, with what is written there:
-/// `K_pwm = 550.94, 1664 Hz`.
+/// The exact limits on the two lines through the nominal point, in floating point, with what is written there; the
+/// ends of the domain are no limits.
 pub(super) fn limits_on_lines(answer: &Answer<Map>) -> Vec<((f64, f64), String)> {
     let mut out = Vec::new();
     for (line, set) in &answer.value().slices {
         let Some((fixed, at)) = line.set().last() else { continue };
-        for end in set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
+        let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
+        for end in ends.filter(|e| !e.causes.contains(Cause::Domain)) {
             let value = approximate_real(&end.value);
             let at = at.to_f64_approximate();
             let place = if *fixed == answer.problem().free()[0].name { (at, value) } else { (value, at) };
-            let decimal = printed(&end.value.decimal(5));
-            let frequency = line.frequency(end, BITS).and_then(|f| frequency_value(&f, answer.problem().time()));
-            let frequency =
-                frequency.map(|f| format!(", {}", frequency_text(f, frequency_unit(answer)))).unwrap_or_default();
-            let text = format!("{} = {decimal}{frequency}", line.parameter().name);
+            let frequency = line.frequency(end, BITS);
+            let text = limit_text(answer, line.parameter(), &end.value.decimal(5), frequency.as_ref());
             if out.iter().all(|(p, _)| *p != place) {
                 out.push((place, text));
             }
@@ -138,7 +120,7 @@ pub(super) fn frequencies(
     let found: Vec<Result<Option<FrequencyPoint>, Error>> = parallel_map(points, |&point| {
         let Some((x, number)) = wall.lines.get(point) else { return Ok(None) };
         let end = answer.wall(x, *number, BITS, budget)?;
-        let value = end.and_then(|e| e.1).and_then(|f| frequency_value(&f, answer.problem().time()));
+        let value = end.and_then(|e| e.1).and_then(|f| frequency_value(&f));
         Ok(value.map(|value| FrequencyPoint { point, value }))
     });
     found.into_iter().filter_map(Result::transpose).collect()

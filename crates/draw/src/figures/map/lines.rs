@@ -37,14 +37,14 @@ pub struct Wall {
 const TOGETHER: f64 = 0.004;
 
 /// The colour and the dashes of a mechanism.
-pub fn mechanism_colour(causes: &Causes) -> (&'static str, Option<&'static str>) {
+pub fn mechanism_colour(causes: &Causes) -> (&'static str, &'static [f64]) {
     match leading_cause(causes) {
-        Some(Cause::ComplexPair) => (COLOURS[0], None),
-        Some(Cause::RootAtOne | Cause::RootAtZero) => (COLOURS[1], Some("9 3")),
-        Some(Cause::RootAtMinusOne) => (COLOURS[3], Some("4 3")),
-        Some(Cause::DegreeLost | Cause::Neutral) => (COLOURS[5], Some("9 3 2 3")),
-        Some(Cause::Pole) => ("#777777", Some("2 3")),
-        Some(Cause::Domain) | None => ("#999999", Some("1 3")),
+        Some(Cause::ComplexPair) => (COLOURS[0], &[]),
+        Some(Cause::RootAtOne | Cause::RootAtZero) => (COLOURS[1], &[9.0, 3.0]),
+        Some(Cause::RootAtMinusOne) => (COLOURS[3], &[4.0, 3.0]),
+        Some(Cause::DegreeLost | Cause::Neutral) => (COLOURS[5], &[9.0, 3.0, 2.0, 3.0]),
+        Some(Cause::Pole) => ("#777777", &[2.0, 3.0]),
+        Some(Cause::Domain) | None => ("#999999", &[1.0, 3.0]),
     }
 }
 

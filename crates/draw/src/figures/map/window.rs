@@ -1,8 +1,12 @@
 //! Which part of the plane is shown, and on what scales.
 
+use super::super::axes::{Axis, Scale};
+use super::super::engineering::unit_text;
 use super::trace::{approximate, approximate_real};
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_engine::answer::{Answer, Map};
+use jurist_engine::problem::Free;
+use jurist_engine::show::layout::visible;
 use jurist_engine::stability::{AlgebraicInterval, Range};
 
 /// A positive range of values is drawn on a logarithmic axis from this ratio on.
@@ -45,6 +49,13 @@ impl AxisWindow {
     pub fn value(&self, place: f64) -> f64 {
         let (lo, hi) = self.ends();
         if self.logarithmic { lo * (hi / lo).powf(place) } else { lo + (hi - lo) * place }
+    }
+
+    /// The axis of a parameter over this window.
+    pub(super) fn axis(&self, free: &Free) -> Axis {
+        let unit = unit_text(&visible(free.unit.as_deref().unwrap_or_default()));
+        let scale = if self.logarithmic { Scale::Logarithmic } else { Scale::Linear };
+        Axis { name: free.name.clone(), unit, range: self.ends(), scale }
     }
 
     /// Both ends in floating point.

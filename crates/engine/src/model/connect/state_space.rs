@@ -62,6 +62,8 @@ pub(in crate::model) struct Assembled {
     pub system: System,
     pub states: Vec<String>,
     pub poles: Vec<MultiPoly>,
+    /// What the characteristic polynomial of the matrix is to be multiplied by so that nothing is divided out.
+    pub leading: RationalFunction,
 }
 
 fn undefined(message: String, span: Span) -> Stop {
@@ -109,13 +111,18 @@ pub(in crate::model) fn assemble(
         let b = if n == 0 { RationalMatrix::zeros(0, wiring.inputs.len()) } else { b };
         let c = selection(&ports.outputs, n, substitution)?;
         let d = RationalMatrix::zeros(c.rows(), b.columns());
-        Ok(Assembled { system: System { a, b, c, d }, states: named(n), poles: Vec::new() })
+        Ok(Assembled {
+            system: System { a, b, c, d },
+            states: named(n),
+            poles: Vec::new(),
+            leading: RationalFunction::one(),
+        })
     };
     match values {
         Values::Characteristic(_) => {
             let empty = || RationalMatrix::zeros(0, 0);
             let system = System { a: empty(), b: empty(), c: empty(), d: empty() };
-            Ok(Assembled { system, states: Vec::new(), poles: Vec::new() })
+            Ok(Assembled { system, states: Vec::new(), poles: Vec::new(), leading: RationalFunction::one() })
         }
         Values::Matrix { matrix, ports } => with_ports(set(matrix)?, ports),
         Values::Feedback { a, b, c, k, ports } => {
@@ -336,13 +343,16 @@ fn connect(
     symbols: Option<&RefCell<Symbols>>,
     budget: &Budget,
 ) -> Result<Assembled, Stop> {
-    let mut poles = Vec::new();
+    let (mut poles, mut leading) = (Vec::new(), RationalFunction::one());
     let mut systems = Vec::with_capacity(blocks.len());
     let mut states = Vec::new();
     for (i, block) in blocks.iter().enumerate() {
         budget.check()?;
         let mut system = match &block.dynamics {
-            DynamicValues::Ratio(ratio) => realise(&ratio.numerator, &ratio.denominator, block, set, &mut poles)?,
+            DynamicValues::Ratio(ratio) => {
+                leading = &leading * &substituted(&ratio.denominator.leading(), set)?;
+                realise(&ratio.numerator, &ratio.denominator, block, set, &mut poles)?
+            }
             DynamicValues::StateSpace { a, b, c, d } => {
                 let set = |m| substituted_matrix(m, set);
                 System { a: set(a)?, b: set(b)?, c: set(c)?, d: set(d)? }
@@ -382,6 +392,7 @@ fn connect(
         return Err(algebraic_loop(blocks, &systems));
     };
     poles.push(determinant.numerator().clone());
+    leading = &leading * &determinant;
     let from_states = RationalMatrix::from_fn(rows.len(), n, |i, j| u[(i, j)].clone());
     let from_inputs = RationalMatrix::from_fn(rows.len(), m.columns(), |i, j| u[(i, n + j)].clone());
     // All signals, the external ones last.
@@ -395,7 +406,7 @@ fn connect(
         c: product(&s, &y_states),
         d: &product(&s, &y_inputs) + &direct,
     };
-    Ok(Assembled { system, states, poles })
+    Ok(Assembled { system, states, poles, leading })
 }
 
 fn beside(left: &RationalMatrix, right: &RationalMatrix) -> RationalMatrix {

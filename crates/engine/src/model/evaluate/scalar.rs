@@ -21,6 +21,8 @@ pub(in crate::model) struct Scope<'a> {
     /// The model is undefined where all polynomials of one of these are zero together.
     pub divisors: Vec<Vec<MultiPoly>>,
     seen: HashSet<Vec<MultiPoly>>,
+    /// Whether `exp(-tau*s)` is dead time: in a continuous loop.
+    pub is_continuous: bool,
     pub budget: &'a Budget,
 }
 
@@ -33,6 +35,8 @@ pub(in crate::model) enum Variable {
     Pi,
     /// A function of a value in the variables before this one.
     Call(Function, RationalFunction),
+    /// `exp(-x s)` of a dead time `x` in the variables before this one.
+    Delay(RationalFunction),
 }
 
 /// What a parameter stands for.
@@ -54,8 +58,14 @@ impl<'a> Scope<'a> {
         budget: &'a Budget,
         report: &mut dyn FnMut(Failure),
     ) -> Self {
-        let mut scope =
-            Scope { values: HashMap::new(), variables: Vec::new(), divisors: Vec::new(), seen: HashSet::new(), budget };
+        let mut scope = Scope {
+            values: HashMap::new(),
+            variables: Vec::new(),
+            divisors: Vec::new(),
+            seen: HashSet::new(),
+            is_continuous: false,
+            budget,
+        };
         for parameter in parameters {
             let symbol = symbol(&parameter.name, false).unwrap_or(Symbol::Variable);
             scope.bind(&parameter.name, symbol);
@@ -123,8 +133,28 @@ impl<'a> Scope<'a> {
         RationalFunction::variable(at)
     }
 
-    /// Notes that the model is undefined where all of `polynomials` are zero.
+    /// `exp(-x s)` of a dead time, which has no value of its own: a variable.
+    pub fn delay(&mut self, time: RationalFunction, span: Span) -> Result<RationalFunction, Failure> {
+        if time.is_zero() {
+            return Ok(RationalFunction::one());
+        }
+        if time.as_constant().is_some_and(|x| x.is_negative()) {
+            let error = Diagnostic::error("E-dead-time", "a negative dead time looks ahead").at(span, "a prediction");
+            return Err(error.help("a dead time tau is written exp(-tau*s), with a minus sign").into());
+        }
+        Ok(self.variable(Variable::Delay(time)))
+    }
+
+    /// Whether a value contains a dead time.
+    pub fn is_delayed(&self, f: &RationalFunction) -> bool {
+        f.variables().into_iter().any(|i| matches!(self.variables[i], Variable::Delay(_)))
+    }
+
+    /// Notes that the model is undefined where all of `polynomials` are zero, for all values of the delays in them.
     pub fn divides_by(&mut self, polynomials: Vec<MultiPoly>) {
+        let delays = (0..self.variables.len()).filter(|&i| matches!(self.variables[i], Variable::Delay(_)));
+        let parts = |p: &MultiPoly, i: usize| p.as_poly_in(i).into_coeffs();
+        let polynomials = delays.fold(polynomials, |list, i| list.iter().flat_map(|p| parts(p, i)).collect());
         let divisor: Vec<MultiPoly> =
             polynomials.iter().filter(|p| !p.is_zero()).map(MultiPoly::primitive_over_integers).collect();
         if !divisor.iter().any(MultiPoly::is_constant) && self.seen.insert(divisor.clone()) {

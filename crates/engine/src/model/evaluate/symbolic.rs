@@ -6,7 +6,7 @@ use super::transfer::{Fraction, MAX_ORDER, fraction, polynomial};
 use super::walk::{Failure, Meaning, division_by_zero};
 use super::zpoly::ZPoly;
 use crate::error::{Diagnostic, Span};
-use crate::model::definition::{Block, Discretization, Dynamics, Form, Matrix, Method, Model, Output, Ports};
+use crate::model::definition::{Block, Discretization, Dynamics, Form, Matrix, Method, Model, Output, Ports, Time};
 use crate::model::text::names::shorten;
 use crate::model::text::{Expression, Function};
 use jurist_algebra::matrix::RationalMatrix;
@@ -244,10 +244,10 @@ impl Evaluator<'_, '_> {
                 (Fraction { numerator: ZPoly::one(), denominator: ZPoly::power_of_variable(samples) }, block.span)
             }
             Dynamics::DeadTime(e) => {
-                self.scalar(e)?;
-                let error = Diagnostic::error("E-dead-time", "dead time in a continuous loop is not treated");
-                (self.report)(error.at(e.span, "dead time").into());
-                return None;
+                let time = self.scalar(e)?;
+                let value = self.scope.delay(time, e.span);
+                let value = self.keep(value)?;
+                (Fraction { numerator: ZPoly::constant(value), denominator: ZPoly::one() }, e.span)
             }
             Dynamics::StateSpace { a, b, c, d } => {
                 let (n, inputs, outputs) = (a.size().0, block.inputs.len(), block.outputs.len());
@@ -329,6 +329,7 @@ pub(in crate::model) fn symbolic(
     scope: &mut Scope<'_>,
     report: &mut dyn FnMut(Failure),
 ) -> Option<Values> {
+    scope.is_continuous = model.time == Time::Continuous;
     let mut evaluator = Evaluator { scope, report };
     if let Some(e) = &model.sample_time {
         evaluator.scalar(e);

@@ -68,7 +68,7 @@ impl InVariable<'_, '_> {
         if b.numerator.is_zero() {
             return Err(division_by_zero(span));
         }
-        if b.numerator.degree() > 0 && !self.rational {
+        if (b.numerator.degree() > 0 || self.scope.is_delayed(&b.numerator.leading())) && !self.rational {
             let v = self.variable;
             return Err(Diagnostic::error("E-not-polynomial", format!("the characteristic polynomial divides by {v}"))
                 .at(span, format!("contains {v}"))
@@ -80,7 +80,7 @@ impl InVariable<'_, '_> {
         let too_large = || too_large(span);
         let mut numerator = a.numerator.product(&b.denominator).ok_or_else(too_large)?;
         let mut denominator = a.denominator;
-        if b.numerator.degree() == 0 {
+        if b.numerator.degree() == 0 && !self.scope.is_delayed(&b.numerator.leading()) {
             // A divisor without z goes into the coefficients.
             let inverse = b.numerator.leading().recip().ok_or_else(|| division_by_zero(span))?;
             numerator = numerator.scaled(&inverse).ok_or_else(too_large)?;
@@ -143,7 +143,8 @@ impl Meaning for InVariable<'_, '_> {
             return Err(too_large(span));
         }
         self.scope.budget.check()?;
-        if degree == 0 && !base.numerator.is_zero() {
+        let looks_ahead = exponent < 0 && self.scope.is_delayed(&base.numerator.leading());
+        if degree == 0 && !base.numerator.is_zero() && base.denominator.is_one() && !looks_ahead {
             // A power of numbers and parameters has its own limits.
             return self.scope.power(base.numerator.leading(), exponent, span).map(Fraction::constant);
         }
@@ -162,7 +163,26 @@ impl Meaning for InVariable<'_, '_> {
             let inner = inner.ok_or_else(|| division_by_zero(span))?;
             return self.scope.call(function, inner, span).map(Fraction::constant);
         }
+        if function == Function::Exp && self.variable == "s" && self.scope.is_continuous {
+            return self.dead_time(&value, span).map(Fraction::constant);
+        }
         Err(of_the_variable(function, self.variable, span).into())
+    }
+}
+
+impl InVariable<'_, '_> {
+    /// `exp(-x s)`.
+    fn dead_time(&mut self, exponent: &Fraction, span: Span) -> Result<RationalFunction, Failure> {
+        let (n, d) = (&exponent.numerator, &exponent.denominator);
+        if n.degree() != 1 || !n.coefficient(0).is_zero() || d.degree() > 0 {
+            let error = Diagnostic::error("E-dead-time", "the exponent is not a dead time times s");
+            return Err(error
+                .at(span, "not of the form exp(-tau*s)")
+                .help("a dead time tau is written exp(-tau*s)")
+                .into());
+        }
+        let time = n.leading().checked_div(&d.leading()).ok_or_else(|| division_by_zero(span))?;
+        self.scope.delay(-time, span)
     }
 }
 

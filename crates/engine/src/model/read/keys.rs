@@ -28,13 +28,15 @@ pub(super) enum Shape {
     Matrix,
     /// A parameter: its table, or its nominal value alone.
     Parameter,
+    /// A tolerance: a width, a share, two bounds, or a range.
+    Tolerance,
     /// A table of names with values of one shape.
     Named(&'static Shape),
     /// A table with these keys.
     Table(&'static [Key]),
     /// A table with these keys, or one word.
     TableOrWord(&'static [Key]),
-    /// A number, an expression, or an array of rows.
+    /// A constant: a number, an expression, an array of rows, or a table.
     Constant,
     /// An array of tables with these keys.
     Tables(&'static [Key]),
@@ -75,13 +77,26 @@ pub(super) const MODEL: [Key; 8] = [
 ];
 
 /// A parameter.
-pub(super) const PARAMETER: [Key; 5] = [
+pub(super) const PARAMETER: [Key; 6] = [
     key("nominal", Shape::Number, "the value it has when nothing else is said"),
     key("min", Shape::Number, "the open lower bound of its domain"),
     key("max", Shape::Number, "the open upper bound of its domain"),
     key("unit", Shape::Text, "its unit, for people"),
     key("description", Shape::Text, "what it is, for people"),
+    key("tolerance", Shape::Tolerance, "how far it may be from its nominal value"),
 ];
+
+/// A constant with more than its value.
+pub(super) const CONSTANT: [Key; 4] = [
+    needed("value", Shape::Expression, "the value"),
+    key("unit", Shape::Text, "its unit, for people"),
+    key("description", Shape::Text, "what it is, for people"),
+    key("tolerance", Shape::Tolerance, "how far it may be from its value, which is a number"),
+];
+
+/// The table of a tolerance.
+pub(super) const TOLERANCE: [Key; 2] =
+    [needed("low", Shape::Number, "the least value"), needed("high", Shape::Number, "the greatest value")];
 
 /// The table `[loop]`.
 pub(super) const LOOP: [Key; 10] = [

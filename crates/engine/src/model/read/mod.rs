@@ -12,6 +12,7 @@ mod model_file;
 mod reader;
 mod schema;
 mod simulation;
+mod tolerance;
 
 pub use model_file::{DRIVE, source_from_bytes};
 pub use schema::schema;

@@ -4,6 +4,7 @@ use super::keys;
 use super::loop_forms::read_form;
 use super::reader::{Meant, NamedMatrix, Reader};
 use super::simulation;
+use super::tolerance::read_tolerance;
 use super::{check_names, check_rules, check_values};
 use crate::error::{Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::model::definition::{Constant, Diagram, Form, Model, Name, Parameter, Time};
@@ -172,7 +173,23 @@ fn read_constants(root: &Table, reader: &mut Reader) -> Vec<Constant> {
             }
             continue;
         }
-        let Some(expression) = reader.expression(&entry.value, &what) else {
+        let (value, tolerance) = match &entry.value.kind {
+            Kind::Table(table) => {
+                reader.unknown_keys(table, &keys::CONSTANT, "a constant");
+                let tolerance = read_tolerance(table, reader);
+                reader.plain_string(table, "unit");
+                reader.plain_string(table, "description");
+                let Some(value) = table.get("value") else {
+                    let error = Diagnostic::error("E-missing", format!("{what} has no 'value'"));
+                    reader.report(error.at(entry.value.span, "a table without a value"));
+                    reader.refused.insert(name.name);
+                    continue;
+                };
+                (value, tolerance.zip(table.get("tolerance").map(|v| v.span)))
+            }
+            _ => (&entry.value, None),
+        };
+        let Some(expression) = reader.expression(value, &what) else {
             reader.refused.insert(name.name);
             continue;
         };
@@ -185,7 +202,13 @@ fn read_constants(root: &Table, reader: &mut Reader) -> Vec<Constant> {
             }
             Err(None) => None,
         };
-        constants.push(Constant { name: name.name, span: name.span, expression, number });
+        if let (None, Some((_, span))) = (&number, &tolerance) {
+            let error =
+                Diagnostic::error("E-tolerance", format!("{what} is given by a formula, so it has no tolerance"));
+            reader.report(error.at(*span, "not accepted").help("give what it depends on a tolerance"));
+        }
+        let tolerance = tolerance.map(|(tolerance, _)| tolerance);
+        constants.push(Constant { name: name.name, span: name.span, expression, number, tolerance });
     }
     constants
 }
@@ -194,8 +217,16 @@ fn read_parameters(root: &Table, reader: &mut Reader) -> Vec<Parameter> {
     let mut parameters = Vec::new();
     for entry in section(root, "parameters", reader).into_iter().flat_map(Table::iter) {
         let Some(Name { name, span }) = reader.name(&entry.key, entry.key_span, "a parameter") else { continue };
-        let mut parameter =
-            Parameter { name, span, nominal: None, min: None, max: None, unit: None, description: None };
+        let mut parameter = Parameter {
+            name,
+            span,
+            nominal: None,
+            min: None,
+            max: None,
+            unit: None,
+            description: None,
+            tolerance: None,
+        };
         match &entry.value.kind {
             Kind::Table(table) => read_parameter(table, &mut parameter, reader),
             Kind::Number(_) | Kind::String(_) => parameter.nominal = reader.number(&entry.value, "a nominal value"),
@@ -217,6 +248,7 @@ fn read_parameter(table: &Table, parameter: &mut Parameter, reader: &mut Reader)
     parameter.max = number("max");
     parameter.unit = reader.plain_string(table, "unit");
     parameter.description = reader.plain_string(table, "description");
+    parameter.tolerance = read_tolerance(table, reader);
     let span = |key: &str| table.get(key).map_or(parameter.span, |v| v.span);
     if let (Some(min), Some(max)) = (&parameter.min, &parameter.max)
         && min >= max

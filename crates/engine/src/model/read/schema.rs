@@ -1,6 +1,6 @@
 //! The JSON schema of model files, from the keys that the reader knows.
 
-use super::keys::{Key, MODEL, PARAMETER, Shape};
+use super::keys::{CONSTANT, Key, MODEL, PARAMETER, Shape, TOLERANCE};
 use serde_json::{Map, Value, json};
 
 /// The JSON schema (draft 7) of model files, for editors and checkers of TOML: made of the same lists of keys that the
@@ -51,22 +51,29 @@ fn shape(shape: &Shape) -> Map<String, Value> {
             json!({ "type": ["array", "string"], "items": { "type": "array", "items": number() } })
         }
         Shape::Constant => {
-            json!({ "type": ["number", "string", "array"], "items": { "type": "array", "items": number() } })
+            let mut constant = table_or(&CONSTANT, &["number", "string", "array"]);
+            constant.insert("items".into(), json!({ "type": "array", "items": number() }));
+            return constant;
         }
-        Shape::TableOrWord(keys) => {
-            let mut table = table(keys);
-            table.insert("type".into(), json!(["object", "string"]));
-            return table;
-        }
-        Shape::Parameter => {
-            let mut parameter = table(&PARAMETER);
-            parameter.insert("type".into(), json!(["number", "string", "object"]));
-            return parameter;
+        Shape::TableOrWord(keys) => return table_or(keys, &["string"]),
+        Shape::Parameter => return table_or(&PARAMETER, &["number", "string"]),
+        Shape::Tolerance => {
+            let mut tolerance = table_or(&TOLERANCE, &["number", "string", "array"]);
+            tolerance.insert("items".into(), number());
+            return tolerance;
         }
         Shape::Named(values) => json!({ "type": "object", "additionalProperties": self::shape(values) }),
         Shape::Table(keys) => return table(keys),
         Shape::Tables(keys) => json!({ "type": "array", "items": table(keys) }),
     })
+}
+
+/// A table with these keys, or a value of these types.
+fn table_or(keys: &[Key], types: &[&str]) -> Map<String, Value> {
+    let mut out = table(keys);
+    let types: Vec<&str> = types.iter().copied().chain(["object"]).collect();
+    out.insert("type".into(), json!(types));
+    out
 }
 
 /// The map of a value that was written as an object.

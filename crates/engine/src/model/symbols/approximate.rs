@@ -44,6 +44,8 @@ impl Symbols {
                         t
                     }
                 }
+                // A function of s has no value.
+                Definition::Delay(_) => f64::NAN,
                 Definition::Fundamental { polynomial, time, index } => {
                     let polynomial: Vec<f64> = polynomial.iter().map(at).collect();
                     fundamental_approximate(&polynomial, at(time), *index)

@@ -3,9 +3,10 @@
 mod checker;
 mod formula;
 mod pieces;
+mod point;
 mod statement;
 
-use crate::answer::Answer;
+use crate::answer::{Answer, PointVerdict, Verdict};
 use crate::error::{Diagnostic, Error};
 use crate::model::{Form, Matrix, Model};
 use crate::problem::Problem;
@@ -56,8 +57,41 @@ impl Answer<StableSet> {
             let conditions = checker::conditions(&loop_.cleared, problem.region())
                 .ok_or_else(|| refused("a row of Jury's table is zero for every value of the parameter", OTHERS))?;
             let way = pieces::way(&conditions, self.value(), &problem.parameter().domain, budget)?;
-            let (subject, definitions, names, parameter) = loop_.model(problem);
+            let (subject, definitions, mut names) = loop_.model(problem);
+            let parameter = names.name(&problem.parameter().name);
             Ok(File { problem, order: loop_.order, subject, definitions, names, parameter, way: &way }.text())
+        })?
+    }
+}
+
+impl Answer<PointVerdict> {
+    /// A file for Coq that states as a theorem, and proves with the library in `proofs/`, that the loop is stable, or that it
+    /// is not: some eigenvalue (or root) lies on the boundary of the region or outside, or the polynomial loses its degree.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::model::Model;
+    /// let (drive, budget) = (Model::drive(), Budget::unlimited());
+    /// let answer = drive.ask().set("K_pwm", 551).verdict(&budget).unwrap();
+    /// assert!(answer.coq(&budget).unwrap().contains("Theorem not_stable (R : rcfType) :\n  exists z : R[i],"));
+    /// ```
+    ///
+    /// Cost: that of evaluating the model once more.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] (`E-coq`) where there is no such file: an order of 0 or above 12, or a model that is undefined at the
+    /// point. [`Error::Stopped`] when the budget runs out.
+    pub fn coq(&self, budget: &Budget) -> Result<String, Error> {
+        budget.enter(|| {
+            budget.step("theorem for Coq");
+            let problem = self.problem();
+            if self.value().verdict == Verdict::Undefined {
+                return Err(refused("the model is undefined at the point", "choose another point with '--set'"));
+            }
+            let loop_ = Loop::of(problem, budget)?;
+            let (subject, definitions, _) = loop_.model(problem);
+            let stable = self.value().verdict == Verdict::Stable;
+            Ok(point::text(problem, loop_.order, subject, &definitions, stable))
         })?
     }
 }
@@ -83,8 +117,8 @@ impl Loop {
             let help = format!("set it, and ask for a parameter: --{name} VALUE --param NAME");
             return Err(refused(format!("'{name}' is the question"), help));
         }
-        let parameter = problem.parameter();
-        let evaluated = problem.model().evaluate(std::slice::from_ref(&parameter.name), problem.set(), budget)?;
+        let kept: Vec<String> = problem.free().iter().map(|f| f.name.clone()).collect();
+        let evaluated = problem.model().evaluate(&kept, problem.set(), budget)?;
         if let Some((name, text)) = evaluated.symbols.definitions().into_iter().next() {
             return Err(refused(format!("the loop is not rational, it contains {name} = {text}"), OTHERS));
         }
@@ -98,12 +132,13 @@ impl Loop {
             raw.coefficients.iter().map(|c| (side(c.numerator()), side(c.denominator()))).collect();
         let poles: Vec<UniPoly> = raw.poles.iter().map(side).collect();
         let p = ParametricPolynomial::new(&coefficients, order, Vec::new());
-        for pole in poles.iter().chain(coefficients.iter().map(|(_, d)| d)) {
+        let denominators = poles.iter().chain(coefficients.iter().map(|(_, d)| d));
+        for (parameter, pole) in problem.free().iter().flat_map(|f| denominators.clone().map(move |d| (f, d))) {
             if let Some(x) = zeros_in(pole, &parameter.domain, budget)?.first() {
                 let why = format!("the model is undefined at {} = {}", parameter.name, x.decimal(6));
                 return Err(refused(
                     why,
-                    format!("choose a domain without it: --domain {}=LOWER:UPPER", parameter.name),
+                    format!("choose a domain without it: --domain {}=LOWER..UPPER", parameter.name),
                 ));
             }
         }
@@ -113,10 +148,10 @@ impl Loop {
         Ok(Loop { order, raw, cleared })
     }
 
-    /// What the theorem is about, the definitions before it, and the parameter's name.
-    fn model(&self, problem: &Problem) -> (Subject, String, Names, String) {
+    /// What the theorem is about, the definitions before it, and the names in them.
+    fn model(&self, problem: &Problem) -> (Subject, String, Names) {
         let model = problem.model();
-        let parameter = &problem.parameter().name;
+        let parameter = problem.free().first().map(|f| f.name.as_str());
         let matrices: Vec<(&str, &Matrix)> = match model.form() {
             Form::Matrix { matrix, .. } => vec![("A", matrix)],
             Form::OutputFeedback { a, b, c, k, .. } => vec![("A", a), ("B", b), ("K", k), ("C", c)],
@@ -124,7 +159,7 @@ impl Loop {
         };
         let taken: Vec<&str> = matrices.iter().map(|(name, _)| *name).collect();
         let mut formulas = Formulas { source: model.source(), names: Names::new(&taken) };
-        let own = formulas.names.name(parameter);
+        let own = parameter.map(|name| formulas.names.name(name)).unwrap_or_default();
         let mut out = String::new();
         if matrices.is_empty() {
             let list: Vec<String> = self
@@ -142,11 +177,13 @@ impl Loop {
                     }
                 })
                 .collect();
-            out.push_str(&format!("Definition {own} : expr := Par.\n\n"));
+            if parameter.is_some() {
+                out.push_str(&format!("Definition {own} : expr := Par.\n\n"));
+            }
             out.push_str("(** The characteristic polynomial, lowest power first. *)\n");
             out.push_str(&format!("Definition coefficients : list expr := [\n  {}].\n", list.join(";\n  ")));
             let blocks = matches!(model.form(), Form::Blocks(_));
-            return (Subject::Coefficients { blocks }, out, formulas.names, own);
+            return (Subject::Coefficients { blocks }, out, formulas.names);
         }
         let mut defined =
             Definitions { model, set: problem.set(), parameter, seen: BTreeSet::new(), out: String::new() };
@@ -173,7 +210,7 @@ impl Loop {
             Form::OutputFeedback { k, .. } => Subject::Feedback { inputs: k.size().0, outputs: k.size().1 },
             _ => Subject::Matrix,
         };
-        (subject, out.trim_start().to_owned(), formulas.names, own)
+        (subject, out.trim_start().to_owned(), formulas.names)
     }
 }
 
@@ -181,13 +218,13 @@ impl Loop {
 fn used_names<'a>(
     model: &'a Model,
     set: &[(String, Rational)],
-    parameter: &'a str,
+    parameter: Option<&'a str>,
     entries: impl Iterator<Item = &'a crate::model::Expression>,
 ) -> BTreeSet<&'a str> {
-    let mut used = BTreeSet::from([parameter]);
+    let mut used = BTreeSet::from_iter(parameter);
     let mut open: Vec<&str> = entries.flat_map(|e| e.names()).collect();
     while let Some(name) = open.pop() {
-        let replaced = name == parameter || set.iter().any(|(other, _)| other == name);
+        let replaced = Some(name) == parameter || set.iter().any(|(other, _)| other == name);
         if used.insert(name) && !replaced {
             open.extend(model.constant(name).iter().flat_map(|c| c.expression.names()));
         }
@@ -199,7 +236,7 @@ fn used_names<'a>(
 struct Definitions<'a> {
     model: &'a Model,
     set: &'a [(String, Rational)],
-    parameter: &'a str,
+    parameter: Option<&'a str>,
     seen: BTreeSet<String>,
     out: String,
 }
@@ -209,7 +246,7 @@ impl Definitions<'_> {
         if !self.seen.insert(name.to_owned()) {
             return;
         }
-        let value = if name == self.parameter {
+        let value = if Some(name) == self.parameter {
             "Par".to_owned()
         } else if let Some((_, value)) = self.set.iter().find(|(other, _)| other == name) {
             number_of(value)

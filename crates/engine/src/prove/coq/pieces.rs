@@ -49,11 +49,13 @@ pub(super) struct Way {
 
 /// Finds the pieces for the set that is shown.
 pub(super) fn way(conditions: &[UniPoly], set: &StableSet, domain: &Range, budget: &Budget) -> Result<Way, Error> {
-    let nonzero: Vec<UniPoly> = conditions.iter().filter(|c| !c.is_zero()).cloned().collect();
-    let basis = coprime_basis(&nonzero, budget)?;
+    let (starts, events) = events(set, domain);
+    // The limits' own polynomials split the conditions as far as a limit needs it.
+    let ends = events.iter().filter(|(_, x)| x.exact().is_none()).map(|(_, x)| x.polynomial());
+    let split: Vec<UniPoly> = conditions.iter().filter(|c| !c.is_zero()).chain(ends).cloned().collect();
+    let basis = coprime_basis(&split, budget)?;
     let zeros = conditions.iter().map(|c| zeros_in(c, domain, budget)).collect::<Result<Vec<_>, _>>()?;
     let mut search = Search { conditions, basis, zeros, domain, budget, at: domain.lower.clone(), way: Way::default() };
-    let (starts, events) = events(set, domain);
     search.way.starts = starts;
     let mut on = starts;
     for (kind, value) in events {

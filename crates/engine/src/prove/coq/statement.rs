@@ -15,6 +15,99 @@ pub(super) enum Subject {
     Coefficients { blocks: bool },
 }
 
+impl Subject {
+    /// The beginning of the names of the library's theorems.
+    pub(super) fn theorem(self) -> &'static str {
+        match self {
+            Subject::Matrix => "matrix",
+            Subject::Feedback { .. } => "feedback",
+            Subject::Coefficients { .. } => "poly",
+        }
+    }
+
+    /// The closed loop as the checker takes it.
+    pub(super) fn checked(self, n: usize) -> String {
+        match self {
+            Subject::Matrix => format!("{n} Model.A"),
+            Subject::Feedback { inputs: m, outputs: q } => {
+                format!("{n} (feedback {n} {m} {q} Model.A Model.B Model.K Model.C)")
+            }
+            Subject::Coefficients { .. } => "Model.coefficients".to_owned(),
+        }
+    }
+
+    /// That `z` is an eigenvalue of the closed loop at `k`, or a root of `p`; with the space or line break before it.
+    pub(super) fn is_root(self, n: usize, k: &str) -> String {
+        let eigenvalue = "eigenvalue (map_mx (real_complex R)";
+        match self {
+            Subject::Matrix => format!(" {eigenvalue} (mx {n} {n} Model.A {k})) z"),
+            Subject::Feedback { inputs: m, outputs: q } => format!(
+                "\n      {eigenvalue} (mx {n} {n} Model.A {k}\n        \
+                 - mx {n} {m} Model.B {k} *m mx {m} {q} Model.K {k} *m mx {q} {n} Model.C {k})) z"
+            ),
+            Subject::Coefficients { .. } => " root (map_poly (real_complex R) p) z".to_owned(),
+        }
+    }
+}
+
+/// That `z` lies in the region.
+pub(super) fn inside(region: &Region) -> String {
+    match region {
+        Region::Disc(Bound::Number(q)) if q.is_one() => "`|z| < 1".to_owned(),
+        Region::Disc(Bound::Number(q)) => format!("`|z| < (qr R {})%:C%C", rational(q)),
+        Region::HalfPlane(Bound::Number(q)) if q.is_zero() => "complex.Re z < 0".to_owned(),
+        Region::HalfPlane(Bound::Number(q)) => format!("complex.Re z < - qr R {}", rational(q)),
+        Region::Disc(Bound::Free) | Region::HalfPlane(Bound::Free) => unreachable!("refused before"),
+    }
+}
+
+/// The region as the checker takes it.
+pub(super) fn checked_region(region: &Region) -> String {
+    match region {
+        Region::Disc(Bound::Number(q)) => format!("(Disc {})", rational(q)),
+        Region::HalfPlane(Bound::Number(q)) => format!("(Left {})", rational(q)),
+        Region::Disc(Bound::Free) | Region::HalfPlane(Bound::Free) => unreachable!("refused before"),
+    }
+}
+
+/// The comment at the beginning and the model.
+pub(super) fn model(problem: &Problem, what: &str, subject: Subject, definitions: &str) -> String {
+    let plain =
+        |text: &str| text.replace(['\n', '\r'], " ").replace("(*", "( *").replace("*)", "* )").replace('"', "'");
+    let title = plain(problem.title().unwrap_or("A loop"));
+    let mut out = format!("(** {title}: {}.\n\n", plain(what));
+    let set: Vec<String> = problem.set().iter().map(|(n, v)| format!("{} = {}", plain(n), rational(v))).collect();
+    if !set.is_empty() {
+        let _ = writeln!(out, "    With {}.", set.join(", "));
+    }
+    out.push_str(match subject {
+        Subject::Matrix => "    The entries are those of the model, as typed; the statement is about the eigenvalues.",
+        Subject::Feedback { .. } => {
+            "    The entries are those of the model, as typed; the statement is about the eigenvalues of A - B K C."
+        }
+        Subject::Coefficients { blocks: true } => {
+            "    The loop is a block diagram. The statement is about its characteristic polynomial, whose coefficients\n    \
+             were computed from the blocks: that they belong to the diagram is not part of the theorem."
+        }
+        Subject::Coefficients { blocks: false } => {
+            "    The statement is about the characteristic polynomial of the model, ordered by powers."
+        }
+    });
+    out.push_str(" *)\n\nFrom Coq Require Import ZArith QArith List.\nFrom Jurist Require Import Compute Entries.\n");
+    out.push_str("Import ListNotations.\n\n(** ** The model *)\nModule Model.\nLocal Open Scope expr_scope.\n\n");
+    let _ = writeln!(out, "{definitions}End Model.\n");
+    out
+}
+
+/// Before the theorem.
+pub(super) fn mathcomp(library: &str) -> String {
+    format!(
+        "(** ** The theorem *)\nFrom mathcomp Require Import all_ssreflect all_algebra.\n\
+         From mathcomp.real_closed Require Import complex.\n\
+         From Jurist Require Import {library}.\nLocal Open Scope ring_scope.\n\n"
+    )
+}
+
 pub(super) struct File<'a> {
     pub(super) problem: &'a Problem,
     pub(super) order: usize,
@@ -32,10 +125,8 @@ impl File<'_> {
     pub(super) fn text(mut self) -> String {
         let n = self.order;
         let limits: Vec<String> = self.limit_names();
-        let mut out = self.header();
-        out.push_str("From Coq Require Import ZArith QArith List.\nFrom Jurist Require Import Compute Entries.\n");
-        out.push_str("Import ListNotations.\n\n(** ** The model *)\nModule Model.\nLocal Open Scope expr_scope.\n\n");
-        let _ = writeln!(out, "{}End Model.\n", self.definitions);
+        let what = format!("for which {} it is stable", self.problem.parameter().name);
+        let mut out = model(self.problem, &what, self.subject, &self.definitions);
         out.push_str(
             "(** ** The limits: polynomials with integer coefficients, lowest power first, and the way along the\n",
         );
@@ -55,27 +146,14 @@ impl File<'_> {
             self.way.starts,
             indented(&list(&self.pieces(&limits))),
         );
-        let region = match self.problem.region() {
-            Region::Disc(Bound::Number(q)) => format!("(Disc {})", rational(q)),
-            Region::HalfPlane(Bound::Number(q)) => format!("(Left {})", rational(q)),
-            Region::Disc(Bound::Free) | Region::HalfPlane(Bound::Free) => unreachable!("refused before"),
+        let check = match self.subject {
+            Subject::Coefficients { .. } => "check_coefs",
+            Subject::Matrix | Subject::Feedback { .. } => "check_matrix",
         };
-        let (check, theorem) = match self.subject {
-            Subject::Matrix => (format!("check_matrix 8 {region} {n} Model.A limits"), "matrix_answer"),
-            Subject::Feedback { inputs: m, outputs: q } => {
-                let m = format!("(feedback {n} {m} {q} Model.A Model.B Model.K Model.C)");
-                (format!("check_matrix 8 {region} {n} {m} limits"), "feedback_answer")
-            }
-            Subject::Coefficients { .. } => {
-                (format!("check_coefs 8 {region} Model.coefficients limits"), "poly_answer")
-            }
-        };
+        let (region, closed) = (checked_region(self.problem.region()), self.subject.checked(n));
+        let check = format!("{check} 8 {region} {closed} limits");
         let _ = writeln!(out, "Lemma checked : {check} = true.\nProof. vm_cast_no_check (eq_refl true). Qed.\n");
-        out.push_str("(** ** The theorem *)\nFrom mathcomp Require Import all_ssreflect all_algebra.\n");
-        out.push_str("From mathcomp.real_closed Require Import complex.\n");
-        out.push_str(
-            "From Jurist Require Import Real Sound Answer Region Eigenvalues.\nLocal Open Scope ring_scope.\n\n",
-        );
+        out.push_str(&mathcomp("Real Sound Answer Region Eigenvalues"));
         if self.way.limits.iter().any(|(_, l)| matches!(l, Limit::Root { .. })) {
             out.push_str("(** [only_root F a b x]: F(x) = 0, a < x < b, and F has no other root there. *)\n");
         }
@@ -89,35 +167,13 @@ impl File<'_> {
         let k = &self.parameter;
         let _ = writeln!(out, "  forall {k} : R,{}", self.domain());
         out.push_str(&self.property());
-        let _ = writeln!(out, "    <-> {}.\nProof. exact: ({theorem} R checked). Qed.\n", self.set(&limits));
+        let _ = writeln!(
+            out,
+            "    <-> {}.\nProof. exact: ({}_answer R checked). Qed.\n",
+            self.set(&limits),
+            self.subject.theorem()
+        );
         out.push_str("Print Assumptions stable_set.\n");
-        out
-    }
-
-    fn header(&self) -> String {
-        let plain =
-            |text: &str| text.replace(['\n', '\r'], " ").replace("(*", "( *").replace("*)", "* )").replace('"', "'");
-        let title = plain(self.problem.title().unwrap_or("A loop"));
-        let mut out = format!("(** {title}: for which {} it is stable.\n\n", plain(&self.problem.parameter().name));
-        let set: Vec<String> =
-            self.problem.set().iter().map(|(n, v)| format!("{} = {}", plain(n), rational(v))).collect();
-        if !set.is_empty() {
-            let _ = writeln!(out, "    With {}.", set.join(", "));
-        }
-        out.push_str(match self.subject {
-            Subject::Matrix => "    The entries are those of the model, as typed; the statement is about the eigenvalues.",
-            Subject::Feedback { .. } => {
-                "    The entries are those of the model, as typed; the statement is about the eigenvalues of A - B K C."
-            }
-            Subject::Coefficients { blocks: true } => {
-                "    The loop is a block diagram. The statement is about its characteristic polynomial, whose coefficients\n    \
-                 were computed from the blocks: that they belong to the diagram is not part of the theorem."
-            }
-            Subject::Coefficients { blocks: false } => {
-                "    The statement is about the characteristic polynomial of the model, ordered by powers."
-            }
-        });
-        out.push_str(" *)\n\n");
         out
     }
 
@@ -163,25 +219,12 @@ impl File<'_> {
     /// What holds of a stable loop.
     fn property(&self) -> String {
         let (n, k) = (self.order, &self.parameter);
-        let inside = match self.problem.region() {
-            Region::Disc(Bound::Number(q)) if q.is_one() => "`|z| < 1".to_owned(),
-            Region::Disc(Bound::Number(q)) => format!("`|z| < (qr R {})%:C%C", rational(q)),
-            Region::HalfPlane(Bound::Number(q)) if q.is_zero() => "complex.Re z < 0".to_owned(),
-            Region::HalfPlane(Bound::Number(q)) => format!("complex.Re z < - qr R {}", rational(q)),
-            Region::Disc(Bound::Free) | Region::HalfPlane(Bound::Free) => unreachable!("refused before"),
-        };
-        let eigenvalue = "eigenvalue (map_mx (real_complex R)";
+        let (inside, root) = (inside(self.problem.region()), self.subject.is_root(n, k));
         match self.subject {
-            Subject::Matrix => {
-                format!("    (forall z : R[i], {eigenvalue} (mx {n} {n} Model.A {k})) z -> {inside})\n")
-            }
-            Subject::Feedback { inputs: m, outputs: q } => format!(
-                "    (forall z : R[i],\n      {eigenvalue} (mx {n} {n} Model.A {k}\n        \
-                 - mx {n} {m} Model.B {k} *m mx {m} {q} Model.K {k} *m mx {q} {n} Model.C {k})) z -> {inside})\n"
-            ),
+            Subject::Matrix | Subject::Feedback { .. } => format!("    (forall z : R[i],{root} -> {inside})\n"),
             Subject::Coefficients { .. } => format!(
                 "    let p := poly_of Model.coefficients {k} in\n    \
-                 (p`_{n} != 0 /\\ forall z : R[i], root (map_poly (real_complex R) p) z -> {inside})\n"
+                 (p`_{n} != 0 /\\ forall z : R[i],{root} -> {inside})\n"
             ),
         }
     }

@@ -28,6 +28,7 @@ mod over;
 mod question;
 #[cfg(feature = "schema")]
 pub mod schemas;
+mod tolerance;
 mod undecided;
 mod verdict;
 
@@ -53,6 +54,10 @@ pub use map::{
 pub use number::{Enclosure, Exact, Named, Number, NumberKind};
 pub use over::{AlgebraicPlace, Over};
 pub use question::{ParameterQuestion, PointQuestion, RegionBound};
+pub use tolerance::{
+    Factor, LimitRange, Tolerance, ToleranceFound, ToleranceName, ToleranceOpen, ToleranceVerdict, VolumeShares,
+    WitnessPoint, WorstPoint,
+};
 pub use undecided::{Answered, Open, Undecided};
 pub use verdict::{RootsByPlace, Verdict, VerdictName, VerdictOpen};
 

@@ -1,6 +1,6 @@
 //! JSON Schemas of the documents, made of their types.
 
-use super::{Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, RootLocusForm, Transfer, Verdict};
+use super::{Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, RootLocusForm, Tolerance, Transfer, Verdict};
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
@@ -28,6 +28,7 @@ pub fn schemas() -> Vec<(&'static str, Value)> {
         entry::<Map>("jurist/map/1"),
         entry::<MapBoxes>("jurist/map-boxes/1"),
         entry::<RootLocusForm>("jurist/root-locus-form/1"),
+        entry::<Tolerance>("jurist/tolerance/1"),
         entry::<Transfer>("jurist/transfer/1"),
         entry::<Verdict>("jurist/verdict/1"),
     ]

@@ -23,7 +23,8 @@ pub struct Verdict {
     pub answer: Answered<RootsByPlace, VerdictOpen>,
 }
 
-/// The verdict, and where the roots are; counts with multiplicity, `null` where the loop is undefined.
+/// The verdict, and where the roots are; counts with multiplicity, `null` where the loop is undefined, or where they are
+/// infinitely many: with dead time, inside always.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RootsByPlace {
@@ -56,8 +57,8 @@ impl From<&PointVerdict> for RootsByPlace {
             verdict: answer.verdict,
             degree: answer.degree,
             inside: count.map(|c| c.inside),
-            on: count.map(|c| c.on),
-            outside: count.map(|c| c.outside),
+            on: count.map(|c| c.on).or(answer.delayed.map(|d| d.on)),
+            outside: count.map(|c| c.outside).or(answer.delayed.and_then(|d| d.right)),
             infinite: count.map(|_| answer.infinite),
         }
     }

@@ -1,0 +1,136 @@
+//! Which parts of the plane a locus shows.
+
+use super::LocusFigure;
+use jurist_engine::model::Time;
+
+/// A square part of the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Square {
+    pub centre: (f64, f64),
+    pub half: f64,
+}
+
+impl Square {
+    pub fn x(&self) -> (f64, f64) {
+        (self.centre.0 - self.half, self.centre.0 + self.half)
+    }
+
+    pub fn y(&self) -> (f64, f64) {
+        (self.centre.1 - self.half, self.centre.1 + self.half)
+    }
+
+    pub fn contains(&self, z: (f64, f64)) -> bool {
+        (z.0 - self.centre.0).abs() <= self.half && (z.1 - self.centre.1).abs() <= self.half
+    }
+}
+
+/// A discrete picture shows no more than this.
+const MOST_DISCRETE: f64 = 3.0;
+/// A continuous picture shows what is this many times as far as the farthest crossing, or the slowest nominal root.
+const MOST_CONTINUOUS: f64 = 8.0;
+
+fn crossings(figure: &LocusFigure<'_>) -> Vec<(f64, f64)> {
+    figure.crossings.iter().flat_map(|c| &c.at).map(|z| (z.re, z.im)).collect()
+}
+
+fn marks(figure: &LocusFigure<'_>) -> impl Iterator<Item = (f64, f64)> {
+    figure.marks.iter().flat_map(|m| &m.at).map(|z| (z.re, z.im))
+}
+
+/// How many marks the picture does not show.
+pub(super) fn outside(figure: &LocusFigure<'_>, window: &Square) -> usize {
+    marks(figure).filter(|z| !window.contains(*z)).count()
+}
+
+/// All crossings, and what is not too far from them.
+pub(super) fn whole(figure: &LocusFigure<'_>) -> Square {
+    let on_branches = figure.locus.samples().flat_map(|s| s.roots.iter()).map(|z| (z.re, z.im));
+    let mut points: Vec<(f64, f64)> =
+        on_branches.chain(marks(figure)).filter(|z| z.0.is_finite() && z.1.is_finite()).collect();
+    if figure.time == Time::Discrete {
+        let farthest = points.iter().map(|z| z.0.abs().max(z.1.abs())).fold(0.0, f64::max);
+        return Square { centre: (0.0, 0.0), half: (farthest * 1.08).clamp(1.25, MOST_DISCRETE) };
+    }
+    let size = |z: &(f64, f64)| z.0.hypot(z.1);
+    let crossings = crossings(figure);
+    let farthest_crossing = crossings.iter().map(size).fold(0.0, f64::max);
+    let first = figure.locus.samples().next();
+    let slowest = first.and_then(|s| s.roots.iter().map(|z| z.norm()).filter(|r| *r > 0.0).min_by(f64::total_cmp));
+    let scale = if farthest_crossing > 0.0 { farthest_crossing } else { slowest.unwrap_or(1.0) };
+    points.retain(|z| size(z) <= MOST_CONTINUOUS * scale);
+    points.extend(&crossings);
+    points.push((0.0, 0.0));
+    let least = points.iter().map(|z| z.0).fold(f64::INFINITY, f64::min);
+    let most = points.iter().map(|z| z.0).fold(f64::NEG_INFINITY, f64::max);
+    let height = points.iter().map(|z| z.1.abs()).fold(0.0, f64::max);
+    let width = (most - least).max(2.0 * height).max(1e-9);
+    Square { centre: (f64::midpoint(least, most), 0.0), half: 0.58 * width }
+}
+
+/// Where the crossings lie closest: two of them that the whole picture hardly tells apart, else around one.
+pub(super) fn near(figure: &LocusFigure<'_>, whole: &Square) -> Square {
+    let upper = crossings(figure);
+    let all: Vec<(f64, f64)> = upper.iter().flat_map(|z| [*z, (z.0, -z.1)]).collect();
+    let mut best: Option<(f64, Square)> = None;
+    for z in &upper {
+        for w in &all {
+            let gap = (z.0 - w.0).hypot(z.1 - w.1);
+            if gap > 1e-9 * whole.half && best.is_none_or(|b| gap < b.0) {
+                let centre = (f64::midpoint(z.0, w.0), f64::midpoint(z.1, w.1));
+                best = Some((gap, Square { centre, half: 1.5 * gap }));
+            }
+        }
+    }
+    let smallest = whole.half / 1e7;
+    match best {
+        Some((gap, square)) if gap < whole.half / 3.0 => Square { half: square.half.max(smallest), ..square },
+        _ => {
+            let fallback = if figure.time == Time::Discrete { (1.0, 0.0) } else { (0.0, 0.0) };
+            let centre = upper.first().copied().unwrap_or(fallback);
+            Square { centre, half: whole.half / 4.0 }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::LocusMark;
+    use super::*;
+    use crate::figures::Shape;
+    use crate::simulate::{Crossing, RootLocus};
+    use nalgebra::Complex;
+
+    fn windows(time: Time, crossings: &[(f64, f64)], marks: &[(f64, f64)]) -> (Square, Square, usize) {
+        let complex = |z: &(f64, f64)| Complex::new(z.0, z.1);
+        let crossing = |z: &(f64, f64)| Crossing { parameter: 1.0, at: vec![complex(z)], label: "K = 1".into() };
+        let crossings: Vec<Crossing> = crossings.iter().map(crossing).collect();
+        let at = marks.iter().map(complex).collect();
+        let marks = [LocusMark { label: "poles".into(), shape: Shape::Cross, at }];
+        let locus = RootLocus::default();
+        let figure = LocusFigure { time, locus: &locus, stable: &[], crossings: &crossings, marks: &marks };
+        let whole = whole(&figure);
+        let near = near(&figure, &whole);
+        assert!(crossings.iter().all(|c| whole.contains((c.at[0].re, c.at[0].im))));
+        (whole, near, outside(&figure, &whole))
+    }
+
+    #[test]
+    fn the_closest_crossings_are_magnified() {
+        let (_, near, _) = windows(Time::Discrete, &[(0.5, 0.75f64.sqrt()), (1.0, 3e-4)], &[(0.9, 0.0)]);
+        assert_eq!(near.centre, (1.0, 0.0));
+        assert!((near.half - 9e-4).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_lone_crossing_is_in_the_middle_of_the_magnified_part() {
+        let (whole, near, _) = windows(Time::Discrete, &[(0.0, 1.0)], &[]);
+        assert_eq!((near.centre, near.half), ((0.0, 1.0), whole.half / 4.0));
+    }
+
+    #[test]
+    fn a_far_pole_does_not_squeeze_the_picture() {
+        let (whole, _, outside) = windows(Time::Continuous, &[(0.0, 10.0)], &[(-1.0, 0.0), (-5000.0, 0.0)]);
+        assert!(whole.half < 100.0 && outside == 1, "{whole:?}");
+        assert!(whole.contains((-1.0, 0.0)) && whole.contains((0.0, -10.0)));
+    }
+}

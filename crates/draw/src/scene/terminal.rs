@@ -1,0 +1,183 @@
+//! Scenes in characters: lines as dots of Braille letters, words as words.
+
+use super::words::Anchor;
+use super::{Colour, Item, Point, Scene, Segment, Words};
+
+/// Dots of a letter: two across, four down.
+const DOTS: (usize, usize) = (2, 4);
+
+/// What a place of the screen shows.
+#[derive(Clone, Copy, Default)]
+struct Cell {
+    dots: u8,
+    letter: Option<char>,
+    colour: Option<Colour>,
+}
+
+struct Screen {
+    columns: usize,
+    rows: usize,
+    cells: Vec<Cell>,
+    /// Columns and rows per unit.
+    scale: (f64, f64),
+}
+
+impl Scene {
+    /// The scene in characters, for a terminal of that many columns and rows. Areas, and lines in a colour of
+    /// `hidden`, would hide what is behind them and are left out; a colour of `plain` is left to the terminal, whose
+    /// own text may be white. Without `colours` there are no escape sequences at all.
+    pub fn characters(&self, size: (usize, usize), colours: bool, hidden: &[Colour], plain: &[Colour]) -> String {
+        let (columns, rows) = (size.0.max(1), size.1.max(1));
+        let scale = (columns as f64 / self.width.max(1.0), rows as f64 / self.height.max(1.0));
+        let mut screen = Screen { columns, rows, cells: vec![Cell::default(); columns * rows], scale };
+        // Words last: no line strikes them through.
+        screen.items(&self.items, (0.0, 0.0), hidden, false);
+        screen.items(&self.items, (0.0, 0.0), hidden, true);
+        screen.text(colours, plain)
+    }
+}
+
+impl Screen {
+    fn items(&mut self, items: &[Item], at: Point, hidden: &[Colour], words: bool) {
+        for item in items {
+            match item {
+                Item::Path { segments, fill, stroke } => {
+                    let colour = stroke.as_ref().map(|s| s.colour).or(*fill);
+                    let colour = colour.filter(|c| !words && *c != Colour::WHITE && !hidden.contains(c));
+                    if let Some(colour) = colour {
+                        self.path(segments, at, colour);
+                    }
+                }
+                Item::Circle { centre, fill, stroke, .. } => {
+                    let colour = fill.filter(|c| *c != Colour::WHITE).or(stroke.as_ref().map(|s| s.colour));
+                    if let Some(colour) = colour.filter(|_| !words) {
+                        let letter = if fill.is_some_and(|c| c != Colour::WHITE) { '●' } else { '○' };
+                        self.letter((centre.0 + at.0, centre.1 + at.1), letter, colour);
+                    }
+                }
+                Item::Words(line) if words => self.words(line, at),
+                Item::Words(_) => {}
+                Item::Group { offset, items, .. } => {
+                    self.items(items, (at.0 + offset.0, at.1 + offset.1), hidden, words);
+                }
+            }
+        }
+    }
+
+    fn cell(&mut self, column: f64, row: f64) -> Option<&mut Cell> {
+        let inside = column >= 0.0 && row >= 0.0 && column < self.columns as f64 && row < self.rows as f64;
+        inside.then(|| &mut self.cells[row as usize * self.columns + column as usize])
+    }
+
+    fn letter(&mut self, at: Point, letter: char, colour: Colour) {
+        let (column, row) = (at.0 * self.scale.0, at.1 * self.scale.1);
+        if let Some(cell) = self.cell(column, row) {
+            *cell = Cell { letter: Some(letter), colour: Some(colour), ..*cell };
+        }
+    }
+
+    fn path(&mut self, segments: &[Segment], at: Point, colour: Colour) {
+        let (mut first, mut last) = ((0.0, 0.0), (0.0, 0.0));
+        for segment in segments {
+            let to = match segment {
+                Segment::Move(p) => {
+                    (first, last) = (*p, *p);
+                    continue;
+                }
+                Segment::Line(p) | Segment::Cubic(_, _, p) => *p,
+                Segment::Close => first,
+            };
+            self.line((last.0 + at.0, last.1 + at.1), (to.0 + at.0, to.1 + at.1), colour);
+            last = to;
+        }
+    }
+
+    fn line(&mut self, a: Point, b: Point, colour: Colour) {
+        let dots = |p: Point| (p.0 * self.scale.0 * DOTS.0 as f64, p.1 * self.scale.1 * DOTS.1 as f64);
+        let (a, b) = (dots(a), dots(b));
+        let length = (b.0 - a.0).abs().max((b.1 - a.1).abs());
+        if !length.is_finite() {
+            return;
+        }
+        let steps = length.ceil().clamp(1.0, 1e4) as usize;
+        for k in 0..=steps {
+            let t = k as f64 / steps as f64;
+            let (x, y) = (a.0 + t * (b.0 - a.0), a.1 + t * (b.1 - a.1));
+            if let Some(cell) = self.cell(x / DOTS.0 as f64, y / DOTS.1 as f64) {
+                // The order of the dots in a Braille letter: three down on both sides, then the last row.
+                let (column, row) = (x as usize % DOTS.0, y as usize % DOTS.1);
+                cell.dots |= 1 << if row < 3 { row + 3 * column } else { 6 + column };
+                cell.colour = Some(colour);
+            }
+        }
+    }
+
+    fn words(&mut self, words: &Words, at: Point) {
+        let letters: Vec<char> = words.text.chars().collect();
+        let length = letters.len() as f64;
+        let before = match words.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => length / 2.0,
+            Anchor::End => length,
+        };
+        let (x, y) = ((words.at.0 + at.0) * self.scale.0, (words.at.1 + at.1) * self.scale.1);
+        for (k, letter) in letters.into_iter().enumerate() {
+            let along = k as f64 - before.floor();
+            // The middle of a letter's height is above its base line.
+            let place = if words.turned {
+                (x.floor(), (y + before.floor() - k as f64 - 0.5).floor())
+            } else {
+                (x.floor() + along, (y - 0.25 * words.size * self.scale.1).floor())
+            };
+            if let Some(cell) = self.cell(place.0, place.1) {
+                *cell = Cell { letter: Some(letter), colour: Some(words.colour), ..*cell };
+            }
+        }
+    }
+
+    fn text(&self, colours: bool, plain: &[Colour]) -> String {
+        let mut out = String::new();
+        for row in self.cells.chunks(self.columns) {
+            let end = row.iter().rposition(|c| c.dots != 0 || c.letter.is_some_and(|l| l != ' ')).map_or(0, |k| k + 1);
+            let mut current = None;
+            for cell in &row[..end] {
+                let shown = cell.letter.unwrap_or_else(|| match cell.dots {
+                    0 => ' ',
+                    dots => char::from_u32(0x2800 + u32::from(dots)).unwrap_or(' '),
+                });
+                let colour = cell.colour.filter(|c| colours && shown != ' ' && !plain.contains(c));
+                if colour != current && shown != ' ' {
+                    if current.is_some() {
+                        out.push_str("\u{1b}[0m");
+                    }
+                    if let Some(Colour(r, g, b)) = colour {
+                        out.push_str(&format!("\u{1b}[38;2;{r};{g};{b}m"));
+                    }
+                    current = colour;
+                }
+                out.push(shown);
+            }
+            if current.is_some() {
+                out.push_str("\u{1b}[0m");
+            }
+            out.push('\n');
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Stroke;
+    use super::*;
+
+    #[test]
+    fn lines_are_dots_and_words_are_words() {
+        let mut scene = Scene::new(8.0, 8.0);
+        scene.line((0.1, 0.1), (7.9, 0.1), Stroke::new(Colour(1, 2, 3), 1.0));
+        scene.words(Words::new("ab", (0.0, 7.0), 2.0, Colour::BLACK));
+        assert_eq!(scene.characters((4, 2), false, &[], &[]), "⠉⠉⠉⠉\nab\n");
+        let coloured = scene.characters((4, 2), true, &[], &[Colour::BLACK]);
+        assert_eq!(coloured, "\u{1b}[38;2;1;2;3m⠉⠉⠉⠉\u{1b}[0m\nab\n");
+    }
+}

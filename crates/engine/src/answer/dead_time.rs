@@ -1,0 +1,325 @@
+//! Answers about loops with dead time.
+
+use super::verdict::{PointVerdict, Verdict};
+use crate::error::Error;
+use crate::problem::{BaseDelay, DelayedLoop, Problem, refused};
+use crate::stability::dead_time::{
+    Crossing, DelayCells, GainCells, GainLoop, Happening, NotCounted, NotSolved, count_delayed_roots, delay_cells,
+    gain_cells,
+};
+use crate::stability::{
+    Cause, Causes, ComplexPair, End, HalfSizePair, Range, Shape, StableInterval, StableSet, zeros_in,
+};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Enclosure, Rational, Sign};
+use jurist_algebra::poly::{Domain, UniPoly};
+use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+/// The verdict at a point.
+pub(super) fn verdict(problem: &Problem, delayed: &DelayedLoop, budget: &Budget) -> Result<PointVerdict, Error> {
+    let degree = problem.algebra_over_symbols(budget)?.formal_degree();
+    let BaseDelay::Number(tau) = delayed.delay() else { unreachable!("nothing is free") };
+    let Some(p) = delayed.quasi_polynomial() else {
+        return Ok(PointVerdict::with_dead_time(Verdict::Unstable, degree, 0, None));
+    };
+    let count = count_delayed_roots(&p, tau, budget).map_err(not_counted)?;
+    let verdict = match (count.right, count.on) {
+        (Some(0), 0) => Verdict::Stable,
+        (Some(0), _) => Verdict::Marginal,
+        _ => Verdict::Unstable,
+    };
+    Ok(PointVerdict::with_dead_time(verdict, degree, count.on, count.right))
+}
+
+fn not_counted(reason: NotCounted) -> Error {
+    match reason {
+        NotCounted::Stopped(exhausted) => exhausted.into(),
+        NotCounted::Neutral => undecided("its difference operator is too large for the bounds known"),
+    }
+}
+
+fn undecided(why: &str) -> Error {
+    Exhausted::new(format!("what is known of loops of neutral type: {why}"), "counting roots").into()
+}
+
+/// The stable set of the free parameter.
+pub(super) fn stable_set(problem: &Problem, delayed: &DelayedLoop, budget: &Budget) -> Result<StableSet, Error> {
+    let domain = &problem.parameter().domain;
+    match delayed.delay() {
+        BaseDelay::Line { slope, offset } => {
+            if delayed.degree_in_parameter() > 0 {
+                let name = &problem.parameter().name;
+                let message = format!("'{name}' is in a dead time and elsewhere, too");
+                return Err(refused(message, "such a question is not treated yet: ask for another parameter"));
+            }
+            windows(delayed, domain, slope, offset, budget)
+        }
+        BaseDelay::Number(_) => {
+            let Some(gain) = delayed.gain_loop() else {
+                let name = &problem.parameter().name;
+                let message = format!("'{name}' does not enter the characteristic function affinely");
+                return Err(refused(message, "beside a dead time only a*NAME + b is treated yet, not its powers"));
+            };
+            gains(problem, delayed, &gain, domain, budget)
+        }
+    }
+}
+
+/// The dead time `(theta + 2 pi k)/omega` as a value of the parameter, `(tau - offset)/slope`.
+#[derive(Debug)]
+struct SwitchTime {
+    crossing: Arc<Crossing>,
+    turns: u64,
+    slope: Rational,
+    offset: Rational,
+}
+
+impl Enclosing for SwitchTime {
+    fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
+        let goal = Rational::dyadic(&1.into(), bits);
+        let mut working = bits + 32;
+        loop {
+            let tau = self.crossing.dead_time(self.turns, working);
+            let at = |x: &Rational| (x - &self.offset) / &self.slope;
+            let (lo, hi) = (at(tau.lower()), at(tau.upper()));
+            if &hi - &lo <= goal {
+                return Enclosure::new(lo, hi);
+            }
+            working += working / 2;
+        }
+    }
+
+    fn origin(&self) -> Origin {
+        Origin::Crossing {
+            omega_squared: self.crossing.omega_squared(),
+            theta: self.crossing.theta(64),
+            turns: self.turns,
+            leaves: match self.crossing.motion() {
+                Ordering::Greater => Some(true),
+                Ordering::Less => Some(false),
+                Ordering::Equal => None,
+            },
+        }
+    }
+}
+
+fn domain_end(value: &Rational) -> End {
+    let mut causes = Causes::default();
+    causes.insert(Cause::Domain);
+    End::new(value.clone(), causes, None)
+}
+
+/// Adds the roots of a polynomial on the imaginary axis to what happens at an end: `s = 0`, and the pair of lowest
+/// frequency.
+fn note_axis(end: &mut End, p: &UniPoly, budget: &Budget) -> Result<(), Exhausted> {
+    if p.is_constant() {
+        return Ok(());
+    }
+    if p.coeff(0).is_zero() {
+        end.causes.insert(Cause::RootAtZero);
+    }
+    let pair = HalfSizePair::new(p, p.degree().unwrap_or(1), Shape::LeftHalfPlane);
+    let common = budget.enter(|| pair.a.gcd(&pair.b))?;
+    let below_zero = Range { lower: None, upper: Some(Rational::ZERO) };
+    if let Some(lowest) = zeros_in(&common, &below_zero, budget)?.pop() {
+        end.causes.insert(Cause::ComplexPair);
+        end.pair = Some(ComplexPair::at_half_size_root(Shape::LeftHalfPlane, Real::from(lowest)));
+    }
+    Ok(())
+}
+
+/// The end of the domain of a gain, with the roots that are on the axis there.
+fn domain_end_of_gain(gain: &GainLoop, value: &Rational, budget: &Budget) -> Result<End, Exhausted> {
+    let mut end = domain_end(value);
+    let Some(p) = gain.at(value) else { return Ok(end) };
+    note_axis(&mut end, &p.content(), budget)?;
+    if p.without_delay().coeff(0).is_zero() {
+        end.causes.insert(Cause::RootAtZero);
+    }
+    if p.order() < gain.order() {
+        end.causes.insert(Cause::DegreeLost);
+    } else if !budget.enter(|| p.has_stable_difference())? {
+        end.causes.insert(Cause::Neutral);
+    }
+    Ok(end)
+}
+
+/// A dead time that is free: all its windows.
+fn windows(
+    delayed: &DelayedLoop,
+    domain: &Range,
+    slope: &Rational,
+    offset: &Rational,
+    budget: &Budget,
+) -> Result<StableSet, Error> {
+    let Some(p) = delayed.quasi_polynomial() else { return Ok(StableSet::default()) };
+    // A dead time is not negative, whatever the domain says.
+    let to_tau = |x: &Rational| x * slope + offset;
+    let zero = Rational::ZERO;
+    let lower = domain.lower.as_ref().map_or(zero.clone(), |x| to_tau(x).max(zero));
+    let upper = domain.upper.as_ref().map(to_tau);
+    if upper.as_ref().is_some_and(|upper| *upper <= lower) {
+        return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
+    }
+    let cells = match delay_cells(&p, &lower, upper.as_ref(), budget).map_err(not_counted)? {
+        Ok(cells) => cells,
+        Err(_) => return Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
+    };
+    let DelayCells { switches, right, touching_for_ever, .. } = &cells;
+    if *touching_for_ever && right.last() == Some(&0) {
+        let message = "roots touch the imaginary axis at infinitely many dead times, and cross it nowhere";
+        return Err(refused(
+            message,
+            "give the domain an upper end, --domain NAME=0..10: the touches below it are listed",
+        ));
+    }
+    let to_parameter = |tau: &Rational| (tau - offset) / slope;
+    let mut first = domain_end(&to_parameter(&lower));
+    if lower.is_zero() {
+        note_axis(&mut first, &p.without_delay(), budget)?;
+    }
+    let mut ends: Vec<Option<End>> = vec![Some(first)];
+    for switch in switches {
+        let (crossing, turns) = &switch.members[0];
+        let time =
+            SwitchTime { crossing: Arc::clone(crossing), turns: *turns, slope: slope.clone(), offset: offset.clone() };
+        let lowest = switch.members.iter().map(|(c, _)| c).max_by(|a, b| a.half_size_root().cmp(b.half_size_root()));
+        let pair = lowest
+            .map(|c| ComplexPair::at_half_size_root(Shape::LeftHalfPlane, Real::from(c.half_size_root().clone())));
+        let mut causes = Causes::default();
+        causes.insert(Cause::ComplexPair);
+        ends.push(Some(End::new(Transcendental::new(time), causes, pair)));
+    }
+    ends.push(upper.as_ref().map(|upper| domain_end(&to_parameter(upper))));
+    let stable: Vec<bool> = right.iter().map(|&count| count == 0).collect();
+    Ok(StableSet::from_intervals(intervals(ends, &stable), Vec::new()))
+}
+
+/// The stable cells between ends.
+fn intervals(ends: Vec<Option<End>>, stable: &[bool]) -> Vec<StableInterval> {
+    let pairs = ends.windows(2).zip(stable).filter(|(_, stable)| **stable);
+    pairs.map(|(pair, _)| StableInterval::new(pair[0].clone(), pair[1].clone())).collect()
+}
+
+/// A parameter at a fixed dead time.
+fn gains(
+    problem: &Problem,
+    delayed: &DelayedLoop,
+    gain: &GainLoop,
+    domain: &Range,
+    budget: &Budget,
+) -> Result<StableSet, Error> {
+    if delayed.degree_in_parameter() == 0 {
+        // The parameter is in poles at most: one count for all values.
+        let BaseDelay::Number(tau) = delayed.delay() else { unreachable!("a fixed dead time") };
+        let p = delayed.quasi_polynomial();
+        let stable = match p {
+            Some(p) => count_delayed_roots(&p, tau, budget).map_err(not_counted)?.is_stable(),
+            None => false,
+        };
+        let cells = GainCells::constant(stable);
+        return assembled(delayed, gain, cells, domain, budget);
+    }
+    match gain_cells(gain, domain, budget) {
+        Ok(Ok(cells)) => assembled(delayed, gain, cells, domain, budget),
+        Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
+        Err(NotSolved::NotCounted(reason)) => Err(not_counted(reason)),
+        Err(NotSolved::Unbounded) => {
+            let name = &problem.parameter().name;
+            let message =
+                format!("'{name}' enters in several terms with different dead times, and its domain has no end");
+            Err(refused(message, format!("give the domain both ends: --domain {name}=LO..HI")))
+        }
+        Err(NotSolved::Neutral) => Err(undecided("the difference operator depends on the parameter, or is too large")),
+        Err(NotSolved::Coincidence) => {
+            let why = "a root stays on the imaginary axis, or the parameter is real on all of it";
+            Err(Exhausted::new(format!("what is known of such loops: {why}"), "crossings of the imaginary axis").into())
+        }
+    }
+}
+
+/// The cells cut at the poles as well, with their causes.
+fn assembled(
+    delayed: &DelayedLoop,
+    gain: &GainLoop,
+    cells: GainCells,
+    domain: &Range,
+    budget: &Budget,
+) -> Result<StableSet, Error> {
+    let own = |end: &Option<Rational>| end.as_ref().map(|x| domain_end_of_gain(gain, x, budget)).transpose();
+    let mut ends: Vec<Option<End>> = vec![own(&domain.lower)?];
+    ends.extend(cells.points.iter().map(|point| {
+        let (mut causes, mut pair) = (Causes::default(), None);
+        note(&point.happening, &mut causes, &mut pair, budget);
+        let pair = pair.map(ComplexPair::at_angular_frequency);
+        Some(End::new(point.value.clone(), causes, pair))
+    }));
+    ends.push(own(&domain.upper)?);
+    let mut stable: Vec<bool> = cells.right.iter().map(|count| *count == Some(0)).collect();
+    for pole in delayed.poles() {
+        for zero in zeros_in(pole, domain, budget)? {
+            insert_pole(&mut ends, &mut stable, Real::from(zero), budget)?;
+        }
+        // An end of the domain may be a pole itself.
+        let vanishes = |end: &End| end.value.exact().is_some_and(|x| pole.sign_at(&x) == Sign::Equal);
+        let last = ends.len() - 1;
+        for at in [0, last] {
+            if let Some(end) = ends[at].as_mut().filter(|end| vanishes(end)) {
+                end.causes.insert(Cause::Pole);
+            }
+        }
+    }
+    Ok(StableSet::from_intervals(intervals(ends, &stable), Vec::new()))
+}
+
+/// Cuts the cell in which a pole lies, or adds to what happens at an end.
+fn insert_pole(ends: &mut Vec<Option<End>>, stable: &mut Vec<bool>, value: Real, budget: &Budget) -> Result<(), Error> {
+    for i in 0..ends.len() {
+        let Some(end) = &mut ends[i] else { continue };
+        match end.value.compare(&value, budget)? {
+            Ordering::Less => {}
+            Ordering::Equal => {
+                end.causes.insert(Cause::Pole);
+                return Ok(());
+            }
+            Ordering::Greater => {
+                let mut causes = Causes::default();
+                causes.insert(Cause::Pole);
+                let kept = stable[i - 1];
+                ends.insert(i, Some(End::new(value, causes, None)));
+                stable.insert(i, kept);
+                return Ok(());
+            }
+        }
+    }
+    // Above all ends that are finite: in the last cell.
+    let mut causes = Causes::default();
+    causes.insert(Cause::Pole);
+    let at = ends.len() - 1;
+    let kept = stable[at - 1];
+    ends.insert(at, Some(End::new(value, causes, None)));
+    stable.insert(at, kept);
+    Ok(())
+}
+
+/// The causes, and the lowest frequency of the pairs.
+fn note(happening: &Happening, causes: &mut Causes, pair: &mut Option<Real>, budget: &Budget) {
+    match happening {
+        Happening::RootAtZero => causes.insert(Cause::RootAtZero),
+        Happening::Neutral => causes.insert(Cause::Neutral),
+        Happening::DegreeLost => causes.insert(Cause::DegreeLost),
+        Happening::Pair(omega) => {
+            causes.insert(Cause::ComplexPair);
+            let lower = pair.as_ref().is_none_or(|known| omega.compare(known, budget).is_ok_and(Ordering::is_lt));
+            if lower {
+                *pair = Some(omega.clone());
+            }
+        }
+        Happening::Several(all) => all.iter().for_each(|one| note(one, causes, pair, budget)),
+    }
+}
+
+#[cfg(test)]
+mod tests;

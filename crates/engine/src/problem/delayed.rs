@@ -1,0 +1,197 @@
+//! Loops with dead time: the characteristic function as a polynomial in `s`, `exp(-tau s)` and what is free.
+
+use super::evaluation::Algebra;
+use super::resolved::Problem;
+use crate::error::{Diagnostic, Error};
+use crate::stability::dead_time::{GainLoop, QuasiPolynomial};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
+
+/// The characteristic function `sum P_k(s) z^k`, `z = exp(-tau s)`, of a loop with dead times that are multiples of one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DelayedLoop {
+    /// The coefficient of `z^k s^j` as a polynomial in the free parameter, at `[k][j]`.
+    parts: Vec<Vec<UniPoly>>,
+    delay: BaseDelay,
+    /// The loop is undefined where one of these vanishes.
+    poles: Vec<UniPoly>,
+}
+
+/// The dead time of which the others are multiples.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum BaseDelay {
+    /// A positive number.
+    Number(Rational),
+    /// `slope p + offset` in the free parameter, with a positive slope.
+    Line {
+        /// The slope.
+        slope: Rational,
+        /// The value at zero.
+        offset: Rational,
+    },
+}
+
+/// The refusal of a question about a loop with dead time.
+pub(crate) fn refused(message: impl Into<String>, help: impl Into<String>) -> Error {
+    Diagnostic::error("E-dead-time", message).help(help).into()
+}
+
+impl DelayedLoop {
+    /// The loop with dead time that the algebra of a question is; `None` without dead time.
+    pub(super) fn of(problem: &Problem, algebra: &Algebra, budget: &Budget) -> Result<Option<DelayedLoop>, Error> {
+        let delays = algebra.symbols().delays();
+        let Some(polynomial) = algebra.polynomial().filter(|_| !delays.is_empty()) else { return Ok(None) };
+        if problem.region().bound() != crate::problem::Region::of(problem.time()).bound() {
+            let help = "leave out the decay rate: the imaginary axis is the boundary";
+            return Err(refused("a decay rate cannot be asked of a loop with dead time yet", help));
+        }
+        if algebra.symbols().iter().count() > delays.len() {
+            let help = "write the values of exp, sqrt, sin, cos, tan and pi as numbers";
+            return Err(refused("beside dead time the loop contains other functions that are not rational", help));
+        }
+        let free = problem.free().len();
+        if free > 1 {
+            let help = "ask for one parameter: 'intervals --param NAME'";
+            return Err(refused("two parameters cannot be free in a loop with dead time yet", help));
+        }
+        let (delay, powers) = base_delay(&delays)?;
+        let power_of = |variable: usize| delays.iter().position(|(v, _)| *v == variable).map(|i| powers[i]);
+        budget.enter(|| {
+            let mut scaled = polynomial.coefficients.clone();
+            let mut common = MultiPoly::one();
+            for f in &scaled {
+                let d = f.denominator();
+                let g = common.gcd(d);
+                common = common.times(&d.div_exact(&g).expect("a common divisor divides"));
+            }
+            if common.variables().into_iter().any(|v| power_of(v).is_some()) {
+                let help = "multiply the equation by its denominators";
+                return Err(refused("the characteristic function divides by an expression in exp(-tau*s)", help));
+            }
+            let factor = RationalFunction::from(common.clone());
+            scaled.iter_mut().for_each(|f| *f = &*f * &factor);
+            let mut parts: Vec<Vec<UniPoly>> = Vec::new();
+            let order = scaled.len();
+            for (j, f) in scaled.iter().enumerate() {
+                // Numerator over an integer: numbers are put in only now.
+                let bottom = f.denominator().as_constant().expect("the common denominator is divided out");
+                debug_assert!(bottom.is_one(), "a numerator takes the integers");
+                for (monomial, c) in f.numerator().terms() {
+                    let (mut k, mut exponent) = (0usize, 0usize);
+                    for (variable, &e) in monomial.exponents().iter().enumerate() {
+                        match power_of(variable) {
+                            Some(multiple) => k += multiple * e as usize,
+                            None => exponent += e as usize,
+                        }
+                    }
+                    if k > MOST_MULTIPLES {
+                        return Err(too_many());
+                    }
+                    while parts.len() <= k {
+                        parts.push(vec![UniPoly::zero(); order]);
+                    }
+                    parts[k][j] = parts[k][j].plus(&UniPoly::monomial(c.clone(), exponent));
+                }
+            }
+            let pole = |p: &MultiPoly| p.to_univariate(0).filter(|p| !p.is_constant());
+            let mut poles: Vec<UniPoly> = polynomial.poles.iter().filter_map(pole).collect();
+            poles.extend(pole(&common));
+            let content = parts.iter().flatten().fold(UniPoly::zero(), |g, p| g.gcd(p));
+            if !content.is_constant() {
+                // The function vanishes identically there.
+                for p in parts.iter_mut().flatten() {
+                    *p = p.div_exact(&content).expect("the content divides");
+                }
+                poles.push(content);
+            }
+            Ok(Some(DelayedLoop { parts, delay, poles }))
+        })?
+    }
+
+    /// The dead time of which the others are multiples.
+    pub fn delay(&self) -> &BaseDelay {
+        &self.delay
+    }
+
+    /// Polynomials in the free parameter at whose zeros the loop is undefined, or its function vanishes identically.
+    pub fn poles(&self) -> &[UniPoly] {
+        &self.poles
+    }
+
+    /// The function without parameter; `None` where it is zero.
+    ///
+    /// # Panics
+    /// When its coefficients depend on the free parameter.
+    pub fn quasi_polynomial(&self) -> Option<QuasiPolynomial> {
+        assert!(self.degree_in_parameter() == 0, "the coefficients are numbers");
+        let part = |list: &Vec<UniPoly>| UniPoly::new(list.iter().map(|c| c.coeff(0)).collect());
+        QuasiPolynomial::new(self.parts.iter().map(part).collect())
+    }
+
+    /// The degree of the coefficients in the free parameter.
+    pub fn degree_in_parameter(&self) -> usize {
+        self.parts.iter().flatten().filter_map(UniPoly::degree).max().unwrap_or(0)
+    }
+
+    /// The loop with the free parameter as a gain; `None` unless it enters affinely and the dead time is a number.
+    pub fn gain_loop(&self) -> Option<GainLoop> {
+        let BaseDelay::Number(tau) = &self.delay else { return None };
+        if self.degree_in_parameter() > 1 || self.parts.is_empty() {
+            return None;
+        }
+        let part = |k: usize| {
+            let of = move |list: &Vec<UniPoly>| UniPoly::new(list.iter().map(|c| c.coeff(k)).collect());
+            self.parts.iter().map(of).collect()
+        };
+        Some(GainLoop::new(part(0), part(1), tau.clone()))
+    }
+}
+
+/// Dead times that are larger multiples of their greatest common divisor are refused.
+const MOST_MULTIPLES: usize = 256;
+
+fn too_many() -> Error {
+    let help = format!("round them: the largest may be {MOST_MULTIPLES} times their greatest common divisor");
+    refused("the dead times have no common divisor that is large enough", help)
+}
+
+/// The greatest common divisor of the dead times, and what multiples of it they are.
+fn base_delay(delays: &[(usize, RationalFunction)]) -> Result<(BaseDelay, Vec<usize>), Error> {
+    let first = &delays[0].1;
+    let mut ratios = Vec::with_capacity(delays.len());
+    for (_, delay) in delays {
+        match delay.checked_div(first).and_then(|ratio| ratio.as_constant()) {
+            Some(ratio) if ratio.sign().is_gt() => ratios.push(ratio),
+            _ => {
+                let help = "give all dead times but one base as numbers, or as multiples of one parameter";
+                return Err(refused("the dead times are not rational multiples of one of them", help));
+            }
+        }
+    }
+    // The ratios are n_i/d_i: their greatest common divisor is gcd(n_i L/d_i)/L.
+    let common = ratios.iter().fold(Integer::ONE, |l, r| l.lcm(&r.denominator()));
+    let scaled: Vec<Integer> = ratios.iter().map(|r| (r * &Rational::from(&common)).numerator()).collect();
+    let divisor = scaled.iter().fold(Integer::ZERO, |g, n| g.gcd(n));
+    let mut powers = Vec::with_capacity(scaled.len());
+    for n in &scaled {
+        let multiple = n.div_exact(&divisor).to_i64().and_then(|m| usize::try_from(m).ok());
+        powers.push(multiple.filter(|&m| m <= MOST_MULTIPLES).ok_or_else(too_many)?);
+    }
+    let unit = Rational::new(divisor, common);
+    if let Some(number) = first.as_constant() {
+        return Ok((BaseDelay::Number(number * unit), powers));
+    }
+    let line = || {
+        let (n, d) = (first.numerator().to_univariate(0)?, first.denominator().as_constant()?);
+        let over = |c: Integer| Rational::new(c, d.clone()) * unit.clone();
+        (n.degree() == Some(1)).then(|| (over(n.coeff(1)), over(n.coeff(0))))
+    };
+    match line() {
+        Some((slope, offset)) if slope.sign().is_gt() => Ok((BaseDelay::Line { slope, offset }, powers)),
+        _ => {
+            let help = "the parameter may enter a dead time as a*p + b with a positive number a";
+            Err(refused("the dead time is not a rising straight line in the free parameter", help))
+        }
+    }
+}

@@ -1,0 +1,285 @@
+//! Tolerances for people.
+
+use super::bounded::{at_least, at_most};
+use super::intervals::{heading, undecided_text};
+use super::layout::short;
+use super::real;
+use super::verdict::verdict_line;
+use crate::answer::{Answer, PointVerdict, ToleranceAnswer, ToleranceLimit, Verdict, WorstEnd};
+use crate::problem::Problem;
+use crate::stability::AtPoint;
+use crate::stability::boxes::{BoxDecision, LargestFactor, Side, Witness};
+use jurist_algebra::limits::Exhausted;
+use jurist_algebra::number::{Rational, to_decimal};
+use std::fmt::Write;
+
+/// A share below this does not matter.
+const LEAST_SHARE: (i64, i64) = (1, 1000);
+
+impl Answer<ToleranceAnswer> {
+    /// The answer for people: what is proved is rounded inwards, what is refuted outwards.
+    pub fn text(&self, digits: usize) -> String {
+        tolerance_text(self.problem(), Ok(self.value()), digits)
+    }
+}
+
+/// The answer for people, also one that the budget did not allow.
+pub fn tolerance_text(problem: &Problem, answer: Result<&ToleranceAnswer, &Exhausted>, digits: usize) -> String {
+    let mut out = format!("{}\n", heading(problem));
+    match answer {
+        Err(stopped) => writeln!(out, "tolerances: {}", undecided_text(stopped)),
+        Ok(answer) => write!(out, "{}", Shown { problem, answer, digits }.text()),
+    }
+    .expect("a text takes all text");
+    out
+}
+
+struct Shown<'a> {
+    problem: &'a Problem,
+    answer: &'a ToleranceAnswer,
+    digits: usize,
+}
+
+impl Shown<'_> {
+    fn text(&self) -> String {
+        let mut out = self.decision();
+        if let Some(factor) = &self.answer.factor {
+            out.push_str(&self.factor(factor));
+        }
+        if let Some(volume) = &self.answer.volume {
+            let percent = |share: &Rational| to_decimal(&(share * &Rational::from(100)), 4);
+            let _ = writeln!(
+                out,
+                "of the box       {} % stable, {} % not, {} % undecided ({} boxes)",
+                percent(&volume.stable),
+                percent(&volume.unstable),
+                percent(&volume.undecided),
+                volume.boxes
+            );
+        }
+        if let Some(limit) = &self.answer.limit {
+            out.push_str(&self.limit(limit));
+        }
+        out
+    }
+
+    /// `8 tolerances of 20 %`.
+    fn asked(&self) -> String {
+        let with_width: Vec<&Side> =
+            self.answer.sides.iter().filter(|s| s.widths().iter().any(|w| !w.is_zero())).collect();
+        let count = with_width.len();
+        let share = |side: &Side| {
+            let [low, high] = side.widths();
+            (low == high).then(|| low.checked_div(&side.nominal().abs())).flatten()
+        };
+        let shares: Option<Vec<Rational>> = with_width.iter().map(|side| share(side)).collect();
+        let noun = if count == 1 { "tolerance" } else { "tolerances" };
+        match shares.as_deref() {
+            Some([first, rest @ ..]) if rest.iter().all(|s| s == first) => {
+                format!("{count} {noun} of {} %", short(&(first * &Rational::from(100))))
+            }
+            _ => format!("{count} {noun}"),
+        }
+    }
+
+    fn decision(&self) -> String {
+        let asked = self.asked();
+        match &self.answer.decision {
+            BoxDecision::Stable(proof) => {
+                let cells = proof.cells();
+                let noun = if cells == 1 { "cell" } else { "cells" };
+                format!("{asked}: stable for all values (proof: {cells} {noun})\n")
+            }
+            BoxDecision::NotStable { witness } => {
+                let mut out = format!("{asked}: not stable for all values\n");
+                if let Some(witness) = witness {
+                    let point: Vec<String> = self
+                        .names()
+                        .zip(&witness.point)
+                        .map(|(name, value)| format!("{name} = {}", short(value)))
+                        .collect();
+                    let line = verdict_line(self.problem, &verdict_of(witness, self.problem));
+                    let _ = writeln!(out, "    not at {}: {line}", point.join(", "));
+                }
+                out
+            }
+            BoxDecision::Undecided { why, cell } => {
+                let cell: Vec<String> = self
+                    .names()
+                    .zip(cell)
+                    .map(|(name, [low, high])| format!("{} <= {name} <= {}", to_decimal(low, 6), to_decimal(high, 6)))
+                    .collect();
+                format!("{asked}: undecided ({why}), last in {}\n", cell.join(", "))
+            }
+        }
+    }
+
+    fn names(&self) -> impl Iterator<Item = &str> {
+        self.problem.free().iter().map(|free| free.name.as_str())
+    }
+
+    fn factor(&self, factor: &LargestFactor) -> String {
+        let digits = self.digits.min(12);
+        let mut out = String::new();
+        let lower = at_most(&factor.lower, digits);
+        match &factor.upper {
+            Some(upper) => {
+                let _ = writeln!(out, "they can grow    {lower} < factor <= {}", at_least(upper, digits));
+            }
+            None => {
+                let _ = writeln!(out, "they can grow    {lower} <= factor at least; no worse point was found");
+            }
+        }
+        if let (Some(proof), Some(worst)) = (&self.answer.exact, &self.answer.worst) {
+            let value = &worst.end.value;
+            let degree = value.algebraic().and_then(|v| v.polynomial().degree()).unwrap_or(0);
+            let kind = match value.exact() {
+                Some(exact) => format!("exactly {}", short(&exact)),
+                None => format!(
+                    "exactly the root {} of a polynomial of degree {degree}",
+                    value.decimal(self.digits.max(12))
+                ),
+            };
+            let _ = writeln!(out, "                 {kind} (proof: {} cells)", proof.tree.leaves());
+        }
+        if let Some(domain) = &self.answer.domain_factor
+            && factor.upper.as_ref().is_none_or(|upper| upper >= domain)
+        {
+            let _ = writeln!(out, "                 at {} a parameter reaches the end of its domain", short(domain));
+        }
+        if let Some((why, _)) = &factor.open {
+            let _ = writeln!(out, "                 a closer bracket is undecided: {why}");
+        }
+        if let Some(direction) = &factor.direction {
+            let beyond = factor.witness.as_ref().map(|w| self.beyond(w)).unwrap_or_default();
+            let signs = self.signs(direction, factor.shares.as_deref());
+            let what = self.answer.worst.as_ref().map(end_words).unwrap_or_default();
+            let _ = writeln!(out, "worst point      {signs}{what}{beyond}");
+        }
+        if let Some(shares) = &factor.shares {
+            let _ = writeln!(out, "the margin is used by    {}", self.shares(shares));
+        }
+        out
+    }
+
+    /// `, 2 roots outside just beyond`
+    fn beyond(&self, witness: &Witness) -> String {
+        match &witness.at {
+            AtPoint::Defined { count, infinite } if count.outside + infinite > 0 => {
+                let n = count.outside + infinite;
+                format!(", {n} {} outside just beyond", if n == 1 { "root" } else { "roots" })
+            }
+            AtPoint::Defined { count, .. } if count.on > 0 => format!(", {} on the boundary there", count.on),
+            AtPoint::Undefined => ", undefined there".to_owned(),
+            _ => String::new(),
+        }
+    }
+
+    /// The signs of the parameters in the order of their shares, each behind its name.
+    fn signs(&self, direction: &[Rational], shares: Option<&[Rational]>) -> String {
+        let mut order: Vec<usize> = (0..direction.len()).collect();
+        if let Some(shares) = shares {
+            order.sort_by(|&i, &j| shares[j].cmp(&shares[i]));
+        }
+        let names: Vec<&str> = self.names().collect();
+        let sign = |i: usize| {
+            let name = names[i];
+            match sign_name(&direction[i]) {
+                "inside" => format!("{name} inside"),
+                sign => format!("{name} {sign}"),
+            }
+        };
+        order.into_iter().map(sign).collect::<Vec<_>>().join(", ")
+    }
+
+    fn shares(&self, shares: &[Rational]) -> String {
+        let names: Vec<&str> = self.names().collect();
+        let mut order: Vec<usize> = (0..shares.len()).collect();
+        order.sort_by(|&i, &j| shares[j].cmp(&shares[i]));
+        let least = Rational::new(LEAST_SHARE.0.into(), LEAST_SHARE.1.into());
+        let percent = |share: &Rational, digits| to_decimal(&(share * &Rational::from(100)), digits);
+        let (large, small): (Vec<usize>, Vec<usize>) = order.into_iter().partition(|&i| shares[i] >= least);
+        let mut parts: Vec<String> =
+            large.iter().map(|&i| format!("{} {} %", names[i], percent(&shares[i], 3))).collect();
+        if !small.is_empty() {
+            let rest = small.iter().fold(Rational::ZERO, |sum, &i| sum + &shares[i]);
+            let which =
+                if small.len() == 1 { names[small[0]].to_owned() } else { format!("the other {}", small.len()) };
+            parts.push(format!("{which} {} %", percent(&rest, 1)));
+        }
+        parts.join("   ")
+    }
+
+    fn limit(&self, limit: &ToleranceLimit) -> String {
+        let name = &limit.parameter;
+        let digits = self.digits.min(12);
+        let [Some(lower), Some(upper)] = &limit.sides else {
+            return format!("{name}: not stable for all values of the others even at {}\n", short(&limit.nominal));
+        };
+        let mut out = format!(
+            "{name}: stable for all values of the others while    {} <= {name} <= {}\n",
+            at_least(&lower.safe, digits),
+            at_most(&upper.safe, digits)
+        );
+        for (side, is_upper) in [(lower, false), (upper, true)] {
+            let Some(value) = &side.unsafe_at else { continue };
+            let shown = if is_upper { at_least(value, digits) } else { at_most(value, digits) };
+            let what = side.worst.as_ref().map(end_words).unwrap_or_default();
+            let direction = side.factor.direction.as_deref().unwrap_or_default();
+            let signs = self.signs(direction, side.factor.shares.as_deref());
+            let _ = writeln!(out, "    not at {shown}: {signs}{what}");
+        }
+        out
+    }
+}
+
+/// `+`, `-` or `inside`.
+pub(crate) fn sign_name(share: &Rational) -> &'static str {
+    if share.abs() != Rational::ONE {
+        "inside"
+    } else if share.is_negative() {
+        "-"
+    } else {
+        "+"
+    }
+}
+
+/// `    complex pair at 1664.067 Hz, 1.045564 rad`
+fn end_words(worst: &WorstEnd) -> String {
+    let mut out = format!("    {}", worst.end.causes);
+    let at = |bits: u64| worst.problem.frequency(&worst.end, bits);
+    if let Some(first) = at(64) {
+        let shown = |part: fn(&crate::answer::Frequency) -> Option<jurist_algebra::number::Enclosure>| {
+            part(&first)?;
+            real::enclosed(7, |bits| at(bits).as_ref().and_then(part))
+        };
+        let parts = [
+            shown(|f| f.hertz.clone()).map(|t| format!("{t} Hz")),
+            shown(|f| f.radians_per_second.clone()).map(|t| format!("{t} rad/s")),
+            shown(|f| f.angle.clone()).map(|t| format!("{t} rad")),
+        ];
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        if !parts.is_empty() {
+            let _ = write!(out, " at {}", parts.join(", "));
+        }
+    }
+    out
+}
+
+/// The root count of a witness as a verdict.
+pub(crate) fn verdict_of(witness: &Witness, problem: &Problem) -> PointVerdict {
+    let degree = problem.evaluated().map_or(0, |algebra| algebra.formal_degree());
+    let (verdict, count, infinite) = match &witness.at {
+        AtPoint::Undefined => (Verdict::Undefined, None, 0),
+        AtPoint::Zero => (Verdict::Unstable, Some(Default::default()), degree),
+        AtPoint::Defined { count, infinite } => {
+            let verdict = match (count.outside + infinite, count.on) {
+                (0, 0) => Verdict::Stable,
+                (0, _) => Verdict::Marginal,
+                _ => Verdict::Unstable,
+            };
+            (verdict, Some(*count), *infinite)
+        }
+    };
+    PointVerdict { verdict, undefined: None, degree, count, infinite, delayed: None }
+}

@@ -1,0 +1,32 @@
+//! Any number of parameters: boxes of tolerances, proved stable or refuted by a point.
+//!
+//! The polynomial on the imaginary axis is a pair `(E, O)` of polynomials in the square of the frequency and the parameters. One
+//! tensor of Bernstein coefficients over all of them is halved, frequency first, until each cell has its coefficients on one
+//! side of a line through zero: then no root crosses the axis anywhere in the box. A parameter is halved only as far as the
+//! values are not affine in it ([ZettlerGarloff1998](jurist_algebra::bibliography#zettlergarloff1998),
+//! [Farouki2012](jurist_algebra::bibliography#farouki2012)).
+
+mod exact;
+mod factor;
+mod line;
+mod polynomial;
+mod prove;
+mod search;
+mod separate;
+mod sides;
+mod tensor;
+mod tree;
+mod volume;
+
+pub use exact::{CriticalCell, ExactProof};
+pub use factor::{BoxDecision, LargestFactor, ToleranceProblem, Witness};
+pub(crate) use line::on_line;
+pub use polynomial::BoxPolynomial;
+pub use prove::{BoxProof, MOST_COEFFICIENTS};
+pub(crate) use search::ray;
+pub use sides::Side;
+pub use tree::Tree;
+pub use volume::{BoxVolume, MOST_PARAMETERS};
+
+#[cfg(test)]
+mod published;

@@ -1,0 +1,227 @@
+//! The proof that a whole box is stable.
+
+use super::polynomial::{BoxPolynomial, Bundle};
+use super::separate::separating_vector;
+use super::tensor::{FrequencyScale, Tensor};
+use super::tree::{Axis, Node, Tree};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Integer, Rational, Sign};
+use jurist_algebra::poly::algebraic::simplest_between;
+
+/// More Bernstein coefficients of a pair than this are refused: 32 bytes each, for each cell that waits.
+pub const MOST_COEFFICIENTS: usize = 1 << 20;
+
+/// Cells that wait may take so many bytes together.
+const WAITING_BYTES: usize = 2 << 30;
+
+/// After so many cells a point of the present one is tested.
+const TESTED_EVERY: usize = 64;
+
+/// A cell is not halved more often than this: the error of the coefficients would swallow them.
+const MOST_HALVINGS: u32 = 160;
+
+/// Why a box is stable.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct BoxProof {
+    /// For each divisor, the constant and the leading coefficient: a tree whose cells have one sign.
+    pub certain: Vec<Tree>,
+    /// Frequencies are cut on `v = 4^scale t / (1 - t)`, `t` from 0 to 1, `v` the square of the frequency.
+    pub scale: i64,
+    /// The second polynomial of the pair counts times two to this.
+    pub weight: i64,
+    /// Cells of frequency and parameters without a zero of the pair.
+    pub pair: Tree,
+}
+
+impl BoxProof {
+    /// The number of cells of frequency and parameters.
+    pub fn cells(&self) -> usize {
+        self.pair.leaves()
+    }
+}
+
+/// What is known of a box.
+#[derive(Clone, Debug)]
+pub(super) enum Outcome {
+    /// Every point is stable.
+    Stable(BoxProof),
+    /// On the way from the nominal point to this one stability is lost.
+    Refuted(Vec<Rational>),
+    /// Not decided with so many cells; the box of the cell that was looked at last.
+    Open { why: &'static str, cell: Vec<[Rational; 2]> },
+}
+
+/// A cell of the search.
+pub(super) struct Cell {
+    pub tensor: Tensor,
+    /// The part of each axis, frequency last: the `at`-th of `2^halvings`.
+    pub place: Vec<(Integer, u32)>,
+}
+
+impl Cell {
+    pub fn whole(tensor: Tensor) -> Cell {
+        let place = vec![(Integer::ZERO, 0); tensor.axes()];
+        Cell { tensor, place }
+    }
+
+    pub fn halves(self, axis: usize) -> [Cell; 2] {
+        let [mut low, mut high] = [self.place.clone(), self.place];
+        low[axis] = (&low[axis].0 << 1, low[axis].1 + 1);
+        high[axis] = (&(&high[axis].0 << 1) + &Integer::ONE, high[axis].1 + 1);
+        let [a, b] = self.tensor.halves(axis);
+        [Cell { tensor: a, place: low }, Cell { tensor: b, place: high }]
+    }
+
+    /// The part of an axis as shares from 0 to 1.
+    pub fn part(&self, axis: usize) -> [Rational; 2] {
+        let (at, halvings) = &self.place[axis];
+        [at.clone(), at + &Integer::ONE].map(|k| Rational::dyadic(&k, u64::from(*halvings)))
+    }
+
+    /// The box of the parameters.
+    pub fn sides(&self, whole: &[[Rational; 2]]) -> Vec<[Rational; 2]> {
+        let side =
+            |(i, [low, high]): (usize, &[Rational; 2])| self.part(i).map(|share| low + &(&(high - low) * &share));
+        whole.iter().enumerate().map(side).collect()
+    }
+
+    pub fn halvings(&self) -> u32 {
+        self.place.iter().map(|(_, h)| h).sum()
+    }
+}
+
+/// The simplest point of a closed box.
+pub(super) fn simplest_point(sides: &[[Rational; 2]]) -> Vec<Rational> {
+    let simplest = |[low, high]: &[Rational; 2]| {
+        let inner = simplest_between(low, high);
+        let ends = [low, high].into_iter().cloned();
+        ends.chain(inner).min_by_key(|x| (x.denominator(), x.numerator().abs())).expect("two ends")
+    };
+    sides.iter().map(simplest).collect()
+}
+
+/// Decides one box, with at most so many cells.
+///
+/// No root crosses the imaginary axis in a connected set on which no divisor, the constant and the leading coefficient and the
+/// pair `(E, O)` at no positive frequency vanish: the number of roots on either side is that of the nominal point, which is
+/// stable. The Bernstein coefficients of the pair over a cell all on the positive side of one vector prove that it has no zero
+/// there, as its values are convex combinations of them.
+pub(super) fn prove(
+    p: &BoxPolynomial,
+    sides: &[[Rational; 2]],
+    reference: &[Sign],
+    scale: i64,
+    most_cells: usize,
+    budget: &Budget,
+) -> Result<Outcome, Exhausted> {
+    let mut certain = Vec::new();
+    for ((_, f), &sign) in p.certain.iter().zip(reference) {
+        match keeps_sign(&Bundle::new(&[f], sides.len()), sides, sign, most_cells, budget)? {
+            Ok(tree) => certain.push(tree),
+            Err(outcome) => return Ok(outcome),
+        }
+    }
+    let (tensor, weight) = Tensor::of_pair(&p.pair(), sides, FrequencyScale(scale));
+    let mut stack = vec![Cell::whole(tensor)];
+    let mut nodes = Vec::new();
+    let mut tested = 0;
+    let frequency = sides.len();
+    while let Some(cell) = stack.pop() {
+        budget.check()?;
+        let [x, y] = cell.tensor.planes.as_slice() else { unreachable!("a pair") };
+        if let Some((a, b)) = separating_vector(x, y, cell.tensor.error) {
+            nodes.push(Node::Separated(a, b));
+            continue;
+        }
+        let inner = || cell.sides(sides);
+        tested += 1;
+        if tested % TESTED_EVERY == 0 {
+            let point = simplest_point(&inner());
+            if !p.is_stable_at(&point) {
+                return Ok(Outcome::Refuted(point));
+            }
+        }
+        let waiting = stack.len() * cell.tensor.len() * 32;
+        let why = if nodes.len() + stack.len() > most_cells {
+            Some("too many cells")
+        } else if cell.halvings() >= MOST_HALVINGS {
+            Some("a cell too small")
+        } else if waiting > WAITING_BYTES {
+            Some("too much memory")
+        } else {
+            None
+        };
+        let axis = cell.tensor.best_axis().filter(|_| why.is_none());
+        let Some(axis) = axis else {
+            let cell = inner();
+            let point = simplest_point(&cell);
+            if !p.is_stable_at(&point) {
+                return Ok(Outcome::Refuted(point));
+            }
+            return Ok(Outcome::Open { why: why.unwrap_or("a cell too small"), cell });
+        };
+        nodes.push(Node::Halved(if axis == frequency { Axis::Frequency } else { Axis::Parameter(axis) }));
+        let [low, high] = cell.halves(axis);
+        stack.extend([high, low]);
+    }
+    Ok(Outcome::Stable(BoxProof { certain, scale, weight, pair: Tree(nodes) }))
+}
+
+/// The tree that proves that a polynomial keeps its sign in a box, or why that is not so or not known.
+pub(super) fn keeps_sign(
+    f: &Bundle,
+    sides: &[[Rational; 2]],
+    sign: Sign,
+    most_cells: usize,
+    budget: &Budget,
+) -> Result<Result<Tree, Outcome>, Exhausted> {
+    let positive = sign.is_gt();
+    let mut stack = vec![Cell::whole(Tensor::of_one(f, sides))];
+    let mut nodes = Vec::new();
+    while let Some(cell) = stack.pop() {
+        budget.check()?;
+        let (low, high) = cell.tensor.range(0);
+        let error = cell.tensor.error;
+        if if positive { low > error } else { high < -error } {
+            nodes.push(Node::Signed(positive));
+            continue;
+        }
+        let inner = cell.sides(sides);
+        // A corner with another sign, or exactly zero.
+        for (upper, value) in cell.tensor.corners() {
+            if if positive { value <= error } else { value >= -error } {
+                let point: Vec<Rational> =
+                    inner.iter().zip(&upper).map(|(side, &up)| side[usize::from(up)].clone()).collect();
+                let (a, q): (Vec<_>, Vec<_>) = point.iter().map(|x| (x.numerator(), x.denominator())).unzip();
+                if f.values(&a, &q)[0].sign() != sign {
+                    return Ok(Err(Outcome::Refuted(point)));
+                }
+            }
+        }
+        let axis = cell.tensor.best_axis();
+        let (Some(axis), true, true) = (axis, nodes.len() + stack.len() <= most_cells, cell.halvings() < MOST_HALVINGS)
+        else {
+            return Ok(Err(Outcome::Open { why: "a divisor or a real root near zero", cell: inner }));
+        };
+        nodes.push(Node::Halved(Axis::Parameter(axis)));
+        let [low, high] = cell.halves(axis);
+        stack.extend([high, low]);
+    }
+    Ok(Ok(Tree(nodes)))
+}
+
+/// The signs of the certain polynomials at a point, and the scale of frequencies there; `None` where one vanishes.
+pub(super) fn signs_at(p: &BoxPolynomial, point: &[Rational]) -> Option<(Vec<Sign>, i64)> {
+    let (a, q): (Vec<_>, Vec<_>) = point.iter().map(|x| (x.numerator(), x.denominator())).unzip();
+    let signs: Vec<Sign> =
+        p.certain.iter().map(|(_, f)| Bundle::new(&[f], point.len()).values(&a, &q)[0].sign()).collect();
+    if signs.contains(&Sign::Equal) {
+        return None;
+    }
+    let values = p.coefficients.values(&a, &q);
+    let size = |c: &Integer| c.bit_length() as i64;
+    let n = p.formal_degree() as i64;
+    let scale = if n == 0 { 0 } else { (size(&values[0]) - size(&values[n as usize])).div_euclid(n) };
+    Some((signs, scale))
+}

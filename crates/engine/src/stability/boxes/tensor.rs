@@ -1,0 +1,306 @@
+//! Bernstein coefficients over a box in fixed point, each with a proved error.
+
+use super::polynomial::Bundle;
+use jurist_algebra::limits::checkpoint;
+use jurist_algebra::number::{Integer, Rational};
+
+/// The greatest coefficient of a fresh tensor has so many bits: a sum of two times 40 bits fits `i128`.
+const BITS: u64 = 84;
+
+/// The Bernstein coefficients of one polynomial or a pair over a closed box, each polynomial times an unknown positive power
+/// of two. The values lie in the convex hull of the coefficients ([ZettlerGarloff1998](jurist_algebra::bibliography#zettlergarloff1998)).
+///
+/// The axes are the parameters in their order, then the frequency; the last runs fastest.
+#[derive(Clone, Debug)]
+pub(super) struct Tensor {
+    /// For each axis the number of coefficients along it.
+    counts: Vec<usize>,
+    /// The coefficients of each polynomial, up to `error`.
+    pub planes: Vec<Vec<i128>>,
+    /// How far a coefficient may be from the true one.
+    pub error: i128,
+}
+
+/// Where the frequency axis is cut and how it is scaled: `v = 4^scale t / (1 - t)`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct FrequencyScale(pub i64);
+
+impl Tensor {
+    /// Of a pair `E_0, ..., E_k, O_0, ..., O_k` over the box and all frequencies, and by how many powers of two the second
+    /// polynomial was made larger relative to the first.
+    pub fn of_pair(pair: &Bundle, sides: &[[Rational; 2]], FrequencyScale(scale): FrequencyScale) -> (Tensor, i64) {
+        let count = pair.width / 2;
+        let k = count - 1;
+        let mut binomials = vec![Integer::ONE];
+        for j in 0..k {
+            let next = &binomials[j] * &Integer::from((k - j) as u64);
+            binomials.push(next.div_exact(&Integer::from(j as u64 + 1)));
+        }
+        let common = binomials.iter().fold(Integer::ONE, |l, b| l.lcm(b));
+        let factor = |j: usize| {
+            let power = if scale >= 0 { j } else { k - j } as u64;
+            &common.div_exact(&binomials[j]) << (2 * scale.unsigned_abs() * power)
+        };
+        let factors: Vec<Integer> = (0..count).map(factor).collect();
+        let scaled = pair.combined(pair.width, |c| c.iter().zip(factors.iter().cycle()).map(|(c, f)| c * f).collect());
+        let all = expand(&scaled, sides);
+        let plane = |odd: usize| all.chunks(pair.width).flat_map(move |c| c[odd * count..(odd + 1) * count].iter());
+        let (even, even_shift) = fixed_point(plane(0));
+        let (odd, odd_shift) = fixed_point(plane(1));
+        let counts = pair.degrees.iter().map(|l| l + 1).chain([count]).collect();
+        (Tensor { counts, planes: vec![even, odd], error: 1 }, odd_shift - even_shift)
+    }
+
+    /// Of one polynomial over the box; the frequency axis has one coefficient.
+    pub fn of_one(polynomial: &Bundle, sides: &[[Rational; 2]]) -> Tensor {
+        let all = expand(polynomial, sides);
+        let (plane, _) = fixed_point(all.iter());
+        let counts = polynomial.degrees.iter().map(|l| l + 1).chain([1]).collect();
+        Tensor { counts, planes: vec![plane], error: 1 }
+    }
+
+    /// The number of axes; the last is the frequency.
+    pub fn axes(&self) -> usize {
+        self.counts.len()
+    }
+
+    /// The number of coefficients of each polynomial.
+    pub fn len(&self) -> usize {
+        self.planes[0].len()
+    }
+
+    fn stride(&self, axis: usize) -> usize {
+        self.counts[axis + 1..].iter().product()
+    }
+
+    /// The tensors of the lower and the upper half of the box along an axis (de Casteljau).
+    pub fn halves(self, axis: usize) -> [Tensor; 2] {
+        checkpoint(2 * (self.len() * self.counts[axis]) as u64);
+        let (stride, count) = (self.stride(axis), self.counts[axis]);
+        let error = self.error + count as i128;
+        let (mut low, mut high) = (Vec::new(), Vec::new());
+        for mut right in self.planes {
+            let mut left = right.clone();
+            for (left, right) in left.chunks_mut(stride * count).zip(right.chunks_mut(stride * count)) {
+                for step in 1..count {
+                    for at in 0..(count - step) * stride {
+                        right[at] = (right[at] + right[at + stride]) >> 1;
+                    }
+                    left[step * stride..(step + 1) * stride].copy_from_slice(&right[..stride]);
+                }
+            }
+            low.push(left);
+            high.push(right);
+        }
+        let make = |planes| Tensor { counts: self.counts.clone(), planes, error };
+        [make(low), make(high)]
+    }
+
+    /// The axis along which halving helps most: frequency by its variation, a parameter by how far the values are from being
+    /// affine in it; `None` where no axis has any.
+    pub fn best_axis(&self) -> Option<usize> {
+        let all: Vec<usize> = (0..self.axes()).collect();
+        self.best_axis_of(&all)
+    }
+
+    /// [`Tensor::best_axis`] of some axes.
+    pub fn best_axis_of(&self, axes: &[usize]) -> Option<usize> {
+        let last = self.axes() - 1;
+        let mut best = (0, None);
+        for &axis in axes {
+            let score = if axis == last { self.variation() } else { self.curvature(axis) };
+            if score > best.0 {
+                best = (score, Some(axis));
+            }
+        }
+        best.1
+    }
+
+    /// The parameter along which the values change most.
+    pub fn steepest_parameter(&self) -> usize {
+        let steepness = |axis: usize| {
+            let (stride, count) = (self.stride(axis), self.counts[axis]);
+            let blocks = self.planes.iter().flat_map(|plane| plane.chunks(stride * count));
+            blocks.map(|b| (stride..b.len()).map(|at| (b[at] - b[at - stride]).abs()).max().unwrap_or(0)).max()
+        };
+        (0..self.axes() - 1).max_by_key(|&axis| (steepness(axis), std::cmp::Reverse(axis))).unwrap_or(0)
+    }
+
+    /// The sum over neighbouring frequencies of the greatest difference.
+    fn variation(&self) -> i128 {
+        let count = self.counts[self.axes() - 1];
+        let mut greatest = vec![0i128; count.saturating_sub(1)];
+        for plane in &self.planes {
+            for lane in plane.chunks(count) {
+                for (g, pair) in greatest.iter_mut().zip(lane.windows(2)) {
+                    *g = (*g).max((pair[1] - pair[0]).abs());
+                }
+            }
+        }
+        greatest.iter().sum()
+    }
+
+    /// The greatest range, over the frequencies, of the derivative by a parameter.
+    fn curvature(&self, axis: usize) -> i128 {
+        let (stride, count) = (self.stride(axis), self.counts[axis]);
+        if count == 1 {
+            return 0;
+        }
+        let frequencies = self.counts[self.axes() - 1];
+        let mut sum = vec![0i128; frequencies];
+        for plane in &self.planes {
+            let mut range = vec![(i128::MAX, i128::MIN); frequencies];
+            for block in plane.chunks(stride * count) {
+                for at in 0..(count - 1) * stride {
+                    let difference = block[at + stride] - block[at];
+                    let (low, high) = &mut range[at % frequencies];
+                    *low = (*low).min(difference);
+                    *high = (*high).max(difference);
+                }
+            }
+            for (s, (low, high)) in sum.iter_mut().zip(range) {
+                // The differences carry the error of two coefficients each.
+                *s += (high - low - 4 * self.error).max(0);
+            }
+        }
+        sum.into_iter().max().unwrap_or(0) * (count as i128 - 1)
+    }
+
+    /// The least and the greatest coefficient of a polynomial.
+    pub fn range(&self, plane: usize) -> (i128, i128) {
+        self.planes[plane].iter().fold((i128::MAX, i128::MIN), |(low, high), &v| (low.min(v), high.max(v)))
+    }
+
+    /// The corners of the box of parameters, upper ends marked, with the value of the one polynomial there.
+    pub fn corners(&self) -> impl Iterator<Item = (Vec<bool>, i128)> + '_ {
+        let axes: Vec<usize> = (0..self.axes()).filter(|&i| self.counts[i] > 1).collect();
+        (0..1usize << axes.len()).map(move |mask| {
+            let mut upper = vec![false; self.axes()];
+            let mut at = 0;
+            for (bit, &axis) in axes.iter().enumerate() {
+                if mask >> bit & 1 == 1 {
+                    upper[axis] = true;
+                    at += (self.counts[axis] - 1) * self.stride(axis);
+                }
+            }
+            (upper, self.planes[0][at])
+        })
+    }
+}
+
+/// The Bernstein coefficients of all polynomials of a bundle over a box, times one positive factor; of each multi-index those
+/// of all polynomials stand side by side.
+pub(super) fn expand(bundle: &Bundle, sides: &[[Rational; 2]]) -> Vec<Integer> {
+    let tables: Vec<Vec<Vec<Integer>>> =
+        bundle.degrees.iter().zip(sides).map(|(&degree, side)| monomials(degree, side)).collect();
+    let terms: Vec<(&[u32], &[Integer])> = bundle.terms.iter().map(|(e, c)| (e.as_slice(), c.as_slice())).collect();
+    expand_from(&terms, &tables, bundle.width)
+}
+
+/// Terms with the exponents that are left, which are sorted, and the tables of these parameters.
+fn expand_from(terms: &[(&[u32], &[Integer])], tables: &[Vec<Vec<Integer>>], width: usize) -> Vec<Integer> {
+    let Some((table, rest)) = tables.split_first() else {
+        return terms.first().map_or_else(|| vec![Integer::ZERO; width], |(_, c)| c.to_vec());
+    };
+    let size = width * rest.iter().map(Vec::len).product::<usize>();
+    checkpoint((8 * size * table.len()) as u64);
+    let mut out = vec![Integer::ZERO; size * table.len()];
+    for group in terms.chunk_by(|a, b| a.0[0] == b.0[0]) {
+        let exponent = group[0].0[0] as usize;
+        let group: Vec<(&[u32], &[Integer])> = group.iter().map(|(e, c)| (&e[1..], *c)).collect();
+        let inner = expand_from(&group, rest, width);
+        for (block, factor) in out.chunks_mut(size).zip(&table[exponent]) {
+            for (target, value) in block.iter_mut().zip(&inner) {
+                target.add_mul_assign(value, factor);
+            }
+        }
+    }
+    out
+}
+
+/// For each exponent the Bernstein coefficients, of the given degree, of that power of the parameter over an interval; all
+/// times one positive factor.
+fn monomials(degree: usize, [low, high]: &[Rational; 2]) -> Vec<Vec<Integer>> {
+    let q = low.denominator().lcm(&high.denominator());
+    let whole = |v: &Rational| (v * &Rational::from(&q)).numerator();
+    let ends = [whole(low), whole(high)];
+    let binomial = |n: usize, k: usize| {
+        (0..k).fold(Integer::ONE, |b, i| (&b * &Integer::from((n - i) as u64)).div_exact(&Integer::from(i as u64 + 1)))
+    };
+    let common = (0..=degree).fold(Integer::ONE, |l, e| l.lcm(&binomial(degree, e)));
+    let coefficient = |e: usize, j: usize| {
+        // The polar form: of the e factors, i are taken at the upper end.
+        let mut sum = Integer::ZERO;
+        for i in e.saturating_sub(degree - j)..=e.min(j) {
+            let ways = &binomial(j, i) * &binomial(degree - j, e - i);
+            sum += &ways * &(&ends[1].pow(i as u64) * &ends[0].pow((e - i) as u64));
+        }
+        &(&sum * &common.div_exact(&binomial(degree, e))) * &q.pow((degree - e) as u64)
+    };
+    (0..=degree).map(|e| (0..=degree).map(|j| coefficient(e, j)).collect()).collect()
+}
+
+/// The numbers times a power of two, truncated so that the greatest has [`BITS`] bits, and the exponent of that power.
+fn fixed_point<'a>(values: impl Iterator<Item = &'a Integer> + Clone) -> (Vec<i128>, i64) {
+    let bits = values.clone().map(Integer::bit_length).max().unwrap_or(0);
+    let fixed = |v: &Integer| {
+        let magnitude = v.abs();
+        let scaled = if bits > BITS { &magnitude >> (bits - BITS) } else { &magnitude << (BITS - bits) };
+        let limbs = scaled.as_limbs();
+        let limb = |i: usize| i128::from(limbs.get(i).copied().unwrap_or(0));
+        let value = limb(0) | limb(1) << 64;
+        if v.is_negative() { -value } else { value }
+    };
+    (values.map(fixed).collect(), BITS as i64 - bits as i64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use jurist_algebra::number::parse_number;
+    use jurist_algebra::poly::{Domain, MultiPoly};
+
+    fn q(text: &str) -> Rational {
+        parse_number(text).unwrap()
+    }
+
+    /// `2 x^2 y - 3 x + 5 y + 7`
+    fn example() -> MultiPoly {
+        let (x, y) = (MultiPoly::variable(0), MultiPoly::variable(1));
+        let n = |n: i64| MultiPoly::constant(Integer::from(n));
+        x.times(&x).times(&y).times(&n(2)).minus(&x.times(&n(3))).plus(&y.times(&n(5))).plus(&n(7))
+    }
+
+    #[test]
+    fn coefficients_at_corners_are_values_and_halves_are_those_of_the_halves() {
+        let f = example();
+        let bundle = Bundle::new(&[&f], 2);
+        let sides = [[q("-1/3"), q("5/2")], [q("1/7"), q("3")]];
+        let all = expand(&bundle, &sides);
+        let corner = |x: usize, y: usize| f.eval(&[sides[0][x].clone(), sides[1][y].clone()]);
+        // Indices: 3 along x, 2 along y.
+        let ratio = corner(1, 1).checked_div(&Rational::from(all[5].clone())).unwrap();
+        for (at, value) in [(0, corner(0, 0)), (1, corner(0, 1)), (4, corner(1, 0))] {
+            assert_eq!(&Rational::from(all[at].clone()) * &ratio, value);
+        }
+        let middle = sides[0][0].midpoint(&sides[0][1]);
+        let [low, _] = Tensor::of_one(&bundle, &sides).halves(0);
+        let fresh = expand(&bundle, &[[sides[0][0].clone(), middle], sides[1].clone()]);
+        for i in 0..6 {
+            let (left, right) =
+                (Integer::from(low.planes[0][i]) * &fresh[5], &fresh[i] * &Integer::from(low.planes[0][5]));
+            assert!((&left - &right).abs() <= fresh[5].abs() * Integer::from(64));
+        }
+    }
+
+    #[test]
+    fn an_affine_parameter_is_never_halved() {
+        let bundle = Bundle::new(&[&example()], 2);
+        let tensor = Tensor::of_one(&bundle, &[[q("1"), q("2")], [q("0"), q("1")]]);
+        // In y it is affine for every x, but its slope varies with x: both axes are curved.
+        assert!(tensor.curvature(0) > 0 && tensor.curvature(1) > 0);
+        let affine = Bundle::new(&[&MultiPoly::variable(0).plus(&MultiPoly::variable(1))], 2);
+        let tensor = Tensor::of_one(&affine, &[[q("1"), q("2")], [q("0"), q("1/3")]]);
+        assert_eq!(tensor.best_axis(), None);
+    }
+}

@@ -1,0 +1,106 @@
+//! How far the imaginary axis has to be looked at for a gain.
+
+use super::gain::GainLoop;
+use super::gain_axis::{absolute, on_axis};
+use super::quasi_polynomial::even_odd;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, UniPoly};
+
+/// How far the modulus of a gain reaches in a neutral loop.
+pub(super) struct Neutral {
+    /// Whether the values on the axis come up to the largest one from below, infinitely many of them.
+    pub approached: bool,
+    /// A frequency from which on they do, or from which on they are not below it.
+    pub limit: Rational,
+    /// The modulus at which the difference operator stops being stable.
+    pub largest: Rational,
+}
+
+impl GainLoop {
+    /// For a parameter in the term `z^turns` only, whose power of `s` is the highest and not below that of the rest.
+    pub(super) fn neutral_bound(&self, turns: usize) -> Option<Neutral> {
+        let n = self.order();
+        let (a, b) = (self.a[0].coeff(n), self.b[turns].coeff(n));
+        if b.is_zero() {
+            return None;
+        }
+        // |A|^2 b^2 - a^2 |N|^2 in omega^2, where A is taken without what is delayed (growing_beyond allows no more).
+        let square = |p: &UniPoly| {
+            let (even, odd) = even_odd(p);
+            let (even, odd) = (on_axis(&even), on_axis(&odd).shifted_up(1));
+            even.times(&even).plus(&odd.times(&odd))
+        };
+        let difference = square(&self.a[0]).scaled(&(&b * &b)).minus(&square(&self.b[turns]).scaled(&(&a * &a)));
+        let largest = Rational::new(a.abs(), b.abs());
+        let Some(top) = difference.leading() else {
+            return Some(Neutral { approached: false, limit: Rational::ONE, largest });
+        };
+        // A bound of Cauchy: beyond it the highest power outweighs the others.
+        let mut r = Integer::ONE;
+        let degree = difference.degree().unwrap_or(0) as u64;
+        while absolute(&difference).eval(&r) >= (top.abs() << 1) * r.pow(degree) {
+            r = r << 1;
+        }
+        Some(Neutral { approached: top.is_negative(), limit: Rational::from(r), largest })
+    }
+
+    /// A frequency beyond which the highest power of `s` without delay outweighs all other terms for all values of the
+    /// parameter up to a modulus; `None` where it does not.
+    pub(super) fn frequency_bound(&self, largest: &Rational) -> Option<Rational> {
+        let n = self.order();
+        let (num, den) = (largest.numerator(), largest.denominator());
+        // All terms over the modulus of the parameter; its part of the highest undelayed power counts against it.
+        let mut total = UniPoly::zero();
+        for (a, b) in self.a.iter().zip(&self.b) {
+            total = total.plus(&absolute(a).scaled(&den)).plus(&absolute(b).scaled(&num));
+        }
+        let top = self.a[0].coeff(n).abs() * &den;
+        let twice = &top + &top;
+        if total.coeff(n) >= twice {
+            return None;
+        }
+        let mut r = Integer::ONE;
+        while total.eval(&r) >= &twice * &r.pow(n as u64) {
+            r = r << 1;
+        }
+        Some(Rational::from(r))
+    }
+
+    /// A frequency beyond which `Re(ds/d log K)` is positive on the axis, for a parameter in the term `z^turns` only: it has
+    /// the sign of `turns tau + Re(A'/A - N'/N)`.
+    pub(super) fn growing_beyond(&self, turns: usize) -> Option<Rational> {
+        let (t, d) = (self.tau.numerator(), self.tau.denominator());
+        let n = self.a.iter().filter_map(UniPoly::degree).max()?;
+        let m = self.b[turns].degree()?;
+        // A without delay is to have the highest power of A alone; where the loop is neutral in the parameter, A is to be
+        // without delay altogether.
+        let delayed = self.a.iter().skip(1).filter(|p| !p.is_zero());
+        if self.a[0].degree() != Some(n) || m > n || delayed.clone().any(|p| m == n || p.degree() >= Some(n)) {
+            return None;
+        }
+        let sum = |parts: &[UniPoly]| parts.iter().fold(UniPoly::zero(), |sum, p| sum.plus(&absolute(p)));
+        let derivative = self.a.iter().enumerate().fold(UniPoly::zero(), |sum, (k, p)| {
+            let delayed = p.scaled(&(&t * &Integer::from(k as i64)));
+            sum.plus(&absolute(&p.derivative().scaled(&d))).plus(&absolute(&delayed))
+        });
+        let (all, other) = (sum(&self.a), absolute(&self.b[turns]));
+        let other_derivative = absolute(&self.b[turns].derivative()).scaled(&d);
+        let least = Rational::from(&(&t * &Integer::from(turns as i64)));
+        let mut r = Integer::ONE;
+        loop {
+            let lowest = |p: &UniPoly, k: usize| {
+                let top = p.coeff(k) * r.pow(k as u64);
+                &top + &top - p.eval(&r)
+            };
+            let (bottom, other_bottom) = (lowest(&all, n), lowest(&other, m));
+            if bottom.sign().is_gt() && other_bottom.sign().is_gt() {
+                let moved =
+                    Rational::new(derivative.eval(&r), bottom) + Rational::new(other_derivative.eval(&r), other_bottom);
+                if moved < least {
+                    return Some(Rational::from(r));
+                }
+            }
+            r = r << 1;
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Continuous loops with dead time: quasi-polynomials in `s` and `z = exp(-tau s)`.
+//!
+//! | file | what it decides |
+//! |---|---|
+//! | [`QuasiPolynomial`] | kind, difference operator, common factors |
+//! | `crossing` | where roots can be on the imaginary axis, for any dead time: algebraic numbers |
+//! | [`delay_cells`] | all dead times at which a loop is stable |
+//! | [`gain_cells`] | all values of a parameter at a fixed dead time |
+//! | [`count_delayed_roots`] | the roots at one rational dead time, by a certified count of the argument's turns |
+
+mod count;
+mod crossing;
+mod dyadic;
+mod gain;
+mod gain_axis;
+mod gain_bounds;
+mod gain_inverse;
+mod gain_points;
+mod mikhailov;
+mod over_root;
+mod quasi_polynomial;
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod tests_gain;
+mod trigonometric;
+mod turn;
+mod windows;
+
+pub use count::{DelayCount, count_delayed_roots};
+pub use crossing::Crossing;
+pub use gain::{GainCells, GainLoop, NotSolved, gain_cells};
+pub use gain_points::{GainPoint, Happening};
+pub use mikhailov::NotCounted;
+pub use quasi_polynomial::{Kind, QuasiPolynomial};
+pub use windows::{DelayCells, Never, Switch, delay_cells};

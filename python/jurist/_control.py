@@ -1,0 +1,158 @@
+"""To and from python-control."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Literal
+
+from ._builder import LoopBuilder
+from ._exact import Exact, Floats, fraction, warn_computed
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ._loop import Loop
+
+
+def _plain(polynomial: Any) -> list[Any]:
+    return list(polynomial.tolist() if hasattr(polynomial, "tolist") else polynomial)
+
+
+def siso_coefficients(system: Any) -> tuple[list[Any], list[Any]]:
+    """Numerator and denominator, highest power first, of one input and one output."""
+    num, den = system.num, system.den
+    if callable(num) or not hasattr(num, "__len__"):
+        # SymPy's transfer functions name their variable.
+        import sympy
+
+        parts = [sympy.Poly(side, system.var).all_coeffs() for side in (system.num, system.den)]
+        return parts[0], parts[1]
+    rows, columns = getattr(system, "noutputs", 1), getattr(system, "ninputs", 1)
+    if (rows, columns) != (1, 1):
+        raise ValueError(f"a transfer function with {columns} inputs and {rows} outputs: connect its parts by LoopBuilder")
+    nested = hasattr(num[0], "__len__")
+    if nested:
+        num, den = num[0][0], den[0][0]
+    return _plain(num), _plain(den)
+
+
+def _time(system: Any, time: str | None) -> tuple[str, Any]:
+    """The kind of time, and the sample time if it is a number."""
+    dt = getattr(system, "dt", 0)
+    if dt is None:
+        # SciPy's continuous systems have no sample time; python-control's None says that nobody knows.
+        if time is None and not type(system).__module__.startswith("scipy."):
+            raise ValueError("the system's time is unspecified (dt is None): say time='continuous' or time='discrete'")
+        return time or "continuous", None
+    if dt is True:
+        return "discrete", None
+    return ("continuous", None) if dt == 0 else ("discrete", dt)
+
+
+def _signal(labels: Any, otherwise: str) -> str:
+    """A signal's name, if it is one that a model file takes."""
+    label = re.sub(r"\[0\]$", "", str(labels[0])) if labels else otherwise
+    return label if re.fullmatch(r"[A-Za-z_]\w*", label) and label not in ("z", "s") else otherwise
+
+
+def from_control(
+    sys: Any,
+    *,
+    gain: str | None = None,
+    floats: Floats = "shortest",
+    time: Literal["continuous", "discrete"] | None = None,
+) -> Loop:
+    """A loop from a system of python-control or SciPy.
+
+    Parameters
+    ----------
+    sys : TransferFunction or StateSpace
+        With ``gain``, the open loop ``L``: negative feedback is closed around ``gain * L``, one input and one output. Without,
+        the system itself: its own poles are asked about. State-space matrices are taken as they are.
+    gain : str, optional
+        The name of the gain; a parameter with the nominal value 1 and values above 0.
+    floats : {"shortest", "binary", "refuse"}
+        What floats mean; see `exact`.
+    time : {"continuous", "discrete"}, optional
+        For systems whose time is unspecified (``dt`` is `None`).
+
+    Returns
+    -------
+    Loop
+
+    Warns
+    -----
+    JuristWarning
+        ``W-computed-floats``, where coefficients have so many digits that they look computed.
+
+    Examples
+    --------
+    >>> import control, jurist
+    >>> jurist.from_control(control.tf([1], [1, 2, 3, 0]), gain="k").intervals("k")
+    <StableSet k: (0, 6)>
+    """
+    kind, dt = _time(sys, time)
+    name = str(getattr(sys, "name", "") or "")
+    title = None if re.fullmatch(r"(sys\[\d+\].*)?", name) else name
+    builder = LoopBuilder(kind, sample_time=dt, title=title, floats=floats)
+    is_state_space = all(hasattr(sys, part) for part in "ABCD")
+    if gain is None:
+        if is_state_space:
+            if not len(sys.A):
+                return builder.characteristic("1").build()
+            return builder.matrix(sys.A).build()
+        _, den = siso_coefficients(sys)
+        warn_computed(den)
+        variable = "z" if kind == "discrete" else "s"
+        terms = [f"({builder._expression(c)})*{variable}^{len(den) - 1 - k}" for k, c in enumerate(den)]
+        return builder.characteristic(" + ".join(terms)).build()
+    if is_state_space and (getattr(sys, "ninputs", 1), getattr(sys, "noutputs", 1)) != (1, 1):
+        raise ValueError("a gain is closed around one input and one output: connect the parts by LoopBuilder")
+    builder.parameter(gain, 1, min=0)
+    taken = {gain, "z", "s"}
+    names = []
+    for labels, otherwise in ((getattr(sys, "input_labels", None), "u"), (getattr(sys, "output_labels", None), "y")):
+        label = _signal(labels, otherwise)
+        while label in taken:
+            label += "_"
+        taken.add(label)
+        names.append(label)
+    u, y = names
+    reference = next(r for r in ("r", "r_ref", "reference", "r_0") if r not in taken)
+    builder.block("gain", f"{reference} - {y}", u, gain)
+    builder.block("plant", u, y, sys)
+    return builder.build(inputs=[reference], outputs=[y])
+
+
+def to_control(loop: Loop, input: str, output: str, values: Mapping[str, Exact] | None = None) -> Any:
+    """See `Loop.to_control`."""
+    import json
+
+    import control
+
+    asked = loop._asked(values)
+    set_already = {name for name, _ in asked["values"]}
+    for name, parameter in loop.parameters.items():
+        if name not in set_already:
+            if parameter.nominal is None:
+                raise ValueError(f"'{name}' has no nominal value: give it one")
+            asked["values"].append((name, f"{parameter.nominal}"))
+    words = [*loop._words("charpoly", asked), "--transfer", input, output, "--json"]
+    document = json.loads(loop._command(words, asked)[0])
+    def number(terms: list[Any]) -> Fraction:
+        return sum((fraction(c) for _, c in terms), Fraction(0))
+
+    def numbers(side: list[dict[str, Any]]) -> list[float]:
+        out = [float(number(c["numerator"]) / number(c["denominator"])) for c in reversed(side)]
+        while len(out) > 1 and out[0] == 0:
+            out.pop(0)
+        return out
+
+    num, den = (numbers(document[side]) for side in ("numerator", "denominator"))
+    if loop.time == "continuous":
+        dt: Any = 0
+    else:
+        period = loop.sample_time(values)
+        dt = True if period is None else float(period)
+    return control.TransferFunction(num, den, dt, inputs=[input], outputs=[output])

@@ -1,0 +1,175 @@
+"""Answers that are drawn: maps, loci, time responses."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ._answers import Document, PointVerdict
+from ._exact import Exact
+
+
+class Map(Document):
+    """The stable region in the plane of two parameters: an exact decomposition, or proved boxes of a window.
+
+    Examples
+    --------
+    >>> import jurist
+    >>> loop = jurist.Loop.characteristic("z^2 + a*z + b", time="discrete", parameters={"a": 0, "b": 0})
+    >>> m = loop.map("a", "b")
+    >>> len(m.regions), m.verdict(0, "1/2").verdict
+    (1, <Verdict.STABLE: 'stable'>)
+    """
+
+    __slots__ = ()
+
+    @property
+    def x(self) -> str:
+        """The first parameter."""
+        return str(self._document["x"])
+
+    @property
+    def y(self) -> str:
+        """The second parameter."""
+        return str(self._document["y"])
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether it is the exact decomposition, and not boxes."""
+        return "boxes" not in self._document
+
+    @property
+    def regions(self) -> tuple[dict[str, Any], ...]:
+        """The stable regions as they stand in the document; empty for boxes."""
+        return tuple(self._document.get("regions") or ())
+
+    @property
+    def boxes(self) -> tuple[dict[str, Any], ...]:
+        """The boxes as they stand in the document; empty for an exact map."""
+        return tuple(self._document.get("boxes") or ())
+
+    def verdict(self, x: Exact, y: Exact) -> PointVerdict:
+        """The verdict at a point of the plane."""
+        assert self._loop is not None
+        return self._loop.verdict({**self.point, self.x: x, self.y: y}, **self._loop._region_by(self._words))
+
+    def plot(self, ax: Any = None, *, x: Any = None, y: Any = None, columns: int = 160, **kw: Any) -> Any:
+        """Draws the stable region; every column of the picture is decided exactly.
+
+        Parameters
+        ----------
+        ax : matplotlib Axes, optional
+            Where; the current axes if not given.
+        x, y : tuple of two numbers, optional
+            The window.
+        columns : int
+            In so many places along the first axis.
+        **kw
+            For the filled area.
+
+        Returns
+        -------
+        matplotlib Axes
+        """
+        from ._plot import plot_map
+
+        return plot_map(self, ax, x, y, columns, kw)
+
+    def __str__(self) -> str:
+        return self.text().rstrip()
+
+
+class Locus(Document):
+    """The root locus of a parameter, in floating point, with the exact crossings of the boundary.
+
+    Examples
+    --------
+    >>> import jurist
+    >>> locus = jurist.Loop.drive().locus("K_pwm")
+    >>> locus.parameter, len(locus.branches), round(locus.crossings[0]["value"], 6)
+    ('K_pwm', 6, 550.941167)
+    """
+
+    __slots__ = ()
+
+    @property
+    def parameter(self) -> str:
+        """What moves."""
+        return str(self._document["parameter"])
+
+    @property
+    def branches(self) -> list[tuple[Any, Any]]:
+        """Values of the parameter and complex roots, as arrays, branch by branch."""
+        import numpy
+
+        out = []
+        for b in self._document["branches"]:
+            points = numpy.array([[_float(re), _float(im)] for re, im in b["roots"]])
+            out.append((numpy.array(b["values"], dtype=float), points[:, 0] + 1j * points[:, 1]))
+        return out
+
+    @property
+    def crossings(self) -> tuple[dict[str, Any], ...]:
+        """Where roots cross the boundary: the parameter, the points, and what a picture says there."""
+        return tuple(self._document["crossings"])
+
+    def plot(self, ax: Any = None, *, grid: bool = True, **kw: Any) -> Any:
+        """Draws the branches, the boundary and the crossings on it; returns the Axes."""
+        from ._plot import plot_locus
+
+        return plot_locus(self, ax, grid, kw)
+
+
+def _float(x: float | None) -> float:
+    return float("nan") if x is None else x
+
+
+class Simulation(Document):
+    """A time response, in floating point.
+
+    Examples
+    --------
+    >>> import jurist
+    >>> r = jurist.Loop.drive().simulate(duration="0.01")
+    >>> r.names[:2], len(r.time), len(r["omega"])
+    (['i_a', 'omega'], 101, 101)
+    """
+
+    __slots__ = ()
+
+    @property
+    def time(self) -> Any:
+        """The instants, an array."""
+        import numpy
+
+        return numpy.array(self._document["time"], dtype=float)
+
+    @property
+    def names(self) -> list[str]:
+        """The signals."""
+        return [s["name"] for s in self._document["signals"]]
+
+    def __getitem__(self, name: str) -> Any:
+        import numpy
+
+        for s in self._document["signals"]:
+            if s["name"] == name:
+                return numpy.array(s["values"], dtype=float)
+        raise KeyError(name)
+
+    def unit(self, name: str) -> str | None:
+        """The unit of a signal."""
+        return next((s["unit"] for s in self._document["signals"] if s["name"] == name), None)
+
+    def to_control(self) -> Any:
+        """As python-control's `TimeResponseData`."""
+        import control
+        import numpy
+
+        values = numpy.array([self[name] for name in self.names])
+        return control.TimeResponseData(self.time, values, output_labels=self.names, title=self.title, issiso=False)
+
+    def plot(self, ax: Any = None, *, signals: list[str] | None = None, **kw: Any) -> Any:
+        """Draws signals over time; returns the Axes."""
+        from ._plot import plot_simulation
+
+        return plot_simulation(self, ax, signals, kw)

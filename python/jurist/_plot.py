@@ -1,0 +1,179 @@
+"""Pictures by matplotlib: on the axes given or the current ones, returned, never shown."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from ._exact import exact
+
+if TYPE_CHECKING:
+    from ._curves import Locus, Map, Simulation
+    from ._sets import StableSet
+
+_STABLE = "#2a7f62"
+"""A green that is also told from the crossings by its lightness."""
+
+_CROSSING = "#c1440e"
+
+
+def _axes(ax: Any) -> Any:
+    if ax is not None:
+        return ax
+    import matplotlib.pyplot as plt
+
+    return plt.gca()
+
+
+def _named(name: str, unit: str | None) -> str:
+    return f"{name} ({unit})" if unit else name
+
+
+def _is_logarithmic(values: list[float]) -> bool:
+    positive = [x for x in values if x > 0]
+    return len(positive) == len(values) > 1 and max(positive) / min(positive) > 100
+
+
+def plot_set(s: StableSet, ax: Any, scale: str, kw: dict[str, Any]) -> Any:
+    """A stable set on a number line."""
+    ax = _axes(ax)
+    ends = [float(end) for i in s for end in (i.lower, i.upper) if end is not None]
+    nominal = [] if s.nominal is None else [float(s.nominal)]
+    logarithmic = scale == "log" or (scale == "auto" and _is_logarithmic(ends + nominal))
+    shown = sorted(x for x in ends + nominal if x > 0 or not logarithmic) or [1.0]
+    width = shown[-1] - shown[0] or abs(shown[-1]) or 1.0
+    low, high = (shown[0] / 3, shown[-1] * 3) if logarithmic else (shown[0] - width / 4, shown[-1] + width / 4)
+    style = {"color": _STABLE, "linewidth": 6, "solid_capstyle": "butt", **kw}
+    for i in s:
+        a, b = i
+        ax.plot([max(a, low), min(b, high)], [0, 0], **style)
+        for end in (i.lower, i.upper):
+            if end is not None:
+                face = style["color"] if end.closed else "none"
+                ax.plot([float(end)], [0], "o", color=style["color"], markerfacecolor=face, markersize=8)
+                note = f"{float(end):.6g}" + (f"\n{end.cause}" if end.cause else "")
+                ax.annotate(note, (float(end), 0), (0, 9), textcoords="offset points", ha="center", fontsize="small")
+    for x in nominal:
+        ax.plot([x], [0], "^", color="gray", label=f"nominal {x:g}")
+    if logarithmic:
+        ax.set_xscale("log")
+    ax.set_xlim(low, high)
+    ax.set_ylim(-1, 1)
+    ax.set_yticks([])
+    ax.set_xlabel(_named(s.parameter, s.unit))
+    return ax
+
+
+def plot_map(m: Map, ax: Any, x: Any, y: Any, columns: int, kw: dict[str, Any]) -> Any:
+    """A map, column by column."""
+    import numpy
+    from matplotlib.collections import PolyCollection
+    from matplotlib.patches import Rectangle
+
+    ax = _axes(ax)
+    document = m.to_dict()
+    style = {"facecolor": _STABLE, "edgecolor": "none", "alpha": 0.55, **kw}
+    if not m.is_exact:
+        for box in m.boxes:
+            if box["verdict"] == "stable":
+                (x0, x1), (y0, y1) = ([float(exact(b)) for b in box[side]] for side in ("x", "y"))
+                ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, **style))
+        ax.set_xlim(*(float(exact(b)) for b in document["window"]["x"]))
+        ax.set_ylim(*(float(exact(b)) for b in document["window"]["y"]))
+    else:
+        loop = m._loop
+        assert loop is not None
+        low, high = _window(document, "x", x)
+        logarithmic = low > 0 and high / low > 100
+        places = numpy.geomspace(low, high, columns) if logarithmic else numpy.linspace(low, high, columns)
+        inner = [0.5 * (a + b) for a, b in zip(places[:-1], places[1:], strict=True)]
+        asked = {name: value for name, value in m.point.items()}
+        region = loop._region_by(m._words)
+        sets = [[tuple(i) for i in loop.intervals(m.y, {**asked, m.x: float(at)}, **region)] for at in inner]
+        bottom, top = _window(document, "y", y)
+        quads = []
+        for k, (left, right) in enumerate(zip(inner[:-1], inner[1:], strict=True)):
+            if len(sets[k]) == len(sets[k + 1]):
+                for (a, b), (c, d) in zip(sets[k], sets[k + 1], strict=True):
+                    ends = [min(max(v, bottom), top) for v in (a, c, d, b)]
+                    quads.append([(left, ends[0]), (right, ends[1]), (right, ends[2]), (left, ends[3])])
+            else:
+                middle = 0.5 * (left + right)
+                for start, end, found in ((left, middle, sets[k]), (middle, right, sets[k + 1])):
+                    for a, b in found:
+                        a, b = min(max(a, bottom), top), min(max(b, bottom), top)
+                        quads.append([(start, a), (end, a), (end, b), (start, b)])
+        ax.add_collection(PolyCollection(quads, **style))
+        if logarithmic:
+            ax.set_xscale("log")
+        if bottom > 0 and top / bottom > 100:
+            ax.set_yscale("log")
+        ax.set_xlim(low, high)
+        ax.set_ylim(bottom, top)
+    nominal = document["nominal"]
+    if nominal["x"] is not None and nominal["y"] is not None:
+        ax.plot([float(exact(nominal["x"]))], [float(exact(nominal["y"]))], "o", color="black", markersize=5)
+    ax.set_xlabel(_named(m.x, document["unit"]["x"]))
+    ax.set_ylabel(_named(m.y, document["unit"]["y"]))
+    return ax
+
+
+def _window(document: dict[str, Any], axis: str, given: Any) -> tuple[float, float]:
+    """Around the stable regions and the nominal point."""
+    if given is not None:
+        return float(exact(given[0])), float(exact(given[1]))
+    values = []
+    for region in document["regions"]:
+        for end in region[axis].values():
+            if end is not None:
+                values.append(float(end["decimal"]))
+    if document["nominal"][axis] is not None:
+        values.append(float(exact(document["nominal"][axis])))
+    domain = [None if b is None else float(exact(b)) for b in document["domain"][axis].values()]
+    if not values:
+        values = [x for x in domain if x is not None] or [0.0]
+    low, high = min(values), max(values)
+    pad = (high - low) / 8 or abs(high) or 1.0
+    inside = pad / 1000
+    lower, upper = low - pad, high + pad
+    if domain[0] is not None:
+        lower = max(lower, domain[0] + inside)
+    if domain[1] is not None:
+        upper = min(upper, domain[1] - inside)
+    return lower, upper
+
+
+def plot_locus(locus: Locus, ax: Any, grid: bool, kw: dict[str, Any]) -> Any:
+    """Branches, the boundary, and the crossings."""
+    import numpy
+
+    ax = _axes(ax)
+    document = locus.to_dict()
+    if document["time"] == "discrete":
+        turn = numpy.exp(1j * numpy.linspace(0, 2 * math.pi, 361))
+        ax.plot(turn.real, turn.imag, color="gray", linewidth=0.8)
+        ax.set_aspect("equal", "datalim")
+    else:
+        ax.axvline(0, color="gray", linewidth=0.8)
+    for _, roots in locus.branches:
+        ax.plot(roots.real, roots.imag, **{"linewidth": 1.5, **kw})
+    for crossing in locus.crossings:
+        for re, im in crossing["at"]:
+            signs = (1, -1) if im else (1,)
+            ax.plot([re] * len(signs), [s * im for s in signs], "o", color=_CROSSING, markersize=6)
+        if crossing["at"]:
+            ax.annotate(crossing["label"], crossing["at"][0], (7, 7), textcoords="offset points", fontsize="small")
+    ax.grid(grid, alpha=0.3)
+    ax.set_xlabel("real")
+    ax.set_ylabel("imaginary")
+    return ax
+
+
+def plot_simulation(r: Simulation, ax: Any, signals: list[str] | None, kw: dict[str, Any]) -> Any:
+    """Signals over time."""
+    ax = _axes(ax)
+    for name in r.names if signals is None else signals:
+        ax.plot(r.time, r[name], label=_named(name, r.unit(name)), **kw)
+    ax.set_xlabel("time (s)" if r.to_dict()["time_unit"] == "s" else "samples")
+    ax.legend()
+    return ax

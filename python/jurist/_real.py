@@ -1,0 +1,453 @@
+"""Real numbers as the engine knows them: exact order, any number of digits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import Any
+
+from . import _jurist
+from ._errors import undecided
+from ._exact import Exact, exact, fraction, fraction_text, integer, integer_text
+from ._views import Views
+
+
+_Bounds = tuple[Fraction, Fraction]
+
+_MOST_DIGITS = 2000
+"""Transcendental numbers that are not told apart by so many digits may be equal."""
+
+
+class Real(Views):
+    """An exact real number: a root of an integer polynomial, or a transcendental number in a certified enclosure.
+
+    Comparisons are exact, also of two irrational numbers; equal numbers have equal hashes, as those of `int` and `Fraction`.
+    Floats are compared as the binary numbers they are, as Python compares fractions.
+
+    Parameters
+    ----------
+    value : exact number
+        A rational number; irrational ones are made by `root` and `roots`, or come with answers.
+
+    Examples
+    --------
+    >>> from jurist import Real
+    >>> x = Real.root((-2, 0, 1), 1, 2)
+    >>> x
+    Real.root((-2, 0, 1), 1, 2)
+    >>> x.decimal(30), float(x)
+    ('1.41421356237309504880168872421', 1.4142135623730951)
+    >>> x > 1.4142, x == Real.root((-4, 0, 0, 0, 1), 0, 2), f"{x:.20f}"
+    (True, True, '1.41421356237309504880')
+    >>> 2*x - 1 > x
+    True
+    """
+
+    __slots__ = ("_core", "_enclosed", "_over", "_refine")
+
+    _core: _jurist.Algebraic | None
+    _enclosed: _Bounds | None
+    _over: Any
+    _refine: Callable[[int], _Bounds] | None
+
+    def __init__(self, value: Exact = 0) -> None:
+        if isinstance(value, Real):
+            self._core, self._enclosed, self._over, self._refine = value._core, value._enclosed, value._over, value._refine
+            return
+        self._core = _jurist.Algebraic.rational(fraction_text(exact(value)))
+        self._enclosed = self._over = self._refine = None
+
+    @classmethod
+    def _of(cls, core: _jurist.Algebraic) -> Real:
+        self = cls.__new__(cls)
+        self._core, self._enclosed, self._over, self._refine = core, None, None, None
+        return self
+
+    @classmethod
+    def _transcendental(cls, bounds: _Bounds, over: Any, refine: Callable[[int], _Bounds] | None) -> Real:
+        self = cls.__new__(cls)
+        self._core, self._enclosed, self._over, self._refine = None, bounds, over, refine
+        return self
+
+    @classmethod
+    def _from_document(cls, end: dict[str, Any], refine: Callable[[int], _Bounds] | None = None) -> Real:
+        """The number that stands in a document; a transcendental one is narrowed by asking for more digits."""
+        if end["exact"] is not None:
+            return cls._of(_jurist.Algebraic.rational(end["exact"]))
+        lower, upper = end["enclosure"]
+        if end["polynomial"] is not None:
+            return cls._of(_jurist.Algebraic.root(end["polynomial"], lower, upper))
+        return cls._transcendental((fraction(lower), fraction(upper)), end.get("over"), refine)
+
+    @classmethod
+    def root(cls, polynomial: Sequence[int], lower: Exact, upper: Exact) -> Real:
+        """The only root of a polynomial in a closed interval.
+
+        Parameters
+        ----------
+        polynomial : sequence of int
+            Coefficients from the constant term up.
+        lower, upper : exact number
+            The interval.
+
+        Raises
+        ------
+        ValueError
+            Where there is no root, or more than one.
+
+        Examples
+        --------
+        >>> from jurist import Real
+        >>> print(Real.root((-2, 0, 1), 0, 2))
+        1.41421356237
+        """
+        texts = [integer_text(int(c)) for c in polynomial]
+        return cls._of(_jurist.Algebraic.root(texts, fraction_text(exact(lower)), fraction_text(exact(upper))))
+
+    @classmethod
+    def roots(cls, polynomial: Sequence[int]) -> list[Real]:
+        """All real roots of a polynomial, each once, in ascending order.
+
+        Examples
+        --------
+        >>> from jurist import Real
+        >>> [float(x) for x in Real.roots((-2, 0, 1))]
+        [-1.4142135623730951, 1.4142135623730951]
+        """
+        return [cls._of(core) for core in _jurist.Algebraic.roots([integer_text(int(c)) for c in polynomial])]
+
+    @property
+    def kind(self) -> str:
+        """``"algebraic"`` or ``"transcendental"``."""
+        return "transcendental" if self._core is None else "algebraic"
+
+    @property
+    def over(self) -> Any:
+        """What a transcendental number is a root of, as the document says it."""
+        return self._over
+
+    @property
+    def polynomial(self) -> tuple[int, ...] | None:
+        """A square-free primitive polynomial with this root, coefficients from the constant term up."""
+        return None if self._core is None else tuple(integer(c) for c in self._core.polynomial())
+
+    @property
+    def degree(self) -> int | None:
+        """The degree of that polynomial."""
+        return None if self._core is None else len(self._core.polynomial()) - 1
+
+    @property
+    def exact(self) -> Fraction | None:
+        """The value, if it is rational."""
+        text = None if self._core is None else self._core.exact()
+        return None if text is None else fraction(text)
+
+    def _jurist_exact_(self) -> Fraction | None:
+        return self.exact
+
+    def decimal(self, digits: int = 12) -> str:
+        """Correctly rounded to so many significant digits: the program's text.
+
+        Examples
+        --------
+        >>> from jurist import Real
+        >>> Real("1/3").decimal(5)
+        '0.33333'
+        """
+        if digits < 1:
+            raise ValueError("at least one digit")
+        if self._core is not None:
+            return self._core.decimal(digits)
+        for more in (2, 20, 200):
+            lower, upper = (Real(x).decimal(digits) for x in self.enclosure(digits + more))
+            if lower == upper:
+                return lower
+        raise undecided(f"the enclosure does not give {digits} digits", "digits", "the enclosure", None)
+
+    def enclosure(self, digits: int = 12) -> tuple[Fraction, Fraction]:
+        """Lower and upper bound, of relative width at most ``10**-(digits + 2)``; equal where the number is rational.
+
+        Examples
+        --------
+        >>> from jurist import Real
+        >>> lower, upper = Real.root((-2, 0, 1), 1, 2).enclosure(6)
+        >>> lower**2 < 2 < upper**2
+        True
+        """
+        if self._core is None:
+            assert self._enclosed is not None
+            low, high = self._enclosed
+            if self._refine is not None and high - low > min(abs(low), abs(high)) / 10 ** (digits + 2):
+                self._enclosed = self._refine(digits)
+            return self._enclosed
+        lower, upper = self._core.enclosure(digits)
+        return fraction(lower), fraction(upper)
+
+    def __float__(self) -> float:
+        value = self.exact
+        if value is not None:
+            return float(value)
+        digits = 17
+        while True:
+            lower, upper = (float(x) for x in self.enclosure(digits))
+            if lower == upper:
+                return lower
+            digits = self._more(digits)
+
+    def _more(self, digits: int) -> int:
+        """Twice as many digits, if they can be had."""
+        if self._core is None and (self._refine is None or digits > _MOST_DIGITS):
+            raise undecided(f"the enclosure does not give {digits} digits", "digits", "the enclosure", None)
+        return 2 * digits
+
+    def _rounded(self, places: int) -> int:
+        """The nearest multiple of ``10**-places``, ties to even, as a count."""
+        scale: int = 10**places
+        digits = places + 12
+        while True:
+            lower, upper = (round(x * scale) for x in self.enclosure(digits))
+            if lower == upper:
+                return lower
+            digits = self._more(digits)
+
+    def _compare(self, other: Any) -> float | None:
+        """-1, 0, 1, not-a-number as it comes, or `None` for what is no number."""
+        if isinstance(other, Real):
+            if self._core is not None and other._core is not None:
+                return self._core.compare(other._core)
+            if self is other:
+                return 0
+            return _parted(self, other)
+        if isinstance(other, str):
+            return None
+        if isinstance(other, float) and not math.isfinite(other):
+            return other if math.isnan(other) else (-1 if other > 0 else 1)
+        try:
+            value = exact(other, "binary")
+        except (TypeError, ValueError):
+            return None
+        if self._core is None:
+            return _parted(self, Real(value))
+        return self._core.compare_rational(fraction_text(value))
+
+    def __eq__(self, other: object) -> bool:
+        return self._compare(other) == 0
+
+    def __lt__(self, other: Any) -> bool:
+        order = self._compare(other)
+        return NotImplemented if order is None else order < 0
+
+    def __le__(self, other: Any) -> bool:
+        order = self._compare(other)
+        return NotImplemented if order is None else order <= 0
+
+    def __gt__(self, other: Any) -> bool:
+        order = self._compare(other)
+        return NotImplemented if order is None else order > 0
+
+    def __ge__(self, other: Any) -> bool:
+        order = self._compare(other)
+        return NotImplemented if order is None else order >= 0
+
+    def __hash__(self) -> int:
+        value = self.exact
+        if value is not None:
+            return hash(value)
+        try:
+            return hash(float(self))
+        except OverflowError:
+            return hash(math.floor(self))
+
+    def __bool__(self) -> bool:
+        return self != 0
+
+    def _sent(self, factor: Fraction, term: Fraction) -> Real:
+        """``factor*self + term``."""
+        value = self.exact
+        if value is not None:
+            return Real(factor * value + term)
+        if factor == 0:
+            return Real(term)
+        if self._core is None:
+            raise TypeError("a transcendental number is not computed with")
+        # p((y - term)/factor), by Horner's rule.
+        inner = (-term / factor, 1 / factor)
+        zero = Fraction(0)
+        out = [zero]
+        for c in reversed([integer(c) for c in self._core.polynomial()]):
+            out = [
+                (out[k] * inner[0] if k < len(out) else zero) + (out[k - 1] * inner[1] if k else zero) for k in range(len(out) + 1)
+            ]
+            out[0] += c
+        while len(out) > 1 and out[-1] == 0:
+            out.pop()
+        ends = sorted(factor * x + term for x in self.enclosure(3))
+        return Real.root(_cleared(out), *ends)
+
+    def __neg__(self) -> Real:
+        return self._sent(Fraction(-1), Fraction(0))
+
+    def __pos__(self) -> Real:
+        return self
+
+    def __abs__(self) -> Real:
+        return -self if self < 0 else self
+
+    def __add__(self, other: Any) -> Real:
+        if isinstance(other, Real) and self.exact is not None:
+            return other._sent(Fraction(1), self.exact)
+        value = _operand(other)
+        return NotImplemented if value is None else self._sent(Fraction(1), value)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Real:
+        if isinstance(other, Real) and self.exact is not None:
+            return other._sent(Fraction(-1), self.exact)
+        value = _operand(other)
+        return NotImplemented if value is None else self._sent(Fraction(1), -value)
+
+    def __rsub__(self, other: Any) -> Real:
+        value = _operand(other)
+        return NotImplemented if value is None else self._sent(Fraction(-1), value)
+
+    def __mul__(self, other: Any) -> Real:
+        if isinstance(other, Real) and self.exact is not None:
+            return other._sent(self.exact, Fraction(0))
+        value = _operand(other)
+        return NotImplemented if value is None else self._sent(value, Fraction(0))
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Real:
+        if isinstance(other, Real) and self.exact is not None:
+            return other._reciprocal()._sent(self.exact, Fraction(0))
+        value = _operand(other)
+        return NotImplemented if value is None else self._sent(1 / value, Fraction(0))
+
+    def __rtruediv__(self, other: Any) -> Real:
+        value = _operand(other)
+        return NotImplemented if value is None else self._reciprocal()._sent(value, Fraction(0))
+
+    def _reciprocal(self) -> Real:
+        value = self.exact
+        if value is not None:
+            return Real(1 / value)
+        if self._core is None:
+            raise TypeError("a transcendental number is not computed with")
+        coefficients = [integer(c) for c in reversed(self._core.polynomial())]
+        while coefficients[-1] == 0:
+            coefficients.pop()
+        lower, upper = self.enclosure(3)
+        return Real.root(coefficients, 1 / upper, 1 / lower)
+
+    def __floor__(self) -> int:
+        if self._core is not None:
+            return integer(self._core.floor())
+        digits = 12
+        while True:
+            lower, upper = (math.floor(x) for x in self.enclosure(digits))
+            if lower == upper:
+                return lower
+            digits = self._more(digits)
+
+    def __ceil__(self) -> int:
+        return -math.floor(-self) if self._core is not None else math.floor(self) + 1
+
+    def __trunc__(self) -> int:
+        return math.ceil(self) if self < 0 else math.floor(self)
+
+    def __int__(self) -> int:
+        return math.trunc(self)
+
+    def __round__(self, ndigits: int | None = None) -> Any:
+        if ndigits is None:
+            return self._rounded(0)
+        if ndigits < 0:
+            value = self.exact
+            return round(value if value is not None else self.enclosure(40)[0], ndigits)
+        return Fraction(self._rounded(ndigits), 10**ndigits)
+
+    def __str__(self) -> str:
+        return self.decimal(12)
+
+    def __repr__(self) -> str:
+        value = self.exact
+        if value is not None:
+            return f"Real({fraction_text(value)!r})" if value.denominator != 1 else f"Real({integer_text(value.numerator)})"
+        if self._core is None:
+            return f"<Real {self.decimal(8)}..., transcendental>"
+        lower, upper = _short_bounds(self)
+        polynomial = ", ".join(self._core.polynomial())
+        return f"Real.root(({polynomial}), {lower}, {upper})"
+
+    def _repr_latex_(self) -> str:
+        value = self.exact
+        if value is None:
+            return f"${self.decimal(12)}\\ldots$"
+        if value.denominator == 1:
+            return f"${value.numerator}$"
+        sign = "-" if value < 0 else ""
+        return f"${sign}\\frac{{{abs(value.numerator)}}}{{{value.denominator}}}$"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        value = self.exact
+        if value is not None:
+            return Real, (value,)
+        if self._core is None:
+            return _enclosed, (self.enclosure(60), self._over)
+        return Real.root, (self.polynomial, *self.enclosure(3))
+
+
+def _enclosed(bounds: _Bounds, over: Any) -> Real:
+    return Real._transcendental(bounds, over, None)
+
+
+def _parted(a: Real, b: Real) -> int:
+    """The order of two numbers that are not equal, or not known to be."""
+    digits = 20
+    while True:
+        (low, high), (least, most) = a.enclosure(digits), b.enclosure(digits)
+        if high < least:
+            return -1
+        if most < low:
+            return 1
+        if a._refine is None and b._refine is None or digits > _MOST_DIGITS:
+            raise undecided("the enclosures do not tell the numbers apart", "digits", f"{digits} digits", None)
+        digits *= 2
+
+
+def _operand(x: Any) -> Fraction | None:
+    """A rational operand; `None` for what is no number."""
+    if isinstance(x, Real):
+        if x.exact is None:
+            raise TypeError("two irrational numbers are not computed with: use .sympy() or .flint()")
+        return x.exact
+    if isinstance(x, (str, float)):
+        return None
+    try:
+        return exact(x, "refuse")
+    except (TypeError, ValueError):
+        return None
+
+
+def _cleared(coefficients: list[Fraction]) -> list[int]:
+    common = math.lcm(*(c.denominator for c in coefficients))
+    return [int(c * common) for c in coefficients]
+
+
+def _short_bounds(x: Real) -> tuple[str, str]:
+    """Bounds with few digits that hold no other root."""
+    roots = Real.roots(x.polynomial or ())
+    at = next(i for i, root in enumerate(roots) if root == x)
+    digits = 0
+    while True:
+        scale = 10**digits
+        low = math.floor(x * scale)
+        lower, upper = Fraction(low, scale), Fraction(low + 1, scale)
+        alone = (at == 0 or roots[at - 1] < lower) and (at + 1 == len(roots) or roots[at + 1] > upper)
+        if alone:
+            show = [integer_text(int(b)) if b.denominator == 1 else repr(fraction_text(b)) for b in (lower, upper)]
+            return show[0], show[1]
+        digits += 1

@@ -1,0 +1,103 @@
+"""The corpus of models: the same answers as the program, byte for byte, and those that are expected."""
+
+import contextlib
+import warnings
+from decimal import Decimal, getcontext
+
+import jurist
+import pytest
+from conftest import corpus, program
+
+getcontext().prec = 1200
+
+
+def asked(expectation):
+    bounds = {}
+    for name, text in expectation.get("domain", {}).items():
+        low, high = text.split("..")
+        bounds[name] = (low or None, high or None)
+    keys = {k: expectation[k] for k in ("radius", "decay") if k in expectation}
+    return {"values": expectation.get("set", {}), "domain": bounds, **keys}
+
+
+def options(expectation):
+    words = []
+    for name, value in expectation.get("set", {}).items():
+        words += ["--set", f"{name}={value}"]
+    for name, text in expectation.get("domain", {}).items():
+        words += ["--domain", f"{name}={text}"]
+    return words + [f"--{k}={expectation[k]}" for k in ("radius", "decay") if k in expectation]
+
+
+def meets(end, text):
+    """Whether an end is what the corpus says of it."""
+    if text in ("inf", "-inf"):
+        return end is None
+    value, _, causes = text.partition(": ")
+    if causes and end.cause != causes.partition(" at ")[0]:
+        return False
+    if not value.startswith(("near ", "root ")):
+        return end.value == jurist.exact(value)
+    digits = value.partition("near ")[2]
+    places = -Decimal(digits).as_tuple().exponent
+    step = jurist.exact(f"1e-{places}")
+    low = jurist.exact(digits)
+    return (low < end.value < low + step) if not digits.startswith("-") else (low - step < end.value < low)
+
+
+@pytest.mark.parametrize(("name", "model", "expectations"), corpus(), ids=lambda x: x if isinstance(x, str) and len(x) < 60 else "")
+def test_answers_are_those_of_the_program_byte_for_byte_and_as_expected(name, model, expectations, tmp_path):
+    path = tmp_path / f"{name}.toml"
+    path.write_text(model)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", jurist.JuristWarning)
+        loop = jurist.Loop.from_file(path)
+        for k, expectation in enumerate(expectations):
+            question = expectation["question"].split()
+            if question[0] == "verdict":
+                answer = loop.verdict(**asked(expectation))
+                assert answer.verdict == expectation["verdict"], (k, answer)
+            else:
+                answer = loop.intervals(question[1], **asked(expectation))
+                assert len(answer) == len(expectation["stable"]), (k, answer)
+                for interval, (lower, upper) in zip(answer, expectation["stable"], strict=True):
+                    assert meets(interval.lower, lower), (k, interval.lower, lower)
+                    assert meets(interval.upper, upper), (k, interval.upper, upper)
+            if k < 2:
+                # Starting the program takes longer than asking it: two questions of each file.
+                words = [question[0], str(path), *options(expectation), "--json", "-q"]
+                if question[0] == "intervals":
+                    words += ["--param", question[1]]
+                assert answer.json() == program(*words).stdout, (k, words)
+
+
+@pytest.mark.parametrize(
+    ("command", "ask"),
+    [
+        ("analyze", lambda loop: loop.analyze()),
+        ("charpoly", lambda loop: loop.charpoly()),
+        ("charpoly --keep T --set K_pwm=545", lambda loop: loop.charpoly(["T"], {"K_pwm": 545})),
+        ("jury", lambda loop: loop.jury()),
+        ("jury --param K_pwm", lambda loop: loop.jury("K_pwm")),
+        ("map -x T -y K_pwm", lambda loop: loop.map("T", "K_pwm")),
+        ("locus --param K_pwm", lambda loop: loop.locus("K_pwm")),
+        ("simulate --duration=1/100", lambda loop: loop.simulate(duration="0.01")),
+        ("verdict --radius=0.99", lambda loop: loop.verdict(radius="0.99")),
+        ("intervals --param T --digits 40", lambda loop: loop.intervals("T", digits=40)),
+    ],
+    ids=lambda x: x if isinstance(x, str) else "",
+)
+def test_every_kind_of_answer_is_the_programs_document(command, ask, drive):
+    words = command.split()
+    done = program(words[0], *words[1:], "--json", "-q") if words[0] not in ("locus",) else program(*words, "--json")
+    assert ask(drive).json() == done.stdout
+
+
+def test_a_broken_expectation_is_not_met(drive):
+    end = drive.intervals("K_pwm")[0].upper
+    assert meets(end, "near 550.94116668667457553963753092: complex pair at 1664.0651 Hz")
+    assert not meets(end, "near 550.94116668667457553963753093: complex pair")
+    assert not meets(end, "near 550.94116668667457553963753092: z=1")
+    assert not meets(end, "551: complex pair")
+    with contextlib.suppress(AttributeError):
+        assert not meets(end, "inf")

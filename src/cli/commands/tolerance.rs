@@ -1,0 +1,153 @@
+//! `jurist tolerance`: stable for every value within tolerances.
+
+use super::{Context, decided};
+use crate::cli::arguments::DecisionOptions;
+use crate::cli::assignments::in_line;
+use crate::cli::input::{decision, known_name, known_names};
+use crate::cli::status::{Error, Outcome, Status};
+use clap::Args;
+use jurist_algebra::limits::Exhausted;
+use jurist_algebra::number::Rational;
+use jurist_engine::answer::ToleranceRequest;
+use jurist_engine::error::Diagnostic;
+use jurist_engine::model::{Model, Tolerance};
+use jurist_engine::show::documents;
+use jurist_engine::show::tolerance_text;
+use jurist_engine::stability::boxes::BoxDecision;
+use std::slice::from_ref;
+
+/// Options of `jurist tolerance`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    /// A tolerance: NAME=10%, NAME=-20%..+30%, NAME=0.01 or NAME=LO..HI; several names with commas [repeatable]
+    #[arg(long, value_name = "NAME=TOLERANCE")]
+    pub tol: Vec<String>,
+    /// Gives every number of the model this tolerance
+    #[arg(long, value_name = "TOLERANCE", allow_hyphen_values = true)]
+    pub all: Option<String>,
+    /// Leaves a name without a tolerance; several with commas [repeatable]
+    #[arg(long, value_name = "NAME")]
+    pub fix: Vec<String>,
+    /// Also asks how far this parameter may go while all others have their tolerances
+    #[arg(long, value_name = "NAME")]
+    pub limit: Option<String>,
+    /// Also proves the largest factor as an exact algebraic number
+    #[arg(long)]
+    pub exact: bool,
+    /// Also says which share of the box is stable, up to 1 % that may stay undecided (at most six parameters)
+    #[arg(long)]
+    pub volume: bool,
+    #[command(flatten)]
+    pub decision: DecisionOptions,
+}
+
+/// Digits of the bracket of the largest factor where `--digits` is not given.
+const BRACKET_DIGITS: u32 = 6;
+
+/// No bracket is asked to be narrower.
+const MOST_DIGITS: u32 = 18;
+
+/// Answers on standard output or in a file: 0 stable for all values, 1 not, 3 undecided.
+pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+    let output = &options.decision.output;
+    let (model, question) = decision(&options.decision, context)?;
+    let request = request(options, &model, context)?;
+    let digits = output.digits() as usize;
+    let answer = match decided(question.clone().tolerance(&request, &context.budget))? {
+        Ok(answer) => answer,
+        Err(stopped) => {
+            let mut open = question;
+            for (name, _) in &request.tolerances {
+                open = open.without_value(name).free(name);
+            }
+            let problem = open.problem()?;
+            let text = || Some(tolerance_text(&problem, Err(&stopped), digits));
+            return context
+                .undecided(output, &stopped, text, || documents::Tolerance::new(&problem, Err(&stopped), digits));
+        }
+    };
+    context.warn(None, answer.problem().warnings());
+    let value = answer.value();
+    if value.domain_factor.as_ref().is_some_and(|factor| *factor <= Rational::ONE) {
+        let warning =
+            Diagnostic::warning("W-outside-domain", "the box of tolerances reaches the end of a parameter's domain");
+        context.warn(None, &[warning]);
+    }
+    let text_digits = output.digits.unwrap_or(BRACKET_DIGITS + 3) as usize;
+    match &value.decision {
+        BoxDecision::Undecided { why, .. } => {
+            let stopped = Exhausted::new(*why, "proving the box");
+            context.undecided(output, &stopped, || Some(answer.text(text_digits)), || answer.json(digits))
+        }
+        decision => {
+            context.answer(output, || answer.text(text_digits), || answer.json(digits))?;
+            Ok(if decision.is_stable() { Status::Holds } else { Status::DoesNotHold })
+        }
+    }
+}
+
+/// The tolerances of the model, of `--all` and of `--tol`, the later ones instead of the earlier.
+fn request(options: &Options, model: &Model, context: &Context) -> Result<ToleranceRequest, Error> {
+    let mut request = ToleranceRequest::of_model(model);
+    let mut put = |name: &str, tolerance: &Tolerance| {
+        request.tolerances.retain(|(known, _)| known != name);
+        request.tolerances.push((name.to_owned(), tolerance.clone()));
+    };
+    if let Some(text) = &options.all {
+        let tolerance = read(text, "--all", text, 0, context)?;
+        let constants = model.constants().iter().filter(|c| c.number.is_some()).map(|c| &c.name);
+        for name in constants.chain(model.parameters().iter().map(|p| &p.name)) {
+            put(name, &tolerance);
+        }
+    }
+    for text in &options.tol {
+        let place = context.line.option_value("--tol", text);
+        let Some((names, value)) = text.split_once('=') else {
+            let error = Diagnostic::error("E-option-value", "--tol expects NAME=TOLERANCE")
+                .at(place.span, "there is no '='")
+                .help("for example --tol R=10% or --tol R,L=-20%..+30%");
+            return Err(in_line(context.line, vec![error]).into());
+        };
+        let tolerance = read(text, "--tol", value, names.len() + 1, context)?;
+        let mut start = 0;
+        for name in names.split(',') {
+            let trimmed = name.trim();
+            known_name(context, model, trimmed, place.part(start, start + name.len()))?;
+            put(trimmed, &tolerance);
+            start += name.len() + 1;
+        }
+    }
+    for text in &options.fix {
+        let place = context.line.option_value("--fix", text);
+        let mut start = 0;
+        for name in text.split(',') {
+            known_name(context, model, name.trim(), place.part(start, start + name.len()))?;
+            request.tolerances.retain(|(known, _)| known != name.trim());
+            start += name.len() + 1;
+        }
+    }
+    if let Some(name) = &options.limit {
+        known_names(context, model, "--limit", from_ref(name))?;
+        request.tolerances.retain(|(known, _)| known != name);
+        request = request.limit(name);
+    }
+    if options.volume {
+        request = request.volume(Rational::new(1.into(), 100.into()));
+    }
+    if options.exact {
+        request = request.exact();
+    }
+    let digits = options.decision.output.digits.unwrap_or(BRACKET_DIGITS).min(MOST_DIGITS);
+    Ok(request.gap(Rational::from(10).pow(-i64::from(digits)).expect("ten is not zero")))
+}
+
+/// A tolerance that begins at `start` of an option's value.
+fn read(text: &str, option: &str, value: &str, start: usize, context: &Context) -> Result<Tolerance, Error> {
+    value.parse().map_err(|why: String| {
+        let place = context.line.option_value(option, text);
+        let error = Diagnostic::error("E-tolerance", format!("this is no tolerance: {why}"))
+            .at(place.part(start, text.len()), "not accepted")
+            .help("tolerances look like 10%, -20%..+30%, 0.01 or 0.4..0.7");
+        in_line(context.line, vec![error]).into()
+    })
+}

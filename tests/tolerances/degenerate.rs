@@ -1,0 +1,201 @@
+//! Boxes that touch, shrink or leave what is defined: each with its answer.
+
+use crate::helpers::model::load;
+use crate::helpers::number::number;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_engine::answer::{ToleranceAnswer, ToleranceRequest};
+use jurist_engine::stability::AtPoint;
+use jurist_engine::stability::boxes::{BoxDecision, Witness};
+
+fn answer(parameters: &str, characteristic: &str) -> ToleranceAnswer {
+    let text =
+        format!("time = 'continuous'\n[parameters]\n{parameters}\n[loop]\ncharacteristic = '{characteristic}'\n");
+    let model = load(&text);
+    let request = ToleranceRequest::of_model(&model).exact();
+    model.ask().tolerance(&request, &Budget::unlimited()).unwrap().into_value()
+}
+
+fn witness(answer: &ToleranceAnswer) -> &Witness {
+    match &answer.decision {
+        BoxDecision::NotStable { witness: Some(witness) } => witness,
+        other => panic!("a witness is expected: {other:?}"),
+    }
+}
+
+/// Roots inside, on and outside.
+fn counts(witness: &Witness) -> (usize, usize, usize) {
+    match witness.at {
+        AtPoint::Defined { count, .. } => (count.inside, count.on, count.outside),
+        ref other => panic!("{other:?}"),
+    }
+}
+
+fn bracket_holds(answer: &ToleranceAnswer, value: &str) {
+    let factor = answer.factor.as_ref().unwrap();
+    let value = number(value);
+    assert!(factor.lower <= value, "{} is proved", factor.lower);
+    assert!(factor.upper.as_ref().is_some_and(|upper| value <= *upper), "{:?} is refuted", factor.upper);
+    assert!(&value - &factor.lower <= &value * &number("1/100000"), "{} is close", factor.lower);
+}
+
+#[test]
+fn a_box_that_touches_at_a_corner_has_a_marginal_witness_there() {
+    let real =
+        answer("a = { nominal = 1, tolerance = '100%' }\nb = { nominal = 2, tolerance = '10%' }", "s^2 + b*s + a");
+    assert_eq!(witness(&real).point[0], Rational::ZERO);
+    assert_eq!(counts(witness(&real)), (1, 1, 0));
+    bracket_holds(&real, "1");
+    let pair = answer("a = { nominal = 1, tolerance = '100%' }", "s^2 + a*s + 2");
+    assert_eq!((witness(&pair).point[0].clone(), counts(witness(&pair))), (Rational::ZERO, (0, 2, 0)));
+    bracket_holds(&pair, "1");
+}
+
+#[test]
+fn a_box_that_ends_just_before_the_boundary_is_stable() {
+    let near =
+        answer("a = { nominal = 1, tolerance = '0.999999' }\nb = { nominal = 2, tolerance = 1 }", "s^2 + a*s + b");
+    assert!(near.decision.is_stable());
+}
+
+#[test]
+fn an_isolated_unstable_point_inside_is_found() {
+    let disc = |square: &str| {
+        answer(
+            "p = { nominal = '7/5', tolerance = '11/10' }\nq = { nominal = '17/20', tolerance = '17/20' }",
+            &format!("s^3 + (p + q + 1)*s^2 + (p + q + 3)*s + {square} + 6*p + 6*q + 2*p*q"),
+        )
+    };
+    // The radius of the disc around (1, 1) is zero, and a millionth.
+    for (square, on, outside) in [("1", 2, 0), ("1000000000001/1000000000000", 0, 2)] {
+        let found = disc(square);
+        assert_eq!(witness(&found).point, [Rational::ONE, Rational::ONE]);
+        assert_eq!(counts(witness(&found)), (1, on, outside));
+    }
+}
+
+#[test]
+fn a_division_by_zero_in_the_box_is_not_stable() {
+    let pole = answer("a = { nominal = 1, tolerance = '100%' }", "s + 1/a");
+    assert_eq!(witness(&pole).at, AtPoint::Undefined);
+    assert_eq!(witness(&pole).point, [Rational::ZERO]);
+    bracket_holds(&pole, "1");
+    assert_eq!(pole.worst.unwrap().end.causes.to_string(), "infinity+pole");
+    // Inside, where the loop is stable on both sides.
+    let inside = answer("a = { nominal = 1, tolerance = 3 }", "s + 1 + 1/(a*a)");
+    assert_eq!((&witness(&inside).at, &witness(&inside).point[0]), (&AtPoint::Undefined, &Rational::ZERO));
+    bracket_holds(&inside, "1/3");
+}
+
+#[test]
+fn a_division_by_what_keeps_its_sign_is_no_obstacle() {
+    let quotient =
+        answer("a = { nominal = 2, tolerance = '40%' }\nb = { nominal = 1, tolerance = '40%' }", "s^2 + s/a + b/a");
+    assert!(quotient.decision.is_stable());
+}
+
+#[test]
+fn a_lost_degree_is_the_end_of_stability() {
+    let lost = answer("tau = { nominal = 1, tolerance = { low = 0.75, high = 1.5 } }", "tau*s^2 + s + 1");
+    assert!(lost.decision.is_stable());
+    bracket_holds(&lost, "4");
+    assert_eq!(lost.worst.as_ref().unwrap().end.causes.to_string(), "infinity");
+    assert!(lost.exact.is_some());
+}
+
+#[test]
+fn roots_that_leave_through_zero_and_infinity_at_once() {
+    let both = answer("q = { nominal = 1, tolerance = '50%' }", "q*s^2 + s + q");
+    assert!(both.decision.is_stable());
+    bracket_holds(&both, "2");
+    assert_eq!(both.worst.as_ref().unwrap().end.causes.to_string(), "s=0+infinity");
+    assert!(both.exact.is_none(), "two causes at once: the bracket");
+}
+
+#[test]
+fn a_domain_that_ends_first_is_named_and_bounds_the_factor() {
+    let left = answer("a = { nominal = 1, min = 0.5, tolerance = '20%' }", "s + a");
+    assert_eq!(left.domain_factor, Some(number("5/2")));
+    let factor = left.factor.as_ref().unwrap();
+    assert!(factor.lower < number("5/2") && factor.lower > number("2.4999"));
+    assert_eq!(
+        factor.upper,
+        Some(number("5")).filter(|five| factor.upper.as_ref().is_some_and(|u| u >= five)).and(factor.upper.clone())
+    );
+}
+
+#[test]
+fn a_nominal_point_that_is_not_stable_has_no_factor() {
+    for characteristic in ["s - a", "s^2 + a", "(s^2 + 1)*(s + a)"] {
+        let answer = answer("a = { nominal = 1, tolerance = '1%' }", characteristic);
+        assert!(answer.factor.is_none(), "{characteristic}");
+        assert_eq!(witness(&answer).point, [Rational::ONE], "{characteristic}");
+    }
+}
+
+#[test]
+fn a_nominal_point_on_the_boundary_of_its_box() {
+    let one_sided = answer(
+        "a = { nominal = 1, tolerance = ['-0%', '+50%'] }\nb = { nominal = 1, tolerance = ['-80%', '+0%'] }",
+        "s^2 + b*s + a",
+    );
+    assert!(one_sided.decision.is_stable());
+    bracket_holds(&one_sided, "5/4");
+    assert!(one_sided.exact.is_some());
+}
+
+#[test]
+fn a_tolerance_of_no_width_changes_nothing() {
+    let none = answer("a = { nominal = 1, tolerance = 0 }\nb = { nominal = 1, tolerance = '50%' }", "s^2 + b*s + a");
+    assert!(none.decision.is_stable());
+    bracket_holds(&none, "2");
+    let only = answer("a = { nominal = 1, tolerance = 0 }", "s + a");
+    assert!(only.decision.is_stable() && only.factor.unwrap().upper.is_none());
+}
+
+#[test]
+fn a_parameter_without_influence_has_no_share() {
+    let without =
+        answer("a = { nominal = 1, tolerance = '50%' }\nb = { nominal = 1, tolerance = '50%' }", "s^2 + a*s + 1 + 0*b");
+    bracket_holds(&without, "2");
+    assert_eq!(without.factor.unwrap().shares.unwrap()[1], Rational::ZERO);
+}
+
+#[test]
+fn a_loop_that_is_always_stable_has_no_upper_end() {
+    let always = answer("a = { nominal = 1, tolerance = '50%' }", "s + 1 + a^2");
+    assert!(always.decision.is_stable());
+    let factor = always.factor.unwrap();
+    assert!(factor.upper.is_none() && factor.lower >= number("1000"));
+}
+
+#[test]
+fn a_box_a_million_times_the_nominal_is_answered() {
+    let wide = answer(
+        "a = { nominal = 1, tolerance = { low = '1/2', high = 1000000 } }\nb = { nominal = 1, tolerance = { low = '1/2', high = 1000000 } }",
+        "s^2 + a*s + b",
+    );
+    assert!(wide.decision.is_stable());
+}
+
+#[test]
+fn too_many_tolerances_are_refused_with_the_reason() {
+    let parameters: String = (0..30).map(|i| format!("p{i} = {{ nominal = 1, tolerance = '1%' }}\n")).collect();
+    let product: Vec<String> = (0..30).map(|i| format!("p{i}")).collect();
+    let text = format!(
+        "time = 'continuous'\n[parameters]\n{parameters}[loop]\ncharacteristic = 's + {}'\n",
+        product.join("*")
+    );
+    let model = load(&text);
+    let refused = model.ask().tolerance(&ToleranceRequest::of_model(&model), &Budget::unlimited());
+    assert!(refused.unwrap_err().to_string().contains("E-tolerance"));
+}
+
+#[test]
+fn a_high_degree_in_each_parameter_is_answered() {
+    let high = answer(
+        "a = { nominal = 1, tolerance = '5%' }\nb = { nominal = 1, tolerance = '5%' }",
+        "s^3 + (1 + a^9)*s^2 + (2 + b^9)*s + a^9*b^9",
+    );
+    assert!(high.decision.is_stable());
+}

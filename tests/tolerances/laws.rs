@@ -1,0 +1,175 @@
+//! What must hold for every box.
+
+use crate::helpers::model::load;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::UniPoly;
+use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest, Verdict};
+use jurist_engine::model::Model;
+use jurist_engine::stability::boxes::BoxDecision;
+use jurist_engine::stability::{Shape, is_stable};
+use proptest::prelude::*;
+
+fn asked(model: &Model) -> Answer<ToleranceAnswer> {
+    let request = ToleranceRequest::of_model(model).gap(Rational::new(1.into(), 1000.into()));
+    model.ask().tolerance(&request, &Budget::unlimited()).unwrap()
+}
+
+fn continuous(parameters: &[(i64, i64)], characteristic: &str) -> Model {
+    let lines: String = parameters
+        .iter()
+        .enumerate()
+        .map(|(i, (nominal, percent))| format!("p{i} = {{ nominal = '{nominal}/10', tolerance = '{percent}%' }}\n"))
+        .collect();
+    load(&format!("time = 'continuous'\n[parameters]\n{lines}[loop]\ncharacteristic = '{characteristic}'\n"))
+}
+
+fn verdict_at(model: &Model, point: &[Rational]) -> Verdict {
+    let names = (0..point.len()).map(|i| format!("p{i}"));
+    model.ask().set_all(names.zip(point.iter().cloned())).verdict(&Budget::unlimited()).unwrap().value().verdict
+}
+
+/// The four polynomials of Kharitonov: of an interval polynomial all members are stable if these are.
+fn kharitonov(low: &[Rational], high: &[Rational]) -> bool {
+    let patterns = [[0, 0, 1, 1], [1, 1, 0, 0], [0, 1, 1, 0], [1, 0, 0, 1]];
+    patterns.iter().all(|pattern| {
+        let pick = |k: usize| if pattern[k % 4] == 0 { low[k].clone() } else { high[k].clone() };
+        let p = jurist_algebra::poly::Poly::new((0..low.len()).map(pick).collect());
+        is_stable(&UniPoly::from_rational_poly(&p).1, Shape::LeftHalfPlane)
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+
+    #[test]
+    fn interval_polynomials_agree_with_the_four_of_kharitonov(
+        nominal in prop::collection::vec(5i64..60, 4),
+        percent in prop::collection::vec(1i64..60, 4),
+    ) {
+        let parameters: Vec<(i64, i64)> = nominal.into_iter().zip(percent).collect();
+        let model = continuous(&parameters, "s^4 + p3*s^3 + p2*s^2 + p1*s + p0");
+        let answer = asked(&model);
+        let sides: Vec<[Rational; 2]> = answer.value().sides.iter().map(|s| s.at(&Rational::ONE)).collect();
+        let mut low: Vec<Rational> = sides.iter().map(|s| s[0].clone()).collect();
+        let mut high: Vec<Rational> = sides.iter().map(|s| s[1].clone()).collect();
+        low.push(Rational::ONE);
+        high.push(Rational::ONE);
+        let expected = kharitonov(&low, &high);
+        match &answer.value().decision {
+            BoxDecision::Undecided { .. } => prop_assert!(false, "an affine family is decided"),
+            decision => prop_assert_eq!(decision.is_stable(), expected),
+        }
+    }
+
+    #[test]
+    fn a_box_of_multi_affine_parameters_agrees_with_points(
+        nominal in prop::collection::vec(5i64..30, 3),
+        percent in prop::collection::vec(5i64..90, 3),
+    ) {
+        let parameters: Vec<(i64, i64)> = nominal.into_iter().zip(percent).collect();
+        let model = continuous(&parameters, "s^3 + (1 + p0*p1)*s^2 + (p0 + p1*p2)*s + p0*p2 + p1");
+        let answer = asked(&model);
+        let sides: Vec<[Rational; 2]> = answer.value().sides.iter().map(|s| s.at(&Rational::ONE)).collect();
+        let grid: Vec<Vec<Rational>> = (0..27).map(|k| {
+            [k % 3, k / 3 % 3, k / 9].iter().zip(&sides).map(|(&at, [low, high])| {
+                match at { 0 => low.clone(), 1 => low.midpoint(high), _ => high.clone() }
+            }).collect()
+        }).collect();
+        let bad = grid.iter().any(|point| verdict_at(&model, point) != Verdict::Stable);
+        match &answer.value().decision {
+            BoxDecision::Stable(_) => prop_assert!(!bad),
+            BoxDecision::NotStable { witness } => {
+                let witness = witness.as_ref().expect("a rational point");
+                prop_assert_ne!(verdict_at(&model, &witness.point), Verdict::Stable);
+                for (x, [low, high]) in witness.point.iter().zip(&sides) {
+                    prop_assert!(low <= x && x <= high, "the witness is in the box");
+                }
+            }
+            // Undecided, or a kind of answer that is new.
+            _ => {}
+        }
+    }
+
+    #[test]
+    fn one_parameter_agrees_with_its_stable_set(a in 1i64..40, b in 1i64..40, c in 1i64..40, percent in 1i64..200) {
+        let model = load(&format!(
+            "time = 'continuous'\n[parameters]\np0 = {{ nominal = '{c}/10', tolerance = '{percent}%' }}\n[loop]\n\
+             characteristic = 's^3 + {a}*s^2 + {b}*s + p0'\n"
+        ));
+        let answer = asked(&model);
+        let set = model.ask().free("p0").stable_set(&Budget::unlimited()).unwrap();
+        let side = &answer.value().sides[0];
+        let around = set.value().intervals().iter().find(|i| {
+            i.lower.as_ref().is_none_or(|e| e.value.compare_rational(side.nominal()).is_lt())
+                && i.upper.as_ref().is_none_or(|e| e.value.compare_rational(side.nominal()).is_gt())
+        });
+        let Some(factor) = &answer.value().factor else {
+            prop_assert!(around.is_none());
+            return Ok(());
+        };
+        let around = around.expect("stable at the nominal value");
+        let [low, high] = side.at(&factor.lower);
+        prop_assert!(around.lower.as_ref().is_none_or(|e| e.value.compare_rational(&low).is_lt()));
+        prop_assert!(around.upper.as_ref().is_none_or(|e| e.value.compare_rational(&high).is_gt()));
+        let upper = factor.upper.clone().expect("the constant coefficient cannot become negative");
+        let [low, high] = side.at(&upper);
+        let beyond = around.lower.as_ref().is_some_and(|e| e.value.compare_rational(&low).is_ge())
+            || around.upper.as_ref().is_some_and(|e| e.value.compare_rational(&high).is_le());
+        prop_assert!(beyond);
+        // The end of the worst line is the end of the stable set.
+        let end = &answer.value().worst.as_ref().expect("an end").end;
+        let nearer = if percent > 0 { end.value.refined_to_digits(20).enclosure().0 } else { upper };
+        let [low, high] = side.at(&nearer);
+        let gap = |e: &jurist_engine::stability::End, x: &Rational| {
+            let value = e.value.refined_to_digits(20).enclosure().0;
+            (&value - x).abs() < Rational::new(1.into(), 1_000_000_000i64.into())
+        };
+        prop_assert!(
+            around.lower.as_ref().is_some_and(|e| gap(e, &low)) || around.upper.as_ref().is_some_and(|e| gap(e, &high))
+        );
+    }
+
+    #[test]
+    fn a_unit_changes_nothing(scale in 1i64..1000, percent in 1i64..40) {
+        let model = |unit: i64| load(&format!(
+            "time = 'continuous'\n[parameters]\np0 = {{ nominal = {unit}, tolerance = '{percent}%' }}\n\
+             p1 = {{ nominal = 2, tolerance = '{percent}%' }}\n[loop]\n\
+             characteristic = 's^3 + 2*s^2 + p1*s + p0/{unit}'\n"
+        ));
+        let end = |unit| asked(&model(unit)).value().worst.as_ref().expect("an end").end.value.algebraic().cloned();
+        prop_assert_eq!(end(1), end(scale));
+    }
+
+    #[test]
+    fn half_the_widths_have_twice_the_factor(percent in 1i64..60) {
+        let end = |text: String| {
+            let model = load(&format!(
+                "time = 'continuous'\n[parameters]\np0 = {{ nominal = 1, tolerance = '{text}' }}\n\
+                 p1 = {{ nominal = 2, tolerance = '{text}' }}\n[loop]\ncharacteristic = 's^3 + 2*s^2 + p1*s + p0'\n"
+            ));
+            asked(&model).value().factor.clone().expect("stable")
+        };
+        let (whole, half) = (end(format!("{percent}%")), end(format!("{}%", Rational::new(percent.into(), 2.into()))));
+        let two = Rational::from(2);
+        prop_assert!(&whole.lower * &two <= half.upper.clone().expect("an end"));
+        prop_assert!(half.lower <= whole.upper.expect("an end") * two);
+    }
+}
+
+/// `s^2 + a s + b` is stable exactly for a, b > 0.
+#[test]
+fn the_stable_share_of_a_box_is_that_of_its_quadrant() {
+    let model = load(
+        "time = 'continuous'\n[parameters]\na = { nominal = 1, tolerance = { low = -1, high = 3 } }\n\
+         b = { nominal = 1, tolerance = { low = -1, high = 1 } }\n[loop]\ncharacteristic = 's^2 + a*s + b'\n",
+    );
+    let goal = Rational::new(1.into(), 100.into());
+    let request = ToleranceRequest::of_model(&model).volume(goal.clone());
+    let answer = model.ask().tolerance(&request, &Budget::unlimited()).unwrap();
+    let volume = answer.value().volume.as_ref().unwrap();
+    assert_eq!(&(&volume.stable + &volume.unstable) + &volume.undecided, Rational::ONE);
+    // Three quarters times a half.
+    let share = Rational::new(3.into(), 8.into());
+    assert!(volume.undecided <= goal && volume.stable <= share && share <= &volume.stable + &volume.undecided);
+}

@@ -1,0 +1,116 @@
+//! `jurist tolerance` as people and other programs see it.
+
+use crate::helpers::program::{jurist, jurist_with_input, refused};
+use crate::helpers::schema::fits;
+use serde_json::Value;
+
+const EIGHT: &str = "R_a,L_a,J,B_v,K_a,k_1,k_2,E_sw=20%";
+
+fn document(arguments: &[&str], status: i32) -> Value {
+    let run = jurist(&[arguments, &["--json"]].concat());
+    assert_eq!(run.status, status, "{arguments:?}: {}", run.stderr);
+    let document = serde_json::from_str(&run.stdout).expect("the program writes JSON");
+    fits(&document).unwrap_or_else(|why| panic!("{arguments:?}: {why}"));
+    document
+}
+
+#[test]
+fn the_drive_in_words() {
+    let run = jurist(&["tolerance", "--tol", EIGHT]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    for part in [
+        "8 tolerances of 20 %: stable for all values (proof: ",
+        "they can grow    2.2998",
+        " < factor <= 2.29980475",
+        "complex pair at 1664.067 Hz",
+        "2 roots outside just beyond",
+        "L_a 42.2 %",
+        "E_sw 42.2 %",
+        "k_1 15.6 %",
+    ] {
+        assert!(run.stdout.contains(part), "{part}: {}", run.stdout);
+    }
+}
+
+#[test]
+fn the_drive_as_a_document() {
+    let document = document(&["tolerance", "--tol", EIGHT], 0);
+    assert_eq!(document["verdict"], "stable");
+    assert_eq!(document["box"]["L_a"], serde_json::json!(["23/625", "69/1250"]));
+    assert_eq!(document["worst"]["signs"]["L_a"], "-");
+    assert_eq!(document["worst"]["cause"], "complex pair");
+    assert!(document["cells"].as_u64().is_some_and(|cells| cells < 100));
+    assert_eq!(document["undecided"], Value::Null);
+    assert!(document["factor"]["exact"].is_null());
+    let outside = &document["witness"]["outside"];
+    assert_eq!(outside, 2);
+}
+
+#[test]
+fn an_exact_factor_has_its_polynomial() {
+    let document = document(&["tolerance", "examples/de-gaston-safonov.toml", "--exact"], 0);
+    let exact = &document["factor"]["exact"];
+    assert!(exact["decimal"].as_str().unwrap().starts_with("3.4173955312"), "{exact}");
+    assert!(exact["polynomial"].as_array().unwrap().len() >= 6);
+}
+
+#[test]
+fn the_bus_has_a_witness_and_status_one() {
+    let document = document(&["tolerance", "examples/bus-steering.toml"], 1);
+    assert_eq!(document["verdict"], "not stable");
+    assert!(document["witness"]["outside"].as_u64().unwrap() > 0);
+    let run = jurist(&["tolerance", "examples/bus-steering.toml"]);
+    assert!(run.stdout.contains("not stable for all values") && run.stdout.contains("0.98877"), "{}", run.stdout);
+}
+
+#[test]
+fn a_limit_has_both_sides() {
+    let document = document(&["tolerance", "--tol", EIGHT, "--limit", "K_pwm"], 0);
+    let limit = &document["limit"];
+    assert_eq!(limit["parameter"], "K_pwm");
+    for side in ["lower", "upper"] {
+        assert!(limit[side].as_array().unwrap().iter().all(Value::is_string), "{limit}");
+    }
+    let run = jurist(&["tolerance", "--tol", EIGHT, "--limit", "K_pwm"]);
+    // What is proved is rounded inwards.
+    assert!(run.stdout.contains("0.17398") && run.stdout.contains("<= K_pwm <= 293.73"), "{}", run.stdout);
+}
+
+#[test]
+fn tolerances_of_the_model_of_all_and_of_the_command_line() {
+    let model = "time = 'continuous'\nparameters.a = { nominal = 1, tolerance = '10%' }\nconstants.b = { value = 2, tolerance = 0.5 }\n\
+        constants.c = 3\nloop.characteristic = 's^3 + c*s^2 + b*s + a'\n";
+    let boxes = |arguments: &[&str]| {
+        let run = jurist_with_input(&[&["tolerance", "-", "--json"], arguments].concat(), model.as_bytes());
+        assert_eq!(run.status, 0, "{arguments:?}: {}", run.stderr);
+        let document: Value = serde_json::from_str(&run.stdout).unwrap();
+        document["box"].clone()
+    };
+    assert_eq!(boxes(&[]), serde_json::json!({"b": ["3/2", "5/2"], "a": ["9/10", "11/10"]}));
+    assert_eq!(boxes(&["--tol", "a=-20%..+30%", "--fix", "b"]), serde_json::json!({"a": ["4/5", "13/10"]}));
+    assert_eq!(
+        boxes(&["--all", "1%", "--fix", "a"]),
+        serde_json::json!({"b": ["99/50", "101/50"], "c": ["297/100", "303/100"]})
+    );
+    assert_eq!(boxes(&["--set", "a=2", "--fix", "b"]), serde_json::json!({"a": ["9/5", "11/5"]}));
+}
+
+#[test]
+fn mistakes_point_at_their_place() {
+    refused(&["tolerance"], "E-tolerance");
+    refused(&["tolerance", "--tol", "L_a"], "E-option-value");
+    refused(&["tolerance", "--tol", "L_a=10 percent"], "E-tolerance");
+    refused(&["tolerance", "--tol", "L_x=10%"], "E-unknown-parameter");
+    refused(&["tolerance", "--tol", "L_a=1..2"], "E-tolerance");
+    refused(&["tolerance", "--all", "-5%"], "E-tolerance");
+    refused(&["tolerance", "--tol", "L_a=1%", "--limit", "nothing"], "E-unknown-parameter");
+}
+
+#[test]
+fn no_time_is_undecided() {
+    let run = jurist(&["tolerance", "--tol", EIGHT, "--timeout", "0", "--json"]);
+    assert_eq!(run.status, 3, "{}", run.stderr);
+    let document: Value = serde_json::from_str(&run.stdout).unwrap();
+    fits(&document).unwrap();
+    assert!(document["undecided"]["budget"].is_string());
+}
