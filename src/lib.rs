@@ -91,7 +91,7 @@ pub use jurist_algebra::poly::{
     Domain, Monomial, MultiPoly, Poly, RationalFunction, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots,
     isolate_real_roots_in,
 };
-pub use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
+pub use jurist_algebra::real::Real;
 // Certificates, checked by code of their own.
 pub use jurist_check::{Limits, Proved, Rejection, Step, check};
 

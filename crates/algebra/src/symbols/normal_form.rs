@@ -41,6 +41,9 @@ impl Number {
 
     /// The square root of a rational number.
     fn square_root(x: &Rational) -> Number {
+        if x.is_zero() {
+            return Number::default();
+        }
         let (n, d) = (x.numerator(), x.denominator());
         // sqrt(n/d) = sqrt(n d)/d
         let (square, core) = square_free(&(n.abs() * &d));
@@ -92,7 +95,7 @@ impl Number {
 fn square_free(n: &Integer) -> (Integer, Integer) {
     let root = n.sqrt_floor();
     if &root * &root == *n {
-        return (root.max(Integer::ONE), if n.is_zero() { Integer::ZERO } else { Integer::ONE });
+        return (root, Integer::ONE);
     }
     let (mut square, mut core) = (Integer::ONE, n.clone());
     for p in 2..LARGEST_PRIME {
@@ -231,6 +234,10 @@ impl Symbols {
             Definition::Tangent { square, time } => {
                 // With s = sqrt(-w) and E = exp(2 s t): (E - 1)/(s (E + 1)), and 1/s = s/(-w).
                 let w = self.algebraic(square)?.as_rational()?;
+                if w.is_zero() {
+                    // The limit of tan(sqrt(w) t)/sqrt(w).
+                    return whole(Sum::number(self.algebraic(time)?));
+                }
                 let s = Number::square_root(&-&w);
                 let exponent = s.times(&self.algebraic(time)?).times(&Number::rational(Rational::from(2)));
                 let mut numerator = Sum::power(exponent.clone(), s.clone());
