@@ -52,8 +52,7 @@ pub struct KnownPolynomials<P> {
     pub variable: String,
     /// The parameters that are kept, in the order of a term's powers.
     pub parameters: Vec<String>,
-    /// The symbols, whose powers follow those of the parameters, with their definitions; left out where everything is
-    /// rational.
+    /// The symbols with their definitions; their powers follow those of the parameters. Left out where there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub symbols: Option<Named<String>>,
     /// The values of the others, and of constants that were replaced.
