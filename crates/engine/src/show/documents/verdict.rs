@@ -23,8 +23,7 @@ pub struct Verdict {
     pub answer: Answered<RootsByPlace, VerdictOpen>,
 }
 
-/// The verdict, and where the roots are; counts with multiplicity, `null` where the loop is undefined, or where they are
-/// infinitely many: with dead time, inside always.
+/// The verdict, and where the roots are; counts with multiplicity, `null` where the loop is undefined.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RootsByPlace {

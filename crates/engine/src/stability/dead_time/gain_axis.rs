@@ -194,7 +194,7 @@ impl Axis {
             let unit = Rational::dyadic(&Integer::ONE, bits);
             let (lo, hi) = (lo - &unit, hi + &unit);
             bits += 8;
-            if !lo.sign().is_gt() {
+            if !lo.sign().is_gt() || content.sign_at(&lo).is_eq() || content.sign_at(&hi).is_eq() {
                 continue;
             }
             let alone = match budget.enter(|| SquareFree::part_of(&content))? {
