@@ -86,7 +86,9 @@ pub(super) fn near(figure: &LocusFigure<'_>, whole: &Square) -> Square {
         Some((gap, square)) if gap < whole.half / 3.0 => Square { half: square.half.max(smallest), ..square },
         _ => {
             let fallback = if figure.time == Time::Discrete { (1.0, 0.0) } else { (0.0, 0.0) };
-            let centre = upper.first().copied().unwrap_or(fallback);
+            // A pair that crosses says more than a root at the origin of a loop that is open.
+            let pair = upper.iter().find(|z| z.1 > 0.0).or(upper.first());
+            let centre = pair.copied().unwrap_or(fallback);
             Square { centre, half: whole.half / 4.0 }
         }
     }
