@@ -236,7 +236,7 @@ fn frame(figure: &LocusFigure<'_>, window: &Square, title: String) -> Panel {
     let discrete = figure.time == Time::Discrete;
     let mut panel = Panel {
         title,
-        x_label: if discrete { "Re z" } else { "Re s (1/s)" }.into(),
+        x_label: if discrete { "Re z" } else { "Re s (rad/s)" }.into(),
         y_label: if discrete { "Im z" } else { "Im s (rad/s)" }.into(),
         x: window.x(),
         y: window.y(),

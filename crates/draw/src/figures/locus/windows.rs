@@ -77,7 +77,7 @@ pub(super) fn near(figure: &LocusFigure<'_>, whole: &Square) -> Square {
             let gap = (z.0 - w.0).hypot(z.1 - w.1);
             if gap > 1e-9 * whole.half && best.is_none_or(|b| gap < b.0) {
                 let centre = (f64::midpoint(z.0, w.0), f64::midpoint(z.1, w.1));
-                best = Some((gap, Square { centre, half: 1.5 * gap }));
+                best = Some((gap, Square { centre, half: gap }));
             }
         }
     }
@@ -86,7 +86,9 @@ pub(super) fn near(figure: &LocusFigure<'_>, whole: &Square) -> Square {
         Some((gap, square)) if gap < whole.half / 3.0 => Square { half: square.half.max(smallest), ..square },
         _ => {
             let fallback = if figure.time == Time::Discrete { (1.0, 0.0) } else { (0.0, 0.0) };
-            let centre = upper.first().copied().unwrap_or(fallback);
+            // A pair that crosses says more than a root at the origin of a loop that is open.
+            let pair = upper.iter().find(|z| z.1 > 0.0).or(upper.first());
+            let centre = pair.copied().unwrap_or(fallback);
             Square { centre, half: whole.half / 4.0 }
         }
     }
@@ -118,7 +120,7 @@ mod tests {
     fn the_closest_crossings_are_magnified() {
         let (_, near, _) = windows(Time::Discrete, &[(0.5, 0.75f64.sqrt()), (1.0, 3e-4)], &[(0.9, 0.0)]);
         assert_eq!(near.centre, (1.0, 0.0));
-        assert!((near.half - 9e-4).abs() < 1e-9);
+        assert!((near.half - 6e-4).abs() < 1e-9);
     }
 
     #[test]
