@@ -245,14 +245,11 @@ class StableSet(Sequence[Interval]):
 
     def json(self, digits: int | None = None) -> str:
         """That document as the program writes it, byte for byte; with other digits where they are given."""
-        if digits is not None and self._known() is not None:
+        if digits is not None and self._loop is not None:
             return self._answered().json(digits)
         if self._text is not None:
             return self._text
         return json.dumps(self._document, indent=2, ensure_ascii=False) + "\n"
-
-    def _known(self) -> Loop | None:
-        return self._loop
 
     def _answered(self) -> _jurist.Answered:
         """The engine's answer, asked again where this set came from a file or another process."""

@@ -120,7 +120,7 @@ def test_polynomials_go_to_sympy_and_numpy(drive):
     at = q.as_expr().subs("K_pwm", 110)
     assert np.allclose([float(c) for c in sympy.Poly(at, sympy.Symbol("z")).all_coeffs()], p.numpy(K_pwm=110))
     assert max(abs(np.roots(p.numpy(K_pwm=110)))) < 1 < max(abs(np.roots(p.numpy(K_pwm=555))))
-    assert "K_{\\mathrm{pwm}}" in p.latex() or "K_" in p.latex()
+    assert "\\begin{align" in p.latex()
 
 
 def test_a_builder_writes_the_model_that_it_means():

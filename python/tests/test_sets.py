@@ -66,7 +66,6 @@ def test_the_complement_stays_inside_the_domain():
     assert str(~s) == "[2, 3)"
     assert ~~s == s
     assert (~s)[0].upper.causes == {jurist.Cause.DOMAIN}
-    assert not ~s[:0] if False else True
 
 
 def test_ends_know_their_causes_and_those_of_both_sets_where_they_meet(drive):
