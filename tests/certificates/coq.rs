@@ -76,7 +76,7 @@ fn a_point_where_the_degree_is_lost_is_stated_with_the_degree_of_the_model() {
     let model =
         "time = \"discrete\"\n[parameters]\nK = { nominal = 0 }\n[loop]\ncharacteristic = \"K*z^2 + z + 1/2\"\n";
     let text = point_file(&read(model), &[]).unwrap();
-    assert!(text.contains("list expr := [\n  1/2;\n  1;\n  0].\nEnd"), "{text}");
+    assert!(text.contains("list expr := [\n  0.5;\n  1;\n  0].\nEnd"), "{text}");
     assert!(text.contains("p`_2 = 0 \\/ exists z"), "{text}");
 }
 
