@@ -80,7 +80,7 @@ fn a_division_by_zero_in_the_box_is_not_stable() {
     assert_eq!(witness(&pole).at, AtPoint::Undefined);
     assert_eq!(witness(&pole).point, [Rational::ZERO]);
     bracket_holds(&pole, "1");
-    assert_eq!(pole.worst.unwrap().end.causes.to_string(), "infinity+pole");
+    assert_eq!(pole.worst.unwrap().end.causes.to_string(), "pole");
     // Inside, where the loop is stable on both sides.
     let inside = answer("a = { nominal = 1, tolerance = 3 }", "s + 1 + 1/(a*a)");
     assert_eq!((&witness(&inside).at, &witness(&inside).point[0]), (&AtPoint::Undefined, &Rational::ZERO));
@@ -118,9 +118,9 @@ fn a_domain_that_ends_first_is_named_and_bounds_the_factor() {
     assert_eq!(left.domain_factor, Some(number("5/2")));
     let factor = left.factor.as_ref().unwrap();
     assert!(factor.lower < number("5/2") && factor.lower > number("2.4999"));
-    assert_eq!(
-        factor.upper,
-        Some(number("5")).filter(|five| factor.upper.as_ref().is_some_and(|u| u >= five)).and(factor.upper.clone())
+    assert!(
+        factor.upper.as_ref().is_none_or(|upper| *upper >= number("5")),
+        "a crossing is not before the domain's end"
     );
 }
 

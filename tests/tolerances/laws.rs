@@ -119,8 +119,7 @@ proptest! {
         prop_assert!(beyond);
         // The end of the worst line is the end of the stable set.
         let end = &answer.value().worst.as_ref().expect("an end").end;
-        let nearer = if percent > 0 { end.value.refined_to_digits(20).enclosure().0 } else { upper };
-        let [low, high] = side.at(&nearer);
+        let [low, high] = side.at(&end.value.refined_to_digits(20).enclosure().0);
         let gap = |e: &jurist_engine::stability::End, x: &Rational| {
             let value = e.value.refined_to_digits(20).enclosure().0;
             (&value - x).abs() < Rational::new(1.into(), 1_000_000_000i64.into())

@@ -1,12 +1,13 @@
 //! The largest factor as an algebraic number: that nothing in the box is worse than its corner.
 //!
-//! Let `r*` be the first zero on the line to a corner, `r1 < r*` proved, `r2 > r*` with no other critical zero of the line
-//! between, and let all zeros `(v, p)` of the pair with `p` in the box of `r2` lie in a cell `C` at the corner. Of each zero let
-//! `rho` be the least factor whose box holds `p`, and `tau_i >= 0` the distance of `p_i` from that box's corner. If on `C` all
-//! determinants `det(P_v, P_(p_i))` have, times the corner's signs, one strict sign, then so has the Jacobian by `(v, rho)`, their
-//! weighted sum, and by the implicit function theorem a zero with some `tau_i > 0` has zeros with smaller `rho` beside it. A zero
-//! of least `rho` exists and is on the line, so its factor is `r*`. Of a real root the same follows from the signs of the
-//! derivatives alone.
+//! Let `r*` be the first zero on the line to a corner, `r1 < r*` proved, `r2 > r*` (below `2 r1`) with no other critical zero of
+//! the line between, and let all zeros `(v, p)` of the pair with `p` in the box of `r2` lie in a cell `C` at the corner. Of each
+//! zero let `rho` be the least factor whose box holds `p`, and `tau_i >= 0` the distance of `p_i` from that box's corner. Let the
+//! determinants `det(P_v, P_(p_i))`, times the corner's signs, have one sign on `C` (zero is allowed), and one of them, of a
+//! parameter whose corner moves with the factor, a strict one. Then the Jacobian by `(v, rho)`, their weighted sum, has no zero
+//! on `C`, and by the implicit function theorem zeros go along as a `tau_i` shrinks, with `rho` not growing; they stay in `C`. So a
+//! zero of least `rho` can be taken on the line, and its factor is `r*`. Of a real root the same follows from the signs of the
+//! derivatives alone: towards the corner the polynomial falls.
 
 use super::factor::{LargestFactor, ToleranceProblem};
 use super::polynomial::Bundle;
@@ -79,7 +80,7 @@ impl ToleranceProblem<'_> {
         let top = narrow.enclosure().1;
         let to = &top + &(&top * &Rational::dyadic(&Integer::ONE, BEYOND));
         let to = super::line::rounded(&to, BEYOND + 8);
-        if to <= top || from >= narrow.enclosure().0 || factor.proof.is_none() {
+        if to <= top || from >= narrow.enclosure().0 || &from + &from <= to || factor.proof.is_none() {
             return Ok(None);
         }
         let between = |z: &&RealAlgebraic| z.compare_rational(&from).is_gt() && z.compare_rational(&to).is_le();
@@ -178,25 +179,29 @@ impl ToleranceProblem<'_> {
                 }
             }
         }
-        let mut common: Option<Sign> = None;
+        let (mut common, mut is_strict) = (None, false);
         for (i, &degree) in self.p.pair().degrees.iter().enumerate() {
-            if degree == 0 {
+            if degree == 0 || sides[i][0] == sides[i][1] {
                 continue;
             }
             let (x, y) = (&ranges[2 + 2 * i], &ranges[3 + 2 * i]);
             let (a, b) = (product(&ranges[0], y), product(x, &ranges[1]));
             let (low, high) = (&a.0 - &b.1, &a.1 - &b.0);
             let sign = match (low.sign(), high.sign()) {
-                (Sign::Greater, _) => Sign::Greater,
-                (_, Sign::Less) => Sign::Less,
+                // Moving this parameter alone leaves the factor of a zero as it is.
+                (Sign::Equal, Sign::Equal) => continue,
+                (Sign::Greater | Sign::Equal, _) => Sign::Greater,
+                (_, Sign::Less | Sign::Equal) => Sign::Less,
                 _ => return false,
             };
             let sign = if known.corner[i] { sign } else { sign.reverse() };
             if *common.get_or_insert(sign) != sign {
                 return false;
             }
+            let moves = self.sides[i].grows() && !self.sides[i].widths()[usize::from(known.corner[i])].is_zero();
+            is_strict |= moves && !low.is_zero() && !high.is_zero();
         }
-        common.is_some()
+        is_strict
     }
 
     /// A tree of cells without a zero of the pair, but for those inside the critical cell.

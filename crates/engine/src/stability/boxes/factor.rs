@@ -166,7 +166,7 @@ impl<'a> ToleranceProblem<'a> {
             let search = self.search();
             let direction = search.towards(point)?;
             let line = search.line(&direction);
-            let (lo, hi) = line.crossing(None, 40)?;
+            let (lo, hi) = line.crossing(Some(&self.factor_of(point)), 40)?;
             return self.witness(line.witness(&lo, &hi)?);
         }
         self.witness(point.to_vec())
@@ -248,6 +248,8 @@ impl<'a> ToleranceProblem<'a> {
                         break;
                     }
                     nearer?;
+                    // A new end, a new attempt at the full precision.
+                    (coarser, retreats, open) = (Rational::ONE, 0, None);
                 }
                 Outcome::Open { why, cell } => {
                     open.get_or_insert((why, cell));

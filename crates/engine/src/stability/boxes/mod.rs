@@ -27,6 +27,3 @@ pub(crate) use search::ray;
 pub use sides::Side;
 pub use tree::Tree;
 pub use volume::{BoxVolume, MOST_PARAMETERS};
-
-#[cfg(test)]
-mod published;

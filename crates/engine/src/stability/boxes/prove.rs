@@ -17,6 +17,9 @@ const WAITING_BYTES: usize = 2 << 30;
 /// After so many cells a point of the present one is tested.
 const TESTED_EVERY: usize = 64;
 
+/// Parts of each side in which a cell that stays open is tested.
+const PARTS: i64 = 8;
+
 /// A cell is not halved more often than this: the error of the coefficients would swallow them.
 const MOST_HALVINGS: u32 = 160;
 
@@ -101,6 +104,22 @@ pub(super) fn simplest_point(sides: &[[Rational; 2]]) -> Vec<Rational> {
     sides.iter().map(simplest).collect()
 }
 
+/// A point of a box that is not stable, among the simplest ones of it and of its parts along each side.
+fn not_stable_in(p: &BoxPolynomial, sides: &[[Rational; 2]]) -> Option<Vec<Rational>> {
+    let unstable = |sides: &[[Rational; 2]]| Some(simplest_point(sides)).filter(|point| !p.is_stable_at(point));
+    unstable(sides).or_else(|| {
+        (0..sides.len()).filter(|&i| sides[i][0] < sides[i][1]).find_map(|i| {
+            let [low, high] = &sides[i];
+            let at = |k: i64| low + &(&(high - low) * &Rational::new(k.into(), PARTS.into()));
+            (0..PARTS).find_map(|k| {
+                let mut part = sides.to_vec();
+                part[i] = [at(k), at(k + 1)];
+                unstable(&part)
+            })
+        })
+    })
+}
+
 /// Decides one box, with at most so many cells.
 ///
 /// No root crosses the imaginary axis in a connected set on which no divisor, the constant and the leading coefficient and the
@@ -155,8 +174,7 @@ pub(super) fn prove(
         let axis = cell.tensor.best_axis().filter(|_| why.is_none());
         let Some(axis) = axis else {
             let cell = inner();
-            let point = simplest_point(&cell);
-            if !p.is_stable_at(&point) {
+            if let Some(point) = not_stable_in(p, &cell) {
                 return Ok(Outcome::Refuted(point));
             }
             return Ok(Outcome::Open { why: why.unwrap_or("a cell too small"), cell });
@@ -202,6 +220,11 @@ pub(super) fn keeps_sign(
         let axis = cell.tensor.best_axis();
         let (Some(axis), true, true) = (axis, nodes.len() + stack.len() <= most_cells, cell.halvings() < MOST_HALVINGS)
         else {
+            let point = simplest_point(&inner);
+            let (a, q): (Vec<_>, Vec<_>) = point.iter().map(|x| (x.numerator(), x.denominator())).unzip();
+            if f.values(&a, &q)[0].sign() != sign {
+                return Ok(Err(Outcome::Refuted(point)));
+            }
             return Ok(Err(Outcome::Open { why: "a divisor or a real root near zero", cell: inner }));
         };
         nodes.push(Node::Halved(Axis::Parameter(axis)));
