@@ -9,6 +9,7 @@ mod laws {
     mod fast_algebra;
     mod fast_isolation;
     mod fuzz_corpus;
+    mod margins;
     mod matrices;
     mod numbers;
     mod polynomials;
@@ -34,6 +35,7 @@ mod loops {
     mod drive;
     mod examples;
     mod large;
+    mod margins;
     mod paper;
 }
 

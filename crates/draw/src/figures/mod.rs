@@ -8,12 +8,14 @@ mod clip;
 mod locus;
 pub mod map;
 mod panel;
+mod response;
 mod responses;
 mod sketch;
 mod svg;
 
 pub use locus::{DrawnLocus, LocusFigure, locus_of, locus_panels};
 pub use panel::{Corner, Curve, Mark, Panel, Shape, Text, side_by_side, stacked};
+pub use response::{FrequencyResponse, ResponsePoint, bode, frequency_response, nyquist};
 pub use responses::{ResponseCurve, axis_label, response_panel, response_panels, thinned};
 pub use sketch::Sketch;
 

@@ -84,6 +84,8 @@ pub struct Panel {
     pub levels: Vec<(f64, String)>,
     /// Whether a unit is as long in x as in y; the ends of the axes then belong to a square.
     pub equal: bool,
+    /// Whether x is the decimal logarithm of what the axis tells.
+    pub decades: bool,
     /// Where the legend stands; none if `None`.
     pub legend: Option<Corner>,
 }
@@ -176,6 +178,15 @@ impl Panel {
         }
         let (x_step, y_step) = (tick_step(self.x, width / 70.0), tick_step(self.y, height / 45.0));
         let y_step = if self.equal { x_step } else { y_step };
+        let x_step = if self.decades { x_step.max(1.0) } else { x_step };
+        let x_format = if self.decades {
+            TickFormat::Custom(Arc::new(|v: f64| {
+                let value = 10f64.powf(v);
+                if (-3.5..4.5).contains(&v) { format!("{value:.6}").trim_end_matches('0').trim_end_matches('.').to_owned() } else { power_of_ten(value) }
+            }))
+        } else {
+            tick_format(self.x, x_step)
+        };
         let mut layout = Layout::new(self.x, self.y)
             .with_width(width)
             .with_height(height)
@@ -185,7 +196,7 @@ impl Panel {
             .with_y_axis_max(self.y.1)
             .with_x_tick_step(x_step)
             .with_y_tick_step(y_step)
-            .with_x_tick_format(tick_format(self.x, x_step))
+            .with_x_tick_format(x_format)
             .with_y_tick_format(tick_format(self.y, y_step))
             .with_x_label(&self.x_label)
             .with_y_label(&self.y_label)

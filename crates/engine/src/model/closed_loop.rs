@@ -96,20 +96,20 @@ pub struct Evaluated {
 }
 
 /// The expressions of the model with values set for what is not kept.
-struct Answer<'m> {
-    wiring: Wiring<'m>,
-    values: Values,
+pub(super) struct Answer<'m> {
+    pub wiring: Wiring<'m>,
+    pub values: Values,
     /// For each variable of `values`, its value; `None` for the kept ones.
     set: Vec<Option<Rational>>,
     /// For each variable of `values`, its number among the kept ones.
     numbers: Vec<usize>,
     kept: Vec<String>,
     poles: Vec<MultiPoly>,
-    sample_time: Option<RationalFunction>,
+    pub sample_time: Option<RationalFunction>,
 }
 
 impl Answer<'_> {
-    fn substituted(&self, f: &RationalFunction) -> Option<RationalFunction> {
+    pub fn substituted(&self, f: &RationalFunction) -> Option<RationalFunction> {
         let mut f = f.clone();
         for i in f.variables() {
             if let Some(Some(value)) = self.set.get(i) {
@@ -215,7 +215,7 @@ impl Model {
         Diagnostics::new(Some(self.source().clone()), vec![error]).into()
     }
 
-    fn answer(&self, kept: &[String], given: &[(String, Rational)], budget: &Budget) -> Result<Answer<'_>, Error> {
+    pub(super) fn answer(&self, kept: &[String], given: &[(String, Rational)], budget: &Budget) -> Result<Answer<'_>, Error> {
         let mut failures = Vec::new();
         let mut report = |failure| failures.push(failure);
         // Parameters stay symbolic until everything is evaluated: only so the degree and the points of
@@ -268,6 +268,17 @@ impl Model {
     }
 
     fn connected(&self, answer: Answer<'_>, budget: &Budget) -> Result<ClosedLoop, Error> {
+        let outputs = self.outputs().iter().map(|o| o.name.name.clone()).collect();
+        self.connected_with(answer, outputs, budget)
+    }
+
+    /// The connected system, its outputs called so.
+    pub(super) fn connected_with(
+        &self,
+        answer: Answer<'_>,
+        outputs: Vec<String>,
+        budget: &Budget,
+    ) -> Result<ClosedLoop, Error> {
         let substitution = |f: &RationalFunction| answer.substituted(f);
         let assembled = match assemble(self, &answer.wiring, &answer.values, &substitution, budget) {
             Ok(assembled) => assembled,
@@ -287,7 +298,7 @@ impl Model {
             d: assembled.system.d,
             states: assembled.states,
             inputs: answer.wiring.inputs.iter().map(|s| (*s).to_owned()).collect(),
-            outputs: self.outputs().iter().map(|o| o.name.name.clone()).collect(),
+            outputs,
             poles,
         })
     }

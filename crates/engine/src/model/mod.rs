@@ -15,6 +15,7 @@ mod definition;
 mod evaluate;
 pub mod examples;
 mod free;
+mod open_loop;
 mod parts;
 mod read;
 mod text;
@@ -25,6 +26,8 @@ pub use definition::{
     Block, Constant, Diagram, Discretization, Dynamics, Form, Matrix, Method, Model, Name, Output, Parameter, Ports,
     Pwm, Simulation, Time,
 };
+pub use open_loop::Cut;
+pub(crate) use open_loop::Opened;
 pub use read::{DRIVE, schema, source_from_bytes};
 pub(crate) use text::names::shorten;
 pub use text::{Expression, Factor, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};

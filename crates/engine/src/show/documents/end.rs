@@ -7,7 +7,7 @@ use crate::show::margins::margin;
 use crate::show::real::{self, JSON_NUMBER_DIGITS};
 use crate::show::region;
 use crate::stability::{self, AlgebraicInterval, IntervalSet, Range};
-use jurist_algebra::number::{self, enclosed_decimal};
+use jurist_algebra::number::{self, Rational, enclosed_decimal};
 use jurist_algebra::poly::RealAlgebraic;
 use serde::{Deserialize, Serialize};
 
@@ -121,6 +121,20 @@ impl End {
             cause: end.causes.to_string(),
             boundary: region::exact_boundary(&end.causes, problem),
             frequency: FrequencyOfPair::new(digits, |bits| problem.frequency(end, bits)),
+            closed: false,
+            margin_db: margin.as_ref().and_then(|m| real::json_number(m.decibels.as_deref()?)),
+            margin_factor: margin.map(|m| m.factor),
+        }
+    }
+
+    /// An end of the stable factors at a cut, of which 1 is nominal.
+    pub(super) fn of_factor(end: &stability::End, digits: usize, at: impl Fn(u64) -> Option<Frequency>) -> Self {
+        let margin = margin(&end.value, Some(&Rational::ONE), digits);
+        End {
+            number: Number::new(&end.value, digits),
+            cause: end.causes.to_string(),
+            boundary: None,
+            frequency: FrequencyOfPair::new(digits, at),
             closed: false,
             margin_db: margin.as_ref().and_then(|m| real::json_number(m.decibels.as_deref()?)),
             margin_factor: margin.map(|m| m.factor),
