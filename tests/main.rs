@@ -37,6 +37,7 @@ mod loops {
     mod large;
     mod margins;
     mod paper;
+    mod requirements;
 }
 
 /// Models with their expected answers in words, asked of every engine.

@@ -12,6 +12,7 @@ mod output;
 mod picture;
 mod progress;
 mod replace;
+mod requirements;
 mod status;
 mod written;
 

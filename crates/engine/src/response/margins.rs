@@ -165,7 +165,7 @@ impl Margins {
 }
 
 impl StableMargins {
-    fn of(open_loop: &OpenLoop, crossings: &Crossings, skew: &Rational, budget: &Budget) -> Result<Self, Exhausted> {
+    pub(super) fn of(open_loop: &OpenLoop, crossings: &Crossings, skew: &Rational, budget: &Budget) -> Result<Self, Exhausted> {
         budget.step("gain margin");
         let gain = GainMargin::of(open_loop, budget)?;
         budget.step("phase margin");

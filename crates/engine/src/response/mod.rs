@@ -13,6 +13,8 @@ mod margins;
 mod norm;
 mod open_loop;
 mod place;
+mod required_set;
+mod requirement;
 mod value;
 
 pub use crossings::{Crossings, Direction, GainCrossing, PhaseCrossing};
@@ -24,4 +26,6 @@ pub use margins::{GainMargin, Margins, PhaseMargin, StableMargins};
 pub use norm::{Norm, PeakGain};
 pub use open_loop::OpenLoop;
 pub use place::Place;
+pub use required_set::{RequiredEnd, RequiredInterval, RequiredSet, RequirementMet};
+pub use requirement::Requirement;
 pub use value::Value;

@@ -40,9 +40,9 @@ impl Place {
             (Place::Lowest, Shape::LeftHalfPlane) => Some(Frequency::new(None, None, Some(zero()), bits)),
             (Place::Highest, Shape::UnitDisc) => of(Enclosure::pi(working)),
             (Place::Highest, Shape::LeftHalfPlane) => None,
-            (Place::Inside(x), Shape::UnitDisc) => of(ComplexPair::at(shape, x.clone()).angle(working)?),
+            (Place::Inside(x), Shape::UnitDisc) => of(ComplexPair::at_half_size_root(shape, x.clone()).angle(working)?),
             (Place::Inside(x), Shape::LeftHalfPlane) => {
-                let rate = ComplexPair::at(shape, x.clone()).angular_frequency(working)?;
+                let rate = ComplexPair::at_half_size_root(shape, x.clone()).angular_frequency(working)?;
                 Some(Frequency::new(None, None, Some(rate), bits))
             }
         }

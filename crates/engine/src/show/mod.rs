@@ -10,6 +10,7 @@ pub mod margins;
 pub mod notation;
 pub mod real;
 pub mod region;
+mod requirements;
 mod response;
 mod table;
 mod verdict;

@@ -30,7 +30,7 @@ impl Answer<Margins> {
                 for (name, sentence) in writer.sentences(stable) {
                     out.push_str(&format!("{name}: {sentence}\n"));
                 }
-                let set = intervals::set_lines("factor", &stable.gain.set.to_interval_set(), digits.min(PLACES));
+                let set = intervals::stable_lines("factor", &stable.gain.set, digits.min(PLACES));
                 out.push_str(&format!("stable factors at the cut: {}\n", set.join("; ")));
             }
         }
@@ -94,7 +94,7 @@ impl Writer<'_> {
     }
 
     fn number(&self, x: &RealAlgebraic) -> String {
-        real::rounded(x, self.digits).decimal
+        real::rounded(&x.clone().into(), self.digits).decimal
     }
 
     fn end(&self, end: &End) -> String {
@@ -102,7 +102,7 @@ impl Writer<'_> {
         let decibels = decibels.map(|d| format!(" ({d} dB)")).unwrap_or_default();
         let place = frequency_text(|bits| self.margins.frequency_of(end, bits));
         let place = place.map(|p| format!(" at {p}")).unwrap_or_default();
-        format!("{}{decibels}: {}{place}", self.number(&end.value), end.causes)
+        format!("{}{decibels}: {}{place}", real::rounded(&end.value, self.digits).decimal, end.causes)
     }
 
     /// What can be pasted into a review.
@@ -227,8 +227,8 @@ fn norm_line(problem: &Problem, norm: &Norm, digits: usize) -> String {
         Extreme::At { place: Place::Lowest, .. } => "at frequency 0".to_owned(),
         _ => format!("at {}", frequency_text(|bits| norm.frequency(problem.shape(), bits)).unwrap_or_default()),
     };
-    let value = real::rounded(&peak.value, digits).decimal;
-    let decibels = margin(&peak.value, Some(&Rational::ONE), PLACES).and_then(|m| m.decibels);
+    let value = real::rounded(&peak.value.clone().into(), digits).decimal;
+    let decibels = margin(&peak.value.clone().into(), Some(&Rational::ONE), PLACES).and_then(|m| m.decibels);
     let decibels = decibels.map(|d| format!(" ({d} dB)")).unwrap_or_default();
     let (input, output) = (visible(&norm.input), visible(&norm.output));
     format!("peak gain from {input} to {output}: {value}{decibels} {place}")

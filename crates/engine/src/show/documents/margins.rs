@@ -197,7 +197,7 @@ impl Writer<'_> {
     }
 
     fn number(&self, value: &RealAlgebraic) -> Number {
-        Number::new(value, self.digits)
+        Number::new(&value.clone().into(), self.digits)
     }
 
     fn decimal(&self, enclose: impl FnMut(u64) -> Option<number::Enclosure>) -> Option<String> {

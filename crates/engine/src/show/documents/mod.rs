@@ -28,6 +28,7 @@ mod norm;
 mod number;
 mod over;
 mod question;
+mod requirements;
 #[cfg(feature = "schema")]
 pub mod schemas;
 mod undecided;
@@ -60,6 +61,7 @@ pub use norm::{Norm, NormFound, NormName, NormOpen, PeakFound};
 pub use number::{Enclosure, Exact, Named, Number, NumberKind};
 pub use over::{AlgebraicPlace, Over};
 pub use question::{ParameterQuestion, PointQuestion, RegionBound};
+pub use requirements::{RequirementAsked, RequirementFound};
 pub use undecided::{Answered, Open, Undecided};
 pub use verdict::{RootsByPlace, Verdict, VerdictName, VerdictOpen};
 
