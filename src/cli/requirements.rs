@@ -65,7 +65,8 @@ fn number<'u>(context: &Context, option: &str, text: &str, units: &[&'u str]) ->
         let error = Diagnostic::error("E-option-value", format!("{option} expects a number and its unit"));
         let known: Vec<&str> = units.iter().copied().filter(|u| !u.is_empty()).collect();
         let error = error.at(place, "not understood");
-        let error = if known.is_empty() { error } else { error.help(format!("units known here: {}", known.join(", "))) };
+        let error =
+            if known.is_empty() { error } else { error.help(format!("units known here: {}", known.join(", "))) };
         in_line(context.line, vec![error]).into()
     })
 }

@@ -120,14 +120,16 @@ proptest! {
         }
     }
 
-    /// Twice the numerator has half the gain margins.
+    /// Three halves of the open loop have two thirds of its gain margins.
     #[test]
     fn gain_margins_scale((d, n, time) in stable_loop()) {
         let (one, two) = (margins(&d, &n, time), margins(&d.scaled(&Integer::from(2)), &n.scaled(&Integer::from(3)), time));
         let (Some(one), Some(two)) = (one.stable, two.stable) else { return Ok(()) };
         let ends = |s: &jurist_engine::stability::StableSet| s.intervals().len();
         prop_assert_eq!(ends(&one.gain.set), ends(&two.gain.set));
-        if let (Some(a), Some(b)) = (&one.gain.upper, &two.gain.upper) {
+        // With more intervals, 1 and 3/2 may lie in different ones.
+        let single = one.gain.set.intervals().len() == 1;
+        if let (true, Some(a), Some(b)) = (single, &one.gain.upper, &two.gain.upper) {
             // a = 3/2 b
             let scaled = a.value.algebraic().unwrap().polynomial().scaled_argument(&Integer::from(3));
             let k = a.value.algebraic().unwrap().polynomial().coeffs().len() - 1;
@@ -136,7 +138,7 @@ proptest! {
         }
     }
 
-    /// No root of `z^n D(1/z)`-like excess lies on the boundary above the norm, and one does below.
+    /// To sixty bits.
     #[test]
     fn the_peak_of_the_sensitivity_is_the_inverse_of_the_modulus_margin((d, n, time) in stable_loop()) {
         let found = margins(&d, &n, time).stable.unwrap();

@@ -23,9 +23,9 @@ fn contains(set: &RequiredSet, x: &Rational) -> bool {
         let closed = matches!(end, RequiredEnd::Requirement { closed: true, .. });
         if order.is_eq() { closed } else { order.is_lt() == above }
     };
-    set.intervals.iter().any(|i| {
-        i.lower.as_ref().is_none_or(|l| inside(l, true)) && i.upper.as_ref().is_none_or(|u| inside(u, false))
-    })
+    set.intervals
+        .iter()
+        .any(|i| i.lower.as_ref().is_none_or(|l| inside(l, true)) && i.upper.as_ref().is_none_or(|u| inside(u, false)))
 }
 
 /// What the open loop is at a point, decided by stable sets of factors and rotations and by counts on the boundary; the
@@ -52,9 +52,9 @@ fn is_met(model: &Model, name: &str, at: Option<&str>, value: &Rational, require
     };
     match requirement {
         Known::Gain(g) => {
-            let at_ends = [g.clone(), g.recip().unwrap()].iter().all(|k| {
-                is_stable(&d.scaled(&k.denominator()).plus(&n.scaled(&k.numerator())), shape)
-            });
+            let at_ends = [g.clone(), g.recip().unwrap()]
+                .iter()
+                .all(|k| is_stable(&d.scaled(&k.denominator()).plus(&n.scaled(&k.numerator())), shape));
             at_ends && whole(d, n, g.recip().unwrap(), g.clone())
         }
         Known::Phase(square) => {
@@ -160,7 +160,10 @@ fn sets_of_a_gain_agree_with_a_second_decision_at_random_points() {
 }
 
 fn ends(set: &RequiredSet) -> Vec<Option<Real>> {
-    set.intervals.iter().flat_map(|i| [i.lower.as_ref().map(RequiredEnd::value), i.upper.as_ref().map(RequiredEnd::value)]).collect()
+    set.intervals
+        .iter()
+        .flat_map(|i| [i.lower.as_ref().map(RequiredEnd::value), i.upper.as_ref().map(RequiredEnd::value)])
+        .collect()
 }
 
 #[test]
@@ -193,7 +196,9 @@ fn angles_and_decibels_that_are_not_rational() {
 /// `s^2 + 2 s + K`: with damping 1/2 the natural frequency is 2, so `K` is 4 at most.
 #[test]
 fn damping_of_a_pair() {
-    let model = load("time = 'continuous'\n[parameters]\nK = { nominal = 2, min = 0 }\n[loop]\ncharacteristic = 's^2 + 2*s + K'\n");
+    let model = load(
+        "time = 'continuous'\n[parameters]\nK = { nominal = 2, min = 0 }\n[loop]\ncharacteristic = 's^2 + 2*s + K'\n",
+    );
     let answer = required(&model, "K", None, &[Requirement::damping(number("1/2")).unwrap()]);
     let [only] = answer.value().intervals.as_slice() else { panic!("{answer:?}") };
     let upper = only.upper.as_ref().unwrap();

@@ -29,7 +29,8 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
     let problem = decision(&options.decision, context)?.1.problem()?;
     let requirements = options.require.requirements(context)?;
-    let found = match decided(problem.requirements_met(&requirements, options.require.at.as_deref(), &context.budget))? {
+    let found = match decided(problem.requirements_met(&requirements, options.require.at.as_deref(), &context.budget))?
+    {
         Ok(found) => found,
         Err(stopped) => {
             return context.undecided(output, &stopped, || None, || documents::Verdict::new(&problem, Err(&stopped)));

@@ -182,7 +182,11 @@ impl Panel {
         let x_format = if self.decades {
             TickFormat::Custom(Arc::new(|v: f64| {
                 let value = 10f64.powf(v);
-                if (-3.5..4.5).contains(&v) { format!("{value:.6}").trim_end_matches('0').trim_end_matches('.').to_owned() } else { power_of_ten(value) }
+                if (-3.5..4.5).contains(&v) {
+                    format!("{value:.6}").trim_end_matches('0').trim_end_matches('.').to_owned()
+                } else {
+                    power_of_ten(value)
+                }
             }))
         } else {
             tick_format(self.x, x_step)

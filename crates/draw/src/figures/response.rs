@@ -120,7 +120,9 @@ pub fn frequency_response(margins: &Margins) -> FrequencyResponse {
     rates.dedup();
     let mut points: Vec<ResponsePoint> = Vec::with_capacity(rates.len());
     for rate in rates {
-        let Some((real, imaginary)) = value(margins, rate).filter(|v| v.0.is_finite() && v.1.is_finite()) else { continue };
+        let Some((real, imaginary)) = value(margins, rate).filter(|v| v.0.is_finite() && v.1.is_finite()) else {
+            continue;
+        };
         let mut phase = imaginary.atan2(real).to_degrees();
         if let Some(last) = points.last() {
             phase += 360.0 * ((last.phase - phase) / 360.0).round();
@@ -207,7 +209,11 @@ pub fn bode(answer: &Answer<Margins>, response: &FrequencyResponse) -> Figure {
         let step = 0.1 * (range.1 - range.0);
         let text = |m: &&(ResponsePoint, bool, String)| {
             let (x, y) = (m.0.frequency.log10(), y(&m.0));
-            Text { text: m.2.clone(), at: (x + 0.04 * (last - first), (y + step).min(range.1 - 0.5 * step)), target: Some((x, y)) }
+            Text {
+                text: m.2.clone(),
+                at: (x + 0.04 * (last - first), (y + step).min(range.1 - 0.5 * step)),
+                target: Some((x, y)),
+            }
         };
         // Beyond a few, words would hide each other.
         let texts = if chosen.len() <= 4 { chosen.iter().map(text).collect() } else { Vec::new() };
@@ -262,7 +268,8 @@ pub fn nyquist(answer: &Answer<Margins>, response: &FrequencyResponse) -> Figure
         curves.push(curve(circle(-1.0, lo.midpoint(&hi).to_f64_approximate()), COLOURS[2], "modulus margin", true));
     }
     let exact = crossings(margins, response);
-    let mut marks = vec![Mark { at: (-1.0, 0.0), shape: Shape::Cross, colour: COLOURS[1].to_owned(), label: Some("−1".into()) }];
+    let mut marks =
+        vec![Mark { at: (-1.0, 0.0), shape: Shape::Cross, colour: COLOURS[1].to_owned(), label: Some("−1".into()) }];
     marks.extend(exact.iter().map(|m| Mark {
         at: (m.0.real, m.0.imaginary),
         shape: Shape::Diamond,

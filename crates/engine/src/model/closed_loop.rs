@@ -215,7 +215,12 @@ impl Model {
         Diagnostics::new(Some(self.source().clone()), vec![error]).into()
     }
 
-    pub(super) fn answer(&self, kept: &[String], given: &[(String, Rational)], budget: &Budget) -> Result<Answer<'_>, Error> {
+    pub(super) fn answer(
+        &self,
+        kept: &[String],
+        given: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Answer<'_>, Error> {
         let mut failures = Vec::new();
         let mut report = |failure| failures.push(failure);
         // Parameters stay symbolic until everything is evaluated: only so the degree and the points of

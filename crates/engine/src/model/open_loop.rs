@@ -87,7 +87,8 @@ impl Model {
                 self.free(name).map(|_| Cut::Gain(name.to_owned()))
             }
             (Form::Blocks(diagram), None) => only_error(diagram).ok_or_else(|| {
-                let error = Diagnostic::error("E-cut", "the diagram has no single loop, so it has to be said where it is cut");
+                let error =
+                    Diagnostic::error("E-cut", "the diagram has no single loop, so it has to be said where it is cut");
                 refused(error.help(candidates(diagram)))
             }),
             (_, None) => match self.parameters() {

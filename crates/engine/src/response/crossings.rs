@@ -71,15 +71,19 @@ impl Crossings {
     }
 }
 
-fn gain_crossings(r: &Reduced, excess: &UniPoly, shape: Shape, budget: &Budget) -> Result<Vec<GainCrossing>, Exhausted> {
+fn gain_crossings(
+    r: &Reduced,
+    excess: &UniPoly,
+    shape: Shape,
+    budget: &Budget,
+) -> Result<Vec<GainCrossing>, Exhausted> {
     let one = |place: &Place| {
         let modulus = Value::at_place(&r.numerator_squared, &r.denominator_squared, place, shape);
         matches!(modulus, Some(Value::Number(x)) if x.exact() == Some(Rational::ONE))
     };
     let mut found = Vec::new();
     let mut add = |place: Place, direction| -> Result<(), Exhausted> {
-        let tangent_squared =
-            budget.enter(|| Value::at_place(&r.sum_squared, &r.difference_squared, &place, shape))?;
+        let tangent_squared = budget.enter(|| Value::at_place(&r.sum_squared, &r.difference_squared, &place, shape))?;
         let side = match &place {
             // -L has the opposite imaginary part.
             Place::Inside(x) => budget.enter(|| x.sign_of(&r.imaginary).reverse())?,

@@ -98,6 +98,16 @@ impl PhaseMargin {
             PhaseMargin::Angle { tangent: None, .. } => return Some(Enclosure::from_rational(Rational::from(180))),
             PhaseMargin::Angle { tangent: Some(tangent), .. } => tangent,
         };
+        // tan(phi/2) of the angles whose cosine is rational.
+        let known = match tangent.polynomial().coeffs().iter().map(|c| c.to_i64()).collect::<Vec<_>>().as_slice() {
+            [Some(-1), Some(0), Some(3)] => Some(60),
+            [Some(-1), Some(1)] => Some(90),
+            [Some(-3), Some(0), Some(1)] => Some(120),
+            _ => None,
+        };
+        if let Some(degrees) = known {
+            return Some(Enclosure::from_rational(Rational::from(degrees)));
+        }
         let working = bits + 16;
         let half = Value::Number(tangent.clone()).enclosure(working).atan(working);
         Some(super::disk::degrees(&half.mul(&Enclosure::from_rational(Rational::from(2)), working), bits))
@@ -165,7 +175,12 @@ impl Margins {
 }
 
 impl StableMargins {
-    pub(super) fn of(open_loop: &OpenLoop, crossings: &Crossings, skew: &Rational, budget: &Budget) -> Result<Self, Exhausted> {
+    pub(super) fn of(
+        open_loop: &OpenLoop,
+        crossings: &Crossings,
+        skew: &Rational,
+        budget: &Budget,
+    ) -> Result<Self, Exhausted> {
         budget.step("gain margin");
         let gain = GainMargin::of(open_loop, budget)?;
         budget.step("phase margin");

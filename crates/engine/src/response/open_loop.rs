@@ -241,13 +241,19 @@ fn affine(problem: &Problem, name: &str, budget: &Budget) -> Result<Option<ByGai
     let side = |p: &MultiPoly| p.to_univariate(0).expect("one variable is kept");
     let coefficients: Vec<_> = d.coefficients.iter().map(|c| (side(c.numerator()), side(c.denominator()))).collect();
     let parametric = ParametricPolynomial::new(&coefficients, d.formal_degree, Vec::new());
-    let p = parametric.polynomial();
-    if p.coeffs().iter().any(|c| c.coeffs().len() > 2) {
+    let is_affine = |p: &Poly<UniPoly>| p.coeffs().iter().all(|c| c.coeffs().len() <= 2);
+    // A factor that all coefficients share is part of the loop where that is affine, else it is a pole.
+    let whole = parametric.polynomial().scaled(parametric.content());
+    let (p, shared) = match is_affine(&whole) {
+        true => (&whole, UniPoly::one()),
+        false => (parametric.polynomial(), parametric.content().clone()),
+    };
+    if !is_affine(p) || p.coeffs().iter().all(|c| c.coeff(0).is_zero()) {
         return Ok(None);
     }
     let part = |k: usize| (0..=d.formal_degree).map(move |i| Rational::from(p.coeff(i).coeff(k)));
     let (below, above) = integral(part(0).collect(), part(1).map(|c| c * &nominal).collect());
-    let poles = d.poles.iter().map(side).chain([parametric.denominator().clone(), parametric.content().clone()]);
+    let poles = d.poles.iter().map(side).chain([parametric.denominator().clone(), shared]);
     // In the factor: the parameter is the factor times its nominal value p/q.
     let (up, down) = (nominal.numerator(), nominal.denominator());
     let in_factor = |pole: UniPoly| {

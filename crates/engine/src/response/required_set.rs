@@ -143,7 +143,8 @@ impl Problem {
             }
             for interval in stable.intervals() {
                 budget.step("testing a sample of each cell");
-                let cells = Cells { problem: self, requirements, boundaries: &boundaries, family: family.as_ref(), budget };
+                let cells =
+                    Cells { problem: self, requirements, boundaries: &boundaries, family: family.as_ref(), budget };
                 intervals.extend(cells.within(interval.lower.as_ref(), interval.upper.as_ref())?);
             }
             Ok(Answer::new(Arc::clone(self), RequiredSet { intervals }))
@@ -194,10 +195,17 @@ impl Problem {
         })?
     }
 
-    fn boundaries(&self, requirement: &Requirement, family: Option<&Family>, budget: &Budget) -> Result<Boundaries, Error> {
+    fn boundaries(
+        &self,
+        requirement: &Requirement,
+        family: Option<&Family>,
+        budget: &Budget,
+    ) -> Result<Boundaries, Error> {
         let undecided = || {
             let message = format!("the requirement {} is not decided for this loop", requirement.name());
-            Error::from(Diagnostic::error("E-require", message).help("a polynomial of its boundary vanishes for every value"))
+            Error::from(
+                Diagnostic::error("E-require", message).help("a polynomial of its boundary vanishes for every value"),
+            )
         };
         let found = match (requirement, family) {
             (Requirement::Damping(least), _) => {
@@ -230,7 +238,7 @@ impl Family {
         }
         let kept = [problem.parameter().name.clone()];
         let Opened { system, sample_time } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
-        let column = system.e.columns() - 1;
+        let column = system.inputs.len().max(system.e.columns()) - 1;
         let transfer = system.transfer_function_at(0, column, budget)?;
         let side = |p: &MultiPoly| p.to_univariate(0).expect("one variable is kept");
         let all: Vec<RationalFunction> =
@@ -364,7 +372,8 @@ fn eliminated(
         return Ok(UniPoly::one());
     }
     if let Some(alpha) = alpha.exact() {
-        let with = a.scaled(&UniPoly::constant(alpha.denominator())).plus(&b.scaled(&UniPoly::constant(alpha.numerator())));
+        let with =
+            a.scaled(&UniPoly::constant(alpha.denominator())).plus(&b.scaled(&UniPoly::constant(alpha.numerator())));
         return resultant(p, &with, budget);
     }
     let lift = |p: &Bivariate| p.map(|c| MultiPoly::from_univariate(c, 0));
@@ -424,7 +433,8 @@ impl Cells<'_> {
         }
         self.budget.enter(|| {
             zeros.retain(|x| {
-                least.as_ref().is_none_or(|l| x.compare(l).is_gt()) && most.as_ref().is_none_or(|u| x.compare(u).is_lt())
+                least.as_ref().is_none_or(|l| x.compare(l).is_gt())
+                    && most.as_ref().is_none_or(|u| x.compare(u).is_lt())
             });
             zeros.sort_by(RealAlgebraic::compare);
             zeros.dedup_by(|a, b| a.compare(b).is_eq());

@@ -92,11 +92,15 @@ impl Requirement {
         let turn = degrees / &Rational::from(360);
         let (turns, order) = (turn.numerator().to_i64(), turn.denominator().to_i64());
         let (Some(turns), Some(order)) = (turns, order.filter(|n| *n <= 4 * MOST_DEGREE as i64)) else {
-            return Err(refused("the cosine of this angle is of a high degree: give the angle in multiples of 5 degrees"));
+            return Err(refused(
+                "the cosine of this angle is of a high degree: give the angle in multiples of 5 degrees",
+            ));
         };
         let polynomial = twice_cosines(order as usize);
         if polynomial.coeffs().len() > MOST_DEGREE + 1 {
-            return Err(refused("the cosine of this angle is of a high degree: give the angle in multiples of 5 degrees"));
+            return Err(refused(
+                "the cosine of this angle is of a high degree: give the angle in multiples of 5 degrees",
+            ));
         }
         let roots = isolate_real_roots(&SquareFree::part_of(&polynomial).expect("not zero"), &budget)?;
         // 2 cos(2 pi i/n) for i coprime to n, from the greatest down.
@@ -177,7 +181,8 @@ impl Requirement {
             }
             Requirement::PhaseMargin { twice_cosine, .. } => {
                 let crossings = Crossings::of(cut(), budget)?;
-                let PhaseMargin::Angle { tangent: Some(tangent), .. } = PhaseMargin::of(cut(), &crossings, budget)? else {
+                let PhaseMargin::Angle { tangent: Some(tangent), .. } = PhaseMargin::of(cut(), &crossings, budget)?
+                else {
                     return Ok(true);
                 };
                 let square = Value::quotient(&UniPoly::from_i64(&[0, 0, 1]), &UniPoly::one(), &tangent);
@@ -267,8 +272,7 @@ pub(crate) fn in_sector(p: &Poly<UniPoly>, damping: &Rational) -> Poly<UniPoly> 
 /// The sector's polynomial in the parameter that is free.
 pub(crate) fn sector_in_parameter(p: &ParametricPolynomial, damping: &Rational) -> ParametricPolynomial {
     let product = in_sector(p.polynomial(), damping);
-    let coefficients: Vec<_> =
-        (0..=2 * p.formal_degree()).map(|i| (product.coeff(i), UniPoly::one())).collect();
+    let coefficients: Vec<_> = (0..=2 * p.formal_degree()).map(|i| (product.coeff(i), UniPoly::one())).collect();
     ParametricPolynomial::new(&coefficients, 2 * p.formal_degree(), Vec::new())
 }
 
@@ -278,8 +282,12 @@ mod tests {
 
     #[test]
     fn cosines_of_known_angles() {
-        for (degrees, decimal) in [(60, "1"), (90, "0"), (120, "-1"), (45, "1.4142135624"), (36, "1.6180339887"), (5, "1.9923893962")] {
-            let Requirement::PhaseMargin { twice_cosine, .. } = Requirement::phase_margin(&Rational::from(degrees)).unwrap() else {
+        for (degrees, decimal) in
+            [(60, "1"), (90, "0"), (120, "-1"), (45, "1.4142135624"), (36, "1.6180339887"), (5, "1.9923893962")]
+        {
+            let Requirement::PhaseMargin { twice_cosine, .. } =
+                Requirement::phase_margin(&Rational::from(degrees)).unwrap()
+            else {
                 panic!("a phase margin")
             };
             assert_eq!(twice_cosine.decimal(11), decimal, "{degrees}");

@@ -158,7 +158,11 @@ impl From<Rational> for Value {
 }
 
 /// The root that ever narrower enclosures hold.
-fn root_within(p: &SquareFree, enclose: impl Fn(u64) -> Enclosure, budget: &Budget) -> Result<RealAlgebraic, Exhausted> {
+fn root_within(
+    p: &SquareFree,
+    enclose: impl Fn(u64) -> Enclosure,
+    budget: &Budget,
+) -> Result<RealAlgebraic, Exhausted> {
     let mut roots = isolate_real_roots(p, budget)?;
     let mut bits = 64;
     loop {

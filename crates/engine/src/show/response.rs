@@ -21,8 +21,7 @@ impl Answer<Margins> {
     pub fn text(&self, digits: usize) -> String {
         let (problem, margins) = (self.problem(), self.value());
         let place = cut_text(margins.open_loop.cut());
-        let mut out =
-            format!("{}\ncut {place}\n{}\n\n", heading(problem), verdict_line(problem, &margins.verdict));
+        let mut out = format!("{}\ncut {place}\n{}\n\n", heading(problem), verdict_line(problem, &margins.verdict));
         let writer = Writer { margins, digits };
         match &margins.stable {
             None => out.push_str("no margins: only a stable loop has them\n"),
@@ -63,9 +62,8 @@ fn decimal(digits: usize, enclose: impl FnMut(u64) -> Option<Enclosure>) -> Stri
 /// `12.5 Hz, 78.53982 rad/s`; the angle instead of the rate in discrete time.
 fn frequency_text(at: impl Fn(u64) -> Option<Frequency>) -> Option<String> {
     at(real::bits_for(PLACES))?;
-    let part = |pick: fn(&Frequency) -> Option<Enclosure>| {
-        real::enclosed(PLACES, |bits| at(bits).as_ref().and_then(pick))
-    };
+    let part =
+        |pick: fn(&Frequency) -> Option<Enclosure>| real::enclosed(PLACES, |bits| at(bits).as_ref().and_then(pick));
     let mut parts = Vec::new();
     parts.extend(part(|f| f.hertz.clone()).map(|hertz| format!("{hertz} Hz")));
     match part(|f| f.angle.clone()) {
@@ -84,7 +82,9 @@ impl Writer<'_> {
     fn at(&self, place: Option<&Place>) -> String {
         match place {
             None => "at all frequencies".to_owned(),
-            Some(Place::Highest) if self.shape() == Shape::LeftHalfPlane => "as the frequency grows without end".to_owned(),
+            Some(Place::Highest) if self.shape() == Shape::LeftHalfPlane => {
+                "as the frequency grows without end".to_owned()
+            }
             Some(place) => match (place, frequency_text(|bits| self.margins.frequency(place, bits))) {
                 (Place::Highest, Some(text)) => format!("at half the sampling frequency, {text}"),
                 (Place::Lowest, _) => "at frequency 0".to_owned(),
@@ -197,7 +197,13 @@ impl Writer<'_> {
                 Direction::Touching => "touching",
             };
             let delay = delay.map(|d| format!("PM/omega {d} {unit}")).unwrap_or_default();
-            columns.row(["modulus 1".to_owned(), self.at(Some(&c.place)), format!("PM {margin} degrees"), delay, way.to_owned()]);
+            columns.row([
+                "modulus 1".to_owned(),
+                self.at(Some(&c.place)),
+                format!("PM {margin} degrees"),
+                delay,
+                way.to_owned(),
+            ]);
         }
         if crossings.phase_everywhere {
             columns.row(["real".to_owned(), "at all frequencies".to_owned()]);

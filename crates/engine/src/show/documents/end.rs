@@ -133,13 +133,7 @@ impl End {
     }
 
     /// An end at which requirements bind.
-    pub(super) fn of_requirement(
-        value: &Real,
-        names: String,
-        closed: bool,
-        problem: &Problem,
-        digits: usize,
-    ) -> Self {
+    pub(super) fn of_requirement(value: &Real, names: String, closed: bool, problem: &Problem, digits: usize) -> Self {
         let margin = margin(value, problem.free().first().and_then(|f| f.nominal.as_ref()), digits);
         End {
             number: Number::new(value, digits),

@@ -1,7 +1,7 @@
 //! The document `jurist/margins/1`.
 
 use super::schema_name;
-use super::{Answered, Bounds, End, Enclosure, Exact, FrequencyOfPair, Number, PointQuestion, RootsByPlace};
+use super::{Answered, Bounds, Enclosure, End, Exact, FrequencyOfPair, Number, PointQuestion, RootsByPlace};
 use crate::answer::{self, Answer};
 use crate::problem::Problem;
 use crate::response::{self, Crossings, DelayMargin, Direction, Extreme, PhaseMargin, Place, StableMargins, Value};
@@ -339,11 +339,7 @@ impl Margins {
                 crossings: writer.crossings(&margins.crossings),
             }
         };
-        Margins {
-            schema: MarginsName::V1,
-            question: PointQuestion::new(problem),
-            answer: Answered::of(margins, found),
-        }
+        Margins { schema: MarginsName::V1, question: PointQuestion::new(problem), answer: Answered::of(margins, found) }
     }
 }
 

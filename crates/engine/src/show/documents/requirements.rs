@@ -53,6 +53,10 @@ impl Answer<RequiredSet> {
             }
         };
         let bounds = self.value().intervals.iter().map(|i| Bounds { lower: end(&i.lower), upper: end(&i.upper) });
-        Intervals::of_bounds(ParameterQuestion::new(problem), bounds.collect(), requirements.iter().map(Into::into).collect())
+        Intervals::of_bounds(
+            ParameterQuestion::new(problem),
+            bounds.collect(),
+            requirements.iter().map(Into::into).collect(),
+        )
     }
 }
