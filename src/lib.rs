@@ -74,10 +74,7 @@ pub use jurist_engine::model::{
     TransferFunction,
 };
 pub use jurist_engine::problem::{Algebra, Bound, Free, Problem, Question, Region};
-pub use jurist_engine::response::{
-    Crossings, DelayMargin, Direction, DiskMargin, Extreme, GainCrossing, GainMargin, Margins, Norm, OpenLoop, PeakGain,
-    PhaseCrossing, PhaseMargin, Place, StableMargins, Value,
-};
+pub use jurist_engine::response::{Extreme, Margins, Norm, OpenLoop, Place, Requirement, Value};
 pub use jurist_engine::show::documents;
 pub use jurist_engine::show::notation::Notation;
 pub use jurist_engine::stability::{

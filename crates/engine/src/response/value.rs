@@ -134,6 +134,8 @@ impl Value {
 
     /// The order of two values, decided exactly.
     ///
+    /// Cost: enclosures where the values differ clearly; else that of [`Value::number`] for both.
+    ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
     pub fn compare(&self, other: &Value, budget: &Budget) -> Result<Ordering, Exhausted> {
