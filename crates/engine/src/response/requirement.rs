@@ -60,6 +60,8 @@ impl Requirement {
 
     /// By decibels above 0: the factor `10^(d/20)`, an algebraic number.
     ///
+    /// Cost: isolation of the roots of `x^q - 10^p`, `d/20 = p/q`.
+    ///
     /// # Errors
     /// `E-require` for another number, and where it is a root of too high a degree.
     pub fn gain_margin_in_decibels(decibels: &Rational, budget: &Budget) -> Result<Requirement, Error> {
