@@ -35,6 +35,8 @@
 //! | [`Question::stable_set`] | [`StableSet`] | for which values of one parameter the loop is stable |
 //! | [`Question::parametric_table`], [`Question::point_table`] | [`ParametricTable`], [`PointTable`] | the table of Jury or Routh, each condition solved for itself |
 //! | [`Question::map`] | [`Map`] | the stable regions in the plane of two parameters |
+//! | [`Question::margins`] | [`Margins`] | gain, phase, delay, modulus and disk margins of the loop cut at a signal |
+//! | [`Question::norm`] | [`Norm`] | the peak gain of a closed-loop transfer function |
 //! | [`Question::analyze`] | [`Analysis`] | the verdict, and the stable set of each parameter |
 //!
 //! An answer writes itself for people (`text`), for programs (`json`) and for checkers (`certificate`, `smt2`); [`check()`]
@@ -68,10 +70,11 @@ pub use jurist_engine::answer::{
 };
 pub use jurist_engine::error::{Diagnostic, Diagnostics, Error, Label, Severity, Source, Span};
 pub use jurist_engine::model::{
-    BlockBuilder, ClosedLoop, Constant, Expression, Model, ModelBuilder, Parameter, ParameterBuilder, Time, Tolerance,
+    BlockBuilder, ClosedLoop, Constant, Cut, Expression, Model, ModelBuilder, Parameter, ParameterBuilder, Time, Tolerance,
     TransferFunction,
 };
 pub use jurist_engine::problem::{Algebra, Bound, Free, Problem, Question, Region};
+pub use jurist_engine::response::{Extreme, Margins, Norm, OpenLoop, Place, Requirement, Value};
 pub use jurist_engine::show::documents;
 pub use jurist_engine::show::notation::Notation;
 pub use jurist_engine::stability::{

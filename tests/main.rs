@@ -10,6 +10,7 @@ mod laws {
     mod fast_algebra;
     mod fast_isolation;
     mod fuzz_corpus;
+    mod margins;
     mod matrices;
     mod numbers;
     mod polynomials;
@@ -36,7 +37,9 @@ mod loops {
     mod drive;
     mod examples;
     mod large;
+    mod margins;
     mod paper;
+    mod requirements;
 }
 
 /// Models with their expected answers in words, asked of every engine.

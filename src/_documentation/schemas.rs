@@ -19,13 +19,16 @@ macro_rules! schemas {
 schemas! {
     analyze: "`jurist/analyze/1`, of `jurist analyze`.", "analyze-1";
     charpoly: "`jurist/charpoly/1`, of `jurist charpoly`.", "charpoly-1";
+    frequency_response: "`jurist/frequency-response/1`, of `jurist bode` and `jurist nyquist`.", "frequency-response-1";
     intervals: "`jurist/intervals/1`, of `jurist intervals`.", "intervals-1";
     jury: "`jurist/jury/1`, of `jurist jury`.", "jury-1";
     locus: "`jurist/locus/1`, of `jurist locus`.", "locus-1";
     main: "`jurist/main/1`, of `jurist` without a command.", "main-1";
     map: "`jurist/map/1`, of `jurist map`.", "map-1";
     map_boxes: "`jurist/map-boxes/1`, of `jurist map --method boxes`.", "map-boxes-1";
+    margins: "`jurist/margins/1`, of `jurist margins`.", "margins-1";
     model: "Model files; the line `#:schema` names it to editors.", "model";
+    norm: "`jurist/norm/1`, of `jurist norm`.", "norm-1";
     root_locus_form: "`jurist/root-locus-form/1`, of `jurist charpoly --root-locus-form`.", "root-locus-form-1";
     simulate: "`jurist/simulate/1`, of `jurist simulate`.", "simulate-1";
     tolerance: "`jurist/tolerance/1`, of `jurist tolerance`.", "tolerance-1";

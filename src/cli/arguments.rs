@@ -54,6 +54,14 @@ pub(super) enum Command {
     Map(commands::map::Options),
     /// Root locus of one parameter, with the exact crossings on it
     Locus(commands::locus::Options),
+    /// Gain, phase, delay, modulus and disk margins of the loop cut at a signal, exactly, and all crossings
+    Margins(commands::margins::Options),
+    /// Modulus and phase of the open loop over frequency, with the exact crossings marked
+    Bode(commands::frequency_response::Options),
+    /// The curve of the open loop around -1, with the exact crossings and margins marked
+    Nyquist(commands::frequency_response::Options),
+    /// The peak gain (H-infinity norm) of a closed-loop transfer function, exactly
+    Norm(commands::norm::Options),
     /// Time response, of the sampled loop or of the switched circuit
     Simulate(commands::simulate::Options),
     /// Stable for every value within tolerances: proof or counterexample, and how far they can grow

@@ -241,8 +241,10 @@ fn is_model_file(argument: &OsString) -> bool {
 fn meant(word: &str) -> Option<&'static str> {
     Some(match word.to_ascii_lowercase().as_str() {
         "margin" | "allmargin" | "gain-margin" | "gm" | "pm" | "stability_margins" => {
-            "gain margins stand beside each limit: 'jurist analyze MODEL', 'jurist intervals MODEL --param GAIN'"
+            "all margins of a loop: 'jurist margins MODEL'"
         }
+        "hinfnorm" | "norminf" | "getpeakgain" => "the peak gain: 'jurist norm MODEL INPUT OUTPUT'",
+        "bodeplot" | "bode_plot" | "freqresp" => "the frequency response: 'jurist bode MODEL -o bode.svg'",
         "rlocus" | "root_locus" | "root-locus" => "the root locus: 'jurist locus MODEL --param NAME -o locus.svg'",
         "step" | "impulse" | "lsim" | "stepinfo" | "response" => {
             "a time response: 'jurist simulate MODEL -o response.svg'"

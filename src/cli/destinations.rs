@@ -67,6 +67,13 @@ impl<'a> Names<'a> {
             Some(Command::Jury(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
             Some(Command::Charpoly(o)) => names.question(&o.model.model, &o.output.output),
             Some(Command::Map(o)) => names.question(&o.model.model, &o.output.output),
+            Some(Command::Margins(o)) => names.question(&o.model.model, &o.output.output),
+            Some(Command::Norm(o)) => {
+                // The model is the first of three names.
+                let model = o.names.first().filter(|_| o.names.len() == 3);
+                names.inputs.extend(model.map(|model| ("the model", model.as_os_str())));
+                names.answer(o.output.output.as_ref());
+            }
             Some(Command::Intervals(o)) => {
                 names.question(&o.decision.model.model, &o.decision.output.output);
                 names.outputs.extend(o.certificate.iter().map(|file| ("the certificate", file.clone())));
@@ -78,6 +85,7 @@ impl<'a> Names<'a> {
                 names.outputs.extend(o.certificate.iter().map(|file| ("the certificate", file.clone())));
                 names.outputs.extend(o.coq.iter().map(|file| ("the file for Coq", file.clone())));
             }
+            Some(Command::Bode(o) | Command::Nyquist(o)) => names.picture(&o.model.model, &o.picture)?,
             Some(Command::Locus(o)) => names.picture(&o.model.model, &o.picture)?,
             Some(Command::Simulate(o)) => names.picture(&o.model.model, &o.picture)?,
             Some(Command::Verify(o)) => {

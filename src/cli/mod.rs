@@ -13,6 +13,7 @@ mod output;
 mod picture;
 mod progress;
 mod replace;
+mod requirements;
 mod status;
 mod written;
 

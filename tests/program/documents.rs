@@ -2,12 +2,12 @@
 
 use crate::helpers::program::jurist;
 use crate::helpers::schema::{fits, folder};
-use jurist_draw::document::{Locus, Simulation};
+use jurist_draw::document::{FrequencyResponse, Locus, Simulation};
 use jurist_drive::document::Main;
 use jurist_engine::error::Source;
 use jurist_engine::model::Model;
 use jurist_engine::show::documents::{
-    Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, RootLocusForm, Tolerance, Transfer, Verdict,
+    Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, Margins, Norm, RootLocusForm, Tolerance, Transfer, Verdict,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -37,10 +37,13 @@ fn read_and_written(document: &Value) -> Result<Value, String> {
         "jurist/check/1" => through::<Check>(document),
         "jurist/intervals/1" => through::<Intervals>(document),
         "jurist/jury/1" => through::<Jury>(document),
+        "jurist/frequency-response/1" => through::<FrequencyResponse>(document),
         "jurist/locus/1" => through::<Locus>(document),
         "jurist/main/1" => through::<Main>(document),
         "jurist/map/1" => through::<Map>(document),
         "jurist/map-boxes/1" => through::<MapBoxes>(document),
+        "jurist/margins/1" => through::<Margins>(document),
+        "jurist/norm/1" => through::<Norm>(document),
         "jurist/root-locus-form/1" => through::<RootLocusForm>(document),
         "jurist/simulate/1" => through::<Simulation>(document),
         "jurist/tolerance/1" => through::<Tolerance>(document),
@@ -70,7 +73,7 @@ fn every_document_of_the_examples_fits_its_schema() {
 }
 
 /// Commands that together write every kind of document, and every form of it.
-const FORMS: [&[&str]; 26] = [
+const FORMS: [&[&str]; 33] = [
     &[],
     &["analyze"],
     &["check"],
@@ -84,6 +87,13 @@ const FORMS: [&[&str]; 26] = [
     &["map", "-x", "T", "-y", "K_pwm"],
     &["map", "-x", "T", "-y", "K_pwm", "--radius", "99/100"],
     &["map", "-x", "T=0..1/100", "-y", "K_pwm=0..600", "--method", "boxes", "--undecided", "1/5"],
+    &["bode", "examples/drive-blocks.toml", "--at", "i_ref"],
+    &["margins"],
+    &["margins", "examples/drive-blocks.toml", "--at", "speed controller", "--skew", "1"],
+    &["margins", "examples/drive-blocks.toml", "--at", "i_a", "--set", "K_pwm=551"],
+    &["margins", "--timeout", "0"],
+    &["norm", "examples/drive-blocks.toml", "omega_ref", "i_a"],
+    &["norm", "examples/drive-blocks.toml", "omega_ref", "omega", "--timeout", "0"],
     &["simulate", "--duration", "0.01"],
     &["simulate", "--switched", "--duration", "0.01"],
     &["verdict", "--set", "K_pwm=551"],

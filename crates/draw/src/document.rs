@@ -1,11 +1,12 @@
-//! Time responses and root loci as JSON. All numbers but those of the question are floating point,
+//! Time responses, frequency responses and root loci as JSON. All numbers but those of the question are floating point,
 //! and say so.
 
-use crate::figures::DrawnLocus;
+use crate::figures::{DrawnLocus, FrequencyResponse as Sampled, ResponsePoint};
 use crate::simulate::{Operating, SwitchedModel, Trace};
 use jurist_engine::answer::Answer;
 use jurist_engine::model::{Model, Time};
 use jurist_engine::problem::Problem;
+use jurist_engine::response::Margins;
 use jurist_engine::show::documents::{Exact, Named};
 use jurist_engine::stability::StableSet;
 use nalgebra::Complex;
@@ -227,6 +228,60 @@ pub struct LocusBranch {
     pub roots: Vec<Point>,
 }
 
+/// `jurist/frequency-response/1`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum FrequencyResponseName {
+    /// The first version.
+    #[default]
+    #[serde(rename = "jurist/frequency-response/1")]
+    V1,
+}
+
+/// The open loop over frequency, in floating point; the exact crossings and margins are in `jurist/margins/1`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct FrequencyResponse {
+    /// The kind of document.
+    pub schema: FrequencyResponseName,
+    /// The model's title; empty where it has none.
+    pub title: String,
+    /// Always true: nothing here is exact but `set`.
+    pub floating_point: bool,
+    /// The kind of time.
+    pub time: Time,
+    /// The values of the parameters, and of constants that were replaced.
+    pub set: Named<Exact>,
+    /// Where the loop is cut.
+    pub at: String,
+    /// Whether frequencies are in hertz; else in radians per sample.
+    pub hertz: bool,
+    /// The frequencies.
+    pub frequency: Vec<Float>,
+    /// The open loop there.
+    pub response: Vec<Point>,
+    /// Its phase in degrees, continued from point to point.
+    pub phase_degrees: Vec<Float>,
+}
+
+/// The document of a frequency response.
+pub fn frequency_response_json(answer: &Answer<Margins>, drawn: &Sampled) -> FrequencyResponse {
+    let problem = answer.problem();
+    let column = |of: fn(&ResponsePoint) -> f64| drawn.points.iter().map(|p| Float::from(of(p))).collect();
+    FrequencyResponse {
+        schema: FrequencyResponseName::V1,
+        title: problem.title().unwrap_or_default().to_owned(),
+        floating_point: true,
+        time: problem.time(),
+        set: problem.set().into(),
+        at: answer.value().open_loop.cut().name().to_owned(),
+        hertz: drawn.hertz,
+        frequency: column(|p| p.frequency),
+        response: drawn.points.iter().map(|p| [p.real.into(), p.imaginary.into()]).collect(),
+        phase_degrees: column(|p| p.phase),
+    }
+}
+
 /// The document of a time response.
 pub fn simulation_json(problem: &Problem, answer: &SimulationAnswer) -> Simulation {
     let signal = |s: &crate::simulate::Signal| SignalValues {
@@ -297,8 +352,12 @@ fn points(values: &[Complex<f64>]) -> Vec<Point> {
 #[cfg(feature = "schema")]
 pub fn schemas() -> Vec<(&'static str, serde_json::Value)> {
     use jurist_engine::show::documents::schemas::schema_of;
-    let names = ["jurist/locus/1", "jurist/simulate/1"];
-    vec![(names[0], schema_of::<Locus>(names[0])), (names[1], schema_of::<Simulation>(names[1]))]
+    let names = ["jurist/frequency-response/1", "jurist/locus/1", "jurist/simulate/1"];
+    vec![
+        (names[0], schema_of::<FrequencyResponse>(names[0])),
+        (names[1], schema_of::<Locus>(names[1])),
+        (names[2], schema_of::<Simulation>(names[2])),
+    ]
 }
 
 #[cfg(all(test, feature = "schema"))]

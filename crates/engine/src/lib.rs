@@ -7,6 +7,7 @@
 //! | [`stability`] | exact root count, tables of Jury and Routh, boundary polynomials, stable sets, two parameters |
 //! | [`problem`] | a question about a model as one value, resolved once and evaluated once |
 //! | [`answer`] | answers: a problem and what is exactly known of it |
+//! | [`response`] | frequency response: the loop cut open, margins, peak gains |
 //! | [`prove`] | certificates and statements for solvers |
 //! | [`show`] | text, JSON, LaTeX, code |
 
@@ -18,5 +19,6 @@ pub mod error;
 pub mod model;
 pub mod problem;
 pub mod prove;
+pub mod response;
 pub mod show;
 pub mod stability;

@@ -4,9 +4,11 @@ use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::{decision, known_names, only_parameter};
 use crate::cli::output::write_answer;
+use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Outcome, Status};
 use crate::cli::written::check_certificate;
 use clap::Args;
+use jurist_engine::error::Diagnostic;
 use jurist_engine::problem::{DECAY, RADIUS};
 use jurist_engine::show::documents::Intervals;
 use jurist_engine::show::intervals_text;
@@ -21,6 +23,8 @@ pub(in crate::cli) struct Options {
     pub param: Option<String>,
     #[command(flatten)]
     pub decision: DecisionOptions,
+    #[command(flatten)]
+    pub require: RequirementOptions,
     /// Writes a certificate that 'jurist verify' re-checks
     #[arg(long, value_name = "FILE")]
     pub certificate: Option<OsString>,
@@ -44,7 +48,25 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         known_names(context, &model, "--param", from_ref(&name))?;
     }
     let digits = output.digits() as usize;
+    let requirements = options.require.requirements(context)?;
     let problem = question.free(&name).problem()?;
+    if !requirements.is_empty() {
+        if options.certificate.is_some() || options.smt2.is_some() || options.coq.is_some() {
+            let error = Diagnostic::error("E-require", "a set with requirements has no certificate yet");
+            return Err(error.help("leave out the requirements, or the certificate").into());
+        }
+        let at = options.require.at.as_deref();
+        return match decided(problem.required_set(&requirements, at, &context.budget))? {
+            Ok(answer) => {
+                context.warn(None, problem.warnings());
+                context.answer(output, || answer.text(&requirements, digits), || answer.json(&requirements, digits))?;
+                Ok(Status::Holds)
+            }
+            Err(stopped) => {
+                context.undecided(output, &stopped, || None, || Intervals::new(&problem, Err(&stopped), digits))
+            }
+        };
+    }
     let answer = match decided(problem.stable_set(&context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => {

@@ -5,13 +5,16 @@ pub(super) mod charpoly;
 pub(super) mod check;
 pub(super) mod completions;
 pub(super) mod explain;
+pub(super) mod frequency_response;
 pub(super) mod intervals;
 pub(super) mod jury;
 pub(super) mod locus;
 pub(super) mod main_job;
 pub(super) mod map;
 mod map_boxes;
+pub(super) mod margins;
 pub(super) mod new;
+pub(super) mod norm;
 pub(super) mod paper;
 pub(super) mod simulate;
 pub(super) mod tolerance;
@@ -134,6 +137,9 @@ impl Arguments {
             Some(Command::Jury(options)) => &options.decision.output.run,
             Some(Command::Map(options)) => &options.output.run,
             Some(Command::Locus(options)) => &options.run,
+            Some(Command::Margins(options)) => &options.output.run,
+            Some(Command::Bode(options) | Command::Nyquist(options)) => &options.run,
+            Some(Command::Norm(options)) => &options.output.run,
             Some(Command::Simulate(options)) => &options.run,
             Some(Command::Paper(options)) => &options.run,
             Some(Command::Tolerance(options)) => &options.decision.output.run,
@@ -155,6 +161,10 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Jury(options)) => jury::run(options, context),
         Some(Command::Map(options)) => map::run(options, context),
         Some(Command::Locus(options)) => locus::run(options, context),
+        Some(Command::Margins(options)) => margins::run(options, context),
+        Some(Command::Bode(options)) => frequency_response::run(options, frequency_response::BODE, context),
+        Some(Command::Nyquist(options)) => frequency_response::run(options, frequency_response::NYQUIST, context),
+        Some(Command::Norm(options)) => norm::run(options, context),
         Some(Command::Simulate(options)) => simulate::run(options, context),
         Some(Command::Paper(options)) => paper::run(options, context),
         Some(Command::Tolerance(options)) => tolerance::run(options, context),

@@ -4,6 +4,7 @@ use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::decision;
 use crate::cli::output::write_answer;
+use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Outcome, Status};
 use crate::cli::written::check_certificate;
 use clap::Args;
@@ -16,6 +17,8 @@ use std::ffi::OsString;
 pub(in crate::cli) struct Options {
     #[command(flatten)]
     pub decision: DecisionOptions,
+    #[command(flatten)]
+    pub require: RequirementOptions,
     /// Writes a certificate that 'jurist verify' re-checks
     #[arg(long, value_name = "FILE")]
     pub certificate: Option<OsString>,
@@ -28,6 +31,14 @@ pub(in crate::cli) struct Options {
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
     let problem = decision(&options.decision, context)?.1.problem()?;
+    let requirements = options.require.requirements(context)?;
+    let found = match decided(problem.requirements_met(&requirements, options.require.at.as_deref(), &context.budget))?
+    {
+        Ok(found) => found,
+        Err(stopped) => {
+            return context.undecided(output, &stopped, || None, || documents::Verdict::new(&problem, Err(&stopped)));
+        }
+    };
     let answer = match decided(problem.verdict(&context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => {
@@ -45,9 +56,16 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     if let Some(file) = &options.coq {
         write_answer(&answer.coq(&context.budget)?, Some(file))?;
     }
-    context.answer(output, || answer.text(), || answer.json())?;
+    let digits = output.digits() as usize;
+    let text = || found.iter().fold(answer.text(), |text, r| format!("{text}{}\n", r.text(digits)));
+    let document = || {
+        let requirements = found.iter().map(|r| documents::RequirementFound::new(r, digits)).collect();
+        documents::Verdict { requirements, ..answer.json() }
+    };
+    context.answer(output, text, document)?;
     if let Some((text, file)) = &certificate {
         check_certificate(context, &output.run, &problem.model().source().text, text, file);
     }
-    Ok(if answer.value().verdict == Verdict::Stable { Status::Holds } else { Status::DoesNotHold })
+    let met = found.iter().all(|r| r.met);
+    Ok(if met && answer.value().verdict == Verdict::Stable { Status::Holds } else { Status::DoesNotHold })
 }

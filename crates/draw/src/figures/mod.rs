@@ -11,6 +11,7 @@ mod legend;
 mod locus;
 pub mod map;
 mod panel;
+mod response;
 mod responses;
 mod sketch;
 
@@ -19,6 +20,7 @@ pub use engineering::{quantity, unit_text};
 pub use facts::{facts, heading};
 pub use locus::{DrawnLocus, LocusFigure, locus_of, locus_panels};
 pub use panel::{Corner, Curve, Mark, Panel, Shape, Text, side_by_side, stacked};
+pub use response::{FrequencyResponse, ResponsePoint, bode, frequency_response, nyquist};
 pub use responses::{ResponseCurve, axis_label, response_panel, response_panels, stairs, thinned};
 pub use sketch::Sketch;
 

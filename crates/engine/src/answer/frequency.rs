@@ -1,7 +1,7 @@
 //! The frequency of the complex pair at an end of a stable interval.
 
 use crate::problem::Problem;
-use crate::stability::{End, Shape};
+use crate::stability::{ComplexPair, End, Shape};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::UniPoly;
 use jurist_algebra::real::Real;
@@ -35,7 +35,7 @@ pub struct Frequency {
 
 impl Frequency {
     /// From the angle and the sample time on the unit circle, or from the angular frequency on the imaginary axis.
-    pub(super) fn new(
+    pub(crate) fn new(
         angle: Option<Enclosure>,
         step: Option<&Enclosure>,
         on_axis: Option<Enclosure>,
@@ -50,6 +50,15 @@ impl Frequency {
         let hertz = rate.as_ref().and_then(|w| w.div(&two_pi, bits));
         let rounded = |e: Enclosure| e.rounded(bits);
         Frequency { angle: angle.map(rounded), radians_per_second: rate.map(rounded), hertz }
+    }
+}
+
+impl Frequency {
+    /// Where a complex pair is, with a sample time that is a number.
+    pub(crate) fn of_pair(pair: &ComplexPair, sample_time: Option<&Rational>, bits: u64) -> Frequency {
+        let working = bits + 16;
+        let step = sample_time.filter(|t| t.sign().is_gt()).map(|t| Enclosure::from_rational(t.clone()));
+        Frequency::new(pair.angle(working), step.as_ref(), pair.angular_frequency(working), bits)
     }
 }
 

@@ -127,18 +127,18 @@ impl Evaluated {
 }
 
 /// The expressions of the model with values set for what is not kept.
-struct Answer<'m> {
-    wiring: Wiring<'m>,
-    values: Values,
+pub(super) struct Answer<'m> {
+    pub wiring: Wiring<'m>,
+    pub values: Values,
     /// For each variable of `values`, what it is in kept names and symbols: a number, a variable, or a function of both.
     images: Vec<RationalFunction>,
     symbols: RefCell<Symbols>,
     poles: Vec<MultiPoly>,
-    sample_time: Option<RationalFunction>,
+    pub sample_time: Option<RationalFunction>,
 }
 
 impl Answer<'_> {
-    fn substituted(&self, f: &RationalFunction) -> Option<RationalFunction> {
+    pub fn substituted(&self, f: &RationalFunction) -> Option<RationalFunction> {
         substituted(f, &self.images)
     }
 
@@ -266,7 +266,12 @@ impl Model {
         Diagnostics::new(Some(self.source().clone()), vec![error]).into()
     }
 
-    fn answer(&self, kept: &[String], given: &[(String, Rational)], budget: &Budget) -> Result<Answer<'_>, Error> {
+    pub(super) fn answer(
+        &self,
+        kept: &[String],
+        given: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Answer<'_>, Error> {
         let mut failures = Vec::new();
         let mut report = |failure| failures.push(failure);
         // Parameters stay symbolic until everything is evaluated: only so the degree and the points of
@@ -361,6 +366,17 @@ impl Model {
         answer: Answer<'_>,
         budget: &Budget,
     ) -> Result<(ClosedLoop, Option<RationalFunction>, Symbols), Error> {
+        let outputs = self.outputs().iter().map(|o| o.name.name.clone()).collect();
+        self.connected_with(answer, outputs, budget)
+    }
+
+    /// The connected system, its outputs called so, with its sample time and what its variables stand for.
+    pub(super) fn connected_with(
+        &self,
+        answer: Answer<'_>,
+        outputs: Vec<String>,
+        budget: &Budget,
+    ) -> Result<(ClosedLoop, Option<RationalFunction>, Symbols), Error> {
         let substitution = |f: &RationalFunction| answer.substituted(f);
         let symbols = Some(&answer.symbols);
         let assembled = match assemble(self, &answer.wiring, &answer.values, &substitution, symbols, budget) {
@@ -395,7 +411,7 @@ impl Model {
             d: matrix(&system.d)?,
             states: assembled.states,
             inputs: answer.wiring.inputs.iter().map(|s| (*s).to_owned()).collect(),
-            outputs: self.outputs().iter().map(|o| o.name.name.clone()).collect(),
+            outputs,
             poles: poles_in(&poles, &symbols, &images)?,
             leading: substituted(&assembled.leading, &images).unwrap_or_else(RationalFunction::one),
         };

@@ -15,6 +15,7 @@ mod definition;
 mod evaluate;
 pub mod examples;
 mod free;
+mod open_loop;
 mod parts;
 mod read;
 mod symbols;
@@ -27,6 +28,8 @@ pub use definition::{
     Block, Constant, Diagram, Discretization, Dynamics, Form, Matrix, Method, Model, Name, Output, Parameter, Ports,
     Pwm, Simulation, Time,
 };
+pub use open_loop::Cut;
+pub(crate) use open_loop::Opened;
 pub use read::{DRIVE, schema, source_from_bytes};
 pub use symbols::{Definition, Symbol, Symbols, value_approximate};
 pub(crate) use text::names::shorten;

@@ -11,6 +11,8 @@ pub mod margins;
 pub mod notation;
 pub mod real;
 pub mod region;
+mod requirements;
+mod response;
 mod table;
 mod tolerance;
 mod verdict;

@@ -307,7 +307,7 @@ pub(in crate::model) fn solve(
 }
 
 /// `left * right`, whose work is counted.
-fn product(left: &RationalMatrix, right: &RationalMatrix) -> RationalMatrix {
+pub(in crate::model) fn product(left: &RationalMatrix, right: &RationalMatrix) -> RationalMatrix {
     for (i, k) in (0..left.rows()).flat_map(|i| (0..left.columns()).map(move |k| (i, k))) {
         let a = &left[(i, k)];
         if !a.is_zero() {

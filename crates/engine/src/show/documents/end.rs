@@ -7,8 +7,9 @@ use crate::show::margins::margin;
 use crate::show::real::{self, JSON_NUMBER_DIGITS};
 use crate::show::region;
 use crate::stability::{self, AlgebraicInterval, IntervalSet, Range};
-use jurist_algebra::number::{self, enclosed_decimal};
+use jurist_algebra::number::{self, Rational, enclosed_decimal};
 use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::real::Real;
 use serde::{Deserialize, Serialize};
 
 /// An interval; `null` where it is unbounded.
@@ -101,6 +102,9 @@ pub struct End {
     /// The same with the points where the loop's own roots are; only where a smaller region is asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub boundary: Option<String>,
+    /// The requirements that are not met beyond, joined by `+`; left out where none binds. `cause` is empty where one does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub requirement: Option<String>,
     /// Where the complex pair is.
     #[serde(flatten)]
     pub frequency: FrequencyOfPair,
@@ -120,7 +124,38 @@ impl End {
             number: Number::new(&end.value, digits),
             cause: end.causes.to_string(),
             boundary: region::exact_boundary(&end.causes, problem),
+            requirement: None,
             frequency: FrequencyOfPair::new(digits, |bits| problem.frequency(end, bits)),
+            closed: false,
+            margin_db: margin.as_ref().and_then(|m| real::json_number(m.decibels.as_deref()?)),
+            margin_factor: margin.map(|m| m.factor),
+        }
+    }
+
+    /// An end at which requirements bind.
+    pub(super) fn of_requirement(value: &Real, names: String, closed: bool, problem: &Problem, digits: usize) -> Self {
+        let margin = margin(value, problem.free().first().and_then(|f| f.nominal.as_ref()), digits);
+        End {
+            number: Number::new(value, digits),
+            cause: String::new(),
+            boundary: None,
+            requirement: Some(names),
+            frequency: FrequencyOfPair::default(),
+            closed,
+            margin_db: margin.as_ref().and_then(|m| real::json_number(m.decibels.as_deref()?)),
+            margin_factor: margin.map(|m| m.factor),
+        }
+    }
+
+    /// An end of the stable factors at a cut, of which 1 is nominal.
+    pub(super) fn of_factor(end: &stability::End, digits: usize, at: impl Fn(u64) -> Option<Frequency>) -> Self {
+        let margin = margin(&end.value, Some(&Rational::ONE), digits);
+        End {
+            number: Number::new(&end.value, digits),
+            cause: end.causes.to_string(),
+            boundary: None,
+            requirement: None,
+            frequency: FrequencyOfPair::new(digits, at),
             closed: false,
             margin_db: margin.as_ref().and_then(|m| real::json_number(m.decibels.as_deref()?)),
             margin_factor: margin.map(|m| m.factor),

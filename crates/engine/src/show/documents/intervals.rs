@@ -2,7 +2,7 @@
 
 use super::number::{Enclosure, enclosure};
 use super::schema_name;
-use super::{Answered, Bounds, End, ParameterQuestion};
+use super::{Answered, Bounds, End, ParameterQuestion, RequirementAsked};
 use crate::answer::Answer;
 use crate::problem::Problem;
 use crate::stability::{StableSet, UndecidedBracket};
@@ -20,6 +20,9 @@ pub struct Intervals {
     /// What was asked.
     #[serde(flatten)]
     pub question: ParameterQuestion,
+    /// What is required beyond stability; left out where nothing is.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub require: Vec<RequirementAsked>,
     /// The set.
     #[serde(flatten)]
     pub answer: Answered<Stable, IntervalsOpen>,
@@ -55,11 +58,22 @@ pub struct IntervalsOpen {
 }
 
 impl Intervals {
+    /// Of a set that meets requirements.
+    pub(super) fn of_bounds(
+        question: ParameterQuestion,
+        stable: Vec<Bounds<End>>,
+        require: Vec<RequirementAsked>,
+    ) -> Self {
+        let answer = Answered::Known(Stable { stable, undecided: Vec::new() });
+        Intervals { schema: IntervalsName::V1, question, require, answer }
+    }
+
     /// The document, also of an answer that the budget did not allow; decimals to so many significant digits.
     pub fn new(problem: &Problem, set: Result<&StableSet, &Exhausted>, digits: usize) -> Self {
         Intervals {
             schema: IntervalsName::V1,
             question: ParameterQuestion::new(problem),
+            require: Vec::new(),
             answer: Answered::of(set, |set| Stable {
                 stable: End::intervals(set, problem, digits),
                 undecided: set.undecided().iter().map(UndecidedEnclosure::from).collect(),

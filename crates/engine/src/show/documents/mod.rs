@@ -23,9 +23,12 @@ mod end;
 mod intervals;
 mod jury;
 mod map;
+mod margins;
+mod norm;
 mod number;
 mod over;
 mod question;
+mod requirements;
 #[cfg(feature = "schema")]
 pub mod schemas;
 mod tolerance;
@@ -51,9 +54,15 @@ pub use map::{
     Branch, Cell, CellVerdict, Curve, CurveTerm, Map, MapName, MapOpen, MapQuestion, Pair, Place, PlaneRegion,
     RegionEnd, RegionLimit, Regions, Strip, Wall,
 };
+pub use margins::{
+    CrossingsFound, DelayMarginFound, DiskMarginFound, GainCrossingFound, GainMargins, Margins, MarginsFound,
+    MarginsName, MarginsOpen, ModulusMargin, PhaseCrossingFound, PhaseMarginFound,
+};
+pub use norm::{Norm, NormFound, NormName, NormOpen, PeakFound};
 pub use number::{Enclosure, Exact, Named, Number, NumberKind};
 pub use over::{AlgebraicPlace, Over};
 pub use question::{ParameterQuestion, PointQuestion, RegionBound};
+pub use requirements::{RequirementAsked, RequirementFound};
 pub use tolerance::{
     Factor, LimitRange, Tolerance, ToleranceFound, ToleranceName, ToleranceOpen, ToleranceVerdict, VolumeShares,
     WitnessPoint, WorstPoint,

@@ -1,6 +1,8 @@
 //! JSON Schemas of the documents, made of their types.
 
-use super::{Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, RootLocusForm, Tolerance, Transfer, Verdict};
+use super::{
+    Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, Margins, Norm, RootLocusForm, Tolerance, Transfer, Verdict,
+};
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
@@ -27,6 +29,8 @@ pub fn schemas() -> Vec<(&'static str, Value)> {
         entry::<Jury>("jurist/jury/1"),
         entry::<Map>("jurist/map/1"),
         entry::<MapBoxes>("jurist/map-boxes/1"),
+        entry::<Margins>("jurist/margins/1"),
+        entry::<Norm>("jurist/norm/1"),
         entry::<RootLocusForm>("jurist/root-locus-form/1"),
         entry::<Tolerance>("jurist/tolerance/1"),
         entry::<Transfer>("jurist/transfer/1"),

@@ -1,7 +1,7 @@
 //! The document `jurist/verdict/1`.
 
 use super::schema_name;
-use super::{Answered, PointQuestion};
+use super::{Answered, PointQuestion, RequirementFound};
 use crate::answer::{self, Answer, PointVerdict};
 use crate::problem::Problem;
 use jurist_algebra::limits::Exhausted;
@@ -21,6 +21,9 @@ pub struct Verdict {
     /// The verdict.
     #[serde(flatten)]
     pub answer: Answered<RootsByPlace, VerdictOpen>,
+    /// The requirements and whether they are met; left out where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub requirements: Vec<RequirementFound>,
 }
 
 /// The verdict, and where the roots are; counts with multiplicity, `null` where the loop is undefined.
@@ -70,6 +73,7 @@ impl Verdict {
             schema: VerdictName::V1,
             question: PointQuestion::new(problem),
             answer: Answered::of(verdict, RootsByPlace::from),
+            requirements: Vec::new(),
         }
     }
 }

@@ -1,0 +1,241 @@
+//! The loop cut open at one scalar signal.
+
+use super::closed_loop::{Answer, ClosedLoop};
+use super::connect::state_space::product;
+use super::definition::{Block, Diagram, Form, Model};
+use super::evaluate::symbolic::{PortValues, Row, Values};
+use super::text::names::{did_you_mean, list, shorten};
+use crate::error::{Diagnostic, Diagnostics, Error};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::RationalFunction;
+
+/// Where a loop is cut: what returns to the cut when a signal is put in there is the open loop.
+///
+/// ```
+/// use jurist_engine::model::{BlockBuilder, Cut, Model, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .inputs(["r"])
+///     .outputs(["y"])
+///     .block(BlockBuilder::new("controller", "r - y", "u").gain("1/2"))
+///     .block(BlockBuilder::new("plant", "u", "y").transfer("1/(z - 1)"))
+///     .build()?;
+/// assert_eq!(model.cut(None)?, Cut::Input("controller".into())); // the error of a single loop
+/// assert_eq!(model.cut(Some("u"))?, Cut::Signal("u".into()));
+/// assert_eq!(model.cut(Some("v")).unwrap_err().code(), "E-unknown-signal");
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Cut {
+    /// At a signal, before it goes to all that use it.
+    Signal(String),
+    /// At the only input of a block: the error that a controller is given.
+    Input(String),
+    /// At the plant's only input `u = -K y`.
+    PlantInput,
+    /// At a parameter that multiplies the loop's gain.
+    Gain(String),
+}
+
+impl Cut {
+    /// The name by which it is asked for.
+    pub fn name(&self) -> &str {
+        match self {
+            Cut::Signal(name) | Cut::Input(name) | Cut::Gain(name) => name,
+            Cut::PlantInput => PLANT_INPUT,
+        }
+    }
+}
+
+/// How the plant's input of the output feedback form is called.
+const PLANT_INPUT: &str = "u";
+
+/// The open loop from the cut to the cut, and the sample time, in the kept names.
+pub(crate) struct Opened {
+    /// One input and one output; the output is what comes back, with its sign.
+    pub system: ClosedLoop,
+    /// The sample time.
+    pub sample_time: Option<RationalFunction>,
+}
+
+impl Model {
+    /// The cut of a name: a signal that some block drives, a block with one input, or a parameter; without a name, the error of
+    /// the only loop of a block diagram, the plant's only input, or the only parameter.
+    ///
+    /// Cost: a search through the diagram.
+    ///
+    /// # Errors
+    /// `E-unknown-signal`; `E-cut` where no name is given and it is not clear which loop is meant, or a block has several inputs.
+    pub fn cut(&self, at: Option<&str>) -> Result<Cut, Diagnostics> {
+        let refused = |error: Diagnostic| Diagnostics::new(Some(self.source().clone()), vec![error]);
+        if let (Form::Blocks(diagram), Some(name)) = (&self.form, at) {
+            if diagram.driven().any(|(signal, _)| signal.name == name) {
+                return Ok(Cut::Signal(name.to_owned()));
+            }
+            if let Some(block) = diagram.blocks.iter().find(|b| b.name == name) {
+                if block.inputs.len() == 1 {
+                    return Ok(Cut::Input(name.to_owned()));
+                }
+                let error = Diagnostic::error("E-cut", format!("the block '{}' has several inputs", shorten(name)));
+                return Err(refused(error.at(block.span, "which of them?").help(candidates(diagram))));
+            }
+        }
+        match (&self.form, at) {
+            (Form::OutputFeedback { b, .. }, None | Some(PLANT_INPUT)) if b.size().1 == 1 => Ok(Cut::PlantInput),
+            (_, Some(name)) if self.parameter(name).is_some() || self.constant(name).is_some() => {
+                self.free(name).map(|_| Cut::Gain(name.to_owned()))
+            }
+            (Form::Blocks(diagram), None) => only_error(diagram).ok_or_else(|| {
+                let error =
+                    Diagnostic::error("E-cut", "the diagram has no single loop, so it has to be said where it is cut");
+                refused(error.help(candidates(diagram)))
+            }),
+            (_, None) => match self.parameters() {
+                [only] => Ok(Cut::Gain(only.name.clone())),
+                parameters => {
+                    let error = Diagnostic::error("E-cut", "it has to be said which parameter is the loop's gain");
+                    let names = list(parameters.iter().take(8).map(|p| p.name.as_str()));
+                    Err(refused(if names.is_empty() { error } else { error.help(format!("--at one of {names}")) }))
+                }
+            },
+            (form, Some(name)) => {
+                let mut error =
+                    Diagnostic::error("E-unknown-signal", format!("the loop has no signal '{}' to cut", shorten(name)));
+                let parameters = self.parameters().iter().map(|p| p.name.as_str());
+                error.help = match form {
+                    Form::Blocks(diagram) => {
+                        let blocks = diagram.blocks.iter().map(|b| b.name.as_str());
+                        let names = diagram.driven().map(|(s, _)| s.name.as_str()).chain(blocks);
+                        did_you_mean(name, names.chain(parameters)).or_else(|| Some(candidates(diagram)))
+                    }
+                    _ => did_you_mean(name, parameters.clone())
+                        .or_else(|| Some(format!("--at one of the parameters {}", list(parameters.take(8))))),
+                };
+                Err(refused(error))
+            }
+        }
+    }
+
+    /// The loop opened at a cut that is a signal.
+    ///
+    /// # Errors
+    /// As [`Model::evaluate`]; undefined also where what is left of the diagram has an algebraic loop that is not well posed.
+    pub(crate) fn opened(
+        &self,
+        cut: &Cut,
+        kept: &[String],
+        values: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Opened, Error> {
+        let mut answer = self.answer(kept, values, budget)?;
+        if let Values::Feedback { a, b, c, k, .. } = &answer.values {
+            let (a, b, returned) = (a.clone(), b.clone(), product(k, c));
+            let row: Row = (0..a.rows()).map(|j| (j, -&returned[(0, j)])).collect();
+            let ports = PortValues { input_matrix: Some(b), outputs: vec![row] };
+            answer.values = Values::Matrix { matrix: a, ports };
+            answer.wiring.inputs = vec![PLANT_INPUT];
+            return self.opened_with(answer, PLANT_INPUT, budget);
+        }
+        open_diagram(&mut answer, cut, self)?;
+        self.opened_with(answer, cut.name(), budget)
+    }
+
+    fn opened_with(&self, answer: Answer<'_>, output: &str, budget: &Budget) -> Result<Opened, Error> {
+        let (system, sample_time, symbols) = self.connected_with(answer, vec![output.to_owned()], budget)?;
+        if symbols.is_empty() {
+            return Ok(Opened { system, sample_time });
+        }
+        let (code, what) = match symbols.delays().is_empty() {
+            true => ("E-function", "behind a hold"),
+            false => ("E-dead-time", "with dead time"),
+        };
+        let message = format!("margins of a loop {what} are not known yet");
+        let help = "the gain margin is the limit of a gain: 'jurist intervals --param GAIN'";
+        Err(Diagnostic::error(code, message).help(help).into())
+    }
+}
+
+/// Puts a new external signal in the place of the cut one, which becomes the only output.
+fn open_diagram(answer: &mut Answer<'_>, cut: &Cut, model: &Model) -> Result<(), Error> {
+    let (Values::Blocks { blocks, outputs }, Form::Blocks(diagram)) = (&mut answer.values, &model.form) else {
+        return Err(model.has_no_states());
+    };
+    let new = answer.wiring.driven + answer.wiring.inputs.len();
+    let one = |i: usize| Row::from([(i, RationalFunction::one())]);
+    *outputs = match cut {
+        Cut::Input(name) => {
+            let place = diagram.blocks.iter().position(|b| b.name == *name).expect("the cut is one of the diagram's");
+            vec![std::mem::replace(&mut blocks[place].inputs[0], one(new))]
+        }
+        _ => {
+            let cut = answer.wiring.numbers[cut.name()];
+            for row in blocks.iter_mut().flat_map(|b| &mut b.inputs) {
+                if let Some(c) = row.remove(&cut) {
+                    row.insert(new, c);
+                }
+            }
+            vec![one(cut)]
+        }
+    };
+    answer.wiring.inputs.push("the cut");
+    Ok(())
+}
+
+/// Which blocks are given an output of which, by their numbers.
+fn successors(diagram: &Diagram) -> Vec<Vec<usize>> {
+    let reads: Vec<Vec<&str>> =
+        diagram.blocks.iter().map(|b| b.inputs.iter().flat_map(|e| e.names()).collect()).collect();
+    let gives = |b: &Block, names: &[&str]| b.outputs.iter().any(|o| names.contains(&o.name.as_str()));
+    let after = |b| reads.iter().enumerate().filter(|(_, names)| gives(b, names)).map(|(j, _)| j).collect();
+    diagram.blocks.iter().map(after).collect()
+}
+
+/// What can be reached from a block, itself only if a way leads back.
+fn reached(from: usize, successors: &[Vec<usize>]) -> Vec<bool> {
+    let mut seen = vec![false; successors.len()];
+    let mut open = vec![from];
+    while let Some(b) = open.pop() {
+        for &next in &successors[b] {
+            if !std::mem::replace(&mut seen[next], true) {
+                open.push(next);
+            }
+        }
+    }
+    seen
+}
+
+/// The input of a block of the only cycle: of the first one that compares with an external signal, if there is one.
+fn only_error(diagram: &Diagram) -> Option<Cut> {
+    let successors = successors(diagram);
+    let reached: Vec<Vec<bool>> = (0..successors.len()).map(|b| reached(b, &successors)).collect();
+    let on_cycle: Vec<usize> = (0..successors.len()).filter(|&b| reached[b][b]).collect();
+    for &b in &on_cycle {
+        let back = |&&next: &&usize| next == b || reached[next][b];
+        if successors[b].iter().filter(back).count() != 1 || !on_cycle.iter().all(|&c| reached[b][c]) {
+            return None;
+        }
+    }
+    let scalar: Vec<_> = on_cycle.iter().map(|&b| &diagram.blocks[b]).filter(|b| b.inputs.len() == 1).collect();
+    let external = |name: &&str| diagram.inputs.iter().any(|i| i.name == *name);
+    let compares = |b: &&&Block| b.inputs[0].names().iter().any(|n| external(&&**n));
+    let block = scalar.iter().find(compares).or_else(|| scalar.first())?;
+    Some(Cut::Input(block.name.clone()))
+}
+
+/// The places where something comes back.
+fn candidates(diagram: &Diagram) -> String {
+    /// Names that are listed.
+    const SHOWN: usize = 12;
+    let successors = successors(diagram);
+    let cyclic = |b: usize| reached(b, &successors)[b];
+    let blocks: Vec<_> = diagram.blocks.iter().enumerate().filter(|(i, _)| cyclic(*i)).map(|(_, b)| b).collect();
+    let signals = blocks.iter().flat_map(|b| &b.outputs).map(|o| o.name.as_str());
+    let signals = list(signals.take(SHOWN));
+    let inputs = list(blocks.iter().filter(|b| b.inputs.len() == 1).map(|b| b.name.as_str()).take(SHOWN));
+    match (signals.is_empty(), inputs.is_empty()) {
+        (true, _) => "nothing is fed back in this diagram".to_owned(),
+        (false, true) => format!("--at one of the signals {signals}"),
+        (false, false) => format!("--at one of the signals {signals}, or at the input of a block: {inputs}"),
+    }
+}

@@ -1,0 +1,31 @@
+//! Frequency response and margins, exactly.
+//!
+//! A loop is cut at one scalar signal: with the factor `k` put in there its characteristic polynomial is `D(z; k) = D0 + k N`,
+//! and `L = N/D0` is the open loop, the feedback's sign included, so that `L = -1` is the critical point. On the boundary of
+//! stability the moduli, products and differences of such polynomials are polynomials in one real variable
+//! ([`HalfSizePair`](crate::stability::HalfSizePair)), whose zeros are isolated; every margin is an algebraic number or a known function of one.
+
+mod crossings;
+mod delay;
+mod disk;
+mod extreme;
+mod margins;
+mod norm;
+mod open_loop;
+mod place;
+mod required_set;
+mod requirement;
+mod value;
+
+pub use crossings::{Crossings, Direction, GainCrossing, PhaseCrossing};
+pub use delay::DelayMargin;
+pub use disk::DiskMargin;
+pub(crate) use disk::degrees;
+pub use extreme::Extreme;
+pub use margins::{GainMargin, Margins, PhaseMargin, StableMargins};
+pub use norm::{Norm, PeakGain};
+pub use open_loop::OpenLoop;
+pub use place::Place;
+pub use required_set::{RequiredEnd, RequiredInterval, RequiredSet, RequirementMet};
+pub use requirement::Requirement;
+pub use value::Value;

@@ -1,0 +1,62 @@
+//! What is required, in documents.
+
+use super::{Bounds, End};
+use crate::answer::Answer;
+use crate::response::{RequiredEnd, RequiredSet, Requirement, RequirementMet};
+use crate::show::documents::{Intervals, ParameterQuestion};
+use serde::{Deserialize, Serialize};
+
+/// A requirement on margins.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RequirementAsked {
+    /// Its name: `gain_margin`, `phase_margin`, `modulus_margin`, `damping`.
+    pub name: String,
+    /// What is required, as it was asked for.
+    pub required: String,
+}
+
+/// A requirement at a point.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RequirementFound {
+    /// What is required.
+    #[serde(flatten)]
+    pub asked: RequirementAsked,
+    /// The margin, rounded: a factor, degrees, or a number; `null` where it has no bound, for a damping, and without stability.
+    pub value: Option<String>,
+    /// Whether it is met.
+    pub met: bool,
+}
+
+impl From<&Requirement> for RequirementAsked {
+    fn from(requirement: &Requirement) -> Self {
+        RequirementAsked { name: requirement.name().to_owned(), required: requirement.required() }
+    }
+}
+
+impl RequirementFound {
+    /// To so many digits.
+    pub fn new(found: &RequirementMet, digits: usize) -> Self {
+        RequirementFound { asked: (&found.requirement).into(), value: found.value(digits), met: found.met }
+    }
+}
+
+impl Answer<RequiredSet> {
+    /// The document `jurist/intervals/1`, with `require`, and `requirement` at ends.
+    pub fn json(&self, requirements: &[Requirement], digits: usize) -> Intervals {
+        let problem = self.problem();
+        let end = |end: &Option<RequiredEnd>| match end.as_ref()? {
+            RequiredEnd::Stability(end) => Some(End::new(end, problem, digits)),
+            RequiredEnd::Requirement { value, names, closed } => {
+                Some(End::of_requirement(&value.clone().into(), names.join("+"), *closed, problem, digits))
+            }
+        };
+        let bounds = self.value().intervals.iter().map(|i| Bounds { lower: end(&i.lower), upper: end(&i.upper) });
+        Intervals::of_bounds(
+            ParameterQuestion::new(problem),
+            bounds.collect(),
+            requirements.iter().map(Into::into).collect(),
+        )
+    }
+}

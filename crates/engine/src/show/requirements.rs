@@ -1,0 +1,89 @@
+//! Requirements for people.
+
+use super::intervals::{domain_text, heading};
+use super::layout::Columns;
+use super::{real, region};
+use crate::answer::Answer;
+use crate::response::{PhaseMargin, RequiredEnd, RequiredSet, Requirement, RequirementMet};
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::real::Real;
+
+impl Answer<RequiredSet> {
+    /// The set for people: the intervals, and a line for each end.
+    pub fn text(&self, requirements: &[Requirement], digits: usize) -> String {
+        let problem = self.problem();
+        let name = &problem.parameter().name;
+        let mut asked = name.clone();
+        let domain = domain_text(name, &problem.parameter().domain);
+        if domain != "all" {
+            asked.push_str(&format!(", domain {domain}"));
+        }
+        let wanted: Vec<String> = requirements.iter().map(|r| format!("{} >= {}", r.name(), r.required())).collect();
+        let goal = format!("{}, {}", region::goal_or_stable(problem), wanted.join(", "));
+        let mut out = format!("{}\n{asked}: {goal}", heading(problem));
+        if self.value().intervals.is_empty() {
+            return out + " nowhere\n";
+        }
+        out.push_str(" for\n");
+        let mut columns = Columns::new("    ");
+        for interval in &self.value().intervals {
+            let decimal = |end: &RequiredEnd| real::rounded(&end.value(), digits).decimal;
+            let sign = |end: &RequiredEnd| {
+                if matches!(end, RequiredEnd::Requirement { closed: true, .. }) { "<=" } else { "<" }
+            };
+            let line = match (&interval.lower, &interval.upper) {
+                (None, None) => format!("every {name}"),
+                (Some(l), None) => format!("{} {} {name}", decimal(l), sign(l)),
+                (None, Some(u)) => format!("{name} {} {}", sign(u), decimal(u)),
+                (Some(l), Some(u)) => format!("{} {} {name} {} {}", decimal(l), sign(l), sign(u), decimal(u)),
+            };
+            out.push_str(&format!("    {line}\n"));
+            for end in [&interval.lower, &interval.upper].into_iter().flatten() {
+                let why = match end {
+                    RequiredEnd::Stability(end) => region::causes_text(&end.causes, problem),
+                    RequiredEnd::Requirement { names, .. } => names.join("+"),
+                };
+                columns.row([decimal(end), why]);
+            }
+        }
+        format!("{out}ends\n{columns}")
+    }
+}
+
+impl RequirementMet {
+    /// The margin that the loop has, rounded; `None` where there is no bound, and of a loop that is not stable.
+    pub fn value(&self, digits: usize) -> Option<String> {
+        let margins = self.margins.as_ref()?;
+        let rounded = |x: &RealAlgebraic| real::rounded(&x.clone().into(), digits).decimal;
+        match &self.requirement {
+            Requirement::GainMargin { .. } => {
+                // The factor that is allowed for both ways.
+                let upper = margins.gain.upper.as_ref().map(|end| &end.value);
+                let lower = margins.gain.lower.as_ref().map(|end| &end.value).filter(|x| x.sign().is_gt());
+                let enclosed = |x: &Real, inverted: bool| {
+                    let (lo, hi) = x.refined_to_digits(digits + 4).enclosure();
+                    let e = jurist_algebra::number::Enclosure::new(lo, hi);
+                    let one = jurist_algebra::number::Enclosure::from_rational(Rational::ONE);
+                    if inverted { one.div(&e, 8 * digits as u64 + 64) } else { Some(e) }
+                };
+                let ways = [upper.and_then(|x| enclosed(x, false)), lower.and_then(|x| enclosed(x, true))];
+                let least = ways.into_iter().flatten().min_by(|a, b| a.lower().cmp(b.lower()))?;
+                real::enclosed(digits, |_| Some(least.clone()))
+            }
+            Requirement::PhaseMargin { .. } => {
+                let bounded = !matches!(margins.phase, PhaseMargin::Unbounded);
+                bounded.then(|| real::enclosed(digits, |bits| margins.phase.degrees(bits)))?
+            }
+            Requirement::ModulusMargin(_) => Some(rounded(&margins.modulus)),
+            Requirement::Damping(_) => None,
+        }
+    }
+
+    /// `phase_margin >= 45 deg: met (57.07)`.
+    pub fn text(&self, digits: usize) -> String {
+        let value = self.value(digits).map(|v| format!(" ({v})")).unwrap_or_default();
+        let verdict = if self.met { "met" } else { "not met" };
+        format!("{} >= {}: {verdict}{value}", self.requirement.name(), self.requirement.required())
+    }
+}

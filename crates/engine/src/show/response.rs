@@ -1,0 +1,241 @@
+//! Margins and norms for people.
+
+use super::intervals::heading;
+use super::layout::{Columns, short, visible};
+use super::margins::margin;
+use super::verdict::verdict_line;
+use super::{intervals, real};
+use crate::answer::{Answer, Frequency};
+use crate::model::Cut;
+use crate::problem::Problem;
+use crate::response::{self, DelayMargin, Direction, Extreme, Margins, Norm, PhaseMargin, Place, StableMargins};
+use crate::stability::{End, Shape};
+use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::poly::RealAlgebraic;
+
+/// Digits of frequencies and decibels.
+const PLACES: usize = 7;
+
+impl Answer<Margins> {
+    /// The margins for people: a sentence for each, and the crossings.
+    pub fn text(&self, digits: usize) -> String {
+        let (problem, margins) = (self.problem(), self.value());
+        let place = cut_text(margins.open_loop.cut());
+        let mut out = format!("{}\ncut {place}\n{}\n\n", heading(problem), verdict_line(problem, &margins.verdict));
+        let writer = Writer { margins, digits };
+        match &margins.stable {
+            None => out.push_str("no margins: only a stable loop has them\n"),
+            Some(stable) => {
+                for (name, sentence) in writer.sentences(stable) {
+                    out.push_str(&format!("{name}: {sentence}\n"));
+                }
+                let set = intervals::stable_lines("factor", &stable.gain.set, digits.min(PLACES));
+                out.push_str(&format!("stable factors at the cut: {}\n", set.join("; ")));
+            }
+        }
+        out.push_str(&writer.crossings());
+        out
+    }
+}
+
+/// Where the loop is cut.
+fn cut_text(cut: &Cut) -> String {
+    let name = visible(cut.name()).into_owned();
+    match cut {
+        Cut::Signal(_) => format!("at the signal '{name}'"),
+        Cut::Input(_) => format!("at the input of '{name}'"),
+        Cut::PlantInput => format!("at the plant's input {name} = -K y"),
+        Cut::Gain(_) => format!("at the gain '{name}'"),
+    }
+}
+
+struct Writer<'a> {
+    margins: &'a Margins,
+    digits: usize,
+}
+
+/// A decimal of what enclosures tell.
+fn decimal(digits: usize, enclose: impl FnMut(u64) -> Option<Enclosure>) -> String {
+    real::enclosed(digits, enclose).unwrap_or_default()
+}
+
+/// `12.5 Hz, 78.53982 rad/s`; the angle instead of the rate in discrete time.
+fn frequency_text(at: impl Fn(u64) -> Option<Frequency>) -> Option<String> {
+    at(real::bits_for(PLACES))?;
+    let part =
+        |pick: fn(&Frequency) -> Option<Enclosure>| real::enclosed(PLACES, |bits| at(bits).as_ref().and_then(pick));
+    let mut parts = Vec::new();
+    parts.extend(part(|f| f.hertz.clone()).map(|hertz| format!("{hertz} Hz")));
+    match part(|f| f.angle.clone()) {
+        Some(angle) => parts.push(format!("{angle} rad per sample")),
+        None => parts.extend(part(|f| f.radians_per_second.clone()).map(|rate| format!("{rate} rad/s"))),
+    }
+    Some(parts.join(", "))
+}
+
+impl Writer<'_> {
+    fn shape(&self) -> Shape {
+        self.margins.open_loop.shape()
+    }
+
+    /// `at 12.5 Hz, ...`.
+    fn at(&self, place: Option<&Place>) -> String {
+        match place {
+            None => "at all frequencies".to_owned(),
+            Some(Place::Highest) if self.shape() == Shape::LeftHalfPlane => {
+                "as the frequency grows without end".to_owned()
+            }
+            Some(place) => match (place, frequency_text(|bits| self.margins.frequency(place, bits))) {
+                (Place::Highest, Some(text)) => format!("at half the sampling frequency, {text}"),
+                (Place::Lowest, _) => "at frequency 0".to_owned(),
+                (_, text) => format!("at {}", text.unwrap_or_default()),
+            },
+        }
+    }
+
+    fn number(&self, x: &RealAlgebraic) -> String {
+        real::rounded(&x.clone().into(), self.digits).decimal
+    }
+
+    fn end(&self, end: &End) -> String {
+        let decibels = margin(&end.value, Some(&Rational::ONE), PLACES).and_then(|m| m.decibels);
+        let decibels = decibels.map(|d| format!(" ({d} dB)")).unwrap_or_default();
+        let place = frequency_text(|bits| self.margins.frequency_of(end, bits));
+        let place = place.map(|p| format!(" at {p}")).unwrap_or_default();
+        format!("{}{decibels}: {}{place}", real::rounded(&end.value, self.digits).decimal, end.causes)
+    }
+
+    /// What can be pasted into a review.
+    fn sentences(&self, margins: &StableMargins) -> Vec<(&'static str, String)> {
+        let digits = self.digits;
+        let upper = match &margins.gain.upper {
+            None => "none, every greater gain is stable".to_owned(),
+            Some(end) => self.end(end),
+        };
+        let lower = match &margins.gain.lower {
+            None => "none, every lower gain is stable, down to the open loop".to_owned(),
+            Some(end) if end.value.sign().is_eq() => "none, every lower gain above 0 is stable".to_owned(),
+            Some(end) => self.end(end),
+        };
+        let phase = match &margins.phase {
+            PhaseMargin::Unbounded => "none, the open loop's modulus is nowhere 1".to_owned(),
+            angle @ PhaseMargin::Angle { place, .. } => {
+                format!("{} degrees {}", decimal(digits, |bits| angle.degrees(bits)), self.at(place.as_ref()))
+            }
+        };
+        let modulus = format!(
+            "{} {}; the peak of the sensitivity is {}",
+            self.number(&margins.modulus),
+            self.extreme(&margins.modulus_at),
+            self.number(&margins.peak_sensitivity)
+        );
+        vec![
+            ("upper gain margin", upper),
+            ("lower gain margin", lower),
+            ("phase margin", phase),
+            ("delay margin", self.delay(&margins.delay)),
+            ("modulus margin", modulus),
+            ("disk margin", self.disk(&margins.disk)),
+        ]
+    }
+
+    fn extreme(&self, extreme: &Extreme) -> String {
+        match extreme {
+            Extreme::At { attained: false, .. } => "approached as the frequency grows without end".to_owned(),
+            other => self.at(other.place()),
+        }
+    }
+
+    fn delay(&self, delay: &DelayMargin) -> String {
+        let samples = |m: u64| if m == 1 { "1 sample".to_owned() } else { format!("{m} samples") };
+        match delay {
+            DelayMargin::Unbounded => "none, any delay is borne".to_owned(),
+            DelayMargin::Zero => "0, the open loop's modulus does not fall below 1 at high frequencies".to_owned(),
+            DelayMargin::SamplesAtLeast(m) => format!("at least {}", samples(*m)),
+            DelayMargin::Samples(m) => {
+                let more = format!("{} borne, one more is not", samples(*m));
+                match self.margins.open_loop.sample_time() {
+                    Some(t) => format!("{more} ({} s)", short(&(t * &Rational::from(*m as i64)))),
+                    None => more,
+                }
+            }
+            DelayMargin::DeadTime(i) => {
+                let crossing = &self.margins.crossings.gain[*i];
+                let seconds = decimal(self.digits, |bits| crossing.delay(self.shape(), bits));
+                format!("less than {seconds} s of dead time, {}", self.at(Some(&crossing.place)))
+            }
+        }
+    }
+
+    fn disk(&self, disk: &response::DiskMargin) -> String {
+        let Some(alpha) = &disk.alpha else { return "none, no factor of the disk makes the loop unstable".to_owned() };
+        let greatest = real::enclosed(PLACES, |bits| disk.gains(bits).1);
+        let place = disk.extreme.as_ref().map(|e| self.extreme(e)).unwrap_or_default();
+        let skew = if disk.skew.is_zero() { String::new() } else { format!(" (skew {})", short(&disk.skew)) };
+        format!(
+            "{}{skew} {place}; gains alone from {} to {}, phases alone up to {} degrees",
+            self.number(alpha),
+            decimal(PLACES, |bits| Some(disk.gains(bits).0)),
+            greatest.unwrap_or_else(|| "infinity".to_owned()),
+            decimal(PLACES, |bits| Some(disk.degrees(bits))),
+        )
+    }
+
+    fn crossings(&self) -> String {
+        let crossings = &self.margins.crossings;
+        let mut columns = Columns::new("    ");
+        if crossings.gain_everywhere {
+            columns.row(["modulus 1".to_owned(), "at all frequencies".to_owned()]);
+        }
+        for c in &crossings.gain {
+            let margin = decimal(PLACES, |bits| Some(response::degrees(&c.phase(bits + 16), bits)));
+            let delay = real::enclosed(PLACES, |bits| c.delay(self.shape(), bits));
+            let unit = if self.shape() == Shape::UnitDisc { "samples" } else { "s" };
+            let way = match c.direction {
+                Direction::Falling => "falling",
+                Direction::Rising => "rising",
+                Direction::Touching => "touching",
+            };
+            let delay = delay.map(|d| format!("PM/omega {d} {unit}")).unwrap_or_default();
+            columns.row([
+                "modulus 1".to_owned(),
+                self.at(Some(&c.place)),
+                format!("PM {margin} degrees"),
+                delay,
+                way.to_owned(),
+            ]);
+        }
+        if crossings.phase_everywhere {
+            columns.row(["real".to_owned(), "at all frequencies".to_owned()]);
+        }
+        for c in &crossings.phase {
+            let factor = decimal(PLACES, |bits| Some(c.factor.enclosure(bits)));
+            columns.row(["phase -180".to_owned(), self.at(Some(&c.place)), format!("factor {factor}")]);
+        }
+        if columns.is_empty() { "no crossings\n".to_owned() } else { format!("crossings of the open loop\n{columns}") }
+    }
+}
+
+impl Answer<Norm> {
+    /// The norm for people.
+    pub fn text(&self, digits: usize) -> String {
+        format!("{}\n{}\n", heading(self.problem()), norm_line(self.problem(), self.value(), digits))
+    }
+}
+
+fn norm_line(problem: &Problem, norm: &Norm, digits: usize) -> String {
+    let Some(peak) = &norm.peak else {
+        return format!("{}\nno norm: only a stable loop has one", verdict_line(problem, &norm.verdict));
+    };
+    let place = match &peak.extreme {
+        Extreme::At { attained: false, .. } => "approached as the frequency grows without end".to_owned(),
+        Extreme::Constant(_) => "at all frequencies".to_owned(),
+        Extreme::At { place: Place::Lowest, .. } => "at frequency 0".to_owned(),
+        _ => format!("at {}", frequency_text(|bits| norm.frequency(problem.shape(), bits)).unwrap_or_default()),
+    };
+    let value = real::rounded(&peak.value.clone().into(), digits).decimal;
+    let decibels = margin(&peak.value.clone().into(), Some(&Rational::ONE), PLACES).and_then(|m| m.decibels);
+    let decibels = decibels.map(|d| format!(" ({d} dB)")).unwrap_or_default();
+    let (input, output) = (visible(&norm.input), visible(&norm.output));
+    format!("peak gain from {input} to {output}: {value}{decibels} {place}")
+}

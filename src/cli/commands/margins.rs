@@ -1,0 +1,47 @@
+//! `jurist margins`: how far the loop is from instability.
+
+use super::{Context, decided};
+use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
+use crate::cli::assignments::plain_number;
+use crate::cli::input::{load, question};
+use crate::cli::status::{Outcome, Status};
+use clap::Args;
+use jurist_algebra::number::Rational;
+use jurist_engine::show::documents::Margins;
+
+/// Options of `jurist margins`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    #[command(flatten)]
+    pub model: ModelOptions,
+    /// Where the loop is cut: a signal, a block (at its input), or a parameter (the loop's gain) [default: the error of a
+    /// single loop]
+    #[arg(long, value_name = "SIGNAL")]
+    pub at: Option<String>,
+    /// The skew of the disk margin; 0 is the balanced disk
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, default_value = "0")]
+    pub skew: String,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// Answers on standard output or in a file; the status is 1 for a loop that is not stable.
+pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+    let output = &options.output;
+    context.check_output(output)?;
+    let model = load(options.model.model.as_ref(), context)?;
+    let question = question(context, &model, &options.model, &RegionOptions::default())?;
+    let skew: Rational = plain_number(context.line, "--skew", &options.skew)?;
+    let digits = output.digits() as usize;
+    let problem = question.problem()?;
+    let answer = match decided(problem.margins(options.at.as_deref(), &skew, &context.budget))? {
+        Ok(answer) => answer,
+        Err(stopped) => {
+            let document = || Margins::new(&problem, Err(&stopped), digits);
+            return context.undecided(output, &stopped, || None, document);
+        }
+    };
+    context.warn(None, problem.warnings());
+    context.answer(output, || answer.text(digits), || answer.json(digits))?;
+    Ok(if answer.value().stable.is_some() { Status::Holds } else { Status::DoesNotHold })
+}

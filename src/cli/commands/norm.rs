@@ -1,0 +1,46 @@
+//! `jurist norm`: the peak gain of a closed-loop transfer function.
+
+use super::{Context, decided};
+use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
+use crate::cli::input::{load, question};
+use crate::cli::status::{Outcome, Status};
+use clap::Args;
+use jurist_engine::show::documents::Norm;
+use std::ffi::OsString;
+
+/// Options of `jurist norm`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    /// A model file ('-' for standard input; left out: the built-in drive), an input, and an output of the loop
+    #[arg(value_names = ["MODEL", "INPUT", "OUTPUT"], num_args = 2..=3, required = true)]
+    pub names: Vec<OsString>,
+    /// Gives a parameter or constant another value, exactly: 545, 1e-4, 1/3 [repeatable]
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// Answers on standard output or in a file; the status is 1 for a loop that is not stable.
+pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+    let output = &options.output;
+    context.check_output(output)?;
+    let (model, ports) = match options.names.as_slice() {
+        [model, ports @ ..] if ports.len() == 2 => (Some(model.clone()), ports),
+        ports => (None, ports),
+    };
+    let [from, to] = [&ports[0], &ports[1]].map(|name| name.to_string_lossy());
+    let options = ModelOptions { model, set: options.set.clone(), domain: Vec::new() };
+    let model = load(options.model.as_ref(), context)?;
+    let digits = output.digits() as usize;
+    let problem = question(context, &model, &options, &RegionOptions::default())?.problem()?;
+    let answer = match decided(problem.norm(&from, &to, &context.budget))? {
+        Ok(answer) => answer,
+        Err(stopped) => {
+            return context.undecided(output, &stopped, || None, || Norm::new(&problem, Err(&stopped), digits));
+        }
+    };
+    context.warn(None, problem.warnings());
+    context.answer(output, || answer.text(digits), || answer.json(digits))?;
+    Ok(if answer.value().peak.is_some() { Status::Holds } else { Status::DoesNotHold })
+}

@@ -1,0 +1,220 @@
+//! Requirements on margins: sets of a parameter, against an independent decision at many points.
+
+use crate::helpers::model::{example, load};
+use crate::helpers::number::{number, ratio};
+use crate::helpers::random::Random;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, Poly, UniPoly};
+use jurist_algebra::real::Real;
+use jurist_engine::answer::Answer;
+use jurist_engine::model::Model;
+use jurist_engine::response::{OpenLoop, RequiredEnd, RequiredSet, Requirement};
+use jurist_engine::stability::{ParametricPolynomial, Range, count_roots, is_stable, stable_set};
+
+fn required(model: &Model, name: &str, at: Option<&str>, requirements: &[Requirement]) -> Answer<RequiredSet> {
+    let problem = model.ask().free(name).problem().unwrap();
+    problem.required_set(requirements, at, &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn contains(set: &RequiredSet, x: &Rational) -> bool {
+    let inside = |end: &RequiredEnd, above: bool| {
+        let order = end.value().compare_rational(x);
+        let closed = matches!(end, RequiredEnd::Requirement { closed: true, .. });
+        if order.is_eq() { closed } else { order.is_lt() == above }
+    };
+    set.intervals
+        .iter()
+        .any(|i| i.lower.as_ref().is_none_or(|l| inside(l, true)) && i.upper.as_ref().is_none_or(|u| inside(u, false)))
+}
+
+/// What the open loop is at a point, decided by stable sets of factors and rotations and by counts on the boundary; the
+/// production code goes by crossings.
+fn is_met(model: &Model, name: &str, at: Option<&str>, value: &Rational, requirement: &Known) -> bool {
+    let budget = Budget::unlimited();
+    let problem = model.ask().set(name, value.clone()).problem().unwrap();
+    let Ok(open_loop) = OpenLoop::of(&problem, at, &budget) else { return false };
+    let (d, n, shape) = (open_loop.denominator(), open_loop.numerator(), open_loop.shape());
+    if !is_stable(&d.plus(n), shape) {
+        return false;
+    }
+    let whole = |a: &UniPoly, b: &UniPoly, from: Rational, to: Rational| {
+        let degree = a.coeffs().len().max(b.coeffs().len()) - 1;
+        let coefficients: Vec<_> =
+            (0..=degree).map(|i| (Poly::new(vec![a.coeff(i), b.coeff(i)]), UniPoly::one())).collect();
+        let p = ParametricPolynomial::new(&coefficients, degree, Vec::new());
+        let set = stable_set(&p, &Range::between(Some(from.clone()), Some(to.clone())), shape, &budget).unwrap();
+        let [only] = set.intervals() else { return false };
+        let is = |end: &Option<jurist_engine::stability::End>, x: &Rational| {
+            end.as_ref().is_some_and(|e| e.value.compare_rational(x).is_eq())
+        };
+        is(&only.lower, &from) && is(&only.upper, &to)
+    };
+    match requirement {
+        Known::Gain(g) => {
+            let at_ends = [g.clone(), g.recip().unwrap()]
+                .iter()
+                .all(|k| is_stable(&d.scaled(&k.denominator()).plus(&n.scaled(&k.numerator())), shape));
+            at_ends && whole(d, n, g.recip().unwrap(), g.clone())
+        }
+        Known::Phase(square) => {
+            let (sum, difference) = (d.plus(n), d.minus(n));
+            whole(&sum.times(&sum), &difference.times(&difference), Rational::ZERO, square.clone())
+        }
+        Known::Modulus(m) => {
+            let degree = d.coeffs().len().max(n.coeffs().len()) - 1;
+            let squared = |p: &UniPoly| match shape {
+                jurist_engine::stability::Shape::UnitDisc => p.times(&p.reversed(degree)),
+                jurist_engine::stability::Shape::LeftHalfPlane => p.times(&p.negated_argument()),
+            };
+            let (p, q) = (m.numerator(), m.denominator());
+            let excess = squared(&d.plus(n)).scaled(&(&q * &q)).minus(&squared(d).scaled(&(&p * &p)));
+            // Somewhere above: at frequency 0, unless both vanish there.
+            let x = Rational::from(i64::from(matches!(shape, jurist_engine::stability::Shape::UnitDisc)));
+            count_roots(&excess, shape).on == 0 && excess.eval_rational(&x).sign().is_gt()
+        }
+    }
+}
+
+enum Known {
+    Gain(Rational),
+    /// `tan(phi/2)^2`.
+    Phase(Rational),
+    Modulus(Rational),
+}
+
+const SERVO: &str = "time = 'discrete'
+[parameters]
+K = { nominal = 4, min = 0 }
+[loop]
+inputs = ['r']
+outputs = ['y']
+[[block]]
+name = 'PD'
+input = 'r - y'
+output = 'u'
+transfer = 'K*(11*z - 10)/z'
+[[block]]
+name = 'motor'
+input = 'u'
+output = 'y'
+transfer = '(1/1000)/((z - 1)*(z - 9/10)*z)'
+";
+
+const CONDITIONAL: &str = "time = 'continuous'
+[parameters]
+K = { nominal = 200 }
+[loop]
+inputs = ['r']
+outputs = ['y']
+[[block]]
+name = 'L'
+input = 'r - y'
+output = 'y'
+transfer = 'K*(s + 1)^2/(s^3*(s/20 + 1)^2)'
+";
+
+const RESONANT: &str = "time = 'continuous'
+[parameters]
+a = { nominal = 1, min = 0 }
+[loop]
+inputs = ['r']
+outputs = ['y']
+[[block]]
+name = 'L'
+input = 'r - y'
+output = 'y'
+transfer = '(s + 2)/(s*(s^2 + a*s + 4))'
+";
+
+#[test]
+fn sets_of_a_gain_agree_with_a_second_decision_at_random_points() {
+    let mut random = Random::new(7);
+    for (text, name, scale) in [(SERVO, "K", 12), (CONDITIONAL, "K", 300), (RESONANT, "a", 8)] {
+        let model = load(text);
+        for (requirement, known) in [
+            (Requirement::phase_margin(&number("60")), Known::Phase(ratio(1, 3))),
+            (Requirement::phase_margin(&number("90")), Known::Phase(ratio(1, 1))),
+            (Requirement::gain_margin(&number("2")), Known::Gain(number("2"))),
+            (Requirement::gain_margin(&number("5/4")), Known::Gain(number("5/4"))),
+            (Requirement::modulus_margin(number("1/2")), Known::Modulus(number("1/2"))),
+            (Requirement::modulus_margin(number("3/4")), Known::Modulus(number("3/4"))),
+        ] {
+            let requirement = requirement.unwrap();
+            let answer = required(&model, name, None, &[requirement]);
+            for _ in 0..12 {
+                let x = ratio(random.below(100_000) as i64 * scale, 100_000);
+                assert_eq!(contains(answer.value(), &x), is_met(&model, name, None, &x, &known), "{text} {x}");
+            }
+            // On both sides of each end, as near as 1e-20.
+            for end in answer.value().intervals.iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
+                let RequiredEnd::Requirement { value, .. } = end else { continue };
+                let (lo, hi) = value.refined(&number("1e-21")).enclosure();
+                let (below, above) = (lo - number("1e-20"), hi + number("1e-20"));
+                let met = [&below, &above].map(|x| is_met(&model, name, None, x, &known));
+                assert_eq!(met, [&below, &above].map(|x| contains(answer.value(), x)), "{text} {}", value.decimal(12));
+                assert_ne!(met[0], met[1], "{text} {}", value.decimal(12));
+            }
+        }
+    }
+}
+
+fn ends(set: &RequiredSet) -> Vec<Option<Real>> {
+    set.intervals
+        .iter()
+        .flat_map(|i| [i.lower.as_ref().map(RequiredEnd::value), i.upper.as_ref().map(RequiredEnd::value)])
+        .collect()
+}
+
+#[test]
+fn angles_and_decibels_that_are_not_rational() {
+    let model = load(SERVO);
+    let budget = Budget::unlimited();
+    let angle = Requirement::phase_margin(&number("45")).unwrap();
+    let decibels = Requirement::gain_margin_in_decibels(&number("6"), &budget).unwrap();
+    let both = required(&model, "K", None, &[angle.clone(), decibels.clone()]);
+    let one = required(&model, "K", None, &[angle]);
+    // At the end the phase margin is 45 degrees.
+    let end = ends(one.value())[1].clone().unwrap();
+    let (lo, hi) = end.refined(&number("1e-30")).enclosure();
+    let degrees = |k: Rational| {
+        let margins = model.ask().set("K", k).margins(None, &Rational::ZERO, &budget).unwrap();
+        let phase = margins.value().stable.as_ref().unwrap().phase.clone();
+        jurist_engine::show::real::enclosed(20, |bits| phase.degrees(bits)).unwrap()
+    };
+    assert_eq!([degrees(lo), degrees(hi)], ["45.000000000000000000", "45.000000000000000000"].map(String::from));
+    assert!(ends(both.value())[1].clone().unwrap().compare(&end, &budget).unwrap().is_le());
+    // A factor of 10^(6/20) below the limit of stability.
+    let gain = required(&model, "K", None, &[decibels]);
+    let limit = model.ask().free("K").stable_set(&budget).unwrap();
+    let limit = limit.value().intervals()[0].upper.as_ref().unwrap().value.decimal(20);
+    let found = ends(gain.value())[1].clone().unwrap().decimal(20);
+    let factor = limit.parse::<f64>().unwrap() / found.parse::<f64>().unwrap();
+    assert!((factor - 10f64.powf(0.3)).abs() < 1e-12, "{factor}");
+}
+
+/// `s^2 + 2 s + K`: with damping 1/2 the natural frequency is 2, so `K` is 4 at most.
+#[test]
+fn damping_of_a_pair() {
+    let model = load(
+        "time = 'continuous'\n[parameters]\nK = { nominal = 2, min = 0 }\n[loop]\ncharacteristic = 's^2 + 2*s + K'\n",
+    );
+    let answer = required(&model, "K", None, &[Requirement::damping(number("1/2")).unwrap()]);
+    let [only] = answer.value().intervals.as_slice() else { panic!("{answer:?}") };
+    let upper = only.upper.as_ref().unwrap();
+    assert_eq!(upper.value().exact(), Some(number("4")));
+    assert!(matches!(upper, RequiredEnd::Requirement { closed: true, names, .. } if names == &["damping"]));
+    assert!(matches!(only.lower, Some(RequiredEnd::Stability(_))));
+}
+
+#[test]
+fn the_drive_with_forty_five_degrees_at_its_current_error() {
+    let drive = example("drive-blocks");
+    let angle = Requirement::phase_margin(&number("45")).unwrap();
+    let answer = required(&drive, "K_pwm", Some("current controller"), &[angle]);
+    let stable = drive.ask().free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
+    let limit = &stable.value().intervals()[0].upper.as_ref().unwrap().value;
+    assert!(ends(answer.value()).iter().flatten().all(|end| end.compare(limit, &Budget::unlimited()).unwrap().is_lt()));
+    let document = answer.json(&[Requirement::phase_margin(&number("45")).unwrap()], 12);
+    assert_eq!(document.require[0].required, "45 deg");
+}
