@@ -132,7 +132,9 @@ fn what_has_no_file_is_refused_with_a_remedy() {
     let gap = "time = \"discrete\"\n[parameters]\nK = {}\n[loop]\ncharacteristic = \"z - 1/(2*K)\"\n";
     let said = refusal(gap, "K");
     assert!(said.contains("E-coq") && said.contains("undefined at K = 0"), "{said}");
-    assert!(said.contains("--domain K=LOWER..UPPER"), "{said}");
+    let Err(Error::Refused(why)) = file(&read(gap), "K") else { panic!("a file of a gap") };
+    let help = why.diagnostics()[0].help.as_deref().unwrap_or_default();
+    assert!(help.contains("--domain K=LOWER..UPPER"), "{help}");
     let large = "time = \"discrete\"\n[parameters]\nK = {}\n[loop]\ncharacteristic = \"z^13 + K/2\"\n";
     let said = refusal(large, "K");
     assert!(said.contains("the order is 13"), "{said}");

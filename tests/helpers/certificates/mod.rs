@@ -93,6 +93,17 @@ pub fn emitted(model: &str, parameter: &str) -> String {
     answer.certificate(&budget).expect("no limit")
 }
 
+/// The same; `None` where there is no certificate of this kind of model yet.
+pub fn emitted_if_any(model: &str, parameter: &str) -> Option<String> {
+    let budget = Budget::unlimited();
+    let answer = read(model).ask().free(parameter).stable_set(&budget).expect(model);
+    match answer.certificate(&budget) {
+        Ok(text) => Some(text),
+        Err(jurist_engine::error::Error::Refused(why)) if why.code() == "E-no-certificate" => None,
+        Err(other) => panic!("{model}: {other}"),
+    }
+}
+
 /// The engine's certificate for the verdict at a value.
 pub fn verdict_emitted(model: &str, parameter: &str, value: &str) -> String {
     let budget = Budget::unlimited();
