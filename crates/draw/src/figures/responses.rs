@@ -101,8 +101,10 @@ impl Panel {
         if let Some((time, value)) = measures.peak.filter(|_| measures.overshoot > 0.005) {
             let high = self.y.1 - self.y.0;
             let text = format!("overshoot {} %", frequency_text(100.0 * measures.overshoot, ""));
-            // Beside the peak, on the side of the final value.
-            let at = (time + 0.14 * (self.x.1 - self.x.0), value - 0.02 * high);
+            // Beyond the peak, where nothing else is.
+            let side = if value >= measures.last { 1.0 } else { -1.0 };
+            let at = (time + 0.08 * (self.x.1 - self.x.0), value + side * 0.07 * high);
+            self.y = (self.y.0.min(value + side * 0.16 * high), self.y.1.max(value + side * 0.16 * high));
             self.texts.push(Text { text, at, target: None });
             let (at, colour) = ((time, value), "#222222".into());
             self.marks.push(Mark { at, shape: Shape::Dot, colour, label: None });
