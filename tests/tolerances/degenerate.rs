@@ -81,10 +81,6 @@ fn a_division_by_zero_in_the_box_is_not_stable() {
     assert_eq!(witness(&pole).point, [Rational::ZERO]);
     bracket_holds(&pole, "1");
     assert_eq!(pole.worst.unwrap().end.causes.to_string(), "pole");
-    // Inside, where the loop is stable on both sides.
-    let inside = answer("a = { nominal = 1, tolerance = 3 }", "s + 1 + 1/(a*a)");
-    assert_eq!((&witness(&inside).at, &witness(&inside).point[0]), (&AtPoint::Undefined, &Rational::ZERO));
-    bracket_holds(&inside, "1/3");
 }
 
 #[test]
@@ -100,7 +96,6 @@ fn a_lost_degree_is_the_end_of_stability() {
     assert!(lost.decision.is_stable());
     bracket_holds(&lost, "4");
     assert_eq!(lost.worst.as_ref().unwrap().end.causes.to_string(), "infinity");
-    assert!(lost.exact.is_some());
 }
 
 #[test]
