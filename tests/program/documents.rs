@@ -7,7 +7,8 @@ use jurist_drive::document::Main;
 use jurist_engine::error::Source;
 use jurist_engine::model::Model;
 use jurist_engine::show::documents::{
-    Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, Margins, Norm, RootLocusForm, Tolerance, Transfer, Verdict,
+    Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, Margins, Norm, RootLocusForm, Tolerance, Transfer,
+    Verdict,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;

@@ -37,10 +37,15 @@ macro_rules! templates {
     };
 }
 
-const TEMPLATES: [Template; 3] = templates![
+const TEMPLATES: [Template; 8] = templates![
     "gain-loop": "one loop with one gain, the shortest block diagram",
+    "cascaded-drive": "cascaded PI control of a DC motor behind a hold",
+    "held-plant": "a continuous plant behind a zero-order hold, with a fractional delay",
+    "pid-dead-time": "a process with dead time and a PID controller, continuous",
     "matrix": "state space with output feedback",
     "polynomial": "a characteristic polynomial",
+    "two-mass": "speed control of two masses with a notch filter",
+    "lcl-filter": "grid current through an LCL filter, 1.5 samples of delay",
 ];
 
 /// Writes a template to standard output or to a new file.

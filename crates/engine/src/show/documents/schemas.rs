@@ -1,7 +1,8 @@
 //! JSON Schemas of the documents, made of their types.
 
 use super::{
-    Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, Margins, Norm, RootLocusForm, Tolerance, Transfer, Verdict,
+    Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, Margins, Norm, RootLocusForm, Tolerance, Transfer,
+    Verdict,
 };
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
