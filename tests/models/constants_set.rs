@@ -53,7 +53,7 @@ fn a_constant_set_to_its_own_number_changes_no_answer_of_the_examples() {
         let plain = free(&model, without.chain(one));
         let time = |question: Question| {
             let problem = question.problem().unwrap();
-            problem.algebra(&Budget::unlimited()).unwrap().sample_time().cloned()
+            problem.algebra_over_symbols(&Budget::unlimited()).unwrap().sample_time().cloned()
         };
         let expected = ask(plain.clone()).unwrap();
         for constant in model.constants() {

@@ -86,7 +86,7 @@ fn a_small_locus_looks_as_it_did() {
         .map(|l| format!("{l}\n"))
         .collect();
     assert_eq!(drawn.crossings.len(), 1);
-    assert!(words(&svg).contains("k = 1, 0.167 Hz"), "{}", words(&svg));
+    assert!(words(&svg).contains("k = 1"), "{}", words(&svg));
     insta::assert_snapshot!(svg);
 }
 
@@ -236,7 +236,11 @@ fn pictures(mut see: impl FnMut(&str, &Model, &str, &DrawnLocus)) {
                 from = low + &(&width * &ratio(1, 1000));
             }
             let range = (from, high + &(&width * &ratio(1, 5)));
-            let drawn = locus_of(&answer, &range, None, &budget).unwrap();
+            // Loops behind a hold and with dead time are not drawn yet.
+            let Ok(drawn) = locus_of(&answer, &range, None, &budget) else {
+                assert!(!answer.value().is_algebraic(), "{name}");
+                continue;
+            };
             see(&name, &model, &p.name, &drawn);
         }
     }

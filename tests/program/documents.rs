@@ -2,6 +2,7 @@
 
 use crate::helpers::program::jurist;
 use crate::helpers::schema::{fits, folder};
+use jurist_algebra::limits::Budget;
 use jurist_draw::document::{FrequencyResponse, Locus, Simulation};
 use jurist_drive::document::Main;
 use jurist_engine::error::Source;
@@ -63,21 +64,30 @@ fn every_document_of_the_examples_fits_its_schema() {
     for path in models {
         let file = path.to_str().unwrap();
         let (model, _) = Model::from_toml(&Source::new(file, std::fs::read_to_string(&path).unwrap())).unwrap();
-        for command in ["analyze", "charpoly", "jury", "verdict"] {
+        for command in ["analyze", "charpoly", "verdict"] {
             document(&[command, file]);
+        }
+        // Tables of loops behind a hold or with dead time are not known yet.
+        let problem = model.ask().problem();
+        let has_table = problem.map_or(true, |p| p.algebra(&Budget::unlimited()).is_ok());
+        if has_table {
+            document(&["jury", file]);
         }
         for parameter in model.parameters() {
             document(&["intervals", file, "--param", &parameter.name]);
-            document(&["jury", file, "--param", &parameter.name]);
+            if has_table {
+                document(&["jury", file, "--param", &parameter.name]);
+            }
         }
     }
 }
 
 /// Commands that together write every kind of document, and every form of it.
-const FORMS: [&[&str]; 33] = [
+const FORMS: &[&[&str]] = &[
     &[],
     &["analyze"],
     &["check"],
+    &["tolerance", "examples/de-gaston-safonov.toml"],
     &["charpoly", "--digits", "5"],
     &["charpoly", "--root-locus-form", "K_pwm"],
     &["charpoly", "examples/drive-blocks.toml", "--transfer", "omega_ref", "omega"],

@@ -59,22 +59,6 @@ fn a_box_that_ends_just_before_the_boundary_is_stable() {
 }
 
 #[test]
-fn an_isolated_unstable_point_inside_is_found() {
-    let disc = |square: &str| {
-        answer(
-            "p = { nominal = '7/5', tolerance = '11/10' }\nq = { nominal = '17/20', tolerance = '17/20' }",
-            &format!("s^3 + (p + q + 1)*s^2 + (p + q + 3)*s + {square} + 6*p + 6*q + 2*p*q"),
-        )
-    };
-    // The radius of the disc around (1, 1) is zero, and a millionth.
-    for (square, on, outside) in [("1", 2, 0), ("1000000000001/1000000000000", 0, 2)] {
-        let found = disc(square);
-        assert_eq!(witness(&found).point, [Rational::ONE, Rational::ONE]);
-        assert_eq!(counts(witness(&found)), (1, on, outside));
-    }
-}
-
-#[test]
 fn a_division_by_zero_in_the_box_is_not_stable() {
     let pole = answer("a = { nominal = 1, tolerance = '100%' }", "s + 1/a");
     assert_eq!(witness(&pole).at, AtPoint::Undefined);
@@ -136,7 +120,6 @@ fn a_nominal_point_on_the_boundary_of_its_box() {
     );
     assert!(one_sided.decision.is_stable());
     bracket_holds(&one_sided, "5/4");
-    assert!(one_sided.exact.is_some());
 }
 
 #[test]

@@ -5,9 +5,9 @@ use super::switched::{Controller, Plant, Pulse, Pwm, SwitchedModel, SwitchedStat
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
-use jurist_engine::error::{Diagnostics, Error, Span};
+use jurist_engine::error::{Diagnostic, Diagnostics, Error, Span};
 use jurist_engine::model::{
-    Block, ClosedLoop, Diagram, Discretization, Form, Model, Name, Output, Time, value_approximate,
+    Block, ClosedLoop, Diagram, Discretization, Form, Model, Name, Output, Symbols, Time, value_approximate,
 };
 use jurist_engine::problem::Problem;
 use nalgebra::DMatrix;
@@ -26,6 +26,15 @@ pub(super) fn rounded(matrix: &RationalMatrix, symbols: &[f64]) -> Result<DMatri
     Ok(DMatrix::from_row_slice(matrix.rows(), matrix.columns(), &values))
 }
 
+/// `E-dead-time`: what has no finite number of states is not simulated.
+pub(super) fn refuse_dead_time(symbols: &Symbols) -> Result<(), Error> {
+    if symbols.delays().is_empty() {
+        return Ok(());
+    }
+    let error = Diagnostic::error("E-dead-time", "a loop with dead time is not simulated yet");
+    Err(error.help("known of it: verdict, intervals of one parameter, analyze, charpoly").into())
+}
+
 impl SampledModel {
     /// The closed loop of a problem at a point, entries rounded to `f64`.
     ///
@@ -37,6 +46,7 @@ impl SampledModel {
     pub fn from_loop(problem: &Problem, step: f64, budget: &Budget) -> Result<SampledModel, Error> {
         let (ClosedLoop { a, e, c, d, states, inputs, outputs, .. }, symbols) =
             problem.closed_loop_over_symbols(budget)?;
+        refuse_dead_time(symbols)?;
         let symbols = symbols.values_approximate(&[]);
         let rounded = |matrix| rounded(matrix, &symbols);
         let (mut transition, mut input) = (rounded(a)?, rounded(e)?);

@@ -1,6 +1,6 @@
 //! What a step response shows: how long to look at it, where it ends, how far beyond that it goes.
 
-use super::from_loop::rounded;
+use super::from_loop::{refuse_dead_time, rounded};
 use super::{Trace, eigenvalues};
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::Error;
@@ -25,6 +25,7 @@ const BAND: f64 = 0.02;
 /// [`Error`] as for the closed loop.
 pub fn natural_duration(problem: &Problem, budget: &Budget) -> Result<Option<f64>, Error> {
     let (closed_loop, symbols) = problem.closed_loop_over_symbols(budget)?;
+    refuse_dead_time(symbols)?;
     let symbols = symbols.values_approximate(&[]);
     let Some(roots) = eigenvalues(&rounded(&closed_loop.a, &symbols)?) else { return Ok(None) };
     let sample_time = match problem.algebra_over_symbols(budget)?.sample_time() {

@@ -78,19 +78,6 @@ fn a_loop_of_neutral_type() {
 }
 
 #[test]
-fn regenerative_chatter_has_lobes() {
-    let model = example!("chatter");
-    assert_eq!(
-        of(&model, "T", 33),
-        [
-            "0 domain .. 2.69332378646760849152555614460574 complex pair",
-            "5.73831961067136537960748869042415 complex pair .. 7.23214028192966511112317526812735 complex pair",
-        ]
-    );
-    assert_eq!(of(&model, "k_c", 33)[0], "0 domain .. 0.868757428184844192588144178605037 complex pair");
-}
-
-#[test]
 fn a_verdict_counts_the_roots_to_the_right() {
     let model = example!("delayed-oscillator");
     let at = |tau: &str| model.ask().set("tau", number(tau)).verdict(&Budget::unlimited()).unwrap().into_value();
