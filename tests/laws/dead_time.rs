@@ -105,7 +105,9 @@ proptest! {
             for (pair, right) in ends.windows(2).zip(&cells.right) {
                 let sample = rational_between(&pair[0], &pair[1], &budget).unwrap().unwrap();
                 let count = count_delayed_roots(&gain.at(&sample).unwrap(), &tau, &budget).unwrap();
-                prop_assert_eq!(count.right, *right, "{:?} at {}", &gain, sample);
+                // Near the neutral boundary ever more roots lie to the right: they are not counted there.
+                let uncounted = right.is_none() && count.right != Some(0);
+                prop_assert!(uncounted || count.right == *right, "{:?} at {}: {:?} {:?}", &gain, sample, count.right, right);
             }
         }
     }

@@ -86,7 +86,7 @@ fn a_small_locus_looks_as_it_did() {
         .map(|l| format!("{l}\n"))
         .collect();
     assert_eq!(drawn.crossings.len(), 1);
-    assert!(words(&svg).contains("k = 1"), "{}", words(&svg));
+    assert!(words(&svg).contains("crossing (certified)"), "{}", words(&svg));
     insta::assert_snapshot!(svg);
 }
 

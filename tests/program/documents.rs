@@ -74,7 +74,14 @@ fn every_document_of_the_examples_fits_its_schema() {
             document(&["jury", file]);
         }
         for parameter in model.parameters() {
-            document(&["intervals", file, "--param", &parameter.name]);
+            // A parameter inside of a function needs a bounded domain.
+            let arguments = ["intervals", file, "--param", &parameter.name];
+            let run = jurist(&arguments);
+            if run.status != 2 || has_table {
+                document(&arguments);
+            } else {
+                assert!(run.stderr.contains("E-function") || run.stderr.contains("E-dead-time"), "{}", run.stderr);
+            }
             if has_table {
                 document(&["jury", file, "--param", &parameter.name]);
             }

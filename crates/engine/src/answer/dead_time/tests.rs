@@ -64,7 +64,7 @@ fn an_oscillator_with_delayed_feedback_has_three_windows() {
         of(&model, "tau", 33),
         [
             "0 complex pair+domain .. 2.86786860477273822091832340362727 complex pair",
-            "7.02481473104072639315637464320490 complex pair .. 8.60360581431821466275497021088180 complex pair",
+            "7.02481473104072639315637464320489 complex pair .. 8.60360581431821466275497021088180 complex pair",
             "14.0496294620814527863127492864098 complex pair .. 14.3393430238636911045916170181363 complex pair",
         ]
     );
