@@ -97,8 +97,9 @@ impl Schema<'_> {
                     }
                 }
                 "additionalProperties" => {
-                    assert!(schema.get("properties").is_none(), "all properties by one schema");
-                    for (key, value) in value.as_object().into_iter().flatten() {
+                    let named = schema.get("properties").and_then(Value::as_object);
+                    let others = |key: &String| named.is_none_or(|names| !names.contains_key(key));
+                    for (key, value) in value.as_object().into_iter().flatten().filter(|(key, _)| others(key)) {
                         self.whole(value, rule, &format!("{place}.{key}"))?;
                         known.insert(key.clone());
                     }

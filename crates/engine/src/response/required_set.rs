@@ -42,6 +42,7 @@ pub struct RequiredInterval {
 
 /// An end: of stability, or where a requirement binds.
 #[derive(Clone, Debug)]
+#[allow(clippy::large_enum_variant, reason = "there are few of them, and most are the large one")]
 pub enum RequiredEnd {
     /// Stability ends, or the domain does.
     Stability(End),

@@ -103,7 +103,8 @@ impl<'a> Search<'a> {
         let values = pair.values(&a, &q);
         for octave in -OCTAVES..=OCTAVES {
             let power = 2 * scale + octave;
-            let weight = |j: usize| Integer::ONE << power.unsigned_abs() * (if power >= 0 { j } else { k - j }) as u64;
+            let weight =
+                |j: usize| Integer::ONE << (power.unsigned_abs() * (if power >= 0 { j } else { k - j }) as u64);
             let weights: Vec<Integer> = (0..=k).map(weight).collect();
             let at = |c: &[Integer], odd: usize| {
                 c[odd * (k + 1)..].iter().zip(&weights).fold(Integer::ZERO, |sum, (c, w)| sum + c * w)

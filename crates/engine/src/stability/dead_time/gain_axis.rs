@@ -143,7 +143,7 @@ impl Axis {
                 .fold(zero, |sum, (p, power)| sum.plus(&rational_on_axis(p, &middle, scale).times(power, guarded)));
             if !radius.is_zero() {
                 let moved = slope.eval_rational(omega.upper()) / &d * &radius * &unit;
-                sum.error = sum.error + moved.ceil();
+                sum.error += moved.ceil();
             }
             sum
         })

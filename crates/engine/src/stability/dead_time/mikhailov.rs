@@ -267,10 +267,10 @@ fn on_axis(p: &UniPoly, omega: &Dyadic, scale: u64) -> Fixed {
     for (j, c) in p.coeffs().iter().enumerate() {
         let term = (c * &power) << (omega.e * (n - j) as u64);
         match j % 4 {
-            0 => re = re + term,
-            1 => im = im + term,
-            2 => re = re - term,
-            _ => im = im - term,
+            0 => re += term,
+            1 => im += term,
+            2 => re -= term,
+            _ => im -= term,
         }
         power = &power * &omega.m;
     }

@@ -93,7 +93,7 @@ pub(super) fn isolate(p: &Poly<UniPoly>, at: &RealAlgebraic) -> Vec<(Rational, R
     {
         bound *= two.clone();
     }
-    let mut open = vec![(bound.clone(), above), (Rational::ZERO, variations(&Rational::ZERO)), (-bound, below)];
+    let mut open = [(bound.clone(), above), (Rational::ZERO, variations(&Rational::ZERO)), (-bound, below)];
     open.reverse();
     let mut work: Vec<((Rational, usize), (Rational, usize))> =
         open.windows(2).map(|w| (w[0].clone(), w[1].clone())).collect();

@@ -81,7 +81,7 @@ fn value(p: &UniPoly, w: &Dyadic, scale: u64) -> Fixed {
     let mut sum = Integer::ZERO;
     let mut power = Integer::ONE;
     for (j, c) in p.coeffs().iter().enumerate() {
-        sum = sum + ((c * &power) << (w.e * (n - j) as u64));
+        sum += (c * &power) << (w.e * (n - j) as u64);
         power = &power * &w.m;
     }
     let shift = w.e * n as u64;

@@ -97,7 +97,7 @@ pub(super) fn turned(x: &Rational, scale: u64) -> Fixed {
         if term.is_zero() || (term.is_negative() && (&term + &Integer::ONE).is_zero()) {
             break;
         }
-        let part = if k % 2 == 0 { &mut cos } else { &mut sin };
+        let part = if k.is_multiple_of(2) { &mut cos } else { &mut sin };
         *part = if k % 4 == 2 || k % 4 == 3 { &*part - &term } else { &*part + &term };
     }
     // A term is off by at most three units, as |x| < 1 and k >= 2 shrink the error before the roundings; the angle by at

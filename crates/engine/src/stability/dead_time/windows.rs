@@ -63,7 +63,7 @@ const MOST_BITS: u64 = 1 << 12;
 
 /// The cells of all dead times between two bounds, `0 <= lower`; or why there is none in which the loop is stable.
 ///
-/// Roots can be on the axis at the [`crossings`](super::crossing::crossings) only, each at `(theta + 2 pi k)/omega` for all
+/// Roots can be on the axis at the crossings only, each at `(theta + 2 pi k)/omega` for all
 /// `k`, and move in one direction at all of them. From the roots of the loop without delay the count therefore follows by
 /// addition. It grows, too: with the directions `d_j` the number of roots to the right is at least
 /// `tau/pi sum d_j omega_j - 2 m` for `m` crossings, and the sum is positive where there is any crossing that is not a
