@@ -1,6 +1,6 @@
 //! The program about loops with dead time; their limits are in the corpus and in the library's own tests.
 
-use crate::helpers::program::jurist;
+use crate::helpers::program::{jurist, jurist_with_input};
 use serde_json::Value;
 
 #[test]
@@ -16,6 +16,23 @@ fn the_program_says_which_crossing_an_end_is() {
     assert_eq!((&document["inside"], &document["outside"]), (&Value::Null, &Value::from(2)));
     assert!(jurist(&["analyze", "examples/dead-time-pi.toml"]).stdout.contains("7.0353318"));
     assert!(jurist(&["charpoly", "examples/dead-time-pi.toml"]).stdout.contains("exp(-theta*s)"));
+}
+
+#[test]
+fn a_sum_of_fractions_gains_no_factor_in_the_delay() {
+    // L = (s + 3 - 2 z s (s + 3)) / (((1 + 2 z) s + 1) (s + 3)) with z = exp(-s): the zeros of 1 + L are -2 and -3.
+    // 1 + 2 z, the leading coefficient of the common factor, would have a chain of zeros in the right half plane.
+    let first = "1/((1 + 2*exp(-s))*s + 1)";
+    let second = "2*exp(-s)*s*(s + 3)/(((1 + 2*exp(-s))*s + 1)*(s + 3))";
+    for transfer in [format!("{first} - {second}"), format!("-{second} + {first}")] {
+        let model = format!(
+            "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+             [[block]]\nname = 'plant'\ninput = 'r - y'\noutput = 'y'\ntransfer = '{transfer}'\n"
+        );
+        let run = jurist_with_input(&["verdict", "-", "--json"], model.as_bytes());
+        let document: Value = serde_json::from_str(&run.stdout).unwrap_or_else(|e| panic!("{e}: {}", run.stderr));
+        assert_eq!(document["verdict"], "stable", "{transfer}: {document}");
+    }
 }
 
 #[test]

@@ -54,7 +54,9 @@ impl Fraction {
         let (e_rest, d_rest) = if d.degree() == 0 || e.degree() == 0 {
             (e.clone(), d.clone())
         } else {
-            let g = d.gcd(e)?;
+            // Without denominators: what is left of `d` and `e` then has none either. A monic divisor would leave its
+            // leading coefficient behind as a factor, which has zeros of its own where it contains a dead time.
+            let g = d.gcd(e)?.primitive()?;
             (e.divide(&g)?.0, d.divide(&g)?.0)
         };
         let left = self.numerator.product(&e_rest)?;

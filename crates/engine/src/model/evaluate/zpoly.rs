@@ -3,7 +3,7 @@
 use super::scalar::{checked_product, checked_sum};
 use crate::model::text::Sign;
 use jurist_algebra::limits::Budget;
-use jurist_algebra::poly::RationalFunction;
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 
 /// Coefficients from the constant term up, no zero at the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,6 +135,15 @@ impl ZPoly {
     /// Divided by the leading coefficient; `None` for zero.
     pub fn monic(&self) -> Option<Self> {
         self.scaled(&self.leading().recip()?)
+    }
+
+    /// A monic polynomial times the least common denominator of its coefficients.
+    pub fn primitive(&self) -> Option<Self> {
+        let common = self.0.iter().fold(MultiPoly::one(), |common, c| {
+            let shared = common.gcd(c.denominator());
+            common.times(&c.denominator().div_exact(&shared).expect("a common divisor divides"))
+        });
+        if common.is_one() { Some(self.clone()) } else { self.scaled(&common.into()) }
     }
 
     /// The monic greatest common divisor of two polynomials that are not both zero.
