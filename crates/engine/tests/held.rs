@@ -236,7 +236,7 @@ fn an_lcl_filter_with_a_delay_and_a_half_loses_its_structural_zeros_by_identity(
         discretize = { method = 'zoh', T = 1e-4, delay = 1.5e-4 }\n";
     let model = read(text).unwrap();
     let evaluated = model.evaluate(&["K".into()], &[], &Budget::unlimited()).unwrap();
-    let definitions: Vec<&Definition> = evaluated.symbols.iter().map(|s| &s.definition).collect();
+    let definitions: Vec<&Definition> = evaluated.symbols.iter().filter_map(|s| s.definition()).collect();
     assert!(matches!(definitions.as_slice(), [Definition::Tangent { .. }]), "{definitions:?}");
     // States: three of the filter and two past inputs.
     assert_eq!(evaluated.polynomial.formal_degree, 5);

@@ -11,6 +11,7 @@ mod huge;
 mod integer;
 mod parse;
 mod rational;
+mod root;
 #[cfg(feature = "strategies")]
 pub mod strategies;
 

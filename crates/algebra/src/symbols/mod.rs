@@ -9,6 +9,7 @@
 //! [`MultiPoly::map_variables`] renames.
 
 mod beyond;
+mod definition;
 mod moving;
 mod normal_form;
 mod rational_series;
@@ -17,6 +18,7 @@ mod roots;
 mod sign;
 mod specialise;
 
+pub use definition::Definition;
 pub use moving::{MovingSymbols, Zeros};
 pub use roots::{SymbolicPoly, common_factor, merged};
 pub use specialise::{are_coprime_in, is_square_free_in};
@@ -28,53 +30,6 @@ use crate::poly::{MultiPoly, RationalFunction};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// What a symbol stands for. Arguments are rational functions of earlier symbols, numbered as in the table.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Definition {
-    /// The circle number.
-    Pi,
-    /// The square root that is not negative.
-    Root(RationalFunction),
-    /// `exp(x)`.
-    Exponential(RationalFunction),
-    /// `tan(sqrt(w) t)/sqrt(w)`; for negative `w` that is `tanh(sqrt(-w) t)/sqrt(-w)`. With `X = exp(-b t)` the solutions of
-    /// `y'' + b y' + c y = 0`, `w = c - b^2/4`, at the time `2 t` are rational functions of it.
-    Tangent {
-        /// `w`.
-        square: RationalFunction,
-        /// `t`.
-        time: RationalFunction,
-    },
-    /// The solution of the linear differential equation with this characteristic polynomial whose derivative of order `index`
-    /// is 1 at 0 and whose other derivatives below the order of the equation are 0 there, at a time: entry `(0, index)` of
-    /// `exp(companion * time)`.
-    Fundamental {
-        /// The monic polynomial's coefficients from the constant term up, the leading 1 last.
-        polynomial: Vec<RationalFunction>,
-        /// Which of the solutions.
-        index: usize,
-        /// The time.
-        time: RationalFunction,
-    },
-}
-
-impl Definition {
-    /// The exponential of a rational number.
-    pub fn exponential(x: impl Into<Rational>) -> Definition {
-        Definition::Exponential(x.into().into())
-    }
-
-    /// The square root of a rational number.
-    pub fn root(x: impl Into<Rational>) -> Definition {
-        Definition::Root(x.into().into())
-    }
-
-    /// The tangent of a rational number.
-    pub fn tangent(x: impl Into<Rational>) -> Definition {
-        Definition::Tangent { square: RationalFunction::one(), time: x.into().into() }
-    }
-}
 
 /// A table of symbols.
 ///
@@ -158,23 +113,7 @@ impl Symbols {
 
     /// What a symbol stands for, as text: `exp(-1/2)`.
     pub fn definition_text(&self, i: usize) -> String {
-        let names = self.names();
-        let shown = |f: &RationalFunction| f.display(&names).to_string();
-        match &self.table[i].1 {
-            Definition::Pi => "pi".to_owned(),
-            Definition::Root(x) => format!("sqrt({})", shown(x)),
-            Definition::Exponential(x) => format!("exp({})", shown(x)),
-            Definition::Tangent { square, time } if square.is_one() => format!("tan({})", shown(time)),
-            Definition::Tangent { square, time } => {
-                let is_hyperbolic = square.as_constant().is_some_and(|w| w.is_negative());
-                let (function, w) = if is_hyperbolic { ("tanh", -square) } else { ("tan", square.clone()) };
-                format!("{function}(({})*sqrt({}))/sqrt({1})", shown(time), shown(&w))
-            }
-            Definition::Fundamental { polynomial, index, time } => {
-                let list: Vec<String> = polynomial.iter().map(shown).collect();
-                format!("fundamental solution {index} of [{}] at {}", list.join(", "), shown(time))
-            }
-        }
+        self.table[i].1.text(&self.names())
     }
 
     /// The values of all symbols, with that many bits after the point.

@@ -73,18 +73,7 @@ impl MovingSymbols {
         let put = |f: &RationalFunction| f.substitute(0, value)?.map_variables(|i| i.saturating_sub(1));
         let mut symbols = Symbols::new();
         for (name, definition) in &self.table {
-            let definition = match definition {
-                Definition::Pi => Definition::Pi,
-                Definition::Root(x) => Definition::Root(put(x)?),
-                Definition::Exponential(x) => Definition::Exponential(put(x)?),
-                Definition::Tangent { square, time } => Definition::Tangent { square: put(square)?, time: put(time)? },
-                Definition::Fundamental { polynomial, index, time } => Definition::Fundamental {
-                    polynomial: polynomial.iter().map(put).collect::<Option<_>>()?,
-                    index: *index,
-                    time: put(time)?,
-                },
-            };
-            symbols.push(name, definition);
+            symbols.push(name, definition.try_map(put)?);
         }
         Some(symbols)
     }

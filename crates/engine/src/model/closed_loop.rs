@@ -445,7 +445,8 @@ fn pole_beside(pole: &MultiPoly, symbols: &Symbols) -> Option<MultiPoly> {
     // For a function of s to divide by zero, all coefficients of the delays have to vanish.
     let content = |p: &MultiPoly, i: usize| p.as_poly_in(i).coeffs().iter().fold(MultiPoly::zero(), |g, c| g.gcd(c));
     let mut rest = symbols.delays().iter().fold(pole.clone(), |rest, (i, _)| content(&rest, *i));
-    let exponentials = symbols.iter().enumerate().filter(|(_, s)| matches!(s.definition, Definition::Exponential(_)));
+    let exponentials =
+        symbols.iter().enumerate().filter(|(_, s)| matches!(s.definition(), Some(Definition::Exponential(_))));
     let exponentials = exponentials.map(|(i, _)| MultiPoly::variable(symbols.first() + i));
     for factor in symbols.nonzero().iter().cloned().chain(exponentials) {
         while let Some(quotient) = rest.div_exact(&factor) {

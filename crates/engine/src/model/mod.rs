@@ -31,7 +31,7 @@ pub use definition::{
 pub use open_loop::Cut;
 pub(crate) use open_loop::Opened;
 pub use read::{DRIVE, schema, source_from_bytes};
-pub use symbols::{Definition, Symbol, Symbols, value_approximate};
+pub use symbols::{Definition, Meaning, Symbol, Symbols, value_approximate};
 pub(crate) use text::names::shorten;
 pub use text::{Expression, Factor, Function, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};
 pub use tolerance::Tolerance;

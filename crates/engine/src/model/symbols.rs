@@ -8,54 +8,42 @@ mod approximate;
 mod merge;
 
 pub use approximate::value_approximate;
+pub use jurist_algebra::symbols::Definition;
 
-use super::evaluate::scalar::rational_root;
 use super::text::Function;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
 
 /// What a symbol stands for. Arguments are rational functions of the kept names and of earlier symbols.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Definition {
-    /// The circle number.
-    Pi,
-    /// The square root that is not negative.
-    Root(RationalFunction),
-    /// `exp(x)`.
-    Exponential(RationalFunction),
-    /// `tan(sqrt(w) t)/sqrt(w)`, for negative `w` that is `tanh(sqrt(-w) t)/sqrt(-w)`, for 0 it is `t`: one power series in `w`.
-    Tangent {
-        /// `w`.
-        square: RationalFunction,
-        /// `t`.
-        time: RationalFunction,
-    },
-    /// The solution `f` of the linear differential equation with this monic characteristic polynomial whose derivative of
-    /// order `index` is 1 at 0 and whose other derivatives below the order of the equation are 0 there, at `time`. It is
-    /// the entry `(0, index)` of `exp(companion * time)`, with ones above the diagonal of the companion matrix.
-    Fundamental {
-        /// The coefficients from the constant term up; the last is 1.
-        polynomial: Vec<RationalFunction>,
-        /// Where it is evaluated.
-        time: RationalFunction,
-        /// Which of the solutions.
-        index: usize,
-    },
+pub enum Meaning {
+    /// A number, once the kept names have values.
+    Constant(Definition),
     /// `exp(-x s)` of a dead time, a function of the polynomial's own variable.
     Delay(RationalFunction),
 }
 
 /// A symbol: a variable of the polynomials after the kept names.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Symbol {
     /// What it is called in formulas.
     pub name: String,
     /// What it stands for.
-    pub definition: Definition,
+    pub meaning: Meaning,
     /// Whether it depends on a kept name.
     pub is_moving: bool,
+}
+
+impl Symbol {
+    /// What it stands for; `None` of a dead time.
+    pub fn definition(&self) -> Option<&Definition> {
+        match &self.meaning {
+            Meaning::Constant(definition) => Some(definition),
+            Meaning::Delay(_) => None,
+        }
+    }
 }
 
 /// The symbols of an evaluated model. Variables `0, 1, ..` are the kept names, then come the symbols.
@@ -76,7 +64,7 @@ pub struct Symbol {
 /// assert_eq!(p.coefficients[0].display(&p.variables).to_string(), "-K*X1 + K - X1");
 /// # Ok::<(), jurist_engine::error::Diagnostics>(())
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Symbols {
     kept: Vec<String>,
     table: Vec<Symbol>,
@@ -118,7 +106,7 @@ impl Symbols {
     /// Names and definitions, as text.
     pub fn definitions(&self) -> Vec<(String, String)> {
         let variables = self.variables();
-        self.table.iter().map(|s| (s.name.clone(), s.definition.text(&variables))).collect()
+        self.table.iter().map(|s| (s.name.clone(), s.meaning.text(&variables))).collect()
     }
 
     /// The polynomials in kept names and symbols that are known to have no zero.
@@ -133,19 +121,18 @@ impl Symbols {
     }
 
     /// The variable of a symbol, the same each time.
-    fn intern(&mut self, definition: Definition) -> RationalFunction {
-        if let Some(i) = self.table.iter().position(|s| s.definition == definition) {
+    fn intern(&mut self, meaning: impl Into<Meaning>) -> RationalFunction {
+        let meaning = meaning.into();
+        if let Some(i) = self.table.iter().position(|s| s.meaning == meaning) {
             return RationalFunction::variable(self.kept.len() + i);
         }
-        let is_moving = definition.arguments().into_iter().any(|f| self.moves(f));
-        let letter = definition.letter();
+        let is_moving = meaning.arguments().into_iter().any(|f| self.moves(f));
+        let letter = meaning.letter();
         let name = (1..)
-            .map(
-                |k| if matches!(definition, Definition::Pi) && k == 1 { letter.into() } else { format!("{letter}{k}") },
-            )
+            .map(|k| if letter == "pi" && k == 1 { letter.into() } else { format!("{letter}{k}") })
             .find(|name| !self.kept.contains(name) && self.table.iter().all(|s| s.name != *name))
             .unwrap_or_default();
-        self.table.push(Symbol { name, definition, is_moving });
+        self.table.push(Symbol { name, meaning, is_moving });
         RationalFunction::variable(self.kept.len() + self.table.len() - 1)
     }
 
@@ -156,13 +143,13 @@ impl Symbols {
 
     /// `exp(-x s)` of a dead time other than zero.
     pub(in crate::model) fn delay(&mut self, x: RationalFunction) -> RationalFunction {
-        self.intern(Definition::Delay(x))
+        self.intern(Meaning::Delay(x))
     }
 
     /// The variables that stand for dead time, and the dead times.
     pub fn delays(&self) -> Vec<(usize, RationalFunction)> {
-        let delay = |(i, symbol): (usize, &Symbol)| match &symbol.definition {
-            Definition::Delay(x) => Some((self.first() + i, x.clone())),
+        let delay = |(i, symbol): (usize, &Symbol)| match &symbol.meaning {
+            Meaning::Delay(x) => Some((self.first() + i, x.clone())),
             _ => None,
         };
         self.table.iter().enumerate().filter_map(delay).collect()
@@ -176,7 +163,7 @@ impl Symbols {
     /// The square root; `None` of a negative number.
     fn root(&mut self, x: RationalFunction) -> Option<RationalFunction> {
         let Some(number) = x.as_constant() else { return Some(self.intern(Definition::Root(x))) };
-        if let Some(root) = rational_root(&number) {
+        if let Some(root) = number.checked_sqrt() {
             return Some(root.into());
         }
         if number.is_negative() {
@@ -184,9 +171,9 @@ impl Symbols {
         }
         // Of two numbers whose ratio is a square, one root is enough.
         for (i, symbol) in self.table.iter().enumerate() {
-            if let Definition::Root(other) = &symbol.definition
+            if let Some(Definition::Root(other)) = symbol.definition()
                 && let Some(ratio) = other.as_constant().and_then(|other| number.checked_div(&other))
-                && let Some(factor) = rational_root(&ratio)
+                && let Some(factor) = ratio.checked_sqrt()
             {
                 return Some(&RationalFunction::variable(self.kept.len() + i) * &RationalFunction::from(factor));
             }
@@ -255,7 +242,7 @@ impl Symbols {
         if x.is_zero() {
             return Some(Rational::ZERO);
         }
-        let at = self.table.iter().position(|s| s.definition == Definition::Pi)?;
+        let at = self.table.iter().position(|s| s.definition() == Some(&Definition::Pi))?;
         x.checked_div(&RationalFunction::variable(self.kept.len() + at))?.as_constant()
     }
 
@@ -300,74 +287,48 @@ fn half_angle(t: &RationalFunction) -> Option<(RationalFunction, RationalFunctio
     Some(((t + t).checked_div(&below)?, (&one - &square).checked_div(&below)?))
 }
 
-impl Definition {
+impl From<Definition> for Meaning {
+    fn from(definition: Definition) -> Self {
+        Meaning::Constant(definition)
+    }
+}
+
+impl Meaning {
     /// The functions it is made of.
     pub fn arguments(&self) -> Vec<&RationalFunction> {
         match self {
-            Definition::Pi => Vec::new(),
-            Definition::Root(x) | Definition::Exponential(x) | Definition::Delay(x) => vec![x],
-            Definition::Tangent { square, time } => vec![square, time],
-            Definition::Fundamental { polynomial, time, .. } => polynomial.iter().chain([time]).collect(),
+            Meaning::Constant(definition) => definition.arguments(),
+            Meaning::Delay(x) => vec![x],
         }
     }
 
     /// The same with other arguments.
-    pub(in crate::model) fn try_map(
-        &self,
-        mut f: impl FnMut(&RationalFunction) -> Option<RationalFunction>,
-    ) -> Option<Definition> {
+    fn try_map(&self, mut f: impl FnMut(&RationalFunction) -> Option<RationalFunction>) -> Option<Meaning> {
         Some(match self {
-            Definition::Pi => Definition::Pi,
-            Definition::Root(x) => Definition::Root(f(x)?),
-            Definition::Exponential(x) => Definition::Exponential(f(x)?),
-            Definition::Delay(x) => Definition::Delay(f(x)?),
-            Definition::Tangent { square, time } => Definition::Tangent { square: f(square)?, time: f(time)? },
-            Definition::Fundamental { polynomial, time, index } => Definition::Fundamental {
-                polynomial: polynomial.iter().map(&mut f).collect::<Option<_>>()?,
-                time: f(time)?,
-                index: *index,
-            },
+            Meaning::Constant(definition) => definition.try_map(f)?.into(),
+            Meaning::Delay(x) => Meaning::Delay(f(x)?),
         })
     }
 
     fn letter(&self) -> &'static str {
         match self {
-            Definition::Pi => "pi",
-            Definition::Root(_) => "r",
-            Definition::Exponential(_) => "X",
-            Definition::Tangent { .. } => "t",
-            Definition::Fundamental { .. } => "f",
-            Definition::Delay(_) => "z",
+            Meaning::Constant(Definition::Pi) => "pi",
+            Meaning::Constant(Definition::Root(_)) => "r",
+            Meaning::Constant(Definition::Exponential(_)) => "X",
+            Meaning::Constant(Definition::Tangent { .. }) => "t",
+            Meaning::Constant(Definition::Fundamental { .. }) => "f",
+            Meaning::Delay(_) => "z",
         }
     }
 
-    /// The definition as a formula in these variables.
+    /// What it stands for as a formula in these variables.
     pub fn text(&self, variables: &[String]) -> String {
-        let shown = |f: &RationalFunction| f.display(variables).to_string();
         match self {
-            Definition::Pi => "pi".into(),
-            Definition::Root(x) => format!("sqrt({})", shown(x)),
-            Definition::Exponential(x) => format!("exp({})", shown(x)),
-            Definition::Delay(x) if x.is_polynomial() && x.numerator().terms().len() == 1 => {
-                format!("exp(-{}*s)", shown(x))
+            Meaning::Constant(definition) => definition.text(variables),
+            Meaning::Delay(x) if x.is_polynomial() && x.numerator().terms().len() == 1 => {
+                format!("exp(-{}*s)", x.display(variables))
             }
-            Definition::Delay(x) => format!("exp(-({})*s)", shown(x)),
-            Definition::Tangent { square, time } if square.is_one() => format!("tan({})", shown(time)),
-            Definition::Tangent { square, time } => {
-                let hyperbolic = square.as_constant().is_some_and(|w| w.is_negative());
-                let (name, w) = if hyperbolic { ("tanh", -square) } else { ("tan", square.clone()) };
-                match w.as_constant().and_then(|w| rational_root(&w)) {
-                    Some(root) => {
-                        let angle = shown(&(time * &RationalFunction::from(root.clone())));
-                        format!("{name}({angle})/({root})")
-                    }
-                    None => format!("{name}(({})*sqrt({}))/sqrt({1})", shown(time), shown(&w)),
-                }
-            }
-            Definition::Fundamental { polynomial, time, index } => {
-                let list: Vec<String> = polynomial.iter().map(shown).collect();
-                format!("fundamental solution {index} of [{}] at {}", list.join(", "), shown(time))
-            }
+            Meaning::Delay(x) => format!("exp(-({})*s)", x.display(variables)),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Problem;
 use crate::error::{Diagnostic, Error};
-use crate::model;
+use crate::model::Symbol;
 use crate::stability::SymbolicPolynomial;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::poly::RationalFunction;
@@ -34,13 +34,13 @@ impl Problem {
             let mut table = Symbols::new();
             for symbol in symbols.iter() {
                 let place = |f: &RationalFunction| f.map_variables(|i| i.saturating_sub(symbols.first()));
-                table.push(&symbol.name, definition(&symbol.definition, place)?);
+                table.push(&symbol.name, definition(symbol, place)?);
             }
             return Ok(Some(SymbolicPolynomial::new(polynomial, free, &Arc::new(table))));
         }
         let mut table = Vec::new();
         for symbol in symbols.iter() {
-            table.push((symbol.name.clone(), definition(&symbol.definition, |f| Some(f.clone()))?));
+            table.push((symbol.name.clone(), definition(symbol, |f| Some(f.clone()))?));
         }
         let found = SymbolicPolynomial::with_moving(polynomial, &Arc::new(MovingSymbols::new(table)));
         let asked = self.parameter();
@@ -60,26 +60,8 @@ impl Problem {
 }
 
 /// The definition with its arguments' variables as the table numbers them.
-fn definition(
-    of: &model::Definition,
-    place: impl Fn(&RationalFunction) -> Option<RationalFunction>,
-) -> Result<Definition, Error> {
-    let made = || -> Option<Definition> {
-        Some(match of {
-            model::Definition::Pi => Definition::Pi,
-            // Dead time is a function of s; a loop with it is asked otherwise.
-            model::Definition::Delay(_) => return None,
-            model::Definition::Root(x) => Definition::Root(place(x)?),
-            model::Definition::Exponential(x) => Definition::Exponential(place(x)?),
-            model::Definition::Tangent { square, time } => {
-                Definition::Tangent { square: place(square)?, time: place(time)? }
-            }
-            model::Definition::Fundamental { polynomial, time, index } => Definition::Fundamental {
-                polynomial: polynomial.iter().map(&place).collect::<Option<_>>()?,
-                index: *index,
-                time: place(time)?,
-            },
-        })
-    };
-    made().ok_or_else(|| Error::Undefined("a function has no value there".into()))
+fn definition(of: &Symbol, place: impl Fn(&RationalFunction) -> Option<RationalFunction>) -> Result<Definition, Error> {
+    // Dead time is a function of s; a loop with it is asked otherwise.
+    let placed = of.definition().and_then(|definition| definition.try_map(place));
+    placed.ok_or_else(|| Error::Undefined("a function has no value there".into()))
 }

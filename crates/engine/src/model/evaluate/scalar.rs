@@ -166,19 +166,10 @@ impl<'a> Scope<'a> {
 /// The value of a function where it is rational: at 0, and the roots of squares.
 pub(in crate::model) fn rational_value(function: Function, x: &Rational) -> Option<Rational> {
     match function {
-        Function::Sqrt => rational_root(x),
+        Function::Sqrt => x.checked_sqrt(),
         Function::Exp | Function::Cos => x.is_zero().then_some(Rational::ONE),
         Function::Sin | Function::Tan => x.is_zero().then_some(Rational::ZERO),
     }
-}
-
-/// The square root of a rational square.
-pub(in crate::model) fn rational_root(x: &Rational) -> Option<Rational> {
-    if x.is_negative() {
-        return None;
-    }
-    let root = Rational::new(x.numerator().sqrt_floor(), x.denominator().sqrt_floor());
-    (&root * &root == *x).then_some(root)
 }
 
 fn fits(a: &MultiPoly, b: &MultiPoly) -> bool {

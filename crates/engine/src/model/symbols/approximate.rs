@@ -29,7 +29,8 @@ impl Symbols {
         let mut values = kept.to_vec();
         for symbol in &self.table {
             let at = |f: &RationalFunction| value_approximate(f, &values);
-            let value = match &symbol.definition {
+            // Dead time is a function of s and has no value.
+            let value = symbol.definition().map_or(f64::NAN, |definition| match definition {
                 Definition::Pi => std::f64::consts::PI,
                 Definition::Root(x) => at(x).sqrt(),
                 Definition::Exponential(x) => at(x).exp(),
@@ -44,13 +45,11 @@ impl Symbols {
                         t
                     }
                 }
-                // A function of s has no value.
-                Definition::Delay(_) => f64::NAN,
                 Definition::Fundamental { polynomial, time, index } => {
                     let polynomial: Vec<f64> = polynomial.iter().map(at).collect();
                     fundamental_approximate(&polynomial, at(time), *index)
                 }
-            };
+            });
             values.push(value);
         }
         values

@@ -1,7 +1,6 @@
 //! Symbols that are powers or multiple angles of one another, expressed by one of them.
 
-use super::{Definition, Symbols};
-use crate::model::evaluate::scalar::rational_root;
+use super::{Definition, Meaning, Symbols};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
 
@@ -50,13 +49,13 @@ impl Symbols {
         // The variable of each family, once its first member is there.
         let mut bases: Vec<Option<RationalFunction>> = vec![None; families.len()];
         for (i, symbol) in self.table.iter().enumerate() {
-            let definition = symbol.definition.try_map(|f| f.compose(&images))?;
+            let meaning = symbol.meaning.try_map(|f| f.compose(&images))?;
             let member = families.iter().enumerate().find_map(|(k, family)| {
                 let (_, ratio) = family.members.iter().find(|(member, _)| *member == i)?;
                 Some((k, family, ratio))
             });
-            let image = match (member, definition) {
-                (Some((k, family, ratio)), Definition::Exponential(x)) => {
+            let image = match (member, meaning) {
+                (Some((k, family, ratio)), Meaning::Constant(Definition::Exponential(x))) => {
                     let base = match &bases[k] {
                         Some(base) => base.clone(),
                         None => merged.exponential(&x * &family.unit.clone().into()),
@@ -65,24 +64,25 @@ impl Symbols {
                     bases[k] = Some(base);
                     image
                 }
-                (Some((k, family, ratio)), Definition::Tangent { square, time }) => {
+                (Some((k, family, ratio)), Meaning::Constant(Definition::Tangent { square, time })) => {
                     let base = match &bases[k] {
                         Some(base) => base.clone(),
                         None => merged.tangent(square.clone(), &time * &family.unit.clone().into()),
                     };
-                    let Definition::Tangent { square: square_of_base, .. } = &self.table[family.first].definition
+                    let Some(Definition::Tangent { square: square_of_base, .. }) =
+                        self.table[family.first].definition()
                     else {
                         return None;
                     };
                     let square_of_base = square_of_base.compose(&images)?;
-                    let factor = rational_root(&square.checked_div(&square_of_base)?.as_constant()?)?;
+                    let factor = square.checked_div(&square_of_base)?.as_constant()?.checked_sqrt()?;
                     let multiple = ratio.checked_div(&family.unit)?.numerator().to_i64()?;
                     let (tangent, nonzero) = multiple_angle(&base, &square_of_base, multiple)?;
                     merged.nonzero.extend(nonzero);
                     bases[k] = Some(base);
                     tangent.checked_div(&factor.into())?
                 }
-                (_, definition) => merged.intern_again(definition)?,
+                (_, meaning) => merged.intern_again(meaning)?,
             };
             debug_assert_eq!(images.len(), first + i);
             images.push(image);
@@ -92,11 +92,11 @@ impl Symbols {
     }
 
     /// A symbol whose arguments have changed their variables.
-    fn intern_again(&mut self, definition: Definition) -> Option<RationalFunction> {
-        match definition {
-            Definition::Root(x) => self.root(x),
-            Definition::Exponential(x) => Some(self.exponential(x)),
-            Definition::Tangent { square, time } => Some(self.tangent(square, time)),
+    fn intern_again(&mut self, meaning: Meaning) -> Option<RationalFunction> {
+        match meaning {
+            Meaning::Constant(Definition::Root(x)) => self.root(x),
+            Meaning::Constant(Definition::Exponential(x)) => Some(self.exponential(x)),
+            Meaning::Constant(Definition::Tangent { square, time }) => Some(self.tangent(square, time)),
             other => Some(self.intern(other)),
         }
     }
@@ -104,15 +104,15 @@ impl Symbols {
     fn families(&self) -> Vec<Family> {
         let mut families: Vec<Family> = Vec::new();
         for (i, symbol) in self.table.iter().enumerate() {
-            let greatest = match symbol.definition {
+            let Some(definition) = symbol.definition() else { continue };
+            let greatest = match definition {
                 Definition::Exponential(_) => GREATEST_POWER,
                 Definition::Tangent { .. } => GREATEST_MULTIPLE,
                 _ => continue,
             };
             let joined = families.iter_mut().any(|family| {
-                let Some(ratio) = related(&self.table[family.first].definition, &symbol.definition) else {
-                    return false;
-                };
+                let first = self.table[family.first].definition();
+                let Some(ratio) = first.and_then(|first| related(first, definition)) else { return false };
                 let Some(unit) = family.with(&ratio, greatest) else { return false };
                 family.unit = unit;
                 family.members.push((i, ratio));
@@ -131,7 +131,7 @@ fn related(a: &Definition, b: &Definition) -> Option<Rational> {
     match (a, b) {
         (Definition::Exponential(x), Definition::Exponential(y)) => ratio(x, y),
         (Definition::Tangent { square: v, time: s }, Definition::Tangent { square: w, time: t }) => {
-            let factor = rational_root(&ratio(v, w)?)?;
+            let factor = ratio(v, w)?.checked_sqrt()?;
             Some(&factor * &ratio(s, t)?)
         }
         _ => None,
