@@ -3,9 +3,10 @@
 use super::Answer;
 use crate::error::Error;
 use crate::problem::{Problem, Question};
-use crate::stability::{AtPoint, RootCount};
+use crate::stability::{AtPoint, RootCount, Shape};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
+use jurist_algebra::poly::UniPoly;
 use std::sync::Arc;
 
 /// The verdict on a loop whose parameters all have values.
@@ -78,6 +79,9 @@ pub struct PointVerdict {
     pub infinite: usize,
     /// What is counted of a loop with dead time, whose roots to the left are infinitely many; `count` is `None` then.
     pub delayed: Option<DelayedRoots>,
+    /// Whether an odd number of real roots lies beyond the boundary's point 1, or to the right of its point on the real axis:
+    /// the loop grows without oscillation, as with positive feedback at rest.
+    pub drifts: bool,
 }
 
 /// The roots of a loop with dead time on the imaginary axis and to the right of it.
@@ -94,7 +98,24 @@ impl PointVerdict {
     /// The verdict on a loop with dead time.
     pub(super) fn with_dead_time(verdict: Verdict, degree: usize, on: usize, right: Option<usize>) -> PointVerdict {
         let delayed = Some(DelayedRoots { on, right });
-        PointVerdict { verdict, undefined: None, degree, count: None, infinite: 0, delayed }
+        PointVerdict { verdict, undefined: None, degree, count: None, infinite: 0, delayed, drifts: false }
+    }
+
+    /// The verdict where the polynomial of this formal degree has these roots.
+    pub(crate) fn of(at: AtPoint, degree: usize) -> PointVerdict {
+        let (verdict, count, infinite) = match at {
+            AtPoint::Undefined => (Verdict::Undefined, None, 0),
+            AtPoint::Zero => (Verdict::Unstable, Some(RootCount::default()), degree),
+            AtPoint::Defined { count, infinite } => {
+                let verdict = match (count.outside + infinite, count.on) {
+                    (0, 0) => Verdict::Stable,
+                    (0, _) => Verdict::Marginal,
+                    _ => Verdict::Unstable,
+                };
+                (verdict, Some(count), infinite)
+            }
+        };
+        PointVerdict { verdict, undefined: None, degree, count, infinite, delayed: None, drifts: false }
     }
 }
 
@@ -140,6 +161,7 @@ impl Problem {
                 let verdict = super::dead_time::verdict(self, delayed, budget)?;
                 return Ok(Answer::new(Arc::clone(self), verdict));
             }
+            let mut drifts = false;
             let at = if !self.algebra_over_symbols(budget)?.symbols().is_empty() {
                 budget.step("counting the roots");
                 match self.symbolic(budget)? {
@@ -151,29 +173,24 @@ impl Problem {
                     None => AtPoint::Undefined,
                     Some(p) => {
                         budget.step("counting the roots");
+                        drifts = has_odd_real_roots_beyond(&p.specialised(&Rational::ZERO), self.shape());
                         budget.enter(|| p.at(&Rational::ZERO, self.shape()))?
                     }
                 }
             };
             let algebra = self.algebra_over_symbols(budget)?;
-            let degree = algebra.formal_degree();
-            let (verdict, count, infinite) = match at {
-                AtPoint::Undefined => (Verdict::Undefined, None, 0),
-                AtPoint::Zero => (Verdict::Unstable, Some(RootCount::default()), degree),
-                AtPoint::Defined { count, infinite } => {
-                    let verdict = match (count.outside + infinite, count.on) {
-                        (0, 0) => Verdict::Stable,
-                        (0, _) => Verdict::Marginal,
-                        _ => Verdict::Unstable,
-                    };
-                    (verdict, Some(count), infinite)
-                }
-            };
             let undefined = algebra.undefined().map(str::to_owned);
-            Ok(Answer::new(
-                Arc::clone(self),
-                PointVerdict { verdict, undefined, degree, count, infinite, delayed: None },
-            ))
+            let verdict = PointVerdict { undefined, drifts, ..PointVerdict::of(at, algebra.formal_degree()) };
+            Ok(Answer::new(Arc::clone(self), verdict))
         })?
     }
+}
+
+/// Whether the sign of a polynomial changes oddly often beyond the point where the real axis leaves the region to the right.
+fn has_odd_real_roots_beyond(p: &UniPoly, shape: Shape) -> bool {
+    let end = match shape {
+        Shape::UnitDisc => Rational::ONE,
+        Shape::LeftHalfPlane => Rational::ZERO,
+    };
+    p.leading().is_some_and(|leading| p.sign_at(&end) == leading.sign().reverse() && p.sign_at(&end).is_ne())
 }

@@ -5,7 +5,7 @@ use super::intervals::{heading, undecided_text};
 use super::layout::short;
 use super::real;
 use super::verdict::verdict_line;
-use crate::answer::{Answer, PointVerdict, ToleranceAnswer, ToleranceLimit, Verdict, WorstEnd};
+use crate::answer::{Answer, PointVerdict, ToleranceAnswer, ToleranceLimit, WorstEnd};
 use crate::problem::Problem;
 use crate::stability::AtPoint;
 use crate::stability::boxes::{BoxDecision, LargestFactor, Side, Witness};
@@ -268,18 +268,5 @@ fn end_words(worst: &WorstEnd) -> String {
 
 /// The root count of a witness as a verdict.
 pub(crate) fn verdict_of(witness: &Witness, problem: &Problem) -> PointVerdict {
-    let degree = problem.evaluated().map_or(0, |algebra| algebra.formal_degree());
-    let (verdict, count, infinite) = match &witness.at {
-        AtPoint::Undefined => (Verdict::Undefined, None, 0),
-        AtPoint::Zero => (Verdict::Unstable, Some(Default::default()), degree),
-        AtPoint::Defined { count, infinite } => {
-            let verdict = match (count.outside + infinite, count.on) {
-                (0, 0) => Verdict::Stable,
-                (0, _) => Verdict::Marginal,
-                _ => Verdict::Unstable,
-            };
-            (verdict, Some(*count), *infinite)
-        }
-    };
-    PointVerdict { verdict, undefined: None, degree, count, infinite, delayed: None }
+    PointVerdict::of(witness.at.clone(), problem.evaluated().map_or(0, |algebra| algebra.formal_degree()))
 }

@@ -63,5 +63,9 @@ pub fn verdict_line(problem: &Problem, answer: &PointVerdict) -> String {
     if answer.infinite > 0 {
         line.push_str(&format!(", {} at infinity (the degree drops from {degree})", answer.infinite));
     }
+    if answer.drifts && problem.region().radius().is_none() && problem.region().decay().is_none() {
+        let end = if problem.time() == Time::Discrete { "z = 1" } else { "s = 0" };
+        line.push_str(&format!("; a real root beyond {end}: is a sign of the feedback missing?"));
+    }
     line
 }

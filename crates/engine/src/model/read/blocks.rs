@@ -179,8 +179,20 @@ fn dynamics(
         "num/den" => {
             need("num", reader);
             need("den", reader);
-            let numerator = reader.expressions(table.get("num")?, "a coefficient");
-            let denominator = reader.expressions(table.get("den")?, "a coefficient");
+            let mut coefficients = |key: &str| -> Option<Vec<Expression>> {
+                let value = table.get(key)?;
+                if let Kind::String(text) = &value.kind
+                    && text.as_str().trim_start().starts_with('[')
+                {
+                    let error = Diagnostic::error("E-type", format!("'{key}' must be a list of coefficients"));
+                    let error = error.at(value.span, "this is a string");
+                    reader.report(error.help(format!("without the quotes, with commas: {key} = [1, \"-a\"]")));
+                    return None;
+                }
+                Some(reader.expressions(value, "a coefficient"))
+            };
+            let (numerator, denominator) = (coefficients("num"), coefficients("den"));
+            let (numerator, denominator) = (numerator?, denominator?);
             for (list, key) in [(&numerator, "num"), (&denominator, "den")] {
                 if list.is_empty() {
                     let error = Diagnostic::error("E-value", format!("'{key}' has no coefficients"));

@@ -33,8 +33,8 @@ pub(super) fn read_form(
                 "add [loop] with the external signals and those of interest: inputs = [\"r\"], outputs = [\"y\"]"
             }
             None => {
-                "add [loop] with 'characteristic', with 'matrix', or with 'A', 'B', 'C', 'K'; or with 'inputs' and \
-                 'outputs', and [[block]] entries"
+                "add [loop] with 'inputs' and 'outputs' and a [[block]] for each block; or [loop] with 'characteristic', \
+                 with 'matrix', or with 'A', 'B', 'C', 'K'. 'jurist new' writes a model to begin with"
             }
         }));
         return None;

@@ -83,6 +83,11 @@ pub const DRIVE: &str = include_str!("../../../../../examples/drive.toml");
 pub fn source_from_bytes(name: &str, bytes: &[u8]) -> Result<Arc<Source>, Diagnostics> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok(Source::new(name, text)),
+        Err(_) if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) => {
+            let error = Diagnostic::error("E-utf8", "the file is UTF-16")
+                .help("save it as UTF-8; in PowerShell: 'Set-Content -Encoding utf8' in place of '>'");
+            Err(Diagnostics::new(Some(Source::new(name, "")), vec![error]))
+        }
         Err(error) => {
             let offset = error.valid_up_to();
             let text = String::from_utf8_lossy(bytes).into_owned();

@@ -67,7 +67,11 @@ impl Reader {
         for entry in table.iter().filter(|e| !known.contains(&e.key.as_str())) {
             let message = format!("unknown key '{}' in {place}", shorten(&entry.key));
             let mut error = Diagnostic::error("E-unknown-key", message).at(entry.key_span, "not known here");
-            error.help = did_you_mean(&entry.key, known.iter().copied())
+            let is_rate = ["sample_rate", "sampling_rate", "fs", "f_s"].contains(&entry.key.as_str());
+            let rate = (is_rate && known.contains(&"sample_time"))
+                .then(|| "give the sample time, 1 over the rate: sample_time = \"1/10000\"".to_owned());
+            error.help = rate
+                .or_else(|| did_you_mean(&entry.key, known.iter().copied()))
                 .or_else(|| Some(format!("known here: {}", list(known.iter().copied()))));
             self.report(error);
             // What stands in the wrong place is not unknown as well where it is used.
@@ -269,7 +273,9 @@ impl Reader {
         let mut first: Option<(usize, Span)> = None;
         for row in rows {
             let Kind::Array(items) = &row.kind else {
-                self.wrong_type(row, &format!("a row of {what}"), "an array");
+                let error = Diagnostic::error("E-type", format!("a row of {what} must be an array"));
+                let error = error.at(row.span, format!("this is {}", row.describe()));
+                self.report(error.help("rows in brackets, expressions in quotes: [[0, 1], [\"-k\", -2]]"));
                 continue;
             };
             match first {

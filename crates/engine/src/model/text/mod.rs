@@ -7,6 +7,7 @@ mod lexer;
 mod located;
 pub(in crate::model) mod names;
 mod parser;
+mod toml_hints;
 pub(in crate::model) mod toml_reader;
 pub(in crate::model) mod toml_value;
 

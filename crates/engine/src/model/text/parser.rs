@@ -23,6 +23,10 @@ const PRODUCT: u8 = 2;
 const PREFIX: u8 = 3;
 const POWER: u8 = 4;
 
+/// Units that are written after numbers by mistake, and their prefixes.
+const UNITS: [&str; 14] = ["s", "Hz", "rad", "deg", "V", "A", "Ohm", "H", "F", "N", "Nm", "g", "m", "W"];
+const PREFIXES: [&str; 7] = ["", "n", "u", "m", "k", "M", "G"];
+
 impl Expression {
     /// Reads an expression that stands alone, such as one given on the command line.
     ///
@@ -73,9 +77,18 @@ impl Parser<'_> {
     }
 
     fn missing_operator(&self, found: &TokenKind) -> Diagnostic {
+        let after_number = self.position.checked_sub(1).map(|i| &self.tokens[i].kind);
+        let is_unit =
+            |name: &str| UNITS.iter().any(|unit| name.strip_suffix(unit).is_some_and(|p| PREFIXES.contains(&p)));
+        let help = match (after_number, found) {
+            (Some(TokenKind::Number(_)), TokenKind::Name(name)) if is_unit(name) => {
+                "numbers have no unit, 100 us is 100e-6; multiplication is written out: 'a*b', not 'a b'"
+            }
+            _ => "multiplication is written out: 'a*b', not 'a b'",
+        };
         Diagnostic::error("E-syntax", format!("an operator is missing before {}", found.describe()))
             .at(self.peek().span, "expected an operator")
-            .help("multiplication is written out: 'a*b', not 'a b'")
+            .help(help)
     }
 
     fn deeper(&mut self, span: Span) -> Result<(), Diagnostic> {

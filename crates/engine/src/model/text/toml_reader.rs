@@ -7,6 +7,7 @@
 
 use super::located::Text;
 use super::names::shorten;
+use super::toml_hints::hint;
 use super::toml_value::{Entry, Kind, Table, Value};
 use crate::error::{Diagnostic, Span};
 use toml::Spanned;
@@ -52,14 +53,23 @@ fn diagnostic(error: &toml::de::Error, text: &str) -> Diagnostic {
     if what == "duplicate key" {
         let span = span.unwrap_or_default();
         let name = decoded_key(&text[span.start..span.end]);
+        let of_an_array = text.lines().any(|line| line.trim().strip_prefix("[[").is_some_and(|l| l.starts_with(&name)));
+        let help = match &text[..span.start] {
+            before if of_an_array && before.ends_with('[') => {
+                format!("each has a header of its own: [[{}]]", shorten(&name))
+            }
+            _ => "keep one of the two".to_owned(),
+        };
         return Diagnostic::error("E-duplicate-key", format!("'{}' is defined twice", shorten(&name)))
             .at(span, "defined again here")
-            .help("keep one of the two");
+            .help(help);
     }
     let code = if what.contains("recur") { "E-too-deep" } else { "E-toml" };
     let error = Diagnostic::error(code, format!("not valid TOML: {what}"));
-    match span {
-        Some(span) => error.at(span, expected),
+    let Some(span) = span else { return error };
+    let error = error.at(span, expected);
+    match hint(text, span.start).filter(|_| code == "E-toml") {
+        Some(hint) => error.help(hint),
         None => error,
     }
 }
