@@ -102,7 +102,7 @@ mod tests {
             ("K =", "give a value: K = 1"),
         ] {
             let text = format!("title = 't'\n{line}\nx = 1\n");
-            assert_eq!(hint(&text, text.find(line).unwrap() + 4).as_deref(), Some(remedy), "{line}");
+            assert_eq!(hint(&text, text.find(line).unwrap() + 2).as_deref(), Some(remedy), "{line}");
         }
         assert_eq!(hint("", 7), None);
         assert_eq!(hint("a = \"b\" c", 8), None);
