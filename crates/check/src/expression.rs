@@ -17,6 +17,8 @@ const MAX_POWER: i64 = 1000;
 pub(super) struct Scope<'c> {
     /// Values of constants.
     pub constants: BTreeMap<String, Fraction>,
+    /// Constants that are matrices.
+    pub matrices: BTreeMap<String, Vec<Vec<Fraction>>>,
     /// Numbers of variables, from 1 on.
     pub parameters: BTreeMap<String, usize>,
     /// Every divisor, as a polynomial: the model is undefined where it vanishes identically in variable 0.
@@ -48,7 +50,7 @@ pub(super) enum Names<'n> {
 
 impl<'c> Scope<'c> {
     pub fn new(parameters: BTreeMap<String, usize>, clock: &'c Clock) -> Self {
-        Scope { constants: BTreeMap::new(), parameters, divisors: BTreeSet::new(), clock }
+        Scope { constants: BTreeMap::new(), matrices: BTreeMap::new(), parameters, divisors: BTreeSet::new(), clock }
     }
 
     /// A number, or an expression in constants and parameters.

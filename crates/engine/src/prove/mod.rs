@@ -3,7 +3,9 @@
 mod cofactors;
 mod coq;
 mod emit;
+mod held;
 mod line;
+mod over_symbols;
 mod smt2;
 mod text;
 
