@@ -326,8 +326,8 @@ def tokens_of(text):
 def no_names(name):
     raise Rejected(f"the name {name:.40} where only numbers may stand")
 
-def evaluate(text, names, inverse):
-    """The value of an expression; `names` and `inverse` are functions."""
+def evaluate(text, names, inverse, exponential=None):
+    """The value of an expression; `names`, `inverse` and `exponential` are functions."""
     tokens, depth = tokens_of(text)[::-1], 0  # the next token is the last of the list
 
     def accept(*operators):
@@ -374,6 +374,10 @@ def evaluate(text, names, inverse):
         if token[0] in ".0123456789":
             return decimal(token)
         need(is_name(token), f"{token:.40} is not expected in {text[:60]!r}")
+        if exponential and token == "exp" and accept("("):
+            result = exponential(nested(total, names))
+            need(accept(")"), "')' is missing")
+            return result
         return names(token)
 
     result = total(names)
@@ -382,6 +386,8 @@ def evaluate(text, names, inverse):
 
 class Scope:
     """What names mean, and everything that was divided by."""
+
+    exponential = None  # exp(-tau s), where it is read
 
     def __init__(self, constants, variables):
         need(len(variables) < 900, "there are too many parameters")  # HIGHEST
@@ -421,7 +427,7 @@ class Scope:
 
         need(isinstance(toml, (str, int)) and not isinstance(toml, bool), "an expression is expected")
         if isinstance(toml, str):
-            return evaluate(toml, named, inverse)
+            return evaluate(toml, named, inverse, self.exponential if "exp" not in self.known and "exp" not in more else None)
         spend(1, toml.bit_length())
         return scalar(number(toml))
 
@@ -546,6 +552,8 @@ class Loop:
         self.values, self.symbols, self.sample_time = values, symbols, root.get("sample_time")
         self.first = 2 + len(values or [])  # symbols are the variables from here on
         self.scope = Scope({name: c for name, c in model.constants.items() if name not in variables}, variables)
+        if isinstance(symbols, Fraction) and self.z == "s":  # the dead time of which all are multiples, over the parameter
+            self.scope.exponential = lambda f: self.delayed(-f, 1)
         self.unknowns, self.equations, self.degree, self.own = [], [], 0, []
         if "sample_time" in root:
             t = self.scope.value(root["sample_time"]).number()
@@ -676,7 +684,9 @@ class Loop:
                 self.equations.append(y[i] + -(seen + (dot(d[i], u) if d else NOTHING)))
             return
         need(len(u) == len(y) == 1, "a transfer function has one input and one output")
-        if kinds[2]:
+        if kinds[2] and self.scope.exponential:
+            num, den = self.delayed(scope.value(block["delay"]), 0).scalar(), ONE
+        elif kinds[2]:
             samples = constant(block["delay"])
             need(samples.denominator == 1 and 0 <= samples <= MAX_ORDER and inner == "z", "a delay is a number of samples")
             num, den = ONE, Z ** int(samples)
@@ -707,6 +717,14 @@ class Loop:
             scope.divisors.append((den.coefficients(0) + [ZERO] * order)[order])
         self.equations.append(y[0] * scalar(den) + -(u[0] * scalar(num)))
         self.degree += order
+
+    def delayed(self, f, power):
+        """exp(-tau s) as a power of the symbol, for tau as a value, or tau s with the power 1 of s."""
+        top, bottom = (p.at(self.values) for p in (f.scalar(), f.bottom))
+        need(not any(bottom) and list(top) == [(1 << FIELD) + power], "a dead time is not a multiple of the parameter")
+        k = Fraction(top[(1 << FIELD) + power]) / Fraction(bottom[0]) / self.symbols
+        need(k.denominator == 1 and 0 < k <= 256, "a dead time is not a multiple of the base")
+        return scalar(P({int(k) << FIELD * self.first: 1}))
 
     def number(self, f):
         """The number that a value is with all parameters."""
@@ -1092,7 +1110,9 @@ def characteristic_polynomial(text, kept, values, symbols=None):
     values = {name: x for name, x in values.items() if name not in numbers}
     variables = {name: v for v, name in enumerate(values, 2)} | ({} if kept is None else {kept: 1})
     values = list(values.values())
-    loop = Loop(model, variables, values, symbols or Table())
+    loop = Loop(model, variables, values, Table() if symbols is None else symbols)
+    if isinstance(symbols, Fraction):
+        return quasi_polynomial(model, loop, values)
     if symbols:
         return over_symbols(model, loop, values)
 
@@ -1143,6 +1163,20 @@ def over_symbols(model, loop, values):
     poles.append(d.lead(0))
     need(all(poles), "the loop is undefined for every value")
     return True, loop.degree, d.coefficients(0), poles
+
+def quasi_polynomial(model, loop, values):
+    """P_0(s) + P_1(s) z + ... with the symbol z for the dead time; nothing else depends on the parameter."""
+    need(not model.discrete, "a sampled loop has no dead time")
+    for divisor in loop.scope.divisors:
+        [p] = cleared([divisor.at(values)])
+        need(p and not p.degree(1) and not p.degree(2), "a divisor depends on the dead time, or is zero")
+    need(len(loop.equations) == len(loop.unknowns), "there are not as many equations as unknowns")
+    d = expanded([cleared([e.tops.get(name, ZERO).at(values) for name in loop.unknowns]) for e in loop.equations])
+    need(d and d.degree(0) == loop.degree and not d.degree(1), "the loop is not well posed, or depends on the parameter")
+    parts = d.coefficients(2)
+    while not parts[0]:
+        parts.pop(0)
+    return cleared(parts)
 
 class Exact:
     """Polynomials in the parameter with integer coefficients."""
@@ -1339,6 +1373,169 @@ def half_size_pair(d, discrete):
     # (z^(j+1) + z^-j)/(z + 1), and (z^(j+1) - z^-j)/(z - 1)
     return in_x(even, ONE, Z + number(-1)), in_x(odd, ONE, Z + ONE), k, k
 
+# ---------------------------------------------------------------- dead time
+
+def inverse_tangent(x, bits):
+    """Of a number over 2^bits, enclosed: the argument is halved, then Euler's alternating series is cut off."""
+    one, halvings = 1 << bits, 8
+    lo = hi = abs(x)
+    for _ in range(halvings):  # atan x = 2 atan(x/(1 + sqrt(1 + x^2)))
+        lo = (lo << bits) // (one + isqrt(one * one + lo * lo) + 1)
+        hi = -(-(hi << bits) // (one + isqrt(one * one + hi * hi)))
+    out, power, k = (0, 0), (lo, hi), 1
+    square = times(power, power, bits)
+    while power[1] > 0:
+        term = power[0] // k, -(-power[1] // k)
+        out = added(out, term if k % 4 == 1 else (-term[1], -term[0]))
+        power, k = times(power, square, bits), k + 2
+        if power[1] <= 1:
+            break
+    out = (out[0] - 2) << halvings, (out[1] + 2) << halvings
+    return out if x >= 0 else (-out[1], -out[0])
+
+def arc(x, bits):
+    return inverse_tangent(x[0], bits)[0], inverse_tangent(x[1], bits)[1]
+
+def over(x, y, bits):
+    need(y[0] > 0 or y[1] < 0, "a divisor is not shown to be other than zero")
+    ends = [Fraction(a << bits, b) for a in x for b in y]
+    return min(ends) // 1, -(-max(ends) // 1)
+
+def root_of(x):
+    """The square root of a positive number over 2^bits, given with 2 bits."""
+    return isqrt(x[0]), isqrt(x[1]) + 1
+
+class Crossing:
+    """A root i omega of the axis, simple in omega^2, which is the only root of F between a and b."""
+
+    def __init__(self, p, q, f, a, b, bits):
+        need(0 < a < b and value(f, a) * value(f, b) < 0, "crossings: no change of sign")
+        self.direction = 1 if value(f, b) > 0 else -1
+        w = enclosed(a, bits)[0], enclosed(b, bits)[1]
+        self.omega = root_of((w[0] << bits, w[1] << bits))
+        # z = exp(-i omega tau) = -P_0/P_1: the angle omega tau is that of x + i omega y
+        (e0, o0), (e1, o1) = ([part[0::2], part[1::2]] for part in (p, q))
+        alternating = [[c * (-1) ** k for k, c in enumerate(part)] for part in (e0, o0, e1, o1)]
+        e0, o0, e1, o1 = map(P.of, alternating)  # in omega^2
+        x = -(e0 * e1 + P.of([0, 1]) * o0 * o1)
+        y = o0 * e1 + -(e0 * o1)
+        at = [self.horner(part.listed(0), w, bits) for part in (x, y)]
+        x_at, y_at = at[0], times(at[1], self.omega, bits)
+        pi = scaled_by(inverse_tangent(1 << bits, bits), 4)
+        self.turn = scaled_by(pi, 2)
+        half = floor_shift(pi, 1)
+        if not y:  # z is 1 or -1
+            self.is_one = certain(x_at) > 0
+            need(x_at[0] > 0 or x_at[1] < 0, "a sign is not certain")
+            self.theta = (0, 0) if self.is_one else pi
+            return
+        self.is_one = False
+        if x_at[0] <= 0 <= x_at[1]:
+            sign = certain(y_at)
+            self.theta = added(half if sign > 0 else added(pi, half), scaled_by(arc(over(x_at, y_at, bits), bits), -1))
+        else:
+            angle = arc(over(y_at, x_at, bits), bits)
+            self.theta = added(angle, pi if x_at[1] < 0 else (0, 0) if certain(y_at) > 0 else self.turn)
+
+    @staticmethod
+    def horner(p, x, bits):
+        out = (0, 0)
+        for c in reversed(p):
+            out = added(times(out, x, bits), (c << bits, c << bits))
+        return out
+
+    def dead_time(self, k, bits):
+        return over(added(self.theta, scaled_by(self.turn, k)), self.omega, bits)
+
+def square_of_modulus(p):
+    """|p(i omega)|^2, a polynomial in omega^2."""
+    even, odd = (P.of([c * (-1) ** k for k, c in enumerate(p[first::2])]) for first in (0, 1))
+    return even * even + P.of([0, 1]) * odd * odd
+
+def check_windows(model, document, statement, values, extent):
+    """The stable dead times: from the roots without delay, counted on over all crossings."""
+    names = ["schema", "statement", "bits", "delay", "parts", "crossings"]
+    _, _, bits, base, given, crossings = parts(document, names, ["model"])
+    *_, parameter, domain, claimed = parts(statement, ["kind", "time", "set", "region", "parameter", "domain", "stable"])
+    need(type(bits) is int and 64 <= bits <= 1 << 15, "bits: out of range")
+    low, high = (None if b is None else rational(b) for b in parts(domain, ["lower", "upper"]))
+    need(low is not None and 0 <= low and (high is None or low < high), "the domain is not one of dead times")
+    base = rational(base)
+    need(base > 0 and extent == 0, "the dead time or the region is another")
+    given = items(given, lambda part: items(part, integer))
+    own = [part.listed(0) for part in characteristic_polynomial(model, name_of(parameter), values, base)]
+    need(given in (own, [[-c for c in part] for part in own]), "parts: not those of the model")
+    need(len(given) == 2, "parts: more than one multiple of the dead time")
+    p, q = given
+    n = len(p) - 1
+    need(n >= len(q) and p and q or len(q) - 1 == n and abs(q[n]) < abs(p[n]), "the loop is advanced, or neutral and never stable")
+    total = (P.of(p) + P.of(q)).listed(0)
+    if not total or not total[0]:
+        found, count, events = [], 1, []  # s = 0 for every dead time
+        need(crossings == [], "crossings: there is nothing to cross")
+    else:
+        f = (square_of_modulus(p) + -square_of_modulus(q)).listed(0)
+        need(f, "crossings: on the axis for all frequencies")
+        f = f[next(k for k, c in enumerate(f) if c):]
+        chain = sturm(f, [k * c for k, c in enumerate(f)][1:])
+        need(len(chain[-1]) == 1, "crossings: a root of F is multiple")
+        need(changes(g[0] for g in chain) - changes(g[-1] for g in chain) == len(crossings), "crossings: not as many as roots")
+        enclosures = items(crossings, pair)
+        need(all(a[1] <= b[0] for a, b in zip(enclosures, enclosures[1:])), "crossings: not in order")
+        found = [Crossing(p, q, f, a, b, bits) for a, b in enclosures]
+        inside, on, count = places(total, False)
+        at_zero = [c for c in found if c.is_one]
+        need(on == 2 * len(at_zero) and inside + on + count == n, "crossings: the roots without delay do not fit")
+        count += 2 * sum(c.direction > 0 for c in at_zero)
+        last = None if high is None else high * base
+        if found:
+            growth = (0, 0)
+            for c in found:
+                growth = added(growth, scaled_by(c.omega, c.direction))
+            need(growth[0] > 0, "crossings: the count is not shown to grow")
+            bound = Fraction(found[0].turn[1] * len(found), growth[0])
+            last = bound if last is None else min(last, bound)
+        events = []
+        for j, c in enumerate(found):
+            k = int(c.is_one)
+            while (e := c.dead_time(k, bits))[0] < last * (1 << bits):
+                events.append((*e, c.direction, j, k))
+                k += 1
+                need(len(events) < 100_000, "there are too many switches")
+        events.sort()
+        need(all(a[1] < b[0] for a, b in zip(events, events[1:])), "crossings: the order of two switches is not certain")
+    scale = base * (1 << bits)
+    before, stable = low, []
+    for e0, e1, direction, j, k in events:
+        at = Fraction(e0) / scale, Fraction(e1) / scale
+        if at[1] < low:
+            count += 2 * direction
+            continue
+        if high is not None and at[0] > high:
+            break
+        need(low < at[0] and (high is None or at[1] < high), "a switch is not told from an end of the domain")
+        if count == 0:
+            stable.append((before, (j, k, at)))
+        count, before = count + 2 * direction, (j, k, at)
+    if count == 0:
+        need(high is not None or not found, "the count does not grow")
+        stable.append((before, high))
+    need(isinstance(claimed, list) and len(claimed) == len(stable), "stable: not as many intervals")
+
+    def fits(end, own):
+        if not isinstance(own, tuple):
+            return (None if end is None else rational(end)) == own
+        crossing, turns, between = parts(end, ["crossing", "turns", "between"])
+        between = pair(between)
+        return [crossing, turns] == [*own[:2]] and between[0] <= own[2][0] and own[2][1] <= between[1]
+
+    for interval, ends in zip(claimed, stable):
+        need(all(map(fits, parts(interval, ["lower", "upper"]), ends)), "stable: an end is another")
+    where = [f"{in_words(lower)} to {in_words(upper)}" for lower, upper in
+             ([e if not isinstance(e, tuple) else e[2] for e in ends] for ends in stable)]
+    given = "".join(f", {name} = {x}" for name, x in values.items())
+    return f"in continuous time{given}: stable exactly for {parameter} from {' or '.join(where) or 'nowhere'} in ({low}, {high})"
+
 # ---------------------------------------------------------------- the parts of a certificate
 
 def integer(text):
@@ -1406,10 +1603,10 @@ def read(certificate):
     hooks = {"parse_int": small, "parse_float": small, "parse_constant": small, "object_pairs_hook": strict}
     document = json.loads(certificate, **hooks)
     need(depth(document) <= MAX_DEPTH, "nested too deep")
-    need(isinstance(document, dict) and document.get("schema") in (RATIONAL, WITH_SYMBOLS), "unknown schema")
+    need(isinstance(document, dict) and document.get("schema") in (RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME), "unknown schema")
     return document
 
-RATIONAL, WITH_SYMBOLS = "jurist/certificate/1", "jurist/certificate/2"
+RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME = "jurist/certificate/1", "jurist/certificate/2", "jurist/certificate/3"
 FURTHER = ["bits", "symbols", "modes"]
 
 def table_of(document):
@@ -1432,6 +1629,9 @@ def check(model, certificate):
     [extent] = parts(region, ["radius" if discrete else "decay"])
     extent = "parameter" if extent == "parameter" else rational(extent)
     need(not discrete or extent == "parameter" or extent > 0, "the radius is not positive")
+    if document["schema"] == WITH_DEAD_TIME:
+        need(kind == "intervals" and not discrete, "unknown kind of statement")
+        return check_windows(model, document, statement, values, extent)
     if kind == "verdict":
         return check_verdict(model, document, statement, values, discrete, extent)
     symbols, further = table_of(document)
@@ -1470,9 +1670,11 @@ def check(model, certificate):
     where = [f"{in_words(lower, '-infinity')} to {in_words(upper, 'infinity')}" for lower, upper in claimed]
     return f"in {time} time, {given}, {region}: stable exactly for {parameter} from {' or '.join(where) or 'nowhere'}"
 
-def in_words(e, infinite):
+def in_words(e, infinite="infinity"):
     if e is None:
         return infinite
+    if isinstance(e, tuple) and isinstance(e[0], Fraction):
+        return f"[a switch in ({float(e[0])}, {float(e[1])})]"
     if isinstance(e, Fraction):
         return str(e)
     of = "a polynomial over symbols" if any(k >> 2 * FIELD for k in e[0]) else e[0].listed(1)

@@ -77,7 +77,8 @@ fn held_integrators_need_no_symbols() {
 
 #[test]
 fn the_examples_behind_a_hold_are_certified() {
-    for (name, parameter) in [("drive-hold", "K_pwm"), ("lcl-inverter", "Kp"), ("dc-servo", "K"), ("anti-alias-filter", "K_p")]
+    for (name, parameter) in
+        [("drive-hold", "K_pwm"), ("lcl-inverter", "Kp"), ("dc-servo", "K"), ("anti-alias-filter", "K_p")]
     {
         let model = example(name);
         accept(&model, &emitted(&model, parameter));
@@ -89,7 +90,9 @@ fn the_examples_behind_a_hold_are_certified() {
 /// What is not a number at fixed times has no certificate yet, and is not given one that would be rejected.
 #[test]
 fn what_no_checker_knows_gets_no_certificate() {
-    for (name, parameter) in [("drive-hold", "T"), ("lcl-inverter", "Lg"), ("dc-servo", "T_m"), ("anti-alias-filter", "w_f")] {
+    for (name, parameter) in
+        [("drive-hold", "T"), ("lcl-inverter", "Lg"), ("dc-servo", "T_m"), ("anti-alias-filter", "w_f")]
+    {
         let model = read(&example(name));
         let domain = |p| model.ask().free(p).within(p, number("1/1000")..number("1/500"));
         let Ok(answer) = domain(parameter).stable_set(&Budget::unlimited()) else { continue };
@@ -193,6 +196,8 @@ fn held_ends_and_bits_are_checked() {
     reject(&model, &bits_are("63"), Step::Format);
     reject(&model, &bits_are("999999"), Step::Format);
     // With so few bits an enclosure of a number near zero contains it, or all is still certain.
-    assert!(check(&model, &bits_are("64"), &LIMITS).is_ok() == python(&model, &bits_are("64")).is_none_or(|f| f.is_ok()));
+    assert!(
+        check(&model, &bits_are("64"), &LIMITS).is_ok() == python(&model, &bits_are("64")).is_none_or(|f| f.is_ok())
+    );
     reject(&model, &with("certificate/2", "certificate/1"), Step::Format);
 }

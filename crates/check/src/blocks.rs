@@ -49,6 +49,8 @@ pub(super) struct Values<'v> {
     /// The values of the variables; the symbols follow.
     pub numbers: &'v [Q],
     pub table: &'v Table,
+    /// The base of all dead times over the parameter.
+    pub base: Option<&'v Q>,
 }
 
 /// The matrices of a state-space block.
@@ -144,7 +146,10 @@ impl Diagram<'_, '_> {
             return Err("a block with one transfer function has one input and one output".into());
         }
         let clock = self.scope.clock;
-        let (num, den) = if let Some(samples) = block.get("delay") {
+        let (num, den) = if let (Some(time), true) = (block.get("delay"), self.scope.dead_time.is_some()) {
+            let time = self.scope.scalar(time)?;
+            (self.scope.delayed(&time, 0)?.numerator, Multi::one())
+        } else if let Some(samples) = block.get("delay") {
             let samples = number(samples, clock)?;
             let samples = Some(samples).filter(Q::is_integer).and_then(|q| q.to_integer().to_u32());
             let Some(samples) = samples.filter(|&k| k <= MAX_DELAY && inner == "z") else {

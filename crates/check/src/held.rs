@@ -27,7 +27,7 @@ pub(super) fn characteristic(
 ) -> Result<(Vec<Over>, Vec<Over>), Rejection> {
     let read = |json: &Json, what: &str| Over::read(json, what, table);
     let own = Step::Model.of((|| {
-        let asked = model::asked(text, kept, set, table, clock)?;
+        let asked = model::asked(text, kept, set, table, None, clock)?;
         if !asked.discrete {
             return Err("the model's time is not that of the statement".to_owned());
         }

@@ -11,6 +11,8 @@ mod blocks;
 mod characteristic;
 mod clock;
 mod coefficient;
+mod crossing;
+mod dead_time;
 mod declarations;
 mod determinant;
 mod expression;
@@ -40,7 +42,7 @@ mod univariate;
 mod verdict;
 
 use clock::{Clock, out_of_time};
-use format::{Json, SCHEMA, SCHEMA_WITH_SYMBOLS};
+use format::{Json, SCHEMA, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS};
 use num_traits::Zero;
 use number::{Q, shorten};
 use over::Over;
@@ -254,16 +256,18 @@ fn checked(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Re
     // Another version may have other parts, so it is looked at first.
     let schema = json.get("schema").ok_or_else(|| "the certificate has no 'schema'".to_owned());
     let schema = Step::Format.of(schema.and_then(|s| text(s, "'schema'")))?;
-    if schema != SCHEMA && schema != SCHEMA_WITH_SYMBOLS {
-        let reason = format!("the schema is '{}', not '{SCHEMA}' or '{SCHEMA_WITH_SYMBOLS}'", shorten(schema));
+    if ![SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_WITH_DEAD_TIME].contains(&schema) {
+        let known = format!("'{SCHEMA}', '{SCHEMA_WITH_SYMBOLS}' or '{SCHEMA_WITH_DEAD_TIME}'");
+        let reason = format!("the schema is '{}', not {known}", shorten(schema));
         return Err(Rejection { step: Step::Format, reason });
     }
     let statement =
         Step::Format.of(json.get("statement").ok_or_else(|| "the certificate has no 'statement'".into()))?;
     let kind = Step::Statement.of(statement.get("kind").ok_or_else(|| "the statement has no 'kind'".into()))?;
     match Step::Statement.of(text(kind, "'kind'"))? {
+        "intervals" if schema == SCHEMA_WITH_DEAD_TIME => dead_time::check(model, &json, statement, &clock),
         "intervals" => check_intervals(model, &json, statement, &clock),
-        "verdict" => verdict::check(model, &json, statement, &clock),
+        "verdict" if schema != SCHEMA_WITH_DEAD_TIME => verdict::check(model, &json, statement, &clock),
         other => {
             let reason = format!("unknown kind of statement '{}'", shorten(other));
             Err(Rejection { step: Step::Statement, reason })

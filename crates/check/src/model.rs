@@ -4,7 +4,7 @@ use super::blocks::{Values, system_matrix};
 use super::characteristic::{Characteristic, Form, specialised};
 use super::clock::Clock;
 use super::declarations::{Declarations, Meaning};
-use super::expression::{Names, Scope, number};
+use super::expression::{DeadTime, Names, Scope, number};
 use super::keys;
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, shorten};
@@ -22,7 +22,7 @@ pub(super) fn read(
     values: &[(String, Q)],
     clock: &Clock,
 ) -> Result<Characteristic, String> {
-    let read = asked(text, kept, values, &Table::empty(), clock)?;
+    let read = asked(text, kept, values, &Table::empty(), None, clock)?;
     let mut found = specialised(&read.form, &read.divisors, read.discrete, &read.values, clock)?;
     if found.poles.iter().any(Uni::is_zero) {
         // Undefined everywhere: there is no polynomial.
@@ -41,12 +41,13 @@ pub(super) struct Asked {
     pub values: Vec<Q>,
 }
 
-/// Reads the model for a question, exponentials over the symbols of a table.
+/// Reads the model for a question, exponentials over the symbols of a table, dead times as multiples of `base` times the parameter.
 pub(super) fn asked(
     text: &str,
     kept: Option<&str>,
     values: &[(String, Q)],
     table: &Table,
+    base: Option<&Q>,
     clock: &Clock,
 ) -> Result<Asked, String> {
     let root = toml::read(text)?;
@@ -58,7 +59,7 @@ pub(super) fn asked(
             // The model must be right as it is.
             evaluated(&root, &declared, &declared.as_written(), None, clock)?;
         }
-        let of = Values { numbers: &meaning.values, table };
+        let of = Values { numbers: &meaning.values, table, base };
         let (form, divisors) = evaluated(&root, &declared, &meaning, Some(of), clock)?;
         Ok(Asked { discrete: declared.discrete, form, divisors, values: meaning.values })
     })
@@ -73,6 +74,9 @@ fn evaluated(
     clock: &Clock,
 ) -> Result<(Form, BTreeSet<Multi>), String> {
     let mut scope = declared.scope(meaning, clock)?;
+    if let Some(Values { numbers, base: Some(base), .. }) = values.filter(|_| !declared.discrete) {
+        scope.dead_time = Some(DeadTime { base: base.clone(), values: numbers.to_vec() });
+    }
     if let Some(value) = root.get("sample_time") {
         let time = scope.scalar(value)?;
         if time.as_number().is_some_and(|time| !time.is_positive()) {

@@ -79,7 +79,7 @@ fn common(parts: &[Multi], clock: &Clock) -> Result<Multi, String> {
 }
 
 /// Polynomials with values for the variables from 2 up, together times a positive number; symbols become variables from 2 on.
-fn substituted(row: &[Multi], values: &[Q], clock: &Clock) -> Result<Vec<Multi>, String> {
+pub(super) fn substituted(row: &[Multi], values: &[Q], clock: &Clock) -> Result<Vec<Multi>, String> {
     let mut out: Vec<BTreeMap<Vec<u32>, Q>> = Vec::with_capacity(row.len());
     for p in row {
         let mut terms: BTreeMap<Vec<u32>, Q> = BTreeMap::new();
@@ -119,7 +119,7 @@ pub(super) fn primitive(row: Vec<Multi>) -> Vec<Multi> {
 
 /// The determinant, row by row: for each set of columns that the rows so far can take, the determinant of these rows in these
 /// columns [Laplace's expansion]. Most entries of a system matrix are zero.
-fn determinant(rows: &[Vec<Multi>], clock: &Clock) -> Result<Multi, String> {
+pub(super) fn determinant(rows: &[Vec<Multi>], clock: &Clock) -> Result<Multi, String> {
     let n = rows.len();
     if n > 64 {
         return Err("a loop with symbols has too many signals".into());

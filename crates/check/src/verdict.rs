@@ -179,6 +179,11 @@ const SHOWN: usize = 500;
 
 /// An end in words; `None` for an infinite one.
 fn end(json: &Json, parameter: &str) -> Option<String> {
+    if let Some(Json::List(between)) = json.get("switch")
+        && let [Json::Text(a), Json::Text(b)] = between.as_slice()
+    {
+        return Some(format!("[the dead time in ({a}, {b}) with roots on the axis]"));
+    }
     let (f, a, b) = match statement::end(json, |p: &Json, _: &str| Ok(p.clone())).ok()? {
         End::Infinite => return None,
         End::Rational(q) => return Some(q.to_string()),

@@ -1,9 +1,9 @@
 //! Writing certificates of the answers that are shown. Nothing here is trusted: what is wrong is found by the checkers.
 
 use super::cofactors::{Identity, identity};
-use super::held;
 use super::line::{Line, Separator};
 use super::text::to_text;
+use super::{dead_time, held};
 use super::{no_certificate, refuse_transcendental};
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
@@ -41,8 +41,8 @@ impl Answer<StableSet> {
         budget.enter(|| {
             budget.step("certificate");
             let problem = self.problem();
-            if problem.delayed(budget)?.is_some() {
-                return Err(no_certificate("no certificate: the loop has dead time"));
+            if let Some(delayed) = problem.delayed(budget)? {
+                return dead_time::of_set(self, delayed, budget);
             }
             if held::is_held(problem, budget)? {
                 return held::of_set(self, budget);
@@ -252,7 +252,7 @@ fn polynomial(p: &UniPoly) -> Value {
     Value::Array(p.coeffs().iter().map(|c| c.to_string().into()).collect())
 }
 
-fn polynomials(list: &[UniPoly]) -> Value {
+pub(super) fn polynomials(list: &[UniPoly]) -> Value {
     Value::Array(list.iter().map(polynomial).collect())
 }
 
