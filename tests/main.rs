@@ -72,6 +72,8 @@ mod certificates {
     mod blocks;
     mod check;
     mod coq;
+    mod dead_time;
+    mod held;
     mod program;
     mod readers;
     mod smt;

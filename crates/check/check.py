@@ -17,7 +17,7 @@ import sys
 import tomllib
 from fractions import Fraction
 from itertools import accumulate
-from math import gcd, lcm, prod
+from math import gcd, isqrt, lcm, prod
 
 MAX_TEXT, MAX_MODEL = 64 << 20, 4 << 20  # characters
 MAX_DIGITS = 100_000
@@ -222,7 +222,7 @@ class P(dict):
         return content if b else content * a
 
     def at(self, values):
-        """Numbers in the place of all variables from 2 on; the coefficients are rational."""
+        """Numbers in the place of the variables from 2 on; the coefficients are rational.  Symbols come down to 2."""
         out = {}
         for e, c in self.items():
             key, e = e & (MASK << FIELD | MASK), e >> 2 * FIELD
@@ -230,6 +230,7 @@ class P(dict):
                 k = e & MASK
                 spend(1, size([c.numerator, c.denominator]), k * size(x.as_integer_ratio()))
                 c, e = c * x ** k, e >> FIELD
+            key |= e << 2 * FIELD
             out[key] = out.get(key, 0) + c
         return P.of(out)
 
@@ -325,8 +326,8 @@ def tokens_of(text):
 def no_names(name):
     raise Rejected(f"the name {name:.40} where only numbers may stand")
 
-def evaluate(text, names, inverse):
-    """The value of an expression; `names` and `inverse` are functions."""
+def evaluate(text, names, inverse, exponential=None):
+    """The value of an expression; `names`, `inverse` and `exponential` are functions."""
     tokens, depth = tokens_of(text)[::-1], 0  # the next token is the last of the list
 
     def accept(*operators):
@@ -373,6 +374,10 @@ def evaluate(text, names, inverse):
         if token[0] in ".0123456789":
             return decimal(token)
         need(is_name(token), f"{token:.40} is not expected in {text[:60]!r}")
+        if exponential and token == "exp" and accept("("):
+            result = exponential(nested(total, names))
+            need(accept(")"), "')' is missing")
+            return result
         return names(token)
 
     result = total(names)
@@ -382,12 +387,17 @@ def evaluate(text, names, inverse):
 class Scope:
     """What names mean, and everything that was divided by."""
 
+    exponential = None  # exp(-tau s), where it is read
+
     def __init__(self, constants, variables):
         need(len(variables) < 900, "there are too many parameters")  # HIGHEST
-        self.divisors, self.constants = [], constants
+        self.matrices = {name: c for name, c in constants.items() if isinstance(c, list)}
+        self.divisors, self.constants = [], {name: c for name, c in constants.items() if name not in self.matrices}
         self.known = {name: scalar(P({1 << FIELD * v: 1})) for name, v in variables.items()}
-        for name in constants:
+        for name in self.constants:
             self.define(name)
+        for rows in self.matrices.values():  # defined, used or not
+            self.matrix(rows)
 
     def define(self, name):
         """A constant, after those that it uses."""
@@ -417,7 +427,7 @@ class Scope:
 
         need(isinstance(toml, (str, int)) and not isinstance(toml, bool), "an expression is expected")
         if isinstance(toml, str):
-            return evaluate(toml, named, inverse)
+            return evaluate(toml, named, inverse, self.exponential if "exp" not in self.known and "exp" not in more else None)
         spend(1, toml.bit_length())
         return scalar(number(toml))
 
@@ -426,8 +436,15 @@ class Scope:
         need(not value.tops.pop("", ZERO), "a linear expression has a constant term")
         return value
 
+    def rows(self, toml):
+        """A matrix as it is written, or the constant of this name."""
+        if isinstance(toml, str) and not isinstance(toml, Number):
+            need(toml.strip() in self.matrices, "no constant of this name is a matrix")
+            toml = self.matrices[toml.strip()]
+        return listed(toml)
+
     def matrix(self, toml, rows=None, columns=None):
-        m = [[self.value(e) for e in listed(row)] for row in listed(toml)]
+        m = [[self.value(e) for e in listed(row)] for row in self.rows(toml)]
         need(len({len(row) for row in m}) < 2, "the rows differ in length")
         need(rows is None or len(m) == rows and (not m or len(m[0]) == columns), "sizes do not fit")
         return m
@@ -530,9 +547,13 @@ class Model:
 class Loop:
     """Equations of signals and states, and everything that is divided by."""
 
-    def __init__(self, model, variables):
+    def __init__(self, model, variables, values=None, symbols=None):
         self.z, self.taken, root = model.z, model.taken, model.root
+        self.values, self.symbols, self.sample_time = values, symbols, root.get("sample_time")
+        self.first = 2 + len(values or [])  # symbols are the variables from here on
         self.scope = Scope({name: c for name, c in model.constants.items() if name not in variables}, variables)
+        if isinstance(symbols, Fraction) and self.z == "s":  # the dead time of which all are multiples, over the parameter
+            self.scope.exponential = lambda f: self.delayed(-f, 1)
         self.unknowns, self.equations, self.degree, self.own = [], [], 0, []
         if "sample_time" in root:
             t = self.scope.value(root["sample_time"]).number()
@@ -612,12 +633,23 @@ class Loop:
         u = [scope.linear(e, signals) for e in several(block["input"])]
         y = [signals[name] for name in several(block["output"])]
         up, down, inner = Z, ONE, self.z
+        hold = None
         if "discretize" in block:  # s = up / down
             need(self.z == "z", "a continuous loop has nothing to discretise")
             need("transfer" not in block or "s" not in self.taken, "s has two meanings")
-            rule, inner = table(block["discretize"], "method T c"), "s"
-            method, t, c = (scope.value(rule[k]) if k in rule and k != "method" else rule.get(k) for k in ("method", "T", "c"))
-            if method == "tustin" and (c or t):
+            rule, inner = block["discretize"], "s"
+            rule = {"method": rule} if isinstance(rule, str) else dict(table(rule, "method T c delay"))
+            method = text_of(rule.get("method"))
+            if "T" not in rule and "c" not in rule and self.sample_time is not None:
+                rule["T"] = self.sample_time
+            t, c, delay = (scope.value(rule[k]) if k in rule else None for k in ("T", "c", "delay"))
+            need(method in ("zoh", "foh") or not delay, "only a hold has a delay")
+            if method in ("zoh", "foh"):
+                need(t and not c, "'discretize' does not fit")
+                if self.values is not None:
+                    hold = method == "foh", self.number(t), self.number(delay) if delay else Fraction(0)
+                    need(hold[1] > 0 and hold[2] >= 0, "the times of a hold are not positive")
+            elif method == "tustin" and (c or t):
                 c = c or scope.value("2/T", {"T": t})
                 up, down = (Z + number(-1)) * c.scalar(), (Z + ONE) * c.bottom
             else:
@@ -630,10 +662,16 @@ class Loop:
         need(sum(kinds) == 1, "a block does not say exactly once what it does")
         if kinds[4]:
             need(("A" in block) == ("B" in block) and ("A" in block or "C" not in block), "A and B are needed")
-            n = len(listed(block.get("A", [])))
+            n = len(scope.rows(block.get("A", [])))
             sizes = {"A": (n, n), "B": (n, len(u)), "C": (len(y), n), "D": (len(y), len(u))}
             a, b, c, d = (scope.matrix(block[k], *sizes[k]) if k in block else None for k in "ABCD")
             x = [self.unknown() for _ in range(n)]
+            if hold:
+                one = [[scalar(number(int(i == j))) for j in range(n)] for i in range(n)]
+                c = c if c is not None else one if a is not None else [[]] * len(y)
+                self.states = self.states + (several(block["output"]) if a is not None and "C" not in block else [])
+                need(n == len(y) or "C" in block or a is None, "without C the outputs are the states")
+                return self.held(hold, a or [], b or [], c, d, x, u, y)
             if n:
                 self.state_space(a, b, x, u, up, down)
             if n and "discretize" in block:
@@ -646,7 +684,9 @@ class Loop:
                 self.equations.append(y[i] + -(seen + (dot(d[i], u) if d else NOTHING)))
             return
         need(len(u) == len(y) == 1, "a transfer function has one input and one output")
-        if kinds[2]:
+        if kinds[2] and self.scope.exponential:
+            num, den = self.delayed(scope.value(block["delay"]), 0).scalar(), ONE
+        elif kinds[2]:
             samples = constant(block["delay"])
             need(samples.denominator == 1 and 0 <= samples <= MAX_ORDER and inner == "z", "a delay is a number of samples")
             num, den = ONE, Z ** int(samples)
@@ -661,12 +701,335 @@ class Loop:
         order = den.degree(0)
         need(den and num.degree(0) <= order <= MAX_ORDER, "a transfer function is improper")
         scope.divisors.append(den.coefficients(0)[order])
+        if hold:  # the companion matrix of the denominator
+            below = [self.number(scalar(c)) for c in den.coefficients(0)]
+            need(below[-1], "a held block loses its order")
+            whole = [scalar(c) * of_number(1 / below[-1]) for c in num.coefficients(0)] + [NOTHING] * order
+            below = [c / below[-1] for c in below[:-1]]
+            a = [[of_number(Fraction(int(j == i + 1))) for j in range(order)] for i in range(order)]
+            a[-1:] = [[of_number(-c) for c in below]] if order else []
+            b = [[of_number(Fraction(int(i == order - 1)))] for i in range(order)]
+            c = [[whole[k] + -(whole[order] * of_number(below[k])) for k in range(order)]]
+            return self.held(hold, a, b, c, [[whole[order]]], [self.unknown() for _ in range(order)], u, y)
         if "discretize" in block:
             num, den = (sum((c * up ** k * down ** (order - k) for k, c in enumerate(p.coefficients(0))), ZERO)
                         for p in (num, den))
             scope.divisors.append((den.coefficients(0) + [ZERO] * order)[order])
         self.equations.append(y[0] * scalar(den) + -(u[0] * scalar(num)))
         self.degree += order
+
+    def delayed(self, f, power):
+        """exp(-tau s) as a power of the symbol, for tau as a value, or tau s with the power 1 of s."""
+        top, bottom = (p.at(self.values) for p in (f.scalar(), f.bottom))
+        need(not any(bottom) and list(top) == [(1 << FIELD) + power], "a dead time is not a multiple of the parameter")
+        k = Fraction(top[(1 << FIELD) + power]) / Fraction(bottom[0]) / self.symbols
+        need(k.denominator == 1 and 0 < k <= 256, "a dead time is not a multiple of the base")
+        return scalar(P({int(k) << FIELD * self.first: 1}))
+
+    def number(self, f):
+        """The number that a value is with all parameters."""
+        top, bottom = (p.at(self.values) for p in (f.scalar(), f.bottom))
+        need(not any(top) and not any(bottom) and bottom, "a held block depends on the parameter in its exponential")
+        return Fraction(top.get(0, 0)) / Fraction(bottom[0])
+
+    def held(self, hold, a, b, c, d, x, u, y):
+        """over x[k+1] = state x[k] + sum of matrix B u[k - age], and the states of past inputs."""
+        state, enters, over, past = self.symbols.held([[self.number(e) for e in row] for row in a], *hold, self)
+        p = [[self.unknown() for _ in u] for _ in range(past)]
+
+        def aged(age):
+            return [e * scalar(Z) for e in u] if age < 0 else u if age == 0 else p[age - 1]
+
+        for i in range(len(x)):
+            next_x = dot([scalar(e) for e in state[i]], x)
+            for age, matrix, _ in enters:
+                next_x = next_x + dot([scalar(e) for e in matrix[i]], [dot(row, aged(age)) for row in b])
+            self.equations.append(x[i] * scalar(Z * over) + -next_x)
+        for k in range(past):
+            self.equations += [q * scalar(Z) + -e for q, e in zip(p[k], aged(k))]
+        self.degree += len(x) + past * len(u)
+        for i in range(len(y)):
+            seen = dot(c[i], x)
+            for age, _, share in enters:
+                if d and share:
+                    seen = seen + dot(d[i], aged(age)) * of_number(share)
+            self.equations.append(y[i] + -seen)
+
+def of_number(x):
+    return Value({"": number(x.numerator)}, number(x.denominator))
+
+# ---------------------------------------------------------------- symbols and holds
+
+def floor_shift(x, bits):
+    return x[0] >> bits, -(-x[1] >> bits)
+
+def times(x, y, bits):
+    spend(1, x[1].bit_length(), y[1].bit_length())
+    corners = [a * b for a in x for b in y]
+    return floor_shift((min(corners), max(corners)), bits)
+
+def scaled_by(x, k):
+    return (x[0] * k, x[1] * k) if k >= 0 else (x[1] * k, x[0] * k)
+
+def added(x, y):
+    return x[0] + y[0], x[1] + y[1]
+
+def enclosed(q, bits):
+    return (q.numerator << bits) // q.denominator, -(-(q.numerator << bits) // q.denominator)
+
+def certain(x):
+    """The sign, 0 only of zero itself."""
+    need(x[0] > 0 or x[1] < 0 or x == (0, 0), "a sign is not certain")
+    return (x[0] > 0) - (x[1] < 0)
+
+def product_of(m, k, bits):
+    def entry(row, column):
+        out = (0, 0)
+        for x, y in zip(row, column):
+            corners = [a * b for a in x for b in y]
+            out = added(out, (min(corners), max(corners)))
+        return floor_shift(out, bits)
+    spend(len(m) ** 3, bits, bits)
+    return [[entry(row, column) for column in zip(*k)] for row in m]
+
+def solutions(monic, t, bits):
+    """The first row of exp(companion t), all entries at most four units wide."""
+    working = bits + 64
+    while True:
+        row = [floor_shift(x, working - bits) for x in first_row(monic, t, working)]
+        if all(hi - lo <= 4 for lo, hi in row):
+            return row
+        need(working <= 64 * (bits + 64), "a symbol is too large to be enclosed")
+        working *= 2
+
+def first_row(monic, t, bits):
+    """Taylor's polynomial of exp(M/2^s), where |M|/2^s has sums of rows of at most 1/4, and s squarings."""
+    d = len(monic)
+    m = [[t * (j == i + 1) for j in range(d)] for i in range(d - 1)] + [[-c * t for c in monic]]
+    norm, s = max(sum(map(abs, row)) for row in m), 0
+    while norm > Fraction(1, 4):
+        norm, s = norm / 2, s + 1
+        need(s <= 4096, "a symbol is too large to be enclosed")
+    m = [[enclosed(x / 2 ** s, bits) for x in row] for row in m]
+    term = [[(int(i == j) << bits,) * 2 for j in range(d)] for i in range(d)]
+    total, k, bound = term, 0, Fraction(1)
+    while bound >= Fraction(1, 2 ** bits):  # of the sums of rows of a term
+        k, bound = k + 1, bound / (4 * (k + 1))
+        term = [[(lo // k, -(-hi // k)) for lo, hi in row] for row in product_of(term, m, bits)]
+        total = [[added(x, y) for x, y in zip(*rows)] for rows in zip(total, term)]
+    total = [[(lo - 2, hi + 2) for lo, hi in row] for row in total]  # the remainder is below a unit
+    for _ in range(s):
+        total = product_of(total, total, bits)
+    return total[0]
+
+class Table:
+    """What the symbols of a certificate stand for, and their values.  Symbol i is variable i + 2 in the end."""
+
+    def __init__(self, bits=64, symbols=(), modes=()):
+        need(type(bits) is int and 64 <= bits <= 1 << 15, "bits: out of range")
+        self.bits, self.symbols = bits, [self.symbol(item) for item in items(list(symbols), lambda item: item)]
+        self.modes = [[Fraction(0)], *(m for m in (items(m, rational) for m in modes) if m != [0])]
+        need(all(0 < len(m) <= 64 for m in self.modes), "a mode has no degree")
+        self.values = None
+
+    @staticmethod
+    def symbol(item):
+        if "exp" in item:
+            return "exp", rational(parts(item, ["exp"])[0])
+        if "tan" in item:
+            w, t = items(parts(item, ["tan"])[0], rational)
+            need(w, "a tangent of nothing")
+            return "tan", w, t
+        monic, t, index = parts(item, ["solution", "time", "index"])
+        monic = items(monic, rational)
+        need(0 <= count(index) < len(monic) <= 64, "no such solution")
+        return "solution", monic, rational(t), index
+
+    def find(self, kind):
+        return [(i, *s[1:]) for i, s in enumerate(self.symbols) if s[0] == kind]
+
+    def exponential(self, x, first):
+        for i, of in self.find("exp"):
+            if x and of and (x / of).denominator == 1 and abs(x / of) <= 200:
+                power = scalar(P({abs(int(x / of)) << FIELD * (first + i): 1}))
+                return power if x / of > 0 else Value({"": ONE}, power.scalar())
+        need(not x, f"exp({x}) is not among the symbols")
+        return scalar(ONE)
+
+    def tangent(self, w, t, first, divisors):
+        """tan(sqrt(w) t)/sqrt(w), by sums of a symbol's angle."""
+        for i, of, at in self.find("tan"):
+            r = square_root(w / of)
+            if r and (k := r * t / at).denominator == 1 and 0 < abs(k) <= 200:
+                x = total = scalar(P({1 << FIELD * (first + i): 1}))
+                for _ in range(abs(int(k)) - 1):
+                    below = scalar(ONE) + -(total * x * of_number(of))
+                    divisors.append(below.scalar())
+                    total = (total + x) * Value({"": below.bottom}, below.scalar())
+                return total * of_number((1 if k > 0 else -1) / r)
+        raise Rejected("a tangent is not among the symbols")
+
+    def basis(self, monic, t, index, first, divisors):
+        """A fundamental solution of a mode at a time."""
+        if monic == [0]:
+            return scalar(ONE)
+        if len(monic) == 1:
+            return self.exponential(-monic[0] * t, first)
+        w = monic[0] - monic[1] ** 2 / 4
+        if len(monic) > 2 or w == 0:
+            found = [i for i, *of in self.find("solution") if of == [monic, t, index]]
+            need(found, "a solution is not among the symbols")
+            return scalar(P({1 << FIELD * (first + found[0]): 1}))
+        # X = exp(-b t/2), x = tan(sqrt(w) t/2)/sqrt(w): X 2x/(1 + w x^2), X (1 - w x^2)/(1 + w x^2) and b/2 times the former
+        decay, x = self.exponential(-monic[1] * t / 2, first), self.tangent(w, t / 2, first, divisors)
+        square = x * x * of_number(w)
+        below = scalar(ONE) + square
+        divisors.append(below.scalar())
+        decay = decay * Value({"": below.bottom}, below.scalar())
+        sine = (x + x) * decay
+        return sine if index == 1 else (scalar(ONE) + -square) * decay + sine * of_number(monic[1] / 2)
+
+    def held(self, a, first_order, time, delay, loop):
+        ratio = delay / time
+        samples, rest = int(ratio // 1), ratio % 1
+        need(samples <= MAX_ORDER, "a dead time has too many samples")
+
+        def respond(share):
+            return self.response(a, time, share * time, 2 if first_order else 1, loop)
+
+        def by(factor, m):
+            factor = factor if isinstance(factor, P) else number(factor)
+            return [[e * factor for e in row] for row in m]
+
+        def plus(m, k):
+            return [[e + f for e, f in zip(*rows)] for rows in zip(m, k)]
+
+        def product(m, k):
+            return [[sum((e * f for e, f in zip(row, column)), ZERO) for column in zip(*k)] for row in m]
+
+        if not rest:
+            (state, whole, slope), over = respond(Fraction(1))
+            enters = [(samples, plus(whole, by(-1, slope)) if first_order else whole, Fraction(1))]
+            enters += [(samples - 1, slope, Fraction(0))] if first_order else []
+            return state, enters, over, samples
+        (s0, s1, s2), s_over = respond(1 - rest)
+        (r0, r1, r2), r_over = respond(rest)
+        n, d = rest.numerator, rest.denominator
+        state, over = by(d, product(s0, r0)), r_over * s_over * number(d)
+        if first_order:
+            early = product(s0, plus(by(n, r1), by(-d, r2)))
+            now = plus(product(s0, plus(by(d - n, r1), by(d, r2))), by(r_over * number(d), plus(s1, by(-1, s2))))
+            late = [(samples - 1, by(r_over * number(d), s2), Fraction(0))]
+            shares = rest, 1 - rest
+        else:
+            early, now, late, shares = by(d, product(s0, r1)), by(r_over * number(d), s1), [], (Fraction(1), Fraction(0))
+        return state, [(samples, now, shares[1]), (samples + 1, early, shares[0]), *late], over, samples + 1
+
+    def response(self, a, time, span, zeros, loop):
+        """exp(A t), its integral, and that one's integral over the sample time, over one denominator: the first row of exp(M t)
+        for M = [[A, 1, 0], [0, 0, 1/T], [0, 0, 0]] is the sum of the b(t) Z_b, with Z_b from the derivatives at 0."""
+        n = len(a)
+        one = [[Fraction(int(i == j)) for j in range(n)] for i in range(n)]
+        powers, monic, m = [one], [], one
+
+        def product(m, k):
+            spend(n ** 3, size(x.denominator for row in m for x in row), size(x.denominator for row in k for x in row))
+            return [[sum((x * y for x, y in zip(row, column)), Fraction(0)) for column in zip(*k)] for row in m]
+
+        for k in range(1, n + 1):  # Faddeev, LeVerrier
+            am = product(a, m)
+            monic.insert(0, -sum((am[i][i] for i in range(n)), Fraction(0)) / k)
+            m = [[am[i][j] + monic[0] * one[i][j] for j in range(n)] for i in range(n)]
+        basis, rest = [], [*monic, Fraction(1)]
+        for mode in self.modes:
+            multiplicity = zeros if mode == [0] else 0
+            while (quotient := divided_monic(rest, mode)) is not None:
+                rest, multiplicity = quotient, multiplicity + 1
+            basis += [(mode, j, k) for j in range(multiplicity) for k in range(len(mode))]
+        need(rest == [1], "a held block has a mode that is not among the modes")
+        order = len(basis)
+        while len(powers) < order:
+            powers.append(product(a, powers[-1]))
+        derivatives = []
+        for mode, j, k in basis:
+            phi = [Fraction(int(l == k)) for l in range(len(mode))]
+            while len(phi) < order:
+                phi.append(-sum(c * f for c, f in zip(mode, phi[-len(mode):])))
+            derivatives.append([prod(range(l - j + 1, l + 1)) * phi[l - j] if l >= j else Fraction(0) for l in range(order)])
+        weights = inverse_of([list(row) for row in zip(*derivatives)])
+        values, over = [], ONE
+        for mode, j, k in basis:
+            value = self.basis(mode, span, k, loop.first, loop.scope.divisors) * of_number(span ** j)
+            values.append(value)
+            over = over * (value.bottom / over.common(value.bottom) if any(over) or any(value.bottom) else
+                           number(value.bottom[0] // gcd(over[0], value.bottom[0])))
+            while over / value.bottom is None:  # a common divisor has no integers in it
+                over = over * number(value.bottom[max(value.bottom)])
+        tops = [value.scalar() * (over / value.bottom) for value in values]
+        z = [[[[sum((weights[b][l] * powers[l - s][i][j] for l in range(s, order)), Fraction(0)) / (time if s == 2 else 1)
+                for j in range(n)] for i in range(n)] for s in range(3)] for b in range(order)]
+        common = lcm(*(x.denominator for m in z for part in m for row in part for x in row))
+        return [[[sum((tops[b] * number(int(z[b][s][i][j] * common)) for b in range(order)), ZERO) for j in range(n)]
+                 for i in range(n)] for s in range(3)], over * number(common)
+
+    def enclosures(self, p):
+        """The coefficients of the powers of the parameter, enclosed."""
+        if self.values is None:
+            self.values = []
+            for kind, *of in self.symbols:
+                if kind == "exp":
+                    value = solutions([Fraction(-1)], of[0], self.bits)[0]
+                elif kind == "solution":
+                    value = solutions(of[0], of[1], self.bits)[of[2]]
+                else:
+                    cosine, sine = solutions([of[0], Fraction(0)], of[1], self.bits)
+                    need(cosine[0] > 0 or cosine[1] < 0, "a tangent is not told from infinity")
+                    ends = [Fraction(s << self.bits, c) for s in sine for c in cosine]
+                    value = min(ends) // 1, -(-max(ends) // 1)
+                self.values.append(value)
+        one, out, known = (1 << self.bits,) * 2, [(0, 0)] * (p.degree(1) + 1 if p else 0), {}
+        for e, c in p.items():
+            k, e = e >> FIELD & MASK, e >> 2 * FIELD
+            if e not in known:
+                product, rest = one, e
+                for x in self.values:
+                    for _ in range(rest & MASK):
+                        product = times(product, x, self.bits)
+                    rest >>= FIELD
+                need(not rest, "a polynomial has a variable that is no symbol")
+                known[e] = product
+            out[k] = added(out[k], scaled_by(known[e], c))
+        return out
+
+def square_root(q):
+    """If it is rational and positive."""
+    if q <= 0:
+        return None
+    r = Fraction(isqrt(q.numerator), isqrt(q.denominator))
+    return r if r * r == q else None
+
+def divided_monic(p, mode):
+    """The quotient of monic polynomials, the divisor without its leading coefficient, or None."""
+    rest, n, out = p[:], len(mode), []
+    if len(rest) <= n:
+        return None
+    while len(rest) > n:
+        c = rest.pop()
+        out.insert(0, c)
+        for j in range(n):
+            rest[len(rest) - n + j] -= c * mode[j]
+    return None if any(rest) else out
+
+def inverse_of(m):
+    n = len(m)
+    m = [row + [Fraction(int(i == j)) for j in range(n)] for i, row in enumerate(m)]
+    for k in range(n):
+        pivot = next((i for i in range(k, n) if m[i][k]), None)
+        need(pivot is not None, "the modes of a held block are not coprime")
+        m[k], m[pivot] = m[pivot], m[k]
+        m[k] = [x / m[k][k] for x in m[k]]
+        m = [row if i == k else [x - row[k] * y for x, y in zip(row, m[k])] for i, row in enumerate(m)]
+    return [row[n:] for row in m]
 
 # ---------------------------------------------------------------- the characteristic polynomial
 
@@ -716,7 +1079,22 @@ def determinant(m):
             for z in range(degrees[0])]))
     return sum((P.of(interpolated(list(row)), 1) * Z ** k for k, row in enumerate(zip(*columns))), ZERO)
 
-def characteristic_polynomial(text, kept, values):
+def expanded(rows):
+    """The determinant of a matrix with few entries: those of the rows so far, for each set of columns [Laplace]."""
+    minors = {0: ONE}
+    for row in rows:
+        after = {}
+        for columns, minor in minors.items():
+            for j, e in enumerate(row):
+                if e and not columns >> j & 1:
+                    term = minor * e
+                    term = -term if (columns >> j).bit_count() % 2 else term
+                    after[columns | 1 << j] = after.get(columns | 1 << j, ZERO) + term
+        minors = {columns: minor for columns, minor in after.items() if minor}
+        need(len(minors) <= 20_000, "a loop with symbols is too large for the check")
+    return next(iter(minors.values()), ZERO)
+
+def characteristic_polynomial(text, kept, values, symbols=None):
     """Whether time is discrete, the degree, the coefficients of z^0, z^1, ... (none if undefined), the poles."""
     model = Model(text)
     names = [*([kept] if kept is not None else []), *values]
@@ -730,8 +1108,13 @@ def characteristic_polynomial(text, kept, values):
     # A constant that is set has another number, and nothing else changes.
     model.constants = model.constants | {name: str(x) for name, x in values.items() if name in numbers}
     values = {name: x for name, x in values.items() if name not in numbers}
-    loop = Loop(model, {name: v for v, name in enumerate(values, 2)} | ({} if kept is None else {kept: 1}))
+    variables = {name: v for v, name in enumerate(values, 2)} | ({} if kept is None else {kept: 1})
     values = list(values.values())
+    loop = Loop(model, variables, values, Table() if symbols is None else symbols)
+    if isinstance(symbols, Fraction):
+        return quasi_polynomial(model, loop, values)
+    if symbols:
+        return over_symbols(model, loop, values)
 
     def system(equations, unknowns):
         return determinant([cleared([e.tops.get(name, ZERO).at(values) for name in unknowns]) for e in equations])
@@ -757,6 +1140,171 @@ def characteristic_polynomial(text, kept, values):
     d = (d if lead[max(lead)] * common[max(common)] > 0 else -d) / common
     d = d.coefficients(0) + [ZERO] * (n - d.degree(0))
     return model.discrete, n, d, poles if "block" in model.root else poles[:-1]
+
+def over_symbols(model, loop, values):
+    """The same with symbols; nothing is brought to lowest terms."""
+    need(model.discrete and "block" in model.root, "only a sampled diagram of blocks has symbols")
+    poles = []
+    for divisor in loop.scope.divisors:
+        [p] = cleared([divisor.at(values)])
+        has_symbols = any(e >> 2 * FIELD for e in p)
+        need(not has_symbols or not p.degree(0), "a divisor has symbols and the variable")
+        poles.append(p if has_symbols else p.content(0))
+
+    def system(equations, unknowns):
+        return expanded([cleared([e.tops.get(name, ZERO).at(values) for name in unknowns]) for e in equations])
+
+    need(len(loop.equations) == len(loop.unknowns), "there are not as many equations as unknowns")
+    for equations, states in loop.own:
+        own = system(equations, states)
+        poles.append(own.lead(0) if own.degree(0) == len(states) else ZERO)
+    d = system(loop.equations, loop.unknowns)
+    need(d and d.degree(0) == loop.degree, "the loop is not well posed")
+    poles.append(d.lead(0))
+    need(all(poles), "the loop is undefined for every value")
+    return True, loop.degree, d.coefficients(0), poles
+
+def quasi_polynomial(model, loop, values):
+    """P_0(s) + P_1(s) z + ... with the symbol z for the dead time; nothing else depends on the parameter."""
+    need(not model.discrete, "a sampled loop has no dead time")
+    for divisor in loop.scope.divisors:
+        [p] = cleared([divisor.at(values)])
+        need(p and not p.degree(1) and not p.degree(2), "a divisor depends on the dead time, or is zero")
+    need(len(loop.equations) == len(loop.unknowns), "there are not as many equations as unknowns")
+    d = expanded([cleared([e.tops.get(name, ZERO).at(values) for name in loop.unknowns]) for e in loop.equations])
+    need(d and d.degree(0) == loop.degree and not d.degree(1), "the loop is not well posed, or depends on the parameter")
+    parts = d.coefficients(2)
+    while not parts[0]:
+        parts.pop(0)
+    return cleared(parts)
+
+class Exact:
+    """Polynomials in the parameter with integer coefficients."""
+
+    def read(self, json_value):
+        return polynomial(json_value)
+
+    def descartes(self, f, a, b):
+        return descartes(f, a, b)
+
+    def vanishes(self, f, x):
+        return value(f.listed(1), x) == 0
+
+    def is_unit(self, p):
+        return bool(p) and not any(p)
+
+    def is_nonzero(self, p):
+        return bool(p)
+
+    def is_stable(self, d, n, discrete, x):
+        longest = 1 + max(c.degree(1) for c in d)
+        at_sample = [value([*c.listed(1), *[0] * longest][:longest], x) for c in d]
+        need(at_sample[-1], "line: the sample loses degree")
+        return places(at_sample, discrete)[0] == n
+
+class OverSymbols:
+    """Polynomials in the parameter and symbols: zero is an identity, any other sign is read off an enclosure."""
+
+    def __init__(self, table):
+        self.table, self.known = table, {}
+
+    def enclosures(self, p):
+        key = id(p)
+        if key not in self.known:
+            self.known[key] = p, self.table.enclosures(p)  # p is kept, so that no other has its id
+        return self.known[key][1]
+
+    def read(self, json_value):
+        out = {}
+        for c, *exponents in items(json_value, lambda term: items(term, lambda item: item)):
+            e = sum(count(k) << FIELD * (v + 1) for v, k in enumerate(exponents))
+            need(all(0 <= k <= 4000 for k in exponents) and (not exponents or exponents[-1]), "a term is not in its shortest form")
+            need(len(exponents) <= len(self.table.symbols) + 1 and integer(c) and e not in out, "a term is not in its shortest form")
+            out[e] = integer(c)
+        return P(out)
+
+    def at(self, p, x, degree):
+        """A positive multiple of the value, a polynomial in the symbols."""
+        out = ZERO
+        for k, c in enumerate(p.coefficients(1)):
+            out = out + c * number(x.numerator ** k * x.denominator ** (degree - k))
+        return out
+
+    def descartes(self, f, a, b):
+        if not f.degree(1) or a is b is None:
+            return f.degree(1)
+        c = self.enclosures(f)
+        if a is None:
+            c, a, b = [scaled_by(x, (-1) ** k) for k, x in enumerate(c)], -b, None
+        width = Fraction(1) if b is None else b - a
+        bottom, n = lcm(a.denominator, width.denominator), len(c) - 1
+        c = [scaled_by(x, bottom ** (n - k)) for k, x in enumerate(c)]
+        c = [scaled_by(x, int(width * bottom) ** k) for k, x in enumerate(self.shifted(c, int(a * bottom)))]
+        return changes(map(certain, c if b is None else self.shifted(c[::-1], 1)))
+
+    @staticmethod
+    def shifted(c, a):
+        c = c[:]
+        spend(len(c) ** 2, size(x for x, _ in c), a.bit_length())
+        for i in range(len(c)):
+            for j in range(len(c) - 2, i - 1, -1):
+                c[j] = added(c[j], scaled_by(c[j + 1], a))
+        return c
+
+    def vanishes(self, f, x):
+        left = self.at(f, x, f.degree(1))
+        return not left or not certain(self.table.enclosures(left)[0])
+
+    def is_unit(self, p):
+        return not p.degree(1) and self.is_nonzero(p)
+
+    def is_nonzero(self, p):
+        return any(lo > 0 or hi < 0 for lo, hi in self.enclosures(p))
+
+    def is_stable(self, d, n, discrete, x):
+        degree = max(c.degree(1) for c in d)
+        at_sample = [(self.table.enclosures(self.at(c, x, degree)) or [(0, 0)])[0] for c in d]
+        return self.inside(at_sample, True) == n
+
+    def inside(self, d, stop):
+        """The roots inside the unit circle, with none on it, by Schur-Cohn's reduction; with `stop` less if one is outside."""
+        bits, found = self.table.bits, 0
+        need(certain(d[-1]), "the degree is lost")
+        while len(d) > 1:
+            more = bits - max(size(x) for x in d)
+            d = [(lo << more, hi << more) if more >= 0 else floor_shift((lo, hi), -more) for lo, hi in d]
+            first, last = d[0], d[-1]
+            sign = certain(added(times(last, last, bits), scaled_by(times(first, first, bits), -1)))
+            need(sign, "a root count is not certain")
+            if sign < 0 and stop:
+                return found
+            found += sign > 0
+            one, other = (last, first) if sign > 0 else (first, last)
+            d = [added(times(one, x, bits), scaled_by(times(other, y, bits), -1)) for x, y in zip(d, d[::-1])]
+            d = d[1:] if sign > 0 else d[:-1]
+        need(certain(d[0]), "a root count is not certain")
+        return found
+
+    def places(self, d, poles):
+        need(all(map(self.is_unit, [*poles, d[-1]])), "a divisor is not shown to be other than zero")
+        on = 0
+        for root in (1, -1):  # by an identity
+            while len(d) > 1:
+                quotient = [d[-1]]
+                for c in d[-2::-1]:
+                    quotient.append(quotient[-1] * number(root) + c)
+                if quotient.pop():
+                    break
+                d, on = quotient[::-1], on + 1
+        inside = self.inside([(self.table.enclosures(c) or [(0, 0)])[0] for c in d], False)
+        return inside, on, len(d) - 1 - inside
+
+def same_over_symbols(given, own):
+    """Whether the own polynomial is the given one times something that has no zero where the loop is defined."""
+    need(len(given) == len(own) and given[-1], "characteristic: not that of the model")
+    given, own = cleared(given), cleared(own)
+    quotient = own[-1] / given[-1]
+    need(quotient is not None and all(g * quotient == o for g, o in zip(given, own)), "characteristic: not that of the model")
 
 def in_region(d, discrete, extent):
     """The coefficients of D(R z) or D(s - S): integers without a common factor; a positive factor is lost."""
@@ -825,6 +1373,169 @@ def half_size_pair(d, discrete):
     # (z^(j+1) + z^-j)/(z + 1), and (z^(j+1) - z^-j)/(z - 1)
     return in_x(even, ONE, Z + number(-1)), in_x(odd, ONE, Z + ONE), k, k
 
+# ---------------------------------------------------------------- dead time
+
+def inverse_tangent(x, bits):
+    """Of a number over 2^bits, enclosed: the argument is halved, then Euler's alternating series is cut off."""
+    one, halvings = 1 << bits, 8
+    lo = hi = abs(x)
+    for _ in range(halvings):  # atan x = 2 atan(x/(1 + sqrt(1 + x^2)))
+        lo = (lo << bits) // (one + isqrt(one * one + lo * lo) + 1)
+        hi = -(-(hi << bits) // (one + isqrt(one * one + hi * hi)))
+    out, power, k = (0, 0), (lo, hi), 1
+    square = times(power, power, bits)
+    while power[1] > 0:
+        term = power[0] // k, -(-power[1] // k)
+        out = added(out, term if k % 4 == 1 else (-term[1], -term[0]))
+        power, k = times(power, square, bits), k + 2
+        if power[1] <= 1:
+            break
+    out = (out[0] - 2) << halvings, (out[1] + 2) << halvings
+    return out if x >= 0 else (-out[1], -out[0])
+
+def arc(x, bits):
+    return inverse_tangent(x[0], bits)[0], inverse_tangent(x[1], bits)[1]
+
+def over(x, y, bits):
+    need(y[0] > 0 or y[1] < 0, "a divisor is not shown to be other than zero")
+    ends = [Fraction(a << bits, b) for a in x for b in y]
+    return min(ends) // 1, -(-max(ends) // 1)
+
+def root_of(x):
+    """The square root of a positive number over 2^bits, given with 2 bits."""
+    return isqrt(x[0]), isqrt(x[1]) + 1
+
+class Crossing:
+    """A root i omega of the axis, simple in omega^2, which is the only root of F between a and b."""
+
+    def __init__(self, p, q, f, a, b, bits):
+        need(0 < a < b and value(f, a) * value(f, b) < 0, "crossings: no change of sign")
+        self.direction = 1 if value(f, b) > 0 else -1
+        w = enclosed(a, bits)[0], enclosed(b, bits)[1]
+        self.omega = root_of((w[0] << bits, w[1] << bits))
+        # z = exp(-i omega tau) = -P_0/P_1: the angle omega tau is that of x + i omega y
+        (e0, o0), (e1, o1) = ([part[0::2], part[1::2]] for part in (p, q))
+        alternating = [[c * (-1) ** k for k, c in enumerate(part)] for part in (e0, o0, e1, o1)]
+        e0, o0, e1, o1 = map(P.of, alternating)  # in omega^2
+        x = -(e0 * e1 + P.of([0, 1]) * o0 * o1)
+        y = o0 * e1 + -(e0 * o1)
+        at = [self.horner(part.listed(0), w, bits) for part in (x, y)]
+        x_at, y_at = at[0], times(at[1], self.omega, bits)
+        pi = scaled_by(inverse_tangent(1 << bits, bits), 4)
+        self.turn = scaled_by(pi, 2)
+        half = floor_shift(pi, 1)
+        if not y:  # z is 1 or -1
+            self.is_one = certain(x_at) > 0
+            need(x_at[0] > 0 or x_at[1] < 0, "a sign is not certain")
+            self.theta = (0, 0) if self.is_one else pi
+            return
+        self.is_one = False
+        if x_at[0] <= 0 <= x_at[1]:
+            sign = certain(y_at)
+            self.theta = added(half if sign > 0 else added(pi, half), scaled_by(arc(over(x_at, y_at, bits), bits), -1))
+        else:
+            angle = arc(over(y_at, x_at, bits), bits)
+            self.theta = added(angle, pi if x_at[1] < 0 else (0, 0) if certain(y_at) > 0 else self.turn)
+
+    @staticmethod
+    def horner(p, x, bits):
+        out = (0, 0)
+        for c in reversed(p):
+            out = added(times(out, x, bits), (c << bits, c << bits))
+        return out
+
+    def dead_time(self, k, bits):
+        return over(added(self.theta, scaled_by(self.turn, k)), self.omega, bits)
+
+def square_of_modulus(p):
+    """|p(i omega)|^2, a polynomial in omega^2."""
+    even, odd = (P.of([c * (-1) ** k for k, c in enumerate(p[first::2])]) for first in (0, 1))
+    return even * even + P.of([0, 1]) * odd * odd
+
+def check_windows(model, document, statement, values, extent):
+    """The stable dead times: from the roots without delay, counted on over all crossings."""
+    names = ["schema", "statement", "bits", "delay", "parts", "crossings"]
+    _, _, bits, base, given, crossings = parts(document, names, ["model"])
+    *_, parameter, domain, claimed = parts(statement, ["kind", "time", "set", "region", "parameter", "domain", "stable"])
+    need(type(bits) is int and 64 <= bits <= 1 << 15, "bits: out of range")
+    low, high = (None if b is None else rational(b) for b in parts(domain, ["lower", "upper"]))
+    need(low is not None and 0 <= low and (high is None or low < high), "the domain is not one of dead times")
+    base = rational(base)
+    need(base > 0 and extent == 0, "the dead time or the region is another")
+    given = items(given, lambda part: items(part, integer))
+    own = [part.listed(0) for part in characteristic_polynomial(model, name_of(parameter), values, base)]
+    need(given in (own, [[-c for c in part] for part in own]), "parts: not those of the model")
+    need(len(given) == 2, "parts: more than one multiple of the dead time")
+    p, q = given
+    n = len(p) - 1
+    need(n >= len(q) and p and q or len(q) - 1 == n and abs(q[n]) < abs(p[n]), "the loop is advanced, or neutral and never stable")
+    total = (P.of(p) + P.of(q)).listed(0)
+    if not total or not total[0]:
+        found, count, events = [], 1, []  # s = 0 for every dead time
+        need(crossings == [], "crossings: there is nothing to cross")
+    else:
+        f = (square_of_modulus(p) + -square_of_modulus(q)).listed(0)
+        need(f, "crossings: on the axis for all frequencies")
+        f = f[next(k for k, c in enumerate(f) if c):]
+        chain = sturm(f, [k * c for k, c in enumerate(f)][1:])
+        need(len(chain[-1]) == 1, "crossings: a root of F is multiple")
+        need(changes(g[0] for g in chain) - changes(g[-1] for g in chain) == len(crossings), "crossings: not as many as roots")
+        enclosures = items(crossings, pair)
+        need(all(a[1] <= b[0] for a, b in zip(enclosures, enclosures[1:])), "crossings: not in order")
+        found = [Crossing(p, q, f, a, b, bits) for a, b in enclosures]
+        inside, on, count = places(total, False)
+        at_zero = [c for c in found if c.is_one]
+        need(on == 2 * len(at_zero) and inside + on + count == n, "crossings: the roots without delay do not fit")
+        count += 2 * sum(c.direction > 0 for c in at_zero)
+        last = None if high is None else high * base
+        if found:
+            growth = (0, 0)
+            for c in found:
+                growth = added(growth, scaled_by(c.omega, c.direction))
+            need(growth[0] > 0, "crossings: the count is not shown to grow")
+            bound = Fraction(found[0].turn[1] * len(found), growth[0])
+            last = bound if last is None else min(last, bound)
+        events = []
+        for j, c in enumerate(found):
+            k = int(c.is_one)
+            while (e := c.dead_time(k, bits))[0] < last * (1 << bits):
+                events.append((*e, c.direction, j, k))
+                k += 1
+                need(len(events) < 100_000, "there are too many switches")
+        events.sort()
+        need(all(a[1] < b[0] for a, b in zip(events, events[1:])), "crossings: the order of two switches is not certain")
+    scale = base * (1 << bits)
+    before, stable = low, []
+    for e0, e1, direction, j, k in events:
+        at = Fraction(e0) / scale, Fraction(e1) / scale
+        if at[1] < low:
+            count += 2 * direction
+            continue
+        if high is not None and at[0] > high:
+            break
+        need(low < at[0] and (high is None or at[1] < high), "a switch is not told from an end of the domain")
+        if count == 0:
+            stable.append((before, (j, k, at)))
+        count, before = count + 2 * direction, (j, k, at)
+    if count == 0:
+        need(high is not None or not found, "the count does not grow")
+        stable.append((before, high))
+    need(isinstance(claimed, list) and len(claimed) == len(stable), "stable: not as many intervals")
+
+    def fits(end, own):
+        if not isinstance(own, tuple):
+            return (None if end is None else rational(end)) == own
+        crossing, turns, between = parts(end, ["crossing", "turns", "between"])
+        between = pair(between)
+        return [crossing, turns] == [*own[:2]] and between[0] <= own[2][0] and own[2][1] <= between[1]
+
+    for interval, ends in zip(claimed, stable):
+        need(all(map(fits, parts(interval, ["lower", "upper"]), ends)), "stable: an end is another")
+    where = [f"{in_words(lower)} to {in_words(upper)}" for lower, upper in
+             ([e if not isinstance(e, tuple) else e[2] for e in ends] for ends in stable)]
+    given = "".join(f", {name} = {x}" for name, x in values.items())
+    return f"in continuous time{given}: stable exactly for {parameter} from {' or '.join(where) or 'nowhere'} in ({low}, {high})"
+
 # ---------------------------------------------------------------- the parts of a certificate
 
 def integer(text):
@@ -859,9 +1570,6 @@ def polynomial(coefficients):
     need(len(p) <= MAX_DEGREE, "a polynomial has too high a degree")
     return P.of(p, 1)
 
-def polynomials(json_list):
-    return items(json_list, polynomial)
-
 def pair(json_list):
     ab = items(json_list, rational)
     need(len(ab) == 2 and ab[0] < ab[1], "not a pair in order")
@@ -872,11 +1580,11 @@ def parts(json_object, names, optional=()):
     need(set(names) <= set(json_object) <= {*names, *optional}, f"the keys are not {', '.join(names)}")
     return [json_object[name] for name in names]
 
-def end(json_value):
+def end(json_value, ring):
     if not isinstance(json_value, dict):
         return None if json_value is None else rational(json_value)
     p, between = parts(json_value, ["polynomial", "between"])
-    return polynomial(p), pair(between)
+    return ring.read(p), pair(between)
 
 def strict(pairs):
     need(len({key for key, _ in pairs}) == len(pairs), "a key occurs twice")
@@ -895,8 +1603,17 @@ def read(certificate):
     hooks = {"parse_int": small, "parse_float": small, "parse_constant": small, "object_pairs_hook": strict}
     document = json.loads(certificate, **hooks)
     need(depth(document) <= MAX_DEPTH, "nested too deep")
-    need(isinstance(document, dict) and document.get("schema") == "jurist/certificate/1", "unknown schema")
+    need(isinstance(document, dict) and document.get("schema") in (RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME), "unknown schema")
     return document
+
+RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME = "jurist/certificate/1", "jurist/certificate/2", "jurist/certificate/3"
+FURTHER = ["bits", "symbols", "modes"]
+
+def table_of(document):
+    """The symbols, if the certificate has any; and the keys for them."""
+    if document["schema"] == RATIONAL:
+        return None, []
+    return Table(*(document[key] for key in FURTHER)), FURTHER
 
 # ---------------------------------------------------------------- the check
 
@@ -912,10 +1629,15 @@ def check(model, certificate):
     [extent] = parts(region, ["radius" if discrete else "decay"])
     extent = "parameter" if extent == "parameter" else rational(extent)
     need(not discrete or extent == "parameter" or extent > 0, "the radius is not positive")
+    if document["schema"] == WITH_DEAD_TIME:
+        need(kind == "intervals" and not discrete, "unknown kind of statement")
+        return check_windows(model, document, statement, values, extent)
     if kind == "verdict":
         return check_verdict(model, document, statement, values, discrete, extent)
+    symbols, further = table_of(document)
+    ring = OverSymbols(symbols) if symbols else Exact()
     names = ["schema", "statement", "characteristic", "boundary", "factors", "line"]
-    _, _, characteristic, boundary, factors, line = parts(document, names, ["model"])
+    _, _, characteristic, boundary, factors, line, *_ = parts(document, names + further, ["model"])
     names = ["kind", "time", "set", "region", "parameter", "domain", "stable"]
     *_, parameter, domain, claimed = parts(statement, names)
     name_of(parameter)
@@ -926,35 +1648,48 @@ def check(model, certificate):
         need(parameter == ("radius" if discrete else "decay"), "the parameter is not that of the region")
         need(parameter not in values, "the model has a parameter of this name")
         need(not discrete or low is not None and low >= 0, "a radius is positive")
-    claimed = items(claimed, lambda interval: [end(e) for e in parts(interval, ["lower", "upper"])])
-    is_discrete, n, d, poles = characteristic_polynomial(model, None if relative else parameter, values)
+    claimed = items(claimed, lambda interval: [end(e, ring) for e in parts(interval, ["lower", "upper"])])
+    is_discrete, n, d, poles = characteristic_polynomial(model, None if relative else parameter, values, symbols)
     need(is_discrete == discrete, "the model's time is another")
-    d = in_region(d, discrete, extent)
-    need(polynomials(characteristic) == d, "characteristic: not that of the model")
-    certain, identity, nowhere = boundaries(d, n, discrete, poles, boundary)
-    factors = polynomials(factors)
+    d = the_given(characteristic, in_region(d, discrete, extent), ring, symbols)
+    certain, identity, nowhere = boundaries(d, n, discrete, poles, boundary, ring)
+    factors = items(factors, ring.read)
     if nowhere:
         need(factors == line == claimed == [], "the loop is stable nowhere")
     else:
-        need(all(map(any, factors)), "factors: one is constant")
+        need(all(f.degree(1) for f in factors), "factors: one is constant")
         for p in certain + ([identity["value"]] if identity else []):
             for f in factors:
-                while (quotient := p.primitive() / f.primitive()) is not None:
+                while p.degree(1) and (quotient := p.primitive() / f.primitive()) is not None:
                     p = quotient
-            need(not any(p), "factors: a boundary polynomial is not a product of them")
-        found = walk(d, n, discrete, certain, identity, factors, line, low, high)
+            need(ring.is_unit(p), "factors: a boundary polynomial is not a product of them")
+        found = walk(d, n, discrete, certain, identity, factors, line, low, high, ring)
         need(found == claimed, "stable: the claimed set is not the one that the line shows")
     given = ", ".join([f"{low} < {parameter} < {high}".replace("None < ", "").replace(" < None", ""),
                        *(f"{name} = {x}" for name, x in values.items())])
     where = [f"{in_words(lower, '-infinity')} to {in_words(upper, 'infinity')}" for lower, upper in claimed]
     return f"in {time} time, {given}, {region}: stable exactly for {parameter} from {' or '.join(where) or 'nowhere'}"
 
-def in_words(e, infinite):
+def in_words(e, infinite="infinity"):
     if e is None:
         return infinite
-    return str(e) if isinstance(e, Fraction) else f"[the root of {e[0].listed(1)} in ({e[1][0]}, {e[1][1]})]"
+    if isinstance(e, tuple) and isinstance(e[0], Fraction):
+        return f"[a switch in ({float(e[0])}, {float(e[1])})]"
+    if isinstance(e, Fraction):
+        return str(e)
+    of = "a polynomial over symbols" if any(k >> 2 * FIELD for k in e[0]) else e[0].listed(1)
+    return f"[the root of {of} in ({e[1][0]}, {e[1][1]})]"
 
-def boundaries(d, n, discrete, poles, boundary):
+def the_given(characteristic, own, ring, symbols):
+    """The characteristic polynomial of the certificate, which is the model's own."""
+    given = items(characteristic, ring.read)
+    if symbols:
+        same_over_symbols(given, own)
+    else:
+        need(given == own, "characteristic: not that of the model")
+    return given
+
+def boundaries(d, n, discrete, poles, boundary, ring):
     """The polynomials at whose zeros the loop is not stable, the identity, whether the loop is stable nowhere."""
     certain = poles + [d[n] if d else ZERO]
     if n > 0 and d:
@@ -964,20 +1699,18 @@ def boundaries(d, n, discrete, poles, boundary):
         need(boundary is None, "boundary: must be null")
         return certain, None, not all(certain)
     u, v, result = parts(boundary, ["u", "v", "value"])
-    u, v, result = polynomials(u), polynomials(v), polynomial(result)
+    u, v, result = items(u, ring.read), items(v, ring.read), ring.read(result)
     a, b, degree_a, degree_b = half_size_pair(d, discrete)
     need(len(u) <= degree_b and len(v) <= degree_a, "boundary: a cofactor's degree is too high")
-    need(any(u) or any(v), "boundary: both cofactors are zero")
+    need(any(map(ring.is_nonzero, u + v)), "boundary: both cofactors are zero")
     left = [sum((c * Z ** k for k, c in enumerate(p)), ZERO) for p in (u, v)]
     need(left[0] * a + left[1] * b == result, "boundary: the identity does not hold")
     return certain, {"u": u, "v": v, "value": result}, not result
 
-def walk(d, n, discrete, certain, identity, factors, line, low, high):
+def walk(d, n, discrete, certain, identity, factors, line, low, high, ring):
     """The stable intervals that the line from `low` to `high` shows."""
-    longest = 1 + max(c.degree(1) for c in d)
-
     def none_between(a, b):
-        return all(descartes(f, a, b) == 0 for f in factors)
+        return all(ring.descartes(f, a, b) == 0 for f in factors)
 
     def domain_end(x):
         return {"end": x, "left": x, "right": x, "regular": False, "factor": None, "touch": None}
@@ -989,14 +1722,14 @@ def walk(d, n, discrete, certain, identity, factors, line, low, high):
             count(touch[1])
         if "at" in item:
             x = rational(parts(item, ["at"], ["touch"])[0])
-            need(any(value(f.listed(1), x) == 0 for f in factors), "line: no factor vanishes at 'at'")
+            need(any(ring.vanishes(f, x) for f in factors), "line: no factor vanishes at 'at'")
             return domain_end(x) | {"touch": touch}
         between, k = parts(item, ["between", "factor"], ["touch"])
         (a, b), k = pair(between), count(k)
         need(k < len(factors), "line: there is no such factor")
         for i, f in enumerate(factors):
-            need(value(f.listed(1), a) != 0 and value(f.listed(1), b) != 0, "line: a factor vanishes at an end of 'between'")
-            need(descartes(f, a, b) == (i == k), "line: 'between' is not shown to hold just one root")
+            need(not ring.vanishes(f, a) and not ring.vanishes(f, b), "line: a factor vanishes at an end of 'between'")
+            need(ring.descartes(f, a, b) == (i == k), "line: 'between' is not shown to hold just one root")
         root = {"end": (factors[k], [a, b]), "left": a, "right": b}
         return root | {"regular": True, "factor": factors[k], "touch": touch}
 
@@ -1009,24 +1742,22 @@ def walk(d, n, discrete, certain, identity, factors, line, low, high):
         for a, b in zip(ends, ends[1:]):
             need(one_point or a is None or b is None or a < b, "line: the points are not in order")
             need(one_point or none_between(a, b), "line: a stretch is not shown to have no roots")
-        need(all(value(f.listed(1), x) != 0 for f in factors for x in split), "line: a factor vanishes at a split point")
+        need(not any(ring.vanishes(f, x) for f in factors for x in split), "line: a factor vanishes at a split point")
         need(left is None or left < s or left == s and before["regular"], "line: the sample is outside")
         need(right is None or s < right or s == right and after["regular"], "line: the sample is outside")
-        at_sample = [value([*c.listed(1), *[0] * longest][:longest], s) for c in d]
-        need(at_sample[-1], "line: the sample loses degree")
-        need((places(at_sample, discrete)[0] == n) == stable, "line: at a sample the verdict is wrong")
+        need(ring.is_stable(d, n, discrete, s) == stable, "line: at a sample the verdict is wrong")
         return stable
 
     def excluded(p):
         """The loop is undefined there, loses degree, or has a root on the boundary or a pair of mirror images."""
         x, f, touch = p["end"], p["factor"], p["touch"]
-        vanishes = (lambda g: g.primitive() / f.primitive() is not None) if f else (lambda g: value(g.listed(1), x) == 0)
+        vanishes = (lambda g: g.primitive() / f.primitive() is not None) if f else (lambda g: ring.vanishes(g, x))
         if any(map(vanishes, certain)):
             return True
         if identity is None or touch is None or not vanishes(identity["value"]):
             return False
         w = dict(enumerate(identity[touch[0]])).get(touch[1])  # not zero there: Theorem 2
-        return bool(w) and (descartes(w, p["left"], p["right"]) == 0 if f else value(w.listed(1), x) != 0)
+        return bool(w) and (ring.descartes(w, p["left"], p["right"]) == 0 if f else not ring.vanishes(w, x))
 
     need(isinstance(line, list) and len(line) % 2 == 1, "line: must begin and end with a stretch")
     before, was_stable, found = domain_end(low), False, []
@@ -1040,16 +1771,20 @@ def walk(d, n, discrete, certain, identity, factors, line, low, high):
     return found
 
 def check_verdict(model, document, statement, values, discrete, extent):
-    _, _, characteristic = parts(document, ["schema", "statement", "characteristic"], ["model"])
+    symbols, further = table_of(document)
+    ring = OverSymbols(symbols) if symbols else Exact()
+    _, _, characteristic, *_ = parts(document, ["schema", "statement", "characteristic"] + further, ["model"])
     names = ["verdict", "degree", "inside", "on", "outside", "infinite"]
     name, *counts = parts(statement, names, ["kind", "time", "set", "region"])
     need(extent != "parameter", "the region has no parameter here")
-    is_discrete, n, d, poles = characteristic_polynomial(model, None, values)
+    is_discrete, n, d, poles = characteristic_polynomial(model, None, values, symbols)
     need(is_discrete == discrete, "the model's time is another")
-    d = in_region(d, discrete, extent)
-    need(polynomials(characteristic) == d, "characteristic: not that of the model")
-    p = P.of([c.get(0, 0) for c in d]).listed(0)
-    inside, on, outside = places(p, discrete) if p else (0, 0, 0)
+    d = the_given(characteristic, in_region(d, discrete, extent), ring, symbols)
+    p = d if symbols else P.of([c.get(0, 0) for c in d]).listed(0)
+    if symbols:
+        inside, on, outside = ring.places(d, poles)
+    else:
+        inside, on, outside = places(p, discrete) if p else (0, 0, 0)
     infinite = n - (inside + on + outside) if all(poles) else 0
     found = "unstable" if outside + infinite or not p else "marginal" if on else "stable"
     found = [found if all(poles) else "undefined", n, inside, on, outside, infinite]

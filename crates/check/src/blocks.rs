@@ -7,13 +7,17 @@
 
 #![expect(clippy::needless_range_loop, reason = "matrix indices, as in the formulas")]
 
+mod hold_rows;
+
 use super::characteristic::Form;
 use super::clock::Clock;
 use super::declarations::Declarations;
 use super::expression::{Names, Scope, number};
+use super::hold::Hold;
 use super::model::{Ports, matrix, names, outputs, sized};
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, Z, shorten};
+use super::symbols::Table;
 use super::toml::Toml;
 use num_traits::{One, ToPrimitive, Zero};
 use std::collections::{BTreeMap, BTreeSet};
@@ -31,6 +35,27 @@ struct Substitution {
     bottom: Multi,
 }
 
+/// How a continuous block is made discrete.
+enum Rule {
+    Quotient(Substitution),
+    Hold(Hold),
+    /// Only what is written is looked at.
+    Unknown,
+}
+
+/// What the parameters and symbols are, beside which exponentials are taken.
+#[derive(Clone, Copy)]
+pub(super) struct Values<'v> {
+    /// The values of the variables; the symbols follow.
+    pub numbers: &'v [Q],
+    pub table: &'v Table,
+    /// The base of all dead times over the parameter.
+    pub base: Option<&'v Q>,
+}
+
+/// The matrices of a state-space block.
+type Matrices = [Vec<Vec<Fraction>>; 4];
+
 type Row = BTreeMap<usize, Fraction>;
 
 struct Diagram<'s, 'c> {
@@ -43,6 +68,8 @@ struct Diagram<'s, 'c> {
     degree: usize,
     /// The blocks alone.
     alone: Vec<Ordered>,
+    sample_time: Option<&'s Toml>,
+    values: Option<Values<'s>>,
 }
 
 /// A matrix and the degree of its determinant unless a block loses its order.
@@ -55,6 +82,8 @@ pub(super) fn system_matrix<'t>(
     blocks: &'t [Toml],
     declared: &Declarations<'_>,
     scope: &mut Scope<'_>,
+    sample_time: Option<&Toml>,
+    values: Option<Values<'_>>,
 ) -> Result<(Form, Ports<'t>), String> {
     let mut called = BTreeSet::new();
     if let Some(name) = blocks.iter().filter_map(|b| b.get("name")?.text().ok()).find(|name| !called.insert(*name)) {
@@ -73,7 +102,7 @@ pub(super) fn system_matrix<'t>(
     let signals = numbered.map(|(name, i)| (name.to_owned(), i)).collect();
     let unknowns = driven.len();
     let (rows, alone) = (Vec::new(), Vec::new());
-    let mut diagram = Diagram { scope, declared, signals, rows, unknowns, degree: 0, alone };
+    let mut diagram = Diagram { scope, declared, signals, rows, unknowns, degree: 0, alone, sample_time, values };
     let mut first = 0;
     let mut states = Vec::new();
     for block in blocks {
@@ -96,7 +125,7 @@ impl Diagram<'_, '_> {
         }
         let substitution = match block.get("discretize") {
             Some(_) if !self.declared.discrete => return Err("a continuous loop has nothing to discretise".into()),
-            Some(table) => Some(self.substitution(table)?),
+            Some(how) => Some(self.rule(how)?),
             None => None,
         };
         let inner = if substitution.is_some() { "s" } else { self.declared.variable() };
@@ -117,7 +146,10 @@ impl Diagram<'_, '_> {
             return Err("a block with one transfer function has one input and one output".into());
         }
         let clock = self.scope.clock;
-        let (num, den) = if let Some(samples) = block.get("delay") {
+        let (num, den) = if let (Some(time), true) = (block.get("delay"), self.scope.dead_time.is_some()) {
+            let time = self.scope.scalar(time)?;
+            (self.scope.delayed(&time, 0)?.numerator, Multi::one())
+        } else if let Some(samples) = block.get("delay") {
             let samples = number(samples, clock)?;
             let samples = Some(samples).filter(Q::is_integer).and_then(|q| q.to_integer().to_u32());
             let Some(samples) = samples.filter(|&k| k <= MAX_DELAY && inner == "z") else {
@@ -149,6 +181,11 @@ impl Diagram<'_, '_> {
             let lead = den.coefficients(0).pop().unwrap_or_default();
             self.alone.push((vec![vec![lead]], 0));
         }
+        let substitution = match substitution {
+            None | Some(Rule::Unknown) => None,
+            Some(Rule::Quotient(substitution)) => Some(substitution),
+            Some(Rule::Hold(hold)) => return self.held(self.realised(&num, &den)?, &hold, &inputs, outputs),
+        };
         let (num, den, order) = self.substituted(&num, &den, substitution)?;
         self.degree += order;
         self.alone.push((vec![vec![den.clone()]], order));
@@ -194,14 +231,16 @@ impl Diagram<'_, '_> {
         Ok(sum)
     }
 
-    fn substitution(&mut self, table: &Toml) -> Result<Substitution, String> {
+    fn substitution(
+        &mut self,
+        method: &str,
+        time: Option<Fraction>,
+        factor: Option<Fraction>,
+    ) -> Result<Substitution, String> {
         let clock = self.scope.clock;
-        let mut get = |key: &str| table.get(key).map(|t| self.scope.scalar(t)).transpose();
-        let (time, factor) = (get("T")?, get("c")?);
         let whole = |f: &Fraction| Ok::<_, String>((f.numerator.clone(), f.whole_denominator(clock)?));
         let z = Multi::variable(0);
         let (minus, plus) = (z.minus(&Multi::one()), z.plus(&Multi::one()));
-        let method = table.get("method").ok_or("'discretize' has no method")?.text()?;
         match (method, &time, &factor) {
             ("forward" | "backward", Some(time), None) => {
                 let (n, d) = whole(time)?;
@@ -252,7 +291,7 @@ impl Diagram<'_, '_> {
         block: &Toml,
         inputs: &[Row],
         outputs: Range<usize>,
-        substitution: Option<Substitution>,
+        rule: Option<Rule>,
     ) -> Result<(), String> {
         let clock = self.scope.clock;
         let mut get = |key: &str| block.get(key).map(|m| matrix(m, self.scope)).transpose();
@@ -274,6 +313,14 @@ impl Diagram<'_, '_> {
         if let Some(d) = &d {
             sized(d, outputs.len(), inputs.len())?;
         }
+        if let Some(Rule::Hold(hold)) = &rule {
+            let nothing = || vec![vec![Fraction::number(&Q::zero()); inputs.len()]; outputs.len()];
+            return self.held([a, b, c, d.unwrap_or_else(nothing)], hold, inputs, outputs);
+        }
+        let substitution = match rule {
+            Some(Rule::Quotient(substitution)) => Some(substitution),
+            _ => None,
+        };
         let discretised = substitution.is_some();
         let (top, bottom) = match substitution {
             Some(s) => (s.top, s.bottom),

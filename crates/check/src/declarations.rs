@@ -2,6 +2,7 @@
 
 use super::clock::Clock;
 use super::expression::{Scope, is_name, names_in, number};
+use super::model::{matrix, sized};
 use super::multivariate::Fraction;
 use super::number::{Q, shorten};
 use super::tolerance::tolerance;
@@ -14,6 +15,8 @@ pub(super) struct Declarations<'t> {
     pub discrete: bool,
     /// Each after those that it uses.
     constants: Vec<(&'t str, &'t Toml)>,
+    /// Constants that are matrices.
+    matrices: Vec<(&'t str, &'t Toml)>,
     parameters: Vec<&'t str>,
     taken: BTreeSet<&'t str>,
 }
@@ -37,7 +40,10 @@ impl<'t> Declarations<'t> {
             "continuous" => false,
             other => return Err(format!("unknown time '{}'", shorten(other))),
         };
-        let constants = in_order(root.section("constants")?)?;
+        let is_matrix = |(_, value): &&(String, Toml)| matches!(value, Toml::List(_));
+        let all = root.section("constants")?;
+        let matrices = all.iter().filter(is_matrix).map(|(name, value)| (name.as_str(), value)).collect();
+        let constants = in_order(all.iter().filter(|entry| !is_matrix(entry)))?;
         for (_, constant) in root.section("constants")? {
             if let Some(value) = constant.get("tolerance") {
                 tolerance(value, clock)?;
@@ -50,10 +56,10 @@ impl<'t> Declarations<'t> {
             parameters.push(name.as_str());
             domain(parameter, clock)?;
         }
-        let mut declared = Declarations { discrete, constants, parameters, taken: BTreeSet::new() };
+        let mut declared = Declarations { discrete, constants, matrices, parameters, taken: BTreeSet::new() };
         declared.taken.extend([declared.variable(), "radius", "decay"]);
-        let names: Vec<&str> =
-            declared.constants.iter().map(|(name, _)| *name).chain(declared.parameters.iter().copied()).collect();
+        let constants = declared.constants.iter().chain(&declared.matrices).map(|(name, _)| *name);
+        let names: Vec<&str> = constants.chain(declared.parameters.iter().copied()).collect();
         declared.distinct(&names)?;
         declared.taken.extend(names);
         Ok(declared)
@@ -140,6 +146,12 @@ impl<'t> Declarations<'t> {
             };
             scope.constants.insert((*name).to_owned(), value);
         }
+        for (name, rows) in &self.matrices {
+            let value = matrix(rows, &mut scope)?;
+            let columns = value.first().map_or(0, Vec::len);
+            sized(&value, value.len(), columns)?;
+            scope.matrices.insert((*name).to_owned(), value);
+        }
         Ok(scope)
     }
 }
@@ -165,13 +177,14 @@ fn value_of(constant: &Toml) -> &Toml {
 }
 
 /// The constants, each after those that it uses; depth first with a stack of its own, since chains may be long.
-fn in_order(entries: &[(String, Toml)]) -> Result<Vec<(&str, &Toml)>, String> {
+fn in_order<'t>(entries: impl Iterator<Item = &'t (String, Toml)>) -> Result<Vec<(&'t str, &'t Toml)>, String> {
     #[derive(Clone, Copy, PartialEq)]
     enum State {
         New,
         Open,
         Done,
     }
+    let entries: Vec<&(String, Toml)> = entries.collect();
     let index: BTreeMap<&str, usize> = entries.iter().enumerate().map(|(i, (name, _))| (name.as_str(), i)).collect();
     let uses = |value: &Toml| -> Result<Vec<usize>, String> {
         Ok(names_in(value.expression()?).into_iter().filter_map(|name| index.get(name).copied()).collect())
@@ -208,7 +221,7 @@ mod tests {
     #[test]
     fn constants_come_after_those_they_use() {
         let order = |text: &str| -> Result<String, String> {
-            Ok(in_order(read(text).unwrap().entries())?.iter().map(|(name, _)| *name).collect())
+            Ok(in_order(read(text).unwrap().entries().iter())?.iter().map(|(name, _)| *name).collect())
         };
         assert_eq!(order("a = 'b + c'\nb = 'c'\nd = 'a'\nc = 2e5").unwrap(), "cbad");
         assert!(order("a = 'b'\nb = 'c'\nc = 'a'").is_err() && order("a = '0*a'").is_err());

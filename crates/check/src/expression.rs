@@ -13,10 +13,24 @@ const MAX_NESTING: usize = 200;
 /// Exponents may be this large.
 const MAX_POWER: i64 = 1000;
 
+/// How dead time is read: `exp(-k base p s)` of the parameter `p` in question is the power `k` of one more variable.
+pub(super) struct DeadTime {
+    pub base: Q,
+    /// Values of the variables; the one of dead time follows.
+    pub values: Vec<Q>,
+}
+
+/// Dead times that are greater multiples of the base are refused.
+const MAX_MULTIPLE: u32 = 256;
+
 /// What names mean, and everything that was divided by.
 pub(super) struct Scope<'c> {
+    /// Where it is read.
+    pub dead_time: Option<DeadTime>,
     /// Values of constants.
     pub constants: BTreeMap<String, Fraction>,
+    /// Constants that are matrices.
+    pub matrices: BTreeMap<String, Vec<Vec<Fraction>>>,
     /// Numbers of variables, from 1 on.
     pub parameters: BTreeMap<String, usize>,
     /// Every divisor, as a polynomial: the model is undefined where it vanishes identically in variable 0.
@@ -48,7 +62,14 @@ pub(super) enum Names<'n> {
 
 impl<'c> Scope<'c> {
     pub fn new(parameters: BTreeMap<String, usize>, clock: &'c Clock) -> Self {
-        Scope { constants: BTreeMap::new(), parameters, divisors: BTreeSet::new(), clock }
+        Scope {
+            dead_time: None,
+            constants: BTreeMap::new(),
+            matrices: BTreeMap::new(),
+            parameters,
+            divisors: BTreeSet::new(),
+            clock,
+        }
     }
 
     /// A number, or an expression in constants and parameters.
@@ -72,6 +93,28 @@ impl<'c> Scope<'c> {
             return Err("an input or output has a constant term".into());
         }
         Ok(value.signals)
+    }
+
+    /// The power of the variable of dead time for `tau` times a power of the loop's variable.
+    pub fn delayed(&self, tau: &Fraction, power: usize) -> Result<Fraction, String> {
+        let of = self.dead_time.as_ref().ok_or("there is no dead time here")?;
+        let top = tau.numerator.specialised(1, &of.values, self.clock)?;
+        let bottom = tau.whole_denominator(self.clock)?.specialised(1, &of.values, self.clock)?;
+        let (mut coefficient, mut divisor) = (Q::zero(), Q::zero());
+        for (rows, at, number) in [(&top, (power, 1), &mut coefficient), (&bottom, (0, 0), &mut divisor)] {
+            for (i, row) in rows.iter().enumerate() {
+                for (j, c) in row.iter().enumerate().filter(|(_, c)| !c.is_zero()) {
+                    if (i, j) != at {
+                        return Err("a dead time is not a multiple of the parameter".into());
+                    }
+                    number.clone_from(c);
+                }
+            }
+        }
+        let multiple = Some(divisor).filter(|d| !d.is_zero()).map(|d| coefficient / d / &of.base);
+        let k = multiple.filter(Q::is_integer).and_then(|k| k.to_integer().to_u32());
+        let k = k.filter(|k| (1..=MAX_MULTIPLE).contains(k)).ok_or("a dead time is not a multiple of the base")?;
+        Fraction::variable(of.values.len()).power(k, self.clock)
     }
 
     fn evaluate(&mut self, text: &str, names: Names<'_>) -> Result<Linear, String> {
@@ -285,6 +328,17 @@ impl<'t> Parser<'_, '_, 't> {
         let plain = |constant| Linear { constant, signals: BTreeMap::new() };
         if matches!(self.names, Names::Numbers) {
             return Err(format!("the name '{}' where only numbers may stand", shorten(name)));
+        }
+        let is_known = self.scope.parameters.contains_key(name) || self.scope.constants.contains_key(name);
+        if name == "exp" && !is_known && self.scope.dead_time.is_some() && self.eat('(') {
+            let argument = self.nested(Self::sum)?;
+            if !self.eat(')') {
+                return Err("')' is missing".into());
+            }
+            if !argument.signals.is_empty() {
+                return Err("a function of a signal".into());
+            }
+            return Ok(plain(self.scope.delayed(&argument.constant.negated(), 1)?));
         }
         if matches!(self.names, Names::Variable(variable) | Names::Polynomial(variable) if variable == name) {
             return Ok(plain(Fraction::variable(0)));

@@ -9,6 +9,12 @@ use std::fmt::Write;
 /// The schema this version writes and accepts.
 pub const SCHEMA: &str = "jurist/certificate/1";
 
+/// The schema of certificates over symbols, such as those of plants behind a hold.
+pub const SCHEMA_WITH_SYMBOLS: &str = "jurist/certificate/2";
+
+/// The schema of certificates of stable dead times.
+pub const SCHEMA_WITH_DEAD_TIME: &str = "jurist/certificate/3";
+
 /// Texts longer than this many bytes are refused unread.
 pub const MAX_TEXT: usize = 64 << 20;
 

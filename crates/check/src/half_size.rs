@@ -1,16 +1,18 @@
 //! The pair of half the degree that describes the boundary.
 
-use super::univariate::Uni;
+use super::clock::Clock;
+use super::coefficient::Coefficient;
+use num_bigint::BigInt;
 
 /// A polynomial in `x`, coefficients from the constant term up, each a polynomial in the parameter.
-pub(super) type InX = Vec<Uni>;
+pub(super) type InX<P> = Vec<P>;
 
 /// `A`, `B` and their formal degrees, for a characteristic polynomial of degree at least 1.
 ///
 /// Discrete, `D# = z^n D(1/z)`, `x = z + 1/z`: for `n = 2k`, `z^k A = D + D#` and `z^(k-1) (z^2 - 1) B = D - D#`;
 /// for `n = 2k + 1`, `z^k (z + 1) A = D + D#` and `z^k (z - 1) B = D - D#`.
 /// Continuous, `x = s^2`: `D = A(s^2) + s B(s^2)`.
-pub(super) fn pair(d: &[Uni], discrete: bool) -> (InX, usize, InX, usize) {
+pub(super) fn pair<P: Coefficient>(d: &[P], discrete: bool) -> (InX<P>, usize, InX<P>, usize) {
     let n = d.len() - 1;
     let k = n / 2;
     let degree_b = if n.is_multiple_of(2) { k - 1 } else { k };
@@ -18,21 +20,21 @@ pub(super) fn pair(d: &[Uni], discrete: bool) -> (InX, usize, InX, usize) {
         let part = |from: usize| d.iter().skip(from).step_by(2).cloned().collect();
         return (part(0), k, part(1), degree_b);
     }
-    let sum: Vec<Uni> = (0..=n).map(|i| d[i].plus(&d[n - i])).collect();
-    let difference: Vec<Uni> = (0..=n).map(|i| d[i].minus(&d[n - i])).collect();
+    let sum: Vec<P> = (0..=n).map(|i| d[i].plus(&d[n - i])).collect();
+    let difference: Vec<P> = (0..=n).map(|i| d[i].minus(&d[n - i])).collect();
+    let zero = d[0].zero();
     if n.is_multiple_of(2) {
         // Division by z^2 - 1, from the constant term up: q_i = q_(i-2) - c_i.
-        let mut q: Vec<Uni> = Vec::new();
+        let mut q: Vec<P> = Vec::new();
         for i in 0..n - 1 {
-            let before = if i >= 2 { q[i - 2].clone() } else { Uni::default() };
+            let before = if i >= 2 { q[i - 2].clone() } else { zero.clone() };
             q.push(before.minus(&difference[i]));
         }
         (in_x(&sum, k), k, in_x(&q, k - 1), degree_b)
     } else {
-        let (mut a, mut b): (Vec<Uni>, Vec<Uni>) = (Vec::new(), Vec::new());
+        let (mut a, mut b): (Vec<P>, Vec<P>) = (Vec::new(), Vec::new());
         for i in 0..n {
             // Division by z + 1: q_i = c_i - q_(i-1); by z - 1: q_i = q_(i-1) - c_i.
-            let zero = Uni::default();
             let (before_a, before_b) = (a.last().unwrap_or(&zero).clone(), b.last().unwrap_or(&zero).clone());
             a.push(sum[i].minus(&before_a));
             b.push(before_b.minus(&difference[i]));
@@ -43,17 +45,17 @@ pub(super) fn pair(d: &[Uni], discrete: bool) -> (InX, usize, InX, usize) {
 
 /// `z^-m S` in `x` for a symmetric `S` of degree `2m`: takes off `s_2m (z + 1/z)^m`, whose expansion is
 /// binomial, and goes on with the rest.
-fn in_x(s: &[Uni], m: usize) -> InX {
+fn in_x<P: Coefficient>(s: &[P], m: usize) -> InX<P> {
     let mut rest = s.to_vec();
-    let mut out = vec![Uni::default(); m + 1];
+    let mut out = vec![s[0].zero(); m + 1];
     for j in (0..=m).rev() {
         let top = rest[m + j].clone();
         if !top.is_zero() {
-            let mut binomial = num_bigint::BigInt::from(1);
+            let mut binomial = BigInt::from(1);
             for i in 0..=j {
                 let place = m + j - 2 * i;
                 rest[place] = rest[place].minus(&top.scaled(&binomial));
-                binomial = binomial * num_bigint::BigInt::from(j - i) / num_bigint::BigInt::from(i + 1);
+                binomial = binomial * BigInt::from(j - i) / BigInt::from(i + 1);
             }
         }
         out[j] = top;
@@ -62,22 +64,21 @@ fn in_x(s: &[Uni], m: usize) -> InX {
 }
 
 /// The product of two polynomials in `x`.
-pub(super) fn times(a: &InX, b: &InX) -> InX {
-    if a.is_empty() || b.is_empty() {
-        return Vec::new();
-    }
-    let mut out = vec![Uni::default(); a.len() + b.len() - 1];
+pub(super) fn times<P: Coefficient>(a: &InX<P>, b: &InX<P>, clock: &Clock) -> Result<InX<P>, String> {
+    let (Some(first), false) = (a.first(), b.is_empty()) else { return Ok(Vec::new()) };
+    let mut out = vec![first.zero(); a.len() + b.len() - 1];
     for (i, x) in a.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
         for (j, y) in b.iter().enumerate().filter(|(_, y)| !y.is_zero()) {
-            out[i + j] = out[i + j].plus(&x.times(y));
+            out[i + j] = out[i + j].plus(&x.times(y, clock)?);
         }
     }
-    out
+    Ok(out)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::univariate::Uni;
     use num_bigint::BigInt as Z;
 
     /// `4 D(z) D(1/z) = A^2 + (4 - x^2) B^2`, or `(2 + x) A^2 + (2 - x) B^2`, at `x = 5/2`, `z = 2`.
@@ -96,7 +97,7 @@ mod tests {
             let (a, ka, b, kb) = pair(&coefficients, true);
             assert!(a.len() == ka + 1 && b.len() == kb + 1);
             // All values times a power of 2: x = 5/2, z = 2.
-            let at = |c: &InX| {
+            let at = |c: &InX<Uni>| {
                 c.iter()
                     .enumerate()
                     .map(|(k, c)| c.at(0) * Z::from(5).pow(k as u32) * Z::from(2).pow((20 - k) as u32))

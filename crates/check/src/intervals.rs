@@ -1,14 +1,25 @@
 //! The stable set of one parameter: the one forward pass over the line.
 
-use super::characteristic::Characteristic;
 use super::clock::Clock;
+use super::coefficient::Coefficient;
 use super::half_size::{InX, pair, times};
 use super::number::Q;
-use super::roots::{is_hurwitz, is_schur};
-use super::statement::{End, boolean, count, end, list, number, object, polynomial, polynomials, text};
-use super::univariate::Uni;
+use super::statement::{End, boolean, count, end, list, number, object, polynomials, text};
 use super::{Rejection, Step};
 use crate::format::Json;
+
+/// How a polynomial is written in the certificate; the text says which one it is.
+pub(super) type Reader<'r, P> = &'r dyn Fn(&Json, &str) -> Result<P, String>;
+
+/// A loop in one parameter.
+pub(super) struct Loop<'l, P> {
+    pub discrete: bool,
+    pub degree: usize,
+    /// The coefficients of the characteristic polynomial, as many as its degree and one; none where it is undefined.
+    pub coefficients: &'l [P],
+    /// The loop is undefined at the zeros of these.
+    pub poles: &'l [P],
+}
 
 /// What the certificate gives as proof.
 pub(super) struct Proof<'j> {
@@ -19,22 +30,22 @@ pub(super) struct Proof<'j> {
 }
 
 /// Everything whose zeros can change the number of stable roots.
-struct Boundaries {
+struct Boundaries<P> {
     /// At a zero of one of these the loop is not stable, or not defined.
-    certain: Vec<Uni>,
+    certain: Vec<P>,
     /// The identity `U A + V B = value`, for a degree of at least 2.
-    pair: Option<Identity>,
+    pair: Option<Identity<P>>,
 }
 
-struct Identity {
-    u: InX,
-    v: InX,
-    value: Uni,
+struct Identity<P> {
+    u: InX<P>,
+    v: InX<P>,
+    value: P,
 }
 
 /// Where one stretch of the line ends and the next begins.
-struct Separator {
-    end: End,
+struct Separator<P> {
+    end: End<P>,
     /// The limits of the stretches on its two sides, and whether these belong to the stretches.
     left: Option<Q>,
     right: Option<Q>,
@@ -43,23 +54,23 @@ struct Separator {
     touch: Option<(bool, usize)>,
 }
 
-pub(super) fn check(
-    d: &Characteristic,
-    coefficients: &[Uni],
+pub(super) fn check<P: Coefficient>(
+    d: &Loop<'_, P>,
     domain: &(Option<Q>, Option<Q>),
     proof: &Proof<'_>,
+    read: Reader<'_, P>,
     clock: &Clock,
 ) -> Result<usize, Rejection> {
     let stable = Step::Stable.of((|| {
         let mut out = Vec::new();
         for interval in list(proof.stable, "'stable'")? {
             let [lower, upper] = object(interval, "an interval", ["lower", "upper"], &[])?;
-            out.push((end(lower)?, end(upper)?));
+            out.push((end(lower, read)?, end(upper, read)?));
         }
         Ok(out)
     })())?;
-    let boundaries = Step::Boundary.of(boundaries(d, coefficients, proof.boundary, clock))?;
-    let factors = Step::Factors.of(polynomials(proof.factors, "'factors'"))?;
+    let boundaries = Step::Boundary.of(boundaries(d, proof.boundary, read, clock))?;
+    let factors = Step::Factors.of(polynomials(proof.factors, "'factors'", read))?;
     let Some(boundaries) = boundaries else {
         // Stable nowhere: a boundary condition holds for every value.
         Step::Factors.of(if factors.is_empty() { Ok(()) } else { Err("there is nothing to factor".into()) })?;
@@ -71,7 +82,7 @@ pub(super) fn check(
         return Step::Stable.of(if stable.is_empty() { Ok(0) } else { Err("the loop is stable nowhere".into()) });
     };
     Step::Factors.of(covered(&boundaries, &factors, clock))?;
-    let found = Step::Line.of(walk(d, coefficients, domain, &boundaries, &factors, proof.line, clock))?;
+    let found = Step::Line.of(walk(d, domain, &boundaries, &factors, proof.line, clock))?;
     let count = found.len();
     Step::Stable.of(if found == stable {
         Ok(count)
@@ -81,25 +92,26 @@ pub(super) fn check(
 }
 
 /// The boundary polynomials; `None` when one of them vanishes identically, so that no value is stable.
-fn boundaries(
-    d: &Characteristic,
-    coefficients: &[Uni],
+fn boundaries<P: Coefficient>(
+    d: &Loop<'_, P>,
     given: &Json,
+    read: Reader<'_, P>,
     clock: &Clock,
-) -> Result<Option<Boundaries>, String> {
-    let n = d.degree;
-    let mut certain = d.poles.clone();
-    certain.push(coefficients.get(n).cloned().unwrap_or_default());
+) -> Result<Option<Boundaries<P>>, String> {
+    let (n, coefficients) = (d.degree, d.coefficients);
+    let mut certain = d.poles.to_vec();
+    certain.extend(coefficients.get(n).cloned());
     if n > 0 && !coefficients.is_empty() {
         if d.discrete {
-            let sum = |from: usize| coefficients.iter().skip(from).step_by(2).fold(Uni::default(), |s, c| s.plus(c));
+            let zero = coefficients[0].zero();
+            let sum = |from: usize| coefficients.iter().skip(from).step_by(2).fold(zero.clone(), |s, c| s.plus(c));
             certain.push(sum(0).plus(&sum(1)));
             certain.push(sum(0).minus(&sum(1)));
         } else {
             certain.push(coefficients[0].clone());
         }
     }
-    let vanishes = certain.iter().any(Uni::is_zero);
+    let vanishes = coefficients.len() <= n || certain.iter().any(P::is_zero);
     if n < 2 || vanishes {
         if *given != Json::Null {
             return Err("'boundary' must be null here".into());
@@ -107,24 +119,29 @@ fn boundaries(
         return Ok(if vanishes { None } else { Some(Boundaries { certain, pair: None }) });
     }
     let [u, v, value] = object(given, "'boundary'", ["u", "v", "value"], &[])?;
-    let (u, v) = (polynomials(u, "'u'")?, polynomials(v, "'v'")?);
-    let value = polynomial(value, "'value'")?;
+    let (u, v) = (polynomials(u, "'u'", read)?, polynomials(v, "'v'", read)?);
+    let value = read(value, "'value'")?;
     let (a, degree_a, b, degree_b) = pair(coefficients, d.discrete);
     // deg U < deg B and deg V < deg A make U A + V B the Sylvester matrix of formal degrees times (U, V).
     if u.len() > degree_b || v.len() > degree_a {
         return Err("a cofactor has too high a degree in x".into());
     }
-    if u.iter().chain(&v).all(Uni::is_zero) {
+    let mut is_there = false;
+    for w in u.iter().chain(&v) {
+        is_there = is_there || w.is_nonzero(clock)?;
+    }
+    if !is_there {
         return Err("both cofactors are zero".into());
     }
     clock.tick()?;
-    let left = times(&u, &a);
+    let left = times(&u, &a, clock)?;
     clock.tick()?;
-    let right = times(&v, &b);
-    let at = |p: &InX, k: usize| p.get(k).cloned().unwrap_or_default();
+    let right = times(&v, &b, clock)?;
+    let zero = value.zero();
+    let at = |p: &InX<P>, k: usize| p.get(k).cloned().unwrap_or_else(|| zero.clone());
     for k in 0..left.len().max(right.len()).max(1) {
         let sum = at(&left, k).plus(&at(&right, k));
-        if sum != if k == 0 { value.clone() } else { Uni::default() } {
+        if sum != if k == 0 { value.clone() } else { zero.clone() } {
             return Err(format!("U A + V B = value does not hold in the coefficient of x^{k}"));
         }
     }
@@ -135,7 +152,7 @@ fn boundaries(
 }
 
 /// Whether every zero of every boundary polynomial is a zero of a factor.
-fn covered(boundaries: &Boundaries, factors: &[Uni], clock: &Clock) -> Result<(), String> {
+fn covered<P: Coefficient>(boundaries: &Boundaries<P>, factors: &[P], clock: &Clock) -> Result<(), String> {
     if factors.iter().any(|f| f.degree() == 0) {
         return Err("a factor is constant".into());
     }
@@ -143,18 +160,20 @@ fn covered(boundaries: &Boundaries, factors: &[Uni], clock: &Clock) -> Result<()
     for (i, boundary) in all.enumerate() {
         let mut rest = boundary.clone();
         for f in factors {
-            while let Some(quotient) = rest.divided(f, clock)? {
+            while rest.degree() > 0
+                && let Some(quotient) = rest.divided(f, clock)?
+            {
                 rest = quotient;
             }
         }
-        if rest.degree() > 0 {
+        if !rest.is_unit(clock)? {
             return Err(format!("boundary polynomial {i} is not a product of the factors"));
         }
     }
     Ok(())
 }
 
-fn separator(json: &Json, factors: &[Uni], clock: &Clock) -> Result<Separator, String> {
+fn separator<P: Coefficient>(json: &Json, factors: &[P], clock: &Clock) -> Result<Separator<P>, String> {
     let touch = match json.get("touch") {
         None => None,
         Some(t) => match list(t, "'touch'")? {
@@ -199,15 +218,14 @@ fn separator(json: &Json, factors: &[Uni], clock: &Clock) -> Result<Separator, S
 }
 
 /// Goes along the line from left to right and returns the stable intervals.
-fn walk(
-    d: &Characteristic,
-    coefficients: &[Uni],
+fn walk<P: Coefficient>(
+    d: &Loop<'_, P>,
     domain: &(Option<Q>, Option<Q>),
-    boundaries: &Boundaries,
-    factors: &[Uni],
+    boundaries: &Boundaries<P>,
+    factors: &[P],
     line: &Json,
     clock: &Clock,
-) -> Result<Vec<(End, End)>, String> {
+) -> Result<Vec<(End<P>, End<P>)>, String> {
     let line = list(line, "'line'")?;
     if line.len() % 2 == 0 {
         return Err("the line does not begin and end with a stretch".into());
@@ -222,15 +240,14 @@ fn walk(
     };
     let mut before = outer(&domain.0);
     let mut before_is_stable = false;
-    let mut found: Vec<(End, End)> = Vec::new();
+    let mut found: Vec<(End<P>, End<P>)> = Vec::new();
     for (i, item) in line.iter().enumerate().step_by(2) {
         let after = match line.get(i + 1) {
             Some(json) => separator(json, factors, clock),
             None => Ok(outer(&domain.1)),
         };
         let after = after.map_err(|e| format!("part {}: {e}", i + 1))?;
-        let stable =
-            stretch(d, coefficients, &before, &after, factors, item, clock).map_err(|e| format!("part {i}: {e}"))?;
+        let stable = stretch(d, &before, &after, factors, item, clock).map_err(|e| format!("part {i}: {e}"))?;
         if stable && before_is_stable && !is_excluded(&before, boundaries, clock)? {
             return Err(format!("part {}: the point between two stable stretches is not shown to be unstable", i - 1));
         }
@@ -244,12 +261,11 @@ fn walk(
 }
 
 /// A stretch without zeros of factors: every piece by Descartes' rule, one sample exactly.
-fn stretch(
-    d: &Characteristic,
-    coefficients: &[Uni],
-    before: &Separator,
-    after: &Separator,
-    factors: &[Uni],
+fn stretch<P: Coefficient>(
+    d: &Loop<'_, P>,
+    before: &Separator<P>,
+    after: &Separator<P>,
+    factors: &[P],
     json: &Json,
     clock: &Clock,
 ) -> Result<bool, String> {
@@ -288,18 +304,14 @@ fn stretch(
     if !(above && below) {
         return Err("the sample is not in the stretch".into());
     }
-    let polynomial = at_point(coefficients, &sample, clock)?;
-    if polynomial.0.len() != d.degree + 1 {
-        return Err("the sample loses degree".into());
-    }
-    let actual = if d.discrete { is_schur(&polynomial, clock)? } else { is_hurwitz(&polynomial, clock)? };
+    let actual = P::is_stable_at(d.coefficients, &sample, d.discrete, clock)?;
     if actual != boolean(stable, "'stable'")? {
         return Err(format!("at the sample the loop is {}stable", if actual { "" } else { "not " }));
     }
     Ok(actual)
 }
 
-fn any_vanishes(polynomials: &[Uni], q: &Q, clock: &Clock) -> Result<bool, String> {
+fn any_vanishes<P: Coefficient>(polynomials: &[P], q: &Q, clock: &Clock) -> Result<bool, String> {
     for f in polynomials {
         if f.vanishes_at(q, clock)? {
             return Ok(true);
@@ -308,21 +320,13 @@ fn any_vanishes(polynomials: &[Uni], q: &Q, clock: &Clock) -> Result<bool, Strin
     Ok(false)
 }
 
-/// A positive multiple of the polynomial at a value of the parameter.
-fn at_point(coefficients: &[Uni], sample: &Q, clock: &Clock) -> Result<Uni, String> {
-    // All values over the denominator of the sample to the power of the highest degree.
-    let degree = coefficients.iter().map(Uni::degree).max().unwrap_or(0);
-    let mut values = Vec::with_capacity(coefficients.len());
-    for c in coefficients {
-        let value = c.numerator_at(sample, clock)?;
-        values.push(value * num_traits::pow(sample.denom().clone(), degree - c.degree()));
-    }
-    Ok(Uni::new(values))
-}
-
 /// Whether a separator between two stable stretches is shown not to be stable itself.
-fn is_excluded(separator: &Separator, boundaries: &Boundaries, clock: &Clock) -> Result<bool, String> {
-    let witness = |identity: &Identity, touch: Option<(bool, usize)>| {
+fn is_excluded<P: Coefficient>(
+    separator: &Separator<P>,
+    boundaries: &Boundaries<P>,
+    clock: &Clock,
+) -> Result<bool, String> {
+    let witness = |identity: &Identity<P>, touch: Option<(bool, usize)>| {
         let (in_u, k) = touch?;
         (if in_u { &identity.u } else { &identity.v }).get(k).cloned()
     };

@@ -10,6 +10,9 @@
 mod blocks;
 mod characteristic;
 mod clock;
+mod coefficient;
+mod crossing;
+mod dead_time;
 mod declarations;
 mod determinant;
 mod expression;
@@ -17,29 +20,38 @@ pub mod format;
 #[doc = include_str!("grammar.md")]
 pub mod grammar {}
 mod half_size;
+mod held;
+mod hold;
+mod interval;
 mod intervals;
 mod keys;
 mod model;
 mod multivariate;
 mod number;
+mod over;
+mod over_symbols;
 #[doc = include_str!("proved.md")]
 pub mod proved {}
 mod region;
 mod roots;
 mod statement;
+mod symbols;
 mod tolerance;
 mod toml;
 mod univariate;
 mod verdict;
 
 use clock::{Clock, out_of_time};
-use format::{Json, SCHEMA};
+use format::{Json, SCHEMA, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS};
 use num_traits::Zero;
 use number::{Q, shorten};
-use statement::{Extent, bound, extent, identifier, object, polynomials, text, values};
+use over::Over;
+use statement::{Extent, bound, extent, identifier, object, polynomial, polynomials, text, values};
 use std::fmt;
+use std::rc::Rc;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
+use symbols::Table;
 use univariate::Uni;
 
 /// The stack of the thread in which a check runs: expressions may nest deeper than a default stack allows.
@@ -244,16 +256,18 @@ fn checked(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Re
     // Another version may have other parts, so it is looked at first.
     let schema = json.get("schema").ok_or_else(|| "the certificate has no 'schema'".to_owned());
     let schema = Step::Format.of(schema.and_then(|s| text(s, "'schema'")))?;
-    if schema != SCHEMA {
-        let reason = format!("the schema is '{}', not '{SCHEMA}'", shorten(schema));
+    if ![SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_WITH_DEAD_TIME].contains(&schema) {
+        let known = format!("'{SCHEMA}', '{SCHEMA_WITH_SYMBOLS}' or '{SCHEMA_WITH_DEAD_TIME}'");
+        let reason = format!("the schema is '{}', not {known}", shorten(schema));
         return Err(Rejection { step: Step::Format, reason });
     }
     let statement =
         Step::Format.of(json.get("statement").ok_or_else(|| "the certificate has no 'statement'".into()))?;
     let kind = Step::Statement.of(statement.get("kind").ok_or_else(|| "the statement has no 'kind'".into()))?;
     match Step::Statement.of(text(kind, "'kind'"))? {
+        "intervals" if schema == SCHEMA_WITH_DEAD_TIME => dead_time::check(model, &json, statement, &clock),
         "intervals" => check_intervals(model, &json, statement, &clock),
-        "verdict" => verdict::check(model, &json, statement, &clock),
+        "verdict" if schema != SCHEMA_WITH_DEAD_TIME => verdict::check(model, &json, statement, &clock),
         other => {
             let reason = format!("unknown kind of statement '{}'", shorten(other));
             Err(Rejection { step: Step::Statement, reason })
@@ -270,10 +284,27 @@ fn is_discrete(json: &Json) -> Result<bool, String> {
     }
 }
 
+/// The table of symbols of a certificate that has one.
+fn table(json: &Json) -> Result<Option<Rc<Table>>, Rejection> {
+    let part = |key: &str| json.get(key).ok_or_else(|| format!("the certificate has no '{key}'"));
+    if json.get("schema") != Some(&SCHEMA_WITH_SYMBOLS.into()) {
+        return Ok(None);
+    }
+    let [bits, symbols, modes] = ["bits", "symbols", "modes"].map(part);
+    let table = Step::Format.of((|| Table::read(bits?, symbols?, modes?))())?;
+    Ok(Some(Rc::new(table)))
+}
+
+/// The keys of a certificate that may be there beside those of its kind.
+fn further_keys(table: Option<&Rc<Table>>) -> &'static [&'static str] {
+    if table.is_some() { &["model", "bits", "symbols", "modes"] } else { &["model"] }
+}
+
 fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
+    let table = table(json)?;
     let parts = ["schema", "statement", "characteristic", "boundary", "factors", "line"];
     let [_, _, characteristic, boundary, factors, line] =
-        Step::Format.of(object(json, "the certificate", parts, &["model"]))?;
+        Step::Format.of(object(json, "the certificate", parts, further_keys(table.as_ref())))?;
     let keys = ["kind", "time", "parameter", "set", "region", "domain", "stable"];
     let [_, time, parameter, set, region, domain, stable] =
         Step::Statement.of(object(statement, "the statement", keys, &[]))?;
@@ -301,15 +332,32 @@ fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) ->
         Ok((lower, upper))
     })())?;
     let kept = if extent == Extent::Parameter { None } else { Some(parameter) };
-    let d = Step::Model.of(model::read(model, kept, &set, clock))?;
-    if d.discrete != discrete {
-        return Err(Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() });
-    }
-    let coefficients = region::transformed(&d.coefficients, discrete, &extent);
-    let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'"))?;
-    Step::Characteristic.of(same_characteristic(&given, &coefficients))?;
     let proof = intervals::Proof { boundary, factors, line, stable };
-    intervals::check(&d, &coefficients, &domain, &proof, clock)?;
+    let other_time = || Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() };
+    match table {
+        None => {
+            let d = Step::Model.of(model::read(model, kept, &set, clock))?;
+            if d.discrete != discrete {
+                return Err(other_time());
+            }
+            let coefficients = region::transformed(&d.coefficients, discrete, &extent);
+            let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'", polynomial))?;
+            Step::Characteristic.of(same_characteristic(&given, &coefficients))?;
+            let d = intervals::Loop { discrete, degree: d.degree, coefficients: &coefficients, poles: &d.poles };
+            intervals::check(&d, &domain, &proof, &polynomial, clock)?;
+        }
+        Some(table) => {
+            if !discrete {
+                return Err(other_time());
+            }
+            let read = |json: &Json, what: &str| Over::read(json, what, &table);
+            let (coefficients, poles) =
+                held::characteristic(model, kept, &set, &extent, characteristic, &table, clock)?;
+            let degree = coefficients.len() - 1;
+            let d = intervals::Loop { discrete, degree, coefficients: &coefficients, poles: &poles };
+            intervals::check(&d, &domain, &proof, &read, clock)?;
+        }
+    }
     let statement = verdict::sentence_of_intervals(parameter, &set, &extent, discrete, &domain, stable);
     Ok(Proved { statement, kind: "intervals" })
 }

@@ -1,13 +1,14 @@
 //! From a model's text to its characteristic polynomial in one parameter.
 
-use super::blocks::system_matrix;
+use super::blocks::{Values, system_matrix};
 use super::characteristic::{Characteristic, Form, specialised};
 use super::clock::Clock;
 use super::declarations::{Declarations, Meaning};
-use super::expression::{Names, Scope, number};
+use super::expression::{DeadTime, Names, Scope, number};
 use super::keys;
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, shorten};
+use super::symbols::Table;
 use super::toml::{self, Toml};
 use super::univariate::Uni;
 use num_traits::Signed;
@@ -21,19 +22,8 @@ pub(super) fn read(
     values: &[(String, Q)],
     clock: &Clock,
 ) -> Result<Characteristic, String> {
-    let root = toml::read(text)?;
-    keys::known(&root)?;
-    let (declared, meaning, form, divisors) = clock.reading(|| {
-        let declared = Declarations::read(&root, clock)?;
-        let meaning = declared.asked(kept, values, clock)?;
-        if meaning.changes_constants {
-            // The model must be right as it is.
-            evaluated(&root, &declared, &declared.as_written(), clock)?;
-        }
-        let (form, divisors) = evaluated(&root, &declared, &meaning, clock)?;
-        Ok((declared, meaning, form, divisors))
-    })?;
-    let mut found = specialised(&form, &divisors, declared.discrete, &meaning.values, clock)?;
+    let read = asked(text, kept, values, &Table::empty(), None, clock)?;
+    let mut found = specialised(&read.form, &read.divisors, read.discrete, &read.values, clock)?;
     if found.poles.iter().any(Uni::is_zero) {
         // Undefined everywhere: there is no polynomial.
         found.coefficients.clear();
@@ -41,14 +31,52 @@ pub(super) fn read(
     Ok(found)
 }
 
+/// A loop as a question sees it.
+pub(super) struct Asked {
+    pub discrete: bool,
+    pub form: Form,
+    /// Everything that the model divides by.
+    pub divisors: BTreeSet<Multi>,
+    /// The values of the variables from 2 on; symbols follow.
+    pub values: Vec<Q>,
+}
+
+/// Reads the model for a question, exponentials over the symbols of a table, dead times as multiples of `base` times the parameter.
+pub(super) fn asked(
+    text: &str,
+    kept: Option<&str>,
+    values: &[(String, Q)],
+    table: &Table,
+    base: Option<&Q>,
+    clock: &Clock,
+) -> Result<Asked, String> {
+    let root = toml::read(text)?;
+    keys::known(&root)?;
+    clock.reading(|| {
+        let declared = Declarations::read(&root, clock)?;
+        let meaning = declared.asked(kept, values, clock)?;
+        if meaning.changes_constants {
+            // The model must be right as it is.
+            evaluated(&root, &declared, &declared.as_written(), None, clock)?;
+        }
+        let of = Values { numbers: &meaning.values, table, base };
+        let (form, divisors) = evaluated(&root, &declared, &meaning, Some(of), clock)?;
+        Ok(Asked { discrete: declared.discrete, form, divisors, values: meaning.values })
+    })
+}
+
 /// The loop and everything that its model divides by.
 fn evaluated(
     root: &Toml,
     declared: &Declarations<'_>,
     meaning: &Meaning<'_>,
+    values: Option<Values<'_>>,
     clock: &Clock,
 ) -> Result<(Form, BTreeSet<Multi>), String> {
     let mut scope = declared.scope(meaning, clock)?;
+    if let Some(Values { numbers, base: Some(base), .. }) = values.filter(|_| !declared.discrete) {
+        scope.dead_time = Some(DeadTime { base: base.clone(), values: numbers.to_vec() });
+    }
     if let Some(value) = root.get("sample_time") {
         let time = scope.scalar(value)?;
         if time.as_number().is_some_and(|time| !time.is_positive()) {
@@ -69,7 +97,7 @@ fn evaluated(
         let ports = ports(table, m.len(), declared, &mut scope)?;
         (Form::Matrix(m), ports)
     } else if let Some(blocks) = root.get("block") {
-        system_matrix(table, blocks.list()?, declared, &mut scope)?
+        system_matrix(table, blocks.list()?, declared, &mut scope, root.get("sample_time"), values)?
     } else {
         let get = |key: &str| table.get(key).ok_or_else(|| format!("[loop] has no '{key}'"));
         let (a, b) = (square(get("A")?, &mut scope)?, matrix(get("B")?, &mut scope)?);
@@ -172,6 +200,10 @@ pub(super) fn matrix(value: &Toml, scope: &mut Scope<'_>) -> Result<Vec<Vec<Frac
     let row = |row: &Toml, scope: &mut Scope<'_>| -> Result<Vec<Fraction>, String> {
         row.list()?.iter().map(|e| scope.scalar(e)).collect()
     };
+    if let Toml::Text(name) = value {
+        let found = scope.matrices.get(name.trim()).cloned();
+        return found.ok_or_else(|| format!("no constant '{}' is a matrix", shorten(name)));
+    }
     value.list()?.iter().map(|r| row(r, scope)).collect()
 }
 

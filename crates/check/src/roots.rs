@@ -141,6 +141,16 @@ fn negative_roots(f: &Uni, clock: &Clock) -> Result<usize, String> {
     Ok(count)
 }
 
+/// The number of positive roots of a square-free polynomial that is not zero at 0.
+pub(super) fn count_of_positive_roots(f: &Uni, clock: &Clock) -> Result<usize, String> {
+    if f.degree() == 0 {
+        return Ok(0);
+    }
+    let chain = sturm_chain(f, &f.derivative(), clock)?;
+    let at_zero = variations(chain.iter().map(|g| g.at(0).sign()));
+    Ok(at_zero - variations(chain.iter().map(|g| g.leading().sign())))
+}
+
 /// Roots left minus roots right of the axis, for a polynomial without mirror images of roots:
 /// the Cauchy index of `(b_0 w^(n-1) - b_1 w^(n-3) + ...)/(a_0 w^n - a_1 w^(n-2) + ...)` with
 /// `p = a_0 s^n + b_0 s^(n-1) + a_1 s^(n-2) + ...`, by Sturm's chain over the whole line.

@@ -18,11 +18,11 @@ pub(super) enum Extent {
 
 /// An end of an interval.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum End {
+pub(super) enum End<P> {
     Infinite,
     Rational(Q),
     /// The only root of a polynomial in an open interval.
-    Root(Uni, Q, Q),
+    Root(P, Q, Q),
 }
 
 /// The values of an object's keys; `optional` keys may be missing.
@@ -108,9 +108,13 @@ pub(super) fn polynomial(json: &Json, what: &str) -> Result<Uni, String> {
     if p.0.len() < length { Err(format!("{what} has a zero at the top")) } else { Ok(p) }
 }
 
-/// A list of polynomials.
-pub(super) fn polynomials(json: &Json, what: &str) -> Result<Vec<Uni>, String> {
-    list(json, what)?.iter().map(|p| polynomial(p, what)).collect()
+/// A list of polynomials, each as `read` reads it.
+pub(super) fn polynomials<P>(
+    json: &Json,
+    what: &str,
+    read: impl Fn(&Json, &str) -> Result<P, String>,
+) -> Result<Vec<P>, String> {
+    list(json, what)?.iter().map(|p| read(p, what)).collect()
 }
 
 /// Names with their values.
@@ -142,14 +146,14 @@ pub(super) fn extent(json: &Json, discrete: bool) -> Result<Extent, String> {
     }
 }
 
-pub(super) fn end(json: &Json) -> Result<End, String> {
+pub(super) fn end<P>(json: &Json, read: impl Fn(&Json, &str) -> Result<P, String>) -> Result<End<P>, String> {
     match json {
         Json::Null => Ok(End::Infinite),
         Json::Text(text) => rational(text).map(End::Rational),
         other => {
             let [p, between] = object(other, "an end", ["polynomial", "between"], &[])?;
             let (a, b) = pair(between, "'between' of an end")?;
-            Ok(End::Root(polynomial(p, "'polynomial' of an end")?, a, b))
+            Ok(End::Root(read(p, "'polynomial' of an end")?, a, b))
         }
     }
 }

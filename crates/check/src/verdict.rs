@@ -3,16 +3,18 @@
 use super::clock::Clock;
 use super::number::Q;
 use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
-use super::statement::{self, End, Extent, count, extent, list, object, polynomials, text, values};
+use super::statement::{self, End, Extent, count, extent, list, object, polynomial, polynomials, text, values};
 use super::univariate::Uni;
-use super::{Proved, Rejection, Step, is_discrete, model, region, same_characteristic};
+use super::{Proved, Rejection, Step, further_keys, held, is_discrete, model, region, same_characteristic, table};
 use crate::format::Json;
 use num_traits::Zero;
 use std::fmt::Write;
 
 pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
+    let table = table(json)?;
+    let parts = ["schema", "statement", "characteristic"];
     let [_, _, characteristic] =
-        Step::Format.of(object(json, "the certificate", ["schema", "statement", "characteristic"], &["model"]))?;
+        Step::Format.of(object(json, "the certificate", parts, further_keys(table.as_ref())))?;
     let keys = ["kind", "time", "set", "region", "verdict", "degree", "inside", "on", "outside", "infinite"];
     let [_, time, set, region, verdict, degree, inside, on, outside, infinite] =
         Step::Statement.of(object(statement, "the statement", keys, &[]))?;
@@ -32,38 +34,22 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
             count(infinite, "'infinite'")?,
         ])
     })())?;
-    let d = Step::Model.of(model::read(model, None, &set, clock))?;
-    if d.discrete != discrete {
-        return Err(Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() });
-    }
-    let coefficients = region::transformed(&d.coefficients, discrete, &extent);
-    let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'"))?;
-    Step::Characteristic.of(same_characteristic(&given, &coefficients))?;
-    let undefined = d.poles.iter().any(Uni::is_zero);
-    let polynomial = Uni::new(coefficients.iter().map(|c| c.at(0)).collect());
-    let (name, places, infinite) = if undefined {
-        ("undefined", Places::default(), 0)
-    } else if polynomial.is_zero() {
-        ("unstable", Places::default(), d.degree)
-    } else {
-        let places = if discrete { places_by_circle(&polynomial, clock) } else { places_by_axis(&polynomial, clock) };
-        let places = Step::Stable.of(places)?;
-        let infinite = d.degree - polynomial.degree();
-        let quick = if discrete { is_schur(&polynomial, clock) } else { is_hurwitz(&polynomial, clock) };
-        if Step::Stable.of(quick)? != (places.on + places.outside == 0) {
-            return Err(Rejection { step: Step::Stable, reason: "internal: two tests disagree".into() });
+    let (degree, name, places, infinite) = match &table {
+        None => rational(model, discrete, &set, &extent, characteristic, clock)?,
+        Some(_) if !discrete => {
+            let reason = "the model's time is not that of the statement".into();
+            return Err(Rejection { step: Step::Model, reason });
         }
-        let name = match (places.outside + infinite, places.on) {
-            (0, 0) => "stable",
-            (0, _) => "marginal",
-            _ => "unstable",
-        };
-        (name, places, infinite)
+        Some(table) => {
+            let (d, poles) = held::characteristic(model, None, &set, &extent, characteristic, table, clock)?;
+            let places = Step::Stable.of(held::places(&d, &poles, table, clock))?;
+            (d.len() - 1, named(&places, 0), places, 0)
+        }
     };
     if verdict != name {
         return Err(Rejection { step: Step::Stable, reason: format!("the verdict is '{name}'") });
     }
-    let found = [d.degree, places.inside, places.on, places.outside, infinite];
+    let found = [degree, places.inside, places.on, places.outside, infinite];
     if claimed != found {
         let [n, i, o, x, l] = found;
         let reason = format!("degree {n}: {i} roots are inside, {o} on the boundary, {x} outside, {l} infinite");
@@ -86,6 +72,50 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
         ),
     };
     Ok(Proved { statement: sentence, kind: "verdict" })
+}
+
+/// The verdict of a loop without symbols: its degree, name, and where the roots are.
+fn rational(
+    model: &str,
+    discrete: bool,
+    set: &[(String, Q)],
+    extent: &Extent,
+    characteristic: &Json,
+    clock: &Clock,
+) -> Result<(usize, &'static str, Places, usize), Rejection> {
+    let d = Step::Model.of(model::read(model, None, set, clock))?;
+    if d.discrete != discrete {
+        return Err(Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() });
+    }
+    let coefficients = region::transformed(&d.coefficients, discrete, extent);
+    let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'", polynomial))?;
+    Step::Characteristic.of(same_characteristic(&given, &coefficients))?;
+    let undefined = d.poles.iter().any(Uni::is_zero);
+    let polynomial = Uni::new(coefficients.iter().map(|c| c.at(0)).collect());
+    let (name, places, infinite) = if undefined {
+        ("undefined", Places::default(), 0)
+    } else if polynomial.is_zero() {
+        ("unstable", Places::default(), d.degree)
+    } else {
+        let places = if discrete { places_by_circle(&polynomial, clock) } else { places_by_axis(&polynomial, clock) };
+        let places = Step::Stable.of(places)?;
+        let infinite = d.degree - polynomial.degree();
+        let quick = if discrete { is_schur(&polynomial, clock) } else { is_hurwitz(&polynomial, clock) };
+        if Step::Stable.of(quick)? != (places.on + places.outside == 0) {
+            return Err(Rejection { step: Step::Stable, reason: "internal: two tests disagree".into() });
+        }
+        (named(&places, infinite), places, infinite)
+    };
+    Ok((d.degree, name, places, infinite))
+}
+
+/// What the verdict is called.
+fn named(places: &Places, infinite: usize) -> &'static str {
+    match (places.outside + infinite, places.on) {
+        (0, 0) => "stable",
+        (0, _) => "marginal",
+        _ => "unstable",
+    }
 }
 
 /// The region, if it is not the usual one.
@@ -149,20 +179,31 @@ const SHOWN: usize = 500;
 
 /// An end in words; `None` for an infinite one.
 fn end(json: &Json, parameter: &str) -> Option<String> {
-    match statement::end(json).ok()? {
-        End::Infinite => None,
-        End::Rational(q) => Some(q.to_string()),
-        End::Root(f, a, b) => {
+    if let Some(Json::List(between)) = json.get("switch")
+        && let [Json::Text(a), Json::Text(b)] = between.as_slice()
+    {
+        return Some(format!("[the dead time in ({a}, {b}) with roots on the axis]"));
+    }
+    let (f, a, b) = match statement::end(json, |p: &Json, _: &str| Ok(p.clone())).ok()? {
+        End::Infinite => return None,
+        End::Rational(q) => return Some(q.to_string()),
+        End::Root(f, a, b) => (f, a, b),
+    };
+    let polynomial = match polynomial(&f, "") {
+        Err(_) => "the polynomial over symbols in 'stable'".to_owned(),
+        Ok(f) => {
             let terms = f.0.iter().enumerate().filter(|(_, c)| !c.is_zero()).map(|(k, c)| match k {
                 0 => c.to_string(),
                 1 => format!("{c}*{parameter}"),
                 _ => format!("{c}*{parameter}^{k}"),
             });
-            let mut polynomial = terms.collect::<Vec<_>>().join(" + ").replace("+ -", "- ");
+            let polynomial = terms.collect::<Vec<_>>().join(" + ").replace("+ -", "- ");
             if polynomial.len() > SHOWN {
-                polynomial = format!("the polynomial of degree {} in 'stable'", f.degree());
+                format!("the polynomial of degree {} in 'stable'", f.degree())
+            } else {
+                polynomial
             }
-            Some(format!("[the root in ({a}, {b}) of {polynomial}]"))
         }
-    }
+    };
+    Some(format!("[the root in ({a}, {b}) of {polynomial}]"))
 }

@@ -70,12 +70,16 @@ pub struct Symbols {
     table: Vec<Symbol>,
     /// Polynomials in the symbols that have no zero, whatever the symbols' arguments are.
     nonzero: Vec<MultiPoly>,
+    /// The modes of the blocks behind holds: monic polynomials without the leading coefficient.
+    modes: Vec<Vec<Rational>>,
+    /// Whether a function or `pi` is written in the model, beside what holds bring.
+    is_written: bool,
 }
 
 impl Symbols {
     /// No symbols beside these kept names.
     pub(in crate::model) fn new(kept: &[String]) -> Symbols {
-        Symbols { kept: kept.to_vec(), table: Vec::new(), nonzero: Vec::new() }
+        Symbols { kept: kept.to_vec(), ..Symbols::default() }
     }
 
     /// Whether there are none: everything is rational in the kept names.
@@ -114,6 +118,26 @@ impl Symbols {
         &self.nonzero
     }
 
+    /// The modes of the blocks behind holds: the factors of their characteristic polynomials, monic and without the leading
+    /// coefficient, from the constant term up.
+    pub fn modes(&self) -> &[Vec<Rational>] {
+        &self.modes
+    }
+
+    /// Whether a function or `pi` is written in the model, beside what holds bring.
+    pub fn is_written(&self) -> bool {
+        self.is_written
+    }
+
+    /// Notes a factor of a held block's characteristic polynomial.
+    pub(in crate::model) fn note_mode(&mut self, monic: &[RationalFunction]) {
+        let below = monic.split_last().map_or(&[][..], |(_, below)| below);
+        let mode: Option<Vec<Rational>> = below.iter().map(RationalFunction::as_constant).collect();
+        if let Some(mode) = mode.filter(|m| !m.is_empty() && !self.modes.contains(m)) {
+            self.modes.push(mode);
+        }
+    }
+
     /// Whether a value depends on a kept name, be it by way of a symbol.
     fn moves(&self, f: &RationalFunction) -> bool {
         let moving = |i: usize| i < self.kept.len() || self.table[i - self.kept.len()].is_moving;
@@ -138,6 +162,7 @@ impl Symbols {
 
     /// The circle number.
     pub(in crate::model) fn pi(&mut self) -> RationalFunction {
+        self.is_written = true;
         self.intern(Definition::Pi)
     }
 
@@ -207,6 +232,7 @@ impl Symbols {
 
     /// The value of a function; `None` where it has none.
     pub(in crate::model) fn call(&mut self, function: Function, x: RationalFunction) -> Option<RationalFunction> {
+        self.is_written = true;
         match function {
             Function::Sqrt => self.root(x),
             Function::Exp => Some(self.exponential(x)),

@@ -3,6 +3,7 @@
 use super::cofactors::{Identity, identity};
 use super::line::{Line, Separator};
 use super::text::to_text;
+use super::{dead_time, held};
 use super::{no_certificate, refuse_transcendental};
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
@@ -38,9 +39,15 @@ impl Answer<StableSet> {
     /// algebraic numbers.
     pub fn certificate(&self, budget: &Budget) -> Result<String, Error> {
         budget.enter(|| {
-            refuse_transcendental(self.value(), "no certificate")?;
             budget.step("certificate");
             let problem = self.problem();
+            if let Some(delayed) = problem.delayed(budget)? {
+                return dead_time::of_set(self, delayed, budget);
+            }
+            if held::is_held(problem, budget)? {
+                return held::of_set(self, budget);
+            }
+            refuse_transcendental(self.value(), "no certificate")?;
             let mut proof = Proof::default();
             if let Some(p) = problem.parametric(budget)? {
                 let coefficients = primitive(with_content(p), p.formal_degree());
@@ -93,8 +100,11 @@ impl Answer<PointVerdict> {
         budget.enter(|| {
             budget.step("certificate");
             let (problem, verdict) = (self.problem(), self.value());
-            if problem.evaluated().is_some_and(|a| !a.symbols().is_empty()) {
-                return Err(no_certificate("no certificate: the loop has constants that are not rational"));
+            if problem.delayed(budget)?.is_some() {
+                return Err(no_certificate("no certificate: the loop has dead time"));
+            }
+            if held::is_held(problem, budget)? {
+                return held::of_verdict(self, budget);
             }
             let characteristic = match problem.parametric(budget)? {
                 None => Vec::new(),
@@ -132,7 +142,7 @@ fn with_content(p: &ParametricPolynomial) -> Vec<UniPoly> {
 #[derive(Default)]
 struct Proof {
     characteristic: Vec<UniPoly>,
-    identity: Option<Identity>,
+    identity: Option<Identity<UniPoly>>,
     factors: Vec<UniPoly>,
     /// `None` when the loop is stable nowhere because a boundary condition holds everywhere.
     line: Option<Line>,
@@ -230,11 +240,11 @@ fn primitive(mut coefficients: Vec<UniPoly>, n: usize) -> Vec<UniPoly> {
     coefficients.iter().map(|c| c.div_exact_scalar(&content).expect("the content divides")).collect()
 }
 
-fn object<const N: usize>(pairs: [(&str, Value); N]) -> Value {
+pub(super) fn object<const N: usize>(pairs: [(&str, Value); N]) -> Value {
     Value::Object(pairs.into_iter().map(|(k, v)| (k.to_owned(), v)).collect())
 }
 
-fn number(value: &Rational) -> Value {
+pub(super) fn number(value: &Rational) -> Value {
     value.to_string().into()
 }
 
@@ -242,15 +252,15 @@ fn polynomial(p: &UniPoly) -> Value {
     Value::Array(p.coeffs().iter().map(|c| c.to_string().into()).collect())
 }
 
-fn polynomials(list: &[UniPoly]) -> Value {
+pub(super) fn polynomials(list: &[UniPoly]) -> Value {
     Value::Array(list.iter().map(polynomial).collect())
 }
 
-fn set(values: &[(String, Rational)]) -> Value {
+pub(super) fn set(values: &[(String, Rational)]) -> Value {
     Value::Object(values.iter().map(|(n, v)| (n.clone(), number(v))).collect())
 }
 
-fn region(region: &Region) -> Value {
+pub(super) fn region(region: &Region) -> Value {
     let value = match region.bound() {
         Bound::Number(value) => number(value),
         Bound::Free => "parameter".into(),
@@ -299,7 +309,7 @@ fn line_json(line: &Line) -> Vec<Value> {
 }
 
 /// Title and digest of the model, for people: the check reads the model itself.
-fn about(problem: &Problem) -> Value {
+pub(super) fn about(problem: &Problem) -> Value {
     let text = &problem.model().source().text;
     let digest = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
     let title = problem.title().map_or(Value::Null, Value::from);

@@ -57,7 +57,7 @@ impl Line {
         domain: &Range,
         cells: &Cells,
         certain: &[UniPoly],
-        identity: Option<&Identity>,
+        identity: Option<&Identity<UniPoly>>,
         budget: &Budget,
     ) -> Result<Line, Exhausted> {
         let mut separators = vec![Separator::Outer(domain.lower.clone())];
@@ -168,7 +168,7 @@ fn separate(separators: &mut [Separator], budget: &Budget) -> Result<(), Exhaust
 fn touch(
     separator: &mut Separator,
     certain: &[UniPoly],
-    identity: Option<&Identity>,
+    identity: Option<&Identity<UniPoly>>,
     budget: &Budget,
 ) -> Result<(), Exhausted> {
     let point = match separator {

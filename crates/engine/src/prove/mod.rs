@@ -2,8 +2,11 @@
 
 mod cofactors;
 mod coq;
+mod dead_time;
 mod emit;
+mod held;
 mod line;
+mod over_symbols;
 mod smt2;
 mod text;
 
@@ -22,6 +25,6 @@ fn refuse_transcendental(set: &StableSet, what: &str) -> Result<(), Error> {
 
 fn no_certificate(why: impl Into<String>) -> Error {
     Diagnostic::error("E-no-certificate", why)
-        .help("there is none yet for held plants and dead time; the answer itself is printed without it")
+        .help("known: loops behind a hold at fixed times, the dead time of a loop with one; the answer is printed without it")
         .into()
 }

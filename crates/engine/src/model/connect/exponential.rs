@@ -79,6 +79,9 @@ impl Modes {
         symbols: &mut Symbols,
         budget: &Budget,
     ) -> Result<RationalMatrix, Stop> {
+        if self.is_rational {
+            self.factors.iter().for_each(|(factor, _)| symbols.note_mode(factor));
+        }
         let solutions = self.solutions();
         let order = solutions.len();
         let wronskian = RationalMatrix::from_fn(order, order, |_, _| RationalFunction::zero());

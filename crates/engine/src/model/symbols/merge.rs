@@ -45,6 +45,8 @@ impl Symbols {
         let families = self.families();
         let first = self.first();
         let mut merged = Symbols::new(&self.kept);
+        merged.modes.clone_from(&self.modes);
+        merged.is_written = self.is_written;
         let mut images: Vec<RationalFunction> = (0..first).map(RationalFunction::variable).collect();
         // The variable of each family, once its first member is there.
         let mut bases: Vec<Option<RationalFunction>> = vec![None; families.len()];

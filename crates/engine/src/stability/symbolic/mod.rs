@@ -109,6 +109,19 @@ impl SymbolicPolynomial {
         self.formal_degree
     }
 
+    /// The loop is undefined at the zeros of these.
+    pub fn poles(&self) -> &[MultiPoly] {
+        &self.poles
+    }
+
+    /// What the symbols stand for, unless they depend on the parameter.
+    pub fn fixed_symbols(&self) -> Option<&Arc<Symbols>> {
+        match &self.symbols {
+            Table::Fixed(symbols) => Some(symbols),
+            Table::Moving(_) => None,
+        }
+    }
+
     /// The half-size pair.
     fn pair(&self, region: Shape) -> HalfSizePair<MultiPoly> {
         HalfSizePair::new(&self.polynomial, self.formal_degree, region)

@@ -1,0 +1,154 @@
+//! The rows of blocks behind a hold.
+
+use super::{Diagram, Matrices, Row, Rule, Values};
+use crate::clock::Clock;
+use crate::hold::{Hold, held};
+use crate::multivariate::{Fraction, Multi};
+use crate::number::Q;
+use crate::toml::Toml;
+use num_traits::{One, Zero};
+use std::ops::Range;
+
+impl Diagram<'_, '_> {
+    /// The rule of a block. Its sample time is that of the loop unless it has its own.
+    pub(super) fn rule(&mut self, how: &Toml) -> Result<Rule, String> {
+        let clock = self.scope.clock;
+        let mut get = |key: &str| how.get(key).map(|t| self.scope.scalar(t)).transpose();
+        let (mut time, factor, delay) = (get("T")?, get("c")?, get("delay")?);
+        let method = match how {
+            Toml::Text(method) => method.as_str(),
+            table => table.get("method").ok_or("'discretize' has no method")?.text()?,
+        };
+        if time.is_none() && factor.is_none() {
+            time = self.sample_time.map(|t| self.scope.scalar(t)).transpose()?;
+        }
+        if !matches!(method, "zoh" | "foh") {
+            if delay.is_some() {
+                return Err("only a hold has a 'delay'".into());
+            }
+            return self.substitution(method, time, factor).map(Rule::Quotient);
+        }
+        let (Some(time), None) = (time, factor) else { return Err("'discretize' is not complete".into()) };
+        let Some(values) = self.values else { return Ok(Rule::Unknown) };
+        let time = numbered(&time, &values, clock)?;
+        let delay = delay.map_or(Ok(Q::zero()), |delay| numbered(&delay, &values, clock))?;
+        Ok(Rule::Hold(Hold { is_first_order: method == "foh", time, delay }))
+    }
+
+    /// States of `num/den`: the companion matrix of the denominator.
+    pub(super) fn realised(&self, num: &Multi, den: &Multi) -> Result<Matrices, String> {
+        let clock = self.scope.clock;
+        let Some(values) = self.values else { return Err("internal: a hold without values".into()) };
+        let whole = |m: &Multi| Fraction { numerator: m.clone(), denominator: Multi::one(), scalar: Multi::one() };
+        let den: Vec<Q> =
+            den.coefficients(0).iter().map(|c| numbered(&whole(c), &values, clock)).collect::<Result<_, _>>()?;
+        let Some((lead, below)) = den.split_last().filter(|(lead, _)| !lead.is_zero()) else {
+            return Err("a held block loses its order".into());
+        };
+        let (n, zero) = (below.len(), || Fraction::number(&Q::zero()));
+        let mut num: Vec<Fraction> = num.coefficients(0).iter().map(whole).collect();
+        num.resize_with(n + 1, zero);
+        for c in &mut num {
+            *c = c.times(&Fraction::number(&lead.recip()), clock)?;
+        }
+        let direct = num.pop().unwrap_or_else(zero);
+        let mut a = vec![vec![zero(); n]; n];
+        let mut c = Vec::with_capacity(n);
+        for k in 0..n {
+            if k > 0 {
+                a[k - 1][k] = Fraction::number(&Q::one());
+            }
+            let ratio = Fraction::number(&(&below[k] / lead));
+            a[n - 1][k] = ratio.clone().negated();
+            c.push(num[k].plus(&direct.times(&ratio.negated(), clock)?, clock)?);
+        }
+        let b = (0..n).map(|k| vec![Fraction::number(&if k + 1 == n { Q::one() } else { Q::zero() })]).collect();
+        Ok([a, b, vec![c], vec![vec![direct]]])
+    }
+
+    /// The rows of a block behind a hold: its states, then the past inputs it remembers.
+    pub(super) fn held(
+        &mut self,
+        [a, b, c, d]: Matrices,
+        hold: &Hold,
+        inputs: &[Row],
+        outputs: Range<usize>,
+    ) -> Result<(), String> {
+        let clock = self.scope.clock;
+        let Some(values) = self.values else { return Err("internal: a hold without values".into()) };
+        let number = |f: &Fraction| numbered(f, &values, clock);
+        let numbers = a.iter().map(|row| row.iter().map(number).collect()).collect::<Result<Vec<Vec<Q>>, _>>()?;
+        let of = held(&numbers, hold, values.table, values.numbers.len(), clock)?;
+        self.scope.divisors.extend(of.divisors.iter().filter(|m| !m.is_constant()).cloned());
+        let (n, m) = (numbers.len(), inputs.len());
+        let (states, past) = (self.unknowns, self.unknowns + n);
+        self.unknowns += n + of.past * m;
+        self.degree += n + of.past * m;
+        let z = |k: i64| if k < 0 { Fraction::variable(0) } else { Fraction::number(&Q::one()) };
+        let over = |m: &Multi| Fraction { numerator: m.clone(), denominator: Multi::one(), scalar: of.over.clone() };
+        // Adds a multiple of an input of some age.
+        let feed_aged = |diagram: &mut Self, row: &mut Row, factor: &Fraction, age: i64, j: usize| match age {
+            -1 | 0 => diagram.feed(row, &factor.times(&z(age), clock)?, &inputs[j]),
+            k => diagram.add(row, past + (k as usize - 1) * m + j, factor.clone()),
+        };
+        for i in 0..n {
+            // z x - state x - sum matrix B u = 0
+            let mut row = Row::new();
+            row.insert(states + i, Fraction::variable(0));
+            for j in 0..n {
+                self.add(&mut row, states + j, over(&of.state[i][j]).negated())?;
+            }
+            for enters in &of.enters {
+                for j in 0..m {
+                    for k in (0..n).filter(|&k| !enters.matrix[i][k].is_zero() && !b[k][j].numerator.is_zero()) {
+                        let factor = over(&enters.matrix[i][k]).times(&b[k][j], clock)?.negated();
+                        feed_aged(self, &mut row, &factor, enters.age, j)?;
+                    }
+                }
+            }
+            self.rows.push(row);
+        }
+        for i in 0..of.past * m {
+            // z p - (what came a sample later) = 0
+            let mut row = Row::new();
+            row.insert(past + i, Fraction::variable(0));
+            let minus = Fraction::number(&-Q::one());
+            feed_aged(self, &mut row, &minus, (i / m) as i64, i % m)?;
+            self.rows.push(row);
+        }
+        for (i, output) in outputs.enumerate() {
+            // y - C x - sum direct D u = 0
+            let mut row = Row::new();
+            row.insert(output, Fraction::number(&Q::one()));
+            for j in 0..n {
+                self.add(&mut row, states + j, c[i][j].clone().negated())?;
+            }
+            for enters in of.enters.iter().filter(|enters| !enters.direct.is_zero()) {
+                for j in (0..m).filter(|&j| !d[i][j].numerator.is_zero()) {
+                    let factor = d[i][j].times(&Fraction::number(&-enters.direct.clone()), clock)?;
+                    feed_aged(self, &mut row, &factor, enters.age, j)?;
+                }
+            }
+            self.rows.push(row);
+        }
+        Ok(())
+    }
+}
+
+/// The number that a fraction is for the values of the parameters.
+fn numbered(f: &Fraction, values: &Values<'_>, clock: &Clock) -> Result<Q, String> {
+    let number = |m: &Multi| -> Result<Q, String> {
+        let at = m.specialised(1, values.numbers, clock)?;
+        let mut all = at.into_iter().flatten();
+        let first = all.next().unwrap_or_default();
+        if all.any(|q| !q.is_zero()) {
+            return Err("a held block depends on the parameter in question within its exponential".into());
+        }
+        Ok(first)
+    };
+    let below = number(&f.whole_denominator(clock)?)?;
+    if below.is_zero() {
+        return Err("a held block divides by zero".into());
+    }
+    Ok(number(&f.numerator)? / below)
+}

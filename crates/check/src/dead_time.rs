@@ -1,0 +1,292 @@
+//! Stable dead times: from the roots without delay, counted on over all crossings of the imaginary axis.
+
+use super::characteristic::Form;
+use super::clock::Clock;
+use super::crossing::{Crossing, square_of_modulus};
+use super::interval::Interval;
+use super::multivariate::Multi;
+use super::number::{Q, Z, rational};
+use super::over_symbols::{determinant, primitive, substituted};
+use super::roots::{count_of_positive_roots, places_by_axis};
+use super::statement::{
+    Extent, bound, count, extent, identifier, list, number, object, pair, polynomial, polynomials, text, values,
+};
+use super::symbols::Table;
+use super::univariate::Uni;
+use super::{Proved, Rejection, Step, is_discrete, model, verdict};
+use crate::format::Json;
+use num_traits::{One, Signed, Zero};
+
+/// More switches are refused.
+const MAX_SWITCHES: usize = 100_000;
+
+/// A dead time at which roots are on the axis.
+struct Switch {
+    at: Interval,
+    change: i64,
+    crossing: usize,
+    turns: usize,
+}
+
+/// Where a stable interval ends.
+#[derive(Clone)]
+enum Limit {
+    Infinite,
+    Number(Q),
+    /// A crossing, its number of turns, and an enclosure.
+    Switch(usize, usize, Q, Q),
+}
+
+pub(super) fn check(text_of_model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
+    let keys = ["schema", "statement", "bits", "delay", "parts", "crossings"];
+    let [_, _, bits, base, parts, crossings] = Step::Format.of(object(json, "the certificate", keys, &["model"]))?;
+    let keys = ["kind", "time", "parameter", "set", "region", "domain", "stable"];
+    let [_, time, parameter, set, region, domain, stable] =
+        Step::Statement.of(object(statement, "the statement", keys, &[]))?;
+    let bits = Step::Format.of(count(bits, "'bits'").and_then(|bits| match bits {
+        64..=32768 => Ok(bits),
+        _ => Err("'bits' is not from 64 to 32768".into()),
+    }))?;
+    let base = Step::Format.of(number(base, "'delay'"))?;
+    let (parameter, set, lower, upper) = Step::Statement.of((|| {
+        let extent = extent(region, is_discrete(time)?)?;
+        if is_discrete(time)? || extent != Extent::Number(Q::zero()) || !base.is_positive() {
+            return Err("the boundary is not the imaginary axis, or the dead time is not positive".to_owned());
+        }
+        let [lower, upper] = object(domain, "'domain'", ["lower", "upper"], &[])?;
+        let lower = bound(lower, "'lower'")?.filter(|l| !l.is_negative()).ok_or("a dead time is not negative")?;
+        let upper = bound(upper, "'upper'")?;
+        if upper.as_ref().is_some_and(|u| *u <= lower) {
+            return Err("the domain is empty".into());
+        }
+        Ok((identifier(text(parameter, "'parameter'")?)?, values(set)?, lower, upper))
+    })())?;
+    let own = Step::Model.of(clock.reading(|| quasi_polynomial(text_of_model, parameter, &set, &base, clock)))?;
+    let given = Step::Characteristic.of(polynomials(parts, "'parts'", polynomial))?;
+    let negative: Vec<Uni> = own.iter().map(|p| p.scaled(&-Z::one())).collect();
+    let [p, q] = match given.as_slice() {
+        [p, q] if given == own || given == negative => [p, q],
+        _ => {
+            let reason = "the parts are not those of the model, or there is more than one delay".into();
+            return Err(Rejection { step: Step::Characteristic, reason });
+        }
+    };
+    let found = Step::Boundary.of(counted(p, q, crossings, bits, upper.as_ref().map(|u| u * &base), clock))?;
+    let limits = Step::Line.of(walk(&found, &lower, upper.as_ref(), &base, bits))?;
+    Step::Stable.of(same(stable, &limits))?;
+    let domain = (Some(lower), upper);
+    let extent = Extent::Number(Q::zero());
+    let statement = verdict::sentence_of_intervals(parameter, &set, &extent, false, &domain, &in_words(&limits));
+    Ok(Proved { statement, kind: "intervals" })
+}
+
+/// `P_0, P_1, ...`: coefficients of powers of `z = exp(-tau s)`, polynomials in `s`.
+fn quasi_polynomial(
+    text: &str,
+    parameter: &str,
+    set: &[(String, Q)],
+    base: &Q,
+    clock: &Clock,
+) -> Result<Vec<Uni>, String> {
+    let asked = model::asked(text, Some(parameter), set, &Table::empty(), Some(base), clock)?;
+    if asked.discrete {
+        return Err("the model's time is not that of the statement".into());
+    }
+    for divisor in &asked.divisors {
+        let [p] = substituted(std::slice::from_ref(divisor), &asked.values, clock)?
+            .try_into()
+            .map_err(|_| "internal: one polynomial is another number of them")?;
+        let p: Multi = p;
+        if p.is_zero() || p.degree(1) > 0 || p.degree(2) > 0 {
+            return Err("a divisor depends on the dead time, or is zero".into());
+        }
+    }
+    let (d, degree) = match &asked.form {
+        Form::Written(f) => {
+            let row = substituted(&[f.numerator.clone(), f.whole_denominator(clock)?], &asked.values, clock)?;
+            if !row[1].is_constant() || row[1].is_zero() {
+                return Err("the characteristic function has a denominator".into());
+            }
+            (row[0].clone(), f.numerator.degree(0))
+        }
+        Form::System((rows, degree), alone) => {
+            for (rows, degree) in alone {
+                let rows = rows.iter().map(|r| substituted(r, &asked.values, clock)).collect::<Result<Vec<_>, _>>()?;
+                let lead = determinant(&rows, clock)?.coefficients(0).into_iter().nth(*degree);
+                if lead.is_none_or(|lead| lead.is_zero() || !lead.is_constant()) {
+                    return Err("a block loses its order".into());
+                }
+            }
+            let rows = rows.iter().map(|r| substituted(r, &asked.values, clock)).collect::<Result<Vec<_>, _>>()?;
+            (determinant(&rows, clock)?, *degree)
+        }
+        _ => return Err("a matrix has no dead time".into()),
+    };
+    if d.is_zero() || d.degree(0) != degree || d.degree(1) > 0 {
+        return Err("the loop is not well posed, or depends on the parameter beside its dead time".into());
+    }
+    let [d] = primitive(vec![d]).try_into().map_err(|_| "internal: one polynomial is another number of them")?;
+    let parts = d.coefficients(2).into_iter().map(|part| {
+        let coefficients = part.coefficients(0);
+        Uni::new(coefficients.iter().map(|c| c.0.values().next().cloned().unwrap_or_default()).collect())
+    });
+    Ok(parts.skip_while(Uni::is_zero).collect())
+}
+
+/// The roots to the right for small dead times, and the switches up to the last that matters.
+struct Counted {
+    right: i64,
+    switches: Vec<Switch>,
+    /// Whether there are roots to the right for good beyond the last switch.
+    grows: bool,
+}
+
+fn counted(p: &Uni, q: &Uni, crossings: &Json, bits: usize, last: Option<Q>, clock: &Clock) -> Result<Counted, String> {
+    let n = p.degree();
+    let is_fit = !p.is_zero() && !q.is_zero() && (q.degree() < n || (q.degree() == n && q.at(n).abs() < p.at(n).abs()));
+    if !is_fit {
+        return Err("the loop is advanced, or of neutral type with roots to the right".into());
+    }
+    let enclosures = list(crossings, "'crossings'")?;
+    let total = p.plus(q);
+    if total.at(0).is_zero() {
+        // s = 0 is a root for every dead time.
+        return match enclosures {
+            [] => Ok(Counted { right: 1, switches: Vec::new(), grows: true }),
+            _ => Err("there is nothing to cross".into()),
+        };
+    }
+    let f = square_of_modulus(p).minus(&square_of_modulus(q));
+    let f = Uni::new(f.0.into_iter().skip_while(Zero::is_zero).collect());
+    if f.is_zero() || f.gcd(&f.derivative(), clock)?.degree() > 0 {
+        return Err("a crossing is not simple".into());
+    }
+    if count_of_positive_roots(&f, clock)? != enclosures.len() {
+        return Err("there are not as many crossings as positive roots".into());
+    }
+    let mut found: Vec<Crossing> = Vec::with_capacity(enclosures.len());
+    let mut before: Option<Q> = None;
+    for enclosure in enclosures {
+        let (a, b) = pair(enclosure, "a crossing")?;
+        if before.is_some_and(|before| a < before) {
+            return Err("the crossings are not in order".into());
+        }
+        found.push(Crossing::new([p, q], &f, &a, &b, bits, clock)?);
+        before = Some(b);
+    }
+    let places = places_by_axis(&total, clock)?;
+    let at_zero = found.iter().filter(|c| c.is_one).count();
+    if places.on != 2 * at_zero || places.inside + places.on + places.outside != n {
+        return Err("the roots without delay are not those of the crossings".into());
+    }
+    let right = (places.outside + 2 * found.iter().filter(|c| c.is_one && c.is_gain).count()) as i64;
+    // The count exceeds tau/pi sum of +-omega - 2 m.
+    let Some(turn) = found.first().map(|c| c.turn.clone()) else {
+        return Ok(Counted { right, switches: Vec::new(), grows: right > 0 });
+    };
+    let growth =
+        found.iter().fold(Interval::zero(), |sum, c| if c.is_gain { sum.plus(&c.omega) } else { sum.minus(&c.omega) });
+    if !growth.lo.is_positive() {
+        return Err("the count of roots is not shown to grow".into());
+    }
+    let bound = Q::new(&turn.hi * Z::from(found.len()), growth.lo);
+    let last = last.map_or_else(|| bound.clone(), |last| last.min(bound.clone()));
+    let last = (last * Q::from(Z::one() << bits)).ceil().to_integer();
+    let mut switches = Vec::new();
+    for (crossing, c) in found.iter().enumerate() {
+        for turns in usize::from(c.is_one).. {
+            clock.tick()?;
+            let at = c.dead_time(turns)?;
+            if at.lo >= last {
+                break;
+            }
+            switches.push(Switch { at, change: if c.is_gain { 2 } else { -2 }, crossing, turns });
+            if switches.len() > MAX_SWITCHES {
+                return Err("there are too many switches".into());
+            }
+        }
+    }
+    switches.sort_by(|a, b| a.at.lo.cmp(&b.at.lo));
+    if switches.windows(2).any(|w| w[0].at.hi >= w[1].at.lo) {
+        return Err("the order of two switches is not certain".into());
+    }
+    Ok(Counted { right, switches, grows: true })
+}
+
+/// The stable intervals.
+fn walk(found: &Counted, lower: &Q, upper: Option<&Q>, base: &Q, bits: usize) -> Result<Vec<(Limit, Limit)>, String> {
+    let scale = base * Q::from(Z::one() << bits);
+    let mut right = found.right;
+    let mut before = Limit::Number(lower.clone());
+    let mut stable = Vec::new();
+    for switch in &found.switches {
+        let (lo, hi) = (Q::from(switch.at.lo.clone()) / &scale, Q::from(switch.at.hi.clone()) / &scale);
+        if hi < *lower {
+            right += switch.change;
+            continue;
+        }
+        if upper.is_some_and(|u| lo > *u) {
+            break;
+        }
+        if lo <= *lower || upper.is_some_and(|u| hi >= *u) {
+            return Err("a switch is not told from an end of the domain".into());
+        }
+        let at = Limit::Switch(switch.crossing, switch.turns, lo, hi);
+        if right == 0 {
+            stable.push((before, at.clone()));
+        }
+        right += switch.change;
+        before = at;
+    }
+    if right == 0 {
+        if upper.is_none() && found.grows {
+            return Err("the count of roots does not grow as it must".into());
+        }
+        stable.push((before, upper.map_or(Limit::Infinite, |u| Limit::Number(u.clone()))));
+    }
+    Ok(stable)
+}
+
+/// Whether the claim has these ends; an enclosure in it may be wider.
+fn same(claim: &Json, limits: &[(Limit, Limit)]) -> Result<(), String> {
+    let claim = list(claim, "'stable'")?;
+    if claim.len() != limits.len() {
+        return Err(format!("there are {} stable intervals", limits.len()));
+    }
+    for (interval, (lower, upper)) in claim.iter().zip(limits) {
+        let claimed = object(interval, "an interval", ["lower", "upper"], &[])?;
+        for (json, limit) in claimed.into_iter().zip([lower, upper]) {
+            let fits = match limit {
+                Limit::Infinite => *json == Json::Null,
+                Limit::Number(q) => matches!(json, Json::Text(text) if rational(text)? == *q),
+                Limit::Switch(crossing, turns, lo, hi) => {
+                    let [c, k, between] = object(json, "an end", ["crossing", "turns", "between"], &[])?;
+                    let (a, b) = pair(between, "'between'")?;
+                    count(c, "'crossing'")? == *crossing && count(k, "'turns'")? == *turns && a <= *lo && *hi <= b
+                }
+            };
+            if !fits {
+                return Err("an end of the claimed set is not the one that is found".into());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The intervals for a sentence: a switch by a number of few digits on each side.
+fn in_words(limits: &[(Limit, Limit)]) -> Json {
+    let end = |limit: &Limit| match limit {
+        Limit::Infinite => Json::Null,
+        Limit::Number(q) => q.to_string().into(),
+        Limit::Switch(_, _, lo, hi) => {
+            let scale = Q::from(Z::from(10).pow(12));
+            let (lo, hi) = ((lo * &scale).floor() / &scale, (hi * &scale).ceil() / &scale);
+            let between = Json::List(vec![lo.to_string().into(), hi.to_string().into()]);
+            Json::Object(vec![("switch".to_owned(), between)])
+        }
+    };
+    let interval = |(lower, upper): &(Limit, Limit)| {
+        Json::Object(vec![("lower".to_owned(), end(lower)), ("upper".to_owned(), end(upper))])
+    };
+    Json::List(limits.iter().map(interval).collect())
+}

@@ -1,0 +1,246 @@
+//! Certificates of loops with blocks behind a hold: polynomials over symbols, whose definitions the checkers enclose themselves.
+
+mod line;
+
+use super::cofactors::{Identity, identity};
+use super::emit::{about, number, object, region, set};
+use super::no_certificate;
+use super::over_symbols::{Enclosed, coprime_basis};
+use super::text::to_text;
+use crate::answer::{Answer, PointVerdict};
+use crate::error::Error;
+use crate::problem::Problem;
+use crate::stability::{HalfSizePair, Shape, StableSet, SymbolicPolynomial};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction};
+use jurist_algebra::symbols::{Definition, Symbols};
+use line::{Attempt, zeros};
+use serde_json::Value;
+use std::sync::Arc;
+
+/// The schema of certificates over symbols.
+const SCHEMA: &str = "jurist/certificate/2";
+
+/// Bits of the first attempt.
+const FIRST_BITS: u64 = 256;
+
+/// Bits after which a certificate is given up.
+const MOST_BITS: u64 = 1 << 13;
+
+/// The checkers have so many bits more than the signs were certain with here.
+const SPARE_BITS: u64 = 64;
+
+/// Whether the loop has constants that are not rational, all of them from blocks behind holds at fixed times.
+pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error> {
+    let algebra = problem.algebra_over_symbols(budget)?;
+    let symbols = algebra.symbols();
+    if symbols.is_empty() {
+        return Ok(false);
+    }
+    if symbols.is_moving() || symbols.is_written() || !symbols.delays().is_empty() {
+        return Err(no_certificate("no certificate: the loop has functions that no checker knows there"));
+    }
+    Ok(true)
+}
+
+/// What the line is made of.
+struct Loop<'l> {
+    polynomial: &'l SymbolicPolynomial,
+    factors: Vec<MultiPoly>,
+    certain: Vec<MultiPoly>,
+    identity: Option<Identity<MultiPoly>>,
+}
+
+/// The certificate of a stable set.
+pub(super) fn of_set(answer: &Answer<StableSet>, budget: &Budget) -> Result<String, Error> {
+    let problem = answer.problem();
+    let Some(p) = problem.symbolic(budget)? else {
+        return Err(no_certificate("no certificate: the loop is undefined everywhere"));
+    };
+    let symbols = Arc::clone(p.fixed_symbols().ok_or_else(|| no_certificate("no certificate: symbols move"))?);
+    let d = coefficients(&p);
+    let n = d.len() - 1;
+    let polynomial = Poly::new(d.clone());
+    let mut certain: Vec<MultiPoly> = p.poles().to_vec();
+    certain.push(d[n].clone());
+    if n > 0 {
+        let one = MultiPoly::one();
+        certain.extend([polynomial.eval(&one), polynomial.eval(&one.negated())]);
+    }
+    let mut proof = Loop { polynomial: &p, factors: Vec::new(), certain, identity: None };
+    let mut is_nowhere = proof.certain.iter().any(MultiPoly::is_zero);
+    if n >= 2 && !is_nowhere {
+        let pair = HalfSizePair::new(&polynomial, n, Shape::UnitDisc);
+        let found = identity(&pair.a, &pair.b, budget)?;
+        is_nowhere = found.value.is_zero();
+        proof.identity = Some(found);
+    }
+    let mut parts = (Vec::new(), Vec::new());
+    let mut bits = FIRST_BITS;
+    if !is_nowhere {
+        budget.step("factors");
+        let mut all = proof.certain.clone();
+        all.extend(proof.identity.as_ref().map(|i| i.value.clone()));
+        proof.factors = budget.enter(|| coprime_basis(&all))?;
+        let domain = &problem.parameter().domain;
+        let zeros = zeros(&proof.factors, &symbols, domain, budget)?;
+        parts = loop {
+            budget.check()?;
+            let attempt = Attempt { proof: &proof, enclosed: Enclosed { symbols: &symbols, bits }, domain, budget };
+            match attempt.line(zeros.clone())? {
+                Some(line) => break line,
+                None if bits >= MOST_BITS => {
+                    return Err(no_certificate(format!("no certificate: a sign is not certain with {bits} bits")));
+                }
+                None => bits *= 2,
+            }
+        };
+        if parts.1.len() != answer.value().intervals().len() {
+            return Err(no_certificate("no certificate: an end is not told apart"));
+        }
+    }
+    let (line, stable) = parts;
+    let bound = |b: &Option<Rational>| b.as_ref().map_or(Value::Null, number);
+    let range = &problem.parameter().domain;
+    let statement = object([
+        ("kind", "intervals".into()),
+        ("time", problem.time().name().into()),
+        ("parameter", problem.parameter().name.as_str().into()),
+        ("set", set(problem.set())),
+        ("region", region(problem.region())),
+        ("domain", object([("lower", bound(&range.lower)), ("upper", bound(&range.upper))])),
+        ("stable", Value::Array(stable)),
+    ]);
+    let boundary = match &proof.identity {
+        None => Value::Null,
+        Some(i) => object([("u", polynomials(&i.u)), ("v", polynomials(&i.v)), ("value", terms(&i.value))]),
+    };
+    Ok(to_text(&object([
+        ("schema", SCHEMA.into()),
+        ("model", about(problem)),
+        ("statement", statement),
+        ("bits", (bits + SPARE_BITS).into()),
+        ("symbols", definitions(&symbols)?),
+        ("modes", modes(problem, budget)?),
+        ("characteristic", polynomials(&d)),
+        ("boundary", boundary),
+        ("factors", polynomials(&proof.factors)),
+        ("line", Value::Array(line)),
+    ])))
+}
+
+/// The certificate of a verdict.
+pub(super) fn of_verdict(answer: &Answer<PointVerdict>, budget: &Budget) -> Result<String, Error> {
+    let (problem, verdict) = (answer.problem(), answer.value());
+    let Some(p) = problem.symbolic(budget)? else {
+        return Err(no_certificate("no certificate: the loop is undefined there"));
+    };
+    let symbols = Arc::clone(p.fixed_symbols().ok_or_else(|| no_certificate("no certificate: symbols move"))?);
+    let d = coefficients(&p);
+    // Roots at 1 and -1 that are there by an identity are divided out.
+    let (mut rest, mut on) = (Poly::new(d.clone()), 0);
+    for root in [1, -1] {
+        let root = MultiPoly::from(root);
+        while rest.coeffs().len() > 1 && rest.eval(&root).is_zero() {
+            let line = Poly::new(vec![root.negated(), MultiPoly::one()]);
+            rest = rest.pseudo_div_rem(&line).0;
+            on += 1;
+        }
+    }
+    let mut bits = FIRST_BITS;
+    let counts = loop {
+        budget.check()?;
+        let enclosed = Enclosed { symbols: &symbols, bits };
+        let is_defined = p.poles().iter().all(|q| enclosed.coefficients(q).iter().any(|c| !c.contains_zero()));
+        let inside = budget.enter(|| enclosed.inside(rest.coeffs(), None, false))?;
+        match inside {
+            Some(inside) if is_defined => break (inside, on, d.len() - 1 - on - inside),
+            _ if bits >= MOST_BITS => {
+                let why = "no certificate: roots are on the circle or mirror images in it, or the degree is lost";
+                return Err(no_certificate(why));
+            }
+            _ => bits *= 2,
+        }
+    };
+    let own = verdict.count.unwrap_or_default();
+    if (own.inside, own.on, own.outside) != counts || verdict.infinite > 0 {
+        return Err(no_certificate("no certificate: roots are on the circle"));
+    }
+    let statement = object([
+        ("kind", "verdict".into()),
+        ("time", problem.time().name().into()),
+        ("set", set(problem.set())),
+        ("region", region(problem.region())),
+        ("verdict", verdict.verdict.name().into()),
+        ("degree", verdict.degree.into()),
+        ("inside", own.inside.into()),
+        ("on", own.on.into()),
+        ("outside", own.outside.into()),
+        ("infinite", 0.into()),
+    ]);
+    Ok(to_text(&object([
+        ("schema", SCHEMA.into()),
+        ("model", about(problem)),
+        ("statement", statement),
+        ("bits", (bits + SPARE_BITS).into()),
+        ("symbols", definitions(&symbols)?),
+        ("modes", modes(problem, budget)?),
+        ("characteristic", polynomials(&d)),
+    ])))
+}
+
+/// As many coefficients as the degree and one, without an integer common to all of them.
+fn coefficients(p: &SymbolicPolynomial) -> Vec<MultiPoly> {
+    let mut d = p.polynomial().coeffs().to_vec();
+    d.resize(p.formal_degree() + 1, MultiPoly::zero());
+    let mut content = Integer::ZERO;
+    for c in &d {
+        content = content.gcd(&c.integer_content());
+    }
+    if content.is_zero() { d } else { d.iter().map(|c| c.div_exact_integer(&content).expect("a content")).collect() }
+}
+
+/// Terms by ascending exponents of the parameter and the symbols.
+fn terms(p: &MultiPoly) -> Value {
+    let term = |(monomial, c): &(jurist_algebra::poly::Monomial, Integer)| {
+        let mut exponents = monomial.exponents().to_vec();
+        while exponents.last() == Some(&0) {
+            exponents.pop();
+        }
+        Value::Array(std::iter::once(c.to_string().into()).chain(exponents.into_iter().map(Value::from)).collect())
+    };
+    Value::Array(p.terms().iter().rev().map(term).collect())
+}
+
+fn polynomials(list: &[MultiPoly]) -> Value {
+    Value::Array(list.iter().map(terms).collect())
+}
+
+/// What the symbols stand for.
+fn definitions(symbols: &Symbols) -> Result<Value, Error> {
+    let constant = |f: &RationalFunction| f.as_constant().map(|q| number(&q));
+    let define = |definition: &Definition| -> Option<Value> {
+        Some(match definition {
+            Definition::Exponential(x) => object([("exp", constant(x)?)]),
+            Definition::Tangent { square, time } => {
+                object([("tan", Value::Array(vec![constant(square)?, constant(time)?]))])
+            }
+            Definition::Fundamental { polynomial, index, time } => {
+                let (_, below) = polynomial.split_last()?;
+                let below = below.iter().map(constant).collect::<Option<Vec<_>>>()?;
+                object([("solution", Value::Array(below)), ("time", constant(time)?), ("index", (*index).into())])
+            }
+            _ => return None,
+        })
+    };
+    let all: Option<Vec<Value>> = (0..symbols.len()).map(|i| define(symbols.definition(i))).collect();
+    all.map(Value::Array).ok_or_else(|| no_certificate("no certificate: a function that no checker knows"))
+}
+
+/// The factors of the characteristic polynomials of the held blocks.
+fn modes(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
+    let algebra = problem.algebra_over_symbols(budget)?;
+    let mode = |m: &Vec<Rational>| Value::Array(m.iter().map(number).collect());
+    Ok(Value::Array(algebra.symbols().modes().iter().map(mode).collect()))
+}

@@ -1,0 +1,203 @@
+//! Certificates of loops with blocks behind a hold: accepted by both checkers, and by neither when anything is changed.
+
+use crate::helpers::certificates::checkers::{accept, python, reject};
+use crate::helpers::certificates::forgeries::forgeries;
+use crate::helpers::certificates::{emitted, emitted_if_any, mutations, with_count_changed};
+use crate::helpers::model::read;
+use crate::helpers::number::number;
+use jurist_algebra::limits::Budget;
+use jurist_check::format::Json;
+use jurist_check::{Limits, Step, check};
+use std::time::Duration;
+
+const LIMITS: Limits = Limits::within(Duration::MAX);
+
+fn example(name: &str) -> String {
+    let path = format!("{}/examples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(path).expect("an example")
+}
+
+/// A loop of a gain and a held block.
+fn loop_of(plant: &str) -> String {
+    format!(
+        "time = 'discrete'\nsample_time = 'T'\nconstants.T = '1/5'\nparameters.K = {{ nominal = 1 }}\n[loop]\n\
+         [[block]]\ninput = '-K*y'\noutput = 'u'\ngain = 1\n[[block]]\ninput = 'u'\noutput = 'y'\n{plant}\n"
+    )
+}
+
+/// What plants can be like: real, complex and repeated modes, integrators, several rates, modes of third order, dead time, direct
+/// feedthrough, matrices by their name.
+const PLANTS: [&str; 12] = [
+    "transfer = '1/(s + 1)'\ndiscretize = 'zoh'",
+    "transfer = '1/(s*(s + 1))'\ndiscretize = { method = 'zoh', T = 1 }",
+    "transfer = '1/(s + 1)^2'\ndiscretize = 'zoh'",
+    "transfer = '3/((s + 1)*(s + 2)*(s - 3/2))'\ndiscretize = 'zoh'",
+    "transfer = '(2 - s)/(s^2 + s/2 + 3)'\ndiscretize = { method = 'zoh', delay = '0.7*T' }",
+    "transfer = '1/(s^2 + s/2 - 3)'\ndiscretize = { method = 'zoh', delay = '2*T' }",
+    "transfer = '1/(s^3 - 2*s^2 + s + 1)'\ndiscretize = 'zoh'",
+    "transfer = '1/(s + 1)'\ndiscretize = 'foh'",
+    "transfer = '1/(s*(s^2 + 4))'\ndiscretize = { method = 'foh', delay = '0.3*T' }",
+    "transfer = '(s + 3)/(s + 1)'\ndiscretize = { method = 'zoh', delay = 'T/2' }",
+    "transfer = '1/(s^2*(s + 1))'\ndiscretize = { method = 'zoh', delay = 'T/2' }",
+    "A = [[0, 1], [-5, -2]]\nB = [[0], [1]]\nC = [[1, 'K/7']]\ndiscretize = 'zoh'",
+];
+
+#[test]
+fn held_plants_of_all_kinds_are_certified() {
+    for plant in PLANTS {
+        let model = loop_of(plant);
+        let certificate = emitted(&model, "K");
+        assert!(certificate.contains("jurist/certificate/2"), "{plant}");
+        accept(&model, &certificate);
+        for value in ["1/10", "1", "-1", "50"] {
+            let answer = read(&model).ask().set("K", number(value)).verdict(&Budget::unlimited()).expect(plant);
+            let certificate = answer.certificate(&Budget::unlimited()).expect(plant);
+            accept(&model, &certificate);
+            for key in ["degree", "inside", "on", "outside", "infinite"] {
+                let wrong = with_count_changed(&certificate, key);
+                assert!(check(&model, &wrong, &LIMITS).is_err(), "{plant} at {value}: {key}");
+                assert!(python(&model, &wrong).is_none_or(|found| found.is_err()), "{plant} at {value}: {key}");
+            }
+        }
+    }
+}
+
+/// A chain of integrators needs no symbol: the certificate is one of rational numbers.
+#[test]
+fn held_integrators_need_no_symbols() {
+    for method in ["zoh", "foh"] {
+        let model = loop_of(&format!(
+            "A = [[0, 1], [0, 0]]\nB = [[0], [1]]\nC = [[1, 2]]\ndiscretize = {{ method = '{method}', delay = '0.3*T' }}"
+        ));
+        let certificate = emitted(&model, "K");
+        assert!(certificate.contains("jurist/certificate/1"));
+        accept(&model, &certificate);
+    }
+}
+
+#[test]
+fn the_examples_behind_a_hold_are_certified() {
+    for (name, parameter) in
+        [("drive-hold", "K_pwm"), ("lcl-inverter", "Kp"), ("dc-servo", "K"), ("anti-alias-filter", "K_p")]
+    {
+        let model = example(name);
+        accept(&model, &emitted(&model, parameter));
+        let verdict = read(&model).ask().verdict(&Budget::unlimited()).expect(name);
+        accept(&model, &verdict.certificate(&Budget::unlimited()).expect(name));
+    }
+}
+
+/// What is not a number at fixed times has no certificate yet, and is not given one that would be rejected.
+#[test]
+fn what_no_checker_knows_gets_no_certificate() {
+    for (name, parameter) in
+        [("drive-hold", "T"), ("lcl-inverter", "Lg"), ("dc-servo", "T_m"), ("anti-alias-filter", "w_f")]
+    {
+        let model = read(&example(name));
+        let domain = |p| model.ask().free(p).within(p, number("1/1000")..number("1/500"));
+        let Ok(answer) = domain(parameter).stable_set(&Budget::unlimited()) else { continue };
+        let refused = answer.certificate(&Budget::unlimited()).expect_err(name).to_string();
+        assert!(refused.contains("no certificate"), "{name}: {refused}");
+    }
+    for written in ["gain = 'exp(-1)'", "gain = 'sqrt(2)/5'", "gain = 'pi'"] {
+        let model = loop_of(PLANTS[0]).replace("gain = 1", written);
+        assert!(emitted_if_any(&model, "K").is_none(), "{written}");
+    }
+}
+
+/// Nothing that is changed in a certificate makes another statement pass; and what passes, passes both checkers.
+#[test]
+fn no_mutation_of_a_held_certificate_changes_what_is_proved() {
+    for plant in [PLANTS[0], PLANTS[4], PLANTS[7]] {
+        let model = loop_of(plant);
+        let original = Json::parse(&emitted(&model, "K")).expect("JSON");
+        let (mut tried, mut accepted) = (0, 0);
+        for mutant in mutations(&original) {
+            tried += 1;
+            let text = mutant.to_text();
+            let Ok(proved) = check(&model, &text, &LIMITS) else {
+                continue;
+            };
+            accepted += 1;
+            assert_eq!(plain(original.get("statement")), plain(mutant.get("statement")), "{}", proved.statement);
+            if let Some(Err(e)) = python(&model, &text) {
+                panic!("Python: {e}\n{text}");
+            }
+        }
+        assert!(tried > 500 && accepted * 4 < tried, "{accepted} of {tried}");
+        for forgery in forgeries(&original) {
+            if check(&model, &forgery.to_text(), &LIMITS).is_ok() {
+                assert_eq!(plain(original.get("statement")), plain(forgery.get("statement")));
+            }
+        }
+    }
+}
+
+/// Numbers in lowest terms.
+fn plain(json: Option<&Json>) -> Json {
+    match json {
+        Some(Json::Text(text)) => {
+            jurist_algebra::number::parse_number(text).map_or_else(|_| text.as_str().into(), |q| q.to_string().into())
+        }
+        Some(Json::List(items)) => Json::List(items.iter().map(|item| plain(Some(item))).collect()),
+        Some(Json::Object(pairs)) => Json::Object(pairs.iter().map(|(k, v)| (k.clone(), plain(Some(v)))).collect()),
+        Some(other) => other.clone(),
+        None => Json::Null,
+    }
+}
+
+/// The same mutations by the other checker, one in seven of them.
+#[test]
+fn the_python_checker_rejects_the_same_mutations() {
+    let model = loop_of(PLANTS[4]);
+    let original = Json::parse(&emitted(&model, "K")).expect("JSON");
+    for mutant in mutations(&original).into_iter().step_by(7) {
+        let text = mutant.to_text();
+        let Some(found) = python(&model, &text) else { return };
+        assert_eq!(found.is_ok(), check(&model, &text, &LIMITS).is_ok(), "{found:?}\n{text}");
+    }
+}
+
+/// The constants of a model, its times, and the kind of its hold are all in the polynomial.
+#[test]
+fn certificates_of_other_held_models_are_rejected() {
+    let model = loop_of(PLANTS[4]);
+    let certificate = emitted(&model, "K");
+    for (from, to) in [
+        ("'1/5'", "'1/6'"),
+        ("2 - s", "2 - 1.0001*s"),
+        ("s/2 + 3", "s/2 + 3.0000001"),
+        ("0.7*T", "0.71*T"),
+        ("0.7*T", "1.7*T"),
+        ("0.7*T", "0"),
+        ("zoh", "foh"),
+        ("-K*y", "-2*K*y"),
+        ("time = 'discrete'", "time = 'continuous'"),
+    ] {
+        assert!(model.contains(from), "{from}");
+        let other = model.replacen(from, to, 1);
+        assert!(check(&other, &certificate, &LIMITS).is_err(), "{to}");
+        assert!(python(&other, &certificate).is_none_or(|found| found.is_err()), "{to}");
+    }
+}
+
+/// Ends moved by a little more than the enclosure, samples of the wrong side, signs that are not certain.
+#[test]
+fn held_ends_and_bits_are_checked() {
+    let model = loop_of(PLANTS[1]);
+    let certificate = emitted(&model, "K");
+    let json = Json::parse(&certificate).expect("JSON");
+    let Some(Json::Count(bits)) = json.get("bits") else { panic!("no bits") };
+    let with = |from: &str, to: &str| {
+        assert!(certificate.contains(from), "{from} in\n{certificate}");
+        certificate.replace(from, to)
+    };
+    let bits_are = |n: &str| with(&format!("\"bits\": {bits}"), &format!("\"bits\": {n}"));
+    reject(&model, &bits_are("63"), Step::Format);
+    reject(&model, &bits_are("999999"), Step::Format);
+    // With so few bits an enclosure of a number near zero contains it, or all is still certain.
+    assert!(
+        check(&model, &bits_are("64"), &LIMITS).is_ok() == python(&model, &bits_are("64")).is_none_or(|f| f.is_ok())
+    );
+    reject(&model, &with("certificate/2", "certificate/1"), Step::Format);
+}
