@@ -36,6 +36,7 @@ mod loops {
     mod dead_time;
     mod drive;
     mod examples;
+    mod held_margins;
     mod large;
     mod margins;
     mod paper;

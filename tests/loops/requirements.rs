@@ -2,6 +2,7 @@
 
 use crate::helpers::model::{example, load};
 use crate::helpers::number::{number, ratio};
+use crate::helpers::open_loops::{CONDITIONAL, RESONANT, SERVO};
 use crate::helpers::random::Random;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -34,7 +35,7 @@ fn is_met(model: &Model, name: &str, at: Option<&str>, value: &Rational, require
     let budget = Budget::unlimited();
     let problem = model.ask().set(name, value.clone()).problem().unwrap();
     let Ok(open_loop) = OpenLoop::of(&problem, at, &budget) else { return false };
-    let (d, n, shape) = (open_loop.denominator(), open_loop.numerator(), open_loop.shape());
+    let (d, n, shape) = (open_loop.denominator().unwrap(), open_loop.numerator().unwrap(), open_loop.shape());
     if !is_stable(&d.plus(n), shape) {
         return false;
     }
@@ -82,50 +83,6 @@ enum Known {
     Phase(Rational),
     Modulus(Rational),
 }
-
-const SERVO: &str = "time = 'discrete'
-[parameters]
-K = { nominal = 4, min = 0 }
-[loop]
-inputs = ['r']
-outputs = ['y']
-[[block]]
-name = 'PD'
-input = 'r - y'
-output = 'u'
-transfer = 'K*(11*z - 10)/z'
-[[block]]
-name = 'motor'
-input = 'u'
-output = 'y'
-transfer = '(1/1000)/((z - 1)*(z - 9/10)*z)'
-";
-
-const CONDITIONAL: &str = "time = 'continuous'
-[parameters]
-K = { nominal = 200 }
-[loop]
-inputs = ['r']
-outputs = ['y']
-[[block]]
-name = 'L'
-input = 'r - y'
-output = 'y'
-transfer = 'K*(s + 1)^2/(s^3*(s/20 + 1)^2)'
-";
-
-const RESONANT: &str = "time = 'continuous'
-[parameters]
-a = { nominal = 1, min = 0 }
-[loop]
-inputs = ['r']
-outputs = ['y']
-[[block]]
-name = 'L'
-input = 'r - y'
-output = 'y'
-transfer = '(s + 2)/(s*(s^2 + a*s + 4))'
-";
 
 #[test]
 fn sets_of_a_gain_agree_with_a_second_decision_at_random_points() {

@@ -4,11 +4,10 @@ use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::{decision, known_names, only_parameter};
 use crate::cli::output::write_answer;
-use crate::cli::requirements::RequirementOptions;
+use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Outcome, Status};
 use crate::cli::written::check_certificate;
 use clap::Args;
-use jurist_engine::error::Diagnostic;
 use jurist_engine::problem::{DECAY, RADIUS};
 use jurist_engine::show::documents::Intervals;
 use jurist_engine::show::intervals_text;
@@ -48,14 +47,13 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         known_names(context, &model, "--param", from_ref(&name))?;
     }
     let digits = output.digits() as usize;
-    let requirements = options.require.requirements(context)?;
-    let problem = question.free(&name).problem()?;
+    let (asked, question) = options.require.asked(&model, question.free(&name), &options.decision.region, context)?;
+    let any_proof = options.certificate.is_some() || options.smt2.is_some() || options.coq.is_some();
+    refuse_proofs(&model, &asked, any_proof)?;
+    let problem = question.problem()?;
+    let requirements = asked.list;
     if !requirements.is_empty() {
-        if options.certificate.is_some() || options.smt2.is_some() || options.coq.is_some() {
-            let error = Diagnostic::error("E-require", "a set with requirements has no certificate yet");
-            return Err(error.help("leave out the requirements, or the certificate").into());
-        }
-        let at = options.require.at.as_deref();
+        let at = asked.at.as_deref();
         return match decided(problem.required_set(&requirements, at, &context.budget))? {
             Ok(answer) => {
                 context.warn(None, problem.warnings());
