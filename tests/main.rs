@@ -41,6 +41,7 @@ mod loops {
     mod margins;
     mod paper;
     mod requirements;
+    mod sensitivity;
 }
 
 /// Models with their expected answers in words, asked of every engine.

@@ -117,7 +117,11 @@ fn a_model_with_requirements_is_checked_at_its_nominal_point() {
     let run = jurist_with_input(&["analyze", "-"], met.as_bytes());
     assert!(run.stderr.contains("W-require"), "{}", run.stderr);
     let run = jurist_with_input(&["verdict", "-"], with("phase_margin = '45 rad'").as_bytes());
-    assert!(run.status == 2 && run.stderr.contains("E-require") && run.stderr.contains("phase_margin = '45 rad'"), "{}", run.stderr);
+    assert!(
+        run.status == 2 && run.stderr.contains("E-require") && run.stderr.contains("phase_margin = '45 rad'"),
+        "{}",
+        run.stderr
+    );
     let run = jurist_with_input(&["verdict", "-"], with("phase = 45").as_bytes());
     assert!(run.status == 2 && run.stderr.contains("E-unknown-key"), "{}", run.stderr);
 }

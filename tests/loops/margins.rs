@@ -1,8 +1,8 @@
 //! Margins of known loops, to the digits of other programs and of computations at sixty digits.
 
 use crate::helpers::model::{example, load};
-use crate::helpers::open_loops::{SERVO_AS_TYPED, loop_of, margins_of, stable};
 use crate::helpers::number::number;
+use crate::helpers::open_loops::{SERVO_AS_TYPED, loop_of, margins_of, stable};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Answer;

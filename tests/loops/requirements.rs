@@ -175,3 +175,35 @@ fn the_drive_with_forty_five_degrees_at_its_current_error() {
     let document = answer.json(&[Requirement::phase_margin(&number("45")).unwrap()], 12);
     assert_eq!(document.require[0].required, "45 deg");
 }
+
+/// `[require]` with a settling time: in discrete time the radius `exp(-4 T/time)`, which is not algebraic.
+#[test]
+fn a_settling_time_is_a_radius_that_is_not_algebraic() {
+    // z^2 - z/2 + K has roots of modulus sqrt(K) for K > 1/16: K <= exp(-8 T/time).
+    let text = "time = 'discrete'\nsample_time = 0.1\n[parameters]\nK = { nominal = 0.1, min = 0 }\n[loop]\n\
+                characteristic = 'z^2 - z/2 + K'\n[require]\nsettling_time = 4\n";
+    let model = load(text);
+    let budget = Budget::unlimited();
+    let problem = model.ask().free("K").problem().unwrap();
+    let asked = model.requirements(&[], problem.set(), &budget).unwrap();
+    assert_eq!(asked.list[0].text(), "settling_time <= 4");
+    let answer = required(&model, "K", None, &asked.list);
+    let [only] = answer.value().intervals.as_slice() else { panic!("{answer:?}") };
+    let upper = only.upper.as_ref().unwrap();
+    // exp(-1/5)
+    assert_eq!(upper.value().decimal(30), "0.818730753077981858669935508620");
+    assert!(matches!(upper, RequiredEnd::Requirement { names, .. } if names == &["settling_time"]));
+    let met = |k: &str| {
+        let problem = model.ask().set("K", number(k)).problem().unwrap();
+        problem.requirements_met(&asked.list, None, &budget).unwrap()[0].met
+    };
+    assert!(met("0.8187307530") && !met("0.8187307531"));
+    // In continuous time it is a decay rate, and the greater of two counts.
+    let text = "time = 'continuous'\n[parameters]\nK = { nominal = 2, min = 0 }\n[loop]\ncharacteristic = 's^2 + 4*s + K'\n\
+                [require]\nsettling_time = 4\ndecay = 0.25\n";
+    let model = load(text);
+    let asked = model.requirements(&[], &[], &budget).unwrap();
+    let set = model.ask().free("K").within(asked.region.unwrap()).stable_set(&budget).unwrap();
+    // s = -1: 1 - 4 + K = 0
+    assert_eq!(set.value().intervals()[0].lower.as_ref().unwrap().value.exact(), Some(number("3")));
+}

@@ -24,6 +24,9 @@ pub(in crate::cli) struct Options {
     pub decision: DecisionOptions,
     #[command(flatten)]
     pub require: RequirementOptions,
+    /// Adds how each limit moves with each other parameter and constant: exact derivatives
+    #[arg(long)]
+    pub sensitivity: bool,
     /// Writes a certificate that 'jurist verify' re-checks
     #[arg(long, value_name = "FILE")]
     pub certificate: Option<OsString>,
@@ -87,7 +90,13 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     if let Some(file) = &options.coq {
         write_answer(&answer.coq(&context.budget)?, Some(file))?;
     }
-    context.answer(output, || answer.text(digits), || answer.json(digits))?;
+    let table = match options.sensitivity {
+        true => Some(answer.sensitivities(&context.budget)?),
+        false => None,
+    };
+    let text = || table.iter().fold(answer.text(digits), |text, table| text + &table.text(digits));
+    let document = || table.iter().fold(answer.json(digits), |document, t| document.with_sensitivities(t, digits));
+    context.answer(output, text, document)?;
     if let Some((text, file)) = &certificate {
         check_certificate(context, &output.run, &model.source().text, text, file);
     }

@@ -14,7 +14,7 @@ mod disk;
 mod enclosed;
 mod extreme;
 mod family;
-mod ground;
+pub(crate) mod ground;
 mod held_delay;
 mod margins;
 mod norm;
