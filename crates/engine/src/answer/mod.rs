@@ -15,6 +15,7 @@ mod tolerance;
 mod verdict;
 
 pub use analysis::Analysis;
+pub(crate) use dead_time::stable_factors;
 pub use frequency::Frequency;
 pub use map::Map;
 pub use map_boxes::{BoxRequest, MapBoxes, MapMethod, MapOrBoxes};

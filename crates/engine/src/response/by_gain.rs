@@ -1,7 +1,7 @@
 //! A parameter as the loop's gain.
 
-use super::ground::{Constants, Integers};
-use super::open_loop::{Over, Parts, constants, integral, polynomial};
+use super::ground::Integers;
+use super::open_loop::{Over, Parts, integral};
 use crate::error::{Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::ParametricPolynomial;
@@ -9,10 +9,9 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
-use std::sync::Arc;
 
 /// The loop with a parameter as the gain, and the sample time.
-type ByGain = (Over, Option<Rational>);
+type ByGain = ((Over, Option<Rational>), Option<Rational>);
 
 /// The polynomial in the parameter, if it is affine there.
 fn affine(problem: &Problem, name: &str, budget: &Budget) -> Result<Option<ByGain>, Error> {
@@ -35,7 +34,7 @@ fn affine(problem: &Problem, name: &str, budget: &Budget) -> Result<Option<ByGai
     Ok(over.map(|over| (over, sample_time.flatten())))
 }
 
-fn over_integers(d: &CharacteristicPolynomial, nominal: &Rational, problem: &Problem) -> Result<Option<Over>, Error> {
+fn over_integers(d: &CharacteristicPolynomial, nominal: &Rational, problem: &Problem) -> Result<Option<(Over, Option<Rational>)>, Error> {
     let side = |p: &MultiPoly| p.to_univariate(0).expect("one variable is kept");
     let coefficients: Vec<_> = d.coefficients.iter().map(|c| (side(c.numerator()), side(c.denominator()))).collect();
     let parametric = ParametricPolynomial::new(&coefficients, d.formal_degree, Vec::new());
@@ -53,7 +52,7 @@ fn over_integers(d: &CharacteristicPolynomial, nominal: &Rational, problem: &Pro
     let (below, above) = integral(part(0).collect(), part(1).map(|c| c * nominal).collect());
     let poles = d.poles.iter().map(side).chain([parametric.denominator().clone(), shared]);
     let poles = poles.filter(|p| !p.is_constant()).map(|p| in_factor(&p, nominal)).collect();
-    Ok(Some(Over::Integers(Parts::new(Integers, below, above, poles, problem.shape()))))
+    Ok(Some((Over::Integers(Parts::new(Integers, below, above, poles, problem.shape())), None)))
 }
 
 /// A polynomial in the factor: the parameter is the factor times its nominal value `p/q`.
@@ -70,7 +69,7 @@ fn over_constants(
     nominal: &Rational,
     symbols: &crate::model::Symbols,
     problem: &Problem,
-) -> Result<Option<Over>, Error> {
+) -> Result<Option<(Over, Option<Rational>)>, Error> {
     let (cleared, denominator) = d.cleared();
     let beside = |c: &MultiPoly| c.map_variables(|i| i.saturating_sub(1));
     let in_parameter = |c: &MultiPoly| in_factor(&c.as_poly_in(0).map(beside), nominal);
@@ -81,10 +80,8 @@ fn over_constants(
     let scaled = |c: MultiPoly| &RationalFunction::from(c) * &RationalFunction::from(nominal.clone());
     let below = parts.iter().map(|c| c.coeff(0).into()).collect();
     let above = parts.iter().map(|c| scaled(c.coeff(1))).collect();
-    let (below, above) = polynomial(below, above);
     let poles = d.poles.iter().chain([&denominator]).filter(|p| p.degree_in(0) > 0).map(in_parameter).collect();
-    let ground = Constants(Arc::new(constants(symbols)?));
-    Ok(Some(Over::Constants(Parts::new(ground, below, above, poles, problem.shape()))))
+    Over::new(below, above, poles, symbols, problem.shape()).map(Some)
 }
 
 pub(super) fn by_gain(problem: &Problem, name: &str, budget: &Budget) -> Result<ByGain, Error> {
@@ -103,7 +100,7 @@ pub(super) fn only_gain(problem: &Problem, budget: &Budget) -> Result<Option<Str
     }
     let mut found = None;
     for parameter in problem.model().parameters() {
-        if affine(problem, &parameter.name, budget)?.is_some_and(|(over, _)| !over.is_open()) {
+        if affine(problem, &parameter.name, budget)?.is_some_and(|((over, _), _)| !over.is_open()) {
             if found.is_some() {
                 return Ok(None);
             }

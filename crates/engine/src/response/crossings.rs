@@ -36,6 +36,8 @@ pub struct GainCrossing {
     pub side: Sign,
     /// How the modulus goes through one.
     pub direction: Direction,
+    /// Dead time of the open loop, which turns it further; the tangent and the side are those without it.
+    pub dead_time: Option<Rational>,
 }
 
 /// A frequency at which the open loop is real and negative: with the factor `k = -1/L` it is -1.
@@ -95,7 +97,7 @@ fn gain_crossings<G: Ground>(
             Place::Inside(x) => ground.sign_at(&r.imaginary, x, budget)?.reverse(),
             _ => Ordering::Equal,
         };
-        found.push(GainCrossing { place, tangent_squared, side, direction });
+        found.push(GainCrossing { place, tangent_squared, side, direction, dead_time: None });
         Ok(())
     };
     if one(&Place::Lowest)? {
@@ -168,6 +170,23 @@ fn phase_crossings<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<Vec<P
 impl GainCrossing {
     /// `phi` in radians, in `(-pi, pi]`, enclosed with about `bits` bits.
     pub fn phase(&self, bits: u64) -> Enclosure {
+        let working = bits + 64;
+        let turned = self.dead_time.as_ref().and_then(|tau| {
+            let rate = self.place.frequency(Shape::LeftHalfPlane, None, working)?.radians_per_second?;
+            Some(rate.mul(&Enclosure::from_rational(tau.clone()), working))
+        });
+        let own = self.phase_without_dead_time(working);
+        let Some(turned) = turned else { return own.rounded(bits) };
+        let phase = own.sub(&turned, working);
+        // Back into one turn.
+        let (half, two) = (Enclosure::pi(working), Enclosure::from_rational(Rational::from(2)));
+        let turn = half.mul(&two, working);
+        let turns = phase.add(&half, working).div(&turn, working).map(|t| t.lower().midpoint(t.upper()).floor());
+        let turns = Enclosure::from_rational(Rational::from(turns.unwrap_or(Integer::ZERO)));
+        phase.sub(&turn.mul(&turns, working), bits)
+    }
+
+    fn phase_without_dead_time(&self, bits: u64) -> Enclosure {
         let working = bits + 16;
         let size = match &self.tangent_squared {
             None => return Enclosure::pi(bits),
@@ -182,7 +201,11 @@ impl GainCrossing {
     /// By how much the open loop has to lag to be -1, in radians in `(0, 2 pi)`; 0 where it is -1.
     pub fn lag(&self, bits: u64) -> Enclosure {
         let phase = self.phase(bits + 16);
-        if self.side.is_lt() && self.tangent_squared.is_some() {
+        let is_lead = match self.dead_time {
+            Some(_) => phase.upper().is_negative(),
+            None => self.side.is_lt() && self.tangent_squared.is_some(),
+        };
+        if is_lead {
             let turn = Enclosure::pi(bits + 16).mul(&Enclosure::from_rational(Rational::from(2)), bits + 16);
             turn.add(&phase, bits)
         } else {

@@ -37,7 +37,11 @@ impl DelayMargin {
         with_parts!(open_loop, parts => DelayMargin::over(parts, crossings, budget))
     }
 
-    fn over<G: Ground>(parts: &Parts<G>, crossings: &Crossings, budget: &Budget) -> Result<DelayMargin, Exhausted> {
+    pub(super) fn over<G: Ground>(
+        parts: &Parts<G>,
+        crossings: &Crossings,
+        budget: &Budget,
+    ) -> Result<DelayMargin, Exhausted> {
         let r = &parts.reduced;
         // Whether the modulus is one or more at the highest frequency.
         let (above, below) = at_end(&r.numerator_squared, &r.denominator_squared, &Place::Highest, parts.shape);

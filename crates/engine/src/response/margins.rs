@@ -2,8 +2,9 @@
 
 use super::crossings::Crossings;
 use super::extreme::extreme_over;
+use super::dead_time::DeadTime;
 use super::ground::Ground;
-use super::open_loop::{OpenLoop, Parts, with_parts};
+use super::open_loop::{OpenLoop, Over, Parts, with_parts};
 use super::value::{reciprocal, square_root};
 use super::{DelayMargin, DiskMargin, Extreme, HeldDelay, Place, Value};
 use crate::answer::{Answer, Frequency, PointVerdict, Verdict};
@@ -159,9 +160,19 @@ impl Problem {
             let open_loop = OpenLoop::of(self, at, budget)?;
             budget.step("crossings");
             let crossings = Crossings::of(&open_loop, budget)?;
-            let stable = match verdict.verdict {
-                Verdict::Stable => Some(StableMargins::of(&open_loop, &crossings, skew, budget)?),
-                _ => None,
+            let is_stable = verdict.verdict == Verdict::Stable;
+            let (crossings, stable) = match (open_loop.over(), open_loop.dead_time()) {
+                (Over::Integers(parts), Some(tau)) => {
+                    let dead_time = DeadTime::new(parts, tau);
+                    let crossings = dead_time.crossings(crossings, budget)?;
+                    let stable = is_stable.then(|| dead_time.margins(&crossings, skew, budget)).transpose()?;
+                    (crossings, stable)
+                }
+                _ => {
+                    let stable = is_stable.then(|| StableMargins::of(&open_loop, &crossings, skew, budget));
+                    let stable = stable.transpose()?;
+                    (crossings, stable)
+                }
             };
             let held_delay = match &stable {
                 Some(stable) if !matches!(stable.delay, DelayMargin::Unbounded | DelayMargin::SamplesAtLeast(_)) => {
@@ -228,6 +239,11 @@ impl GainMargin {
             let Parts { ground, denominator, numerator, poles, shape, .. } = parts;
             ground.stable_factors(denominator, numerator, poles, *shape, budget)?
         });
+        Ok(GainMargin::of_set(set))
+    }
+
+    /// The ends around the factor 1.
+    pub(super) fn of_set(set: StableSet) -> Self {
         let (mut upper, mut lower) = (None, None);
         for interval in set.intervals() {
             let above = |end: &End| end.value.compare_rational(&Rational::ONE).is_gt();
@@ -237,7 +253,7 @@ impl GainMargin {
                 lower = interval.lower.clone().filter(|end| end.value.sign().is_ge());
             }
         }
-        Ok(GainMargin { set, upper, lower })
+        GainMargin { set, upper, lower }
     }
 }
 

@@ -9,6 +9,7 @@ mod asked;
 mod by_gain;
 mod cells;
 mod crossings;
+mod dead_time;
 mod delay;
 mod disk;
 mod enclosed;

@@ -109,7 +109,8 @@ impl Problem {
             let (closed_loop, symbols) = self.closed_loop_over_symbols(budget)?;
             let transfer = closed_loop.transfer_function(input, output, budget)?;
             let (above, below) = (transfer.numerator, transfer.denominator.coefficients);
-            let over = Over::new(below, above, Vec::new(), symbols, self.shape())?;
+            // Dead time alone does not change the modulus.
+            let (over, _) = Over::new(below, above, Vec::new(), symbols, self.shape())?;
             let peak = if verdict.verdict == Verdict::Stable {
                 budget.step("peak gain");
                 Some(match &over {

@@ -8,6 +8,7 @@ use crate::error::{Diagnostic, Error};
 use crate::model::{ClosedLoop, Cut, Opened};
 use crate::problem::{Problem, fixed_symbols};
 use crate::stability::Shape;
+use jurist_algebra::ball::{Ball, cos_sin};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
@@ -41,6 +42,7 @@ pub struct OpenLoop {
     shape: Shape,
     sample_time: Option<Rational>,
     over: Over,
+    dead_time: Option<Rational>,
 }
 
 /// The polynomials over what their coefficients are.
@@ -114,7 +116,7 @@ impl OpenLoop {
             (Err(refused), _) => return Err(refused.into()),
         };
         let shape = problem.shape();
-        let (over, sample_time) = match &cut {
+        let ((over, dead_time), sample_time) = match &cut {
             Cut::Gain(name) => by_gain(problem, name, budget)?,
             _ => {
                 let Opened { system, sample_time, symbols } = model.opened(&cut, &[], problem.set(), budget)?;
@@ -123,7 +125,7 @@ impl OpenLoop {
                 (over, sample_time.and_then(|t| t.as_constant()))
             }
         };
-        let open_loop = OpenLoop { cut, shape, sample_time, over };
+        let open_loop = OpenLoop { cut, shape, sample_time, over, dead_time };
         if open_loop.over.is_open() {
             let message = format!("nothing comes back to '{}': there is no loop through it", open_loop.cut.name());
             return Err(Diagnostic::error("E-cut", message).into());
@@ -140,7 +142,7 @@ impl OpenLoop {
         sample_time: Option<Rational>,
     ) -> OpenLoop {
         let over = Over::Integers(Parts::new(Integers, denominator, numerator, Vec::new(), shape));
-        OpenLoop { cut, over, shape, sample_time }
+        OpenLoop { cut, over, shape, sample_time, dead_time: None }
     }
 
     /// Where the loop is cut.
@@ -183,6 +185,11 @@ impl OpenLoop {
         self.sample_time.as_ref()
     }
 
+    /// Dead time of a continuous loop: `L = N/D0 exp(-tau s)`.
+    pub fn dead_time(&self) -> Option<&Rational> {
+        self.dead_time.as_ref()
+    }
+
     /// `L` at a point of the boundary, given by `x = z + 1/z` or `x = s^2`: the real part, and the imaginary part divided by
     /// `sin theta` or `omega`, computed with some bits; `None` at a pole. Exact where the coefficients are rational.
     ///
@@ -200,6 +207,18 @@ impl OpenLoop {
     /// # Ok::<(), jurist_engine::error::Error>(())
     /// ```
     pub fn value_at(&self, x: &Rational, bits: u64) -> Option<(Enclosure, Enclosure)> {
+        let (real, imaginary) = self.rational_value_at(x, bits)?;
+        let Some(tau) = &self.dead_time else { return Some((real, imaginary)) };
+        let rate = Enclosure::from_rational(-x).sqrt(bits);
+        let turned = rate.mul(&Enclosure::from_rational(tau.clone()), bits);
+        let (cos, sin) = cos_sin(&Ball::from_enclosure(&turned, bits));
+        let (cos, sin) = (cos.to_enclosure(), sin.to_enclosure());
+        let over_rate = sin.div(&rate, bits).unwrap_or_else(|| Enclosure::from_rational(tau.clone()));
+        let along = real.mul(&cos, bits).add(&imaginary.mul(&rate, bits).mul(&sin, bits), bits);
+        Some((along, imaginary.mul(&cos, bits).sub(&real.mul(&over_rate, bits), bits)))
+    }
+
+    fn rational_value_at(&self, x: &Rational, bits: u64) -> Option<(Enclosure, Enclosure)> {
         with_parts!(self, parts => {
             let value = |p| parts.ground.enclose(p, x, bits);
             let r = &parts.reduced;
@@ -218,6 +237,9 @@ impl OpenLoop {
         fn equal<R: Domain>(a: &Reduced<R>, b: &Reduced<R>) -> bool {
             a.numerator.times(&b.denominator) == b.numerator.times(&a.denominator)
         }
+        if self.dead_time != other.dead_time {
+            return false;
+        }
         match (&self.over, &other.over) {
             (Over::Integers(a), Over::Integers(b)) => equal(&a.reduced, &b.reduced),
             (Over::Constants(a), Over::Constants(b)) => a.ground.0 == b.ground.0 && equal(&a.reduced, &b.reduced),
@@ -235,33 +257,74 @@ impl Over {
         }
     }
 
-    /// From coefficients in symbols, none of which is a parameter.
+    /// From coefficients in symbols, none of which is a parameter, and the dead time that is a factor of the numerator.
     pub(super) fn new(
         denominator: Vec<RationalFunction>,
         numerator: Vec<RationalFunction>,
         poles: Vec<Poly<MultiPoly>>,
         symbols: &crate::model::Symbols,
         shape: Shape,
-    ) -> Result<Over, Error> {
-        let (denominator, numerator) = polynomial(denominator, numerator);
+    ) -> Result<(Over, Option<Rational>), Error> {
+        let (denominator, mut numerator) = polynomial(denominator, numerator);
+        let mut dead_time = None;
+        if !symbols.delays().is_empty() {
+            let (rest, tau) = split_delay(&denominator, &numerator, symbols).ok_or_else(no_single_delay)?;
+            numerator = rest;
+            dead_time = Some(tau).filter(|tau| !tau.is_zero());
+        }
         let is_rational = |p: &Poly<MultiPoly>| p.coeffs().iter().all(MultiPoly::is_constant);
         if is_rational(&denominator) && is_rational(&numerator) && poles.iter().all(is_rational) {
             let plain = |p: &Poly<MultiPoly>| p.map(|c| c.as_constant().expect("every parameter has a value"));
             let poles = poles.iter().map(plain).collect();
-            return Ok(Over::Integers(Parts::new(Integers, plain(&denominator), plain(&numerator), poles, shape)));
+            let parts = Parts::new(Integers, plain(&denominator), plain(&numerator), poles, shape);
+            return Ok((Over::Integers(parts), dead_time));
+        }
+        if dead_time.is_some() {
+            return Err(no_single_delay());
         }
         let ground = Constants(Arc::new(constants(symbols)?));
-        Ok(Over::Constants(Parts::new(ground, denominator, numerator, poles, shape)))
+        Ok((Over::Constants(Parts::new(ground, denominator, numerator, poles, shape)), None))
     }
 }
 
-/// The symbols of a loop without free parameters.
-pub(crate) fn constants(symbols: &crate::model::Symbols) -> Result<Symbols, Error> {
-    if symbols.delays().is_empty() {
-        return fixed_symbols(symbols);
+fn no_single_delay() -> Error {
+    let message = "with dead time this is known where one factor of the open loop has it, and all else is rational";
+    let help = "the gain margin is the limit of a gain: 'jurist intervals --param GAIN'";
+    Diagnostic::error("E-dead-time", message).help(help).into()
+}
+
+/// The numerator without the one product of powers of `exp(-tau s)` that all its terms have, and its dead time; symbols are
+/// numbered as in their table.
+fn split_delay(
+    denominator: &Poly<MultiPoly>,
+    numerator: &Poly<MultiPoly>,
+    symbols: &crate::model::Symbols,
+) -> Option<(Poly<MultiPoly>, Rational)> {
+    let delays: Vec<(usize, RationalFunction)> =
+        symbols.delays().into_iter().map(|(variable, delay)| (variable - symbols.first(), delay)).collect();
+    let is_free = |p: &MultiPoly| delays.iter().all(|(variable, _)| p.degree_in(*variable) == 0);
+    let mut exponents: Option<Vec<u32>> = None;
+    for (monomial, _) in numerator.coeffs().iter().flat_map(|c| c.terms()) {
+        let found: Vec<u32> = delays.iter().map(|(variable, _)| monomial.exponent(*variable)).collect();
+        if exponents.get_or_insert_with(|| found.clone()) != &found {
+            return None;
+        }
     }
-    let error = Diagnostic::error("E-dead-time", "margins of a loop with dead time are not known yet");
-    Err(error.help("the gain margin is the limit of a gain: 'jurist intervals --param GAIN'").into())
+    let exponents = exponents.unwrap_or_else(|| vec![0; delays.len()]);
+    let (mut tau, mut factor) = (Rational::ZERO, MultiPoly::one());
+    for ((variable, delay), exponent) in delays.iter().zip(exponents) {
+        if exponent > 0 {
+            tau = tau + delay.as_constant()? * Rational::from(i64::from(exponent));
+            factor = factor.times(&MultiPoly::variable(*variable).power(u64::from(exponent)));
+        }
+    }
+    let rest = numerator.map(|c| c.div_exact(&factor).expect("every term has the factor"));
+    denominator.coeffs().iter().all(is_free).then_some((rest, tau))
+}
+
+/// The symbols of a loop without free parameters.
+fn constants(symbols: &crate::model::Symbols) -> Result<Symbols, Error> {
+    if symbols.delays().is_empty() { fixed_symbols(symbols) } else { Err(no_single_delay()) }
 }
 
 impl<G: Ground> Parts<G> {
@@ -321,7 +384,7 @@ fn returned(system: &ClosedLoop, budget: &Budget) -> Result<(Vec<RationalFunctio
 }
 
 /// Two polynomials without denominators, primitive together over the integers.
-pub(crate) fn polynomial(a: Vec<RationalFunction>, b: Vec<RationalFunction>) -> (Poly<MultiPoly>, Poly<MultiPoly>) {
+fn polynomial(a: Vec<RationalFunction>, b: Vec<RationalFunction>) -> (Poly<MultiPoly>, Poly<MultiPoly>) {
     let split = a.len();
     let all: Vec<RationalFunction> = a.into_iter().chain(b).collect();
     let common = all.iter().fold(MultiPoly::one(), |l, f| {

@@ -161,9 +161,14 @@ impl Problem {
                     return Err(no_damping());
                 }
                 let open_loop = margins.as_ref().map(|m| &m.open_loop);
-                let met = match (requirement, &margins) {
+                let known = match margins.as_ref().and_then(|m| m.stable.as_ref()) {
+                    Some(stable) => requirement.is_met_by(stable, budget)?,
+                    None => None,
+                };
+                let met = match (requirement, &margins, known) {
                     _ if !stable => false,
-                    (Requirement::DelayMargin(least), Some(margins)) => bears(margins, least, budget)?,
+                    (_, _, Some(met)) => met,
+                    (Requirement::DelayMargin(least), Some(margins), _) => bears(margins, least, budget)?,
                     _ => requirement.is_met(open_loop, &closed, self.shape(), budget)?,
                 };
                 out.push(RequirementMet { requirement: requirement.clone(), margins: margins.clone(), met });

@@ -2,7 +2,7 @@
 
 use super::crossings::Crossings;
 use super::ground::{Constants, Ground};
-use super::margins::{GainMargin, PhaseMargin, modulus_extreme};
+use super::margins::{GainMargin, PhaseMargin, StableMargins, modulus_extreme};
 use super::open_loop::OpenLoop;
 use super::value::{Value, square_root};
 use crate::error::{Diagnostic, Error};
@@ -215,28 +215,11 @@ impl Requirement {
         let cut = || open_loop.expect("a margin is taken at a cut");
         match self {
             Requirement::GainMargin { factor, .. } => {
-                let gain = GainMargin::of(cut(), budget)?;
-                let factor = Real::from(factor.clone());
-                let inverse = super::value::reciprocal(&factor, budget)?;
-                let above = match &gain.upper {
-                    Some(end) => end.value.compare(&factor, budget)?.is_gt(),
-                    None => true,
-                };
-                let below = match &gain.lower {
-                    Some(end) => end.value.compare(&inverse, budget)?.is_lt(),
-                    None => true,
-                };
-                Ok(above && below)
+                has_gain_margin(&GainMargin::of(cut(), budget)?, factor, budget)
             }
             Requirement::PhaseMargin { twice_cosine, .. } => {
                 let crossings = Crossings::of(cut(), budget)?;
-                let PhaseMargin::Angle { tangent: Some(tangent), .. } = PhaseMargin::of(cut(), &crossings, budget)?
-                else {
-                    return Ok(true);
-                };
-                let least = Value::quotient(&UniPoly::from_i64(&[2, -1]), &UniPoly::from_i64(&[2, 1]), twice_cosine);
-                let least = square_root(&least.number(budget)?, budget)?;
-                Ok(tangent.compare(&least, budget)?.is_ge())
+                has_phase_margin(&PhaseMargin::of(cut(), &crossings, budget)?, twice_cosine, budget)
             }
             Requirement::ModulusMargin(least) => {
                 let found = modulus_extreme(cut(), budget)?;
@@ -276,6 +259,45 @@ pub(crate) fn scaled_by_exponential(
         power = power.times(&MultiPoly::variable(radius));
     }
     (Arc::new(symbols), Poly::new(scaled))
+}
+
+/// Whether the loop is stable for all factors from the inverse of one to itself.
+fn has_gain_margin(gain: &GainMargin, factor: &RealAlgebraic, budget: &Budget) -> Result<bool, Exhausted> {
+    let factor = Real::from(factor.clone());
+    let inverse = super::value::reciprocal(&factor, budget)?;
+    let above = match &gain.upper {
+        Some(end) => end.value.compare(&factor, budget)?.is_gt(),
+        None => true,
+    };
+    let below = match &gain.lower {
+        Some(end) => end.value.compare(&inverse, budget)?.is_lt(),
+        None => true,
+    };
+    Ok(above && below)
+}
+
+/// Whether the angle is at least that of twice a cosine.
+fn has_phase_margin(phase: &PhaseMargin, twice_cosine: &RealAlgebraic, budget: &Budget) -> Result<bool, Exhausted> {
+    let PhaseMargin::Angle { tangent: Some(tangent), .. } = phase else { return Ok(true) };
+    let least = Value::quotient(&UniPoly::from_i64(&[2, -1]), &UniPoly::from_i64(&[2, 1]), twice_cosine);
+    let least = square_root(&least.number(budget)?, budget)?;
+    Ok(tangent.compare(&least, budget)?.is_ge())
+}
+
+impl Requirement {
+    /// Whether margins that are known meet it; `None` where it is not about them.
+    pub(crate) fn is_met_by(&self, margins: &StableMargins, budget: &Budget) -> Result<Option<bool>, Exhausted> {
+        Ok(match self {
+            Requirement::GainMargin { factor, .. } => Some(has_gain_margin(&margins.gain, factor, budget)?),
+            Requirement::PhaseMargin { twice_cosine, .. } => {
+                Some(has_phase_margin(&margins.phase, twice_cosine, budget)?)
+            }
+            Requirement::ModulusMargin(least) => {
+                Some(budget.enter(|| margins.modulus.compare_rational(least).is_ge())?)
+            }
+            Requirement::Damping(_) | Requirement::DelayMargin(_) | Requirement::SettlingTime { .. } => None,
+        })
+    }
 }
 
 fn refused(message: &str) -> Error {
