@@ -7,6 +7,7 @@ mod helpers;
 mod laws {
     mod cancelled;
     mod dead_time;
+    mod dead_time_margins;
     mod fast_algebra;
     mod fast_isolation;
     mod fuzz_corpus;
@@ -36,10 +37,12 @@ mod loops {
     mod dead_time;
     mod drive;
     mod examples;
+    mod held_margins;
     mod large;
     mod margins;
     mod paper;
     mod requirements;
+    mod sensitivity;
 }
 
 /// Models with their expected answers in words, asked of every engine.

@@ -1,12 +1,12 @@
 //! Requirements on the command line.
 
-use super::assignments::in_line;
+use super::arguments::RegionOptions;
 use super::commands::Context;
-use super::status::Error;
 use clap::Args;
-use jurist_algebra::number::{Rational, parse_number};
-use jurist_engine::error::Diagnostic;
-use jurist_engine::response::Requirement;
+use jurist_engine::error::{Diagnostic, Error};
+use jurist_engine::model::Model;
+use jurist_engine::problem::Question;
+use jurist_engine::response::Requirements;
 
 /// What is required beyond stability.
 #[derive(Args, Debug, Default)]
@@ -20,6 +20,12 @@ pub(super) struct RequirementOptions {
     /// Asks for a modulus margin: the least |1 + L|
     #[arg(long, value_name = "NUMBER")]
     pub modulus_margin: Option<String>,
+    /// Asks for a delay margin: dead time in units of time (points only)
+    #[arg(long, value_name = "TIME")]
+    pub delay_margin: Option<String>,
+    /// Asks for a settling time: a decay of 4 over it, in discrete time a radius of exp(-4 T/time)
+    #[arg(long, value_name = "TIME")]
+    pub settling_time: Option<String>,
     /// Asks for a damping of all roots (continuous time)
     #[arg(long, value_name = "NUMBER")]
     pub damping: Option<String>,
@@ -29,44 +35,59 @@ pub(super) struct RequirementOptions {
 }
 
 impl RequirementOptions {
-    /// The requirements, in a fixed order.
-    pub fn requirements(&self, context: &Context) -> Result<Vec<Requirement>, Error> {
-        let mut out = Vec::new();
-        if let Some(text) = &self.gain_margin {
-            let (value, unit) = number(context, "--gain-margin", text, &["", "dB"])?;
-            out.push(match unit {
-                "dB" => Requirement::gain_margin_in_decibels(&value, &context.budget)?,
-                _ => Requirement::gain_margin(&value)?,
-            });
+    /// What the model's `[require]` and the command line ask for together, and the question with the region that follows.
+    pub fn asked(
+        &self,
+        model: &Model,
+        question: Question,
+        region: &RegionOptions,
+        context: &Context,
+    ) -> Result<(Requirements, Question), Error> {
+        let options = [
+            ("at", &self.at),
+            ("gain_margin", &self.gain_margin),
+            ("phase_margin", &self.phase_margin),
+            ("modulus_margin", &self.modulus_margin),
+            ("delay_margin", &self.delay_margin),
+            ("damping", &self.damping),
+            ("settling_time", &self.settling_time),
+            ("decay", &region.decay),
+            ("radius", &region.radius),
+        ];
+        let further: Vec<(&str, &str)> =
+            options.iter().filter_map(|(name, text)| Some((*name, text.as_deref()?))).collect();
+        if further.is_empty() && model.require().is_empty() {
+            return Ok((Requirements::default(), question));
         }
-        if let Some(text) = &self.phase_margin {
-            let (value, _) = number(context, "--phase-margin", text, &["", "deg", "degrees"])?;
-            out.push(Requirement::phase_margin(&value)?);
-        }
-        if let Some(text) = &self.modulus_margin {
-            out.push(Requirement::modulus_margin(number(context, "--modulus-margin", text, &[""])?.0)?);
-        }
-        if let Some(text) = &self.damping {
-            out.push(Requirement::damping(number(context, "--damping", text, &[""])?.0)?);
-        }
-        Ok(out)
+        let values = question.clone().problem()?.set().to_vec();
+        let mut asked = model.requirements(&further, &values, &context.budget)?;
+        // A region that the command line gives is the question's own.
+        asked.regional.retain(|(name, _)| match name.as_str() {
+            "decay" => region.decay.is_none(),
+            "radius" => region.radius.is_none(),
+            _ => true,
+        });
+        let question = match asked.region.clone() {
+            Some(region) => question.within(region),
+            None => question,
+        };
+        Ok((asked, question))
     }
 }
 
-/// A number and its unit, one of some.
-fn number<'u>(context: &Context, option: &str, text: &str, units: &[&'u str]) -> Result<(Rational, &'u str), Error> {
-    let longest = units.iter().filter(|unit| text.trim_end().ends_with(**unit)).max_by_key(|unit| unit.len());
-    let value = longest.and_then(|unit| {
-        let digits = text.trim_end().strip_suffix(*unit)?.trim();
-        Some((parse_number(digits).ok()?, *unit))
-    });
-    value.ok_or_else(|| {
-        let place = context.line.option_value(option, text).span;
-        let error = Diagnostic::error("E-option-value", format!("{option} expects a number and its unit"));
-        let known: Vec<&str> = units.iter().copied().filter(|u| !u.is_empty()).collect();
-        let error = error.at(place, "not understood");
-        let error =
-            if known.is_empty() { error } else { error.help(format!("units known here: {}", known.join(", "))) };
-        in_line(context.line, vec![error]).into()
-    })
+/// That nothing proves requirements yet.
+pub(super) fn refuse_proofs(model: &Model, asked: &Requirements, any_proof: bool) -> Result<(), Error> {
+    if !any_proof || (asked.list.is_empty() && model.require().is_empty()) {
+        return Ok(());
+    }
+    let error = Diagnostic::error("E-require", "an answer with requirements has no certificate and no proof yet");
+    Err(error.help("leave out the requirements, or the certificate").into())
+}
+
+/// Warns that a command does not look at the model's requirements.
+pub(super) fn warn_of_ignored(model: &Model, context: &Context) {
+    if !model.require().is_empty() {
+        let warning = Diagnostic::warning("W-require", "[require] is not looked at here: stability alone is decided");
+        context.warn(None, &[warning.help("requirements are decided by 'verdict' and 'intervals'")]);
+    }
 }

@@ -7,6 +7,7 @@ pub mod drive;
 pub mod loops;
 pub mod model;
 pub mod number;
+pub mod open_loops;
 pub mod plane;
 pub mod polynomial;
 pub mod program;

@@ -72,6 +72,7 @@ proptest! {
         match (found.phase, first) {
             (PhaseMargin::Unbounded, first) => prop_assert!(first.is_none()),
             (PhaseMargin::Angle { tangent: Some(tangent), .. }, Some(first)) => {
+                let tangent = tangent.algebraic().unwrap();
                 let square = tangent.polynomial().clone();
                 let spread: Vec<Integer> = first.value.algebraic().unwrap().polynomial().coeffs().iter().flat_map(|c| [c.clone(), Integer::ZERO]).collect();
                 prop_assert!(tangent.sign_of(&Poly::new(spread)).is_eq(), "{square:?}");

@@ -2,6 +2,7 @@
 
 use crate::helpers::model::{example, load};
 use crate::helpers::number::{number, ratio};
+use crate::helpers::open_loops::{CONDITIONAL, RESONANT, SERVO};
 use crate::helpers::random::Random;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -34,7 +35,7 @@ fn is_met(model: &Model, name: &str, at: Option<&str>, value: &Rational, require
     let budget = Budget::unlimited();
     let problem = model.ask().set(name, value.clone()).problem().unwrap();
     let Ok(open_loop) = OpenLoop::of(&problem, at, &budget) else { return false };
-    let (d, n, shape) = (open_loop.denominator(), open_loop.numerator(), open_loop.shape());
+    let (d, n, shape) = (open_loop.denominator().unwrap(), open_loop.numerator().unwrap(), open_loop.shape());
     if !is_stable(&d.plus(n), shape) {
         return false;
     }
@@ -82,50 +83,6 @@ enum Known {
     Phase(Rational),
     Modulus(Rational),
 }
-
-const SERVO: &str = "time = 'discrete'
-[parameters]
-K = { nominal = 4, min = 0 }
-[loop]
-inputs = ['r']
-outputs = ['y']
-[[block]]
-name = 'PD'
-input = 'r - y'
-output = 'u'
-transfer = 'K*(11*z - 10)/z'
-[[block]]
-name = 'motor'
-input = 'u'
-output = 'y'
-transfer = '(1/1000)/((z - 1)*(z - 9/10)*z)'
-";
-
-const CONDITIONAL: &str = "time = 'continuous'
-[parameters]
-K = { nominal = 200 }
-[loop]
-inputs = ['r']
-outputs = ['y']
-[[block]]
-name = 'L'
-input = 'r - y'
-output = 'y'
-transfer = 'K*(s + 1)^2/(s^3*(s/20 + 1)^2)'
-";
-
-const RESONANT: &str = "time = 'continuous'
-[parameters]
-a = { nominal = 1, min = 0 }
-[loop]
-inputs = ['r']
-outputs = ['y']
-[[block]]
-name = 'L'
-input = 'r - y'
-output = 'y'
-transfer = '(s + 2)/(s*(s^2 + a*s + 4))'
-";
 
 #[test]
 fn sets_of_a_gain_agree_with_a_second_decision_at_random_points() {
@@ -217,4 +174,36 @@ fn the_drive_with_forty_five_degrees_at_its_current_error() {
     assert!(ends(answer.value()).iter().flatten().all(|end| end.compare(limit, &Budget::unlimited()).unwrap().is_lt()));
     let document = answer.json(&[Requirement::phase_margin(&number("45")).unwrap()], 12);
     assert_eq!(document.require[0].required, "45 deg");
+}
+
+/// `[require]` with a settling time: in discrete time the radius `exp(-4 T/time)`, which is not algebraic.
+#[test]
+fn a_settling_time_is_a_radius_that_is_not_algebraic() {
+    // z^2 - z/2 + K has roots of modulus sqrt(K) for K > 1/16: K <= exp(-8 T/time).
+    let text = "time = 'discrete'\nsample_time = 0.1\n[parameters]\nK = { nominal = 0.1, min = 0 }\n[loop]\n\
+                characteristic = 'z^2 - z/2 + K'\n[require]\nsettling_time = 4\n";
+    let model = load(text);
+    let budget = Budget::unlimited();
+    let problem = model.ask().free("K").problem().unwrap();
+    let asked = model.requirements(&[], problem.set(), &budget).unwrap();
+    assert_eq!(asked.list[0].text(), "settling_time <= 4");
+    let answer = required(&model, "K", None, &asked.list);
+    let [only] = answer.value().intervals.as_slice() else { panic!("{answer:?}") };
+    let upper = only.upper.as_ref().unwrap();
+    // exp(-1/5)
+    assert_eq!(upper.value().decimal(30), "0.818730753077981858669935508620");
+    assert!(matches!(upper, RequiredEnd::Requirement { names, .. } if names == &["settling_time"]));
+    let met = |k: &str| {
+        let problem = model.ask().set("K", number(k)).problem().unwrap();
+        problem.requirements_met(&asked.list, None, &budget).unwrap()[0].met
+    };
+    assert!(met("0.8187307530") && !met("0.8187307531"));
+    // In continuous time it is a decay rate, and the greater of two counts.
+    let text = "time = 'continuous'\n[parameters]\nK = { nominal = 2, min = 0 }\n[loop]\ncharacteristic = 's^2 + 4*s + K'\n\
+                [require]\nsettling_time = 4\ndecay = 0.25\n";
+    let model = load(text);
+    let asked = model.requirements(&[], &[], &budget).unwrap();
+    let set = model.ask().free("K").within(asked.region.unwrap()).stable_set(&budget).unwrap();
+    // s = -1: 1 - 4 + K = 0
+    assert_eq!(set.value().intervals()[0].lower.as_ref().unwrap().value.exact(), Some(number("3")));
 }

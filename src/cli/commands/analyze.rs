@@ -3,6 +3,7 @@
 use super::Context;
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::decision;
+use crate::cli::requirements::warn_of_ignored;
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
 
@@ -17,7 +18,8 @@ pub(in crate::cli) struct Options {
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
     let digits = output.digits() as usize;
-    let (_, question) = decision(&options.decision, context)?;
+    let (model, question) = decision(&options.decision, context)?;
+    warn_of_ignored(&model, context);
     let answer = question.analyze(&context.budget)?;
     // Remarks on the question are the same for all its parts.
     let first = answer.verdict.as_ref().map(|(problem, _)| problem).or(answer.sets.first().map(|(problem, _)| problem));

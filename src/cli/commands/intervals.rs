@@ -4,11 +4,10 @@ use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::{decision, known_names, only_parameter};
 use crate::cli::output::write_answer;
-use crate::cli::requirements::RequirementOptions;
+use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Outcome, Status};
 use crate::cli::written::check_certificate;
 use clap::Args;
-use jurist_engine::error::Diagnostic;
 use jurist_engine::problem::{DECAY, RADIUS};
 use jurist_engine::show::documents::Intervals;
 use jurist_engine::show::intervals_text;
@@ -25,6 +24,9 @@ pub(in crate::cli) struct Options {
     pub decision: DecisionOptions,
     #[command(flatten)]
     pub require: RequirementOptions,
+    /// Adds how each limit moves with each other parameter and constant: exact derivatives
+    #[arg(long)]
+    pub sensitivity: bool,
     /// Writes a certificate that 'jurist verify' re-checks
     #[arg(long, value_name = "FILE")]
     pub certificate: Option<OsString>,
@@ -48,14 +50,13 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         known_names(context, &model, "--param", from_ref(&name))?;
     }
     let digits = output.digits() as usize;
-    let requirements = options.require.requirements(context)?;
-    let problem = question.free(&name).problem()?;
+    let (asked, question) = options.require.asked(&model, question.free(&name), &options.decision.region, context)?;
+    let any_proof = options.certificate.is_some() || options.smt2.is_some() || options.coq.is_some();
+    refuse_proofs(&model, &asked, any_proof)?;
+    let problem = question.problem()?;
+    let requirements = asked.list;
     if !requirements.is_empty() {
-        if options.certificate.is_some() || options.smt2.is_some() || options.coq.is_some() {
-            let error = Diagnostic::error("E-require", "a set with requirements has no certificate yet");
-            return Err(error.help("leave out the requirements, or the certificate").into());
-        }
-        let at = options.require.at.as_deref();
+        let at = asked.at.as_deref();
         return match decided(problem.required_set(&requirements, at, &context.budget))? {
             Ok(answer) => {
                 context.warn(None, problem.warnings());
@@ -89,7 +90,13 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     if let Some(file) = &options.coq {
         write_answer(&answer.coq(&context.budget)?, Some(file))?;
     }
-    context.answer(output, || answer.text(digits), || answer.json(digits))?;
+    let table = match options.sensitivity {
+        true => Some(answer.sensitivities(&context.budget)?),
+        false => None,
+    };
+    let text = || table.iter().fold(answer.text(digits), |text, table| text + &table.text(digits));
+    let document = || table.iter().fold(answer.json(digits), |document, t| document.with_sensitivities(t, digits));
+    context.answer(output, text, document)?;
     if let Some((text, file)) = &certificate {
         check_certificate(context, &output.run, &model.source().text, text, file);
     }

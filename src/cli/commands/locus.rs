@@ -5,6 +5,7 @@ use crate::cli::arguments::{ModelOptions, PictureOptions, RunOptions};
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_names, load, only_parameter, question};
 use crate::cli::picture::{Picture, deliver, wanted};
+use crate::cli::requirements::warn_of_ignored;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_algebra::number::{Rational, parse_number};
@@ -41,6 +42,7 @@ pub(in crate::cli) struct Options {
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let kind = wanted(&options.picture)?;
     let model = load(options.model.model.as_ref(), context)?;
+    warn_of_ignored(&model, context);
     let question = question(context, &model, &options.model, &Default::default())?;
     let name = match &options.param {
         Some(name) => name.clone(),

@@ -7,6 +7,7 @@ use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, question};
 use crate::cli::output::{ending, note, unknown_ending};
 use crate::cli::picture::{pdf, png, write};
+use crate::cli::requirements::warn_of_ignored;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
@@ -70,6 +71,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let [x, y] = axes.map(|(option, text)| axis(context.line, option, text));
     let requests = [x?, y?];
     let model = load(options.model.model.as_ref(), context)?;
+    warn_of_ignored(&model, context);
     let mut question = question(context, &model, &options.model, &options.region)?;
     for request in &requests {
         known_name(context, &model, &request.name, request.name_span)?;

@@ -4,7 +4,7 @@ use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::decision;
 use crate::cli::output::write_answer;
-use crate::cli::requirements::RequirementOptions;
+use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Outcome, Status};
 use crate::cli::written::check_certificate;
 use clap::Args;
@@ -30,10 +30,11 @@ pub(in crate::cli) struct Options {
 /// Answers on standard output or in a file; the status is 1 for anything but stable.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
-    let problem = decision(&options.decision, context)?.1.problem()?;
-    let requirements = options.require.requirements(context)?;
-    let found = match decided(problem.requirements_met(&requirements, options.require.at.as_deref(), &context.budget))?
-    {
+    let (model, question) = decision(&options.decision, context)?;
+    let (asked, question) = options.require.asked(&model, question, &options.decision.region, context)?;
+    refuse_proofs(&model, &asked, options.certificate.is_some() || options.coq.is_some())?;
+    let problem = question.problem()?;
+    let found = match decided(problem.requirements_met(&asked.list, asked.at.as_deref(), &context.budget))? {
         Ok(found) => found,
         Err(stopped) => {
             return context.undecided(output, &stopped, || None, || documents::Verdict::new(&problem, Err(&stopped)));
@@ -57,9 +58,19 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         write_answer(&answer.coq(&context.budget)?, Some(file))?;
     }
     let digits = output.digits() as usize;
-    let text = || found.iter().fold(answer.text(), |text, r| format!("{text}{}\n", r.text(digits)));
+    let in_region = answer.value().verdict == Verdict::Stable;
+    let text = || {
+        let list = found.iter().map(|r| r.text(digits));
+        let regional = asked
+            .regional
+            .iter()
+            .map(|(name, text)| format!("{name} {text}: {}", if in_region { "met" } else { "not met" }));
+        list.chain(regional).fold(answer.text(), |text, line| format!("{text}{line}\n"))
+    };
     let document = || {
-        let requirements = found.iter().map(|r| documents::RequirementFound::new(r, digits)).collect();
+        let list = found.iter().map(|r| documents::RequirementFound::new(r, digits));
+        let regional = |(name, text): &(String, String)| documents::RequirementFound::of_region(name, text, in_region);
+        let requirements = list.chain(asked.regional.iter().map(regional)).collect();
         documents::Verdict { requirements, ..answer.json() }
     };
     context.answer(output, text, document)?;

@@ -1,12 +1,13 @@
 //! Frequency responses: Bode and Nyquist diagrams of the open loop.
 //!
-//! The curves are sampled: at each frequency the open loop's value is computed exactly and then rounded. Crossings and margins
+//! The curves are sampled: at each frequency the open loop's value is computed exactly, or with many bits, and then rounded. Crossings and margins
 //! are those of the answer.
 
 use super::panel::{Corner, Curve, Mark, Panel, Shape, Text, stacked};
 use super::{COLOURS, Figure, Scale};
 use crate::simulate::roots;
 use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::poly::{Poly, UniPoly};
 use jurist_engine::answer::Answer;
 use jurist_engine::response::{Margins, PhaseMargin, Place};
 use jurist_engine::show::layout::visible;
@@ -40,6 +41,9 @@ impl ResponsePoint {
         20.0 * self.real.hypot(self.imaginary).log10()
     }
 }
+
+/// Bits of constants that are not rational.
+const BITS: u64 = 128;
 
 /// Frequencies that are sampled.
 const SAMPLES: usize = 900;
@@ -75,8 +79,8 @@ fn range(margins: &Margins) -> (f64, f64) {
     let mut features: Vec<f64> = places.filter_map(|place| rate(margins, place)).collect();
     let is_disc = margins.open_loop.shape() == stability::Shape::UnitDisc;
     let half_turn = std::f64::consts::PI;
-    for p in [margins.open_loop.denominator(), margins.open_loop.numerator()] {
-        for root in roots(p) {
+    for coefficients in margins.open_loop.coefficients(BITS) {
+        for root in roots(&UniPoly::from_rational_poly(&Poly::new(coefficients)).1) {
             // The corner of a pole z = exp(s T) is about at |s T|.
             let corner = if is_disc { root.value.ln().norm() } else { root.value.norm() };
             features.extend(Some(corner).filter(|c| c.is_finite() && *c > 1e-12));
@@ -103,8 +107,8 @@ fn value(margins: &Margins, rate: f64) -> Option<(f64, f64)> {
         }
         stability::Shape::LeftHalfPlane => (-exact(rate * rate)?, rate),
     };
-    let (real, imaginary) = margins.open_loop.value_at(&x)?;
-    Some((real.to_f64_approximate(), imaginary.to_f64_approximate() * factor))
+    let (real, imaginary) = margins.open_loop.value_at(&x, BITS)?;
+    Some((middle(&real), middle(&imaginary) * factor))
 }
 
 /// The open loop over the frequencies that matter.

@@ -220,10 +220,10 @@ fn gains(
             None => false,
         };
         let cells = GainCells::constant(stable);
-        return assembled(delayed, gain, cells, domain, budget);
+        return assembled(delayed.poles(), gain, cells, domain, budget);
     }
     match gain_cells(gain, domain, budget) {
-        Ok(Ok(cells)) => assembled(delayed, gain, cells, domain, budget),
+        Ok(Ok(cells)) => assembled(delayed.poles(), gain, cells, domain, budget),
         Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::NotCounted(reason)) => Err(not_counted(reason)),
         Err(NotSolved::Unbounded) => {
@@ -240,9 +240,19 @@ fn gains(
     }
 }
 
+/// The stable factors `k` of `D0 + k N exp(-tau s)`.
+pub(crate) fn stable_factors(gain: &GainLoop, budget: &Budget) -> Result<StableSet, Error> {
+    match gain_cells(gain, &Range::all(), budget) {
+        Ok(Ok(cells)) => assembled(&[], gain, cells, &Range::all(), budget),
+        Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
+        Err(NotSolved::NotCounted(reason)) => Err(not_counted(reason)),
+        Err(_) => Err(undecided("the factors of the open loop have no end")),
+    }
+}
+
 /// The cells cut at the poles as well, with their causes.
 fn assembled(
-    delayed: &DelayedLoop,
+    poles: &[UniPoly],
     gain: &GainLoop,
     cells: GainCells,
     domain: &Range,
@@ -258,7 +268,7 @@ fn assembled(
     }));
     ends.push(own(&domain.upper)?);
     let mut stable: Vec<bool> = cells.right.iter().map(|count| *count == Some(0)).collect();
-    for pole in delayed.poles() {
+    for pole in poles {
         for zero in zeros_in(pole, domain, budget)? {
             insert_pole(&mut ends, &mut stable, Real::from(zero), budget)?;
         }

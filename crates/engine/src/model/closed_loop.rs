@@ -131,7 +131,7 @@ pub(super) struct Answer<'m> {
     pub wiring: Wiring<'m>,
     pub values: Values,
     /// For each variable of `values`, what it is in kept names and symbols: a number, a variable, or a function of both.
-    images: Vec<RationalFunction>,
+    pub images: Vec<RationalFunction>,
     symbols: RefCell<Symbols>,
     poles: Vec<MultiPoly>,
     pub sample_time: Option<RationalFunction>,
@@ -361,7 +361,7 @@ impl Model {
         Error::Refused(Diagnostics::new(Some(self.source().clone()), diagnostics))
     }
 
-    fn connected(
+    pub(super) fn connected(
         &self,
         answer: Answer<'_>,
         budget: &Budget,

@@ -345,6 +345,19 @@ pub struct Pwm {
     pub period: Expression,
 }
 
+/// A requirement as it is written in the section `[require]` of a model file; what it means is found out when it is
+/// [asked for](Model::requirements).
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct RequirementText {
+    /// Its key.
+    pub name: String,
+    /// The value's text.
+    pub text: String,
+    /// Where the value stands.
+    pub span: Span,
+}
+
 /// Defaults of a time response, and units for its axes: the section `[simulation]` of a model file.
 ///
 /// Nothing of it enters a verdict.
@@ -407,6 +420,7 @@ pub struct Model {
     pub(super) parameters: Vec<Parameter>,
     pub(super) form: Form,
     pub(super) simulation: Simulation,
+    pub(super) require: Vec<RequirementText>,
     /// Positions of constants and parameters by name.
     pub(super) index: HashMap<String, Position>,
 }
@@ -473,6 +487,11 @@ impl Model {
     /// The defaults of a time response.
     pub fn simulation(&self) -> &Simulation {
         &self.simulation
+    }
+
+    /// What is required of the loop beyond stability, as it is written.
+    pub fn require(&self) -> &[RequirementText] {
+        &self.require
     }
 
     /// The unit of a signal, where the model names one.

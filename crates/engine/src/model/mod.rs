@@ -26,10 +26,10 @@ pub use builder::{BlockBuilder, ModelBuilder, ParameterBuilder};
 pub use closed_loop::{ClosedLoop, Evaluated, TransferFunction};
 pub use definition::{
     Block, Constant, Diagram, Discretization, Dynamics, Form, Matrix, Method, Model, Name, Output, Parameter, Ports,
-    Pwm, Simulation, Time,
+    Pwm, RequirementText, Simulation, Time,
 };
 pub use open_loop::Cut;
-pub(crate) use open_loop::Opened;
+pub(crate) use open_loop::{MoreDeadTime, Opened};
 pub use read::{DRIVE, schema, source_from_bytes};
 pub use symbols::{Definition, Meaning, Symbol, Symbols, value_approximate};
 pub(crate) use text::names::shorten;

@@ -3,7 +3,8 @@
 use super::closed_loop::{Answer, ClosedLoop};
 use super::connect::state_space::product;
 use super::definition::{Block, Diagram, Form, Model};
-use super::evaluate::symbolic::{PortValues, Row, Values};
+use super::evaluate::symbolic::{DiscretizationValues, PortValues, Row, Values};
+use super::symbols::Symbols;
 use super::text::names::{did_you_mean, list, shorten};
 use crate::error::{Diagnostic, Diagnostics, Error};
 use jurist_algebra::limits::Budget;
@@ -57,6 +58,29 @@ pub(crate) struct Opened {
     pub system: ClosedLoop,
     /// The sample time.
     pub sample_time: Option<RationalFunction>,
+    /// What the variables beyond the kept names stand for.
+    pub symbols: Symbols,
+}
+
+/// The only hold of a diagram.
+pub(crate) struct OnlyHold {
+    /// The block behind it.
+    pub block: String,
+    /// The sample time.
+    pub period: Rational,
+    /// Dead time of the block's input, in samples.
+    pub samples: Rational,
+}
+
+/// Dead time added at a hold, in samples.
+pub(crate) enum MoreDeadTime {
+    /// So much.
+    Samples(Rational),
+    /// A variable, with so many whole samples in the sum.
+    Free {
+        /// How many.
+        whole: usize,
+    },
 }
 
 impl Model {
@@ -141,18 +165,66 @@ impl Model {
         self.opened_with(answer, cut.name(), budget)
     }
 
+    /// The only block behind a hold, if it has one input: what its dead time in samples is.
+    ///
+    /// # Errors
+    /// As [`Model::evaluate`].
+    pub(crate) fn only_hold(&self, values: &[(String, Rational)], budget: &Budget) -> Result<Option<OnlyHold>, Error> {
+        let answer = self.answer(&[], values, budget)?;
+        let Values::Blocks { blocks, .. } = &answer.values else { return Ok(None) };
+        let mut holds = blocks.iter().filter_map(|b| match &b.discretization {
+            Some(DiscretizationValues::Hold(hold)) => Some((b, hold)),
+            _ => None,
+        });
+        let (Some((block, hold)), None) = (holds.next(), holds.next()) else { return Ok(None) };
+        let number = |f: &RationalFunction| answer.substituted(f).and_then(|f| f.as_constant());
+        let (Some(period), Some(delay)) = (number(&hold.time), number(&hold.delay)) else { return Ok(None) };
+        let one_input = block.inputs.len() == 1;
+        let samples = delay.checked_div(&period).filter(|_| one_input);
+        Ok(samples.map(|samples| OnlyHold { block: block.name.clone(), period, samples }))
+    }
+
+    /// The closed loop with more dead time at the only hold: a number of samples, or, with `whole` samples in the sum, one
+    /// that is the only variable before the symbols.
+    ///
+    /// # Errors
+    /// As [`Model::evaluate`].
+    ///
+    /// # Panics
+    /// When there is no hold.
+    pub(crate) fn with_dead_time(
+        &self,
+        more: &MoreDeadTime,
+        values: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<(ClosedLoop, Symbols), Error> {
+        let kept = match more {
+            MoreDeadTime::Samples(_) => Vec::new(),
+            MoreDeadTime::Free { .. } => vec!["more samples".to_owned()],
+        };
+        let mut answer = self.answer(&kept, values, budget)?;
+        // One more variable of the values, whose image is the number or the variable that is free.
+        let variable = RationalFunction::variable(answer.images.len());
+        answer.images.push(match more {
+            MoreDeadTime::Samples(samples) => samples.clone().into(),
+            MoreDeadTime::Free { .. } => RationalFunction::variable(0),
+        });
+        let Values::Blocks { blocks, .. } = &mut answer.values else { return Err(self.has_no_states()) };
+        for block in blocks {
+            if let Some(DiscretizationValues::Hold(hold)) = &mut block.discretization {
+                hold.delay = &hold.delay + &(&hold.time * &variable);
+                if let MoreDeadTime::Free { whole } = more {
+                    hold.whole = Some(*whole);
+                }
+            }
+        }
+        let (closed_loop, _, symbols) = self.connected(answer, budget)?;
+        Ok((closed_loop, symbols))
+    }
+
     fn opened_with(&self, answer: Answer<'_>, output: &str, budget: &Budget) -> Result<Opened, Error> {
         let (system, sample_time, symbols) = self.connected_with(answer, vec![output.to_owned()], budget)?;
-        if symbols.is_empty() {
-            return Ok(Opened { system, sample_time });
-        }
-        let (code, what) = match symbols.delays().is_empty() {
-            true => ("E-function", "behind a hold"),
-            false => ("E-dead-time", "with dead time"),
-        };
-        let message = format!("margins of a loop {what} are not known yet");
-        let help = "the gain margin is the limit of a gain: 'jurist intervals --param GAIN'";
-        Err(Diagnostic::error(code, message).help(help).into())
+        Ok(Opened { system, sample_time, symbols })
     }
 }
 

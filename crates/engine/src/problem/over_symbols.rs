@@ -2,7 +2,7 @@
 
 use super::Problem;
 use crate::error::{Diagnostic, Error};
-use crate::model::Symbol;
+use crate::model::{self, Symbol};
 use crate::stability::SymbolicPolynomial;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::poly::RationalFunction;
@@ -31,18 +31,9 @@ impl Problem {
         let Some(polynomial) = algebra.polynomial() else { return Ok(None) };
         let (symbols, free) = (algebra.symbols(), self.free().len());
         if !symbols.is_moving() {
-            let mut table = Symbols::new();
-            for symbol in symbols.iter() {
-                let place = |f: &RationalFunction| f.map_variables(|i| i.saturating_sub(symbols.first()));
-                table.push(&symbol.name, definition(symbol, place)?);
-            }
-            return Ok(Some(SymbolicPolynomial::new(polynomial, free, &Arc::new(table))));
+            return Ok(Some(SymbolicPolynomial::new(polynomial, free, &Arc::new(fixed_symbols(symbols)?))));
         }
-        let mut table = Vec::new();
-        for symbol in symbols.iter() {
-            table.push((symbol.name.clone(), definition(symbol, |f| Some(f.clone()))?));
-        }
-        let found = SymbolicPolynomial::with_moving(polynomial, &Arc::new(MovingSymbols::new(table)));
+        let found = SymbolicPolynomial::with_moving(polynomial, &Arc::new(moving_symbols(symbols)?));
         let asked = self.parameter();
         let (lower, upper) = (asked.domain.lower.as_ref(), asked.domain.upper.as_ref());
         let is_bounded = match (lower, upper) {
@@ -57,6 +48,25 @@ impl Problem {
         }
         Ok(Some(found))
     }
+}
+
+/// The table of symbols that do not depend on a kept name; their arguments are in symbols alone.
+pub(crate) fn fixed_symbols(symbols: &model::Symbols) -> Result<Symbols, Error> {
+    let mut table = Symbols::new();
+    for symbol in symbols.iter() {
+        let place = |f: &RationalFunction| f.map_variables(|i| i.saturating_sub(symbols.first()));
+        table.push(&symbol.name, definition(symbol, place)?);
+    }
+    Ok(table)
+}
+
+/// The table of symbols where one name is kept, on which they may depend.
+pub(crate) fn moving_symbols(symbols: &model::Symbols) -> Result<MovingSymbols, Error> {
+    let mut table = Vec::new();
+    for symbol in symbols.iter() {
+        table.push((symbol.name.clone(), definition(symbol, |f| Some(f.clone()))?));
+    }
+    Ok(MovingSymbols::new(table))
 }
 
 /// The definition with its arguments' variables as the table numbers them.

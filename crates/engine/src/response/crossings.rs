@@ -1,12 +1,14 @@
 //! Where the open loop has modulus one, and where it is real and negative.
 
-use super::open_loop::{OpenLoop, Reduced};
+use super::ground::{Ground, at_end};
+use super::open_loop::{OpenLoop, Parts, with_parts};
 use super::place::inner;
 use super::{Place, Value};
-use crate::stability::{Shape, zeros_in};
+use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
-use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly, rational_between};
+use jurist_algebra::poly::{Domain, Poly};
+use jurist_algebra::real::{Real, rational_between};
 use std::cmp::Ordering;
 
 /// How the modulus of the open loop goes through one as the frequency grows.
@@ -34,6 +36,8 @@ pub struct GainCrossing {
     pub side: Sign,
     /// How the modulus goes through one.
     pub direction: Direction,
+    /// Dead time of the open loop, which turns it further; the tangent and the side are those without it.
+    pub dead_time: Option<Rational>,
 }
 
 /// A frequency at which the open loop is real and negative: with the factor `k = -1/L` it is -1.
@@ -62,106 +66,127 @@ pub struct Crossings {
 
 impl Crossings {
     pub(super) fn of(open_loop: &OpenLoop, budget: &Budget) -> Result<Crossings, Exhausted> {
-        let (r, shape) = (open_loop.reduced(), open_loop.shape());
+        with_parts!(open_loop, parts => Crossings::over(parts, budget))
+    }
+
+    fn over<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<Crossings, Exhausted> {
+        let r = &parts.reduced;
         let excess = r.numerator_squared.minus(&r.denominator_squared);
         let (gain_everywhere, phase_everywhere) = (excess.is_zero(), r.imaginary.is_zero());
-        let gain = if gain_everywhere { Vec::new() } else { gain_crossings(r, &excess, shape, budget)? };
-        let phase = if phase_everywhere { Vec::new() } else { phase_crossings(r, shape, budget)? };
+        let gain = if gain_everywhere { Vec::new() } else { gain_crossings(parts, &excess, budget)? };
+        let phase = if phase_everywhere { Vec::new() } else { phase_crossings(parts, budget)? };
         Ok(Crossings { gain, gain_everywhere, phase, phase_everywhere })
     }
 }
 
-fn gain_crossings(
-    r: &Reduced,
-    excess: &UniPoly,
-    shape: Shape,
+fn gain_crossings<G: Ground>(
+    parts: &Parts<G>,
+    excess: &Poly<G::Number>,
     budget: &Budget,
 ) -> Result<Vec<GainCrossing>, Exhausted> {
-    let one = |place: &Place| {
-        let modulus = Value::at_place(&r.numerator_squared, &r.denominator_squared, place, shape);
-        matches!(modulus, Some(Value::Number(x)) if x.exact() == Some(Rational::ONE))
+    let (r, shape, ground) = (&parts.reduced, parts.shape, &parts.ground);
+    let one = |place: &Place| -> Result<bool, Exhausted> {
+        let (excess, below) = at_end(excess, &r.denominator_squared, place, shape);
+        Ok(ground.sign(&excess, budget)?.is_eq() && ground.sign(&below, budget)?.is_ne())
     };
     let mut found = Vec::new();
     let mut add = |place: Place, direction| -> Result<(), Exhausted> {
-        let tangent_squared = budget.enter(|| Value::at_place(&r.sum_squared, &r.difference_squared, &place, shape))?;
+        let tangent_squared = ground.value(&r.sum_squared, &r.difference_squared, &place, shape, budget)?;
         let side = match &place {
             // -L has the opposite imaginary part.
-            Place::Inside(x) => budget.enter(|| x.sign_of(&r.imaginary).reverse())?,
+            Place::Inside(x) => ground.sign_at(&r.imaginary, x, budget)?.reverse(),
             _ => Ordering::Equal,
         };
-        found.push(GainCrossing { place, tangent_squared, side, direction });
+        found.push(GainCrossing { place, tangent_squared, side, direction, dead_time: None });
         Ok(())
     };
-    if one(&Place::Lowest) {
+    if one(&Place::Lowest)? {
         add(Place::Lowest, Direction::Touching)?;
     }
-    let zeros = zeros_in(excess, &inner(shape), budget)?;
-    let samples = samples_between(&zeros, shape);
+    let zeros = ground.zeros(excess, &inner(shape), budget)?;
+    let mut signs = Vec::with_capacity(zeros.len() + 1);
+    for sample in samples_between(&zeros, shape, budget)? {
+        signs.push(ground.sign_at(excess, &Real::from(sample), budget)?);
+    }
     for (i, x) in zeros.into_iter().enumerate().rev() {
-        let direction = match (excess.sign_at(&samples[i + 1]), excess.sign_at(&samples[i])) {
+        let direction = match (signs[i + 1], signs[i]) {
             (Ordering::Greater, Ordering::Less) => Direction::Falling,
             (Ordering::Less, Ordering::Greater) => Direction::Rising,
             _ => Direction::Touching,
         };
         add(Place::Inside(x), direction)?;
     }
-    if one(&Place::Highest) {
+    if one(&Place::Highest)? {
         add(Place::Highest, Direction::Touching)?;
     }
     Ok(found)
 }
 
 /// A rational number below, between and above ascending zeros, all in the range of `x`.
-fn samples_between(zeros: &[RealAlgebraic], shape: Shape) -> Vec<Rational> {
-    let end = |r: Option<Rational>| r.map(RealAlgebraic::from_rational);
+fn samples_between(zeros: &[Real], shape: Shape, budget: &Budget) -> Result<Vec<Rational>, Exhausted> {
     let range = inner(shape);
-    let (lowest, highest) = (end(range.lower), end(range.upper));
-    let ends: Vec<Option<&RealAlgebraic>> =
+    let (lowest, highest) = (range.lower.map(Real::from), range.upper.map(Real::from));
+    let ends: Vec<Option<&Real>> =
         std::iter::once(lowest.as_ref()).chain(zeros.iter().map(Some)).chain([highest.as_ref()]).collect();
-    let between = |pair: &[Option<&RealAlgebraic>]| match (pair[0], pair[1]) {
-        (Some(a), Some(b)) => rational_between(a, b).expect("they differ"),
-        (None, Some(b)) => b.rational_below(),
+    let between = |pair: &[Option<&Real>]| match (pair[0], pair[1]) {
+        (Some(a), Some(b)) => Ok(rational_between(a, b, budget)?.expect("they differ")),
+        (None, Some(b)) => budget.enter(|| b.rational_below()),
         _ => unreachable!("the range of x ends above"),
     };
     ends.windows(2).map(between).collect()
 }
 
-fn phase_crossings(r: &Reduced, shape: Shape, budget: &Budget) -> Result<Vec<PhaseCrossing>, Exhausted> {
+fn phase_crossings<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<Vec<PhaseCrossing>, Exhausted> {
+    let (r, shape, ground) = (&parts.reduced, parts.shape, &parts.ground);
+    // Where the open loop is zero or infinite both parts of N conj(D0) vanish.
+    let common = budget.enter(|| r.imaginary.gcd(&r.twice_real))?;
+    let divided = |p: &Poly<G::Number>| p.div_exact(&common).expect("a gcd divides");
+    let (imaginary, real) = (divided(&r.imaginary), divided(&r.twice_real));
+    let imaginary = budget.enter(|| imaginary.div_exact(&imaginary.gcd(&common)).expect("a gcd divides"))?;
     // k = -1/L = -|D0|^2 / Re(N conj(D0))
-    let above = r.denominator_squared.scaled(&Integer::from(-2));
-    let zeros = zeros_in(&r.imaginary, &inner(shape), budget)?;
+    let above = r.denominator_squared.scaled(&G::Number::from_integer(&Integer::from(-2)));
+    let zeros = ground.zeros(&imaginary, &inner(shape), budget)?;
     let mut found = Vec::new();
     let inside = zeros.into_iter().rev().map(Place::Inside);
     for place in std::iter::once(Place::Lowest).chain(inside).chain([Place::Highest]) {
         let negative = match &place {
-            Place::Inside(x) => budget.enter(|| x.sign_of(&r.twice_real).is_lt())?,
-            end => negative_at_end(r, end, shape),
+            Place::Inside(x) => match ground.sign_at(&common, x, budget)? {
+                Ordering::Equal => false,
+                Ordering::Greater => ground.sign_at(&real, x, budget)?.is_lt(),
+                Ordering::Less => ground.sign_at(&real, x, budget)?.is_gt(),
+            },
+            end => {
+                let (above, below) = r.at_end(&r.numerator, end, shape);
+                ground.sign(&above.times(&below), budget)?.is_lt()
+            }
         };
-        if negative && let Some(factor) = budget.enter(|| Value::at_place(&above, &r.twice_real, &place, shape))? {
+        if negative && let Some(factor) = ground.value(&above, &r.twice_real, &place, shape, budget)? {
             found.push(PhaseCrossing { place, factor });
         }
     }
     Ok(found)
 }
 
-/// Whether the open loop is finite and negative at an end of the range of frequencies.
-fn negative_at_end(r: &Reduced, end: &Place, shape: Shape) -> bool {
-    let at = |x: i64| {
-        let x = Rational::from(x);
-        (r.numerator.eval_rational(&x), r.denominator.eval_rational(&x))
-    };
-    let (above, below) = match (end, shape) {
-        (Place::Lowest, Shape::UnitDisc) => at(1),
-        (Place::Highest, Shape::UnitDisc) => at(-1),
-        (Place::Lowest, Shape::LeftHalfPlane) => at(0),
-        _ => (Rational::from(r.numerator.coeff(r.degree)), Rational::from(r.denominator.coeff(r.degree))),
-    };
-    above.checked_div(&below).is_some_and(|value| value.is_negative())
-}
-
 impl GainCrossing {
     /// `phi` in radians, in `(-pi, pi]`, enclosed with about `bits` bits.
     pub fn phase(&self, bits: u64) -> Enclosure {
+        let working = bits + 64;
+        let turned = self.dead_time.as_ref().and_then(|tau| {
+            let rate = self.place.frequency(Shape::LeftHalfPlane, None, working)?.radians_per_second?;
+            Some(rate.mul(&Enclosure::from_rational(tau.clone()), working))
+        });
+        let own = self.phase_without_dead_time(working);
+        let Some(turned) = turned else { return own.rounded(bits) };
+        let phase = own.sub(&turned, working);
+        // Back into one turn.
+        let (half, two) = (Enclosure::pi(working), Enclosure::from_rational(Rational::from(2)));
+        let turn = half.mul(&two, working);
+        let turns = phase.add(&half, working).div(&turn, working).map(|t| t.lower().midpoint(t.upper()).floor());
+        let turns = Enclosure::from_rational(Rational::from(turns.unwrap_or(Integer::ZERO)));
+        phase.sub(&turn.mul(&turns, working), bits)
+    }
+
+    fn phase_without_dead_time(&self, bits: u64) -> Enclosure {
         let working = bits + 16;
         let size = match &self.tangent_squared {
             None => return Enclosure::pi(bits),
@@ -176,7 +201,11 @@ impl GainCrossing {
     /// By how much the open loop has to lag to be -1, in radians in `(0, 2 pi)`; 0 where it is -1.
     pub fn lag(&self, bits: u64) -> Enclosure {
         let phase = self.phase(bits + 16);
-        if self.side.is_lt() && self.tangent_squared.is_some() {
+        let is_lead = match self.dead_time {
+            Some(_) => phase.upper().is_negative(),
+            None => self.side.is_lt() && self.tangent_squared.is_some(),
+        };
+        if is_lead {
             let turn = Enclosure::pi(bits + 16).mul(&Enclosure::from_rational(Rational::from(2)), bits + 16);
             turn.add(&phase, bits)
         } else {

@@ -1,13 +1,14 @@
 //! How much delay a stable loop bears.
 
+use super::Place;
 use super::crossings::{Crossings, Direction, GainCrossing};
-use super::open_loop::OpenLoop;
+use super::ground::{Ground, at_end};
+use super::open_loop::{OpenLoop, Parts, with_parts};
 use super::place::modulus_squared;
-use super::{Place, Value};
-use crate::stability::{Shape, is_stable};
+use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, UniPoly};
+use jurist_algebra::poly::{Domain, Poly};
 
 /// The delay margin: how much delay at the cut a stable loop bears.
 #[derive(Clone, Debug)]
@@ -33,18 +34,24 @@ const COMPARED_BITS: u64 = 256;
 impl DelayMargin {
     /// Of a stable loop.
     pub(super) fn of(open_loop: &OpenLoop, crossings: &Crossings, budget: &Budget) -> Result<DelayMargin, Exhausted> {
-        let r = open_loop.reduced();
-        let above_one_at_the_end =
-            match Value::at_place(&r.numerator_squared, &r.denominator_squared, &Place::Highest, open_loop.shape()) {
-                Some(Value::Number(x)) => x.compare_rational(&Rational::ONE),
-                _ => std::cmp::Ordering::Greater,
-            };
-        match open_loop.shape() {
-            Shape::LeftHalfPlane if above_one_at_the_end.is_ge() => Ok(DelayMargin::Zero),
+        with_parts!(open_loop, parts => DelayMargin::over(parts, crossings, budget))
+    }
+
+    pub(super) fn over<G: Ground>(
+        parts: &Parts<G>,
+        crossings: &Crossings,
+        budget: &Budget,
+    ) -> Result<DelayMargin, Exhausted> {
+        let r = &parts.reduced;
+        // Whether the modulus is one or more at the highest frequency.
+        let (above, below) = at_end(&r.numerator_squared, &r.denominator_squared, &Place::Highest, parts.shape);
+        let is_above = parts.ground.sign(&above.minus(&below), budget)?.is_ge();
+        match parts.shape {
+            Shape::LeftHalfPlane if is_above => Ok(DelayMargin::Zero),
             Shape::LeftHalfPlane => {
                 let mut first: Option<(usize, Enclosure)> = None;
                 for (i, crossing) in crossings.gain.iter().enumerate() {
-                    let delay = budget.enter(|| crossing.delay(open_loop.shape(), COMPARED_BITS))?;
+                    let delay = budget.enter(|| crossing.delay(parts.shape, COMPARED_BITS))?;
                     let Some(delay) = delay else { continue };
                     if first.as_ref().is_none_or(|(_, known)| delay.upper() < known.lower()) {
                         first = Some((i, delay));
@@ -52,22 +59,22 @@ impl DelayMargin {
                 }
                 Ok(first.map_or(DelayMargin::Unbounded, |(i, _)| DelayMargin::DeadTime(i)))
             }
-            Shape::UnitDisc if above_one_at_the_end.is_ge() => by_counts(open_loop, budget).map(DelayMargin::Samples),
-            Shape::UnitDisc => samples(open_loop, crossings, budget),
+            Shape::UnitDisc if is_above => by_counts(parts, budget).map(DelayMargin::Samples),
+            Shape::UnitDisc => samples(parts, crossings, budget),
         }
     }
 }
 
 /// `z^m D0 + N`.
-fn delayed(open_loop: &OpenLoop, m: u64) -> UniPoly {
-    open_loop.denominator().shifted_up(m as usize).plus(open_loop.numerator())
+fn delayed<G: Ground>(parts: &Parts<G>, m: u64) -> Poly<G::Number> {
+    parts.denominator.shifted_up(m as usize).plus(&parts.numerator)
 }
 
 /// One root count for each number of samples: where the modulus is one or more at half the sampling frequency, few are
 /// borne. The delay turns the arc above one by half a turn or more for each sample, so the search ends.
-fn by_counts(open_loop: &OpenLoop, budget: &Budget) -> Result<u64, Exhausted> {
+fn by_counts<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<u64, Exhausted> {
     let mut m = 1;
-    while budget.enter(|| is_stable(&delayed(open_loop, m), open_loop.shape()))? {
+    while parts.ground.is_stable(&delayed(parts, m), parts.shape, budget)? {
         m += 1;
     }
     Ok(m - 1)
@@ -77,7 +84,7 @@ fn by_counts(open_loop: &OpenLoop, budget: &Budget) -> Result<u64, Exhausted> {
 /// crossings: with a delay that grows, `L` at a crossing passes -1 whenever the delay is `(phi + 2 pi i)/theta`; a pair leaves
 /// the disc where the modulus is falling, and comes back where it is rising. A curve that the delay does not close is closed
 /// inside of the unit circle, so the count holds at whole samples.
-fn samples(open_loop: &OpenLoop, crossings: &Crossings, budget: &Budget) -> Result<DelayMargin, Exhausted> {
+fn samples<G: Ground>(parts: &Parts<G>, crossings: &Crossings, budget: &Budget) -> Result<DelayMargin, Exhausted> {
     let inside: Vec<&GainCrossing> = crossings.gain.iter().filter(|c| matches!(c.place, Place::Inside(_))).collect();
     if inside.is_empty() {
         return Ok(DelayMargin::Unbounded);
@@ -94,7 +101,7 @@ fn samples(open_loop: &OpenLoop, crossings: &Crossings, budget: &Budget) -> Resu
         let mut outside = 0i64;
         let mut touches = false;
         for crossing in &inside {
-            match budget.enter(|| passes(open_loop, crossing, m))? {
+            match passes(parts, crossing, m, budget)? {
                 None => touches = true,
                 Some(passes) => match crossing.direction {
                     Direction::Falling => outside += passes,
@@ -111,21 +118,29 @@ fn samples(open_loop: &OpenLoop, crossings: &Crossings, budget: &Budget) -> Resu
 }
 
 /// How often the crossing has passed -1 before `m` samples; `None` if it is there just then.
-fn passes(open_loop: &OpenLoop, crossing: &GainCrossing, m: u64) -> Option<i64> {
+fn passes<G: Ground>(
+    parts: &Parts<G>,
+    crossing: &GainCrossing,
+    m: u64,
+    budget: &Budget,
+) -> Result<Option<i64>, Exhausted> {
     let mut bits = 64 + 2 * u64::from(64 - m.leading_zeros());
     let mut decided_apart = false;
     loop {
-        let angle = crossing.place.frequency(Shape::UnitDisc, None, bits)?.angle?;
-        let turned = angle.mul(&Enclosure::from_rational(Rational::from(m)), bits).sub(&crossing.lag(bits), bits);
-        let turn = Enclosure::pi(bits).mul(&Enclosure::from_rational(Rational::from(2)), bits);
-        let turns = turned.div(&turn, bits)?;
+        let turns = budget.enter(|| {
+            let angle = crossing.place.frequency(Shape::UnitDisc, None, bits)?.angle?;
+            let turned = angle.mul(&Enclosure::from_rational(Rational::from(m)), bits).sub(&crossing.lag(bits), bits);
+            let turn = Enclosure::pi(bits).mul(&Enclosure::from_rational(Rational::from(2)), bits);
+            turned.div(&turn, bits)
+        })?;
+        let Some(turns) = turns else { return Ok(None) };
         let (lo, hi) = (turns.lower().floor(), turns.upper().floor());
         if lo == hi && turns.lower() != &Rational::from(&lo) {
-            return Some((&lo + &Integer::ONE).to_i64()?.max(0));
+            return Ok((&lo + &Integer::ONE).to_i64().map(|passed| passed.max(0)));
         }
         // Either it is at -1, which the polynomial tells, or narrower enclosures part them.
-        if !decided_apart && is_root(open_loop, crossing, m) {
-            return None;
+        if !decided_apart && is_root(parts, crossing, m, budget)? {
+            return Ok(None);
         }
         decided_apart = true;
         bits *= 2;
@@ -133,9 +148,10 @@ fn passes(open_loop: &OpenLoop, crossing: &GainCrossing, m: u64) -> Option<i64> 
 }
 
 /// Whether `z^m D0 + N` has a root at the crossing.
-fn is_root(open_loop: &OpenLoop, crossing: &GainCrossing, m: u64) -> bool {
-    let Place::Inside(x) = &crossing.place else { return false };
-    let r = open_loop.reduced();
+fn is_root<G: Ground>(parts: &Parts<G>, crossing: &GainCrossing, m: u64, budget: &Budget) -> Result<bool, Exhausted> {
+    let Place::Inside(x) = &crossing.place else { return Ok(false) };
+    let r = &parts.reduced;
     let delayed = r.denominator.shifted_up(m as usize).plus(&r.numerator);
-    x.sign_of(&modulus_squared(&delayed, r.degree + m as usize, Shape::UnitDisc)).is_eq()
+    let squared = modulus_squared(&delayed, r.degree + m as usize, Shape::UnitDisc);
+    Ok(parts.ground.sign_at(&squared, x, budget)?.is_eq())
 }

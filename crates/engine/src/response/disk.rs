@@ -1,11 +1,16 @@
 //! The disk margin: gain and phase at once.
 
-use super::open_loop::OpenLoop;
+use super::extreme::extreme_over;
+use super::ground::Ground;
+use super::open_loop::{OpenLoop, Parts, with_parts};
+use super::place::modulus_squared;
 use super::value::square_root;
 use super::{Extreme, Value};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly};
+use jurist_algebra::poly::Domain;
+use jurist_algebra::real::Real;
+use std::cmp::Ordering;
 
 /// The greatest `alpha` such that the loop is stable with every factor
 /// `(1 + (1 - skew)/2 delta) / (1 - (1 + skew)/2 delta)`, `|delta| < alpha`, at the cut.
@@ -18,7 +23,7 @@ pub struct DiskMargin {
     /// The skew; 0 is the balanced disk.
     pub skew: Rational,
     /// The margin; `None` where no factor of this form makes the loop unstable.
-    pub alpha: Option<RealAlgebraic>,
+    pub alpha: Option<Real>,
     /// Where it binds: the extreme of the square of `alpha`.
     pub extreme: Option<Extreme>,
 }
@@ -26,17 +31,22 @@ pub struct DiskMargin {
 impl DiskMargin {
     /// Of a stable loop.
     pub(super) fn of(open_loop: &OpenLoop, skew: &Rational, budget: &Budget) -> Result<DiskMargin, Exhausted> {
+        with_parts!(open_loop, parts => DiskMargin::over(parts, skew, budget))
+    }
+
+    fn over<G: Ground>(parts: &Parts<G>, skew: &Rational, budget: &Budget) -> Result<DiskMargin, Exhausted> {
         // alpha^2 = min 4 |D0 + N|^2 / |(1 + skew) D0 - (1 - skew) N|^2, both multiplied by the denominator of the skew.
-        let r = open_loop.reduced();
+        let (r, shape) = (&parts.reduced, parts.shape);
         let (p, q) = (skew.numerator(), skew.denominator());
-        let mixed = r.denominator.scaled(&(&q + &p)).minus(&r.numerator.scaled(&(&q - &p)));
-        let below: UniPoly = super::place::modulus_squared(&mixed, r.degree, open_loop.shape());
+        let number = |n: Integer| G::Number::from_integer(&n);
+        let mixed = r.denominator.scaled(&number(&q + &p)).minus(&r.numerator.scaled(&number(&q - &p)));
+        let below = modulus_squared(&mixed, r.degree, shape);
         let skew = skew.clone();
         if below.is_zero() {
             return Ok(DiskMargin { skew, alpha: None, extreme: None });
         }
-        let four = Integer::from(4) * &(&q * &q);
-        let extreme = Extreme::least(&r.sum_squared.scaled(&four), &below, open_loop.shape(), budget)?;
+        let above = r.sum_squared.scaled(&number(Integer::from(4) * &(&q * &q)));
+        let extreme = extreme_over(&parts.ground, &above, &below, shape, Ordering::Less, budget)?;
         let alpha = match extreme.value() {
             None => None,
             Some(value) => Some(square_root(&value.number(budget)?, budget)?),

@@ -1,11 +1,12 @@
 //! The least and the greatest value of a modulus over all frequencies.
 
+use super::ground::{Ground, Integers};
 use super::place::inner;
 use super::{Place, Value};
-use crate::stability::{Shape, zeros_in};
+use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, UniPoly};
+use jurist_algebra::poly::{Domain, Poly, UniPoly};
 use std::cmp::Ordering;
 
 /// An extreme value of the square of a modulus.
@@ -26,7 +27,7 @@ use std::cmp::Ordering;
 #[derive(Clone, Debug)]
 pub enum Extreme {
     /// The same at all frequencies.
-    Constant(Rational),
+    Constant(Value),
     /// Infinite, at a pole on the boundary.
     Infinite(Place),
     /// At one frequency, the lowest of several.
@@ -51,7 +52,7 @@ impl Extreme {
     /// # Panics
     /// When `b` is zero.
     pub fn greatest(a: &UniPoly, b: &UniPoly, shape: Shape, budget: &Budget) -> Result<Extreme, Exhausted> {
-        extreme(a, b, shape, Ordering::Greater, budget)
+        extreme_over(&Integers, a, b, shape, Ordering::Greater, budget)
     }
 
     /// The least value, of a quotient that is not infinite at all frequencies.
@@ -64,15 +65,14 @@ impl Extreme {
     /// # Panics
     /// When `b` is zero.
     pub fn least(a: &UniPoly, b: &UniPoly, shape: Shape, budget: &Budget) -> Result<Extreme, Exhausted> {
-        extreme(a, b, shape, Ordering::Less, budget)
+        extreme_over(&Integers, a, b, shape, Ordering::Less, budget)
     }
 
     /// The value; `None` where it is infinite.
     pub fn value(&self) -> Option<Value> {
         match self {
-            Extreme::Constant(value) => Some(Value::from(value.clone())),
             Extreme::Infinite(_) => None,
-            Extreme::At { value, .. } => Some(value.clone()),
+            Extreme::Constant(value) | Extreme::At { value, .. } => Some(value.clone()),
         }
     }
 
@@ -85,28 +85,44 @@ impl Extreme {
     }
 }
 
-fn extreme(a: &UniPoly, b: &UniPoly, shape: Shape, wanted: Ordering, budget: &Budget) -> Result<Extreme, Exhausted> {
+/// The extreme value that is `wanted` of all others.
+pub(crate) fn extreme_over<G: Ground>(
+    ground: &G,
+    a: &Poly<G::Number>,
+    b: &Poly<G::Number>,
+    shape: Shape,
+    wanted: Ordering,
+    budget: &Budget,
+) -> Result<Extreme, Exhausted> {
     assert!(!b.is_zero(), "a modulus over zero");
     let common = budget.enter(|| a.gcd(b))?;
-    let divided = |p: &UniPoly| p.div_exact(&common).expect("a gcd divides");
+    let divided = |p: &Poly<G::Number>| p.div_exact(&common).expect("a gcd divides");
     let (a, b) = (divided(a), divided(b));
     let slope = a.derivative().times(&b).minus(&a.times(&b.derivative()));
     if slope.is_zero() {
-        let constant = |p: &UniPoly| p.coeff(0);
-        return Ok(Extreme::Constant(Rational::new(constant(&a), constant(&b))));
+        return Ok(match ground.sign(&a.coeff(0), budget)?.is_eq() {
+            true => Extreme::Constant(Value::from(Rational::ZERO)),
+            false => Extreme::Constant(ground.quotient(&a.coeff(0), &b.coeff(0), budget)?),
+        });
     }
-    let critical = zeros_in(&slope, &inner(shape), budget)?;
+    // A zero of the denominator inside is a double one, hence critical.
+    let poles = budget.enter(|| slope.gcd(&b))?;
+    let slope = slope.div_exact(&poles).expect("a gcd divides");
+    let infinite = if poles.is_constant() { Vec::new() } else { ground.zeros(&poles, &inner(shape), budget)? };
+    let critical = ground.zeros(&slope, &inner(shape), budget)?;
     let places = critical.into_iter().rev().map(Place::Inside);
     let places = std::iter::once(Place::Lowest).chain(places).chain(std::iter::once(Place::Highest));
     let mut best: Option<(Place, Value, bool)> = None;
-    for place in places {
-        // A zero of the denominator inside is a double one, hence critical.
-        let Some(value) = budget.enter(|| Value::at_place(&a, &b, &place, shape))? else {
+    for (i, place) in places.enumerate() {
+        let Some(value) = ground.value(&a, &b, &place, shape, budget)? else {
             if wanted == Ordering::Greater {
                 return Ok(Extreme::Infinite(place));
             }
             continue;
         };
+        if let (Ordering::Greater, 0, Some(pole)) = (wanted, i, infinite.last()) {
+            return Ok(Extreme::Infinite(Place::Inside(pole.clone())));
+        }
         let attained = !matches!((&place, shape), (Place::Highest, Shape::LeftHalfPlane));
         let better = match &best {
             None => true,

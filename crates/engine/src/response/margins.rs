@@ -1,16 +1,21 @@
 //! All margins of a loop cut at one signal.
 
 use super::crossings::Crossings;
-use super::open_loop::OpenLoop;
+use super::extreme::extreme_over;
+use super::dead_time::DeadTime;
+use super::ground::Ground;
+use super::open_loop::{OpenLoop, Over, Parts, with_parts};
 use super::value::{reciprocal, square_root};
-use super::{DelayMargin, DiskMargin, Extreme, Place, Value};
+use super::{DelayMargin, DiskMargin, Extreme, HeldDelay, Place, Value};
 use crate::answer::{Answer, Frequency, PointVerdict, Verdict};
 use crate::error::Error;
 use crate::problem::{Problem, Question};
-use crate::stability::{End, Range, StableSet, stable_set};
+use crate::stability::{End, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Rational};
-use jurist_algebra::poly::{Domain, RealAlgebraic};
+use jurist_algebra::poly::Domain;
+use jurist_algebra::real::Real;
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// How far a loop is from instability, with respect to what happens at one signal.
@@ -40,6 +45,8 @@ pub struct Margins {
     pub verdict: PointVerdict,
     /// The margins of a stable loop.
     pub stable: Option<StableMargins>,
+    /// The dead time that a stable loop through a plant behind a hold bears.
+    pub held_delay: Option<HeldDelay>,
     /// All crossings, also of an unstable loop.
     pub crossings: Crossings,
 }
@@ -55,9 +62,9 @@ pub struct StableMargins {
     /// How much delay is borne.
     pub delay: DelayMargin,
     /// The modulus margin: the least value of `|1 + L|`.
-    pub modulus: RealAlgebraic,
+    pub modulus: Real,
     /// Its inverse, the peak of the sensitivity `1/(1 + L)`.
-    pub peak_sensitivity: RealAlgebraic,
+    pub peak_sensitivity: Real,
     /// Where: the extreme of the square of the modulus margin.
     pub modulus_at: Extreme,
     /// The disk margin.
@@ -84,7 +91,7 @@ pub enum PhaseMargin {
     /// Less than an angle.
     Angle {
         /// `tan(phi/2)`; `None` for 180 degrees.
-        tangent: Option<RealAlgebraic>,
+        tangent: Option<Real>,
         /// The frequency; `None` where it is all.
         place: Option<Place>,
     },
@@ -99,7 +106,8 @@ impl PhaseMargin {
             PhaseMargin::Angle { tangent: Some(tangent), .. } => tangent,
         };
         // tan(phi/2) of the angles whose cosine is rational.
-        let known = match tangent.polynomial().coeffs().iter().map(|c| c.to_i64()).collect::<Vec<_>>().as_slice() {
+        let coefficients = tangent.algebraic().map(|t| t.polynomial().coeffs().iter().map(|c| c.to_i64()).collect());
+        let known = match coefficients.unwrap_or_else(Vec::new).as_slice() {
             [Some(-1), Some(0), Some(3)] => Some(60),
             [Some(-1), Some(1)] => Some(90),
             [Some(-3), Some(0), Some(1)] => Some(120),
@@ -152,11 +160,28 @@ impl Problem {
             let open_loop = OpenLoop::of(self, at, budget)?;
             budget.step("crossings");
             let crossings = Crossings::of(&open_loop, budget)?;
-            let stable = match verdict.verdict {
-                Verdict::Stable => Some(StableMargins::of(&open_loop, &crossings, skew, budget)?),
+            let is_stable = verdict.verdict == Verdict::Stable;
+            let (crossings, stable) = match (open_loop.over(), open_loop.dead_time()) {
+                (Over::Integers(parts), Some(tau)) => {
+                    let dead_time = DeadTime::new(parts, tau);
+                    let crossings = dead_time.crossings(crossings, budget)?;
+                    let stable = is_stable.then(|| dead_time.margins(&crossings, skew, budget)).transpose()?;
+                    (crossings, stable)
+                }
+                _ => {
+                    let stable = is_stable.then(|| StableMargins::of(&open_loop, &crossings, skew, budget));
+                    let stable = stable.transpose()?;
+                    (crossings, stable)
+                }
+            };
+            let held_delay = match &stable {
+                Some(stable) if !matches!(stable.delay, DelayMargin::Unbounded | DelayMargin::SamplesAtLeast(_)) => {
+                    budget.step("dead time behind the hold");
+                    HeldDelay::of(self, &open_loop, budget)?
+                }
                 _ => None,
             };
-            Ok(Answer::new(Arc::clone(self), Margins { open_loop, verdict, stable, crossings }))
+            Ok(Answer::new(Arc::clone(self), Margins { open_loop, verdict, stable, held_delay, crossings }))
         })?
     }
 }
@@ -166,6 +191,16 @@ impl Margins {
     pub fn frequency_of(&self, end: &End, bits: u64) -> Option<Frequency> {
         let pair = end.pair.as_ref()?;
         Some(Frequency::of_pair(pair, self.open_loop.sample_time(), bits))
+    }
+
+    /// The dead time that is not borne any more, in units of time; `None` where any is borne, and of a loop that has no margins.
+    pub fn delay_seconds(&self, bits: u64) -> Option<Enclosure> {
+        match (&self.stable.as_ref()?.delay, &self.held_delay) {
+            (DelayMargin::Zero, _) => Some(Enclosure::from_rational(Rational::ZERO)),
+            (DelayMargin::DeadTime(i), _) => self.crossings.gain[*i].delay(self.open_loop.shape(), bits),
+            (_, Some(held)) => held.seconds(bits),
+            _ => None,
+        }
     }
 
     /// A frequency with the loop's sample time; `None` in the limit of high frequencies.
@@ -188,8 +223,7 @@ impl StableMargins {
         budget.step("delay margin");
         let delay = DelayMargin::of(open_loop, crossings, budget)?;
         budget.step("modulus margin");
-        let r = open_loop.reduced();
-        let modulus_at = Extreme::least(&r.sum_squared, &r.denominator_squared, open_loop.shape(), budget)?;
+        let modulus_at = modulus_extreme(open_loop, budget)?;
         let square = modulus_at.value().expect("the least value is finite").number(budget)?;
         let modulus = square_root(&square, budget)?;
         let peak_sensitivity = reciprocal(&modulus, budget)?;
@@ -201,7 +235,15 @@ impl StableMargins {
 
 impl GainMargin {
     pub(super) fn of(open_loop: &OpenLoop, budget: &Budget) -> Result<Self, Exhausted> {
-        let set = stable_set(&open_loop.in_factor(), &Range::all(), open_loop.shape(), budget)?;
+        let set = with_parts!(open_loop, parts => {
+            let Parts { ground, denominator, numerator, poles, shape, .. } = parts;
+            ground.stable_factors(denominator, numerator, poles, *shape, budget)?
+        });
+        Ok(GainMargin::of_set(set))
+    }
+
+    /// The ends around the factor 1.
+    pub(super) fn of_set(set: StableSet) -> Self {
         let (mut upper, mut lower) = (None, None);
         for interval in set.intervals() {
             let above = |end: &End| end.value.compare_rational(&Rational::ONE).is_gt();
@@ -211,22 +253,15 @@ impl GainMargin {
                 lower = interval.lower.clone().filter(|end| end.value.sign().is_ge());
             }
         }
-        Ok(GainMargin { set, upper, lower })
+        GainMargin { set, upper, lower }
     }
 }
 
 impl PhaseMargin {
     /// The rotation at which a stable loop first meets -1 belongs to a crossing, the one with the least angle.
     pub(super) fn of(open_loop: &OpenLoop, crossings: &Crossings, budget: &Budget) -> Result<Self, Exhausted> {
-        let r = open_loop.reduced();
         if crossings.gain_everywhere {
-            if r.difference_squared.is_zero() {
-                return Ok(PhaseMargin::Angle { tangent: None, place: None });
-            }
-            let least = Extreme::least(&r.sum_squared, &r.difference_squared, open_loop.shape(), budget)?;
-            let square = least.value().expect("not infinite everywhere").number(budget)?;
-            let tangent = Some(square_root(&square, budget)?);
-            return Ok(PhaseMargin::Angle { tangent, place: least.place().cloned() });
+            return with_parts!(open_loop, parts => PhaseMargin::of_modulus_one(parts, budget));
         }
         let mut least: Option<(&Place, &Value)> = None;
         for crossing in &crossings.gain {
@@ -248,4 +283,25 @@ impl PhaseMargin {
             (None, None) => Ok(PhaseMargin::Unbounded),
         }
     }
+
+    /// Where the modulus is one at all frequencies.
+    fn of_modulus_one<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<Self, Exhausted> {
+        let r = &parts.reduced;
+        if r.difference_squared.is_zero() {
+            return Ok(PhaseMargin::Angle { tangent: None, place: None });
+        }
+        let (above, below) = (&r.sum_squared, &r.difference_squared);
+        let least = extreme_over(&parts.ground, above, below, parts.shape, Ordering::Less, budget)?;
+        let square = least.value().expect("not infinite everywhere").number(budget)?;
+        let tangent = Some(square_root(&square, budget)?);
+        Ok(PhaseMargin::Angle { tangent, place: least.place().cloned() })
+    }
+}
+
+/// The least value of `|1 + L|^2`.
+pub(super) fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
+    with_parts!(open_loop, parts => {
+        let r = &parts.reduced;
+        extreme_over(&parts.ground, &r.sum_squared, &r.denominator_squared, parts.shape, Ordering::Less, budget)
+    })
 }

@@ -5,10 +5,18 @@
 //! stability the moduli, products and differences of such polynomials are polynomials in one real variable
 //! ([`HalfSizePair`](crate::stability::HalfSizePair)), whose zeros are isolated; every margin is an algebraic number or a known function of one.
 
+mod asked;
+mod by_gain;
+mod cells;
 mod crossings;
+mod dead_time;
 mod delay;
 mod disk;
+mod enclosed;
 mod extreme;
+mod family;
+pub(crate) mod ground;
+mod held_delay;
 mod margins;
 mod norm;
 mod open_loop;
@@ -17,11 +25,13 @@ mod required_set;
 mod requirement;
 mod value;
 
+pub use asked::Requirements;
 pub use crossings::{Crossings, Direction, GainCrossing, PhaseCrossing};
 pub use delay::DelayMargin;
 pub use disk::DiskMargin;
 pub(crate) use disk::degrees;
 pub use extreme::Extreme;
+pub use held_delay::HeldDelay;
 pub use margins::{GainMargin, Margins, PhaseMargin, StableMargins};
 pub use norm::{Norm, PeakGain};
 pub use open_loop::OpenLoop;

@@ -1,16 +1,20 @@
 //! The peak gain of a closed-loop transfer function.
 
 use super::Extreme;
-use super::open_loop::integral;
+use super::extreme::extreme_over;
+use super::ground::Ground;
+use super::open_loop::{Over, Parts};
 use super::place::modulus_squared;
 use super::value::square_root;
 use crate::answer::{Answer, Frequency, PointVerdict, Verdict};
 use crate::error::Error;
 use crate::problem::{Problem, Question};
 use crate::stability::Shape;
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, RationalFunction, RealAlgebraic};
+use jurist_algebra::poly::{Domain, Poly, RationalFunction};
+use jurist_algebra::real::Real;
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// The H-infinity norm of a closed-loop transfer function.
@@ -48,7 +52,7 @@ pub struct Norm {
 #[non_exhaustive]
 pub struct PeakGain {
     /// The peak.
-    pub value: RealAlgebraic,
+    pub value: Real,
     /// The extreme of its square: where it is, and whether it is attained.
     pub extreme: Extreme,
 }
@@ -57,6 +61,20 @@ impl Norm {
     /// Where the peak is; `None` without one, in the limit of high frequencies, and where it is everywhere.
     pub fn frequency(&self, shape: Shape, bits: u64) -> Option<Frequency> {
         self.peak.as_ref()?.extreme.place()?.frequency(shape, self.sample_time.as_ref(), bits)
+    }
+}
+
+impl PeakGain {
+    /// Of a stable transfer function.
+    fn over<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<PeakGain, Exhausted> {
+        let n = parts.denominator.coeffs().len().saturating_sub(1);
+        let common = budget.enter(|| parts.numerator.gcd(&parts.denominator))?;
+        let squared =
+            |p: &Poly<G::Number>| modulus_squared(&p.div_exact(&common).expect("a gcd divides"), n, parts.shape);
+        let (above, below) = (squared(&parts.numerator), squared(&parts.denominator));
+        let extreme = extreme_over(&parts.ground, &above, &below, parts.shape, Ordering::Greater, budget)?;
+        let square = extreme.value().expect("no pole of a stable loop is on the boundary").number(budget)?;
+        Ok(PeakGain { value: square_root(&square, budget)?, extreme })
     }
 }
 
@@ -88,27 +106,21 @@ impl Problem {
     pub fn norm(self: &Arc<Self>, input: &str, output: &str, budget: &Budget) -> Result<Answer<Norm>, Error> {
         budget.enter(|| {
             let verdict = self.verdict(budget)?.into_value();
-            let transfer = self.closed_loop(budget)?.transfer_function(input, output, budget)?;
-            let constant = |f: &RationalFunction| f.as_constant().expect("every parameter has a value");
-            let above = transfer.numerator.iter().map(constant).collect();
-            let below = transfer.denominator.coefficients.iter().map(constant).collect();
-            let (above, below) = integral(above, below);
-            let n = below.coeffs().len().saturating_sub(1);
-            let shape = self.shape();
+            let (closed_loop, symbols) = self.closed_loop_over_symbols(budget)?;
+            let transfer = closed_loop.transfer_function(input, output, budget)?;
+            let (above, below) = (transfer.numerator, transfer.denominator.coefficients);
+            // Dead time alone does not change the modulus.
+            let (over, _) = Over::new(below, above, Vec::new(), symbols, self.shape())?;
             let peak = if verdict.verdict == Verdict::Stable {
                 budget.step("peak gain");
-                let common = above.gcd(&below);
-                let squared = |p: &jurist_algebra::poly::UniPoly| {
-                    let p = p.div_exact(&common).expect("a gcd divides");
-                    modulus_squared(&p, n, shape)
-                };
-                let extreme = Extreme::greatest(&squared(&above), &squared(&below), shape, budget)?;
-                let square = extreme.value().expect("no pole of a stable loop is on the boundary").number(budget)?;
-                Some(PeakGain { value: square_root(&square, budget)?, extreme })
+                Some(match &over {
+                    Over::Integers(parts) => PeakGain::over(parts, budget)?,
+                    Over::Constants(parts) => PeakGain::over(parts, budget)?,
+                })
             } else {
                 None
             };
-            let sample_time = self.algebra(budget)?.sample_time().and_then(RationalFunction::as_constant);
+            let sample_time = self.algebra_over_symbols(budget)?.sample_time().and_then(RationalFunction::as_constant);
             let (input, output) = (input.to_owned(), output.to_owned());
             Ok(Answer::new(Arc::clone(self), Norm { input, output, verdict, peak, sample_time }))
         })?

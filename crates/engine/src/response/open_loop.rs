@@ -1,15 +1,23 @@
 //! The open loop as two polynomials.
 
+use super::Place;
+use super::by_gain::{by_gain, only_gain};
+use super::ground::{Constants, Ground, Integers};
 use super::place::{modulus_squared, product};
 use crate::error::{Diagnostic, Error};
 use crate::model::{ClosedLoop, Cut, Opened};
-use crate::problem::Problem;
-use crate::stability::{ParametricPolynomial, Shape};
+use crate::problem::{Problem, fixed_symbols};
+use crate::stability::Shape;
+use jurist_algebra::ball::{Ball, cos_sin};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
+use jurist_algebra::symbols::Symbols;
+use std::sync::Arc;
 
 /// `D(z; k) = D0 + k N`: the characteristic polynomial with the factor `k` at the cut, nominally 1.
+///
+/// The coefficients are integers, or polynomials in the constants of a plant behind a hold.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
@@ -24,37 +32,64 @@ use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 ///     .build()?;
 /// let (problem, budget) = (model.ask().problem()?, Budget::unlimited());
 /// let open_loop = OpenLoop::of(&problem, None, &budget)?; // 0.5/z
-/// assert_eq!(open_loop.denominator(), &UniPoly::from_i64(&[0, 2]));
-/// assert_eq!(open_loop.numerator(), &UniPoly::from_i64(&[1]));
+/// assert_eq!(open_loop.denominator(), Some(&UniPoly::from_i64(&[0, 2])));
+/// assert_eq!(open_loop.numerator(), Some(&UniPoly::from_i64(&[1])));
 /// # Ok::<(), jurist_engine::error::Error>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct OpenLoop {
     cut: Cut,
-    denominator: UniPoly,
-    numerator: UniPoly,
-    /// Polynomials in the factor at whose zeros the model is undefined.
-    poles: Vec<UniPoly>,
     shape: Shape,
     sample_time: Option<Rational>,
-    reduced: Reduced,
+    over: Over,
+    dead_time: Option<Rational>,
+}
+
+/// The polynomials over what their coefficients are.
+#[derive(Clone, Debug)]
+pub(crate) enum Over {
+    Integers(Parts<Integers>),
+    Constants(Parts<Constants>),
+}
+
+/// Evaluates an expression with the parts of an open loop, whatever their coefficients are.
+macro_rules! with_parts {
+    ($open_loop:expr, $parts:ident => $value:expr) => {
+        match $open_loop.over() {
+            crate::response::open_loop::Over::Integers($parts) => $value,
+            crate::response::open_loop::Over::Constants($parts) => $value,
+        }
+    };
+}
+pub(crate) use with_parts;
+
+/// `D0` and `N`, primitive together; hidden modes stay.
+#[derive(Clone, Debug)]
+pub(crate) struct Parts<G: Ground> {
+    pub ground: G,
+    pub denominator: Poly<G::Number>,
+    pub numerator: Poly<G::Number>,
+    /// Polynomials in the factor at whose zeros the model is undefined.
+    pub poles: Vec<Poly<G::Number>>,
+    pub shape: Shape,
+    pub reduced: Reduced<G::Number>,
 }
 
 /// `L` in lowest terms, and its products on the boundary, in `x`.
 #[derive(Clone, Debug)]
-pub(crate) struct Reduced {
-    pub numerator: UniPoly,
-    pub denominator: UniPoly,
+pub(crate) struct Reduced<R: Domain> {
+    pub numerator: Poly<R>,
+    pub denominator: Poly<R>,
     /// The greater degree of the two.
     pub degree: usize,
     /// `|N|^2`, `|D0|^2`, `|D0 + N|^2`, `|D0 - N|^2`.
-    pub numerator_squared: UniPoly,
-    pub denominator_squared: UniPoly,
-    pub sum_squared: UniPoly,
-    pub difference_squared: UniPoly,
+    pub numerator_squared: Poly<R>,
+    pub denominator_squared: Poly<R>,
+    pub sum_squared: Poly<R>,
+    pub difference_squared: Poly<R>,
     /// Twice the real part of `N conj(D0)`, and its imaginary part over `sin theta` or `omega`.
-    pub twice_real: UniPoly,
-    pub imaginary: UniPoly,
+    pub twice_real: Poly<R>,
+    pub imaginary: Poly<R>,
 }
 
 impl OpenLoop {
@@ -80,21 +115,22 @@ impl OpenLoop {
             },
             (Err(refused), _) => return Err(refused.into()),
         };
-        let (denominator, numerator, poles, sample_time) = match &cut {
+        let shape = problem.shape();
+        let ((over, dead_time), sample_time) = match &cut {
             Cut::Gain(name) => by_gain(problem, name, budget)?,
             _ => {
-                let Opened { system, sample_time } = model.opened(&cut, &[], problem.set(), budget)?;
+                let Opened { system, sample_time, symbols } = model.opened(&cut, &[], problem.set(), budget)?;
                 let (denominator, numerator) = returned(&system, budget)?;
-                (denominator, numerator, Vec::new(), sample_time.and_then(|t| t.as_constant()))
+                let over = budget.enter(|| Over::new(denominator, numerator, Vec::new(), &symbols, shape))??;
+                (over, sample_time.and_then(|t| t.as_constant()))
             }
         };
-        if numerator.is_zero() {
-            let message = format!("nothing comes back to '{}': there is no loop through it", cut.name());
+        let open_loop = OpenLoop { cut, shape, sample_time, over, dead_time };
+        if open_loop.over.is_open() {
+            let message = format!("nothing comes back to '{}': there is no loop through it", open_loop.cut.name());
             return Err(Diagnostic::error("E-cut", message).into());
         }
-        let shape = problem.shape();
-        let reduced = budget.enter(|| Reduced::of(&numerator, &denominator, shape))?;
-        Ok(OpenLoop { cut, denominator, numerator, poles, shape, sample_time, reduced })
+        Ok(open_loop)
     }
 
     /// From its polynomials.
@@ -105,8 +141,8 @@ impl OpenLoop {
         shape: Shape,
         sample_time: Option<Rational>,
     ) -> OpenLoop {
-        let reduced = Reduced::of(&numerator, &denominator, shape);
-        OpenLoop { cut, denominator, numerator, poles: Vec::new(), shape, sample_time, reduced }
+        let over = Over::Integers(Parts::new(Integers, denominator, numerator, Vec::new(), shape));
+        OpenLoop { cut, over, shape, sample_time, dead_time: None }
     }
 
     /// Where the loop is cut.
@@ -114,14 +150,29 @@ impl OpenLoop {
         &self.cut
     }
 
-    /// `D0`, primitive together with `N`; hidden modes stay.
-    pub fn denominator(&self) -> &UniPoly {
-        &self.denominator
+    /// `D0`, primitive together with `N`; hidden modes stay. `None` of a loop whose coefficients are not rational.
+    pub fn denominator(&self) -> Option<&UniPoly> {
+        match &self.over {
+            Over::Integers(parts) => Some(&parts.denominator),
+            Over::Constants(_) => None,
+        }
     }
 
-    /// `N`.
-    pub fn numerator(&self) -> &UniPoly {
-        &self.numerator
+    /// `N`; `None` of a loop whose coefficients are not rational.
+    pub fn numerator(&self) -> Option<&UniPoly> {
+        match &self.over {
+            Over::Integers(parts) => Some(&parts.numerator),
+            Over::Constants(_) => None,
+        }
+    }
+
+    /// The coefficients of `D0` and of `N` from the constant term up, with an absolute error of at most about `2^-bits`.
+    pub fn coefficients(&self, bits: u64) -> [Vec<Rational>; 2] {
+        fn middles<G: Ground>(ground: &G, p: &Poly<G::Number>, bits: u64) -> Vec<Rational> {
+            let value = |c: &G::Number| ground.enclose(&Poly::constant(c.clone()), &Rational::ZERO, bits);
+            p.coeffs().iter().map(|c| value(c)).map(|e| e.lower().midpoint(e.upper())).collect()
+        }
+        with_parts!(self, parts => [&parts.denominator, &parts.numerator].map(|p| middles(&parts.ground, p, bits)))
     }
 
     /// The disc or the half plane.
@@ -134,8 +185,13 @@ impl OpenLoop {
         self.sample_time.as_ref()
     }
 
+    /// Dead time of a continuous loop: `L = N/D0 exp(-tau s)`.
+    pub fn dead_time(&self) -> Option<&Rational> {
+        self.dead_time.as_ref()
+    }
+
     /// `L` at a point of the boundary, given by `x = z + 1/z` or `x = s^2`: the real part, and the imaginary part divided by
-    /// `sin theta` or `omega`; `None` at a pole.
+    /// `sin theta` or `omega`, computed with some bits; `None` at a pole. Exact where the coefficients are rational.
     ///
     /// ```
     /// use jurist_algebra::limits::Budget;
@@ -146,41 +202,151 @@ impl OpenLoop {
     /// let (model, _) = Model::builder(Time::Continuous).inputs(["r"]).outputs(["y"]).block(plant).build()?;
     /// let (problem, budget) = (model.ask().problem()?, Budget::unlimited());
     /// let open_loop = OpenLoop::of(&problem, None, &budget)?;
-    /// let (real, imaginary) = open_loop.value_at(&Rational::from(-4)).unwrap(); // 1/(1 + 2j) = 1/5 - 2/5 j
-    /// assert_eq!((real.to_string(), imaginary.to_string()), ("1/5".to_owned(), "-1/5".to_owned()));
+    /// let (real, imaginary) = open_loop.value_at(&Rational::from(-4), 64).unwrap(); // 1/(1 + 2j) = 1/5 - 2/5 j
+    /// assert_eq!((real.decimal(3), imaginary.decimal(3)), (Some("0.2".to_owned()), Some("-0.2".to_owned())));
     /// # Ok::<(), jurist_engine::error::Error>(())
     /// ```
-    pub fn value_at(&self, x: &Rational) -> Option<(Rational, Rational)> {
-        let r = &self.reduced;
-        let below = r.denominator_squared.eval_rational(x);
-        let real = r.twice_real.eval_rational(x).checked_div(&(&below + &below))?;
-        Some((real, r.imaginary.eval_rational(x).checked_div(&below)?))
+    pub fn value_at(&self, x: &Rational, bits: u64) -> Option<(Enclosure, Enclosure)> {
+        let (real, imaginary) = self.rational_value_at(x, bits)?;
+        let Some(tau) = &self.dead_time else { return Some((real, imaginary)) };
+        let rate = Enclosure::from_rational(-x).sqrt(bits);
+        let turned = rate.mul(&Enclosure::from_rational(tau.clone()), bits);
+        let (cos, sin) = cos_sin(&Ball::from_enclosure(&turned, bits));
+        let (cos, sin) = (cos.to_enclosure(), sin.to_enclosure());
+        let over_rate = sin.div(&rate, bits).unwrap_or_else(|| Enclosure::from_rational(tau.clone()));
+        let along = real.mul(&cos, bits).add(&imaginary.mul(&rate, bits).mul(&sin, bits), bits);
+        Some((along, imaginary.mul(&cos, bits).sub(&real.mul(&over_rate, bits), bits)))
     }
 
-    pub(crate) fn reduced(&self) -> &Reduced {
-        &self.reduced
+    fn rational_value_at(&self, x: &Rational, bits: u64) -> Option<(Enclosure, Enclosure)> {
+        with_parts!(self, parts => {
+            let value = |p| parts.ground.enclose(p, x, bits);
+            let r = &parts.reduced;
+            let below = value(&r.denominator_squared);
+            let real = value(&r.twice_real).div(&below.add(&below, bits), bits)?;
+            Some((real, value(&r.imaginary).div(&below, bits)?))
+        })
     }
 
-    /// The degree of the closed loop's polynomial, with hidden modes.
-    pub(crate) fn degree(&self) -> usize {
-        self.denominator.coeffs().len().max(self.numerator.coeffs().len()).saturating_sub(1)
+    pub(crate) fn over(&self) -> &Over {
+        &self.over
     }
 
-    /// `D0 + k N` as a polynomial with the parameter `k`.
-    pub(crate) fn in_factor(&self) -> ParametricPolynomial {
-        let coefficient = |i| (Poly::new(vec![self.denominator.coeff(i), self.numerator.coeff(i)]), UniPoly::one());
-        let coefficients: Vec<_> = (0..=self.degree()).map(coefficient).collect();
-        ParametricPolynomial::new(&coefficients, self.degree(), self.poles.clone())
+    /// Whether this is the same function of frequency: the same loop, cut elsewhere.
+    pub(crate) fn is_same(&self, other: &OpenLoop) -> bool {
+        fn equal<R: Domain>(a: &Reduced<R>, b: &Reduced<R>) -> bool {
+            a.numerator.times(&b.denominator) == b.numerator.times(&a.denominator)
+        }
+        if self.dead_time != other.dead_time {
+            return false;
+        }
+        match (&self.over, &other.over) {
+            (Over::Integers(a), Over::Integers(b)) => equal(&a.reduced, &b.reduced),
+            (Over::Constants(a), Over::Constants(b)) => a.ground.0 == b.ground.0 && equal(&a.reduced, &b.reduced),
+            _ => false,
+        }
     }
 }
 
-impl Reduced {
-    fn of(numerator: &UniPoly, denominator: &UniPoly, shape: Shape) -> Reduced {
+impl Over {
+    /// Whether nothing comes back.
+    pub(super) fn is_open(&self) -> bool {
+        match self {
+            Over::Integers(parts) => parts.numerator.is_zero(),
+            Over::Constants(parts) => parts.numerator.is_zero(),
+        }
+    }
+
+    /// From coefficients in symbols, none of which is a parameter, and the dead time that is a factor of the numerator.
+    pub(super) fn new(
+        denominator: Vec<RationalFunction>,
+        numerator: Vec<RationalFunction>,
+        poles: Vec<Poly<MultiPoly>>,
+        symbols: &crate::model::Symbols,
+        shape: Shape,
+    ) -> Result<(Over, Option<Rational>), Error> {
+        let (denominator, mut numerator) = polynomial(denominator, numerator);
+        let mut dead_time = None;
+        if !symbols.delays().is_empty() {
+            let (rest, tau) = split_delay(&denominator, &numerator, symbols).ok_or_else(no_single_delay)?;
+            numerator = rest;
+            dead_time = Some(tau).filter(|tau| !tau.is_zero());
+        }
+        let is_rational = |p: &Poly<MultiPoly>| p.coeffs().iter().all(MultiPoly::is_constant);
+        if is_rational(&denominator) && is_rational(&numerator) && poles.iter().all(is_rational) {
+            let plain = |p: &Poly<MultiPoly>| p.map(|c| c.as_constant().expect("every parameter has a value"));
+            let poles = poles.iter().map(plain).collect();
+            let parts = Parts::new(Integers, plain(&denominator), plain(&numerator), poles, shape);
+            return Ok((Over::Integers(parts), dead_time));
+        }
+        if dead_time.is_some() {
+            return Err(no_single_delay());
+        }
+        let ground = Constants(Arc::new(constants(symbols)?));
+        Ok((Over::Constants(Parts::new(ground, denominator, numerator, poles, shape)), None))
+    }
+}
+
+fn no_single_delay() -> Error {
+    let message = "with dead time this is known where one factor of the open loop has it, and all else is rational";
+    let help = "the gain margin is the limit of a gain: 'jurist intervals --param GAIN'";
+    Diagnostic::error("E-dead-time", message).help(help).into()
+}
+
+/// The numerator without the one product of powers of `exp(-tau s)` that all its terms have, and its dead time; symbols are
+/// numbered as in their table.
+fn split_delay(
+    denominator: &Poly<MultiPoly>,
+    numerator: &Poly<MultiPoly>,
+    symbols: &crate::model::Symbols,
+) -> Option<(Poly<MultiPoly>, Rational)> {
+    let delays: Vec<(usize, RationalFunction)> =
+        symbols.delays().into_iter().map(|(variable, delay)| (variable - symbols.first(), delay)).collect();
+    let is_free = |p: &MultiPoly| delays.iter().all(|(variable, _)| p.degree_in(*variable) == 0);
+    let mut exponents: Option<Vec<u32>> = None;
+    for (monomial, _) in numerator.coeffs().iter().flat_map(|c| c.terms()) {
+        let found: Vec<u32> = delays.iter().map(|(variable, _)| monomial.exponent(*variable)).collect();
+        if exponents.get_or_insert_with(|| found.clone()) != &found {
+            return None;
+        }
+    }
+    let exponents = exponents.unwrap_or_else(|| vec![0; delays.len()]);
+    let (mut tau, mut factor) = (Rational::ZERO, MultiPoly::one());
+    for ((variable, delay), exponent) in delays.iter().zip(exponents) {
+        if exponent > 0 {
+            tau = tau + delay.as_constant()? * Rational::from(i64::from(exponent));
+            factor = factor.times(&MultiPoly::variable(*variable).power(u64::from(exponent)));
+        }
+    }
+    let rest = numerator.map(|c| c.div_exact(&factor).expect("every term has the factor"));
+    denominator.coeffs().iter().all(is_free).then_some((rest, tau))
+}
+
+/// The symbols of a loop without free parameters.
+fn constants(symbols: &crate::model::Symbols) -> Result<Symbols, Error> {
+    if symbols.delays().is_empty() { fixed_symbols(symbols) } else { Err(no_single_delay()) }
+}
+
+impl<G: Ground> Parts<G> {
+    pub fn new(
+        ground: G,
+        denominator: Poly<G::Number>,
+        numerator: Poly<G::Number>,
+        poles: Vec<Poly<G::Number>>,
+        shape: Shape,
+    ) -> Parts<G> {
+        let reduced = Reduced::of(&numerator, &denominator, shape);
+        Parts { ground, denominator, numerator, poles, shape, reduced }
+    }
+}
+
+impl<R: Domain> Reduced<R> {
+    fn of(numerator: &Poly<R>, denominator: &Poly<R>, shape: Shape) -> Reduced<R> {
         let common = numerator.gcd(denominator);
-        let divided = |p: &UniPoly| p.div_exact(&common).expect("a gcd divides");
+        let divided = |p: &Poly<R>| p.div_exact(&common).expect("a gcd divides");
         let (numerator, denominator) = (divided(numerator), divided(denominator));
         let degree = numerator.coeffs().len().max(denominator.coeffs().len()) - 1;
-        let squared = |p: &UniPoly| modulus_squared(p, degree, shape);
+        let squared = |p: &Poly<R>| modulus_squared(p, degree, shape);
         let (twice_real, imaginary) = product(&numerator, &denominator, degree, shape);
         Reduced {
             numerator_squared: squared(&numerator),
@@ -194,16 +360,47 @@ impl Reduced {
             denominator,
         }
     }
+
+    /// A polynomial at an end of the range of frequencies, and `D0` there.
+    pub fn at_end(&self, p: &Poly<R>, end: &Place, shape: Shape) -> (R, R) {
+        let x = match (end, shape) {
+            (Place::Lowest, Shape::UnitDisc) => 1,
+            (Place::Highest, Shape::UnitDisc) => -1,
+            (Place::Highest, Shape::LeftHalfPlane) => {
+                return (p.coeff(self.degree), self.denominator.coeff(self.degree));
+            }
+            _ => 0,
+        };
+        let x = R::from_integer(&Integer::from(x));
+        (p.eval(&x), self.denominator.eval(&x))
+    }
 }
 
 /// `D0` and `N` of a system from the cut to the cut: what comes back has the sign of the feedback, so `L = -P`.
-fn returned(system: &ClosedLoop, budget: &Budget) -> Result<(UniPoly, UniPoly), Error> {
+fn returned(system: &ClosedLoop, budget: &Budget) -> Result<(Vec<RationalFunction>, Vec<RationalFunction>), Error> {
     let column = system.inputs.len().max(system.e.columns()) - 1;
     let transfer = system.transfer_function_at(0, column, budget)?;
-    let constant = |f: &RationalFunction| f.as_constant().expect("every parameter has a value");
-    let below = transfer.denominator.coefficients.iter().map(constant);
-    let above = transfer.numerator.iter().map(|f| -constant(f));
-    Ok(integral(below.collect(), above.collect()))
+    Ok((transfer.denominator.coefficients, transfer.numerator.iter().map(|f| -f).collect()))
+}
+
+/// Two polynomials without denominators, primitive together over the integers.
+fn polynomial(a: Vec<RationalFunction>, b: Vec<RationalFunction>) -> (Poly<MultiPoly>, Poly<MultiPoly>) {
+    let split = a.len();
+    let all: Vec<RationalFunction> = a.into_iter().chain(b).collect();
+    let common = all.iter().fold(MultiPoly::one(), |l, f| {
+        let d = f.denominator();
+        l.times(&d.div_exact(&l.gcd(d)).expect("a gcd divides"))
+    });
+    let cleared =
+        |f: &RationalFunction| f.numerator().times(&common.div_exact(f.denominator()).expect("a common multiple"));
+    let mut all: Vec<MultiPoly> = all.iter().map(cleared).collect();
+    let content = all.iter().fold(Integer::ZERO, |g, c| g.gcd(&c.integer_content()));
+    if !content.is_zero() {
+        let divided = |c: &MultiPoly| c.div_exact_integer(&content).expect("the content divides");
+        all = all.iter().map(divided).collect();
+    }
+    let b = all.split_off(split);
+    (Poly::new(all), Poly::new(b))
 }
 
 /// Two polynomials with integer coefficients, primitive together.
@@ -219,75 +416,4 @@ pub(crate) fn integral(a: Vec<Rational>, b: Vec<Rational>) -> (UniPoly, UniPoly)
     }
     let b = all.split_off(split);
     (Poly::new(all), Poly::new(b))
-}
-
-/// `D0`, `N`, the poles in the factor, and the sample time, with a parameter as the gain.
-type ByGain = (UniPoly, UniPoly, Vec<UniPoly>, Option<Rational>);
-
-/// The polynomial in the parameter, if it is affine there.
-fn affine(problem: &Problem, name: &str, budget: &Budget) -> Result<Option<ByGain>, Error> {
-    let model = problem.model();
-    let constant = model.constant(name).and_then(|c| c.number.clone());
-    let nominal = problem.set().iter().find(|(n, _)| n == name).map(|(_, v)| v.clone()).or(constant);
-    let Some(nominal) = nominal.filter(|v| !v.is_zero()) else { return Ok(None) };
-    let others: Vec<(String, Rational)> = problem.set().iter().filter(|(n, _)| n != name).cloned().collect();
-    let evaluated = model.evaluate(&[name.to_owned()], &others, budget)?;
-    // Where the sample time depends on it, a parameter is no gain.
-    let sample_time = evaluated.sample_time.map(|t| t.as_constant());
-    if sample_time == Some(None) {
-        return Ok(None);
-    }
-    let d = &evaluated.polynomial;
-    let side = |p: &MultiPoly| p.to_univariate(0).expect("one variable is kept");
-    let coefficients: Vec<_> = d.coefficients.iter().map(|c| (side(c.numerator()), side(c.denominator()))).collect();
-    let parametric = ParametricPolynomial::new(&coefficients, d.formal_degree, Vec::new());
-    let is_affine = |p: &Poly<UniPoly>| p.coeffs().iter().all(|c| c.coeffs().len() <= 2);
-    // A factor that all coefficients share is part of the loop where that is affine, else it is a pole.
-    let whole = parametric.polynomial().scaled(parametric.content());
-    let (p, shared) = match is_affine(&whole) {
-        true => (&whole, UniPoly::one()),
-        false => (parametric.polynomial(), parametric.content().clone()),
-    };
-    if !is_affine(p) || p.coeffs().iter().all(|c| c.coeff(0).is_zero()) {
-        return Ok(None);
-    }
-    let part = |k: usize| (0..=d.formal_degree).map(move |i| Rational::from(p.coeff(i).coeff(k)));
-    let (below, above) = integral(part(0).collect(), part(1).map(|c| c * &nominal).collect());
-    let poles = d.poles.iter().map(side).chain([parametric.denominator().clone(), shared]);
-    // In the factor: the parameter is the factor times its nominal value p/q.
-    let (up, down) = (nominal.numerator(), nominal.denominator());
-    let in_factor = |pole: UniPoly| {
-        let n = pole.coeffs().len().saturating_sub(1);
-        let scaled = pole.coeffs().iter().enumerate();
-        let terms = scaled.map(|(i, c)| c * &(up.pow(i as u64) * down.pow((n - i) as u64)));
-        Poly::new(terms.collect::<Vec<Integer>>())
-    };
-    let poles = poles.filter(|p| !p.is_constant()).map(in_factor).collect();
-    Ok(Some((below, above, poles, sample_time.flatten())))
-}
-
-fn by_gain(problem: &Problem, name: &str, budget: &Budget) -> Result<ByGain, Error> {
-    affine(problem, name, budget)?.ok_or_else(|| {
-        let message = format!("'{}' is not a gain of the loop", crate::model::shorten(name));
-        Diagnostic::error("E-cut", message)
-            .help("a parameter is one where it enters the characteristic polynomial to the first power and is not 0")
-            .into()
-    })
-}
-
-/// The only parameter that enters as a gain, of a loop that has no signals.
-fn only_gain(problem: &Problem, budget: &Budget) -> Result<Option<String>, Error> {
-    if matches!(problem.model().form(), crate::model::Form::Blocks(_)) {
-        return Ok(None);
-    }
-    let mut found = None;
-    for parameter in problem.model().parameters() {
-        if affine(problem, &parameter.name, budget)?.is_some_and(|(_, n, _, _)| !n.is_zero()) {
-            if found.is_some() {
-                return Ok(None);
-            }
-            found = Some(parameter.name.clone());
-        }
-    }
-    Ok(found)
 }

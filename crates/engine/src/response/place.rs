@@ -3,16 +3,17 @@
 use crate::answer::Frequency;
 use crate::stability::{ComplexPair, HalfSizePair, Range, Shape};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, Poly, RealAlgebraic};
+use jurist_algebra::poly::{Domain, Poly};
+use jurist_algebra::real::Real;
 
 /// A frequency: a point of the upper half of the unit circle or of the imaginary axis.
 ///
 /// ```
 /// use jurist_algebra::number::Rational;
-/// use jurist_algebra::poly::RealAlgebraic;
+/// use jurist_algebra::real::Real;
 /// use jurist_engine::response::Place;
 /// use jurist_engine::stability::Shape;
-/// let place = Place::Inside(RealAlgebraic::from_rational(Rational::ZERO)); // z + 1/z = 0: z = j
+/// let place = Place::Inside(Real::from(Rational::ZERO)); // z + 1/z = 0: z = j
 /// let step = Rational::new(1.into(), 4.into());
 /// let frequency = place.frequency(Shape::UnitDisc, Some(&step), 64).unwrap();
 /// assert!(frequency.hertz.unwrap().contains(&1.into()));
@@ -23,7 +24,7 @@ pub enum Place {
     /// `z = 1`, `s = 0`.
     Lowest,
     /// Between the ends, given by `x = z + 1/z` in `(-2, 2)`, or by `x = s^2 < 0`.
-    Inside(RealAlgebraic),
+    Inside(Real),
     /// `z = -1`, half the sampling frequency; the limit of high frequencies in continuous time.
     Highest,
 }

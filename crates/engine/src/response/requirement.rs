@@ -1,15 +1,18 @@
 //! Requirements on margins, and whether a loop meets them at a point.
 
 use super::crossings::Crossings;
-use super::extreme::Extreme;
-use super::margins::{GainMargin, PhaseMargin};
+use super::ground::{Constants, Ground};
+use super::margins::{GainMargin, PhaseMargin, StableMargins, modulus_extreme};
 use super::open_loop::OpenLoop;
-use super::value::Value;
+use super::value::{Value, square_root};
 use crate::error::{Diagnostic, Error};
-use crate::stability::{AlgebraicInterval, ParametricPolynomial, Shape};
+use crate::stability::{ParametricPolynomial, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
+use jurist_algebra::real::Real;
+use jurist_algebra::symbols::{Definition, Symbols};
+use std::sync::Arc;
 
 /// What is required of a loop beyond its stability.
 ///
@@ -41,6 +44,16 @@ pub enum Requirement {
     ModulusMargin(Rational),
     /// All roots have at least this damping: `cos` of the angle that they make with the negative real axis. Continuous time.
     Damping(Rational),
+    /// Stable with all less dead time at the cut: at the input of a plant behind a hold, and in continuous time; else with so
+    /// much delay in whole samples.
+    DelayMargin(Rational),
+    /// All roots have a modulus of at most `exp(-4 T/time)`. Discrete time.
+    SettlingTime {
+        /// The time.
+        time: Rational,
+        /// `-4 T/time`.
+        exponent: Rational,
+    },
 }
 
 /// Polynomials of greater degree are not made of an angle or of decibels.
@@ -134,6 +147,29 @@ impl Requirement {
         Ok(Requirement::Damping(least))
     }
 
+    /// By a dead time above 0, in units of time.
+    ///
+    /// # Errors
+    /// `E-require` for another number.
+    pub fn delay_margin(least: Rational) -> Result<Requirement, Error> {
+        if !least.sign().is_gt() {
+            return Err(refused("a delay margin is above 0"));
+        }
+        Ok(Requirement::DelayMargin(least))
+    }
+
+    /// By the time, above 0, in which all modes of a discrete loop with this sample time have decayed by `exp(-4)`, to 1.8 %.
+    ///
+    /// # Errors
+    /// `E-require` for other numbers.
+    pub fn settling_time(time: Rational, step: &Rational) -> Result<Requirement, Error> {
+        if !time.sign().is_gt() || !step.sign().is_gt() {
+            return Err(refused("a settling time and its sample time are above 0"));
+        }
+        let exponent = (&Rational::from(-4) * step).checked_div(&time).expect("positive");
+        Ok(Requirement::SettlingTime { time, exponent })
+    }
+
     /// Its name in model files and documents.
     pub fn name(&self) -> &'static str {
         match self {
@@ -141,6 +177,8 @@ impl Requirement {
             Requirement::PhaseMargin { .. } => "phase_margin",
             Requirement::ModulusMargin(_) => "modulus_margin",
             Requirement::Damping(_) => "damping",
+            Requirement::DelayMargin(_) => "delay_margin",
+            Requirement::SettlingTime { .. } => "settling_time",
         }
     }
 
@@ -148,13 +186,22 @@ impl Requirement {
     pub fn required(&self) -> String {
         match self {
             Requirement::GainMargin { asked, .. } | Requirement::PhaseMargin { asked, .. } => asked.clone(),
-            Requirement::ModulusMargin(least) | Requirement::Damping(least) => least.to_string(),
+            Requirement::ModulusMargin(least) | Requirement::Damping(least) | Requirement::DelayMargin(least) => {
+                least.to_string()
+            }
+            Requirement::SettlingTime { time, .. } => time.to_string(),
         }
+    }
+
+    /// `phase_margin >= 45 deg`.
+    pub fn text(&self) -> String {
+        let sign = if matches!(self, Requirement::SettlingTime { .. }) { "<=" } else { ">=" };
+        format!("{} {sign} {}", self.name(), self.required())
     }
 
     /// Whether it is about the open loop at a cut.
     pub(crate) fn needs_cut(&self) -> bool {
-        !matches!(self, Requirement::Damping(_))
+        !matches!(self, Requirement::Damping(_) | Requirement::SettlingTime { .. })
     }
 
     /// Whether a stable closed loop meets it; `closed` is its polynomial.
@@ -168,32 +215,14 @@ impl Requirement {
         let cut = || open_loop.expect("a margin is taken at a cut");
         match self {
             Requirement::GainMargin { factor, .. } => {
-                let set = GainMargin::of(cut(), budget)?.set.to_interval_set().expect("factors are algebraic");
-                let one = RealAlgebraic::from_rational(Rational::ONE);
-                budget.enter(|| {
-                    let around_one = |i: &&AlgebraicInterval| {
-                        i.lower.as_ref().is_none_or(|l| l.compare(&one).is_lt())
-                            && i.upper.as_ref().is_none_or(|u| u.compare(&one).is_gt())
-                    };
-                    let Some(interval) = set.intervals().iter().find(around_one) else { return Ok(false) };
-                    let above = interval.upper.as_ref().is_none_or(|u| u.compare(factor).is_gt());
-                    let inverse = super::value::reciprocal(factor, budget)?;
-                    Ok(above && interval.lower.as_ref().is_none_or(|l| l.compare(&inverse).is_lt()))
-                })?
+                has_gain_margin(&GainMargin::of(cut(), budget)?, factor, budget)
             }
             Requirement::PhaseMargin { twice_cosine, .. } => {
                 let crossings = Crossings::of(cut(), budget)?;
-                let PhaseMargin::Angle { tangent: Some(tangent), .. } = PhaseMargin::of(cut(), &crossings, budget)?
-                else {
-                    return Ok(true);
-                };
-                let square = Value::quotient(&UniPoly::from_i64(&[0, 0, 1]), &UniPoly::one(), &tangent);
-                let least = Value::quotient(&UniPoly::from_i64(&[2, -1]), &UniPoly::from_i64(&[2, 1]), twice_cosine);
-                Ok(square.compare(&least, budget)?.is_ge())
+                has_phase_margin(&PhaseMargin::of(cut(), &crossings, budget)?, twice_cosine, budget)
             }
             Requirement::ModulusMargin(least) => {
-                let r = cut().reduced();
-                let found = Extreme::least(&r.sum_squared, &r.denominator_squared, shape, budget)?;
+                let found = modulus_extreme(cut(), budget)?;
                 let square = Value::from(least * least);
                 Ok(found.value().expect("finite somewhere").compare(&square, budget)?.is_ge())
             }
@@ -204,7 +233,70 @@ impl Requirement {
                 let count = crate::stability::count_roots(&inside, shape);
                 Ok(count.outside == 0)
             }
+            Requirement::SettlingTime { exponent, .. } => {
+                let (symbols, scaled) =
+                    scaled_by_exponential(closed.coeffs().iter().cloned().map(MultiPoly::constant), exponent);
+                // No root has a transcendental modulus, so none is on the circle.
+                Constants(symbols).is_stable(&scaled, shape, budget)
+            }
+            // Of the whole answer, with the dead time behind a hold.
+            Requirement::DelayMargin(_) => Ok(false),
         }
+    }
+}
+
+/// The polynomial at `r z`, `r = exp(exponent)`, as variable 0 of the symbols; the coefficients are free of them.
+pub(crate) fn scaled_by_exponential(
+    coefficients: impl Iterator<Item = MultiPoly>,
+    exponent: &Rational,
+) -> (Arc<Symbols>, Poly<MultiPoly>) {
+    let mut symbols = Symbols::new();
+    let radius = symbols.insert("X", Definition::exponential(exponent.clone()));
+    let mut power = MultiPoly::one();
+    let mut scaled = Vec::new();
+    for c in coefficients {
+        scaled.push(c.times(&power));
+        power = power.times(&MultiPoly::variable(radius));
+    }
+    (Arc::new(symbols), Poly::new(scaled))
+}
+
+/// Whether the loop is stable for all factors from the inverse of one to itself.
+fn has_gain_margin(gain: &GainMargin, factor: &RealAlgebraic, budget: &Budget) -> Result<bool, Exhausted> {
+    let factor = Real::from(factor.clone());
+    let inverse = super::value::reciprocal(&factor, budget)?;
+    let above = match &gain.upper {
+        Some(end) => end.value.compare(&factor, budget)?.is_gt(),
+        None => true,
+    };
+    let below = match &gain.lower {
+        Some(end) => end.value.compare(&inverse, budget)?.is_lt(),
+        None => true,
+    };
+    Ok(above && below)
+}
+
+/// Whether the angle is at least that of twice a cosine.
+fn has_phase_margin(phase: &PhaseMargin, twice_cosine: &RealAlgebraic, budget: &Budget) -> Result<bool, Exhausted> {
+    let PhaseMargin::Angle { tangent: Some(tangent), .. } = phase else { return Ok(true) };
+    let least = Value::quotient(&UniPoly::from_i64(&[2, -1]), &UniPoly::from_i64(&[2, 1]), twice_cosine);
+    let least = square_root(&least.number(budget)?, budget)?;
+    Ok(tangent.compare(&least, budget)?.is_ge())
+}
+
+impl Requirement {
+    /// Whether margins that are known meet it; `None` where it is not about them.
+    pub(crate) fn is_met_by(&self, margins: &StableMargins, budget: &Budget) -> Result<Option<bool>, Exhausted> {
+        Ok(match self {
+            Requirement::GainMargin { factor, .. } => Some(has_gain_margin(&margins.gain, factor, budget)?),
+            Requirement::PhaseMargin { twice_cosine, .. } => {
+                Some(has_phase_margin(&margins.phase, twice_cosine, budget)?)
+            }
+            Requirement::ModulusMargin(least) => {
+                Some(budget.enter(|| margins.modulus.compare_rational(least).is_ge())?)
+            }
+            Requirement::Damping(_) | Requirement::DelayMargin(_) | Requirement::SettlingTime { .. } => None,
+        })
     }
 }
 

@@ -1,10 +1,10 @@
 //! Values of rational functions at algebraic frequencies, as algebraic numbers.
 
-use super::Place;
-use crate::stability::Shape;
+use super::enclosed::{enclosed, within};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots, resultant};
+use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 
 /// A real number: known as such, or as the value of a quotient of polynomials at an algebraic number, of which enclosures are
@@ -18,13 +18,14 @@ use std::cmp::Ordering;
 /// let p = SquareFree::new(UniPoly::from_i64(&[-2, 0, 1])).unwrap();
 /// let root = isolate_real_roots(&p, &budget).unwrap().pop().unwrap(); // the square root of 2
 /// let value = Value::quotient(&UniPoly::from_i64(&[1, 1]), &UniPoly::from_i64(&[0, 1]), &root); // 1 + 1/x
-/// assert_eq!(value.number(&budget).unwrap().polynomial(), &UniPoly::from_i64(&[1, -4, 2]));
+/// let number = value.number(&budget).unwrap();
+/// assert_eq!(number.algebraic().unwrap().polynomial(), &UniPoly::from_i64(&[1, -4, 2]));
 /// assert_eq!(value.enclosure(80).decimal(10).unwrap(), "1.707106781");
 /// ```
 #[derive(Clone, Debug)]
 pub enum Value {
     /// The number.
-    Number(RealAlgebraic),
+    Number(Real),
     /// `numerator/denominator` at a number that is not rational; neither is zero there.
     Quotient {
         /// The numerator.
@@ -53,31 +54,6 @@ impl Value {
         }
         assert!(at.sign_of(&denominator).is_ne(), "the denominator has a zero there");
         Value::Quotient { numerator, denominator, at: at.clone() }
-    }
-
-    /// The value at a frequency; `None` where it is infinite.
-    pub(crate) fn at_place(numerator: &UniPoly, denominator: &UniPoly, place: &Place, shape: Shape) -> Option<Value> {
-        let x = match (place, shape) {
-            (Place::Inside(x), _) => {
-                let infinite = x.sign_of(denominator).is_eq() && x.sign_of(numerator).is_ne();
-                return (!infinite).then(|| Value::quotient(numerator, denominator, x));
-            }
-            (Place::Lowest, Shape::UnitDisc) => Rational::from(2),
-            (Place::Lowest, Shape::LeftHalfPlane) => Rational::ZERO,
-            (Place::Highest, Shape::UnitDisc) => Rational::from(-2),
-            (Place::Highest, Shape::LeftHalfPlane) => {
-                let (n, d) = (numerator.degree(), denominator.degree());
-                return match n.cmp(&d) {
-                    Ordering::Less => Some(Value::from(Rational::ZERO)),
-                    Ordering::Greater => None,
-                    Ordering::Equal => {
-                        Some(Value::from(Rational::new(numerator.leading()?.clone(), denominator.leading()?.clone())))
-                    }
-                };
-            }
-        };
-        let below = denominator.eval_rational(&x);
-        numerator.eval_rational(&x).checked_div(&below).map(Value::from)
     }
 
     /// An enclosure with about `bits` significant bits.
@@ -118,7 +94,7 @@ impl Value {
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
-    pub fn number(&self, budget: &Budget) -> Result<RealAlgebraic, Exhausted> {
+    pub fn number(&self, budget: &Budget) -> Result<Real, Exhausted> {
         let (numerator, denominator, at) = match self {
             Value::Number(x) => return Ok(x.clone()),
             Value::Quotient { numerator, denominator, at } => (numerator, denominator, at),
@@ -129,7 +105,7 @@ impl Value {
         let over: Poly<UniPoly> = at.polynomial().map(|c| UniPoly::constant(c.clone()));
         let image = resultant(&over, &difference, budget)?;
         let image = budget.enter(|| SquareFree::part_of(&image))?.expect("the quotient is in lowest terms");
-        root_within(&image, |bits| self.enclosure(bits), budget)
+        root_within(&image, |bits| self.enclosure(bits), budget).map(Real::from)
     }
 
     /// The order of two values, decided exactly.
@@ -148,14 +124,13 @@ impl Value {
                 return Ok(Ordering::Greater);
             }
         }
-        let (a, b) = (self.number(budget)?, other.number(budget)?);
-        budget.enter(|| a.compare(&b))
+        self.number(budget)?.compare(&other.number(budget)?, budget)
     }
 }
 
 impl From<Rational> for Value {
     fn from(value: Rational) -> Value {
-        Value::Number(RealAlgebraic::from_rational(value))
+        Value::Number(Real::from(value))
     }
 }
 
@@ -179,31 +154,39 @@ fn root_within(
 }
 
 /// The square root of a number that is not negative.
-pub(crate) fn square_root(x: &RealAlgebraic, budget: &Budget) -> Result<RealAlgebraic, Exhausted> {
+pub(crate) fn square_root(x: &Real, budget: &Budget) -> Result<Real, Exhausted> {
+    let Some(algebraic) = x.algebraic() else {
+        let x = x.clone();
+        return Ok(enclosed("square root", move |bits| Some(within(&x, bits).sqrt(bits))));
+    };
     let mut spread = Vec::new();
-    for c in x.polynomial().coeffs() {
+    for c in algebraic.polynomial().coeffs() {
         spread.extend([c.clone(), Integer::ZERO]);
     }
     let squared = budget.enter(|| SquareFree::part_of(&Poly::new(spread)))?.expect("not zero");
     let enclose = |bits: u64| {
-        let (lo, hi) = x.refined_to_digits(bits as usize / 3 + 1).enclosure();
+        let (lo, hi) = algebraic.refined_to_digits(bits as usize / 3 + 1).enclosure();
         Enclosure::new(lo, hi).sqrt(bits)
     };
-    root_within(&squared, enclose, budget)
+    root_within(&squared, enclose, budget).map(Real::from)
 }
 
 /// The inverse of a number that is not zero.
-pub(crate) fn reciprocal(x: &RealAlgebraic, budget: &Budget) -> Result<RealAlgebraic, Exhausted> {
-    let Some(n) = x.polynomial().degree().filter(|_| x.exact().is_none()) else {
-        return Ok(RealAlgebraic::from_rational(x.exact().and_then(|x| x.recip()).expect("not zero")));
-    };
-    let inverted = budget.enter(|| SquareFree::part_of(&x.polynomial().reversed(n)))?.expect("not zero");
+pub(crate) fn reciprocal(x: &Real, budget: &Budget) -> Result<Real, Exhausted> {
     let one = Enclosure::from_rational(Rational::ONE);
+    let Some(algebraic) = x.algebraic() else {
+        let x = x.clone();
+        return Ok(enclosed("inverse", move |bits| one.div(&within(&x, bits), bits)));
+    };
+    let Some(n) = algebraic.polynomial().degree().filter(|_| x.exact().is_none()) else {
+        return Ok(Real::from(x.exact().and_then(|x| x.recip()).expect("not zero")));
+    };
+    let inverted = budget.enter(|| SquareFree::part_of(&algebraic.polynomial().reversed(n)))?.expect("not zero");
     let enclose = |bits: u64| {
-        let (lo, hi) = x.refined_to_digits(bits as usize / 3 + 1).enclosure();
+        let (lo, hi) = algebraic.refined_to_digits(bits as usize / 3 + 1).enclosure();
         one.div(&Enclosure::new(lo, hi), bits).expect("digits tell the sign")
     };
-    root_within(&inverted, enclose, budget)
+    root_within(&inverted, enclose, budget).map(Real::from)
 }
 
 #[cfg(test)]
@@ -219,16 +202,17 @@ mod tests {
     fn roots_and_inverses_undo_squares_and_inverses() {
         let budget = Budget::unlimited();
         for x in roots(&[1, -7, 3, 5, -9, 2]).into_iter().filter(|x| x.sign().is_gt()) {
+            let x = Real::from(x);
             let root = square_root(&x, &budget).unwrap();
-            let square = Value::quotient(&UniPoly::from_i64(&[0, 0, 1]), &UniPoly::one(), &root);
-            assert!(square.number(&budget).unwrap().compare(&x).is_eq());
+            let square = Value::quotient(&UniPoly::from_i64(&[0, 0, 1]), &UniPoly::one(), root.algebraic().unwrap());
+            assert!(square.number(&budget).unwrap().is_same(&x));
             let inverse = reciprocal(&x, &budget).unwrap();
-            assert!(reciprocal(&inverse, &budget).unwrap().compare(&x).is_eq());
+            assert!(reciprocal(&inverse, &budget).unwrap().is_same(&x));
             assert!(inverse.sign().is_gt());
         }
-        let four = RealAlgebraic::from_rational(Rational::from(4));
+        let four = Real::from(Rational::from(4));
         assert_eq!(square_root(&four, &budget).unwrap().exact(), Some(Rational::from(2)));
-        let zero = RealAlgebraic::from_rational(Rational::ZERO);
+        let zero = Real::from(Rational::ZERO);
         assert_eq!(square_root(&zero, &budget).unwrap().exact(), Some(Rational::ZERO));
     }
 

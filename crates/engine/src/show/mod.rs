@@ -13,6 +13,7 @@ pub mod real;
 pub mod region;
 mod requirements;
 mod response;
+mod sensitivity;
 mod table;
 mod tolerance;
 mod verdict;

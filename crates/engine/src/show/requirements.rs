@@ -6,7 +6,6 @@ use super::{real, region};
 use crate::answer::Answer;
 use crate::response::{PhaseMargin, RequiredEnd, RequiredSet, Requirement, RequirementMet};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::real::Real;
 
 impl Answer<RequiredSet> {
@@ -19,7 +18,7 @@ impl Answer<RequiredSet> {
         if domain != "all" {
             asked.push_str(&format!(", domain {domain}"));
         }
-        let wanted: Vec<String> = requirements.iter().map(|r| format!("{} >= {}", r.name(), r.required())).collect();
+        let wanted: Vec<String> = requirements.iter().map(Requirement::text).collect();
         let goal = format!("{}, {}", region::goal_or_stable(problem), wanted.join(", "));
         let mut out = format!("{}\n{asked}: {goal}", heading(problem));
         if self.value().intervals.is_empty() {
@@ -54,8 +53,9 @@ impl Answer<RequiredSet> {
 impl RequirementMet {
     /// The margin that the loop has, rounded; `None` where there is no bound, and of a loop that is not stable.
     pub fn value(&self, digits: usize) -> Option<String> {
-        let margins = self.margins.as_ref()?;
-        let rounded = |x: &RealAlgebraic| real::rounded(&x.clone().into(), digits).decimal;
+        let all = self.margins.as_ref()?;
+        let margins = all.stable.as_ref()?;
+        let rounded = |x: &Real| real::rounded(x, digits).decimal;
         match &self.requirement {
             Requirement::GainMargin { .. } => {
                 // The factor that is allowed for both ways.
@@ -76,7 +76,8 @@ impl RequirementMet {
                 bounded.then(|| real::enclosed(digits, |bits| margins.phase.degrees(bits)))?
             }
             Requirement::ModulusMargin(_) => Some(rounded(&margins.modulus)),
-            Requirement::Damping(_) => None,
+            Requirement::DelayMargin(_) => real::enclosed(digits, |bits| all.delay_seconds(bits)),
+            Requirement::Damping(_) | Requirement::SettlingTime { .. } => None,
         }
     }
 
@@ -84,6 +85,6 @@ impl RequirementMet {
     pub fn text(&self, digits: usize) -> String {
         let value = self.value(digits).map(|v| format!(" ({v})")).unwrap_or_default();
         let verdict = if self.met { "met" } else { "not met" };
-        format!("{} >= {}: {verdict}{value}", self.requirement.name(), self.requirement.required())
+        format!("{}: {verdict}{value}", self.requirement.text())
     }
 }

@@ -8,10 +8,12 @@ use super::{intervals, real};
 use crate::answer::{Answer, Frequency};
 use crate::model::Cut;
 use crate::problem::Problem;
-use crate::response::{self, DelayMargin, Direction, Extreme, Margins, Norm, PhaseMargin, Place, StableMargins};
+use crate::response::{
+    self, DelayMargin, Direction, Extreme, HeldDelay, Margins, Norm, PhaseMargin, Place, StableMargins,
+};
 use crate::stability::{End, Shape};
 use jurist_algebra::number::{Enclosure, Rational};
-use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::real::Real;
 
 /// Digits of frequencies and decibels.
 const PLACES: usize = 7;
@@ -93,8 +95,8 @@ impl Writer<'_> {
         }
     }
 
-    fn number(&self, x: &RealAlgebraic) -> String {
-        real::rounded(&x.clone().into(), self.digits).decimal
+    fn number(&self, x: &Real) -> String {
+        real::rounded(x, self.digits).decimal
     }
 
     fn end(&self, end: &End) -> String {
@@ -154,10 +156,11 @@ impl Writer<'_> {
             DelayMargin::SamplesAtLeast(m) => format!("at least {}", samples(*m)),
             DelayMargin::Samples(m) => {
                 let more = format!("{} borne, one more is not", samples(*m));
-                match self.margins.open_loop.sample_time() {
+                let more = match self.margins.open_loop.sample_time() {
                     Some(t) => format!("{more} ({} s)", short(&(t * &Rational::from(*m as i64)))),
                     None => more,
-                }
+                };
+                self.margins.held_delay.as_ref().map_or(more.clone(), |held| format!("{more}; {}", self.held(held)))
             }
             DelayMargin::DeadTime(i) => {
                 let crossing = &self.margins.crossings.gain[*i];
@@ -165,6 +168,15 @@ impl Writer<'_> {
                 format!("less than {seconds} s of dead time, {}", self.at(Some(&crossing.place)))
             }
         }
+    }
+
+    fn held(&self, held: &HeldDelay) -> String {
+        let block = visible(&held.block);
+        let Some(seconds) = real::enclosed(self.digits, |bits| held.seconds(bits)) else {
+            return format!("much dead time behind the hold of '{block}'");
+        };
+        let place = frequency_text(|bits| held.frequency(bits)).map(|p| format!(", at {p}")).unwrap_or_default();
+        format!("less than {seconds} s of dead time behind the hold of '{block}'{place}")
     }
 
     fn disk(&self, disk: &response::DiskMargin) -> String {
@@ -196,7 +208,13 @@ impl Writer<'_> {
                 Direction::Rising => "rising",
                 Direction::Touching => "touching",
             };
-            let delay = delay.map(|d| format!("PM/omega {d} {unit}")).unwrap_or_default();
+            let period = self.margins.open_loop.sample_time().filter(|_| self.shape() == Shape::UnitDisc);
+            let seconds = period.and_then(|t| {
+                let t = Enclosure::from_rational(t.clone());
+                real::enclosed(PLACES, |bits| Some(c.delay(self.shape(), bits + 16)?.mul(&t, bits)))
+            });
+            let seconds = seconds.map(|s| format!(" = {s} s")).unwrap_or_default();
+            let delay = delay.map(|d| format!("PM/omega {d} {unit}{seconds}")).unwrap_or_default();
             columns.row([
                 "modulus 1".to_owned(),
                 self.at(Some(&c.place)),
@@ -233,8 +251,8 @@ fn norm_line(problem: &Problem, norm: &Norm, digits: usize) -> String {
         Extreme::At { place: Place::Lowest, .. } => "at frequency 0".to_owned(),
         _ => format!("at {}", frequency_text(|bits| norm.frequency(problem.shape(), bits)).unwrap_or_default()),
     };
-    let value = real::rounded(&peak.value.clone().into(), digits).decimal;
-    let decibels = margin(&peak.value.clone().into(), Some(&Rational::ONE), PLACES).and_then(|m| m.decibels);
+    let value = real::rounded(&peak.value, digits).decimal;
+    let decibels = margin(&peak.value, Some(&Rational::ONE), PLACES).and_then(|m| m.decibels);
     let decibels = decibels.map(|d| format!(" ({d} dB)")).unwrap_or_default();
     let (input, output) = (visible(&norm.input), visible(&norm.output));
     format!("peak gain from {input} to {output}: {value}{decibels} {place}")

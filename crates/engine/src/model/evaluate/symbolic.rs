@@ -87,6 +87,8 @@ pub(in crate::model) struct Hold {
     pub time: RationalFunction,
     /// Dead time of the inputs, in units of time.
     pub delay: RationalFunction,
+    /// The whole samples in the dead time, where its fraction of a sample is not a number.
+    pub whole: Option<usize>,
     pub span: Span,
 }
 
@@ -196,7 +198,7 @@ impl Evaluator<'_, '_> {
                 None => RationalFunction::zero(),
             };
             let is_first_order = d.method == Method::FirstOrderHold;
-            return Some(DiscretizationValues::Hold(Hold { is_first_order, time, delay, span: d.span }));
+            return Some(DiscretizationValues::Hold(Hold { is_first_order, time, delay, whole: None, span: d.span }));
         }
         if d.method != Method::Tustin {
             return Some(DiscretizationValues::Rule { method: d.method, value: time, prewarp: None });

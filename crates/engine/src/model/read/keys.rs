@@ -57,7 +57,7 @@ pub(super) const TIMES: [&str; 2] = ["discrete", "continuous"];
 pub(super) const METHODS: [&str; 5] = ["zoh", "foh", "tustin", "forward", "backward"];
 
 /// The whole file.
-pub(super) const MODEL: [Key; 8] = [
+pub(super) const MODEL: [Key; 9] = [
     key("title", Shape::Text, "what the loop is, for people"),
     needed(
         "time",
@@ -74,6 +74,7 @@ pub(super) const MODEL: [Key; 8] = [
     needed("loop", Shape::Table(&LOOP), "the loop, in exactly one form: characteristic, matrix, A B C K, or blocks"),
     key("block", Shape::Tables(&BLOCK), "the blocks of a diagram, wired by the names of their signals"),
     key("simulation", Shape::Table(&SIMULATION), "defaults of a time response"),
+    key("require", Shape::Table(&REQUIRE), "what is required of the loop beyond stability"),
 ];
 
 /// A parameter.
@@ -161,4 +162,17 @@ pub(super) const SIMULATION: [Key; 4] = [
     key("initial", Shape::Named(&Shape::Number), "initial values of states; others are zero"),
     key("duration", Shape::Number, "seconds, or samples when the loop has no sample time"),
     key("units", Shape::Named(&Shape::Text), "units of inputs, states, signals and outputs, for people"),
+];
+
+/// The table `[require]`.
+pub(super) const REQUIRE: [Key; 9] = [
+    key("at", Shape::Text, "where margins are taken: a signal, or a block (at its input)"),
+    key("gain_margin", Shape::Expression, "a factor both ways, or decibels: \"6 dB\""),
+    key("phase_margin", Shape::Expression, "an angle: \"45 deg\""),
+    key("modulus_margin", Shape::Expression, "the least |1 + L|, the inverse of the greatest sensitivity"),
+    key("delay_margin", Shape::Expression, "a dead time in units of time"),
+    key("damping", Shape::Expression, "the least damping of all roots (continuous time)"),
+    key("decay", Shape::Expression, "all roots have Re s < -decay (continuous time)"),
+    key("radius", Shape::Expression, "all roots have |z| < radius (discrete time)"),
+    key("settling_time", Shape::Expression, "a decay of at least 4 over this time"),
 ];

@@ -10,6 +10,7 @@ mod keys;
 mod loop_forms;
 mod model_file;
 mod reader;
+mod require;
 mod schema;
 mod simulation;
 mod tolerance;

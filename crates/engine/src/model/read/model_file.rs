@@ -3,9 +3,9 @@
 use super::keys;
 use super::loop_forms::read_form;
 use super::reader::{Meant, NamedMatrix, Reader};
-use super::simulation;
 use super::tolerance::read_tolerance;
 use super::{check_names, check_rules, check_values};
+use super::{require, simulation};
 use crate::error::{Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::model::definition::{Constant, Diagram, Form, Model, Name, Parameter, Time};
 use crate::model::evaluate::work::constant_value;
@@ -109,6 +109,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
     let parameters = read_parameters(root, reader);
     let form = read_form(root, &meant, time.unwrap_or(Time::Discrete), sample_time.as_ref(), reader);
     let simulation = simulation::read(root, reader);
+    let require = require::read(root, reader);
     let mut index = HashMap::new();
     check_names::definitions(&constants, &parameters, time.unwrap_or(Time::Discrete), &mut index, reader);
     let constant_order = check_names::constant_order(&constants, &index, reader);
@@ -123,6 +124,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
         // With a broken form the names are checked all the same.
         form: form.clone().unwrap_or(Form::Blocks(Diagram { inputs: vec![], outputs: vec![], blocks: vec![] })),
         simulation,
+        require,
         index,
     };
     let form_is_broken = form.is_none();

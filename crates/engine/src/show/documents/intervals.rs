@@ -1,12 +1,14 @@
 //! The document `jurist/intervals/1`.
 
-use super::number::{Enclosure, enclosure};
+use super::number::{Enclosure, Exact, Number, enclosure};
 use super::schema_name;
 use super::{Answered, Bounds, End, ParameterQuestion, RequirementAsked};
-use crate::answer::Answer;
+use crate::answer::{Answer, Sensitivities, Sensitivity};
 use crate::problem::Problem;
+use crate::show::real;
 use crate::stability::{StableSet, UndecidedBracket};
 use jurist_algebra::limits::Exhausted;
+use jurist_algebra::real::Real;
 use serde::{Deserialize, Serialize};
 
 schema_name!(IntervalsName, "jurist/intervals/1");
@@ -26,6 +28,38 @@ pub struct Intervals {
     /// The set.
     #[serde(flatten)]
     pub answer: Answered<Stable, IntervalsOpen>,
+    /// How the limits move with the other names, where it was asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sensitivity: Vec<SensitivityFound>,
+}
+
+/// How one limit moves with one name.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SensitivityFound {
+    /// The limit, rounded as in `stable`.
+    pub limit: String,
+    /// The parameter or constant.
+    pub name: String,
+    /// Its value.
+    pub value: Exact,
+    /// The derivative of the limit; `null` where it has none, or the name is inside of a function.
+    pub derivative: Option<Number>,
+    /// The derivative times the value over the limit; `null` also at a limit of 0.
+    pub relative: Option<Number>,
+}
+
+impl SensitivityFound {
+    fn new(row: &Sensitivity, digits: usize) -> Self {
+        let number = |x: &Option<Real>| x.as_ref().map(|x| Number::new(x, digits));
+        SensitivityFound {
+            limit: real::rounded(&row.limit, digits).decimal,
+            name: row.name.clone(),
+            value: Exact::from(&row.value),
+            derivative: number(&row.derivative),
+            relative: number(&row.relative),
+        }
+    }
 }
 
 /// The answer.
@@ -65,7 +99,7 @@ impl Intervals {
         require: Vec<RequirementAsked>,
     ) -> Self {
         let answer = Answered::Known(Stable { stable, undecided: Vec::new() });
-        Intervals { schema: IntervalsName::V1, question, require, answer }
+        Intervals { schema: IntervalsName::V1, question, require, answer, sensitivity: Vec::new() }
     }
 
     /// The document, also of an answer that the budget did not allow; decimals to so many significant digits.
@@ -78,7 +112,14 @@ impl Intervals {
                 stable: End::intervals(set, problem, digits),
                 undecided: set.undecided().iter().map(UndecidedEnclosure::from).collect(),
             }),
+            sensitivity: Vec::new(),
         }
+    }
+
+    /// With how the limits move.
+    pub fn with_sensitivities(mut self, table: &Sensitivities, digits: usize) -> Self {
+        self.sensitivity = table.rows.iter().map(|row| SensitivityFound::new(row, digits)).collect();
+        self
     }
 }
 

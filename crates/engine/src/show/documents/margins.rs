@@ -9,7 +9,7 @@ use crate::show::real;
 use crate::stability::{Shape, StableInterval};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{self, Rational};
-use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::real::Real;
 use serde::{Deserialize, Serialize};
 
 schema_name!(MarginsName, "jurist/margins/1");
@@ -96,15 +96,18 @@ pub struct PhaseMarginFound {
 pub struct DelayMarginFound {
     /// Whether any delay is borne; the other keys are `null` then.
     pub unbounded: bool,
-    /// Continuous time: the dead time that is not borne any more, in units of time, correctly rounded.
+    /// The dead time that is not borne any more, in units of time, correctly rounded: in continuous time, and at the input of
+    /// a plant behind a hold.
     pub seconds: Option<String>,
+    /// The block behind a hold at whose input this dead time is.
+    pub behind_hold: Option<String>,
     /// Certified bounds of it.
     pub enclosure: Option<Enclosure>,
     /// Discrete time: the greatest number of whole samples that is borne, with all smaller ones.
     pub samples: Option<u64>,
     /// Whether `samples` is only known to be borne: the modulus of the open loop only touches one.
     pub at_least: bool,
-    /// The crossing that binds, in continuous time.
+    /// The crossing that binds, in continuous time; the pair on the unit circle with the dead time behind a hold.
     #[serde(flatten)]
     pub frequency: FrequencyOfPair,
 }
@@ -163,6 +166,8 @@ pub struct GainCrossingFound {
     pub phase_margin_degrees: String,
     /// The lag that leads to -1 divided by the frequency, in samples or in units of time; `null` at the ends of the range.
     pub delay: Option<String>,
+    /// The same in units of time, in discrete time with a sample time: the phase margin over the angular frequency.
+    pub delay_seconds: Option<String>,
     /// How the modulus goes through one as the frequency grows.
     pub direction: Direction,
     /// The frequency; all `null` in the limit of high frequencies.
@@ -196,8 +201,8 @@ impl Writer<'_> {
         self.margins.open_loop.shape()
     }
 
-    fn number(&self, value: &RealAlgebraic) -> Number {
-        Number::new(&value.clone().into(), self.digits)
+    fn number(&self, value: &Real) -> Number {
+        Number::new(value, self.digits)
     }
 
     fn decimal(&self, enclose: impl FnMut(u64) -> Option<number::Enclosure>) -> Option<String> {
@@ -244,6 +249,7 @@ impl Writer<'_> {
         let none = DelayMarginFound {
             unbounded: false,
             seconds: None,
+            behind_hold: None,
             enclosure: None,
             samples: None,
             at_least: false,
@@ -255,7 +261,18 @@ impl Writer<'_> {
             DelayMargin::Zero => {
                 DelayMarginFound { seconds: Some("0".into()), enclosure: Some([zero.clone(), zero]), ..none }
             }
-            DelayMargin::Samples(m) => DelayMarginFound { samples: Some(*m), ..none },
+            DelayMargin::Samples(m) => {
+                let held = self.margins.held_delay.as_ref();
+                let narrow = held.and_then(|h| h.seconds(real::bits_for(self.digits)));
+                DelayMarginFound {
+                    samples: Some(*m),
+                    seconds: self.decimal(|bits| held?.seconds(bits)),
+                    behind_hold: held.filter(|h| h.samples.is_some()).map(|h| h.block.clone()),
+                    enclosure: narrow.map(|e| super::number::enclosure(e.lower(), e.upper())),
+                    frequency: FrequencyOfPair::new(self.digits, |bits| held?.frequency(bits)),
+                    ..none
+                }
+            }
             DelayMargin::SamplesAtLeast(m) => DelayMarginFound { samples: Some(*m), at_least: true, ..none },
             DelayMargin::DeadTime(i) => {
                 let crossing = &self.margins.crossings.gain[*i];
@@ -297,6 +314,11 @@ impl Writer<'_> {
                 .decimal(|bits| Some(response::degrees(&c.phase(bits + 16), bits)))
                 .unwrap_or_default(),
             delay: self.decimal(|bits| c.delay(self.shape(), bits)),
+            delay_seconds: self.decimal(|bits| {
+                let period = self.margins.open_loop.sample_time().filter(|_| self.shape() == Shape::UnitDisc)?;
+                let period = number::Enclosure::from_rational(period.clone());
+                Some(c.delay(self.shape(), bits + 16)?.mul(&period, bits))
+            }),
             direction: c.direction,
             frequency: self.at(Some(&c.place)),
         });

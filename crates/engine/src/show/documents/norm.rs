@@ -71,7 +71,7 @@ impl Norm {
             stable: norm.verdict.verdict == answer::Verdict::Stable,
             roots: RootsByPlace::from(&norm.verdict),
             norm: norm.peak.as_ref().map(|peak| PeakFound {
-                value: Number::new(&peak.value.clone().into(), digits),
+                value: Number::new(&peak.value, digits),
                 attained: !matches!(peak.extreme, Extreme::At { attained: false, .. }),
                 frequency: FrequencyOfPair::new(digits, |bits| norm.frequency(problem.shape(), bits)),
             }),

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RequirementAsked {
-    /// Its name: `gain_margin`, `phase_margin`, `modulus_margin`, `damping`.
+    /// Its name: `gain_margin`, `phase_margin`, `modulus_margin`, `delay_margin`, `damping`, `settling_time`.
     pub name: String,
     /// What is required, as it was asked for.
     pub required: String,
@@ -42,6 +42,14 @@ impl RequirementFound {
     }
 }
 
+impl RequirementFound {
+    /// A requirement that is met where all roots are in the region asked for.
+    pub fn of_region(name: &str, required: &str, met: bool) -> Self {
+        let asked = RequirementAsked { name: name.to_owned(), required: required.to_owned() };
+        RequirementFound { asked, value: None, met }
+    }
+}
+
 impl Answer<RequiredSet> {
     /// The document `jurist/intervals/1`, with `require`, and `requirement` at ends.
     pub fn json(&self, requirements: &[Requirement], digits: usize) -> Intervals {
@@ -49,7 +57,7 @@ impl Answer<RequiredSet> {
         let end = |end: &Option<RequiredEnd>| match end.as_ref()? {
             RequiredEnd::Stability(end) => Some(End::new(end, problem, digits)),
             RequiredEnd::Requirement { value, names, closed } => {
-                Some(End::of_requirement(&value.clone().into(), names.join("+"), *closed, problem, digits))
+                Some(End::of_requirement(value, names.join("+"), *closed, problem, digits))
             }
         };
         let bounds = self.value().intervals.iter().map(|i| Bounds { lower: end(&i.lower), upper: end(&i.upper) });

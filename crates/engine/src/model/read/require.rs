@@ -1,0 +1,25 @@
+//! What `[require]` says: requirements as texts, which are understood when they are asked for.
+
+use super::keys;
+use super::model_file::section;
+use super::reader::Reader;
+use crate::model::definition::RequirementText;
+use crate::model::text::toml_value::{Kind, Table};
+
+/// Reads the section, if there is one.
+pub(super) fn read(root: &Table, reader: &mut Reader) -> Vec<RequirementText> {
+    let Some(table) = section(root, "require", reader) else { return Vec::new() };
+    reader.unknown_keys(table, &keys::REQUIRE, "[require]");
+    let mut out = Vec::new();
+    for entry in table.iter().filter(|e| keys::REQUIRE.iter().any(|key| key.name == e.key)) {
+        let what = format!("'{}'", entry.key);
+        let text = match &entry.value.kind {
+            Kind::Number(_) if entry.key != "at" => reader.number(&entry.value, &what).map(|number| number.to_string()),
+            _ => reader.string(&entry.value, &what).map(|text| text.as_str().to_owned()),
+        };
+        if let Some(text) = text {
+            out.push(RequirementText { name: entry.key.clone(), text, span: entry.value.span });
+        }
+    }
+    out
+}

@@ -1,0 +1,138 @@
+//! A stable interval cut into cells in each of which every requirement is met everywhere or nowhere.
+
+use super::family::{Boundaries, Family};
+use super::requirement::Requirement;
+use super::{RequiredEnd, RequiredInterval};
+use crate::error::Error;
+use crate::problem::Problem;
+use crate::stability::End;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
+use jurist_algebra::real::{Real, rational_between};
+use jurist_algebra::symbols::merged;
+
+/// What is asked in each cell.
+pub(super) struct Cells<'a> {
+    pub problem: &'a Problem,
+    pub requirements: &'a [Requirement],
+    pub boundaries: &'a [Boundaries],
+    pub family: Option<&'a Family>,
+    pub budget: &'a Budget,
+}
+
+impl Cells<'_> {
+    /// The names of what is not met at a stable value.
+    fn unmet(&self, value: &Rational) -> Result<Vec<&'static str>, Error> {
+        let open_loop = self.family.map(|f| f.at(value));
+        let open_loop = open_loop.as_ref();
+        let closed = self.problem.parametric(self.budget)?.map(|p| p.specialised(value)).unwrap_or_else(UniPoly::zero);
+        let mut out = Vec::new();
+        for requirement in self.requirements {
+            if !requirement.is_met(open_loop, &closed, self.problem.shape(), self.budget)? {
+                out.push(requirement.name());
+            }
+        }
+        Ok(out)
+    }
+
+    /// The parts of a stable interval in which everything is met.
+    pub fn within(&self, lower: Option<&End>, upper: Option<&End>) -> Result<Vec<RequiredInterval>, Error> {
+        let (least, most) = (lower.map(|end| &end.value), upper.map(|end| &end.value));
+        let zeros = self.zeros_between(least, most)?;
+        let mut cells = Vec::with_capacity(zeros.len() + 1);
+        for i in 0..=zeros.len() {
+            self.budget.check()?;
+            let below = if i == 0 { least } else { Some(&zeros[i - 1]) };
+            let above = zeros.get(i).or(most);
+            let sample = match (below, above) {
+                (Some(a), Some(b)) => rational_between(a, b, self.budget)?.expect("they differ"),
+                (Some(a), None) => self.budget.enter(|| a.rational_above())?,
+                (None, Some(b)) => self.budget.enter(|| b.rational_below())?,
+                (None, None) => Rational::ZERO,
+            };
+            cells.push(self.unmet(&sample)?);
+        }
+        let mut out: Vec<RequiredInterval> = Vec::new();
+        let stability = |end: Option<&End>| end.cloned().map(RequiredEnd::Stability);
+        let mut begun: Option<Option<RequiredEnd>> = cells[0].is_empty().then(|| stability(lower));
+        for (i, zero) in zeros.iter().enumerate() {
+            let (before, after) = (&cells[i], &cells[i + 1]);
+            match (before.is_empty(), after.is_empty()) {
+                (true, false) => {
+                    let upper = Some(self.end(zero, after)?);
+                    out.push(RequiredInterval { lower: begun.take().expect("an interval has begun"), upper });
+                }
+                (false, true) => begun = Some(Some(self.end(zero, before)?)),
+                (true, true) => {
+                    // A rational value between two cells is decided like any other.
+                    let unmet = match zero.exact() {
+                        Some(value) => self.unmet(&value)?,
+                        None => Vec::new(),
+                    };
+                    if !unmet.is_empty() {
+                        let end = RequiredEnd::Requirement { value: zero.clone(), names: unmet, closed: false };
+                        let lower = begun.replace(Some(end.clone())).expect("an interval has begun");
+                        out.push(RequiredInterval { lower, upper: Some(end) });
+                    }
+                }
+                (false, false) => {}
+            }
+        }
+        if let Some(lower) = begun {
+            out.push(RequiredInterval { lower, upper: stability(upper) });
+        }
+        Ok(out)
+    }
+
+    /// Where a requirement may begin or cease to be met, strictly between two numbers, ascending.
+    fn zeros_between(&self, least: Option<&Real>, most: Option<&Real>) -> Result<Vec<Real>, Exhausted> {
+        let mut zeros: Vec<RealAlgebraic> = Vec::new();
+        for f in self.boundaries.iter().flat_map(|b| &b.zeros) {
+            let Some(f) = self.budget.enter(|| SquareFree::part_of(f))? else { continue };
+            zeros.extend(isolate_real_roots(&f, self.budget)?);
+        }
+        self.budget.enter(|| {
+            zeros.sort_by(RealAlgebraic::compare);
+            zeros.dedup_by(|a, b| a.compare(b).is_eq());
+        })?;
+        let mut all: Vec<Real> = zeros.into_iter().map(Real::from).collect();
+        for boundary in self.boundaries {
+            all = merged(all, boundary.values.clone(), self.budget)?;
+        }
+        let mut out = Vec::with_capacity(all.len());
+        for x in all {
+            let above = match least {
+                Some(least) => x.compare(least, self.budget)?.is_gt(),
+                None => true,
+            };
+            let below = match most {
+                Some(most) => x.compare(most, self.budget)?.is_lt(),
+                None => true,
+            };
+            if above && below {
+                out.push(x);
+            }
+        }
+        Ok(out)
+    }
+
+    /// The end at a zero beyond which some are not met. A modulus margin and a damping are continuous where the loop is stable,
+    /// and so is a phase margin unless a crossing appears; a gain margin asks for stability at its own ends too.
+    fn end(&self, zero: &Real, names: &[&'static str]) -> Result<RequiredEnd, Error> {
+        let unmet = |r: &Requirement| names.contains(&r.name());
+        let mut closed = true;
+        for (requirement, boundary) in self.requirements.iter().zip(self.boundaries).filter(|(r, _)| unmet(r)) {
+            closed &= match requirement {
+                Requirement::GainMargin { .. } => false,
+                Requirement::PhaseMargin { .. } => {
+                    let touches = |x: &RealAlgebraic| x.sign_of(&boundary.touches).is_eq();
+                    !self.budget.enter(|| zero.algebraic().is_some_and(touches))?
+                }
+                Requirement::ModulusMargin(_) | Requirement::Damping(_) => true,
+                Requirement::SettlingTime { .. } | Requirement::DelayMargin(_) => true,
+            };
+        }
+        Ok(RequiredEnd::Requirement { value: zero.clone(), names: names.to_vec(), closed })
+    }
+}

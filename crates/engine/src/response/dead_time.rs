@@ -1,0 +1,267 @@
+//! Margins of continuous loops with dead time, `L = N/D0 exp(-tau s)`.
+//!
+//! The modulus of the exponential is one on the axis, so the crossings of modulus one are algebraic; the phase turns by
+//! `-omega tau`. Where the open loop is real, and the extremes of `|1 + L|`, are zeros of polynomials in `omega`,
+//! `cos(tau omega)` and `sin(tau omega)`: isolated with enclosures ([`MovingSymbols::zeros_in`]) up to a frequency beyond
+//! which the modulus of the open loop tells that there is nothing to find.
+
+use super::crossings::{Crossings, PhaseCrossing};
+use super::enclosed::enclosed;
+use super::ground::Integers;
+use super::margins::{GainMargin, PhaseMargin, StableMargins};
+use super::open_loop::Parts;
+use super::value::{reciprocal, square_root};
+use super::{DelayMargin, DiskMargin, Extreme, Place, Value};
+use crate::answer::stable_factors;
+use crate::error::Error;
+use crate::problem::refused;
+use crate::stability::dead_time::GainLoop;
+use crate::stability::{Range, zeros_in};
+use jurist_algebra::ball::{Ball, tan};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
+use jurist_algebra::real::Real;
+use jurist_algebra::symbols::{Definition, MovingSymbols};
+use std::sync::Arc;
+
+/// The rational factor of the open loop and its dead time.
+pub(super) struct DeadTime<'a> {
+    parts: &'a Parts<Integers>,
+    tau: &'a Rational,
+    /// `cos(tau omega)` and `sin(tau omega)` of the angular frequency, which is variable 0.
+    turning: Arc<MovingSymbols>,
+}
+
+/// Phase crossings are listed where the open loop's modulus is above one over this.
+const LISTED: i64 = 100;
+
+impl<'a> DeadTime<'a> {
+    pub fn new(parts: &'a Parts<Integers>, tau: &'a Rational) -> DeadTime<'a> {
+        let time = &RationalFunction::variable(0) * &RationalFunction::from(tau.clone());
+        let polynomial = vec![RationalFunction::one(), RationalFunction::zero(), RationalFunction::one()];
+        let part = |name: &str, index| {
+            (name.to_owned(), Definition::Fundamental { polynomial: polynomial.clone(), index, time: time.clone() })
+        };
+        DeadTime { parts, tau, turning: Arc::new(MovingSymbols::new(vec![part("cos", 0), part("sin", 1)])) }
+    }
+
+    /// A polynomial in `x = -omega^2` as one in `omega`.
+    fn in_omega(p: &UniPoly) -> MultiPoly {
+        let sign = |i: usize| if i % 2 == 0 { Integer::ONE } else { -Integer::ONE };
+        let terms = p.coeffs().iter().enumerate().map(|(i, c)| (vec![2 * i as u32], c * &sign(i)));
+        MultiPoly::from_terms(terms)
+    }
+
+    /// Twice the real part of `N conj(D0) exp(-j omega tau)`.
+    fn twice_real(&self) -> MultiPoly {
+        let r = &self.parts.reduced;
+        let turned = DeadTime::in_omega(&r.imaginary).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
+        let along = DeadTime::in_omega(&r.twice_real).times(&MultiPoly::variable(1));
+        along.plus(&turned.times(&MultiPoly::variable(2)))
+    }
+
+    /// Twice its imaginary part.
+    fn twice_imaginary(&self) -> MultiPoly {
+        let r = &self.parts.reduced;
+        let turned = DeadTime::in_omega(&r.imaginary).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
+        turned.times(&MultiPoly::variable(1)).minus(&DeadTime::in_omega(&r.twice_real).times(&MultiPoly::variable(2)))
+    }
+
+    /// The derivative by `omega`, times the denominator of the dead time.
+    fn derivative(&self, p: &MultiPoly) -> MultiPoly {
+        let (up, down) = (self.tau.numerator(), self.tau.denominator());
+        let by_cos = p.derivative(1).times(&MultiPoly::variable(2)).scaled_by(&(-up.clone()));
+        let by_sin = p.derivative(2).times(&MultiPoly::variable(1)).scaled_by(&up);
+        p.derivative(0).scaled_by(&down).plus(&by_cos).plus(&by_sin)
+    }
+
+    /// An angular frequency beyond which the modulus of the open loop is below `1/ratio`.
+    fn beyond(&self, ratio: i64, budget: &Budget) -> Result<Rational, Error> {
+        let r = &self.parts.reduced;
+        let square = Integer::from(ratio) * &Integer::from(ratio);
+        let excess = r.numerator_squared.scaled(&square).minus(&r.denominator_squared);
+        if r.numerator.degree() >= r.denominator.degree() {
+            let help = "such a loop bears no delay, or its margins are those of its modulus alone";
+            return Err(refused("margins with dead time are known where the open loop's modulus falls to zero", help));
+        }
+        let below_zero = Range::between(None, Some(Rational::ZERO));
+        let zeros = zeros_in(&excess, &below_zero, budget)?;
+        Ok(match zeros.first() {
+            // x = -omega^2 of the highest frequency.
+            Some(x) => {
+                let (lowest, _) = x.refined(&Rational::ONE).enclosure();
+                Enclosure::from_rational(-lowest).sqrt(32).upper() + &Rational::ONE
+            }
+            None => Rational::ONE,
+        })
+    }
+
+    fn zeros(&self, p: &MultiPoly, end: &Rational, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+        let found = self.turning.zeros_in(p, &Rational::ZERO, end, budget)?;
+        match found.undecided.is_empty() {
+            true => Ok(found.zeros),
+            false => Err(Exhausted::new("precision", "frequencies of a loop with dead time")),
+        }
+    }
+
+    /// `above/below` at an angular frequency.
+    fn quotient(&self, above: &MultiPoly, below: &MultiPoly, at: &Real) -> Real {
+        let (above, below, at, turning) = (above.clone(), below.clone(), at.clone(), Arc::clone(&self.turning));
+        enclosed("quotient at a frequency", move |bits| {
+            let (lo, hi) = at.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
+            let omega = Ball::between(&lo, &hi, bits);
+            let value = |p: &MultiPoly| turning.enclose(p, &omega);
+            Some(value(&above)?.div(&value(&below)?)?.to_enclosure())
+        })
+    }
+
+    /// The frequency as a place.
+    fn place(omega: &Real) -> Place {
+        let omega = omega.clone();
+        Place::Inside(enclosed("minus the square of a frequency", move |bits| {
+            let omega = super::enclosed::within(&omega, bits);
+            Some(omega.mul(&omega, bits).neg())
+        }))
+    }
+
+    /// All crossings of modulus one, and those of the negative real axis down to a hundredth.
+    pub fn crossings(&self, mut rational: Crossings, budget: &Budget) -> Result<Crossings, Error> {
+        for crossing in &mut rational.gain {
+            crossing.dead_time = Some(self.tau.clone());
+            crossing.tangent_squared = None;
+        }
+        rational.phase.retain(|c| matches!(c.place, Place::Lowest));
+        rational.phase_everywhere = false;
+        let end = self.beyond(LISTED, budget)?;
+        let real = self.twice_real();
+        let below = DeadTime::in_omega(&self.parts.reduced.denominator_squared).scaled_by(&Integer::from(-2));
+        for omega in self.zeros(&self.twice_imaginary(), &end, budget)? {
+            let factor = self.quotient(&below, &real, &omega);
+            if budget.enter(|| factor.sign())?.is_gt() {
+                rational.phase.push(PhaseCrossing { place: DeadTime::place(&omega), factor: Value::Number(factor) });
+            }
+        }
+        Ok(rational)
+    }
+
+    /// The margins of a stable loop.
+    pub fn margins(&self, crossings: &Crossings, skew: &Rational, budget: &Budget) -> Result<StableMargins, Error> {
+        let zero = UniPoly::zero();
+        let (d, n) = (self.parts.denominator.clone(), self.parts.numerator.clone());
+        budget.step("gain margin");
+        let gain = GainLoop::new(vec![d, zero.clone()], vec![zero, n], self.tau.clone());
+        let gain = GainMargin::of_set(stable_factors(&gain, budget)?);
+        budget.step("phase margin");
+        let phase = self.phase(crossings, budget)?;
+        budget.step("delay margin");
+        let delay = DelayMargin::over(self.parts, crossings, budget)?;
+        budget.step("modulus margin");
+        let r = &self.parts.reduced;
+        let both = DeadTime::in_omega(&r.numerator_squared.plus(&r.denominator_squared));
+        let sum = both.plus(&self.twice_real());
+        let denominator = DeadTime::in_omega(&r.denominator_squared);
+        let modulus_at = self.least(&sum, &denominator, |r| (Rational::ONE - r).clone(), budget)?;
+        let square = modulus_at.value().expect("finite somewhere").number(budget)?;
+        let modulus = square_root(&square, budget)?;
+        let peak_sensitivity = reciprocal(&modulus, budget)?;
+        budget.step("disk margin");
+        let disk = self.disk(&sum, skew, budget)?;
+        Ok(StableMargins { gain, phase, delay, modulus, peak_sensitivity, modulus_at, disk })
+    }
+
+    /// The least angle of all crossings.
+    fn phase(&self, crossings: &Crossings, budget: &Budget) -> Result<PhaseMargin, Exhausted> {
+        /// Bits with which angles are compared.
+        const BITS: u64 = 256;
+        let size = |e: Enclosure| if e.lower().is_negative() { e.neg() } else { e };
+        let mut least: Option<(usize, Enclosure)> = None;
+        for (i, crossing) in crossings.gain.iter().enumerate() {
+            let angle = size(budget.enter(|| crossing.phase(BITS))?);
+            if least.as_ref().is_none_or(|(_, known)| angle.upper() < known.lower()) {
+                least = Some((i, angle));
+            }
+        }
+        let Some((i, _)) = least else { return Ok(PhaseMargin::Unbounded) };
+        let crossing = crossings.gain[i].clone();
+        let place = Some(crossing.place.clone());
+        let tangent = enclosed("tangent of half of an angle", move |bits| {
+            let half = size(crossing.phase(bits)).div(&Enclosure::from_rational(Rational::from(2)), bits)?;
+            Some(tan(&Ball::from_enclosure(&half, bits))?.to_enclosure())
+        });
+        Ok(PhaseMargin::Angle { tangent: Some(tangent), place })
+    }
+
+    /// The least value of `above/below`, squares of moduli in `omega`; where the modulus of the open loop is below `r`, the
+    /// root of the quotient is not below `floor(r)`, which grows to its limit as `r` falls.
+    fn least(
+        &self,
+        above: &MultiPoly,
+        below: &MultiPoly,
+        floor: impl Fn(&Rational) -> Rational,
+        budget: &Budget,
+    ) -> Result<Extreme, Error> {
+        let below_zero = Range::between(None, Some(Rational::ZERO));
+        if !zeros_in(&self.parts.reduced.denominator_squared, &below_zero, budget)?.is_empty() {
+            let help = "the gain, phase and delay margins of such a loop are limits of 'intervals'";
+            return Err(refused("the open loop with dead time has poles on the imaginary axis beside 0", help));
+        }
+        let slope = self.derivative(above).times(below).minus(&above.times(&self.derivative(below)));
+        let at_zero = |p: &MultiPoly| {
+            let p = p.substitute(0, &Rational::ZERO).0.substitute(1, &Rational::ONE).0;
+            p.substitute(2, &Rational::ZERO).0.as_constant().expect("a number")
+        };
+        let (a, b) = (at_zero(above), at_zero(below));
+        let mut ratio = 4;
+        loop {
+            let end = self.beyond(ratio, budget)?;
+            let mut best: Option<(Place, Real)> = None;
+            if !b.is_zero() {
+                best = Some((Place::Lowest, Real::from(Rational::new(a.clone(), b.clone()))));
+            }
+            for omega in self.zeros(&slope, &end, budget)? {
+                let value = self.quotient(above, below, &omega);
+                let better = match &best {
+                    None => true,
+                    Some((_, known)) => value.compare(known, budget)?.is_lt(),
+                };
+                if better {
+                    best = Some((DeadTime::place(&omega), value));
+                }
+            }
+            let least = floor(&Rational::new(Integer::ONE, Integer::from(ratio)));
+            let square = &least * &least;
+            if let Some((place, value)) = best
+                && budget.enter(|| value.compare_rational(&square).is_lt())?
+            {
+                return Ok(Extreme::At { place, value: Value::Number(value), attained: true });
+            }
+            ratio *= 4;
+        }
+    }
+
+    /// The least `2 |1 + L|/|(1 + skew) - (1 - skew) L|`.
+    fn disk(&self, sum: &MultiPoly, skew: &Rational, budget: &Budget) -> Result<DiskMargin, Error> {
+        let r = &self.parts.reduced;
+        let (p, q) = (skew.numerator(), skew.denominator());
+        let (of_one, of_loop) = (&q + &p, &q - &p);
+        let squares = r
+            .denominator_squared
+            .scaled(&(&of_one * &of_one))
+            .plus(&r.numerator_squared.scaled(&(&of_loop * &of_loop)));
+        let below = DeadTime::in_omega(&squares).minus(&self.twice_real().scaled_by(&(&of_one * &of_loop)));
+        let four = Integer::from(4) * &(&q * &q);
+        let (one, other) = (Rational::from(&of_one), Rational::from(&of_loop).abs());
+        if of_one.is_zero() {
+            return Err(refused("the disk margin of a loop with dead time is known for skews other than -1", "--skew 0"));
+        }
+        let twice = Rational::from(2) * Rational::from(&q);
+        let floor = |r: &Rational| {
+            &(&twice * &(Rational::ONE - r)) / &(one.abs() + &other * r)
+        };
+        let extreme = self.least(&sum.scaled_by(&four), &below, floor, budget)?;
+        let square = extreme.value().expect("finite somewhere").number(budget)?;
+        let alpha = Some(square_root(&square, budget)?);
+        Ok(DiskMargin { skew: skew.clone(), alpha, extreme: Some(extreme) })
+    }
+}

@@ -1,0 +1,285 @@
+//! What the coefficients of an open loop are: integers, or polynomials in the constants of a plant behind a hold.
+
+use super::enclosed::enclosed;
+use super::{Place, Value};
+use crate::stability::{
+    AtPoint, ParametricPolynomial, Range, Shape, StableSet, SymbolicPolynomial, is_stable, stable_set,
+    symbolic_stable_set, zeros_in,
+};
+use jurist_algebra::ball::Ball;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
+use jurist_algebra::real::Real;
+use jurist_algebra::symbols::{SymbolicPoly, Symbols};
+use std::fmt;
+use std::sync::Arc;
+
+/// Numbers with an order, and the polynomials over them in the variable of the frequency.
+pub(crate) trait Ground: Clone + fmt::Debug + Send + Sync {
+    /// A number.
+    type Number: Domain;
+
+    /// The distinct zeros in an open range, ascending; none of a polynomial that vanishes everywhere.
+    fn zeros(&self, p: &Poly<Self::Number>, range: &Range, budget: &Budget) -> Result<Vec<Real>, Exhausted>;
+
+    /// The sign of a number.
+    fn sign(&self, c: &Self::Number, budget: &Budget) -> Result<Sign, Exhausted>;
+
+    /// The sign of a polynomial at a real number.
+    fn sign_at(&self, p: &Poly<Self::Number>, x: &Real, budget: &Budget) -> Result<Sign, Exhausted>;
+
+    /// The quotient of two numbers of which the second is not zero.
+    fn quotient(&self, a: &Self::Number, b: &Self::Number, budget: &Budget) -> Result<Value, Exhausted>;
+
+    /// The quotient of two polynomials at a number that is not rational; neither is zero there.
+    fn quotient_at(&self, a: &Poly<Self::Number>, b: &Poly<Self::Number>, x: &Real) -> Value;
+
+    /// The value of a polynomial at a rational number, with some bits.
+    fn enclose(&self, p: &Poly<Self::Number>, x: &Rational, bits: u64) -> Enclosure;
+
+    /// Whether all roots are inside of the boundary.
+    fn is_stable(&self, p: &Poly<Self::Number>, shape: Shape, budget: &Budget) -> Result<bool, Exhausted>;
+
+    /// The factors `k` for which `d + k n` is stable; where one of `poles`, in `k`, is zero, the loop is undefined.
+    fn stable_factors(
+        &self,
+        d: &Poly<Self::Number>,
+        n: &Poly<Self::Number>,
+        poles: &[Poly<Self::Number>],
+        shape: Shape,
+        budget: &Budget,
+    ) -> Result<StableSet, Exhausted>;
+
+    /// The value of a quotient of polynomials without a common factor at a frequency; `None` where it is infinite.
+    fn value(
+        &self,
+        a: &Poly<Self::Number>,
+        b: &Poly<Self::Number>,
+        place: &Place,
+        shape: Shape,
+        budget: &Budget,
+    ) -> Result<Option<Value>, Exhausted> {
+        let (above, below) = match place {
+            Place::Inside(x) => match x.exact() {
+                Some(x) => {
+                    let degree = a.coeffs().len().max(b.coeffs().len());
+                    (at_rational(a, &x, degree), at_rational(b, &x, degree))
+                }
+                None => {
+                    if self.sign_at(b, x, budget)?.is_eq() {
+                        return Ok(None);
+                    }
+                    if self.sign_at(a, x, budget)?.is_eq() {
+                        return Ok(Some(Value::from(Rational::ZERO)));
+                    }
+                    return Ok(Some(self.quotient_at(a, b, x)));
+                }
+            },
+            end => at_end(a, b, end, shape),
+        };
+        if self.sign(&below, budget)?.is_eq() {
+            return Ok(None);
+        }
+        if self.sign(&above, budget)?.is_eq() {
+            return Ok(Some(Value::from(Rational::ZERO)));
+        }
+        self.quotient(&above, &below, budget).map(Some)
+    }
+}
+
+/// Two polynomials at an end of the range of frequencies, multiplied by the same positive number.
+pub(crate) fn at_end<R: Domain>(a: &Poly<R>, b: &Poly<R>, end: &Place, shape: Shape) -> (R, R) {
+    let x = match (end, shape) {
+        (Place::Lowest, Shape::UnitDisc) => 2,
+        (Place::Highest, Shape::UnitDisc) => -2,
+        (Place::Highest, Shape::LeftHalfPlane) => {
+            let degree = a.coeffs().len().max(b.coeffs().len()).saturating_sub(1);
+            return (a.coeff(degree), b.coeff(degree));
+        }
+        _ => 0,
+    };
+    let x = R::from_integer(&Integer::from(x));
+    (a.eval(&x), b.eval(&x))
+}
+
+/// The value at `x = p/q` times `q^degree`.
+fn at_rational<R: Domain>(p: &Poly<R>, x: &Rational, degree: usize) -> R {
+    let (up, down) = (x.numerator(), x.denominator());
+    let term = |(i, c): (usize, &R)| c.times(&R::from_integer(&(up.pow(i as u64) * down.pow((degree - i) as u64))));
+    p.coeffs().iter().enumerate().map(term).fold(R::zero(), |sum, t| sum.plus(&t))
+}
+
+/// The integers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Integers;
+
+impl Ground for Integers {
+    type Number = Integer;
+
+    fn zeros(&self, p: &UniPoly, range: &Range, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+        Ok(zeros_in(p, range, budget)?.into_iter().map(Real::from).collect())
+    }
+
+    fn sign(&self, c: &Integer, _: &Budget) -> Result<Sign, Exhausted> {
+        Ok(c.sign())
+    }
+
+    fn sign_at(&self, p: &UniPoly, x: &Real, budget: &Budget) -> Result<Sign, Exhausted> {
+        let x = x.algebraic().expect("zeros of polynomials with integer coefficients are algebraic");
+        budget.enter(|| x.sign_of(p))
+    }
+
+    fn quotient(&self, a: &Integer, b: &Integer, _: &Budget) -> Result<Value, Exhausted> {
+        Ok(Value::from(Rational::new(a.clone(), b.clone())))
+    }
+
+    fn quotient_at(&self, a: &UniPoly, b: &UniPoly, x: &Real) -> Value {
+        Value::quotient(a, b, x.algebraic().expect("zeros of polynomials with integer coefficients are algebraic"))
+    }
+
+    fn enclose(&self, p: &UniPoly, x: &Rational, _: u64) -> Enclosure {
+        Enclosure::from_rational(p.eval_rational(x))
+    }
+
+    fn is_stable(&self, p: &UniPoly, shape: Shape, budget: &Budget) -> Result<bool, Exhausted> {
+        budget.enter(|| is_stable(p, shape))
+    }
+
+    fn stable_factors(
+        &self,
+        d: &UniPoly,
+        n: &UniPoly,
+        poles: &[UniPoly],
+        shape: Shape,
+        budget: &Budget,
+    ) -> Result<StableSet, Exhausted> {
+        let degree = d.coeffs().len().max(n.coeffs().len()).saturating_sub(1);
+        let coefficient = |i| (Poly::new(vec![d.coeff(i), n.coeff(i)]), UniPoly::one());
+        let coefficients: Vec<_> = (0..=degree).map(coefficient).collect();
+        let p = ParametricPolynomial::new(&coefficients, degree, poles.to_vec());
+        stable_set(&p, &Range::all(), shape, budget)
+    }
+}
+
+/// Polynomials in symbols; symbol `i` is variable `i`.
+#[derive(Clone, Debug)]
+pub(crate) struct Constants(pub Arc<Symbols>);
+
+/// Bits of the first attempt to find a sign.
+const FIRST_BITS: u64 = 128;
+
+/// Bits after which the sign of a polynomial at a number is not looked for: it may be zero.
+const MOST_BITS: u64 = 1 << 13;
+
+impl Constants {
+    /// The value at a ball.
+    fn at_ball(&self, p: &Poly<MultiPoly>, x: &Ball) -> Ball {
+        let bits = x.bits();
+        let coefficients = p.coeffs().iter().rev();
+        coefficients.fold(Ball::zero(bits), |sum, c| sum.mul(x).add(&self.0.enclose(c, bits)))
+    }
+
+    fn at_real(&self, p: &Poly<MultiPoly>, x: &Real, bits: u64) -> Ball {
+        let (lo, hi) = x.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
+        self.at_ball(p, &Ball::between(&lo, &hi, bits))
+    }
+
+    /// The polynomial with the unknown as variable 0.
+    fn over_unknown(p: &Poly<MultiPoly>) -> MultiPoly {
+        let shifted = p.coeffs().iter().map(|c| c.map_variables(|i| i + 1)).collect();
+        MultiPoly::from_poly_in(&Poly::new(shifted), 0)
+    }
+
+    /// The polynomial of a loop in the factor (variable 0), or in nothing.
+    fn symbolic(&self, coefficients: Vec<MultiPoly>, free: usize, poles: Vec<MultiPoly>) -> SymbolicPolynomial {
+        let factor = (free == 1).then(|| "factor".to_owned());
+        let d = CharacteristicPolynomial {
+            variables: factor.into_iter().chain(self.0.names()).collect(),
+            formal_degree: coefficients.len() - 1,
+            coefficients: coefficients.into_iter().map(RationalFunction::from).collect(),
+            poles,
+            monic: false,
+        };
+        SymbolicPolynomial::new(&d, free, &self.0)
+    }
+}
+
+impl Ground for Constants {
+    type Number = MultiPoly;
+
+    fn zeros(&self, p: &Poly<MultiPoly>, range: &Range, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+        match SymbolicPoly::new(&Constants::over_unknown(p), &self.0, budget)? {
+            Some(p) => p.real_roots_in(range.lower.as_ref(), range.upper.as_ref(), budget),
+            None => Ok(Vec::new()),
+        }
+    }
+
+    fn sign(&self, c: &MultiPoly, budget: &Budget) -> Result<Sign, Exhausted> {
+        self.0.sign(c, budget)
+    }
+
+    /// Read off enclosures. What is zero at a number by a common factor is to be divided out before.
+    fn sign_at(&self, p: &Poly<MultiPoly>, x: &Real, budget: &Budget) -> Result<Sign, Exhausted> {
+        if p.is_zero() {
+            return Ok(Sign::Equal);
+        }
+        if let Some(x) = x.exact() {
+            return self.sign(&at_rational(p, &x, p.coeffs().len()), budget);
+        }
+        let mut bits = FIRST_BITS;
+        while bits <= MOST_BITS {
+            budget.check()?;
+            if let Some(sign) = budget.enter(|| self.at_real(p, x, bits))?.sign() {
+                return Ok(sign);
+            }
+            bits *= 2;
+        }
+        Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "the open loop at a frequency"))
+    }
+
+    fn quotient(&self, a: &MultiPoly, b: &MultiPoly, budget: &Budget) -> Result<Value, Exhausted> {
+        // The root of b y - a, so that a rational number is seen.
+        let line = Poly::new(vec![a.negated(), b.clone()]);
+        let line =
+            SymbolicPoly::new(&Constants::over_unknown(&line), &self.0, budget)?.expect("the divisor is not zero");
+        let root = line.real_roots_in(None, None, budget)?.pop().expect("a line has a root");
+        Ok(Value::Number(root))
+    }
+
+    fn quotient_at(&self, a: &Poly<MultiPoly>, b: &Poly<MultiPoly>, x: &Real) -> Value {
+        let (a, b, x, over) = (a.clone(), b.clone(), x.clone(), self.clone());
+        Value::Number(enclosed("quotient at a frequency", move |bits| {
+            Some(over.at_real(&a, &x, bits).div(&over.at_real(&b, &x, bits))?.to_enclosure())
+        }))
+    }
+
+    fn enclose(&self, p: &Poly<MultiPoly>, x: &Rational, bits: u64) -> Enclosure {
+        self.at_ball(p, &Ball::from_rational(x, bits)).to_enclosure()
+    }
+
+    fn is_stable(&self, p: &Poly<MultiPoly>, shape: Shape, budget: &Budget) -> Result<bool, Exhausted> {
+        if p.is_zero() {
+            return Ok(false);
+        }
+        let degree = p.coeffs().len() - 1;
+        let found = self.symbolic(p.coeffs().to_vec(), 0, Vec::new()).at(&Rational::ZERO, shape, budget)?;
+        Ok(matches!(found, AtPoint::Defined { count, infinite: 0 } if count.inside == degree))
+    }
+
+    fn stable_factors(
+        &self,
+        d: &Poly<MultiPoly>,
+        n: &Poly<MultiPoly>,
+        poles: &[Poly<MultiPoly>],
+        shape: Shape,
+        budget: &Budget,
+    ) -> Result<StableSet, Exhausted> {
+        let degree = d.coeffs().len().max(n.coeffs().len()).saturating_sub(1);
+        let coefficient = |i| Constants::over_unknown(&Poly::new(vec![d.coeff(i), n.coeff(i)]));
+        let poles = poles.iter().map(Constants::over_unknown).collect();
+        let p = self.symbolic((0..=degree).map(coefficient).collect(), 1, poles);
+        symbolic_stable_set(&p, &Range::all(), shape, budget)
+    }
+}

@@ -1,0 +1,109 @@
+//! How much dead time a loop bears at the input of a plant behind a hold.
+
+use super::open_loop::OpenLoop;
+use crate::answer::Frequency;
+use crate::error::Error;
+use crate::model::MoreDeadTime;
+use crate::problem::{Problem, fixed_symbols, moving_symbols};
+use crate::stability::{AtPoint, ComplexPair, Range, StableSet, SymbolicPolynomial, symbolic_stable_set};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::real::Real;
+use std::sync::Arc;
+
+/// The dead time that the input of the only block behind a hold may have more than it has.
+///
+/// Between two whole samples the loop is that of a plant with a fraction of a sample of dead time, whose coefficients are
+/// exponentials of the fraction; each such stretch is decided as a stable set of the fraction, one after the other, until the
+/// first at whose end the loop is not stable.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct HeldDelay {
+    /// The block behind the hold.
+    pub block: String,
+    /// The sample time.
+    pub period: Rational,
+    /// The dead time in samples at which the loop ceases to be stable; `None` where it is more than all that was looked at.
+    pub samples: Option<Real>,
+    /// The pair of roots on the unit circle there.
+    pub pair: Option<ComplexPair>,
+}
+
+impl HeldDelay {
+    /// About so many samples of dead time are looked at.
+    pub const LOOKED_AT: i64 = 63;
+
+    /// Of a stable loop; `None` where the cut is not that of a loop through the only block behind a hold.
+    pub(super) fn of(problem: &Problem, open_loop: &OpenLoop, budget: &Budget) -> Result<Option<HeldDelay>, Error> {
+        let (model, values) = (problem.model(), problem.set());
+        let Some(hold) = model.only_hold(values, budget)? else { return Ok(None) };
+        let Ok(at_hold) = OpenLoop::of(problem, Some(&hold.block), budget) else { return Ok(None) };
+        if !open_loop.is_same(&at_hold) {
+            return Ok(None);
+        }
+        let found = |samples, pair| {
+            Ok(Some(HeldDelay { block: hold.block.clone(), period: hold.period.clone(), samples, pair }))
+        };
+        let mut from = Rational::ZERO;
+        let mut whole = hold.samples.floor();
+        for _ in 0..=HeldDelay::LOOKED_AT {
+            let Some(count) = whole.to_i64().and_then(|n| usize::try_from(n).ok()) else { return Ok(None) };
+            whole = whole + Integer::ONE;
+            let to = Rational::from(&whole) - &hold.samples;
+            let more = MoreDeadTime::Free { whole: count };
+            let set = stable_fractions(problem, &more, Range::between(Some(from.clone()), Some(to.clone())), budget)?;
+            let first = set.intervals().first();
+            let begins = |end: &Real| end.compare_rational(&from).is_eq();
+            let first = first.filter(|i| i.lower.as_ref().is_some_and(|l| begins(&l.value)));
+            let Some(end) = first.and_then(|i| i.upper.as_ref()) else { return found(Some(from.into()), None) };
+            if let Some(bracket) = set.undecided().first()
+                && end.value.compare_rational(&bracket.lower).is_gt()
+            {
+                let what = "whether the loop touches the boundary with a dead time";
+                return Err(Exhausted::new("precision", what).into());
+            }
+            if end.value.compare_rational(&to).is_lt() {
+                return found(Some(end.value.clone()), end.pair.clone());
+            }
+            if !is_stable_with(problem, &to, budget)? {
+                return found(Some(to.into()), None);
+            }
+            from = to;
+        }
+        found(None, None)
+    }
+
+    /// The dead time in units of time, enclosed with about `bits` bits.
+    pub fn seconds(&self, bits: u64) -> Option<Enclosure> {
+        let (lo, hi) = self.samples.as_ref()?.refined_to_digits(bits as usize / 3 + 1).enclosure();
+        Some(Enclosure::new(lo, hi).mul(&Enclosure::from_rational(self.period.clone()), bits + 16))
+    }
+
+    /// The frequency of the pair, enclosed with about `bits` bits.
+    pub fn frequency(&self, bits: u64) -> Option<Frequency> {
+        Some(Frequency::of_pair(self.pair.as_ref()?, Some(&self.period), bits))
+    }
+}
+
+/// For which dead times, in samples, the loop is stable.
+fn stable_fractions(problem: &Problem, more: &MoreDeadTime, range: Range, budget: &Budget) -> Result<StableSet, Error> {
+    let (closed_loop, symbols) = problem.model().with_dead_time(more, problem.set(), budget)?;
+    let mut d = closed_loop.characteristic_polynomial(budget)?;
+    d.poles = Vec::new();
+    let p = match symbols.is_moving() {
+        true => SymbolicPolynomial::with_moving(&d, &Arc::new(moving_symbols(&symbols)?)),
+        false => SymbolicPolynomial::new(&d, 1, &Arc::new(fixed_symbols(&symbols)?)),
+    };
+    Ok(symbolic_stable_set(&p, &range, problem.shape(), budget)?)
+}
+
+/// Whether the loop is stable with a dead time that is a number of samples.
+fn is_stable_with(problem: &Problem, samples: &Rational, budget: &Budget) -> Result<bool, Error> {
+    let more = MoreDeadTime::Samples(samples.clone());
+    let (closed_loop, symbols) = problem.model().with_dead_time(&more, problem.set(), budget)?;
+    let mut d = closed_loop.characteristic_polynomial(budget)?;
+    d.poles = Vec::new();
+    let p = SymbolicPolynomial::new(&d, 0, &Arc::new(fixed_symbols(&symbols)?));
+    let found = p.at(&Rational::ZERO, problem.shape(), budget)?;
+    Ok(matches!(found, AtPoint::Defined { count, infinite: 0 } if count.inside == d.formal_degree))
+}

@@ -1,0 +1,83 @@
+//! Margins of continuous loops with dead time, to the digits of mpmath at eighty, and against counts of roots.
+
+use crate::helpers::model::load;
+use crate::helpers::number::number;
+use crate::helpers::open_loops::{margins_of, stable};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_engine::model::Model;
+use jurist_engine::response::{DelayMargin, PhaseMargin};
+use jurist_engine::show::real;
+
+/// `K exp(-tau s)/(s (s/2 + 1))`.
+fn positioner(gain: &str, delay: &str) -> Model {
+    load(&format!(
+        "time = 'continuous'\n[parameters]\nK = {{ nominal = {gain} }}\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\n\
+         name = 'L'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K*exp(-{delay}*s)/(s*(s/2 + 1))'\n"
+    ))
+}
+
+#[test]
+fn a_positioner_with_dead_time_has_these_margins_to_thirty_digits() {
+    let answer = margins_of(&positioner("2", "0.3"), None);
+    let margins = stable(&answer);
+    assert_eq!(margins.gain.upper.as_ref().unwrap().value.decimal(30), "1.81320582643931752040262223029");
+    let degrees = real::enclosed(30, |bits| margins.phase.degrees(bits)).unwrap();
+    assert_eq!(degrees, "24.8013987706506243055118456934");
+    let PhaseMargin::Angle { place: Some(place), .. } = &margins.phase else { panic!("a crossing") };
+    let rate = real::enclosed(30, |bits| answer.value().frequency(place, bits)?.radians_per_second).unwrap();
+    assert_eq!(rate, "1.57230275551484657213911717169");
+    let DelayMargin::DeadTime(i) = margins.delay else { panic!("a dead time") };
+    let shape = answer.value().open_loop.shape();
+    let delay = real::enclosed(30, |bits| answer.value().crossings.gain[i].delay(shape, bits)).unwrap();
+    assert_eq!(delay, "0.275307071828024934211391935181");
+    assert_eq!(margins.modulus.decimal(30), "0.315539627788758622195987663893");
+    assert_eq!(margins.disk.alpha.as_ref().unwrap().decimal(30), "0.354717659386133510841458403888");
+    // The first factors of the crossings of the negative real axis, each from its own branch.
+    let factors: Vec<String> =
+        answer.value().crossings.phase.iter().map(|c| real::enclosed(12, |bits| Some(c.factor.enclosure(bits))).unwrap()).collect();
+    assert_eq!(factors[..2], ["1.81320582644", "113.460272107"]);
+}
+
+/// The limits that the margins say are those of the roots: stable a little before, unstable a little after.
+#[test]
+fn gain_and_delay_margins_are_the_limits_of_the_closed_loop() {
+    let answer = margins_of(&positioner("2", "0.3"), None);
+    let verdict = |gain: Rational, delay: Rational| {
+        let model = positioner(&format!("'{gain}'"), &format!("({delay})"));
+        model.ask().verdict(&Budget::unlimited()).unwrap().value().verdict.name()
+    };
+    let factor = stable(&answer).gain.upper.as_ref().unwrap().value.refined_to_digits(12).enclosure().0;
+    let step = number("1e-9");
+    let gain = |k: Rational| verdict(&k * &number("2"), number("0.3"));
+    assert_eq!([gain(&factor - &step), gain(&factor + &step)], ["stable", "unstable"]);
+    let more = answer.value().delay_seconds(60).unwrap().lower() + &number("0.3");
+    let delay = |tau: Rational| verdict(number("2"), tau);
+    assert_eq!([delay(&more - &step), delay(&more + &step)], ["stable", "unstable"]);
+}
+
+/// Without the dead time the same loop has algebraic margins, and they are near for a short dead time.
+#[test]
+fn margins_with_a_short_dead_time_are_near_those_without() {
+    let model = load(
+        "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'L'\ninput = 'r - y'\noutput = 'y'\n\
+         transfer = '2/(s*(s/2 + 1))'\n",
+    );
+    let (with, without) = (margins_of(&positioner("2", "1e-9"), None), margins_of(&model, None));
+    let apart = stable(&with).modulus.refined_to_digits(20).enclosure().0
+        - stable(&without).modulus.refined_to_digits(20).enclosure().0;
+    assert!(apart.abs() < number("1e-8") && !apart.is_zero());
+    assert!(stable(&without).gain.upper.is_none() && stable(&with).gain.upper.is_some());
+}
+
+/// Dead time inside of the loop that is cut elsewhere is not one factor of the open loop.
+#[test]
+fn dead_time_that_is_no_single_factor_is_refused() {
+    let model = load(
+        "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'C'\ninput = 'r - y - m'\noutput = 'u'\n\
+         gain = 2\n[[block]]\nname = 'P'\ninput = 'u'\noutput = 'y'\ntransfer = 'exp(-s)/(s + 1)'\n[[block]]\nname = 'M'\n\
+         input = 'u'\noutput = 'm'\ntransfer = '(1 - exp(-s))/(s + 2)'\n",
+    );
+    let refused = model.ask().margins(Some("y"), &Rational::ZERO, &Budget::unlimited()).unwrap_err().to_string();
+    assert!(refused.contains("E-dead-time"), "{refused}");
+}
