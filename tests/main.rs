@@ -100,6 +100,7 @@ mod program {
     mod outputs;
     mod regions;
     mod simulate;
+    mod sweep;
     mod undecided;
     mod usage;
 }

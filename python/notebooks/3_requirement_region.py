@@ -14,6 +14,13 @@ print("stable:", stable)
 print("fast:  ", fast)
 print("stable, but not fast:", stable - fast)
 
+# %% [markdown]
+# The same for a margin: the open loop, cut at the parameter, is to stay away from -1.
+
+# %%
+far = loop.intervals("b", modulus_margin="3/10", at="b")
+print("modulus margin 3/10:", far, "-", far[0].upper.requirement or far[0].upper.cause)
+
 # %%
 figure, ax = plt.subplots(figsize=(6, 5))
 loop.map("a", "b").plot(ax)
