@@ -104,9 +104,9 @@ def from_control(
     <StableSet k: (0, 6)>
     >>> lag = control.tf([1], [1, 1])
     >>> jurist.from_control(lag, gain="k", delay=1).intervals("k")
-    <StableSet k: (0, 2.26182622665)>
+    <StableSet k: (0, 2.26182633411)>
     >>> jurist.from_control(lag, gain="k", hold="1/2").intervals("k")
-    <StableSet k: (0, 4.08298814107)>
+    <StableSet k: (0, 4.08298816507)>
     """
     kind, dt = _time(sys, time)
     held: dict[str, Any] = {}
@@ -115,9 +115,7 @@ def from_control(
             raise ValueError("a hold stands in front of a continuous plant, and this one is discrete")
         kind, dt = "discrete", hold
         held = {"discretize": {"method": method, **({} if delay is None else {"delay": delay})}}
-    elif delay is not None:
-        held = {"delay": delay}
-    if held and gain is None:
+    if gain is None and (held or delay is not None):
         raise ValueError("name the gain around which the loop with a hold or dead time is closed")
     name = str(getattr(sys, "name", "") or "")
     title = None if re.fullmatch(r"(sys\[\d+\].*)?", name) else name
@@ -147,6 +145,10 @@ def from_control(
     u, y = names
     reference = next(r for r in ("r", "r_ref", "reference", "r_0") if r not in taken)
     builder.block("gain", f"{reference} - {y}", u, gain)
+    if delay is not None and not held:
+        late = next(name for name in (f"{u}_late", f"{u}_late_") if name not in taken)
+        builder.block("dead time", u, late, delay=delay)
+        u = late
     builder.block("plant", u, y, sys, **held)
     return builder.build(inputs=[reference], outputs=[y])
 
@@ -183,8 +185,8 @@ def margins(
     --------
     >>> import control, jurist
     >>> m = jurist.margins(control.tf([1], [1, 3, 3, 1]))
-    >>> m.as_control()[0], control.stability_margins(control.tf([1], [1, 3, 3, 1]))[0]
-    (8.0, 7.99999999...)
+    >>> m.as_control()[0], float(control.stability_margins(control.tf([1], [1, 3, 3, 1]))[0])
+    (8.0, 8.00000000...)
     """
     from ._loop import Loop
 

@@ -87,9 +87,9 @@ class Margins(Document):
     >>> import control, jurist
     >>> m = jurist.margins(control.tf([10], [1, 6, 11, 6]))
     >>> m.stable, str(m.upper), m.phase.degrees
-    (True, '6', 88.3857544185)
+    (True, '6', 90.0)
     >>> m
-    <Margins: gain (-3/5, 6), phase 88.3857544185 deg, modulus 0.671...>
+    <Margins: gain (-0.6, 6), phase 90 deg, modulus 0.702...>
     """
 
     __slots__ = ()

@@ -168,7 +168,7 @@ class Real(Arithmetic, Views):
         for more in (2, 20, 200):
             lower, upper = (Real(x).decimal(digits) for x in self.enclosure(digits + more))
             if lower == upper:
-                return lower
+                return _padded(lower, digits)
         raise undecided(f"the enclosure does not give {digits} digits", "digits", "the enclosure", None)
 
     def enclosure(self, digits: int = 12) -> tuple[Fraction, Fraction]:
@@ -311,6 +311,15 @@ def _parted(a: Real, b: Real) -> int:
         if a._refine is None and b._refine is None or digits > _MOST_DIGITS:
             raise undecided("the enclosures do not tell the numbers apart", "digits", f"{digits} digits", None)
         digits *= 2
+
+
+def _padded(text: str, digits: int) -> str:
+    """A decimal with the zeros at its end that a fraction does not show."""
+    mantissa, e, exponent = text.partition("e")
+    shown = len(mantissa.lstrip("-0.").replace(".", ""))
+    if shown < digits:
+        mantissa += ("" if "." in mantissa else ".") + "0" * (digits - shown)
+    return mantissa + e + exponent
 
 
 def _short_bounds(x: Real) -> tuple[str, str]:

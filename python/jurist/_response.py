@@ -15,7 +15,7 @@ class FrequencyResponse(Document):
     --------
     >>> import jurist
     >>> b = jurist.Loop.characteristic([1, 3, 3, "1 + k"], time="continuous", parameters={"k": 2}).bode("k")
-    >>> b.at, b.hertz, len(b.frequency) == len(b.response), round(abs(b.response[0]), 3)
+    >>> b.at, b.hertz, len(b.frequency) == len(b.response), round(float(abs(b.response[0])), 2)
     ('k', True, True, 2.0)
     """
 

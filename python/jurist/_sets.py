@@ -55,6 +55,7 @@ class StableSet(Sequence[Interval]):
         answer: _jurist.Answered | None = None,
         words: tuple[str, ...] = (),
         refine: Callable[[int, str], Narrower | None] | None = None,
+        intervals: tuple[Interval, ...] | None = None,
     ) -> None:
         self._document = document
         self._text = text
@@ -64,7 +65,7 @@ class StableSet(Sequence[Interval]):
         # With words, the program's command is asked again and not the engine's answer.
         self._words = words
         self._refine = refine
-        self._intervals: tuple[Interval, ...] | None = None
+        self._intervals = intervals
 
     @property
     def intervals(self) -> tuple[Interval, ...]:
@@ -189,7 +190,7 @@ class StableSet(Sequence[Interval]):
 
     def _derived(self, sets: list[StableSet], rule: Callable[[bool, bool], bool]) -> StableSet:
         points, member, causes = pieces(sets, rule)
-        stable = []
+        stable: list[Interval] = []
         start: End | None | Literal[False] = False
         # Pieces: gap 0, point 0, gap 1, point 1, ..., gap n.
         for k, inside in enumerate(member):
@@ -204,11 +205,12 @@ class StableSet(Sequence[Interval]):
                     end = end_at(points[point], causes[point], False)
                 else:
                     end = end_at(points[k // 2 - 1], causes[k // 2 - 1], True)
-                stable.append(Interval(start, end).to_dict())
+                stable.append(Interval(start, end))
                 start = False
         if start is not False:
-            stable.append(Interval(start, None).to_dict())
-        return StableSet({**self._shared(), "stable": stable})
+            stable.append(Interval(start, None))
+        document = {**self._shared(), "stable": [i.to_dict() for i in stable]}
+        return StableSet(document, intervals=tuple(stable))
 
     def nearest_end(self, x: Exact | None = None) -> End:
         """The end that is nearest to a value, or to the nominal one.
@@ -393,10 +395,17 @@ class StableSet(Sequence[Interval]):
         return f"$\\mathrm{{{name}}} \\in {body}$" if body else f"$\\mathrm{{{name}}} \\in \\varnothing$"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _set_again, (self._document, self._text, self._loop, self._asked, self._words)
+        # Without a loop to ask again, the ends know by themselves how they are narrowed.
+        own = self.intervals if self._loop is None else None
+        return _set_again, (self._document, self._text, self._loop, self._asked, self._words, own)
 
 
 def _set_again(
-    document: dict[str, Any], text: str | None, loop: Loop | None, asked: dict[str, Any] | None, words: tuple[str, ...]
+    document: dict[str, Any],
+    text: str | None,
+    loop: Loop | None,
+    asked: dict[str, Any] | None,
+    words: tuple[str, ...],
+    intervals: tuple[Interval, ...] | None,
 ) -> StableSet:
-    return StableSet(document, text=text, loop=loop, asked=asked, words=words)
+    return StableSet(document, text=text, loop=loop, asked=asked, words=words, intervals=intervals)

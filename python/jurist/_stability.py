@@ -79,8 +79,11 @@ class StabilityQuestions(Asker):
         >>> loop = jurist.Loop.drive()
         >>> loop.intervals("T", {"K_pwm": 200})
         <StableSet T: (0, 0.000274533891101)>
-        >>> loop.intervals("K_pwm", modulus_margin="1/2", at="V_a")[0].upper.requirement
-        'modulus margin'
+        >>> b = jurist.LoopBuilder("continuous")
+        >>> K = b.parameter("K", 1, min=0)
+        >>> b = b.block("controller", "-y", "u", K).block("plant", "u", "y", "1/(s + 1)^3")
+        >>> b.build().intervals("K", gain_margin=2, at="u")
+        <StableSet K: (0, 4]>
         """
         asked = self._asked(values, parameter=parameter, domain=domain, **question)
         kept = {**asked, "timeout": None, "progress": None}
