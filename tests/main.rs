@@ -105,6 +105,7 @@ mod program {
     mod outputs;
     mod regions;
     mod simulate;
+    mod sweep;
     mod undecided;
     mod usage;
 }

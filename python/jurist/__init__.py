@@ -40,13 +40,16 @@ from ._errors import (
 )
 from ._exact import exact
 from ._loop import Loop
+from ._margins import At, DelayMargin, DiskMargin, GainCrossing, Margins, Norm, Peak, PhaseCrossing, PhaseMargin
 from ._polynomial import Polynomial
 from ._question import Parameter
 from ._real import Real
+from ._response import Bode, FrequencyResponse, Nyquist
 from ._sets import StableSet
+from ._tolerance import Factor, Tolerance, Worst
 
 if TYPE_CHECKING:
-    from ._control import from_control
+    from ._control import from_control, margins
     from ._rows import SweepResult
     from ._sweep import ray_executor, sweep, sweep_batches
     from ._sympy import from_sympy
@@ -55,6 +58,7 @@ __version__: str = _jurist.__version__
 
 _LATER = {
     "from_control": "_control",
+    "margins": "_control",
     "from_sympy": "_sympy",
     "SweepResult": "_rows",
     "ray_executor": "_sweep",
@@ -64,12 +68,19 @@ _LATER = {
 
 __all__ = [
     "Analysis",
+    "At",
+    "Bode",
     "Cause",
     "CertificateRejected",
     "Condition",
+    "DelayMargin",
     "Diagnostic",
+    "DiskMargin",
     "Document",
     "End",
+    "Factor",
+    "FrequencyResponse",
+    "GainCrossing",
     "InternalError",
     "Interval",
     "JuristError",
@@ -79,8 +90,14 @@ __all__ = [
     "Loop",
     "LoopBuilder",
     "Map",
+    "Margins",
     "ModelError",
+    "Norm",
+    "Nyquist",
     "Parameter",
+    "Peak",
+    "PhaseCrossing",
+    "PhaseMargin",
     "PointVerdict",
     "Polynomial",
     "Proved",
@@ -90,12 +107,15 @@ __all__ = [
     "StableSet",
     "SweepResult",
     "Table",
+    "Tolerance",
     "Undecided",
     "Verdict",
+    "Worst",
     "exact",
     "explain",
     "from_control",
     "from_sympy",
+    "margins",
     "ray_executor",
     "set_threads",
     "sweep",

@@ -6,17 +6,19 @@ import enum
 import json
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ._exact import fraction
 from ._ends import End, Interval
+from ._narrow import OfAnswer
+from ._real import Real
 from ._sets import StableSet
 
 if TYPE_CHECKING:
-    from . import _jurist
     from ._loop import Loop
 
-D = TypeVar("D", bound="Document")
+_WITHOUT_DIGITS = ("verdict", "locus", "simulate", "bode", "nyquist")
+"""Commands that take no ``--digits``."""
 
 
 class Verdict(str, enum.Enum):
@@ -59,8 +61,40 @@ class Document:
         """The program's text."""
         if self._loop is None or not self._words:
             raise ValueError("this answer does not know its question")
-        words = [*self._words, "--digits", str(digits)] if self._words[0] != "verdict" else list(self._words)
+        has_digits = self._words[0] not in _WITHOUT_DIGITS
+        words = [*self._words, "--digits", str(digits)] if has_digits else [w for w in self._words if w != "--json"]
         return self._loop._core.command(words)[1]
+
+    def _question(self) -> Any:
+        """What the same answer is known by."""
+        return None if self._loop is None else (self._loop.to_toml(), self._words)
+
+    def _part(self, *path: Any) -> Any:
+        """What stands at a place of the document; `None` where a part before it is `null`."""
+        found: Any = self._document
+        for key in path:
+            if found is None:
+                return None
+            found = found[key]
+        return found
+
+    def _bounds_at(self, path: tuple[Any, ...], digits: int) -> tuple[Fraction, Fraction]:
+        """Bounds of the number at a place of the document: it is written again with so many digits."""
+        if self._loop is None:
+            raise ValueError("this answer does not know its question")
+        found = json.loads(self._loop._document(self._words, self._loop._asked(digits=digits)))
+        for key in path:
+            found = found[key]
+        lower, upper = found["enclosure"]
+        return fraction(lower), fraction(upper)
+
+    def _narrowed(self, *path: Any) -> OfAnswer | None:
+        return None if self._loop is None else OfAnswer(self, path)
+
+    def _number(self, *path: Any) -> Real | None:
+        """The number at a place of the document."""
+        document = self._part(*path)
+        return None if document is None else Real._from_document(document, self._narrowed(*path))
 
     @property
     def point(self) -> Mapping[str, Fraction]:
@@ -130,6 +164,11 @@ class PointVerdict(Document):
         """Roots at infinity: the degree is lost by so much."""
         return self._count("infinite")
 
+    @property
+    def requirements(self) -> list[dict[str, Any]]:
+        """What is required beyond stability, as it stands in the document: name, what is required, what there is, whether it is met."""
+        return list(self._document.get("requirements") or [])
+
     def _count(self, name: str) -> int | None:
         value = self._document[name]
         return None if value is None else int(value)
@@ -138,8 +177,9 @@ class PointVerdict(Document):
         """A certificate that `verify` re-checks with independent code."""
         if self._loop is None:
             raise ValueError("this answer does not know its question")
-        asked = self._loop._asked({name: value for name, value in self.point.items()})
-        asked["radius"], asked["decay"] = _region(self._words)
+        asked = self._loop._asked(self.point, timeout=timeout, **self._loop._region_by(self._words))
+        if self._loop._has_requirements(asked):
+            return self._loop._file_of(self._words, "--certificate", timeout)
         return self._loop._core.verdict(asked)[0].certificate(timeout)
 
     def __bool__(self) -> bool:
@@ -151,13 +191,6 @@ class PointVerdict(Document):
 
     def __repr__(self) -> str:
         return f"<PointVerdict {self}>"
-
-
-def _region(words: tuple[str, ...]) -> tuple[str | None, str | None]:
-    found = {name: None for name in ("radius", "decay")} | {
-        word[2:].partition("=")[0]: word.partition("=")[2] for word in words if word.startswith(("--radius=", "--decay="))
-    }
-    return found["radius"], found["decay"]
 
 
 class Analysis(Document):
@@ -185,7 +218,8 @@ class Analysis(Document):
         out = {}
         for document in self._document["parameters"]:
             asked = self._loop._asked_by(self._words) if self._loop is not None else None
-            out[document["parameter"]] = StableSet(document, loop=self._loop, asked=asked)
+            words = ("intervals", *self._words[1:], "--param", document["parameter"])
+            out[document["parameter"]] = StableSet(document, loop=self._loop, asked=asked, words=words if asked and asked["require"] else ())
         return out
 
     def to_frame(self) -> Any:

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 from ._builder import LoopBuilder
 from ._exact import Exact, Floats, fraction, warn_computed
+from ._question import Waiting
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from ._loop import Loop
+    from ._margins import Margins
 
 
 def _plain(polynomial: Any) -> list[Any]:
@@ -62,6 +64,9 @@ def from_control(
     gain: str | None = None,
     floats: Floats = "shortest",
     time: Literal["continuous", "discrete"] | None = None,
+    hold: Exact | None = None,
+    method: Literal["zoh", "foh", "tustin", "forward", "backward"] = "zoh",
+    delay: Exact | None = None,
 ) -> Loop:
     """A loop from a system of python-control or SciPy.
 
@@ -76,6 +81,12 @@ def from_control(
         What floats mean; see `exact`.
     time : {"continuous", "discrete"}, optional
         For systems whose time is unspecified (``dt`` is `None`).
+    hold : exact number or expression, optional
+        The sample time of a digital controller in front of a continuous plant: the loop is discrete, and exact at the samples.
+    method : {"zoh", "foh", "tustin", "forward", "backward"}
+        What is between the samples, with ``hold``: a constant input, a straight one, or a rule.
+    delay : exact number or expression, optional
+        Dead time of the plant's input: in units of time behind a hold and in continuous time, in samples in discrete time.
 
     Returns
     -------
@@ -91,8 +102,21 @@ def from_control(
     >>> import control, jurist
     >>> jurist.from_control(control.tf([1], [1, 2, 3, 0]), gain="k").intervals("k")
     <StableSet k: (0, 6)>
+    >>> lag = control.tf([1], [1, 1])
+    >>> jurist.from_control(lag, gain="k", delay=1).intervals("k")
+    <StableSet k: (0, 2.26182633411)>
+    >>> jurist.from_control(lag, gain="k", hold="1/2").intervals("k")
+    <StableSet k: (0, 4.08298816507)>
     """
     kind, dt = _time(sys, time)
+    held: dict[str, Any] = {}
+    if hold is not None:
+        if kind != "continuous":
+            raise ValueError("a hold stands in front of a continuous plant, and this one is discrete")
+        kind, dt = "discrete", hold
+        held = {"discretize": {"method": method, **({} if delay is None else {"delay": delay})}}
+    if gain is None and (held or delay is not None):
+        raise ValueError("name the gain around which the loop with a hold or dead time is closed")
     name = str(getattr(sys, "name", "") or "")
     title = None if re.fullmatch(r"(sys\[\d+\].*)?", name) else name
     builder = LoopBuilder(kind, sample_time=dt, title=title, floats=floats)
@@ -121,8 +145,54 @@ def from_control(
     u, y = names
     reference = next(r for r in ("r", "r_ref", "reference", "r_0") if r not in taken)
     builder.block("gain", f"{reference} - {y}", u, gain)
-    builder.block("plant", u, y, sys)
+    if delay is not None and not held:
+        late = next(name for name in (f"{u}_late", f"{u}_late_") if name not in taken)
+        builder.block("dead time", u, late, delay=delay)
+        u = late
+    builder.block("plant", u, y, sys, **held)
     return builder.build(inputs=[reference], outputs=[y])
+
+
+def margins(
+    sys: Any,
+    at: str | None = None,
+    values: Mapping[str, Exact] | None = None,
+    *,
+    floats: Floats = "shortest",
+    time: Literal["continuous", "discrete"] | None = None,
+    **question: Unpack[Waiting],
+) -> Margins:
+    """The exact margins of an open loop, beside ``control.stability_margins``.
+
+    Parameters
+    ----------
+    sys : TransferFunction, StateSpace, or Loop
+        The open loop ``L``, closed by negative feedback; or a loop, cut at a signal.
+    at : str, optional
+        Where a `Loop` is cut; see `Loop.margins`.
+    values : mapping, optional
+        Of a loop's parameters.
+    floats, time
+        As for `from_control`.
+    **question
+        ``timeout``, ``progress``, ``digits``.
+
+    Returns
+    -------
+    Margins
+
+    Examples
+    --------
+    >>> import control, jurist
+    >>> m = jurist.margins(control.tf([1], [1, 3, 3, 1]))
+    >>> m.as_control()[0], float(control.stability_margins(control.tf([1], [1, 3, 3, 1]))[0])
+    (8.0, 8.00000000...)
+    """
+    from ._loop import Loop
+
+    if isinstance(sys, Loop):
+        return sys.margins(at, values, **question)
+    return from_control(sys, gain="k", floats=floats, time=time).margins("k", values, **question)
 
 
 def to_control(loop: Loop, input: str, output: str, values: Mapping[str, Exact] | None = None) -> Any:

@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from ._exact import Exact, fraction, fraction_text
+from ._narrow import Narrower
 from ._real import Real
 
 
@@ -45,7 +46,7 @@ class End:
 
     __slots__ = ("_document", "_refine", "_value")
 
-    def __init__(self, document: dict[str, Any], value: Real | None = None, refine: Any = None) -> None:
+    def __init__(self, document: dict[str, Any], value: Real | None = None, refine: Narrower | None = None) -> None:
         self._document = document
         self._value = value
         self._refine = refine
@@ -129,7 +130,7 @@ class End:
         return f"<End {self._document['decimal']}{': ' + self.cause if self.cause else ''}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return End, (self._document, self._value)
+        return End, (self._document, self._value, self._refine)
 
 
 def end_at(value: Real, cause: str, closed: bool) -> End:

@@ -10,14 +10,15 @@ from ._exact import exact
 if TYPE_CHECKING:
     from ._curves import Locus, Map, Simulation
     from ._sets import StableSet
+    from ._tolerance import Tolerance
 
 _STABLE = "#2a7f62"
 """A green that is also told from the crossings by its lightness."""
 
-_CROSSING = "#c1440e"
+CROSSING = "#c1440e"
 
 
-def _axes(ax: Any) -> Any:
+def axes(ax: Any) -> Any:
     if ax is not None:
         return ax
     import matplotlib.pyplot as plt
@@ -36,7 +37,7 @@ def _is_logarithmic(values: list[float]) -> bool:
 
 def plot_set(s: StableSet, ax: Any, scale: str, kw: dict[str, Any]) -> Any:
     """A stable set on a number line."""
-    ax = _axes(ax)
+    ax = axes(ax)
     ends = [float(end) for i in s for end in (i.lower, i.upper) if end is not None]
     nominal = [] if s.nominal is None else [float(s.nominal)]
     logarithmic = scale == "log" or (scale == "auto" and _is_logarithmic(ends + nominal))
@@ -70,7 +71,7 @@ def plot_map(m: Map, ax: Any, x: Any, y: Any, columns: int, kw: dict[str, Any]) 
     from matplotlib.collections import PolyCollection
     from matplotlib.patches import Rectangle
 
-    ax = _axes(ax)
+    ax = axes(ax)
     document = m.to_dict()
     style = {"facecolor": _STABLE, "edgecolor": "none", "alpha": 0.55, **kw}
     if not m.is_exact:
@@ -147,7 +148,7 @@ def plot_locus(locus: Locus, ax: Any, grid: bool, kw: dict[str, Any]) -> Any:
     """Branches, the boundary, and the crossings."""
     import numpy
 
-    ax = _axes(ax)
+    ax = axes(ax)
     document = locus.to_dict()
     if document["time"] == "discrete":
         turn = numpy.exp(1j * numpy.linspace(0, 2 * math.pi, 361))
@@ -160,7 +161,7 @@ def plot_locus(locus: Locus, ax: Any, grid: bool, kw: dict[str, Any]) -> Any:
     for crossing in locus.crossings:
         for re, im in crossing["at"]:
             signs = (1, -1) if im else (1,)
-            ax.plot([re] * len(signs), [s * im for s in signs], "o", color=_CROSSING, markersize=6)
+            ax.plot([re] * len(signs), [s * im for s in signs], "o", color=CROSSING, markersize=6)
         if crossing["at"]:
             ax.annotate(crossing["label"], crossing["at"][0], (7, 7), textcoords="offset points", fontsize="small")
     ax.grid(grid, alpha=0.3)
@@ -171,9 +172,22 @@ def plot_locus(locus: Locus, ax: Any, grid: bool, kw: dict[str, Any]) -> Any:
 
 def plot_simulation(r: Simulation, ax: Any, signals: list[str] | None, kw: dict[str, Any]) -> Any:
     """Signals over time."""
-    ax = _axes(ax)
+    ax = axes(ax)
     for name in r.names if signals is None else signals:
         ax.plot(r.time, r[name], label=_named(name, r.unit(name)), **kw)
     ax.set_xlabel("time (s)" if r.to_dict()["time_unit"] == "s" else "samples")
     ax.legend()
+    return ax
+
+
+def plot_shares(t: Tolerance, ax: Any, kw: dict[str, Any]) -> Any:
+    """How much of the margin each tolerance uses, the largest above."""
+    ax = axes(ax)
+    shares = sorted(t.shares.items(), key=lambda item: item[1])
+    bars = ax.barh([name for name, _ in shares], [share for _, share in shares], **{"color": _STABLE, **kw})
+    worst = t.worst
+    if worst is not None:
+        ax.bar_label(bars, [f"{share:.1%} {worst.signs.get(name, '')}" for name, share in shares], padding=3, fontsize="small")
+    ax.set_xlim(0, 1.15 * max([share for _, share in shares], default=1.0))
+    ax.set_xlabel("share of the margin" + ("" if t.factor is None else f"; stable up to {t.factor.decimal} times the tolerances"))
     return ax

@@ -18,15 +18,36 @@ Listener = Callable[[str, "float | None"], None]
 """Told the name of a step and the share done."""
 
 
-class Asking(TypedDict, total=False):
-    """What every question takes besides its own arguments."""
+REQUIREMENTS = ("gain_margin", "phase_margin", "modulus_margin", "delay_margin", "damping", "settling_time")
+"""What may be required beyond stability, named as the program's options."""
 
-    domain: Bounds | Mapping[str, Bounds] | None
-    radius: Exact | None
-    decay: Exact | None
+
+class Waiting(TypedDict, total=False):
+    """How long a question may take, who is told how far it is, and how many digits decimals have."""
+
     timeout: float | None
     progress: Listener | bool
     digits: int
+
+
+class Asking(Waiting, total=False):
+    """What a question of stability takes besides its own arguments."""
+
+    radius: Exact | None
+    decay: Exact | None
+    gain_margin: Exact | None
+    phase_margin: Exact | None
+    modulus_margin: Exact | None
+    delay_margin: Exact | None
+    damping: Exact | None
+    settling_time: Exact | None
+    at: str | None
+
+
+class AskingWithin(Asking, total=False):
+    """The same, where the domains of several parameters matter."""
+
+    domain: Mapping[str, Bounds] | None
 
 
 class Parameter(NamedTuple):
@@ -42,6 +63,11 @@ class Parameter(NamedTuple):
 
 def bound(x: Exact | None) -> str | None:
     return None if x is None else text_of(x)
+
+
+def requirement_text(x: Exact) -> str:
+    """A requirement as the program reads it: texts may have a unit."""
+    return x if isinstance(x, str) else text_of(x)
 
 
 def number_text(text: str) -> str:

@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
 from . import _jurist
+from ._arithmetic import Arithmetic
 from ._errors import undecided
 from ._exact import Exact, exact, fraction, fraction_text, integer, integer_text
+from ._narrow import Bounds, Narrower
 from ._views import Views
 
+_WRITTEN_DIGITS = 12
+"""The digits of documents, unless more are asked for."""
 
-_Bounds = tuple[Fraction, Fraction]
+_SAME_DIGITS = 50
+"""Different ends of one answer have different enclosures with so many digits: each lies in a bracket of its own."""
 
 _MOST_DIGITS = 2000
 """Transcendental numbers that are not told apart by so many digits may be equal."""
 
 
-class Real(Views):
+class Real(Arithmetic, Views):
     """An exact real number: a root of an integer polynomial, or a transcendental number in a certified enclosure.
 
     Comparisons are exact, also of two irrational numbers; equal numbers have equal hashes, as those of `int` and `Fraction`.
@@ -47,9 +52,9 @@ class Real(Views):
     __slots__ = ("_core", "_enclosed", "_over", "_refine")
 
     _core: _jurist.Algebraic | None
-    _enclosed: _Bounds | None
+    _enclosed: Bounds | None
     _over: Any
-    _refine: Callable[[int], _Bounds] | None
+    _refine: Narrower | None
 
     def __init__(self, value: Exact = 0) -> None:
         if isinstance(value, Real):
@@ -65,13 +70,14 @@ class Real(Views):
         return self
 
     @classmethod
-    def _transcendental(cls, bounds: _Bounds, over: Any, refine: Callable[[int], _Bounds] | None) -> Real:
+    def _transcendental(cls, bounds: Bounds, over: Any, refine: Narrower | None) -> Real:
+        """A number that is not rational, in certified bounds that can be narrowed."""
         self = cls.__new__(cls)
         self._core, self._enclosed, self._over, self._refine = None, bounds, over, refine
         return self
 
     @classmethod
-    def _from_document(cls, end: dict[str, Any], refine: Callable[[int], _Bounds] | None = None) -> Real:
+    def _from_document(cls, end: dict[str, Any], refine: Narrower | None = None) -> Real:
         """The number that stands in a document; a transcendental one is narrowed by asking for more digits."""
         if end["exact"] is not None:
             return cls._of(_jurist.Algebraic.rational(end["exact"]))
@@ -162,7 +168,7 @@ class Real(Views):
         for more in (2, 20, 200):
             lower, upper = (Real(x).decimal(digits) for x in self.enclosure(digits + more))
             if lower == upper:
-                return lower
+                return _padded(lower, digits)
         raise undecided(f"the enclosure does not give {digits} digits", "digits", "the enclosure", None)
 
     def enclosure(self, digits: int = 12) -> tuple[Fraction, Fraction]:
@@ -178,9 +184,9 @@ class Real(Views):
         if self._core is None:
             assert self._enclosed is not None
             low, high = self._enclosed
-            if self._refine is not None and high - low > min(abs(low), abs(high)) / 10 ** (digits + 2):
-                self._enclosed = self._refine(digits)
-            return self._enclosed
+            is_enough = digits <= _WRITTEN_DIGITS and high - low <= min(abs(low), abs(high)) / 10 ** (digits + 2)
+            # Narrower bounds are not kept here: so many digits give the same bounds, whatever was asked before.
+            return self._enclosed if self._refine is None or is_enough else self._refine(digits)
         lower, upper = self._core.enclosure(digits)
         return fraction(lower), fraction(upper)
 
@@ -201,24 +207,12 @@ class Real(Views):
             raise undecided(f"the enclosure does not give {digits} digits", "digits", "the enclosure", None)
         return 2 * digits
 
-    def _rounded(self, places: int) -> int:
-        """The nearest multiple of ``10**-places``, ties to even, as a count."""
-        scale: int = 10**places
-        digits = places + 12
-        while True:
-            lower, upper = (round(x * scale) for x in self.enclosure(digits))
-            if lower == upper:
-                return lower
-            digits = self._more(digits)
-
     def _compare(self, other: Any) -> float | None:
         """-1, 0, 1, not-a-number as it comes, or `None` for what is no number."""
         if isinstance(other, Real):
             if self._core is not None and other._core is not None:
                 return self._core.compare(other._core)
-            if self is other:
-                return 0
-            return _parted(self, other)
+            return 0 if self._is_same(other) else _parted(self, other)
         if isinstance(other, str):
             return None
         if isinstance(other, float) and not math.isfinite(other):
@@ -230,6 +224,14 @@ class Real(Views):
         if self._core is None:
             return _parted(self, Real(value))
         return self._core.compare_rational(fraction_text(value))
+
+    def _is_same(self, other: Real) -> bool:
+        """Whether both are the same end of the same answer, which is how equal transcendental numbers are known."""
+        if self is other:
+            return True
+        if self._refine is None or other._refine is None or self._over != other._over:
+            return False
+        return self._refine.is_of(other._refine) and self.enclosure(_SAME_DIGITS) == other.enclosure(_SAME_DIGITS)
 
     def __eq__(self, other: object) -> bool:
         return self._compare(other) == 0
@@ -262,113 +264,6 @@ class Real(Views):
     def __bool__(self) -> bool:
         return self != 0
 
-    def _sent(self, factor: Fraction, term: Fraction) -> Real:
-        """``factor*self + term``."""
-        value = self.exact
-        if value is not None:
-            return Real(factor * value + term)
-        if factor == 0:
-            return Real(term)
-        if self._core is None:
-            raise TypeError("a transcendental number is not computed with")
-        # p((y - term)/factor), by Horner's rule.
-        inner = (-term / factor, 1 / factor)
-        zero = Fraction(0)
-        out = [zero]
-        for c in reversed([integer(c) for c in self._core.polynomial()]):
-            out = [
-                (out[k] * inner[0] if k < len(out) else zero) + (out[k - 1] * inner[1] if k else zero) for k in range(len(out) + 1)
-            ]
-            out[0] += c
-        while len(out) > 1 and out[-1] == 0:
-            out.pop()
-        ends = sorted(factor * x + term for x in self.enclosure(3))
-        return Real.root(_cleared(out), *ends)
-
-    def __neg__(self) -> Real:
-        return self._sent(Fraction(-1), Fraction(0))
-
-    def __pos__(self) -> Real:
-        return self
-
-    def __abs__(self) -> Real:
-        return -self if self < 0 else self
-
-    def __add__(self, other: Any) -> Real:
-        if isinstance(other, Real) and self.exact is not None:
-            return other._sent(Fraction(1), self.exact)
-        value = _operand(other)
-        return NotImplemented if value is None else self._sent(Fraction(1), value)
-
-    __radd__ = __add__
-
-    def __sub__(self, other: Any) -> Real:
-        if isinstance(other, Real) and self.exact is not None:
-            return other._sent(Fraction(-1), self.exact)
-        value = _operand(other)
-        return NotImplemented if value is None else self._sent(Fraction(1), -value)
-
-    def __rsub__(self, other: Any) -> Real:
-        value = _operand(other)
-        return NotImplemented if value is None else self._sent(Fraction(-1), value)
-
-    def __mul__(self, other: Any) -> Real:
-        if isinstance(other, Real) and self.exact is not None:
-            return other._sent(self.exact, Fraction(0))
-        value = _operand(other)
-        return NotImplemented if value is None else self._sent(value, Fraction(0))
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: Any) -> Real:
-        if isinstance(other, Real) and self.exact is not None:
-            return other._reciprocal()._sent(self.exact, Fraction(0))
-        value = _operand(other)
-        return NotImplemented if value is None else self._sent(1 / value, Fraction(0))
-
-    def __rtruediv__(self, other: Any) -> Real:
-        value = _operand(other)
-        return NotImplemented if value is None else self._reciprocal()._sent(value, Fraction(0))
-
-    def _reciprocal(self) -> Real:
-        value = self.exact
-        if value is not None:
-            return Real(1 / value)
-        if self._core is None:
-            raise TypeError("a transcendental number is not computed with")
-        coefficients = [integer(c) for c in reversed(self._core.polynomial())]
-        while coefficients[-1] == 0:
-            coefficients.pop()
-        lower, upper = self.enclosure(3)
-        return Real.root(coefficients, 1 / upper, 1 / lower)
-
-    def __floor__(self) -> int:
-        if self._core is not None:
-            return integer(self._core.floor())
-        digits = 12
-        while True:
-            lower, upper = (math.floor(x) for x in self.enclosure(digits))
-            if lower == upper:
-                return lower
-            digits = self._more(digits)
-
-    def __ceil__(self) -> int:
-        return -math.floor(-self) if self._core is not None else math.floor(self) + 1
-
-    def __trunc__(self) -> int:
-        return math.ceil(self) if self < 0 else math.floor(self)
-
-    def __int__(self) -> int:
-        return math.trunc(self)
-
-    def __round__(self, ndigits: int | None = None) -> Any:
-        if ndigits is None:
-            return self._rounded(0)
-        if ndigits < 0:
-            value = self.exact
-            return round(value if value is not None else self.enclosure(40)[0], ndigits)
-        return Fraction(self._rounded(ndigits), 10**ndigits)
-
     def __str__(self) -> str:
         return self.decimal(12)
 
@@ -396,12 +291,12 @@ class Real(Views):
         if value is not None:
             return Real, (value,)
         if self._core is None:
-            return _enclosed, (self.enclosure(60), self._over)
+            return _enclosed, (self._enclosed, self._over, self._refine)
         return Real.root, (self.polynomial, *self.enclosure(3))
 
 
-def _enclosed(bounds: _Bounds, over: Any) -> Real:
-    return Real._transcendental(bounds, over, None)
+def _enclosed(bounds: Bounds, over: Any, refine: Narrower | None) -> Real:
+    return Real._transcendental(bounds, over, refine)
 
 
 def _parted(a: Real, b: Real) -> int:
@@ -418,23 +313,13 @@ def _parted(a: Real, b: Real) -> int:
         digits *= 2
 
 
-def _operand(x: Any) -> Fraction | None:
-    """A rational operand; `None` for what is no number."""
-    if isinstance(x, Real):
-        if x.exact is None:
-            raise TypeError("two irrational numbers are not computed with: use .sympy() or .flint()")
-        return x.exact
-    if isinstance(x, (str, float)):
-        return None
-    try:
-        return exact(x, "refuse")
-    except (TypeError, ValueError):
-        return None
-
-
-def _cleared(coefficients: list[Fraction]) -> list[int]:
-    common = math.lcm(*(c.denominator for c in coefficients))
-    return [int(c * common) for c in coefficients]
+def _padded(text: str, digits: int) -> str:
+    """A decimal with the zeros at its end that a fraction does not show."""
+    mantissa, e, exponent = text.partition("e")
+    shown = len(mantissa.lstrip("-0.").replace(".", ""))
+    if shown < digits:
+        mantissa += ("" if "." in mantissa else ".") + "0" * (digits - shown)
+    return mantissa + e + exponent
 
 
 def _short_bounds(x: Real) -> tuple[str, str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import os
 import time
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -186,7 +187,9 @@ class SweepResult:
         target = Path(path)
         beside = target.with_name(target.name + ".tmp")
         if target.suffix == ".jsonl":
-            beside.write_text("".join(json.dumps(row, ensure_ascii=False) + "\n" for row in self.rows), encoding="utf-8")
+            # No number of JSON is infinite.
+            finite = ({k: None if v in (-math.inf, math.inf) else v for k, v in row.items()} for row in self.rows)
+            beside.write_text("".join(json.dumps(row, ensure_ascii=False) + "\n" for row in finite), encoding="utf-8")
         elif target.suffix == ".csv":
             import csv
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from ._combine import membership, pieces, simplest
 from ._ends import End, Interval, end_at
 from ._exact import Exact, exact, fraction, fraction_text
+from ._narrow import Narrower, OfAnswer
 from ._real import Real
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ class StableSet(Sequence[Interval]):
     True
     """
 
-    __slots__ = ("_answer", "_asked", "_document", "_intervals", "_loop", "_text")
+    __slots__ = ("_answer", "_asked", "_document", "_intervals", "_loop", "_refine", "_text", "_words")
 
     def __init__(
         self,
@@ -52,13 +53,19 @@ class StableSet(Sequence[Interval]):
         loop: Loop | None = None,
         asked: dict[str, Any] | None = None,
         answer: _jurist.Answered | None = None,
+        words: tuple[str, ...] = (),
+        refine: Callable[[int, str], Narrower | None] | None = None,
+        intervals: tuple[Interval, ...] | None = None,
     ) -> None:
         self._document = document
         self._text = text
         self._loop = loop
         self._asked = asked
         self._answer = answer
-        self._intervals: tuple[Interval, ...] | None = None
+        # With words, the program's command is asked again and not the engine's answer.
+        self._words = words
+        self._refine = refine
+        self._intervals = intervals
 
     @property
     def intervals(self) -> tuple[Interval, ...]:
@@ -71,16 +78,26 @@ class StableSet(Sequence[Interval]):
             self._intervals = tuple(out)
         return self._intervals
 
-    def _refiner(self, k: int, side: str) -> Callable[[int], tuple[Fraction, Fraction]] | None:
-        """Narrower bounds of an end: the engine's answer with more digits."""
+    def _refiner(self, k: int, side: str) -> Narrower | None:
+        """How an end gets narrower bounds."""
+        if self._refine is not None:
+            return self._refine(k, side)
+        return None if self._loop is None else OfAnswer(self, ("stable", k, side))
+
+    def _bounds_at(self, path: tuple[Any, ...], digits: int) -> tuple[Fraction, Fraction]:
+        """Narrower bounds of an end: the answer with more digits."""
+        found = json.loads(self.json(digits))
+        for key in path:
+            found = found[key]
+        lower, upper = found["enclosure"]
+        return fraction(lower), fraction(upper)
+
+    def _question(self) -> Any:
+        """What the same answer is known by."""
         if self._loop is None:
             return None
-
-        def refine(digits: int) -> tuple[Fraction, Fraction]:
-            lower, upper = json.loads(self._answered().json(digits))["stable"][k][side]["enclosure"]
-            return fraction(lower), fraction(upper)
-
-        return refine
+        asked = {key: value for key, value in (self._asked or {}).items() if key not in ("timeout", "progress", "digits")}
+        return self._loop.to_toml(), self.parameter, repr(asked)
 
     @property
     def parameter(self) -> str:
@@ -173,7 +190,7 @@ class StableSet(Sequence[Interval]):
 
     def _derived(self, sets: list[StableSet], rule: Callable[[bool, bool], bool]) -> StableSet:
         points, member, causes = pieces(sets, rule)
-        stable = []
+        stable: list[Interval] = []
         start: End | None | Literal[False] = False
         # Pieces: gap 0, point 0, gap 1, point 1, ..., gap n.
         for k, inside in enumerate(member):
@@ -188,11 +205,12 @@ class StableSet(Sequence[Interval]):
                     end = end_at(points[point], causes[point], False)
                 else:
                     end = end_at(points[k // 2 - 1], causes[k // 2 - 1], True)
-                stable.append(Interval(start, end).to_dict())
+                stable.append(Interval(start, end))
                 start = False
         if start is not False:
-            stable.append(Interval(start, None).to_dict())
-        return StableSet({**self._shared(), "stable": stable})
+            stable.append(Interval(start, None))
+        document = {**self._shared(), "stable": [i.to_dict() for i in stable]}
+        return StableSet(document, intervals=tuple(stable))
 
     def nearest_end(self, x: Exact | None = None) -> End:
         """The end that is nearest to a value, or to the nominal one.
@@ -246,6 +264,8 @@ class StableSet(Sequence[Interval]):
     def json(self, digits: int | None = None) -> str:
         """That document as the program writes it, byte for byte; with other digits where they are given."""
         if digits is not None and self._loop is not None:
+            if self._words:
+                return self._loop._document(self._words, self._loop._asked(digits=digits))
             return self._answered().json(digits)
         if self._text is not None:
             return self._text
@@ -270,18 +290,26 @@ class StableSet(Sequence[Interval]):
         >>> proved.kind
         'intervals'
         """
-        return self._answered().certificate(timeout)
+        return self._written("--certificate", timeout) or self._answered().certificate(timeout)
+
+    def _written(self, option: str, timeout: float | None) -> str | None:
+        """What the program's command writes into a file, where it is the command that was asked."""
+        if not self._words or self._loop is None:
+            return None
+        return self._loop._file_of(self._words, option, timeout)
 
     def smt2(self, timeout: float | None = None) -> str:
         """The statement as SMT-LIB 2: a solver answers ``unsat`` if it is true."""
-        return self._answered().smt2(timeout) or ""
+        return self._written("--smt2", timeout) or self._answered().smt2(timeout) or ""
 
     def coq(self, timeout: float | None = None) -> str:
         """The statement as a theorem for Coq."""
-        return self._answered().coq(timeout) or ""
+        return self._written("--coq", timeout) or self._answered().coq(timeout) or ""
 
     def text(self, digits: int = 12) -> str:
         """The program's text."""
+        if self._words and self._loop is not None:
+            return self._loop._command([*self._words, "--digits", str(digits)], self._loop._asked())[0]
         return self._answered().text(digits)
 
     def rows(self) -> list[dict[str, Any]]:
@@ -367,8 +395,17 @@ class StableSet(Sequence[Interval]):
         return f"$\\mathrm{{{name}}} \\in {body}$" if body else f"$\\mathrm{{{name}}} \\in \\varnothing$"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _set_again, (self._document, self._text, self._loop, self._asked)
+        # Without a loop to ask again, the ends know by themselves how they are narrowed.
+        own = self.intervals if self._loop is None else None
+        return _set_again, (self._document, self._text, self._loop, self._asked, self._words, own)
 
 
-def _set_again(document: dict[str, Any], text: str | None, loop: Loop | None, asked: dict[str, Any] | None) -> StableSet:
-    return StableSet(document, text=text, loop=loop, asked=asked)
+def _set_again(
+    document: dict[str, Any],
+    text: str | None,
+    loop: Loop | None,
+    asked: dict[str, Any] | None,
+    words: tuple[str, ...],
+    intervals: tuple[Interval, ...] | None,
+) -> StableSet:
+    return StableSet(document, text=text, loop=loop, asked=asked, words=words, intervals=intervals)

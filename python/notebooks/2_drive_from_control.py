@@ -24,11 +24,25 @@ print("python-control:", ct.stability_margins(L)[0])
 print("exact:         ", servo.intervals("K")[0].upper.value.decimal(20))
 
 # %% [markdown]
+# All margins, exactly, and the open loop with the crossings marked on it.
+
+# %%
+m = jurist.margins(L)
+m
+
+# %%
+figure = plt.figure(figsize=(11, 5))
+left, right = figure.subfigures(1, 2)
+servo.bode("u").plot(left.subplots(2, 1, sharex=True))
+servo.nyquist("u").plot(right.subplots())
+
+# %% [markdown]
 # Back to python-control: the closed loop at a point, with its names.
 
 # %%
 T = servo.to_control("r", "y", {"K": "1/2"})
 response = ct.step_response(T)
+plt.figure()
 plt.plot(response.time, response.outputs)
 plt.xlabel("time (s)")
 plt.ylabel("y")

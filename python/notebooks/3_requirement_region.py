@@ -14,6 +14,17 @@ print("stable:", stable)
 print("fast:  ", fast)
 print("stable, but not fast:", stable - fast)
 
+# %% [markdown]
+# Margins are required in the same way, where the loop is cut at a signal. Ends say which requirement binds.
+
+# %%
+servo = jurist.LoopBuilder("continuous")
+K = servo.parameter("K", 1, min=0)
+servo = servo.block("controller", "r - y", "u", f"{K}*(s + 1/4)/s").block("plant", "u", "y", "1/(s^3 + 3*s^2 + 2*s)").build(inputs=["r"], outputs=["y"])
+far = servo.intervals("K", modulus_margin="1/2", at="u")
+print("stable:", servo.intervals("K"))
+print("modulus margin 1/2:", far, "-", far[0].upper.requirement)
+
 # %%
 figure, ax = plt.subplots(figsize=(6, 5))
 loop.map("a", "b").plot(ax)

@@ -27,3 +27,15 @@ ax.axvline(1, color="gray")
 ax.set_xscale("symlog", linthresh=0.1)
 ax.set_xlabel("end / nominal")
 ax.set_yticks([])
+
+# %% [markdown]
+# All at once: is the drive stable for every combination within 20 %? That is proved over the whole box, or a point is found that is
+# not. Which tolerance uses how much of the margin is drawn.
+
+# %%
+t = drive.tolerance(tol={name: "20%" for name in names})
+print(t)
+
+# %%
+figure, ax = plt.subplots(figsize=(7, 3))
+t.plot(ax)

@@ -5,7 +5,7 @@ from decimal import Decimal, getcontext
 
 import jurist
 import pytest
-from conftest import corpus, program
+from conftest import ROOT, corpus, program
 
 getcontext().prec = 1200
 
@@ -81,15 +81,56 @@ def test_answers_are_those_of_the_program_byte_for_byte_and_as_expected(name, mo
         ("map -x T -y K_pwm", lambda loop: loop.map("T", "K_pwm")),
         ("locus --param K_pwm", lambda loop: loop.locus("K_pwm")),
         ("simulate --duration=1/100", lambda loop: loop.simulate(duration="0.01")),
+        ("margins --at K_pwm", lambda loop: loop.margins("K_pwm")),
+        ("margins --at K_pwm --set T=1/5000 --skew=1/2", lambda loop: loop.margins("K_pwm", {"T": "2e-4"}, skew="1/2")),
+        ("margins --at K_pwm --set K_pwm=555", lambda loop: loop.margins("K_pwm", {"K_pwm": 555})),
+        ("norm omega_ref omega", lambda loop: loop.norm("omega_ref", "omega")),
+        ("tolerance --tol K_pwm=10% --tol T=0..1/5000", lambda loop: loop.tolerance(tol={"K_pwm": "10%", "T": (0, "2e-4")})),
+        ("tolerance --all=5% --fix T --limit K_pwm", lambda loop: loop.tolerance(all="5%", fix="T", limit="K_pwm")),
+        ("bode --at K_pwm", lambda loop: loop.bode("K_pwm")),
+        ("nyquist --at K_pwm", lambda loop: loop.nyquist("K_pwm")),
         ("verdict --radius=0.99", lambda loop: loop.verdict(radius="0.99")),
         ("intervals --param T --digits 40", lambda loop: loop.intervals("T", digits=40)),
     ],
     ids=lambda x: x if isinstance(x, str) else "",
 )
 def test_every_kind_of_answer_is_the_programs_document(command, ask, drive):
-    words = command.split()
-    done = program(words[0], *words[1:], "--json", "-q") if words[0] not in ("locus",) else program(*words, "--json")
-    assert ask(drive).json() == done.stdout
+    assert ask(drive).json() == program(*command.split(), "--json", "-q").stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "ask"),
+    [
+        (["intervals", "--param", "K_pwm", "--modulus-margin=1/2"], lambda loop: loop.intervals("K_pwm", modulus_margin="1/2", at="V_a")),
+        (["intervals", "--param", "K_pwm", "--gain-margin=6 dB"], lambda loop: loop.intervals("K_pwm", gain_margin="6 dB", at="V_a")),
+        (["verdict", "--gain-margin=2"], lambda loop: loop.verdict(gain_margin=2, at="V_a")),
+        (["margins"], lambda loop: loop.margins("V_a")),
+        (["bode"], lambda loop: loop.bode("V_a")),
+    ],
+    ids=lambda x: " ".join(x[:1]) if isinstance(x, list) else "",
+)
+def test_requirements_and_cuts_at_signals_are_the_programs(words, ask):
+    path = ROOT / "examples" / "drive-blocks.toml"
+    assert ask(jurist.Loop.from_file(path)).json() == program(words[0], str(path), *words[1:], "--at", "V_a", "--json", "-q").stdout
+
+
+@pytest.mark.parametrize(("name", "model", "expectations"), corpus(), ids=lambda x: x if isinstance(x, str) and len(x) < 60 else "")
+def test_commands_about_every_model_are_the_programs_or_refused_alike(name, model, expectations, tmp_path):
+    path = tmp_path / f"{name}.toml"
+    path.write_text(model)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", jurist.JuristWarning)
+        loop = jurist.Loop.from_file(path)
+        for ask in (["margins", "--json"], ["charpoly", "--json"]):
+            done = program(ask[0], str(path), *ask[1:], "-q")
+            try:
+                ours = loop.command(*ask)
+            except jurist.JuristError as refused:
+                assert done.returncode in (2, 3)
+                assert str(refused).splitlines()[0] in done.stderr
+            else:
+                assert ours == done.stdout
+                assert done.returncode in (0, 1)
 
 
 def test_a_broken_expectation_is_not_met(drive):

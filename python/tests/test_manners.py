@@ -7,8 +7,6 @@ import signal
 import subprocess
 import sys
 import textwrap
-import threading
-import time
 import warnings
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
@@ -127,24 +125,43 @@ def test_everything_that_is_answered_can_be_pickled(drive):
         assert (str(again), again.code, again.help) == (str(caught.value), caught.value.code, caught.value.help)
 
 
-def test_an_interrupt_ends_a_question(tmp_path):
+INSIDE = """
+import _thread, jurist, sys, threading, time
+
+def inside():
+    "Whether the main thread has begun to ask the engine."
+    frame = sys._current_frames().get(threading.main_thread().ident)
+    while frame is not None and frame.f_code.co_name != "_command":
+        frame = frame.f_back
+    return frame is not None
+
+def when_inside(act):
+    def wait():
+        while not inside():
+            time.sleep(0.001)
+        act()
+    threading.Thread(target=wait, daemon=True).start()
+"""
+"""What a thread needs to act while the main thread is at work."""
+
+
+def test_an_interrupt_ends_a_question():
     """The question runs for hours, so that only the interrupt can end it; how fast it does is printed."""
     code = f"""
-        import jurist, os, signal, threading, time
-        loop = jurist.Loop.from_toml({HARD!r})
-        sent = []
-        def interrupt():
-            time.sleep(1.0)
-            sent.append(time.perf_counter())
-            os.kill(os.getpid(), signal.SIGINT)
-        threading.Thread(target=interrupt).start()
-        try:
-            loop.map("a", "b")
-        except KeyboardInterrupt:
-            print("interrupted after", round(time.perf_counter() - sent[0], 3), "s")
-        print(jurist.Loop.drive().intervals("K_pwm"))
-    """
-    done = run(code)
+import os, signal
+loop = jurist.Loop.from_toml({HARD!r})
+sent = []
+def interrupt():
+    sent.append(time.perf_counter())
+    os.kill(os.getpid(), signal.SIGINT)
+try:
+    when_inside(interrupt)
+    loop.map("a", "b")
+except KeyboardInterrupt:
+    print("interrupted after", round(time.perf_counter() - sent[0], 3), "s")
+print(jurist.Loop.drive().intervals("K_pwm"))
+"""
+    done = run(INSIDE + code)
     assert done.stdout.startswith("interrupted after"), done
     assert done.stdout.splitlines()[1] == EXPECTED[0]
     print(done.stdout)
@@ -177,23 +194,23 @@ def test_a_question_without_time_is_undecided_and_says_how_far_it_came():
 
 
 def test_the_interpreter_goes_on_while_a_question_is_answered():
-    """The GIL is released: another thread counts while the engine works."""
-    loop = jurist.Loop.from_toml(HARD)
-    counted = []
-
-    def count():
-        while not done.is_set():
-            counted.append(1)
-            time.sleep(0.001)
-
-    done = threading.Event()
-    thread = threading.Thread(target=count)
-    thread.start()
-    with pytest.raises(jurist.Undecided):
-        loop.map("a", "b", timeout=0.5)
-    done.set()
-    thread.join()
-    assert len(counted) > 10
+    """The GIL is released: another thread counts while the engine works, and ends the work, which has no end of its own."""
+    code = f"""
+loop = jurist.Loop.from_toml({HARD!r})
+counted = []
+def count():
+    # Far longer than a thread keeps the interpreter that another one waits for.
+    for k in range(10**6):
+        counted.append(k)
+    print(len(counted), inside())
+    _thread.interrupt_main()
+try:
+    when_inside(count)
+    loop.map("a", "b")
+except KeyboardInterrupt:
+    print("ended")
+"""
+    assert run(INSIDE + code).stdout == "1000000 True\nended\n"
 
 
 def test_many_threads_ask_at_the_same_time(drive):
@@ -297,11 +314,12 @@ def test_the_program_comes_with_the_package():
 def test_an_interrupt_ends_the_program_at_once(tmp_path):
     model = tmp_path / "hard.toml"
     model.write_text(HARD)
-    process = subprocess.Popen([sys.executable, "-m", "jurist", "map", str(model), "-x", "a", "-y", "b"], stdout=subprocess.PIPE)
-    time.sleep(1.5)
-    process.send_signal(signal.SIGINT)
-    assert process.wait(timeout=60) == -signal.SIGINT
-    process.stdout.close()
+    command = [sys.executable, "-m", "jurist", "map", str(model), "-x", "a", "-y", "b", "--verbose"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        # The first step has been said: the program is at work, and would be for hours.
+        assert process.stderr.readline()
+        process.send_signal(signal.SIGINT)
+        assert process.wait() == -signal.SIGINT
 
 
 def test_the_module_does_not_bring_the_gil_back():

@@ -13,6 +13,7 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 import jurist
 import pyarrow.parquet
 import pytest
+from conftest import program
 from jurist import _sweep
 
 GRID = {"T": [f"{k}e-5" for k in range(5, 29)]}
@@ -134,6 +135,55 @@ def test_every_file_format_holds_the_same_rows(tmp_path, expected):
     assert pa.table(r).num_rows == len(r)
     with pytest.raises(ValueError, match="name a file"):
         r.compact()
+
+
+MODEL = """
+title = "two windows, and none"
+time = "discrete"
+parameters.K = { nominal = 0, min = -10 }
+parameters.a = { nominal = 0 }
+[loop]
+characteristic = "z^2 + (K^2 - 3)*z + 1/3 + a/(a - 2)"
+"""
+
+
+def test_the_program_sweeps_with_the_same_keys_and_columns_and_bytes(tmp_path):
+    """Ends that are rational, irrational, infinite; sets without intervals; points where the model is undefined."""
+    model = tmp_path / "model.toml"
+    model.write_text(MODEL)
+    loop = jurist.Loop.from_file(model)
+    values = ["-1/7", "-1/20", 0, "1/20", 2, 5, "1e-9"]
+    over = "a=" + ",".join(str(v) for v in values)
+    for ask, words in (("K", ["--param", "K"]), ("verdict", ["--set", "K=1/2"])):
+        fixed = {} if ask == "K" else {"K": ["1/2"]}
+        with ThreadPoolExecutor(1) as pool:
+            r = jurist.sweep(loop, ask, {"a": values, **fixed}, executor=pool, progress=False)
+        for ending in ("jsonl", "csv"):
+            theirs = tmp_path / f"{ask}.{ending}"
+            done = program("sweep", str(model), *words, "--over", over, "-o", str(theirs))
+            assert (done.returncode, done.stderr) == (0, "")
+            assert r.compact(tmp_path / f"ours.{ending}").read_bytes() == theirs.read_bytes()
+    assert {row["status"] for row in r.rows} == {"decided"}
+
+
+def test_the_program_goes_on_with_a_sweep_that_was_killed(tmp_path):
+    out = tmp_path / "rows.jsonl"
+    words = ["sweep", "--param", "K_pwm", "--over", "T=1e-5..1e-3:400", "-o", str(out)]
+    whole = program(*words[:-1], str(tmp_path / "whole.jsonl"))
+    assert whole.returncode == 0
+    process = subprocess.Popen([sys.executable, "-m", "jurist", *words])
+    part = tmp_path / "rows.jsonl.part"
+    while process.poll() is None and not (part.exists() and part.stat().st_size > 1000):
+        time.sleep(0.001)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    if part.exists():
+        # A line that was cut in the middle is not taken for a row.
+        part.write_bytes(part.read_bytes()[:-20])
+    done = program(*words, "--resume")
+    assert done.returncode == 0, done
+    assert out.read_bytes() == (tmp_path / "whole.jsonl").read_bytes()
+    assert not part.exists()
 
 
 def test_progress_is_told(tmp_path):

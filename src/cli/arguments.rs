@@ -64,6 +64,8 @@ pub(super) enum Command {
     Norm(commands::norm::Options),
     /// Time response, of the sampled loop or of the switched circuit
     Simulate(commands::simulate::Options),
+    /// The same question at many points, on all cores; resumable
+    Sweep(commands::sweep::Options),
     /// Stable for every value within tolerances: proof or counterexample, and how far they can grow
     Tolerance(commands::tolerance::Options),
     /// The built-in drive's paper once more, as one HTML report with figures
@@ -175,7 +177,7 @@ pub(super) struct RunOptions {
 }
 
 /// A duration that is not negative, in decimal notation.
-fn seconds(text: &str) -> Result<Duration, String> {
+pub(super) fn seconds(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|_| "a number of seconds is expected, such as 10 or 0.5".to_owned())?;
     if seconds.is_nan() || seconds < 0.0 {
         return Err("a time is not negative".to_owned());

@@ -88,6 +88,7 @@ impl<'a> Names<'a> {
             Some(Command::Bode(o) | Command::Nyquist(o)) => names.picture(&o.model.model, &o.picture)?,
             Some(Command::Locus(o)) => names.picture(&o.model.model, &o.picture)?,
             Some(Command::Simulate(o)) => names.picture(&o.model.model, &o.picture)?,
+            Some(Command::Sweep(o)) => names.question(&o.model, &o.output),
             Some(Command::Verify(o)) => {
                 names.inputs = vec![("the model", &o.model), ("the certificate", &o.certificate)];
                 names.answer(None);

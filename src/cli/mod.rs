@@ -15,6 +15,7 @@ mod progress;
 mod replace;
 mod requirements;
 mod status;
+mod sweep;
 mod written;
 
 pub use captured::{Captured, captured};

@@ -17,6 +17,7 @@ pub(super) mod new;
 pub(super) mod norm;
 pub(super) mod paper;
 pub(super) mod simulate;
+pub(super) mod sweep;
 pub(super) mod tolerance;
 pub(super) mod verdict;
 pub(super) mod verify;
@@ -141,6 +142,7 @@ impl Arguments {
             Some(Command::Bode(options) | Command::Nyquist(options)) => &options.run,
             Some(Command::Norm(options)) => &options.output.run,
             Some(Command::Simulate(options)) => &options.run,
+            Some(Command::Sweep(options)) => &options.run,
             Some(Command::Paper(options)) => &options.run,
             Some(Command::Tolerance(options)) => &options.decision.output.run,
             Some(Command::Verify(options)) => &options.run,
@@ -166,6 +168,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Nyquist(options)) => frequency_response::run(options, frequency_response::NYQUIST, context),
         Some(Command::Norm(options)) => norm::run(options, context),
         Some(Command::Simulate(options)) => simulate::run(options, context),
+        Some(Command::Sweep(options)) => sweep::run(options, context),
         Some(Command::Paper(options)) => paper::run(options, context),
         Some(Command::Tolerance(options)) => tolerance::run(options, context),
         Some(Command::Verify(options)) => verify::run(options, context),

@@ -1,0 +1,192 @@
+"""Questions about responses: margins, peak gains, curves over frequency and time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Unpack, cast
+
+from ._asking import Asker
+from ._curves import Locus, Simulation
+from ._exact import Exact, fraction, text_of
+from ._margins import Margins, Norm
+from ._question import Waiting
+from ._response import Bode, Nyquist
+
+if TYPE_CHECKING:
+    from ._loop import Loop
+
+
+class ResponseQuestions(Asker):
+    """What a loop does, and how far it is from not being stable."""
+
+    __slots__ = ()
+
+    @property
+    def _itself(self) -> Loop:
+        return cast("Loop", self)
+
+    def margins(
+        self,
+        at: str | None = None,
+        values: Mapping[str, Exact] | None = None,
+        *,
+        skew: Exact = 0,
+        **question: Unpack[Waiting],
+    ) -> Margins:
+        """Gain, phase, delay, modulus and disk margins of the loop cut at a signal, exactly, and all crossings.
+
+        Parameters
+        ----------
+        at : str, optional
+            Where the loop is cut: a signal, a block (at its input), or a parameter (the loop's gain). By default the error of a
+            single loop.
+        values : mapping, optional
+            Of parameters and constants.
+        skew : exact number
+            Of the disk margin; 0 is the balanced disk.
+        **question
+            ``timeout``, ``progress`` and ``digits``; see `intervals`.
+
+        Returns
+        -------
+        Margins
+
+        Examples
+        --------
+        >>> import jurist
+        >>> loop = jurist.Loop.characteristic([1, 3, 3, "1 + k"], time="continuous", parameters={"k": 2})
+        >>> m = loop.margins("k")
+        >>> m.gain, m.upper, float(m.modulus.value)
+        (<StableSet k: (-1/2, 4)>, <End 4: complex pair>, 0.7071067811865476)
+        """
+        asked = self._asked(values, **question)
+        words = self._words("margins", asked)
+        words += [] if at is None else [f"--at={at}"]
+        words += [] if skew == 0 else [f"--skew={text_of(skew)}"]
+        return Margins(self._document(words, asked), self._itself, tuple(words))
+
+    def norm(
+        self, input: str, output: str, values: Mapping[str, Exact] | None = None, **question: Unpack[Waiting]
+    ) -> Norm:
+        """The peak gain (H-infinity norm) of the closed-loop transfer function from an input to an output, exactly.
+
+        Examples
+        --------
+        >>> import jurist
+        >>> b = jurist.LoopBuilder("continuous").block("plant", "2*r - y", "y", "1/(s^2 + s)")
+        >>> n = b.build(inputs=["r"], outputs=["y"]).norm("r", "y")
+        >>> n.value.polynomial, n.value.decimal(20)
+        ((-16, 0, 3), '2.3094010767585030580')
+        """
+        asked = self._asked(values, **question)
+        first, dash, *options = self._words("norm", asked)
+        words = [first, dash, input, output, *options]
+        return Norm(self._document(words, asked), self._itself, tuple(words))
+
+    def bode(
+        self, at: str | None = None, values: Mapping[str, Exact] | None = None, *, timeout: float | None = None
+    ) -> Bode:
+        """Modulus and phase of the loop cut at a signal over frequency, with the exact crossings on them.
+
+        Parameters
+        ----------
+        at : str, optional
+            Where the loop is cut; see `margins`.
+        values : mapping, optional
+        timeout : float, optional
+        """
+        text, words = self._curve("bode", at, values, timeout)
+        return Bode(text, self._itself, words)
+
+    def nyquist(
+        self, at: str | None = None, values: Mapping[str, Exact] | None = None, *, timeout: float | None = None
+    ) -> Nyquist:
+        """The curve of the loop cut at a signal around -1, with the exact crossings on it; parameters as for `bode`."""
+        text, words = self._curve("nyquist", at, values, timeout)
+        return Nyquist(text, self._itself, words)
+
+    def _curve(
+        self, command: str, at: str | None, values: Mapping[str, Exact] | None, timeout: float | None
+    ) -> tuple[str, tuple[str, ...]]:
+        asked = self._asked(values, timeout=timeout)
+        words = self._words(command, asked) + ([] if at is None else [f"--at={at}"])
+        return self._command([*words, "--json"], asked)[0], tuple(words)
+
+    def locus(
+        self,
+        parameter: str,
+        values: Mapping[str, Exact] | None = None,
+        *,
+        range: tuple[Exact, Exact] | None = None,
+        log: bool = False,
+        timeout: float | None = None,
+    ) -> Locus:
+        """The root locus of any parameter, with the exact crossings of the boundary.
+
+        Parameters
+        ----------
+        parameter : str
+        values : mapping, optional
+        range : pair of exact numbers, optional
+            Around the stable set and the nominal value, if not given.
+        log : bool
+            Lets the parameter run evenly in its logarithm.
+        timeout : float, optional
+        """
+        asked = self._asked(values, timeout=timeout)
+        words = [*self._words("locus", asked), "--param", parameter]
+        if range is not None:
+            words.append(f"--range={text_of(range[0])}..{text_of(range[1])}")
+        text, done, _ = self._command([*words, *(["--log"] if log else []), "--json"], asked)
+        return Locus(text, self._itself, done)
+
+    def simulate(
+        self,
+        values: Mapping[str, Exact] | None = None,
+        *,
+        inputs: Mapping[str, Exact | tuple[Exact, Exact]] | None = None,
+        initial: Mapping[str, Exact] | None = None,
+        duration: Exact | None = None,
+        switched: bool = False,
+        timeout: float | None = None,
+    ) -> Simulation:
+        """A time response, in floating point.
+
+        Parameters
+        ----------
+        values : mapping, optional
+        inputs : mapping, optional
+            From signals to values, or to pairs of a value and the time from which on it holds.
+        initial : mapping, optional
+            Of states.
+        duration : exact number, optional
+            In seconds, or in samples without a sample time.
+        switched : bool
+            Simulates the circuit with its switches, for blocks with ``pwm``.
+        timeout : float, optional
+        """
+        asked = self._asked(values, timeout=timeout)
+        words = self._words("simulate", asked)
+        for name, value in (inputs or {}).items():
+            at = f"@{text_of(value[1])}" if isinstance(value, tuple) else ""
+            words += ["--input", f"{name}={text_of(value[0] if isinstance(value, tuple) else value)}{at}"]
+        for name, value in (initial or {}).items():
+            words += ["--initial", f"{name}={text_of(value)}"]
+        words += [] if duration is None else [f"--duration={text_of(duration)}"]
+        text, done, _ = self._command([*words, *(["--switched"] if switched else []), "--json"], asked)
+        return Simulation(text, self._itself, done)
+
+    def to_control(self, input: str, output: str, values: Mapping[str, Exact] | None = None) -> Any:
+        """The closed-loop transfer function from an input to an output, for python-control.
+
+        Coefficients are rounded to floats; names and the sample time are kept.
+        """
+        from ._control import to_control
+
+        return to_control(self._itself, input, output, values)
+
+    def sample_time(self, values: Mapping[str, Exact] | None = None) -> Fraction | None:
+        """The sample time at a point; `None` in continuous time and where the model gives none."""
+        text = self._core.sample_time(self._asked(values))
+        return None if text is None else fraction(text)
