@@ -25,7 +25,7 @@ globalThis.juristEditor = (parent: HTMLElement, text: string, changed: (text: st
     StreamLanguage.define(toml),
     syntaxHighlighting(defaultHighlightStyle, { fallback: true }),
     keymap.of([...defaultKeymap, ...historyKeymap]),
-    EditorView.contentAttributes.of({ "aria-label": "model file" }),
+    EditorView.contentAttributes.of({ "aria-label": "model file", tabindex: "0" }),
     EditorView.updateListener.of((update) => update.docChanged && changed(update.state.doc.toString())),
     EditorView.theme({
       "&": { color: "var(--ink)" },

@@ -151,7 +151,7 @@ class Zoom {
   constructor(private readonly changed: () => void) {
     const button = (text: string, words: string, by: (f: number) => number) =>
       h("button", { type: "button", class: "small", "aria-label": words, title: words, click: () => this.set(by(this.factor)) }, text);
-    this.buttons = [button("−", "zoom out", (f) => f / 2), button("+", "zoom in", (f) => f * 2), button("1", "zoom back", () => 1)];
+    this.buttons = [button("−", "zoom out", (f) => f / 2), button("+", "zoom in", (f) => f * 2), button("reset", "reset zoom", () => 1)];
   }
 
   private set(factor: number): void {
