@@ -26,13 +26,19 @@ export function python(text: string, parameter: string | undefined, values: [str
   return `${lines.join("\n")}\n`;
 }
 
-/** The text with the nominal values of its parameters replaced, where that can be done without reading it anew. */
+/** The text with the nominal values of its parameters replaced, where they stand in a line of their own. */
 export function withNominals(text: string, values: [string, string][]): string {
-  let out = text;
-  for (const [name, value] of values) {
-    const escaped = name.replace(/[.*+?^${}()|[\]\\]/g, String.raw`\$&`);
-    const line = new RegExp(String.raw`^(\s*${escaped}\s*=\s*\{[^}\n]*?\bnominal\s*=\s*)("[^"\n]*"|'[^'\n]*'|[^,}\s]+)`, "m");
-    out = out.replace(line, (_, before: string) => `${before}${JSON.stringify(value)}`);
-  }
-  return out;
+  const given = new Map(values);
+  let section = "";
+  const line = (one: string): string => {
+    section = /^\s*\[+\s*([^\]]+?)\s*\]/.exec(one)?.[1] ?? section;
+    if (section !== "parameters") return one;
+    const [, before = "", name = "", rest = ""] = /^(\s*["']?([\w-]+)["']?\s*=\s*)(.*)$/.exec(one) ?? [];
+    const value = given.get(name);
+    if (value === undefined) return one;
+    const quoted = JSON.stringify(value);
+    if (rest.startsWith("{")) return before + rest.replace(/(\b(?:nominal|value)\s*=\s*)("[^"]*"|'[^']*'|[^,}\s]+)/, (_, key: string) => key + quoted);
+    return before + rest.replace(/^("[^"]*"|'[^']*'|[^#\s]+)/, () => quoted);
+  };
+  return text.split("\n").map(line).join("\n");
 }

@@ -34,6 +34,8 @@ export class Details {
 
   /** What the drawers are about; those that are open are filled anew. */
   async about(asked: Asked): Promise<void> {
+    // What stands there is kept while it is about the same question.
+    if (JSON.stringify(asked) === JSON.stringify(this.asked)) return;
     this.asked = asked;
     for (const id of ["details", "polynomial", "tolerance"]) if (this.open[id]) await this.fill(id);
   }

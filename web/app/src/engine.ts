@@ -13,7 +13,10 @@ interface Asked {
   resolve(reply: Reply | undefined): void;
 }
 
-/** A quick request that runs longer than this is given up for the next one. */
+/** What somebody waits for goes before the rest. */
+const FIRST = new Set(["verdict", "describe"]);
+
+/** What runs longer than this, in milliseconds, makes room for what somebody waits for. */
 const PATIENCE = 400;
 
 let nextId = 1;
@@ -39,19 +42,26 @@ class Seat {
       const overtaken = this.waiting.filter((asked) => asked.lane === lane);
       this.waiting = this.waiting.filter((asked) => asked.lane !== lane);
       for (const asked of overtaken) asked.resolve(undefined);
-      this.waiting.push({ id: nextId++, lane, request, resolve });
-      if (this.running?.lane === lane && this.speed === "slow") this.replace(false);
-      else if (this.running && this.speed === "quick") this.hurry();
+      const asked = { id: nextId++, lane, request, resolve };
+      if (FIRST.has(lane)) this.waiting.unshift(asked);
+      else this.waiting.push(asked);
+      if (this.running?.lane === lane && this.speed === "slow") this.giveUp();
+      // Somebody moves something: what runs has to make room before long.
+      else if (this.running && (this.running.lane === lane || FIRST.has(lane))) this.hurry();
       this.next();
     });
   }
 
-  /** Drops what waits and ends what runs. */
-  cancel(lane?: string): void {
-    const dropped = this.waiting.filter((asked) => !lane || asked.lane === lane);
-    this.waiting = this.waiting.filter((asked) => !dropped.includes(asked));
-    for (const asked of dropped) asked.resolve(undefined);
-    if (this.running && (!lane || this.running.lane === lane)) this.replace(false);
+  /** Drops what waits and ends what runs; `reply` is what they get for an answer. */
+  cancel(reply: Reply | undefined): void {
+    const dropped = this.waiting;
+    this.waiting = [];
+    const running = this.running;
+    if (running) {
+      dropped.push(running);
+      this.replace();
+    }
+    for (const asked of dropped) asked.resolve(reply);
     this.next();
   }
 
@@ -61,7 +71,7 @@ class Seat {
 
   private hurry(): void {
     clearTimeout(this.timer);
-    const late = () => this.waiting.length > 0 && this.running && this.replace(false);
+    const late = () => this.running && this.giveUp();
     this.timer = window.setTimeout(late, Math.max(0, PATIENCE - (performance.now() - this.since)));
   }
 
@@ -85,7 +95,8 @@ class Seat {
       const done = this.running!;
       this.running = undefined;
       this.owner.took(done.lane, data.took);
-      if (data.broken) this.replace(true);
+      clearTimeout(this.timer);
+      if (data.broken) this.replace();
       done.resolve(data.reply);
       this.next();
     }
@@ -95,17 +106,23 @@ class Seat {
     const done = this.running;
     this.running = undefined;
     if (!done) return this.owner.failed(message);
-    this.replace(true);
+    this.replace();
     done.resolve({ defect: message });
     this.next();
   }
 
-  private replace(broken: boolean): void {
+  /** Ends what runs: it is overtaken, or waits once more behind the others. */
+  private giveUp(): void {
+    const given = this.running!;
+    if (this.waiting.some((asked) => asked.lane === given.lane)) given.resolve(undefined);
+    else this.waiting.push(given);
+    this.replace();
+  }
+
+  private replace(): void {
     clearTimeout(this.timer);
     this.worker?.terminate();
-    const given = this.running;
     this.running = undefined;
-    if (!broken) given?.resolve(undefined);
     this.owner.replaced++;
     this.begin();
   }
@@ -118,7 +135,6 @@ class Seat {
     this.since = performance.now();
     this.owner.working(asked.lane);
     this.worker!.postMessage({ id: asked.id, request: asked.request });
-    if (this.speed === "quick" && this.waiting.length > 0) this.hurry();
   }
 }
 
@@ -152,13 +168,14 @@ export class Engine {
     return this.seats[speed].ask(lane, request);
   }
 
-  /** Ends long work; with a lane only that. */
-  cancel(lane?: string): void {
-    this.seats.slow.cancel(lane);
+  /** Ends all work. What somebody ended is undecided, what nobody needs any more gets no answer. */
+  cancel(wished = false): void {
+    const reply = wished ? { stopped: "cancelled" } : undefined;
+    for (const seat of [this.seats.slow, this.seats.quick]) seat.cancel(reply);
   }
 
   get busy(): string | undefined {
-    return this.seats.slow.busy;
+    return this.seats.slow.busy ?? this.seats.quick.busy;
   }
 
   took(lane: string, milliseconds: number): void {

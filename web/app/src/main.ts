@@ -68,11 +68,13 @@ class Page {
     const words = ["Map", "Roots", "Response", "Open loop"];
     by("pager").append(...figures.map((f, k) => h("button", { type: "button", click: () => f.element.scrollIntoView({ inline: "start", block: "nearest" }) }, words[k]!)));
     engine.working = (lane) => this.working(lane);
-    engine.progress = (_, text) => (by("progress").textContent = text);
+    engine.progress = (_, text) => {
+      if (!by("cancel").hidden) by("progress").textContent = text;
+    };
     engine.idle = () => {
       if (!engine.busy) this.working(undefined);
     };
-    by("cancel").addEventListener("click", () => engine.cancel());
+    by("cancel").addEventListener("click", () => engine.cancel(true));
   }
 
   figures(): Figure[] {
@@ -80,15 +82,17 @@ class Page {
   }
 
   private working(lane: string | undefined): void {
-    clearTimeout(this.quiet);
     if (!this.engine.busy) {
+      clearTimeout(this.quiet);
+      this.quiet = 0;
       by("progress").textContent = "";
       by("cancel").hidden = true;
       return;
     }
-    this.quiet = window.setTimeout(() => {
+    if (this.quiet && !by("cancel").hidden) by("progress").textContent = `${lane}…`;
+    this.quiet ||= window.setTimeout(() => {
       if (!this.engine.busy) return;
-      by("progress").textContent ||= `${lane}…`;
+      by("progress").textContent = `${this.engine.busy}…`;
       by("cancel").hidden = false;
     }, 400);
   }
@@ -480,7 +484,7 @@ class Page {
     document.addEventListener("keydown", (event) => {
       if (event.key === "Escape") {
         by<HTMLDetailsElement>("copies").open = false;
-        this.engine.cancel();
+        this.engine.cancel(true);
       }
     });
     const use = (pasted: string) => {

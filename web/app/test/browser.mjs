@@ -71,7 +71,7 @@ export async function opened(url, { width = 1200, height = 900, mobile = false, 
     },
     /** Until there is nothing more to answer. */
     answered: () =>
-      until(browser, 'globalThis.jurist && document.getElementById("verdict-word").textContent !== "…" && !jurist.engine.busy && !jurist.engine.seats.quick.running && jurist.engine.seats.slow.waiting.length === 0 && jurist.page.laterTimer !== undefined && document.querySelector("#text, .cm-content")', "answers"),
+      until(browser, 'globalThis.jurist && document.getElementById("verdict-word").textContent !== "…" && !jurist.engine.busy && Object.values(jurist.engine.seats).every((s) => s.ready && s.waiting.length === 0) && document.querySelector(".cm-content")', "answers"),
     async take(text) {
       await browser.value(`jurist.page.open(${JSON.stringify(text)}, { m: "" })`);
       await page.settled();

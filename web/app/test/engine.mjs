@@ -34,6 +34,7 @@ function page(text, ...args) {
   const reply = engine.ask({ ask: "program", model: text, arguments: [command, "-", ...options] });
   assert.equal(reply.defect, undefined, `${args.join(" ")}: ${reply.defect}`);
   if (reply.refused || reply.undefined !== undefined) return { status: 2, output: "" };
+  if (reply.stopped) return { status: 3, output: "" };
   return { status: reply.status, output: reply.output };
 }
 
