@@ -59,7 +59,7 @@ export function decimalText(digits: bigint, exponent: number): string {
   if (exponent >= 0 && text.length + exponent <= 9) return sign + text + "0".repeat(exponent);
   if (exponent < 0 && text.length + exponent > 0) return `${sign}${text.slice(0, exponent)}.${text.slice(exponent)}`;
   if (exponent < 0 && text.length + exponent > -4) return `${sign}0.${"0".repeat(-exponent - text.length)}${text}`;
-  return `${sign}${text}e${exponent}`;
+  return `${sign}${text[0]}${text.length > 1 ? `.${text.slice(1)}` : ""}e${exponent + text.length - 1}`;
 }
 
 /** An axis from one value to another. */
