@@ -1,12 +1,20 @@
 // The editor that takes the place of the text area once it has arrived: a file of its own.
 
 import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
-import { StreamLanguage, defaultHighlightStyle, syntaxHighlighting } from "@codemirror/language";
+import { HighlightStyle, StreamLanguage, syntaxHighlighting } from "@codemirror/language";
 import { toml } from "@codemirror/legacy-modes/mode/toml";
 import { type Diagnostic, lintGutter, setDiagnostics } from "@codemirror/lint";
 import { EditorState } from "@codemirror/state";
+import { tags } from "@lezer/highlight";
 import { EditorView, drawSelection, highlightActiveLine, keymap, lineNumbers } from "@codemirror/view";
 import type { Finding, TextBox } from "./textbox.js";
+
+const colours = HighlightStyle.define([
+  { tag: tags.comment, color: "var(--faint)" },
+  { tag: tags.string, color: "var(--c2)" },
+  { tag: [tags.number, tags.bool], color: "var(--c1)" },
+  { tag: tags.heading, color: "var(--accent)" },
+]);
 
 /** A place in characters, from 1, as an offset in UTF-16. */
 function offset(state: EditorState, line: number, column: number): number {
@@ -23,7 +31,7 @@ globalThis.juristEditor = (parent: HTMLElement, text: string, changed: (text: st
     drawSelection(),
     highlightActiveLine(),
     StreamLanguage.define(toml),
-    syntaxHighlighting(defaultHighlightStyle, { fallback: true }),
+    syntaxHighlighting(colours),
     keymap.of([...defaultKeymap, ...historyKeymap]),
     EditorView.contentAttributes.of({ "aria-label": "model file", tabindex: "0" }),
     EditorView.updateListener.of((update) => update.docChanged && changed(update.state.doc.toString())),
@@ -33,7 +41,6 @@ globalThis.juristEditor = (parent: HTMLElement, text: string, changed: (text: st
       ".cm-activeLine": { backgroundColor: "transparent" },
       ".cm-cursor": { borderLeftColor: "var(--ink)" },
       ".cm-content ::selection, .cm-selectionBackground": { backgroundColor: "var(--stable-ground) !important" },
-      ".cm-content span": { color: "inherit" },
       ".cm-scroller": { fontFamily: "ui-monospace, monospace" },
       ".cm-tooltip": { backgroundColor: "var(--ground)", color: "var(--ink)", border: "1px solid var(--faint)" },
     }),
