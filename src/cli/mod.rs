@@ -11,6 +11,10 @@ mod destinations;
 mod input;
 mod output;
 mod picture;
+#[cfg(not(target_family = "wasm"))]
+mod progress;
+#[cfg(target_family = "wasm")]
+#[path = "progress_untold.rs"]
 mod progress;
 mod replace;
 mod requirements;

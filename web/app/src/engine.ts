@@ -1,0 +1,184 @@
+// The engine as the page sees it: two workers behind lanes. In a lane the last request counts; what was overtaken is dropped, or,
+// once it runs, its worker is replaced by a new one made of the kept module.
+
+export type Reply = any;
+
+/** Answered while a parameter is dragged, or in its own time. */
+export type Speed = "quick" | "slow";
+
+interface Asked {
+  id: number;
+  lane: string;
+  request: unknown;
+  resolve(reply: Reply | undefined): void;
+}
+
+/** What somebody waits for goes before the rest. */
+const FIRST = new Set(["verdict", "describe"]);
+
+/** What runs longer than this, in milliseconds, makes room for what somebody waits for. */
+const PATIENCE = 400;
+
+let nextId = 1;
+
+class Seat {
+  private worker: Worker | undefined;
+  private ready = false;
+  private running: Asked | undefined;
+  private since = 0;
+  private waiting: Asked[] = [];
+  private timer = 0;
+
+  constructor(
+    private readonly owner: Engine,
+    private readonly speed: Speed,
+  ) {
+    this.begin();
+  }
+
+  /** Asks; `undefined` where a later request of the lane came first. */
+  ask(lane: string, request: unknown): Promise<Reply | undefined> {
+    return new Promise((resolve) => {
+      const overtaken = this.waiting.filter((asked) => asked.lane === lane);
+      this.waiting = this.waiting.filter((asked) => asked.lane !== lane);
+      for (const asked of overtaken) asked.resolve(undefined);
+      const asked = { id: nextId++, lane, request, resolve };
+      if (FIRST.has(lane)) this.waiting.unshift(asked);
+      else this.waiting.push(asked);
+      if (this.running?.lane === lane && this.speed === "slow") this.giveUp();
+      // Somebody moves something: what runs has to make room before long.
+      else if (this.running && (this.running.lane === lane || FIRST.has(lane))) this.hurry();
+      this.next();
+    });
+  }
+
+  /** Drops what waits and ends what runs; `reply` is what they get for an answer. */
+  cancel(reply: Reply | undefined): void {
+    const dropped = this.waiting;
+    this.waiting = [];
+    const running = this.running;
+    if (running) {
+      dropped.push(running);
+      this.replace();
+    }
+    for (const asked of dropped) asked.resolve(reply);
+    this.next();
+  }
+
+  get busy(): string | undefined {
+    return this.running?.lane;
+  }
+
+  private hurry(): void {
+    clearTimeout(this.timer);
+    const late = () => this.running && this.giveUp();
+    this.timer = window.setTimeout(late, Math.max(0, PATIENCE - (performance.now() - this.since)));
+  }
+
+  private begin(): void {
+    this.ready = false;
+    const worker = this.owner.worker();
+    this.worker = worker;
+    worker.onmessage = ({ data }) => worker === this.worker && this.told(data);
+    worker.onerror = (event) => worker === this.worker && this.broken(event.message || "the worker does not start");
+  }
+
+  private told(data: any): void {
+    if (data.ready) {
+      this.ready = true;
+      this.next();
+    } else if (data.failed) {
+      this.owner.failed(data.failed);
+    } else if (data.progress !== undefined) {
+      if (data.id === this.running?.id) this.owner.progress(this.running!.lane, data.progress);
+    } else if (data.id === this.running?.id) {
+      const done = this.running!;
+      this.running = undefined;
+      this.owner.took(done.lane, data.took);
+      clearTimeout(this.timer);
+      if (data.broken) this.replace();
+      done.resolve(data.reply);
+      this.next();
+    }
+  }
+
+  private broken(message: string): void {
+    const done = this.running;
+    this.running = undefined;
+    if (!done) return this.owner.failed(message);
+    this.replace();
+    done.resolve({ defect: message });
+    this.next();
+  }
+
+  /** Ends what runs: it is overtaken, or waits once more behind the others. */
+  private giveUp(): void {
+    const given = this.running!;
+    if (this.waiting.some((asked) => asked.lane === given.lane)) given.resolve(undefined);
+    else this.waiting.push(given);
+    this.replace();
+  }
+
+  private replace(): void {
+    clearTimeout(this.timer);
+    this.worker?.terminate();
+    this.running = undefined;
+    this.owner.replaced++;
+    this.begin();
+  }
+
+  private next(): void {
+    if (!this.ready || this.running) return;
+    const asked = this.waiting.shift();
+    if (!asked) return this.owner.idle();
+    this.running = asked;
+    this.since = performance.now();
+    this.owner.working(asked.lane);
+    this.worker!.postMessage({ id: asked.id, request: asked.request });
+  }
+}
+
+export class Engine {
+  private readonly seats: Record<Speed, Seat>;
+  private readonly source: string;
+  /** How often a worker was replaced. */
+  replaced = 0;
+  /** Milliseconds of the last answer in each lane. */
+  readonly times: Record<string, number> = {};
+  progress: (lane: string, text: string) => void = () => {};
+  working: (lane: string) => void = () => {};
+  idle: () => void = () => {};
+  failed: (why: string) => void = () => {};
+
+  constructor(
+    script: string,
+    private readonly module: WebAssembly.Module,
+  ) {
+    this.source = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
+    this.seats = { quick: new Seat(this, "quick"), slow: new Seat(this, "slow") };
+  }
+
+  worker(): Worker {
+    const worker = new Worker(this.source);
+    worker.postMessage({ module: this.module });
+    return worker;
+  }
+
+  ask(speed: Speed, lane: string, request: unknown): Promise<Reply | undefined> {
+    return this.seats[speed].ask(lane, request);
+  }
+
+  /** Ends all work. What somebody ended is undecided, what nobody needs any more gets no answer. */
+  cancel(wished = false): void {
+    const reply = wished ? { stopped: "cancelled" } : undefined;
+    for (const seat of [this.seats.slow, this.seats.quick]) seat.cancel(reply);
+  }
+
+  get busy(): string | undefined {
+    return this.seats.slow.busy ?? this.seats.quick.busy;
+  }
+
+  took(lane: string, milliseconds: number): void {
+    this.times[lane] = milliseconds;
+  }
+}

@@ -1,0 +1,36 @@
+// One instance of the engine: texts go in and come out through its memory. Also used by the tests, in Node.
+
+interface Exports {
+  memory: WebAssembly.Memory;
+  request(length: number): number;
+  answer(): number;
+  last_words(): number;
+}
+
+export interface Instance {
+  /** The answer to a request; throws where the engine broke off. */
+  ask(request: unknown): any;
+  /** What it said before it broke off. */
+  lastWords(): string;
+}
+
+export async function instantiate(module: WebAssembly.Module, progress: (text: string) => void): Promise<Instance> {
+  const decoder = new TextDecoder();
+  const told = (at: number, length: number) =>
+    progress(decoder.decode(new Uint8Array(exports.memory.buffer, at, length)));
+  const instance = await WebAssembly.instantiate(module, { page: { progress: told } });
+  const exports = instance.exports as unknown as Exports;
+  const text = (at: number) => {
+    const length = new DataView(exports.memory.buffer).getUint32(at, true);
+    return decoder.decode(new Uint8Array(exports.memory.buffer, at + 4, length));
+  };
+  return {
+    ask(request) {
+      const bytes = new TextEncoder().encode(JSON.stringify(request));
+      const at = exports.request(bytes.length);
+      new Uint8Array(exports.memory.buffer, at, bytes.length).set(bytes);
+      return JSON.parse(text(exports.answer()));
+    },
+    lastWords: () => text(exports.last_words()),
+  };
+}

@@ -1,0 +1,455 @@
+// The pictures: map, root locus, time response, open loop.
+
+import { h, s, table } from "./dom.js";
+import { type Scale, decimalAt, float, label, short } from "./numbers.js";
+import { type Axes, type Box, Figure, around, axes, cut, equal, path, place } from "./plot.js";
+
+const LEFT = 58;
+const BELOW = 38;
+const ABOVE = 24;
+
+function whole(width: number, height: number, left = LEFT): Box {
+  return { left, top: ABOVE, width: Math.max(20, width - left - 14), height: Math.max(20, height - ABOVE - BELOW) };
+}
+
+function named(name: string, unit: string | null | undefined): string {
+  return unit ? `${name} (${unit})` : name;
+}
+
+function waiting(svg: SVGSVGElement, width: number, height: number, text: string): void {
+  const lines = text.match(new RegExp(`.{1,${Math.max(20, Math.floor(width / 7.5))}}(\\s|$)|\\S+`, "g")) ?? [text];
+  for (const [k, line] of lines.slice(0, 6).entries()) {
+    svg.append(s("text", { class: "name", x: width / 2, y: height / 2 + (k - lines.length / 2) * 18, "text-anchor": "middle" }, cut(line.trim(), width / 6)));
+  }
+}
+
+/** Why there is nothing to draw, in the engine's words. */
+export function no(reply: any): string | undefined {
+  if (!reply) return "…";
+  if (reply.refused) return reply.refused.diagnostics?.[0]?.message ?? reply.refused.text;
+  if (reply.undefined) return `undefined here: ${reply.undefined}`;
+  if (reply.stopped) return `undecided: ${reply.stopped}`;
+  if (reply.defect) return `a defect of jurist: ${reply.defect}`;
+  if (reply.none) return reply.none;
+  return undefined;
+}
+
+export type Verdict = "stable" | "marginal" | "unstable" | "undefined" | undefined;
+
+// ---------------------------------------------------------------------------------------------- map
+
+export class MapPlot {
+  readonly figure: Figure;
+  data: any;
+  /** The values at the point, as they are set. */
+  point: [string, string] = ["", ""];
+  verdict: Verdict;
+  message = "";
+  private view: Axes | undefined;
+
+  constructor(
+    private readonly moved: (x: string, y: string, done: boolean) => void,
+    pause: () => void,
+  ) {
+    this.figure = new Figure("map", "Map of two parameters", "What limits the region", (svg, w, hgt) => this.paint(svg, w, hgt));
+    const svg = this.figure.svg;
+    svg.setAttribute("tabindex", "0");
+    svg.setAttribute("role", "application");
+    svg.setAttribute("aria-roledescription", "map; the arrow keys move the point");
+    const at = (event: PointerEvent, done: boolean) => {
+      if (!this.view || !this.data?.x) return;
+      const { left, top } = svg.getBoundingClientRect();
+      const box = this.view.box;
+      const u = Math.max(0, Math.min(1, (event.clientX - left - box.left) / box.width));
+      const v = Math.max(0, Math.min(1, 1 - (event.clientY - top - box.top) / box.height));
+      this.moved(decimalAt(this.data.x, u), decimalAt(this.data.y, v), done);
+    };
+    svg.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0 || !this.data?.x) return;
+      svg.setPointerCapture(event.pointerId);
+      pause();
+      at(event, false);
+    });
+    svg.addEventListener("pointermove", (event) => svg.hasPointerCapture(event.pointerId) && at(event, false));
+    svg.addEventListener("pointerup", (event) => svg.hasPointerCapture(event.pointerId) && at(event, true));
+    svg.addEventListener("keydown", (event) => {
+      const step = event.shiftKey ? 0.1 : 0.01;
+      const by: Record<string, [number, number]> = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
+      const delta = by[event.key];
+      if (!delta || !this.data?.x) return;
+      event.preventDefault();
+      const moved = (scale: Scale, text: string, d: number) =>
+        d === 0 ? text : decimalAt(scale, Math.max(0, Math.min(1, place(scale, float(text)) + d)));
+      this.moved(moved(this.data.x, this.point[0], delta[0]), moved(this.data.y, this.point[1], delta[1]), true);
+    });
+  }
+
+  private paint(svg: SVGSVGElement, width: number, height: number): void {
+    this.view = undefined;
+    const data = this.data;
+    if (!data?.x) return waiting(svg, width, height, this.message || no(data) || "…");
+    const box = whole(width, height, 64);
+    const view = axes(svg, box, data.x, data.y, { x: named(data.x.name, data.x.unit), y: named(data.y.name, data.y.unit) });
+    this.view = view;
+    const unit = { x: (u: number) => box.left + u * box.width, y: (v: number) => box.top + (1 - v) * box.height };
+    const { inside } = view;
+    for (const outline of data.areas) inside.append(s("path", { class: "region", d: `${path(outline, unit)}Z` }));
+    for (const wall of data.walls) {
+      const kind = wall.causes.includes("pair") && !wall.causes.includes("z=") && !wall.causes.includes("s=0") ? "pair" : wall.causes.includes("=-1") ? "minus" : wall.causes.includes("=") ? "real" : "other";
+      inside.append(s("path", { class: `wall ${wall.limits ? "limits" : ""} ${kind}`, d: path(wall.points, unit) }));
+    }
+    // The words of each mechanism once, where its longest line is.
+    const said = new Set<string>();
+    const taken: [number, number][] = [];
+    for (const wall of [...data.walls].filter((w: any) => w.limits).sort((a: any, b: any) => b.points.length - a.points.length)) {
+      if (said.has(wall.words)) continue;
+      const inner = wall.points.filter(([u, v]: number[]) => u! > 0.02 && u! < 0.98 && v! > 0.02 && v! < 0.98);
+      const middle = inner[Math.floor(inner.length / 2)];
+      if (!middle) continue;
+      const half = wall.words.length * 3.2;
+      const x = Math.max(box.left + half + 4, Math.min(box.left + box.width - half - 4, unit.x(middle[0])));
+      const y = Math.max(box.top + 16, unit.y(middle[1]) - 8);
+      if (half * 2 > box.width - 10 || taken.some(([a, b]) => Math.abs(a - x) < 2 * half && Math.abs(b - y) < 16)) continue;
+      taken.push([x, y]);
+      said.add(wall.words);
+      inside.append(s("text", { class: "words", x, y, "text-anchor": "middle" }, wall.words));
+    }
+    const [x, y] = [view.x(float(this.point[0])), view.y(float(this.point[1]))];
+    if (!Number.isFinite(x) || !Number.isFinite(y)) return;
+    inside.append(s("line", { class: "cross", x1: x, x2: x, y1: box.top, y2: box.top + box.height }));
+    inside.append(s("line", { class: "cross", x1: box.left, x2: box.left + box.width, y1: y, y2: y }));
+    inside.append(s("circle", { class: `point ${this.verdict ?? ""}`, cx: x, cy: y, r: 9 }));
+  }
+
+  say(): void {
+    const { data, point } = this;
+    if (!data?.x) {
+      this.figure.say(this.message || no(data) || "");
+      this.figure.tabulate("");
+    } else {
+      const regions = data.never ? "stable at no point of the plane" : data.regions === 1 ? "one stable region, drawn green" : `${data.regions} stable regions, drawn green`;
+      const at = this.verdict ? `, ${this.verdict}` : "";
+      this.figure.say(`${data.x.name} and ${data.y.name}: ${regions}. The point is at ${data.x.name} = ${point[0]}, ${data.y.name} = ${point[1]}${at}.`);
+    }
+    this.figure.svg.setAttribute("aria-label", this.figure.sentence.textContent ?? "");
+    this.figure.draw();
+  }
+
+  /** The exact text, once for each map. */
+  tabulate(): void {
+    this.figure.tabulate(h("pre", { tabindex: 0, role: "region", "aria-label": "limits of the map" }, String(this.data?.text ?? "")));
+  }
+}
+
+// -------------------------------------------------------------------------------------------- locus
+
+/** A plane that can be looked at closer. */
+class Zoom {
+  private factor = 1;
+  readonly buttons: HTMLElement[];
+
+  constructor(private readonly changed: () => void) {
+    const button = (text: string, words: string, by: (f: number) => number) =>
+      h("button", { type: "button", class: "small", "aria-label": words, title: words, click: () => this.set(by(this.factor)) }, text);
+    this.buttons = [button("−", "zoom out", (f) => f / 2), button("+", "zoom in", (f) => f * 2), button("reset", "reset zoom", () => 1)];
+  }
+
+  private set(factor: number): void {
+    this.factor = Math.max(1 / 16, Math.min(1 << 16, factor));
+    this.changed();
+  }
+
+  /** The window: around the whole, or around what matters once it is magnified. */
+  window(centre: [number, number], half: number, focus: [number, number]): { centre: [number, number]; half: number } {
+    return { centre: this.factor > 1 ? focus : centre, half: half / this.factor };
+  }
+}
+
+export class LocusPlot {
+  readonly figure: Figure;
+  readonly zoom: Zoom;
+  data: any;
+  roots: any;
+  time: "discrete" | "continuous" = "discrete";
+  message = "";
+
+  constructor() {
+    this.figure = new Figure("locus", "Roots and root locus", "Roots", (svg, w, hgt) => this.paint(svg, w, hgt));
+    this.zoom = new Zoom(() => this.figure.draw());
+    this.figure.controls.append(...this.zoom.buttons);
+  }
+
+  private get at(): [number, number, number][] {
+    return this.roots?.at ?? [];
+  }
+
+  private paint(svg: SVGSVGElement, width: number, height: number): void {
+    const branches: any[] = this.data?.branches ?? [];
+    const message = no(this.roots);
+    if (!this.at.length && !branches.length) return waiting(svg, width, height, this.message || message || "…");
+    const box = whole(width, height);
+    const discrete = this.time === "discrete";
+    const focus = this.dominant();
+    let [centre, half]: [[number, number], number] = [[0, 0], 1.35];
+    if (!discrete) {
+      const near = [...this.at.map(([x, y]) => Math.hypot(x, y)), ...(this.data?.crossings ?? []).flatMap((c: any) => c.at.map(([x, y]: number[]) => Math.hypot(x!, y!)))];
+      half = Math.max(...near.filter(Number.isFinite), 1e-9) * 1.15;
+      centre = [-half * 0.35, 0];
+    }
+    ({ centre, half } = this.zoom.window(centre, half, focus));
+    const [xs, ys] = equal(box, centre, half);
+    const variable = discrete ? "z" : "s";
+    const view = axes(svg, box, xs, ys, { x: `Re ${variable}`, y: `Im ${variable}` });
+    const { inside, x, y } = view;
+    if (discrete) {
+      const radius = box.width / (xs.upper - xs.lower);
+      inside.append(s("circle", { class: "boundary", cx: x(0), cy: y(0), r: radius }));
+    } else {
+      inside.append(s("rect", { class: "forbidden", x: x(0), y: box.top, width: Math.max(0, box.left + box.width - x(0)), height: box.height }));
+      inside.append(s("line", { class: "boundary", x1: x(0), x2: x(0), y1: box.top, y2: box.top + box.height }));
+    }
+    for (const [k, branch] of branches.entries()) {
+      const points = branch.roots.filter((p: (number | null)[]) => p[0] !== null && p[1] !== null);
+      inside.append(s("path", { class: `branch c${k % 6}`, d: path(thin(points, view), view) }));
+    }
+    for (const crossing of this.data?.crossings ?? []) {
+      for (const [re, im] of crossing.at) {
+        for (const side of im === 0 ? [0] : [im, -im]) inside.append(s("circle", { class: "crossing", cx: x(re), cy: y(side), r: 5 }));
+      }
+    }
+    for (const [re, im, count] of this.at) {
+      inside.append(s("path", { class: "root", d: `M${x(re) - 5} ${y(im) - 5}l10 10m0-10l-10 10` }));
+      if (count > 1) inside.append(s("text", { class: "words", x: x(re) + 8, y: y(im) - 6 }, `×${count}`));
+    }
+  }
+
+  /** The root that is nearest to the boundary from outside, or farthest out. */
+  private dominant(): [number, number] {
+    const rate = ([re, im]: [number, number, number]) => (this.time === "discrete" ? Math.hypot(re, im) : re);
+    const best = [...this.at].sort((a, b) => rate(b) - rate(a) || b[1] - a[1])[0];
+    return best ? [best[0], best[1]] : [0, 0];
+  }
+
+  say(counts: { inside: number; degree: number; infinite: number } | undefined): void {
+    const message = no(this.roots);
+    const discrete = this.time === "discrete";
+    if (message) {
+      this.figure.say(message);
+      this.figure.tabulate("");
+    } else if (this.at.length) {
+      const where = discrete ? "inside the unit circle" : "left of the axis";
+      const count = counts ? `${counts.inside} of ${counts.degree} roots ${where}. ` : "";
+      const [re, im] = this.dominant();
+      const name = this.data?.parameter ? `Lines: as ${this.data.parameter} moves. ` : "";
+      this.figure.say(`${count}${name}The root ${discrete ? "of greatest modulus" : "farthest right"} is ${complex(re, im)}.`);
+      const size = discrete ? "modulus" : "damping";
+      const rows = this.at.map(([a, b, k]) => [`${complex(a, b)}${k > 1 ? ` (${k} times)` : ""}`, short(discrete ? Math.hypot(a, b) : -a / Math.hypot(a, b), 6)]);
+      this.figure.tabulate(h("p", { class: "note" }, "Floating point; the counts above are exact."), table("Roots", ["root", size], rows));
+    }
+    this.figure.draw();
+  }
+}
+
+/** Points that a picture can tell apart. */
+function thin(points: [number, number][], view: Axes): [number, number][] {
+  const kept: [number, number][] = [];
+  let [u, v] = [NaN, NaN];
+  for (const [k, p] of points.entries()) {
+    const [a, b] = [view.x(p[0]), view.y(p[1])];
+    if (k > 0 && k < points.length - 1 && Math.abs(a - u) < 0.7 && Math.abs(b - v) < 0.7) continue;
+    [u, v] = [a, b];
+    kept.push(p);
+  }
+  return kept;
+}
+
+function complex(re: number, im: number): string {
+  return im === 0 ? short(re, 6) : `${short(re, 6)} ${im < 0 ? "−" : "+"} ${short(Math.abs(im), 6)}i`;
+}
+
+// ----------------------------------------------------------------------------------------- response
+
+export class ResponsePlot {
+  readonly figure: Figure;
+  data: any;
+  message = "";
+  private readonly select: HTMLSelectElement;
+  private names = "";
+
+  constructor() {
+    this.figure = new Figure("response", "Time response", "Values", (svg, w, hgt) => this.paint(svg, w, hgt));
+    this.select = h("select", { "aria-label": "signal shown", change: () => this.say() });
+    this.figure.controls.append(this.select);
+  }
+
+  private get signal(): any {
+    return this.data?.signals?.[this.select.selectedIndex] ?? this.data?.signals?.[0];
+  }
+
+  private paint(svg: SVGSVGElement, width: number, height: number): void {
+    const signal = this.signal;
+    if (!signal?.points.length) return waiting(svg, width, height, this.message || no(this.data) || "…");
+    const points: [number, number][] = signal.points;
+    const box = whole(width, height);
+    const xs: Scale = { lower: 0, upper: points.at(-1)![0] || 1, log: false };
+    const ys = around([...points.map((p) => p[1]), ...(signal.final === null ? [] : [signal.final]), 0]);
+    const view = axes(svg, box, xs, ys, { x: `time (${this.data.unit})`, y: named(signal.name, signal.unit) });
+    if (signal.final !== null) {
+      const at = view.y(signal.final);
+      view.inside.append(s("line", { class: "final", x1: box.left, x2: box.left + box.width, y1: at, y2: at }));
+    }
+    const few = this.data.held && points.length < 120;
+    const drawn: [number, number][] = few ? points.flatMap((p, k) => (k === 0 ? [p] : [[p[0], points[k - 1]![1]], p]) as [number, number][]) : points;
+    view.inside.append(s("path", { class: "line c0", d: path(drawn, view) }));
+  }
+
+  say(): void {
+    const message = this.message || no(this.data);
+    const names = JSON.stringify(this.data?.signals?.map((x: any) => x.name) ?? []);
+    if (names !== this.names) {
+      this.names = names;
+      this.select.replaceChildren(...(this.data?.signals ?? []).map((x: any) => h("option", {}, x.name)));
+    }
+    this.select.hidden = (this.data?.signals?.length ?? 0) < 2;
+    const signal = this.signal;
+    if (message || !signal?.points.length) {
+      this.figure.say(message ?? "");
+      this.figure.tabulate("");
+    } else {
+      const values: number[] = signal.points.map((p: number[]) => p[1]);
+      const last = signal.points.at(-1);
+      const unit = signal.unit ? ` ${signal.unit}` : "";
+      const peak = values.reduce((a, b) => (Math.abs(b) > Math.abs(a) ? b : a), 0);
+      const goes = signal.final === null ? "" : `, equilibrium ${short(signal.final)}${unit}`;
+      const note = this.data.note ? ` (${this.data.note})` : "";
+      this.figure.say(`${signal.name}${note}: largest ${short(peak)}${unit}, ${short(last[1])}${unit} after ${short(last[0])} ${this.data.unit}${goes}. Floating point.`);
+      const every = Math.max(1, Math.floor(signal.points.length / 20));
+      const rows = signal.points.filter((_: unknown, k: number) => k % every === 0).map(([t, v]: number[]) => [short(t!), short(v!, 6)]);
+      this.figure.tabulate(table(signal.name, [`time (${this.data.unit})`, named(signal.name, signal.unit)], rows));
+    }
+    this.figure.draw();
+  }
+}
+
+// ---------------------------------------------------------------------------------------- open loop
+
+export class OpenLoopPlot {
+  readonly figure: Figure;
+  readonly zoom: Zoom;
+  readonly cut: HTMLSelectElement;
+  data: any;
+  margins: any;
+  message = "";
+  private nyquist = false;
+  private readonly toggles: HTMLButtonElement[];
+
+  constructor(chosen: () => void) {
+    this.figure = new Figure("open-loop", "Open loop and margins", "Margins", (svg, w, hgt) => this.paint(svg, w, hgt));
+    this.zoom = new Zoom(() => this.figure.draw());
+    this.cut = h("select", { "aria-label": "where the loop is cut", title: "where the loop is cut", change: chosen });
+    this.toggles = [false, true].map((nyquist) =>
+      h("button", { type: "button", class: "small", "aria-pressed": String(!nyquist), click: () => this.show(nyquist) }, nyquist ? "Nyquist" : "Bode"),
+    );
+    this.figure.controls.append(this.cut, ...this.toggles, ...this.zoom.buttons);
+    this.show(false);
+  }
+
+  private show(nyquist: boolean): void {
+    this.nyquist = nyquist;
+    for (const [k, button] of this.toggles.entries()) button.setAttribute("aria-pressed", String((k === 1) === nyquist));
+    for (const button of this.zoom.buttons) button.hidden = !nyquist;
+    this.figure.draw();
+  }
+
+  private paint(svg: SVGSVGElement, width: number, height: number): void {
+    const data = this.data;
+    if (!data?.frequency) return waiting(svg, width, height, this.message || no(data) || "…");
+    if (this.nyquist) this.paintNyquist(svg, width, height, data);
+    else this.paintBode(svg, width, height, data);
+  }
+
+  private paintBode(svg: SVGSVGElement, width: number, height: number, data: any): void {
+    const finite = (k: number) => data.response[k][0] !== null && data.response[k][1] !== null;
+    const kept: number[] = data.frequency.map((_: number, k: number) => k).filter(finite);
+    const xs: Scale = { lower: data.frequency[0], upper: data.frequency.at(-1), log: true };
+    const decibels = kept.map((k) => [data.frequency[k], 20 * Math.log10(Math.hypot(data.response[k][0], data.response[k][1]))] as [number, number]).filter((p) => Number.isFinite(p[1]));
+    const phase = kept.map((k) => [data.frequency[k], data.phase_degrees[k]] as [number, number]);
+    const room = Math.max(20, (height - ABOVE * 2 - BELOW) / 2);
+    const top: Box = { ...whole(width, height), height: room };
+    const bottom: Box = { ...top, top: top.top + room + ABOVE + 4 };
+    const words = data.hertz ? "frequency (Hz)" : "frequency (rad/sample)";
+    const panels: [Box, [number, number][], string, string, number[]][] = [
+      [top, decibels, "gain (dB)", "", [0]],
+      [bottom, phase, "phase (degrees)", words, [-180, 180]],
+    ];
+    for (const [box, points, name, below, levels] of panels) {
+      const view = axes(svg, box, xs, around([...points.map((p) => p[1]), levels[0]!]), { x: below, y: name });
+      if (box === top) for (const t of svg.querySelectorAll(".tick[text-anchor=middle]")) t.remove();
+      for (const level of levels) {
+        view.inside.append(s("line", { class: "boundary", x1: box.left, x2: box.left + box.width, y1: view.y(level), y2: view.y(level) }));
+      }
+      for (const frequency of this.crossings()) {
+        view.inside.append(s("line", { class: "cross", x1: view.x(frequency), x2: view.x(frequency), y1: box.top, y2: box.top + box.height }));
+      }
+      view.inside.append(s("path", { class: "line c0", d: path(points, view) }));
+    }
+  }
+
+  private crossings(): number[] {
+    const { gain = [], phase = [] } = this.margins?.crossings ?? {};
+    const of = (c: any) => (this.data.hertz ? c.frequency_hz : c.angle);
+    return [...gain, ...phase].map(of).filter((f: unknown): f is number => typeof f === "number");
+  }
+
+  private paintNyquist(svg: SVGSVGElement, width: number, height: number, data: any): void {
+    const box = whole(width, height);
+    const { centre, half } = this.zoom.window([-0.5, 0], 2, [-1, 0]);
+    const [xs, ys] = equal(box, centre, half);
+    const view = axes(svg, box, xs, ys, { x: "Re L", y: "Im L" });
+    const { inside, x, y } = view;
+    inside.append(s("circle", { class: "boundary", cx: x(0), cy: y(0), r: box.width / (xs.upper - xs.lower) }));
+    const upper: [number, number][] = data.response.filter((p: (number | null)[]) => p[0] !== null && p[1] !== null);
+    inside.append(s("path", { class: "line c0", d: path(upper, view) }));
+    inside.append(s("path", { class: "line c0 mirrored", d: path(upper.map(([a, b]) => [a, -b] as const), view) }));
+    inside.append(s("path", { class: "root", d: `M${x(-1) - 6} ${y(0)}h12m-6-6v12` }));
+    inside.append(s("text", { class: "words", x: x(-1) + 6, y: y(0) - 6 }, "−1"));
+  }
+
+  say(): void {
+    const message = this.message || no(this.data) || no(this.margins);
+    const found = this.margins;
+    if (message || !found?.at) {
+      this.figure.say(message ?? "");
+      this.figure.tabulate("");
+    } else if (!found.stable) {
+      this.figure.say(`Cut at ${found.at}. The loop is ${found.verdict}: it has no margins.`);
+      this.figure.tabulate(this.table());
+    } else {
+      const db = (value: number | null) => (value === null ? "unlimited" : `${short(value, 4)} dB`);
+      const upper = found.gain?.upper ? `gain margin ${db(found.gain.upper_db)}` : "any larger gain";
+      const lower = found.gain?.lower ? `, lower ${db(found.gain.lower_db)}` : "";
+      const phase = found.phase ? `, phase margin ${label(found.phase.degrees, 4)}°` : "";
+      this.figure.say(`Cut at ${found.at}: ${upper}${lower}${phase}. The margins are exact, the curve is drawn in floating point.`);
+      this.figure.tabulate(this.table());
+    }
+    this.figure.draw();
+  }
+
+  private table(): HTMLTableElement {
+    const found = this.margins;
+    const hz = (of: any) => (of?.frequency_hz != null ? `${short(of.frequency_hz, 6)} Hz` : of?.angle != null ? `${short(of.angle, 6)} rad` : "");
+    const rows: string[][] = [];
+    const add = (name: string, value: string | undefined | null, at: any) => value != null && rows.push([name, value, hz(at)]);
+    add("gain margin, upper", found.gain?.upper && `${found.gain.upper.decimal} (${found.gain.upper_db} dB)`, found.gain?.upper);
+    add("gain margin, lower", found.gain?.lower && `${found.gain.lower.decimal} (${found.gain.lower_db} dB)`, found.gain?.lower);
+    add("phase margin", found.phase && `${found.phase.degrees}°`, found.phase);
+    const delay = found.delay;
+    add("delay margin", delay && (delay.unbounded ? "unlimited" : delay.seconds != null ? `${delay.seconds} s` : delay.samples != null ? `${delay.at_least ? "at least " : ""}${delay.samples} samples` : null), delay);
+    add("modulus margin, min |1 + L|", found.modulus?.value?.decimal, found.modulus);
+    add("peak of the sensitivity", found.modulus?.peak_sensitivity?.decimal, found.modulus);
+    add("disk margin", found.disk?.alpha?.decimal, found.disk);
+    for (const c of found.crossings?.gain ?? []) add("crossing |L| = 1", `phase margin ${c.phase_margin_degrees}°`, c);
+    for (const c of found.crossings?.phase ?? []) add("crossing L < 0", `factor ${c.factor}`, c);
+    return table(`Margins of the loop cut at ${found.at}`, ["margin", "value", "frequency"], rows);
+  }
+}

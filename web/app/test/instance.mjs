@@ -1,0 +1,23 @@
+// An instance of the engine in Node, by the page's own code.
+
+import { build } from "esbuild";
+import { readFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const root = join(here, "../../..");
+
+/** A module of the page, as a module for Node. */
+export async function moduleOf(file, define = {}) {
+  const options = { bundle: true, write: false, format: "esm", define };
+  const result = await build({ entryPoints: [join(here, "../src", file)], ...options });
+  return import(`data:text/javascript,${encodeURIComponent(result.outputFiles[0].text)}`);
+}
+
+export async function instance() {
+  const file = process.env.ENGINE ?? join(root, "target/wasm/wasm32-unknown-unknown/web/jurist_web.wasm");
+  const { instantiate } = await moduleOf("instance.ts");
+  return instantiate(await WebAssembly.compile(readFileSync(file)), () => {});
+}
+

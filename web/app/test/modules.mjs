@@ -1,0 +1,98 @@
+// Parts of the page that need no browser: node --test web/app/test/modules.mjs
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { moduleOf } from "./instance.mjs";
+import { random } from "./models.mjs";
+
+const numbers = await moduleOf("numbers.ts");
+const copy = await moduleOf("copy.ts");
+const paste = await moduleOf("paste.ts");
+const link = await moduleOf("link.ts");
+
+test("fractions of any length have a place", () => {
+  assert.equal(numbers.float("1/10000"), 1e-4);
+  assert.equal(numbers.float("1e-4"), 1e-4);
+  assert.equal(numbers.float(`1${"0".repeat(400)}/2${"0".repeat(400)}`), 0.5);
+  assert.ok(Math.abs(numbers.float(`-3${"1".repeat(700)}/2${"7".repeat(698)}`) / -112.0000000000004 - 1) < 1e-9);
+  assert.ok(Number.isNaN(numbers.float(null)));
+});
+
+test("numbers are told from what is none", () => {
+  for (const text of ["110", "1e-4", " 1/3 ", "-.5", "+2.", "1.5e3/2.5"]) assert.ok(numbers.isNumber(text), text);
+  for (const text of ["", "e5", "1/", "--1", "1 2", "0x1", "inf", "1/2/3", "1,5"]) assert.ok(!numbers.isNumber(text), text);
+});
+
+test("the neighbour of an end is the next decimal on the side that is asked for", () => {
+  assert.equal(numbers.beside("550.941166687", false), "550.94");
+  assert.equal(numbers.beside("550.941166687", true), "550.942");
+  assert.equal(numbers.beside("0.0381005333483", true), "0.0381006");
+  assert.equal(numbers.beside("2", false), "1.99999");
+  assert.equal(numbers.beside("-1", true), "-0.99999");
+  assert.equal(numbers.beside("1.5e-9", true), "1.50001e-9");
+});
+
+test("decimals without loss are the decimals that they are", () => {
+  const next = random(5);
+  for (let k = 0; k < 2000; k++) {
+    const digits = BigInt(Math.floor((next() - 0.5) * 1e9));
+    const exponent = Math.floor(next() * 30) - 20;
+    const text = numbers.decimalText(digits, exponent);
+    const [mantissa, e = "0"] = text.split("e");
+    const [whole, part = ""] = mantissa.split(".");
+    const same = BigInt(whole + part) * 10n ** BigInt(60 + Number(e) - part.length);
+    assert.equal(same, digits * 10n ** BigInt(60 + exponent), text);
+    assert.ok(numbers.isNumber(text), text);
+  }
+});
+
+test("a place on a track and its value are inverse to each other", () => {
+  for (const scale of [{ lower: -3, upper: 5, log: false }, { lower: 1e-6, upper: 20, log: true }]) {
+    for (let k = 0; k <= 100; k++) {
+      const at = numbers.place(scale, Number(numbers.decimalAt(scale, k / 100)));
+      assert.ok(Math.abs(at - k / 100) < 1e-3, `${k}: ${at}`);
+    }
+  }
+});
+
+test("nominal values are replaced in the section of the parameters and nowhere else", () => {
+  const text = '[constants]\nK = 1\n[parameters]\nK = { nominal = 2, min = 0 } # K = 3\n"T" = 1e-4 # s\na = { min = 0, nominal = "1/3" }\n[loop]\nK = 1\n';
+  const expected = '[constants]\nK = 1\n[parameters]\nK = { nominal = "5/7", min = 0 } # K = 3\n"T" = "2e-4" # s\na = { min = 0, nominal = "1/2" }\n[loop]\nK = 1\n';
+  assert.equal(copy.withNominals(text, [["K", "5/7"], ["T", "2e-4"], ["a", "1/2"]]), expected);
+});
+
+test("a command line and a line of Python survive any text", () => {
+  assert.equal(copy.commandLine("K", [["K", "1"], ["T", "1/3"]]), "jurist verdict model.toml --set K=1 --set T=1/3\njurist intervals model.toml --param K --set T=1/3\n");
+  assert.match(copy.commandLine(undefined, [["a'b", "1"]]), /--set 'a'\\''b=1'/);
+  const python = copy.python('title = "\u{1f600} \\" """"', "K", [["K", "1"], ["T", "2"]]);
+  assert.match(python, /Loop\.from_toml\("title = \\"\\ud83d\\ude00 \\\\\\" \\"\\"\\"\\""\)/);
+  assert.match(python, /loop\.intervals\("K", \{"T": "2"\}\)/);
+});
+
+test("what is pasted is understood or refused", () => {
+  assert.match(paste.asModel("z^2 + (K - 1)*z + 1/2"), /time = "discrete"[^]*K = \{ nominal = 1[^]*characteristic = "z\^2 \+ \(K - 1\)\*z \+ 1\/2"/);
+  assert.match(paste.asModel("s**2 + 2*s + k1 = 0"), /time = "continuous"[^]*k1 = [^]*"s\^2 \+ 2\*s \+ k1"/);
+  assert.match(paste.asModel("sys = tf([1 2],[1 3 2]);"), /num = \["1", "2"\]\nden = \["1", "3", "2"\]/);
+  assert.match(paste.asModel("control.tf([1], [1, -0.5], 0.01)"), /time = "discrete"\nsample_time = "0.01"/);
+  assert.match(paste.asModel("tf([1], [1, -0.5], dt=True)"), /time = "discrete"\n\n/);
+  assert.match(paste.asModel("[1, 2, 3]"), /\(1\)\*s\^2 \+ \(2\)\*s \+ \(3\)/);
+  const model = 'time = "discrete"\n[loop]\ncharacteristic = "z"\n';
+  assert.equal(paste.asModel(model), model);
+  for (const text of ["", "hello", "tf([a],[1])", "tf([],[1])", "<script>", "z; alert(1)", "require('x')"]) assert.throws(() => paste.asModel(text), text);
+});
+
+test("links hold what was put into them, and broken ones are refused", async () => {
+  const next = random(9);
+  for (let k = 0; k < 50; k++) {
+    const m = Array.from({ length: Math.floor(next() * 3000) }, () => String.fromCodePoint(32 + Math.floor(next() * 0x2fff))).join("");
+    const shared = { m, v: { K: "1/3", __proto__x: "2" }, p: "K", c: "u", a: ["K", "T"] };
+    const packed = await link.pack(shared);
+    assert.match(packed, /^#1=[\w-]+$/);
+    assert.deepEqual({ ...(await link.unpack(packed)), v: shared.v }, shared);
+  }
+  assert.equal(await link.unpack("#answers"), undefined);
+  for (const broken of ["#1=", "#1=AAAA", "#2=AAAA", `#1=${"A".repeat(50)}`]) await assert.rejects(link.unpack(broken), broken);
+  const bomb = await link.pack({ m: "a".repeat(3 << 20) });
+  await assert.rejects(link.unpack(bomb), /more than a megabyte/);
+  await assert.rejects(link.unpack(await link.pack({ m: 1 })), /no model/);
+});

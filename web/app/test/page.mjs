@@ -1,0 +1,344 @@
+// The page in headless Chromium.
+//
+//   PAGE=target/page JURIST=jurist node --test web/app/test/page.mjs
+//
+// PICTURES names a folder for pictures of it.
+
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { gzipSync } from "node:zlib";
+import { folder, fromFile, opened, root, serve } from "./browser.mjs";
+import { random } from "./models.mjs";
+
+const jurist = process.env.JURIST ?? join(root, "target/release/jurist");
+const pictures = process.env.PICTURES;
+if (pictures) mkdirSync(pictures, { recursive: true });
+const scratch = mkdtempSync(join(tmpdir(), "jurist-page-"));
+let page;
+before(async () => {
+  page = await opened(fromFile);
+});
+after(async () => {
+  await page?.close();
+  rmSync(scratch, { recursive: true });
+});
+
+const drive = readFileSync(join(root, "examples/drive.toml"), "utf8");
+const shot = async (name) => pictures && writeFileSync(join(pictures, `${name}.png`), await page.whole());
+
+function program(text, ...args) {
+  const file = join(scratch, "model.toml");
+  writeFileSync(file, text);
+  const [command, ...options] = args;
+  const { stdout } = spawnSync(jurist, [command, file, ...options], { encoding: "utf8", maxBuffer: 1 << 28 });
+  return JSON.parse(stdout);
+}
+
+test("the drive is answered before a key is pressed", async () => {
+  await page.open(fromFile);
+  assert.equal(await page.value('document.getElementById("verdict-word").textContent'), "stable");
+  assert.equal(await page.value('document.getElementById("verdict-roots").textContent'), "6 of 6 roots inside the unit circle");
+  const labels = await page.value('[...document.querySelectorAll(".ends button")].map((b) => b.textContent)');
+  assert.ok(labels.includes("0.038101") && labels.includes("550.94"), labels.join());
+  assert.match(await page.value('document.getElementById("map-sentence").textContent'), /stable region.* K_pwm = 110, T = 1\/10000, stable/);
+  assert.match(await page.value('document.getElementById("open-loop-sentence").textContent'), /gain margin 13.99 dB, lower −69.21 dB, phase margin 71.87°/);
+  assert.ok((await page.value('document.querySelectorAll("#locus .root").length')) >= 6);
+  assert.ok((await page.value('document.querySelectorAll("#response .line").length')) === 1);
+  assert.ok((await page.value('document.querySelectorAll("#map .region").length')) >= 1);
+  assert.deepEqual(page.complaints(), []);
+  await shot("desk");
+});
+
+const examples = readdirSync(join(root, "examples")).filter((file) => file.endsWith(".toml"));
+const LONG = new Set(["anti-alias-filter", "dc-servo", "drive-hold", "lcl-inverter", "smith-predictor", "neutral-loop", "fiat-dedra"]);
+
+test("verdict and limits of the examples, and 200 points of their maps, are those of the program", async () => {
+  const next = random(200);
+  let points = 0;
+  const maps = examples.filter((file) => !LONG.has(file.replace(".toml", "")));
+  const each = Math.ceil(200 / 12);
+  for (const file of maps) {
+    const text = readFileSync(join(root, "examples", file), "utf8");
+    await page.take(text);
+    const expected = program(text, "analyze", "--json");
+    assert.equal(await page.value('document.getElementById("verdict-word").textContent'), expected.verdict.verdict, file);
+    const shown = await page.value("[...jurist.page.sets].map(([name, stable]) => [name, stable])");
+    assert.deepEqual(new Map(shown), new Map(expected.parameters.map((p) => [p.parameter, p.stable])), file);
+    const data = await page.value("jurist.page.map.data?.x ? { x: jurist.page.map.data.x, y: jurist.page.map.data.y } : null");
+    for (let k = 0; data && points < 200 && k < each; k++, points++) {
+      const box = await page.value('(() => { const r = document.querySelector("#map .ground").getBoundingClientRect(); return { x: r.x, y: r.y, width: r.width, height: r.height }; })()');
+      const at = { x: box.x + box.width * next(), y: box.y + box.height * next() };
+      await page.mouse("mousePressed", at.x, at.y);
+      await page.mouse("mouseReleased", at.x, at.y);
+      await page.until("!jurist.engine.seats.quick.running && jurist.engine.seats.quick.waiting.length === 0");
+      const values = await page.value("[...jurist.page.values]");
+      const found = program(text, "verdict", "--json", ...values.flatMap(([name, value]) => ["--set", `${name}=${value}`]));
+      assert.equal(await page.value('document.getElementById("verdict-word").textContent'), found.verdict, `${file} at ${values}`);
+    }
+  }
+  assert.equal(points, 200);
+  assert.deepEqual(page.complaints(), []);
+});
+
+test("a slider moves the value, its keys too, and the box takes exact fractions", async () => {
+  await page.open(fromFile);
+  const verdict = () => page.value('document.getElementById("verdict-word").textContent');
+  const type = (text) => page.value(`(() => { const box = document.querySelector(".parameter input"); box.value = ${JSON.stringify(text)}; box.dispatchEvent(new Event("input", { bubbles: true })); box.dispatchEvent(new Event("change", { bubbles: true })); })()`);
+  await type("551");
+  await page.settled();
+  assert.equal(await verdict(), "unstable");
+  await type("1/3");
+  await page.settled();
+  assert.equal(await verdict(), "stable");
+  assert.equal(await page.value('jurist.page.values.get("K_pwm")'), "1/3");
+  await type("no number");
+  assert.equal(await page.value('document.querySelector(".parameter input").getAttribute("aria-invalid")'), "true");
+  assert.equal(await page.value('jurist.page.values.get("K_pwm")'), "1/3");
+  await type("110");
+  await page.settled();
+  await page.value('document.querySelector(".slider").focus()');
+  await page.key("ArrowRight", { shift: true });
+  await page.settled();
+  assert.equal(await page.value('jurist.page.values.get("K_pwm")'), "550.94");
+  assert.equal(await verdict(), "stable");
+  await page.key("ArrowRight");
+  await page.settled();
+  assert.equal(await verdict(), "unstable");
+  assert.match(await page.value('document.querySelector(".slider").getAttribute("aria-valuetext")'), /unstable/);
+});
+
+test("a link holds everything, and one of version 1 opens for ever", async () => {
+  await page.value('jurist.page.entered("K_pwm", "1/7", true)');
+  await page.settled();
+  await page.until('location.hash.startsWith("#1=")');
+  const hash = await page.value("location.hash");
+  await page.browser.open("about:blank", 1200, 900, 1, false);
+  await page.open(fromFile + hash);
+  assert.equal(await page.value('jurist.page.values.get("K_pwm")'), "1/7");
+  assert.equal(await page.value("jurist.page.text"), drive);
+  // {"m":"time = \"discrete\"\n[parameters]\nK = 1\n[loop]\ncharacteristic = \"z - K/2\"\n","v":{"K":"3"}}
+  const old = "#1=" + OLD;
+  await page.browser.open("about:blank", 1200, 900, 1, false);
+  await page.open(fromFile + old);
+  assert.equal(await page.value('jurist.page.values.get("K")'), "3");
+  assert.equal(await page.value('document.getElementById("verdict-word").textContent'), "unstable");
+  for (const broken of ["#1=AAAA", "#9=abc", "#1=", "#nothing"]) {
+    await page.browser.open("about:blank", 1200, 900, 1, false);
+    await page.open(fromFile + broken);
+    assert.equal(await page.value('document.getElementById("verdict-word").textContent'), "stable", broken);
+  }
+});
+const OLD = "q1bKVbJSKsnMTVWwVYhRSsksTi5KLUmNUYrJiy5ILErMBXKKimNj8ryB8oZAwZz8_AIgNzkDKJkMlMssLslMBuutUtBV8NY3AmlV0lEqU7KqVvIGmm2sVFsLAA";
+
+test("a map is cancelled in its middle, and the next answer comes from a new worker", async (t) => {
+  const heavy = readFileSync(join(root, "examples/drive-filters-6.toml"), "utf8");
+  await page.open(fromFile);
+  await page.take(heavy);
+  const done = await page.value(`(async () => {
+    const { engine, page } = jurist;
+    const [x, y] = page.mapAxes;
+    const before = engine.replaced;
+    const map = engine.ask("slow", "map", { ask: "map", model: page.text, set: [], x, y });
+    while (engine.busy !== "map") await new Promise((r) => setTimeout(r, 1));
+    await new Promise((r) => setTimeout(r, 20));
+    const begun = performance.now();
+    engine.cancel();
+    const reply = await engine.ask("slow", "verdict", { ask: "program", model: page.text, arguments: ["verdict", "-", "--json"] });
+    return { took: performance.now() - begun, map: (await map) === undefined, replaced: engine.replaced - before, verdict: JSON.parse(reply.output).verdict };
+  })()`);
+  t.diagnostic(`an answer ${done.took.toFixed(0)} ms after the cancel`);
+  assert.deepEqual([done.map, done.replaced, done.verdict], [true, 1, "stable"]);
+});
+
+test("a defect takes its worker with it and not the page", async () => {
+  await page.open(fromFile);
+  // What a trap looks like from outside: the worker says so and is thrown away.
+  const after = await page.value(`(async () => {
+    const seat = jurist.engine.seats.quick;
+    const before = jurist.engine.replaced;
+    const lost = jurist.engine.ask("quick", "lost", { ask: "program", model: jurist.page.text, arguments: ["map", "-", "-x", "T", "-y", "K_pwm"] });
+    while (!seat.running) await new Promise((r) => setTimeout(r, 1));
+    seat.told({ id: seat.running.id, reply: { defect: "unreachable" }, took: 1, broken: true });
+    const said = (await lost).defect;
+    const reply = await jurist.engine.ask("quick", "again", { ask: "program", model: jurist.page.text, arguments: ["verdict", "-", "--json"] });
+    return [said, jurist.engine.replaced - before, JSON.parse(reply.output).verdict];
+  })()`);
+  assert.deepEqual(after, ["unreachable", 1, "stable"]);
+});
+
+test("what is pasted becomes a model", async () => {
+  const cases = [
+    ["z^2 + (K - 1)*z + 1/2", "stable", "K"],
+    ["s**3 + 3*s**2 + 3*s + 1 + K = 0;", "stable", "K"],
+    ["G = tf([1], [1 2 1 0])", "stable", "K"],
+    ["ct.tf([0.1, 0.09], [1, -1.9, 0.9], 0.1)", undefined, "K"],
+    ["[1 6 11 6]", "stable", undefined],
+  ];
+  for (const [pasted, verdict, name] of cases) {
+    await page.open(fromFile);
+    await page.value(`(() => { document.getElementById("pasted").value = ${JSON.stringify(pasted)}; document.getElementById("paste-use").click(); })()`);
+    await page.settled();
+    assert.equal(await page.value('document.getElementById("paste-wrong").textContent'), "", pasted);
+    if (verdict) assert.equal(await page.value('document.getElementById("verdict-word").textContent'), verdict, pasted);
+    assert.equal(await page.value("jurist.page.model.parameters[0]?.name"), name, pasted);
+  }
+  await page.value('(() => { document.getElementById("pasted").value = "hello world"; document.getElementById("paste-use").click(); })()');
+  assert.match(await page.value('document.getElementById("paste-wrong").textContent'), /no polynomial/);
+});
+
+test("a text that is no model shows the program's words at their place and keeps the last answers", async () => {
+  await page.open(fromFile);
+  await page.value(`jurist.page.editor.set(${JSON.stringify(drive.replace("K_pwm = {", "K_pmw = {"))})`);
+  await page.until('!document.getElementById("stale").hidden');
+  assert.match(await page.value('document.querySelector("#remarks pre").textContent'), /error\[E-unknown-name\]: unknown name 'K_pwm'[^]*did you mean 'K_pmw'/);
+  assert.ok((await page.value('document.querySelectorAll(".cm-lintRange-error").length')) > 0);
+  assert.equal(await page.value('document.getElementById("verdict-word").textContent'), "stable");
+});
+
+test("certificates are made, checked and told from wrong ones in the page", async () => {
+  await page.open(fromFile);
+  await page.value('document.getElementById("details").open = true');
+  await page.until('document.querySelectorAll("#details-body h3").length === 2');
+  await page.settled();
+  await page.value('[...document.querySelectorAll("#details-body button")].find((b) => b.textContent.includes("stable set of K_pwm")).click()');
+  await page.until('document.getElementById("details-body").textContent.includes("Proved by the checker")', "a proved certificate");
+  await page.value('document.getElementById("polynomial").open = true');
+  await page.until('document.querySelectorAll("#polynomial-body math").length > 6');
+  await shot("drawers");
+});
+
+test("hostile text runs nothing and stays in its place", async () => {
+  await page.open(fromFile);
+  const evil = `<img src=x onerror="window.hit=1"><script>window.hit=1</script>`;
+  const string = JSON.stringify(evil + "x".repeat(3000));
+  const text = `title = ${string}\ntime = "discrete"\n[parameters]\nK = { nominal = 1, unit = ${string}, description = ${string} }\n${"n".repeat(2000)} = 1\n[loop]\ninputs = ["r"]\noutputs = ["y"]\n[[block]]\nname = ${string}\ninput = "r - y"\noutput = "y"\ntransfer = "K*${"n".repeat(2000)}/(4*z)"\n`;
+  await page.take(text);
+  await page.value('(() => { for (const id of ["tab-blocks", "tab-examples", "tab-text"]) document.getElementById(id).click(); for (const d of document.querySelectorAll("details")) d.open = true; })()');
+  await page.settled();
+  assert.equal(await page.value("jurist.page.model?.title"), evil + "x".repeat(3000));
+  assert.equal(await page.value("window.hit"), undefined);
+  assert.equal(await page.value('document.querySelectorAll("img, iframe, object, embed").length'), 0);
+  assert.equal(await page.value('document.querySelectorAll("body script").length'), 1);
+  await overflow("hostile");
+  await shot("hostile");
+  await page.take(`title = ${string}\ntime = ${string}\n[loop]\ncharacteristic = ${string}\n`);
+  assert.equal(await page.value("window.hit"), undefined);
+  await overflow("hostile error");
+});
+
+async function overflow(what) {
+  const wide = await page.value(`(() => {
+    const width = document.documentElement.clientWidth;
+    if (document.documentElement.scrollWidth <= width) return [];
+    return [...document.querySelectorAll("body *")].filter((e) => e.getBoundingClientRect().right > width + 1 && !e.closest(".plots, .table, .scroll, pre, math, .cm-editor, textarea")).slice(0, 3).map((e) => e.outerHTML.slice(0, 120));
+  })()`);
+  assert.deepEqual(wide, [], what);
+  assert.ok(await page.value("document.documentElement.scrollWidth <= document.documentElement.clientWidth"), `${what}: wider than its window`);
+}
+
+for (const [name, width, height, scheme] of [["phone", 390, 844, "light"], ["phone-dark", 390, 844, "dark"], ["tablet", 820, 1180, "light"], ["desk", 1200, 900, "light"], ["desk-dark", 1200, 900, "dark"]]) {
+  test(`nothing overflows and axe finds nothing: ${name}, ${width} x ${height}`, async () => {
+    await page.browser.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }, { name: "prefers-reduced-motion", value: "reduce" }] });
+    await page.open(fromFile, width, height);
+    await page.value('(() => { for (const id of ["details", "polynomial"]) document.getElementById(id).open = true; for (const d of document.querySelectorAll(".figure details")) d.open = true; })()');
+    await page.settled();
+    await overflow(name);
+    await axe(name);
+    await shot(name);
+    if (pictures) writeFileSync(join(pictures, `${name}-first.png`), await page.picture());
+    if (name.startsWith("phone")) {
+      const small = await page.value(`[...document.querySelectorAll("button, select, .slider, summary, .value input")].filter((e) => e.offsetParent && !e.closest(".ends, .cm-editor, .figure details, .more") && Math.min(e.getBoundingClientRect().width, e.getBoundingClientRect().height) < 43.5).map((e) => e.outerHTML.slice(0, 100))`);
+      assert.deepEqual(small, [], "targets below 44 px");
+    }
+    await page.value('document.getElementById("tab-examples").click()');
+    await page.until('document.querySelectorAll("#panel-examples button").length > 10');
+    await axe(`${name}, examples`);
+    await page.value('document.getElementById("tab-paste").click()');
+    await page.value(`jurist.page.editor.set("time = 1")`);
+    await page.until('!document.getElementById("stale").hidden');
+    await axe(`${name}, errors`);
+    await overflow(`${name}, errors`);
+    await page.browser.send("Emulation.setEmulatedMedia", { features: [] });
+  });
+}
+
+async function axe(what) {
+  const source = readFileSync(join(root, "web/app/node_modules/axe-core/axe.min.js"), "utf8");
+  await page.value(`${source};0`);
+  const tags = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"];
+  const found = await page.value(`axe.run(document, { preload: false, runOnly: ${JSON.stringify(tags)} }).then((r) => r.violations.map((v) => v.id + ": " + v.nodes.slice(0, 3).map((n) => n.html.slice(0, 140) + " " + (n.any[0]?.message ?? n.failureSummary)).join(" | ")))`);
+  assert.deepEqual(found, [], what);
+}
+
+test("everything is reached with the keyboard alone", async () => {
+  await page.open(fromFile);
+  await page.value("document.activeElement.blur()");
+  const seen = new Set();
+  for (let k = 0; k < 120; k++) {
+    await page.key("Tab");
+    const at = await page.value(`(() => { const e = document.activeElement; return e === document.body ? "" : e.closest(".cm-editor") ? "editor" : e.id || e.closest("[id]")?.id + " " + (e.className.baseVal ?? e.className) + " " + (e.getAttribute("aria-label") ?? e.textContent).slice(0, 20); })()`);
+    if (at === "" && k > 20) break;
+    seen.add(at);
+    // The editor keeps the key for itself: Escape, then Tab leaves it.
+    if (at === "editor") await page.key("Escape");
+  }
+  const all = [...seen].join("\n");
+  for (const wanted of ["share", "slider", "tab-text", "editor", "map", "Bode", "zoom in", "details"]) assert.ok(all.includes(wanted), `${wanted} is not reached:\n${all}`);
+  await page.value('document.querySelector("#map svg").focus()');
+  const before = await page.value('jurist.page.values.get("K_pwm")');
+  await page.key("ArrowRight");
+  await page.settled();
+  assert.notEqual(await page.value('jurist.page.values.get("K_pwm")'), before);
+  assert.equal(await page.value('document.activeElement === document.querySelector("#map svg")'), true);
+  await page.value('document.getElementById("tab-text").focus()');
+  await page.key("ArrowRight");
+  assert.equal(await page.value("document.activeElement.id"), "tab-blocks");
+  assert.equal(await page.value('document.getElementById("panel-blocks").hidden'), false);
+});
+
+test("from a server it is kept, and opens again without one", async () => {
+  const server = await serve();
+  const served = await opened(server.url, { online: true });
+  try {
+    await served.value("navigator.serviceWorker.ready.then(() => 1)");
+    await served.until("navigator.serviceWorker.controller", "a service worker");
+    await server.close();
+    await served.open(server.url);
+    assert.equal(await served.value('document.getElementById("verdict-word").textContent'), "stable");
+    assert.deepEqual(served.complaints(), []);
+  } finally {
+    await served.close();
+  }
+});
+
+test("its sizes are within their budgets, and its times are told", async (t) => {
+  const packed = (pattern) => readdirSync(folder).filter((f) => pattern.test(f)).reduce((sum, f) => sum + gzipSync(readFileSync(join(folder, f)), { level: 9 }).length, 0);
+  const [engine, script] = [packed(/^engine-.*\.wasm$/), packed(/^page-.*\.js$/)];
+  t.diagnostic(`engine ${engine} bytes compressed, script before the editor ${script}`);
+  assert.ok(engine <= 1.4e6, `the engine has ${engine} bytes`);
+  assert.ok(script <= 60e3, `the script has ${script} bytes`);
+  await page.open(fromFile);
+  const times = await page.value(`(async () => {
+    const long = [];
+    new PerformanceObserver((list) => long.push(...list.getEntries().map((e) => Math.round(e.duration)))).observe({ type: "longtask" });
+    const request = { ask: "program", model: jurist.page.text, arguments: ["verdict", "-", "--json"] };
+    const warm = [];
+    for (let k = 0; k < 20; k++) { await jurist.engine.ask("quick", "warm", request); warm.push(jurist.engine.times.warm); }
+    let frames = 0, begun = performance.now();
+    while (performance.now() - begun < 2000) {
+      await new Promise(requestAnimationFrame);
+      jurist.page.entered("K_pwm", String(100 + (frames++ % 300)), false);
+    }
+    const rate = frames / ((performance.now() - begun) / 1000);
+    await new Promise((r) => setTimeout(r, 300));
+    warm.sort((a, b) => a - b);
+    return { warm: warm[10], rate, long, first: performance.getEntriesByName("module")[0]?.duration, lanes: jurist.engine.times };
+  })()`);
+  t.diagnostic(`module ready after ${times.first?.toFixed(0)} ms, warm verdict ${times.warm.toFixed(1)} ms, ${times.rate.toFixed(0)} frames a second while dragging, tasks over 50 ms: [${times.long}]`);
+  t.diagnostic(`milliseconds in the lanes: ${Object.entries(times.lanes).map(([lane, took]) => `${lane} ${took.toFixed(0)}`).join(", ")}`);
+  assert.ok(times.rate > 0);
+});
