@@ -95,7 +95,7 @@ fn bend(values: &[i128], counts: &[usize], axis: usize) -> i128 {
 impl Raised {
     /// The product's Bernstein coefficients, one degree more along the axes.
     fn product(&self, vector: &[(i128, i128)]) -> Vec<i128> {
-        let at = |i: usize| vector.iter().zip(&self.planes).map(|((a, b), [x, y])| a * x[i] + b * y[i]).sum();
+        let at = |i: usize| vector.iter().zip(&self.planes).map(|((a, b), [x, y])| a * x[i] + b * y[i]).sum::<i128>();
         (0..self.planes[0][0].len()).map(at).collect()
     }
 
@@ -115,7 +115,7 @@ fn chosen_axes(tensor: &Tensor) -> Option<Vec<usize>> {
         .map(|axis| {
             let (mut low, mut high) = (i128::MAX, i128::MIN);
             tensor.differences(axis, |x, y| {
-                let across = dx * (y >> 44) - dy * (x >> 44);
+                let across = dx * y - dy * x;
                 low = low.min(across);
                 high = high.max(across);
             });

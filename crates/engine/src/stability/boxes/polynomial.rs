@@ -158,6 +158,20 @@ impl BoxPolynomial {
         self.formal_degree
     }
 
+    /// The coefficients `c_0, ..., c_n` of the polynomial in the half plane, in the parameters.
+    pub fn in_half_plane(&self) -> Vec<MultiPoly> {
+        let part = |k: usize| {
+            let terms = self.coefficients.terms.iter().filter(|(_, c)| !c[k].is_zero());
+            MultiPoly::from_terms(terms.map(|(exponents, c)| (exponents.clone(), c[k].clone())))
+        };
+        (0..=self.formal_degree).map(part).collect()
+    }
+
+    /// What must not vanish in a stable box, each with what happens where it does, in the order of the trees of a proof.
+    pub fn certain(&self) -> &[(Cause, MultiPoly)] {
+        &self.certain
+    }
+
     /// The exact root count at a point.
     ///
     /// Cost: the values of the coefficients, and one [`count_roots`].

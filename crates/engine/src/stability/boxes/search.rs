@@ -276,9 +276,10 @@ impl<'a> Search<'a> {
     fn simplify(&mut self) {
         let Some(best) = self.best.clone() else { return };
         let near = Rational::dyadic(&Integer::ONE, u64::from(COORDINATE_BITS) - 5);
-        let simple = |c: &Rational| match c.is_zero() || c.abs() == Rational::ONE {
-            true => c.clone(),
-            false => simplest_between(&(c - &near), &(c + &near)).unwrap_or_else(|| c.clone()),
+        let simple = |c: &Rational| {
+            let is_inside = !c.is_zero() && c.abs() != Rational::ONE;
+            let simplest = if is_inside { simplest_between(&(c - &near), &(c + &near)) } else { None };
+            simplest.unwrap_or_else(|| c.clone())
         };
         let direction: Vec<Rational> = best.direction.iter().map(simple).collect();
         if direction != best.direction {
