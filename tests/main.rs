@@ -64,6 +64,7 @@ mod maps {
 /// Any number of parameters: boxes of tolerances.
 mod tolerances {
     mod degenerate;
+    mod held;
     mod laws;
     mod program;
     mod published;

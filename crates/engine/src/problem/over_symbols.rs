@@ -50,6 +50,21 @@ impl Problem {
     }
 }
 
+impl Problem {
+    /// What the symbols of a loop stand for, none of which depends on what is free.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`]; `E-dead-time`.
+    pub(crate) fn fixed_symbols(&self, budget: &Budget) -> Result<Symbols, Error> {
+        let symbols = self.algebra_over_symbols(budget)?.symbols();
+        if !symbols.delays().is_empty() {
+            let help = "known of it: verdict, intervals of one parameter, analyze, charpoly";
+            return Err(super::delayed::refused("this cannot be asked of a loop with dead time yet", help));
+        }
+        fixed_symbols(symbols)
+    }
+}
+
 /// The table of symbols that do not depend on a kept name; their arguments are in symbols alone.
 pub(crate) fn fixed_symbols(symbols: &model::Symbols) -> Result<Symbols, Error> {
     let mut table = Symbols::new();

@@ -35,9 +35,7 @@ impl<'a> Line<'a> {
     pub fn new(p: &'a BoxPolynomial, base: Vec<Rational>, step: Vec<Rational>, reference: &'a [Sign]) -> Self {
         let coefficients = along(&p.coefficients, &base, &step);
         let one = |f| along(&Bundle::new(&[f], base.len()), &base, &step).remove(0);
-        let mut certain: Vec<UniPoly> = p.certain[..p.divisors].iter().map(|(_, f)| one(f)).collect();
-        certain.push(coefficients[0].clone());
-        certain.push(coefficients[p.formal_degree()].clone());
+        let certain = p.certain.iter().map(|(_, f)| one(f)).collect();
         Line { p, base, step, coefficients, certain, reference }
     }
 

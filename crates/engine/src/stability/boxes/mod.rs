@@ -9,16 +9,18 @@
 mod exact;
 mod factor;
 mod line;
+mod multiplier;
 mod polynomial;
 mod prove;
 mod search;
 mod separate;
 mod sides;
+mod tangent;
 mod tensor;
 mod tree;
 mod volume;
 
-pub use exact::{CriticalCell, ExactProof};
+pub use exact::{CriticalCell, ExactProof, Place};
 pub use factor::{BoxDecision, LargestFactor, ToleranceProblem, Witness};
 pub(crate) use line::on_line;
 pub use polynomial::BoxPolynomial;

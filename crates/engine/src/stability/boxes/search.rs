@@ -4,6 +4,7 @@ use super::line::{Gradient, Line, rounded, unit};
 use super::polynomial::BoxPolynomial;
 use super::sides::Side;
 use jurist_algebra::number::{Integer, Rational, Sign};
+use jurist_algebra::poly::algebraic::simplest_between;
 use std::cmp::Ordering;
 
 /// While directions are compared, crossings are known to so many binary digits.
@@ -38,7 +39,7 @@ pub(super) struct Crossing {
     pub hi: Rational,
 }
 
-pub(super) struct Search<'a> {
+pub(crate) struct Search<'a> {
     p: &'a BoxPolynomial,
     sides: &'a [Side],
     reference: &'a [Sign],
@@ -268,6 +269,33 @@ impl<'a> Search<'a> {
             }
         }
         self.settle();
+        self.simplify();
+    }
+
+    /// Takes simple numbers where they serve as well: for coordinates inside, and for the factor itself.
+    fn simplify(&mut self) {
+        let Some(best) = self.best.clone() else { return };
+        let near = Rational::dyadic(&Integer::ONE, u64::from(COORDINATE_BITS) - 5);
+        let simple = |c: &Rational| {
+            let is_inside = !c.is_zero() && c.abs() != Rational::ONE;
+            let simplest = if is_inside { simplest_between(&(c - &near), &(c + &near)) } else { None };
+            simplest.unwrap_or_else(|| c.clone())
+        };
+        let direction: Vec<Rational> = best.direction.iter().map(simple).collect();
+        if direction != best.direction {
+            let noise = &best.hi * &Rational::dyadic(&Integer::ONE, FINE - 2);
+            let limit = &best.hi + &noise;
+            if let Some((lo, hi)) = self.line(&direction).crossing(Some(&limit), FINE) {
+                self.best = Some(Crossing { direction, lo, hi });
+            }
+        }
+        let Some(best) = &mut self.best else { return };
+        let line = Search::new(self.p, self.sides, self.reference).line(&best.direction);
+        if let Some(t) = simplest_between(&best.lo, &best.hi)
+            && !self.p.is_stable_at(&line.point(&t))
+        {
+            best.hi = t;
+        }
     }
 
     /// The derivative of what crosses by each parameter times its width, as shares that sum to 1.
