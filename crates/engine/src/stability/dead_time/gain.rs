@@ -102,6 +102,13 @@ impl GainLoop {
         self.a.iter().chain(&self.b).filter_map(UniPoly::degree).max().unwrap_or(0)
     }
 
+    /// The coefficient of `z^k s^j` at `[k][j]`, a polynomial in the parameter.
+    pub(super) fn coefficients(&self) -> Vec<Vec<UniPoly>> {
+        let n = self.order();
+        let both = self.a.iter().zip(&self.b);
+        both.map(|(a, b)| (0..=n).map(|j| UniPoly::new(vec![a.coeff(j), b.coeff(j)])).collect()).collect()
+    }
+
     /// The coefficients of the highest power of `s`, in `z` from `z^0` up, each `a + K b`.
     fn difference(&self) -> Vec<(Integer, Integer)> {
         let n = self.order();
@@ -173,7 +180,7 @@ pub(super) fn direct_cells(
     if !b0.is_zero() {
         let at = -Rational::new(a0, b0);
         if range.contains(&at) {
-            points.push(GainPoint { value: at.into(), happening: Happening::RootAtZero, change: None });
+            points.push(GainPoint::counted(at.into(), Happening::RootAtZero));
         }
     }
     let beyond = match crossings_of_gain(&gain, range, &points, budget)? {
@@ -224,7 +231,7 @@ fn counted(gain: &GainLoop, value: &Rational, budget: &Budget) -> Result<Option<
 }
 
 /// A rational number strictly between two ends.
-fn sample(lower: Option<&Real>, upper: Option<&Real>, budget: &Budget) -> Result<Rational, NotSolved> {
+pub(super) fn sample(lower: Option<&Real>, upper: Option<&Real>, budget: &Budget) -> Result<Rational, NotSolved> {
     Ok(match (lower, upper) {
         (Some(l), Some(u)) => rational_between(l, u, budget)?.expect("the ends differ"),
         (Some(l), None) => budget.enter(|| l.rational_above())?,
@@ -250,7 +257,7 @@ fn difference_points(gain: &GainLoop, range: &Range, budget: &Budget) -> Result<
             let value = Real::from(zero);
             if !points.iter().any(|p| p.value.is_same(&value)) {
                 let happening = if degree == 0 { Happening::DegreeLost } else { Happening::Neutral };
-                points.push(GainPoint { value, happening, change: None });
+                points.push(GainPoint::counted(value, happening));
             }
         }
     }
@@ -258,7 +265,7 @@ fn difference_points(gain: &GainLoop, range: &Range, budget: &Budget) -> Result<
 }
 
 /// Ascending; two points that are the same become one at which more happens, and whose change is counted.
-fn sorted(mut points: Vec<GainPoint>, budget: &Budget) -> Result<Vec<GainPoint>, NotSolved> {
+pub(super) fn sorted(mut points: Vec<GainPoint>, budget: &Budget) -> Result<Vec<GainPoint>, NotSolved> {
     let mut out: Vec<GainPoint> = Vec::with_capacity(points.len());
     points.reverse();
     while let Some(point) = points.pop() {
