@@ -4,8 +4,8 @@ use super::verdict::{PointVerdict, Verdict};
 use crate::error::Error;
 use crate::problem::{BaseDelay, DelayedLoop, Problem, refused};
 use crate::stability::dead_time::{
-    Crossing, DelayCells, GainCells, GainLoop, Happening, NotCounted, NotSolved, count_delayed_roots, delay_cells,
-    gain_cells,
+    Crossing, DelayCells, FamilyLoop, GainCells, GainLoop, Happening, NotCounted, NotSolved, count_delayed_roots,
+    delay_cells, family_cells, gain_cells,
 };
 use crate::stability::{
     Cause, Causes, ComplexPair, End, HalfSizePair, Range, Shape, StableInterval, StableSet, zeros_in,
@@ -20,11 +20,13 @@ use std::sync::Arc;
 /// The verdict at a point.
 pub(super) fn verdict(problem: &Problem, delayed: &DelayedLoop, budget: &Budget) -> Result<PointVerdict, Error> {
     let degree = problem.algebra_over_symbols(budget)?.formal_degree();
-    let BaseDelay::Number(tau) = delayed.delay() else { unreachable!("nothing is free") };
-    let Some(p) = delayed.quasi_polynomial() else {
+    let count = match delayed.family() {
+        Some(family) => family.count(&Rational::ZERO, budget).map_err(not_counted)?,
+        None => None,
+    };
+    let Some(count) = count else {
         return Ok(PointVerdict::with_dead_time(Verdict::Unstable, degree, 0, None));
     };
-    let count = count_delayed_roots(&p, tau, budget).map_err(not_counted)?;
     let verdict = match (count.right, count.on) {
         (Some(0), 0) => Verdict::Stable,
         (Some(0), _) => Verdict::Marginal,
@@ -47,24 +49,54 @@ fn undecided(why: &str) -> Error {
 /// The stable set of the free parameter.
 pub(super) fn stable_set(problem: &Problem, delayed: &DelayedLoop, budget: &Budget) -> Result<StableSet, Error> {
     let domain = &problem.parameter().domain;
+    if delayed.is_rational() {
+        return Ok(crate::stability::stable_set(&delayed.polynomial(), domain, Shape::LeftHalfPlane, budget)?);
+    }
+    let from_the_axis = delayed.decay().is_zero();
     match delayed.delay() {
-        BaseDelay::Line { slope, offset } => {
-            if delayed.degree_in_parameter() > 0 {
-                let name = &problem.parameter().name;
-                let message = format!("'{name}' is in a dead time and elsewhere, too");
-                return Err(refused(message, "such a question is not treated yet: ask for another parameter"));
-            }
+        BaseDelay::Line { slope, offset } if from_the_axis && delayed.degree_in_parameter() == 0 => {
             windows(delayed, domain, slope, offset, budget)
         }
-        BaseDelay::Number(_) => {
-            let Some(gain) = delayed.gain_loop() else {
-                let name = &problem.parameter().name;
-                let message = format!("'{name}' does not enter the characteristic function affinely");
-                return Err(refused(message, "beside a dead time only a*NAME + b is treated yet, not its powers"));
-            };
-            gains(problem, delayed, &gain, domain, budget)
+        BaseDelay::Line { slope, offset } => {
+            // A dead time is not negative, whatever the domain says.
+            let zero = -offset / slope;
+            let lower = domain.lower.as_ref().map_or(zero.clone(), |l| l.clone().max(zero.clone()));
+            let domain = Range { lower: Some(lower), upper: domain.upper.clone() };
+            anywhere(problem, delayed, &domain, budget)
         }
+        BaseDelay::Number(_) => match delayed.gain_loop().filter(|_| from_the_axis) {
+            Some(gain) => gains(problem, delayed, &gain, domain, budget),
+            None => anywhere(problem, delayed, domain, budget),
+        },
     }
+}
+
+/// A parameter that enters in more than one way, or the decay rate.
+fn anywhere(problem: &Problem, delayed: &DelayedLoop, domain: &Range, budget: &Budget) -> Result<StableSet, Error> {
+    let Some(family) = delayed.family().filter(|_| !domain.is_empty()) else {
+        return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
+    };
+    match family_cells(&family, domain, budget) {
+        Ok(Ok(cells)) => assembled(delayed.poles(), &family, !delayed.decay().is_zero(), cells, domain, budget),
+        Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
+        Err(NotSolved::Unbounded) => {
+            let name = &problem.parameter().name;
+            let message = format!("roots can be on the boundary at frequencies without end in the domain of '{name}'");
+            let help = format!("give the domain both ends, away from where the highest power of s vanishes: --domain {name}=LO..HI");
+            Err(refused(message, help))
+        }
+        Err(reason) => Err(not_solved(reason)),
+    }
+}
+
+fn not_solved(reason: NotSolved) -> Error {
+    let why = match reason {
+        NotSolved::NotCounted(reason) => return not_counted(reason),
+        NotSolved::Neutral => return undecided("the difference operator depends on the parameter, or is too large"),
+        NotSolved::Unbounded => "infinitely many values with roots on the boundary",
+        NotSolved::Coincidence => "roots stay on the boundary, meet there, or only touch it",
+    };
+    Exhausted::new(format!("what is known of such loops: {why}"), "crossings of the imaginary axis").into()
 }
 
 /// The dead time `(theta + 2 pi k)/omega` as a value of the parameter, `(tau - offset)/slope`.
@@ -130,15 +162,19 @@ fn note_axis(end: &mut End, p: &UniPoly, budget: &Budget) -> Result<(), Exhauste
     Ok(())
 }
 
-/// The end of the domain of a gain, with the roots that are on the axis there.
-fn domain_end_of_gain(gain: &GainLoop, value: &Rational, budget: &Budget) -> Result<End, Exhausted> {
+/// The end of the domain of a parameter, with the roots that are on the axis there.
+fn domain_end_of_loop(family: &FamilyLoop, value: &Rational, decay: bool, budget: &Budget) -> Result<End, Exhausted> {
     let mut end = domain_end(value);
-    let Some(p) = gain.at(value) else { return Ok(end) };
+    let Some(p) = family.at(value).filter(|_| !decay) else { return Ok(end) };
+    if family.dead_time(value).is_zero() {
+        note_axis(&mut end, &p.without_delay(), budget)?;
+        return Ok(end);
+    }
     note_axis(&mut end, &p.content(), budget)?;
     if p.without_delay().coeff(0).is_zero() {
         end.causes.insert(Cause::RootAtZero);
     }
-    if p.order() < gain.order() {
+    if p.order() < family.order() {
         end.causes.insert(Cause::DegreeLost);
     } else if !budget.enter(|| p.has_stable_difference())? {
         end.causes.insert(Cause::Neutral);
@@ -220,30 +256,41 @@ fn gains(
             None => false,
         };
         let cells = GainCells::constant(stable);
-        return assembled(delayed.poles(), gain, cells, domain, budget);
+        return match delayed.family() {
+            Some(family) => assembled(delayed.poles(), &family, !delayed.decay().is_zero(), cells, domain, budget),
+            None => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
+        };
     }
-    match gain_cells(gain, domain, budget) {
-        Ok(Ok(cells)) => assembled(delayed.poles(), gain, cells, domain, budget),
-        Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
-        Err(NotSolved::NotCounted(reason)) => Err(not_counted(reason)),
-        Err(NotSolved::Unbounded) => {
+    let first = match gain_cells(gain, domain, budget) {
+        Ok(Ok(cells)) => {
+            let family = delayed.family().expect("the parameter enters");
+            return assembled(delayed.poles(), &family, !delayed.decay().is_zero(), cells, domain, budget);
+        }
+        Ok(Err(_)) => return Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
+        Err(NotSolved::NotCounted(reason)) => return Err(not_counted(reason)),
+        Err(reason) => reason,
+    };
+    // What is special about an affine parameter does not help: as any other.
+    match anywhere(problem, delayed, domain, budget) {
+        Err(Error::Refused(_)) => {}
+        Err(Error::Stopped(_)) if budget.check().is_ok() => {}
+        other => return other,
+    }
+    match first {
+        NotSolved::Unbounded => {
             let name = &problem.parameter().name;
             let message =
                 format!("'{name}' enters in several terms with different dead times, and its domain has no end");
             Err(refused(message, format!("give the domain both ends: --domain {name}=LO..HI")))
         }
-        Err(NotSolved::Neutral) => Err(undecided("the difference operator depends on the parameter, or is too large")),
-        Err(NotSolved::Coincidence) => {
-            let why = "a root stays on the imaginary axis, or the parameter is real on all of it";
-            Err(Exhausted::new(format!("what is known of such loops: {why}"), "crossings of the imaginary axis").into())
-        }
+        reason => Err(not_solved(reason)),
     }
 }
 
 /// The stable factors `k` of `D0 + k N exp(-tau s)`.
 pub(crate) fn stable_factors(gain: &GainLoop, budget: &Budget) -> Result<StableSet, Error> {
     match gain_cells(gain, &Range::all(), budget) {
-        Ok(Ok(cells)) => assembled(&[], gain, cells, &Range::all(), budget),
+        Ok(Ok(cells)) => assembled(&[], &gain.family(), false, cells, &Range::all(), budget),
         Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::NotCounted(reason)) => Err(not_counted(reason)),
         Err(_) => Err(undecided("the factors of the open loop have no end")),
@@ -253,12 +300,13 @@ pub(crate) fn stable_factors(gain: &GainLoop, budget: &Budget) -> Result<StableS
 /// The cells cut at the poles as well, with their causes.
 fn assembled(
     poles: &[UniPoly],
-    gain: &GainLoop,
+    family: &FamilyLoop,
+    decay: bool,
     cells: GainCells,
     domain: &Range,
     budget: &Budget,
 ) -> Result<StableSet, Error> {
-    let own = |end: &Option<Rational>| end.as_ref().map(|x| domain_end_of_gain(gain, x, budget)).transpose();
+    let own = |end: &Option<Rational>| end.as_ref().map(|x| domain_end_of_loop(family, x, decay, budget)).transpose();
     let mut ends: Vec<Option<End>> = vec![own(&domain.lower)?];
     ends.extend(cells.points.iter().map(|point| {
         let (mut causes, mut pair) = (Causes::default(), None);

@@ -1,9 +1,11 @@
 //! Loops with dead time: the characteristic function as a polynomial in `s`, `exp(-tau s)` and what is free.
 
 use super::evaluation::Algebra;
+use super::region::Bound;
 use super::resolved::Problem;
 use crate::error::{Diagnostic, Error};
-use crate::stability::dead_time::{GainLoop, QuasiPolynomial};
+use crate::stability::ParametricPolynomial;
+use crate::stability::dead_time::{FamilyLoop, GainLoop, Line, QuasiPolynomial};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
@@ -14,6 +16,8 @@ pub struct DelayedLoop {
     /// The coefficient of `z^k s^j` as a polynomial in the free parameter, at `[k][j]`.
     parts: Vec<Vec<UniPoly>>,
     delay: BaseDelay,
+    /// The roots are to lie left of `Re s = -decay`; `s` is counted from there.
+    decay: Line,
     /// The loop is undefined where one of these vanishes.
     poles: Vec<UniPoly>,
 }
@@ -42,10 +46,6 @@ impl DelayedLoop {
     pub(super) fn of(problem: &Problem, algebra: &Algebra, budget: &Budget) -> Result<Option<DelayedLoop>, Error> {
         let delays = algebra.symbols().delays();
         let Some(polynomial) = algebra.polynomial().filter(|_| !delays.is_empty()) else { return Ok(None) };
-        if problem.region().bound() != crate::problem::Region::of(problem.time()).bound() {
-            let help = "leave out the decay rate: the imaginary axis is the boundary";
-            return Err(refused("a decay rate cannot be asked of a loop with dead time yet", help));
-        }
         if algebra.symbols().iter().count() > delays.len() {
             let help = "write the values of exp, sqrt, sin, cos, tan and pi as numbers";
             return Err(refused("beside dead time the loop contains other functions that are not rational", help));
@@ -56,7 +56,13 @@ impl DelayedLoop {
             return Err(refused("two parameters cannot be free in a loop with dead time yet", help));
         }
         let (delay, powers) = base_delay(&delays)?;
-        let power_of = |variable: usize| delays.iter().position(|(v, _)| *v == variable).map(|i| powers[i]);
+        // A decay rate that is asked for is one more variable before the symbols.
+        let room = usize::from(problem.region().is_free());
+        let power_of = |variable: usize| delays.iter().position(|(v, _)| *v + room == variable).map(|i| powers[i]);
+        let decay = match problem.region().bound() {
+            Bound::Number(decay) => Line::constant(decay.clone()),
+            Bound::Free => Line { slope: Rational::ONE, offset: Rational::ZERO },
+        };
         budget.enter(|| {
             let mut scaled = polynomial.coefficients.clone();
             let mut common = MultiPoly::one();
@@ -105,13 +111,47 @@ impl DelayedLoop {
                 }
                 poles.push(content);
             }
-            Ok(Some(DelayedLoop { parts, delay, poles }))
+            Ok(Some(DelayedLoop { parts, delay, decay, poles }))
         })?
     }
 
     /// The dead time of which the others are multiples.
     pub fn delay(&self) -> &BaseDelay {
         &self.delay
+    }
+
+    /// The line `Re s = -decay` left of which the roots are to lie, and from which `s` is counted.
+    pub fn decay(&self) -> &Line {
+        &self.decay
+    }
+
+    /// Whether the dead times cancel.
+    pub fn is_rational(&self) -> bool {
+        self.parts.iter().skip(1).flatten().all(UniPoly::is_zero)
+    }
+
+    /// The polynomial in `s` of a loop whose dead times cancel, its coefficients polynomials in the free parameter.
+    ///
+    /// # Panics
+    /// When they do not [cancel](DelayedLoop::is_rational).
+    pub fn polynomial(&self) -> ParametricPolynomial {
+        assert!(self.is_rational(), "the dead times cancel");
+        let part = self.parts.first().cloned().unwrap_or_default();
+        let order = part.iter().rposition(|c| !c.is_zero()).unwrap_or(0);
+        let coefficients: Vec<_> = part.into_iter().take(order + 1).map(|c| (c, UniPoly::one())).collect();
+        ParametricPolynomial::new(&coefficients, order, self.poles.clone())
+    }
+
+    /// The loop with the free parameter wherever it enters; `None` where it vanishes identically.
+    pub fn family(&self) -> Option<FamilyLoop> {
+        if self.parts.iter().flatten().all(UniPoly::is_zero) {
+            return None;
+        }
+        let tau = match &self.delay {
+            BaseDelay::Number(tau) => Line::constant(tau.clone()),
+            BaseDelay::Line { slope, offset } => Line { slope: slope.clone(), offset: offset.clone() },
+        };
+        Some(FamilyLoop::new(self.parts.clone(), tau, self.decay.clone()))
     }
 
     /// Polynomials in the free parameter at whose zeros the loop is undefined, or its function vanishes identically.

@@ -16,13 +16,19 @@ impl Answer<PointVerdict> {
 /// `unstable: 4 roots inside the unit circle, 0 on it, 2 outside`.
 pub fn verdict_line(problem: &Problem, answer: &PointVerdict) -> String {
     let name = answer.verdict.name();
+    let boundary = match (problem.time(), problem.region().radius(), problem.region().decay()) {
+        (Time::Discrete, Some(r), _) => format!("the circle |z| = {}", short(r)),
+        (Time::Discrete, None, _) => "the unit circle".to_owned(),
+        (Time::Continuous, _, Some(s)) => format!("the line Re s = {}", short(&-s)),
+        (Time::Continuous, _, None) => "the imaginary axis".to_owned(),
+    };
     if let Some(delayed) = answer.delayed {
         let roots = |n: usize| if n == 1 { "1 root".to_owned() } else { format!("{n} roots") };
         return match (answer.verdict, delayed.right) {
-            (Verdict::Stable, _) => format!("{name}: all roots, infinitely many, are left of the imaginary axis"),
-            (_, Some(right)) => format!("{name}: {} on the imaginary axis, {right} right of it", roots(delayed.on)),
+            (Verdict::Stable, _) => format!("{name}: all roots, infinitely many, are left of {boundary}"),
+            (_, Some(right)) => format!("{name}: {} on {boundary}, {right} right of it", roots(delayed.on)),
             (_, None) => {
-                format!("{name}: a chain of infinitely many roots is right of the imaginary axis or comes up to it")
+                format!("{name}: a chain of infinitely many roots is right of {boundary} or comes up to it")
             }
         };
     }
@@ -30,12 +36,6 @@ pub fn verdict_line(problem: &Problem, answer: &PointVerdict) -> String {
         let unknown =
             "an expression of the model divides by zero, a block loses its order, or the loop is not well posed";
         return format!("{name}: {}", answer.undefined.as_deref().unwrap_or(unknown));
-    };
-    let boundary = match (problem.time(), problem.region().radius(), problem.region().decay()) {
-        (Time::Discrete, Some(r), _) => format!("the circle |z| = {}", short(r)),
-        (Time::Discrete, None, _) => "the unit circle".to_owned(),
-        (Time::Continuous, _, Some(s)) => format!("the line Re s = {}", short(&-s)),
-        (Time::Continuous, _, None) => "the imaginary axis".to_owned(),
     };
     let (inner, outer) = match problem.time() {
         Time::Discrete => ("inside", "outside"),

@@ -145,6 +145,29 @@ impl<'a> Scope<'a> {
         Ok(self.variable(Variable::Delay(time)))
     }
 
+    /// The dead time of the least delayed term of a polynomial, as a multiple of the first dead time there is; `None` where a
+    /// ratio of dead times is no number.
+    pub fn least_delay(&self, p: &MultiPoly) -> Option<Rational> {
+        let times = self.variables.iter().map(|v| match v {
+            Variable::Delay(time) => Some(time),
+            _ => None,
+        });
+        let times: Vec<Option<&RationalFunction>> = times.collect();
+        let Some(first) = times.iter().flatten().next() else { return Some(Rational::ZERO) };
+        let mut least: Option<Rational> = None;
+        for (monomial, _) in p.terms() {
+            let mut sum = Rational::ZERO;
+            for (i, &e) in monomial.exponents().iter().enumerate() {
+                if let Some(time) = times[i].filter(|_| e > 0) {
+                    let ratio = time.checked_div(first)?.as_constant()?;
+                    sum = &sum + &(&ratio * &Rational::from(e as i64));
+                }
+            }
+            least = Some(least.map_or(sum.clone(), |known| known.min(sum)));
+        }
+        Some(least.unwrap_or(Rational::ZERO))
+    }
+
     /// Whether a value contains a dead time.
     pub fn is_delayed(&self, f: &RationalFunction) -> bool {
         f.variables().into_iter().any(|i| matches!(self.variables[i], Variable::Delay(_)))

@@ -30,7 +30,12 @@ pub(in crate::model) struct InVariable<'s, 'a> {
 
 /// A transfer expression.
 pub(in crate::model) fn fraction(e: &Expression, variable: &str, scope: &mut Scope<'_>) -> Result<Fraction, Failure> {
-    evaluate(e, &mut InVariable { scope, variable, rational: true })
+    let fraction = evaluate(e, &mut InVariable { scope, variable, rational: true })?;
+    if fraction.looks_ahead(scope) {
+        let error = Diagnostic::error("E-dead-time", "the transfer function looks ahead: it divides by a dead time");
+        return Err(error.at(e.span, "a prediction").help("a dead time tau is written exp(-tau*s), a factor of the numerator").into());
+    }
+    Ok(fraction)
 }
 
 /// An expression that is a polynomial in the variable.
@@ -41,6 +46,23 @@ pub(in crate::model) fn polynomial(e: &Expression, variable: &str, scope: &mut S
 }
 
 impl Fraction {
+    /// Whether the numerator is less delayed than the denominator is as a whole; not known where two dead times have no
+    /// ratio that is a number.
+    fn looks_ahead(&self, scope: &Scope<'_>) -> bool {
+        let least = |p: &ZPoly| -> Option<Rational> {
+            let mut least: Option<Rational> = None;
+            for f in p.coefficients().iter().filter(|f| !f.is_zero()) {
+                let delay = scope.least_delay(f.numerator())? - scope.least_delay(f.denominator())?;
+                least = Some(least.map_or(delay.clone(), |known| known.min(delay)));
+            }
+            least
+        };
+        match (least(&self.numerator), least(&self.denominator)) {
+            (Some(numerator), Some(denominator)) => numerator < denominator,
+            _ => false,
+        }
+    }
+
     fn constant(value: RationalFunction) -> Self {
         Fraction { numerator: ZPoly::constant(value), denominator: ZPoly::one() }
     }

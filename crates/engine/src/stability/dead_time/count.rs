@@ -1,6 +1,6 @@
 //! Where the roots of a loop with dead time lie, at a point.
 
-use super::mikhailov::{NotCounted, roots_right, zero_at_origin};
+use super::mikhailov::{NotCounted, roots_right, roots_right_of_line, zero_at_origin};
 use super::{Kind, QuasiPolynomial};
 use crate::stability::{Shape, count_roots};
 use jurist_algebra::limits::Budget;
@@ -68,4 +68,22 @@ pub fn count_delayed_roots(p: &QuasiPolynomial, tau: &Rational, budget: &Budget)
     }
     let right = content.outside + roots_right(&rest, tau, at_zero, budget)?;
     Ok(DelayCount { on, right: Some(right) })
+}
+
+/// The same from another line: `z = exp(growth - tau s)`, `s` being counted from the line.
+///
+/// # Errors
+/// [`NotCounted`]; a root on the line that depends on the dead time shows as precision that does not suffice.
+pub(super) fn count_from_line(
+    p: &QuasiPolynomial,
+    tau: &Rational,
+    growth: &Rational,
+    budget: &Budget,
+) -> Result<DelayCount, NotCounted> {
+    if growth.is_zero() || p.delays() == 0 {
+        return count_delayed_roots(p, tau, budget);
+    }
+    let content = count_roots(&p.content(), Shape::LeftHalfPlane);
+    let right = roots_right_of_line(&p.primitive(), tau, growth, budget)?;
+    Ok(DelayCount { on: content.on, right: right.map(|right| right + content.outside) })
 }

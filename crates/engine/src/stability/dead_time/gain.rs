@@ -1,5 +1,7 @@
 //! All values of a parameter for which a loop with a fixed dead time is stable, where the parameter enters affinely.
 
+use super::family::FamilyLoop;
+use super::family_function::Line;
 use super::gain_inverse::inverse_cells;
 use super::gain_points::{GainPoint, Happening, crossings_of_gain};
 use super::mikhailov::{NotCounted, roots_right};
@@ -90,6 +92,16 @@ impl GainLoop {
         GainLoop { a, b, tau }
     }
 
+    /// The same as a family whose parameter may enter in any way.
+    pub fn family(&self) -> FamilyLoop {
+        let part = |(a, b): (&UniPoly, &UniPoly)| {
+            let count = a.coeffs().len().max(b.coeffs().len());
+            (0..count).map(|j| UniPoly::new(vec![a.coeff(j), b.coeff(j)])).collect()
+        };
+        let parts = self.a.iter().zip(&self.b).map(part).collect();
+        FamilyLoop::new(parts, Line::constant(self.tau.clone()), Line::constant(Rational::ZERO))
+    }
+
     /// The quasi-polynomial at one value; `None` where it vanishes identically.
     pub fn at(&self, value: &Rational) -> Option<QuasiPolynomial> {
         let (p, q) = (value.numerator(), value.denominator());
@@ -100,6 +112,13 @@ impl GainLoop {
     /// The highest power of `s`, whatever the parameter is.
     pub fn order(&self) -> usize {
         self.a.iter().chain(&self.b).filter_map(UniPoly::degree).max().unwrap_or(0)
+    }
+
+    /// The coefficient of `z^k s^j` at `[k][j]`, a polynomial in the parameter.
+    pub(super) fn coefficients(&self) -> Vec<Vec<UniPoly>> {
+        let n = self.order();
+        let both = self.a.iter().zip(&self.b);
+        both.map(|(a, b)| (0..=n).map(|j| UniPoly::new(vec![a.coeff(j), b.coeff(j)])).collect()).collect()
     }
 
     /// The coefficients of the highest power of `s`, in `z` from `z^0` up, each `a + K b`.
@@ -173,7 +192,7 @@ pub(super) fn direct_cells(
     if !b0.is_zero() {
         let at = -Rational::new(a0, b0);
         if range.contains(&at) {
-            points.push(GainPoint { value: at.into(), happening: Happening::RootAtZero, change: None });
+            points.push(GainPoint::counted(at.into(), Happening::RootAtZero));
         }
     }
     let beyond = match crossings_of_gain(&gain, range, &points, budget)? {
@@ -224,7 +243,7 @@ fn counted(gain: &GainLoop, value: &Rational, budget: &Budget) -> Result<Option<
 }
 
 /// A rational number strictly between two ends.
-fn sample(lower: Option<&Real>, upper: Option<&Real>, budget: &Budget) -> Result<Rational, NotSolved> {
+pub(super) fn sample(lower: Option<&Real>, upper: Option<&Real>, budget: &Budget) -> Result<Rational, NotSolved> {
     Ok(match (lower, upper) {
         (Some(l), Some(u)) => rational_between(l, u, budget)?.expect("the ends differ"),
         (Some(l), None) => budget.enter(|| l.rational_above())?,
@@ -250,7 +269,7 @@ fn difference_points(gain: &GainLoop, range: &Range, budget: &Budget) -> Result<
             let value = Real::from(zero);
             if !points.iter().any(|p| p.value.is_same(&value)) {
                 let happening = if degree == 0 { Happening::DegreeLost } else { Happening::Neutral };
-                points.push(GainPoint { value, happening, change: None });
+                points.push(GainPoint::counted(value, happening));
             }
         }
     }
@@ -258,7 +277,7 @@ fn difference_points(gain: &GainLoop, range: &Range, budget: &Budget) -> Result<
 }
 
 /// Ascending; two points that are the same become one at which more happens, and whose change is counted.
-fn sorted(mut points: Vec<GainPoint>, budget: &Budget) -> Result<Vec<GainPoint>, NotSolved> {
+pub(super) fn sorted(mut points: Vec<GainPoint>, budget: &Budget) -> Result<Vec<GainPoint>, NotSolved> {
     let mut out: Vec<GainPoint> = Vec::with_capacity(points.len());
     points.reverse();
     while let Some(point) = points.pop() {

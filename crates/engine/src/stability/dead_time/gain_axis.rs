@@ -2,7 +2,7 @@
 
 use super::gain::GainLoop;
 use super::quasi_polynomial::even_odd;
-use super::trigonometric::{AxisZero, Form, Zeros};
+use super::trigonometric::{AxisZero, Form, Jet};
 use super::turn::{Fixed, turned};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
@@ -34,30 +34,7 @@ pub(super) struct Axis {
 
 impl Axis {
     pub(super) fn new(gain: &GainLoop) -> Axis {
-        let q = gain.a.len() - 1;
-        // A(s, z) B(-s, 1/z) = sum C_m(s) z^m, and its imaginary part is sum a_m cos(m x) + b_m sin(m x).
-        let mut cosines = vec![UniPoly::zero(); q + 1];
-        let mut sines = vec![UniPoly::zero(); q + 1];
-        for (k, a) in gain.a.iter().enumerate() {
-            for (l, b) in gain.b.iter().enumerate() {
-                let (even, odd) = even_odd(&a.times(&b.negated_argument()));
-                let (even, odd) = (on_axis(&even), on_axis(&odd).shifted_up(1));
-                let m = k.abs_diff(l);
-                cosines[m] = cosines[m].plus(&odd);
-                sines[m] = if k >= l { sines[m].minus(&even) } else { sines[m].plus(&even) };
-            }
-        }
-        let mut trace = vec![UniPoly::zero(); 2 * q + 1];
-        for m in 0..=q {
-            // cos(m x) + i sin(m x) = (c + i s)^(2 m), times (c^2 + s^2)^(q - m).
-            let [real, imaginary] = power_of_turn(2 * m);
-            let rest = UniPoly::from_i64(&[1, 0, 1]).power((q - m) as u64);
-            for (weights, factor) in [(real, &cosines[m]), (imaginary, &sines[m])] {
-                for (j, c) in weights.times(&rest).coeffs().iter().enumerate() {
-                    trace[j] = trace[j].plus(&factor.scaled(c));
-                }
-            }
-        }
+        let mut trace = product(&gain.a, &gain.b, Part::Imaginary);
         if trace.iter().all(UniPoly::is_zero) {
             trace.clear();
         }
@@ -72,33 +49,48 @@ impl Axis {
         Axis { gain: gain.clone(), trace, slopes }
     }
 
-    /// The factor of `Im(A conj B)` in the frequency alone, and a form with the other zeros, all simple; `None` when there
-    /// are no others.
-    pub(super) fn form(&self) -> (UniPoly, Option<Form>) {
+    /// The zeros of `Im(A conj B)` by what they mean.
+    pub(super) fn forms(&self) -> Forms {
         let content = self.trace.iter().fold(UniPoly::zero(), |g, p| g.gcd(p));
+        let divided: Vec<UniPoly> = self.trace.iter().map(|p| p.div_exact(&content).expect("divides")).collect();
+        let whole = bivariate(&divided);
+        // At tan = infinity the form vanishes where its highest coefficient does: at every odd turn.
+        let vanishes_there = |p: &[UniPoly]| p.last().is_some_and(UniPoly::is_zero);
+        let (a, b) = (product(&self.gain.a, &self.gain.a, Part::Real), product(&self.gain.b, &self.gain.b, Part::Real));
+        let at_infinity = vanishes_there(&self.trace);
+        let nothing_there = at_infinity && (vanishes_there(&a) || vanishes_there(&b));
+        // Factors that are in |A|^2 or in |B|^2, too: where they vanish, A or B does.
+        let part = whole.square_free_part();
+        let of_a = part.gcd(&bivariate(&a));
+        let rest = part.div_exact(&of_a).expect("a common divisor divides");
+        let of_b = rest.gcd(&bivariate(&b));
+        let rest = rest.div_exact(&of_b).expect("a common divisor divides");
         let rate = &self.gain.tau * &Rational::dyadic(&Integer::ONE, 1);
-        let terms = self.trace.iter().map(|p| MultiPoly::from_univariate(&p.div_exact(&content).expect("divides"), 0));
-        let whole = MultiPoly::from_poly_in(&Poly::new(terms.collect()), 1);
-        // At tan = infinity the form vanishes where its highest coefficients do: at every odd turn.
-        let at_infinity = (whole.degree_in(1) as usize) < self.trace.len() - 1;
-        let part = whole.square_free_part().as_poly_in(1);
-        let mut coeffs: Vec<UniPoly> =
-            part.coeffs().iter().map(|c| c.to_univariate(0).expect("one variable is left")).collect();
-        if at_infinity {
-            coeffs.push(UniPoly::zero());
-        }
-        let constant = coeffs.iter().skip(1).all(UniPoly::is_zero) && !at_infinity;
-        (content, (!constant).then_some(Form { coeffs, rate }))
+        let form = |p: &MultiPoly, at_infinity: bool| {
+            let mut coeffs: Vec<UniPoly> =
+                p.as_poly_in(1).coeffs().iter().map(|c| c.to_univariate(0).expect("one variable is left")).collect();
+            if at_infinity {
+                coeffs.push(UniPoly::zero());
+            }
+            let constant = coeffs.iter().skip(1).all(UniPoly::is_zero) && !at_infinity;
+            (!constant).then(|| Form { coeffs, rate: rate.clone() })
+        };
+        let finite = form(&rest, at_infinity && !nothing_there);
+        let other = form(&(&of_a * &of_b), nothing_there);
+        Forms { content, finite, other }
     }
 
     /// By how much the number of roots to the right grows as the parameter grows through the value at a zero: the sign of
     /// `Im(A conj B)` before and behind tells.
     ///
-    /// The bracket is narrowed until none of the algebraic frequencies at which `Im(A conj B)` vanishes, too, is in it.
-    pub(super) fn change(&self, zero: &AxisZero, fixed: &[RealAlgebraic]) -> i64 {
+    /// The bracket is narrowed until no other frequency at which `Im(A conj B)` vanishes, too, is in it: an algebraic one,
+    /// or one at which `A` or `B` does.
+    pub(super) fn change(&self, zero: &AxisZero, fixed: &[RealAlgebraic], other: Option<&Jet>) -> i64 {
         let (mut lo, mut hi) = (zero.lo.clone(), zero.hi.clone());
         let mut bits = 8;
-        while fixed.iter().any(|w| w.compare_rational(&lo).is_ge() && w.compare_rational(&hi).is_le()) {
+        while fixed.iter().any(|w| w.compare_rational(&lo).is_ge() && w.compare_rational(&hi).is_le())
+            || other.is_some_and(|jet| !jet.stays_away(&lo, &hi))
+        {
             (lo, hi) = zero.refined(bits, Some((lo, hi)));
             bits *= 2;
         }
@@ -186,7 +178,7 @@ impl Axis {
     /// Rational frequencies on both sides of an algebraic one, between which `Im(A conj B)` has no other zero: between them
     /// neither the form nor the other zeros of the content vanish.
     fn around(&self, omega: &RealAlgebraic, budget: &Budget) -> Result<(Rational, Rational), Exhausted> {
-        let (content, form) = budget.enter(|| self.form())?;
+        let Forms { content, finite, other } = budget.enter(|| self.forms())?;
         let mut bits = 8;
         loop {
             budget.check()?;
@@ -201,23 +193,74 @@ impl Axis {
                 Some(part) => isolate_real_roots_in(&part, Some(&lo), Some(&hi), budget)?.len() == 1,
                 None => true,
             };
-            let quiet = match &form {
-                None => true,
-                Some(form) => {
-                    let mut zeros = Zeros::new(form.clone());
-                    let mut quiet = true;
-                    while let Some(zero) = zeros.next_below(&hi, budget)? {
-                        let (first, last) = budget.enter(|| zero.refined(bits, None))?;
-                        quiet &= last < lo || first > hi;
-                    }
-                    quiet
-                }
-            };
+            let mut quiet = true;
+            for form in [&finite, &other].into_iter().flatten() {
+                quiet = quiet && budget.enter(|| Jet::new(form.clone()).stays_away(&lo, &hi))?;
+            }
             if alone && quiet {
                 return Ok((lo, hi));
             }
         }
     }
+}
+
+/// The zeros of `Im(A conj B)`: all simple, but those of the content.
+pub(super) struct Forms {
+    /// The factor in the frequency alone.
+    pub content: UniPoly,
+    /// Where the parameter is real, finite and not zero; `None` when it is nowhere.
+    pub finite: Option<Form>,
+    /// Where `A` or `B` vanishes with a whole factor that is its own mirror image in the axis: for no finite value of the
+    /// parameter, or for zero only, for which the difference operator is not stable then.
+    pub other: Option<Form>,
+}
+
+/// The real or the imaginary part.
+#[derive(Clone, Copy)]
+enum Part {
+    Real,
+    Imaginary,
+}
+
+/// `Re(A conj B)` or `Im(A conj B)` on the axis: the coefficients, polynomials in the frequency, of `sin^j cos^(2q - j)` of
+/// half the angle.
+fn product(a: &[UniPoly], b: &[UniPoly], part: Part) -> Vec<UniPoly> {
+    let q = a.len() - 1;
+    // A(s, z) B(-s, 1/z) = sum C_m(s) z^m, of which either part is sum a_m cos(m x) + b_m sin(m x).
+    let mut cosines = vec![UniPoly::zero(); q + 1];
+    let mut sines = vec![UniPoly::zero(); q + 1];
+    for (k, a) in a.iter().enumerate() {
+        for (l, b) in b.iter().enumerate() {
+            let (even, odd) = even_odd(&a.times(&b.negated_argument()));
+            let (even, odd) = (on_axis(&even), on_axis(&odd).shifted_up(1));
+            let m = k.abs_diff(l);
+            // (even + i odd)(cos((k - l) x) - i sin((k - l) x))
+            let (cosine, sine) = match part {
+                Part::Real => (even, odd),
+                Part::Imaginary => (odd, even.negated()),
+            };
+            cosines[m] = cosines[m].plus(&cosine);
+            sines[m] = if k >= l { sines[m].plus(&sine) } else { sines[m].minus(&sine) };
+        }
+    }
+    let mut form = vec![UniPoly::zero(); 2 * q + 1];
+    for m in 0..=q {
+        // cos(m x) + i sin(m x) = (c + i s)^(2 m), times (c^2 + s^2)^(q - m).
+        let [real, imaginary] = power_of_turn(2 * m);
+        let rest = UniPoly::from_i64(&[1, 0, 1]).power((q - m) as u64);
+        for (weights, factor) in [(real, &cosines[m]), (imaginary, &sines[m])] {
+            for (j, c) in weights.times(&rest).coeffs().iter().enumerate() {
+                form[j] = form[j].plus(&factor.scaled(c));
+            }
+        }
+    }
+    form
+}
+
+/// A polynomial in the frequency (0) and the tangent of half the angle (1).
+fn bivariate(coeffs: &[UniPoly]) -> MultiPoly {
+    let terms = coeffs.iter().map(|p| MultiPoly::from_univariate(p, 0));
+    MultiPoly::from_poly_in(&Poly::new(terms.collect()), 1)
 }
 
 /// The positive zeros of a polynomial in the frequency.

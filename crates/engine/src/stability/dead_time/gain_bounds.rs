@@ -68,34 +68,47 @@ impl GainLoop {
 
     /// A frequency beyond which `Re(ds/d log K)` is positive on the axis, for a parameter in the term `z^turns` only: it has
     /// the sign of `turns tau + Re(A'/A - N'/N)`.
+    ///
+    /// Where the highest power `a(z) s^n` of `A` is delayed, too, with all zeros of `a` outside of the closed unit disc,
+    /// `Re(z a'(z)/a(z)) <= deg a/2` on the circle.
     pub(super) fn growing_beyond(&self, turns: usize) -> Option<Rational> {
         let (t, d) = (self.tau.numerator(), self.tau.denominator());
         let n = self.a.iter().filter_map(UniPoly::degree).max()?;
         let m = self.b[turns].degree()?;
-        // A without delay is to have the highest power of A alone; where the loop is neutral in the parameter, A is to be
-        // without delay altogether.
-        let delayed = self.a.iter().skip(1).filter(|p| !p.is_zero());
-        if self.a[0].degree() != Some(n) || m > n || delayed.clone().any(|p| m == n || p.degree() >= Some(n)) {
+        // A without delay is to outweigh the rest of its highest power; where the loop is neutral in the parameter, A is to
+        // be without delay altogether.
+        let highest: Vec<Integer> = self.a.iter().map(|p| p.coeff(n)).collect();
+        let least_top = highest.iter().skip(1).fold(highest[0].abs(), |rest, c| rest - c.abs());
+        let is_delayed = self.a.iter().skip(1).any(|p| !p.is_zero());
+        if !least_top.sign().is_gt() || m > n || (m == n && is_delayed) {
             return None;
         }
-        let sum = |parts: &[UniPoly]| parts.iter().fold(UniPoly::zero(), |sum, p| sum.plus(&absolute(p)));
-        let derivative = self.a.iter().enumerate().fold(UniPoly::zero(), |sum, (k, p)| {
-            let delayed = p.scaled(&(&t * &Integer::from(k as i64)));
-            sum.plus(&absolute(&p.derivative().scaled(&d))).plus(&absolute(&delayed))
-        });
-        let (all, other) = (sum(&self.a), absolute(&self.b[turns]));
+        let times = |k: usize| &t * &Integer::from(k as i64);
+        let delays = highest.iter().rposition(|c| !c.is_zero()).unwrap_or(0);
+        let least = Rational::from(&times(2 * turns)) - Rational::from(&times(delays));
+        let least = least * Rational::dyadic(&Integer::ONE, 1);
+        if !least.sign().is_gt() {
+            return None;
+        }
+        // d A' = s^n (-t sum k a_k z^k) + rest, A = s^n a + lower.
+        let lower = |p: &UniPoly| UniPoly::new(p.coeffs().iter().take(n).map(Integer::abs).collect());
+        let sum = |list: &mut dyn Iterator<Item = UniPoly>| list.fold(UniPoly::zero(), |sum, p| sum.plus(&p));
+        let below = sum(&mut self.a.iter().map(lower));
+        let rest = sum(&mut self.a.iter().enumerate().map(|(k, p)| {
+            absolute(&p.derivative().scaled(&d)).plus(&lower(p).scaled(&times(k)))
+        }));
+        let slope = highest.iter().enumerate().fold(Integer::ZERO, |sum, (k, c)| sum + &times(k) * &c.abs());
+        let slope = Rational::new(slope, least_top.clone());
+        let other = absolute(&self.b[turns]);
         let other_derivative = absolute(&self.b[turns].derivative()).scaled(&d);
-        let least = Rational::from(&(&t * &Integer::from(turns as i64)));
         let mut r = Integer::ONE;
         loop {
-            let lowest = |p: &UniPoly, k: usize| {
-                let top = p.coeff(k) * r.pow(k as u64);
-                &top + &top - p.eval(&r)
-            };
-            let (bottom, other_bottom) = (lowest(&all, n), lowest(&other, m));
+            let bottom = &least_top * &r.pow(n as u64) - below.eval(&r);
+            let top = other.coeff(m) * r.pow(m as u64);
+            let other_bottom = &top + &top - other.eval(&r);
             if bottom.sign().is_gt() && other_bottom.sign().is_gt() {
-                let moved =
-                    Rational::new(derivative.eval(&r), bottom) + Rational::new(other_derivative.eval(&r), other_bottom);
+                let own = Rational::from(&rest.eval(&r)) + Rational::from(&below.eval(&r)) * &slope;
+                let moved = own / Rational::from(&bottom) + Rational::new(other_derivative.eval(&r), other_bottom);
                 if moved < least {
                     return Some(Rational::from(r));
                 }

@@ -44,7 +44,7 @@ pub(super) fn inverse_cells(
             None => cells,
             Some(mut below) => {
                 let value = Real::from(Rational::ZERO);
-                below.points.push(GainPoint { value, happening: Happening::DegreeLost, change: None });
+                below.points.push(GainPoint::counted(value, Happening::DegreeLost));
                 below.points.extend(cells.points);
                 below.right.extend(cells.right);
                 below
@@ -64,7 +64,7 @@ fn inverted(side: &Range) -> Range {
 }
 
 /// The reciprocal of a number that is not zero.
-fn reciprocal(value: &Real, budget: &Budget) -> Result<Real, Exhausted> {
+pub(super) fn reciprocal(value: &Real, budget: &Budget) -> Result<Real, Exhausted> {
     let x = match value {
         Real::Algebraic(x) => x,
         Real::Transcendental(_) => return Ok(Transcendental::new(Reciprocal(value.clone())).into()),

@@ -1,9 +1,11 @@
 //! The values of a gain at which a loop with a fixed dead time has roots on the imaginary axis.
 
 use super::gain::{GainLoop, NotSolved};
-use super::gain_axis::{Axis, Fixture, Frequency, GainAt, algebraic_frequencies};
+use super::gain_axis::{Axis, Fixture, Forms, Frequency, GainAt, algebraic_frequencies};
 use super::gain_bounds::Neutral;
-use super::trigonometric::Zeros;
+use super::gain_inverse::reciprocal;
+use super::strip::frequency_bound_over;
+use super::trigonometric::{Jet, Zeros};
 use super::windows::Never;
 use crate::stability::Range;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -38,9 +40,24 @@ pub struct GainPoint {
     pub happening: Happening,
     /// By how much the number of roots to the right grows there; `None` where it has to be counted.
     pub change: Option<i64>,
+    /// The reciprocal of the value, where it is at hand.
+    pub(super) inverse: Option<Real>,
 }
 
 impl GainPoint {
+    /// A value beside which the roots have to be counted.
+    pub(super) fn counted(value: Real, happening: Happening) -> GainPoint {
+        GainPoint { value, happening, change: None, inverse: None }
+    }
+
+    /// The same for an algebraic value, with its reciprocal.
+    pub(super) fn algebraic(value: RealAlgebraic, happening: Happening, budget: &Budget) -> Result<GainPoint, Exhausted> {
+        let value = Real::from(value);
+        let is_zero = value.exact().is_some_and(|x| x.is_zero());
+        let inverse = if is_zero { None } else { Some(reciprocal(&value, budget)?) };
+        Ok(GainPoint { value, happening, change: None, inverse })
+    }
+
     /// Takes in what else happens at the same value.
     pub(super) fn join(&mut self, other: GainPoint) {
         self.change = match (self.change, other.change) {
@@ -98,7 +115,7 @@ pub(super) fn crossings_of_gain(
         return Err(NotSolved::Coincidence);
     }
     let mut points = Vec::new();
-    let (content, form) = budget.enter(|| axis.form())?;
+    let Forms { content, finite, other } = budget.enter(|| axis.forms())?;
     let fixed = algebraic_frequencies(&content, budget)?;
     for omega in fixed.iter().cloned() {
         match axis.fixed_frequency(&omega, budget)? {
@@ -108,17 +125,25 @@ pub(super) fn crossings_of_gain(
                 value: Rational::ZERO.into(),
                 happening: Happening::Pair(Real::from(omega)),
                 change: Some(change),
+                inverse: None,
             }),
             Fixture::Zero(_) => {}
             Fixture::Unknown => return Err(NotSolved::Coincidence),
         }
     }
     let axis = Arc::new(axis);
-    let Some(form) = form else { return Ok(Ok((points, Beyond::default()))) };
-    let mut walk = Walk { zeros: Zeros::new(form), axis: &axis, fixed: &fixed, points, budget };
+    let Some(form) = finite else { return Ok(Ok((points, Beyond::default()))) };
+    let other = other.map(Jet::new);
+    let mut walk = Walk { zeros: Zeros::new(form), axis: &axis, fixed: &fixed, other: other.as_ref(), points, budget };
     if let (Some(low), Some(high)) = (&range.lower, &range.upper)
         && let Some(limit) = gain.frequency_bound(&low.abs().max(high.abs()))
     {
+        walk.up_to(&limit)?;
+        let points = within(walk.points, range, &Beyond::default(), budget)?;
+        return Ok(Ok((points, Beyond::default())));
+    }
+    let weights = vec![Rational::ONE; gain.a.len()];
+    if let Some(limit) = frequency_bound_over(&gain.coefficients(), &weights, range, budget)? {
         walk.up_to(&limit)?;
         let points = within(walk.points, range, &Beyond::default(), budget)?;
         return Ok(Ok((points, Beyond::default())));
@@ -204,6 +229,8 @@ struct Walk<'a> {
     axis: &'a Arc<Axis>,
     /// Algebraic frequencies at which `Im(A conj B)` vanishes, too.
     fixed: &'a [RealAlgebraic],
+    /// Vanishes where `A` or `B` does with a factor that is its own mirror image.
+    other: Option<&'a Jet>,
     points: Vec<GainPoint>,
     budget: &'a Budget,
 }
@@ -212,12 +239,12 @@ impl Walk<'_> {
     fn up_to(&mut self, limit: &Rational) -> Result<(), Exhausted> {
         self.budget.step("crossings of the imaginary axis");
         while let Some(zero) = self.zeros.next_below(limit, self.budget)? {
-            let change = self.budget.enter(|| self.axis.change(&zero, self.fixed))?;
+            let change = self.budget.enter(|| self.axis.change(&zero, self.fixed, self.other))?;
             let zero = Arc::new(zero);
             let value = GainAt { axis: Arc::clone(self.axis), zero: Arc::clone(&zero) };
             let value = Real::from(Transcendental::new(value));
             let omega = Real::from(Transcendental::new(Frequency { zero }));
-            self.points.push(GainPoint { value, happening: Happening::Pair(omega), change: Some(change) });
+            self.points.push(GainPoint { value, happening: Happening::Pair(omega), change: Some(change), inverse: None });
         }
         Ok(())
     }

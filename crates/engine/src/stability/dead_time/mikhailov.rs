@@ -1,9 +1,10 @@
 //! How many roots a loop with dead time has to the right of the imaginary axis: the principle of the argument with
 //! certified bounds.
 
-use super::QuasiPolynomial;
+use super::family_function::{exponential, upper_exponential};
 use super::dyadic::{Dyadic, Step};
 use super::turn::{Fixed, turned};
+use super::{Kind, QuasiPolynomial};
 use crate::stability::{Shape, count_roots};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
@@ -57,7 +58,28 @@ pub(super) fn roots_right(
     if !p.is_dominated() {
         return Err(NotCounted::Neutral);
     }
-    Ok(budget.enter(|| Walk::new(p, tau, n).follow(at_zero, budget))??)
+    Ok(budget.enter(|| Walk::new(p, tau, n, &Rational::ZERO).follow(at_zero, budget))??)
+}
+
+/// The same from another line: `z = exp(growth - tau s)`; `None` for infinitely many.
+///
+/// # Errors
+/// [`NotCounted`]; with a growth a root on the line shows as precision that does not suffice.
+pub(super) fn roots_right_of_line(
+    p: &QuasiPolynomial,
+    tau: &Rational,
+    growth: &Rational,
+    budget: &Budget,
+) -> Result<Option<usize>, NotCounted> {
+    if growth.is_zero() || p.delays() == 0 {
+        return roots_right(p, tau, 0, budget).map(Some);
+    }
+    match p.kind() {
+        Kind::Advanced => return Ok(None),
+        Kind::Neutral => return Err(NotCounted::Neutral),
+        Kind::Retarded => {}
+    }
+    Ok(budget.enter(|| Walk::new(p, tau, p.order(), growth).follow(0, budget))??).map(Some)
 }
 
 /// The derivatives by `s`: the parts of `sum P_k z^k` become `P_k' - k tau P_k`, over a power of the denominator of tau.
@@ -102,18 +124,24 @@ struct Walk<'p> {
     n: usize,
     derivatives: Vec<Vec<UniPoly>>,
     scale: u64,
+    /// `z = exp(growth - tau s)`.
+    growth: &'p Rational,
+    /// Upper bounds of `|z^k|` on the axis.
+    weights: Vec<Rational>,
 }
 
 impl<'p> Walk<'p> {
-    fn new(p: &'p QuasiPolynomial, tau: &'p Rational, n: usize) -> Self {
-        Walk { p, tau, n, derivatives: derivatives(p, tau, TERMS), scale: FIRST_SCALE }
+    fn new(p: &'p QuasiPolynomial, tau: &'p Rational, n: usize, growth: &'p Rational) -> Self {
+        let one = if growth.is_zero() { Rational::ONE } else { upper_exponential(growth) };
+        let weights = (0..p.parts().len()).map(|k| one.pow(k as i64).expect("not zero")).collect();
+        Walk { p, tau, n, derivatives: derivatives(p, tau, TERMS), scale: FIRST_SCALE, growth, weights }
     }
 
     fn follow(mut self, at_zero: usize, budget: &Budget) -> Result<usize, Exhausted> {
         budget.step("counting roots along the imaginary axis");
         let top = self.p.difference().coeff(0);
         let bound = self.bound();
-        let (start, order, negative) = self.start(at_zero, &bound);
+        let (start, order, negative) = self.start(at_zero, &bound)?;
         debug_assert_eq!(order, at_zero);
         let first = if negative { 2 } else { 0 };
         let mut direction = first + order as i64;
@@ -160,7 +188,8 @@ impl<'p> Walk<'p> {
                 let absolute = UniPoly::new(p.coeffs().iter().map(Integer::abs).collect());
                 absolute.eval(&r)
             };
-            let all = self.p.parts().iter().fold(Integer::ZERO, |total, part| total + sum(part));
+            let weighted = |(part, weight): (&UniPoly, &Rational)| (Rational::from(&sum(part)) * weight).ceil();
+            let all = self.p.parts().iter().zip(&self.weights).map(weighted).fold(Integer::ZERO, |total, x| total + x);
             let top = self.p.difference().coeff(0).abs() * r.pow(self.n as u64);
             if all < &top + &top {
                 return r;
@@ -171,10 +200,19 @@ impl<'p> Walk<'p> {
 
     /// A point up to which the function stays in a cone about its first power of `s`, that power, and whether its
     /// coefficient is negative.
-    fn start(&self, at_zero: usize, bound: &Integer) -> (Dyadic, usize, bool) {
-        if at_zero == 0 {
+    fn start(&mut self, at_zero: usize, bound: &Integer) -> Result<(Dyadic, usize, bool), Exhausted> {
+        if at_zero == 0 && self.growth.is_zero() {
             let value = self.p.parts().iter().fold(Integer::ZERO, |sum, part| sum + part.coeff(0));
-            return (Dyadic::zero(), 0, value.is_negative());
+            return Ok((Dyadic::zero(), 0, value.is_negative()));
+        }
+        if at_zero == 0 {
+            loop {
+                let value = &self.values(&Dyadic::zero())[0];
+                if value.re.abs() > value.error {
+                    return Ok((Dyadic::zero(), 0, value.re.is_negative()));
+                }
+                self.finer()?;
+            }
         }
         let (order, negative) = zero_at_origin(self.p, self.tau);
         let sets = derivatives(self.p, self.tau, order + 1);
@@ -188,7 +226,7 @@ impl<'p> Walk<'p> {
             if point.rational() <= Rational::from(bound)
                 && slope * point.rational() * Rational::from(3) < Rational::from(&(&first + &first)) * &factor
             {
-                return (point, order, negative);
+                return Ok((point, order, negative));
             }
             e += 1;
         }
@@ -205,11 +243,7 @@ impl<'p> Walk<'p> {
             let largest = if wide > high { &wide } else { &high };
             if thirty_two > *largest {
                 // Too little is known of the value: it may be the function that is small, or the precision.
-                self.scale *= 2;
-                if self.scale > LAST_SCALE {
-                    let reached = "counting roots along the imaginary axis";
-                    return Err(Exhausted::new(format!("precision ({LAST_SCALE} bits)"), reached));
-                }
+                self.finer()?;
                 continue;
             }
             // |f - f(m)| <= |f'| r + |f''| r^2/2 + max |f'''| r^3/6 with r = 2^(power - 1), in units of 2^-scale.
@@ -219,7 +253,7 @@ impl<'p> Walk<'p> {
             let ratio = &half / &over;
             let r2 = &ratio * &ratio;
             let far = middle.rational() + &half;
-            let rest = absolute_at(&self.derivatives[TERMS], &far) * Rational::from(&(&Integer::ONE << self.scale));
+            let rest = weighted_at(&self.derivatives[TERMS], &self.weights, &far) * Rational::from(&(&Integer::ONE << self.scale));
             let moved = Rational::from(&values[1].at_most()) * &ratio
                 + Rational::from(&values[2].at_most()) * &r2 * Rational::dyadic(&Integer::ONE, 1)
                 + rest * r2 * ratio * Rational::new(Integer::ONE, Integer::from(6));
@@ -236,10 +270,23 @@ impl<'p> Walk<'p> {
         }
     }
 
+    /// Twice the bits, while there are any.
+    fn finer(&mut self) -> Result<(), Exhausted> {
+        self.scale *= 2;
+        if self.scale > LAST_SCALE {
+            let reached = "counting roots along the imaginary axis";
+            return Err(Exhausted::new(format!("precision ({LAST_SCALE} bits)"), reached));
+        }
+        Ok(())
+    }
+
     /// The function and its derivatives but the last at `i omega`, in units of `2^-scale`.
     fn values(&self, omega: &Dyadic) -> Vec<Fixed> {
         let scale = self.scale;
-        let z = turned(&(omega.rational() * self.tau), scale + 8);
+        let mut z = turned(&(omega.rational() * self.tau), scale + 8);
+        if !self.growth.is_zero() {
+            z = z.times(&exponential(self.growth, scale + 8), scale + 8);
+        }
         let mut powers = vec![Fixed::one(scale + 8)];
         for _ in 0..self.p.delays() {
             let last = powers.last().expect("there is a first one");
@@ -289,4 +336,13 @@ fn absolute_at(parts: &[UniPoly], omega: &Rational) -> Rational {
         }
     }
     UniPoly::new(sums).eval_rational(omega)
+}
+
+/// The sum of the moduli of all terms at `omega`, where `|z^k|` is at most its weight.
+fn weighted_at(parts: &[UniPoly], weights: &[Rational], omega: &Rational) -> Rational {
+    if weights.iter().all(|w| *w == Rational::ONE) {
+        return absolute_at(parts, omega);
+    }
+    let one = |(part, weight): (&UniPoly, &Rational)| absolute_at(std::slice::from_ref(part), omega) * weight;
+    parts.iter().zip(weights).map(one).fold(Rational::ZERO, |sum, x| sum + x)
 }

@@ -5,12 +5,16 @@
 //! | [`QuasiPolynomial`] | kind, difference operator, common factors |
 //! | `crossing` | where roots can be on the imaginary axis, for any dead time: algebraic numbers |
 //! | [`delay_cells`] | all dead times at which a loop is stable |
+//! | [`family_cells`] | all values of a parameter that enters anywhere, or of the decay rate |
 //! | [`gain_cells`] | all values of a parameter at a fixed dead time |
 //! | [`count_delayed_roots`] | the roots at one rational dead time, by a certified count of the argument's turns |
 
 mod count;
 mod crossing;
 mod dyadic;
+mod family;
+mod family_function;
+mod family_zeros;
 mod gain;
 mod gain_axis;
 mod gain_bounds;
@@ -19,8 +23,11 @@ mod gain_points;
 mod mikhailov;
 mod over_root;
 mod quasi_polynomial;
+mod strip;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_family;
 #[cfg(test)]
 mod tests_gain;
 mod trigonometric;
@@ -29,6 +36,8 @@ mod windows;
 
 pub use count::{DelayCount, count_delayed_roots};
 pub use crossing::Crossing;
+pub use family::{FamilyLoop, family_cells};
+pub use family_function::Line;
 pub use gain::{GainCells, GainLoop, NotSolved, gain_cells};
 pub use gain_points::{GainPoint, Happening};
 pub use mikhailov::NotCounted;

@@ -91,12 +91,12 @@ fn value(p: &UniPoly, w: &Dyadic, scale: u64) -> Fixed {
 
 /// A form and its first derivatives; the last one only bounds the remainder.
 #[derive(Clone, Debug)]
-struct Jet {
+pub(super) struct Jet {
     forms: [Form; 4],
 }
 
 impl Jet {
-    fn new(form: Form) -> Jet {
+    pub fn new(form: Form) -> Jet {
         let first = form.derivative();
         let second = first.derivative();
         let third = second.derivative();
@@ -115,6 +115,39 @@ impl Jet {
                 if p.is_zero() { sum } else { sum.plus(&value(p, w, scale).times(b, guarded)) }
             })
         })
+    }
+
+    /// Whether the form is proved to have no zero in an interval.
+    pub fn stays_away(&self, lo: &Rational, hi: &Rational) -> bool {
+        let half = hi - lo;
+        if half.is_zero() {
+            return false;
+        }
+        matches!(self.look(&Dyadic::within(lo, hi), &half), Seen::Nothing)
+    }
+
+    /// What the derivatives at a point tell of the interval within a distance from it.
+    fn look(&self, middle: &Dyadic, half: &Rational) -> Seen {
+        let mut scale = 64;
+        while Rational::dyadic(&Integer::ONE, (scale - 64) / 2) > *half {
+            scale += 32;
+        }
+        let [zeroth, first, second] = self.values(middle, scale);
+        let ratio = half / &Rational::from(&self.forms[0].rate.denominator());
+        let rest = self.forms[3].absolute_at(&(middle.rational() + half))
+            * Rational::from(&(&Integer::ONE << scale))
+            * &ratio
+            * &ratio;
+        let at_most = |x: &Fixed| Rational::from(&(x.re.abs() + &x.error));
+        let at_least = |x: &Fixed| Rational::from(&(x.re.abs() - &x.error));
+        let two = Rational::from(2);
+        let curved = at_most(&second) * &ratio;
+        // |f(m + h) - f(m)| <= |f'| r + |f''| r^2/2 + max |f'''| r^3/6.
+        let moved = (at_most(&first) + &curved / &two + &rest / &Rational::from(6)) * &ratio;
+        if at_least(&zeroth) > moved {
+            return Seen::Nothing;
+        }
+        if at_least(&first) > curved + rest / two { Seen::Monotone } else { Seen::TooMuch }
     }
 
     /// The sign at a point where the form does not vanish.
@@ -194,25 +227,7 @@ impl Zeros {
     }
 
     fn look(&self) -> Seen {
-        let middle = self.at.plus(self.step, 1);
-        let half = self.step.half();
-        let scale = 64 + 2 * (-self.step.0).max(0) as u64;
-        let [zeroth, first, second] = self.jet.values(&middle, scale);
-        let ratio = &half / &Rational::from(&self.jet.forms[0].rate.denominator());
-        let rest = self.jet.forms[3].absolute_at(&(middle.rational() + &half))
-            * Rational::from(&(&Integer::ONE << scale))
-            * &ratio
-            * &ratio;
-        let at_most = |x: &Fixed| Rational::from(&(x.re.abs() + &x.error));
-        let at_least = |x: &Fixed| Rational::from(&(x.re.abs() - &x.error));
-        let two = Rational::from(2);
-        let curved = at_most(&second) * &ratio;
-        // |f(m + h) - f(m)| <= |f'| r + |f''| r^2/2 + max |f'''| r^3/6.
-        let moved = (at_most(&first) + &curved / &two + &rest / &Rational::from(6)) * &ratio;
-        if at_least(&zeroth) > moved {
-            return Seen::Nothing;
-        }
-        if at_least(&first) > curved + rest / two { Seen::Monotone } else { Seen::TooMuch }
+        self.jet.look(&self.at.plus(self.step, 1), &self.step.half())
     }
 }
 
