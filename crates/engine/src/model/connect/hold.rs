@@ -43,12 +43,12 @@ pub(in crate::model) fn held(
     positive(&time, &delay, hold)?;
     let Some(symbols) = symbols else { return Ok(stand_in(s, hold, &delay)) };
     let mut symbols = symbols.borrow_mut();
-    let (samples, fraction) = samples(&delay, &time, hold, block)?;
+    let (samples, fraction) = samples(&delay, &time, hold, block, &mut symbols)?;
     let zeros = if hold.is_first_order { 2 } else { 1 };
     let modes = Modes::of(&s.a, zeros, budget)?;
     let mut respond =
-        |share: &Rational| response(&s, &modes, &(&time * &share.clone().into()), hold, &time, &mut symbols, budget);
-    let one = Rational::ONE;
+        |share: &RationalFunction| response(&s, &modes, &(&time * share), hold, &time, &mut symbols, budget);
+    let one = RationalFunction::one();
     let (n, inputs) = (s.a.rows(), block.inputs.len());
     let none = || RationalMatrix::zeros(n, inputs);
     // x+ = phi x + early u[k-m-1] + now u[k-m] + late u[k-m+1]
@@ -57,7 +57,7 @@ pub(in crate::model) fn held(
         (r.state, none(), &r.input - &r.slope, r.slope)
     } else {
         let (first, second) = (respond(&fraction)?, respond(&(&one - &fraction))?);
-        let share = |m: &RationalMatrix, c: &Rational| m.scaled(&c.clone().into());
+        let share = |m: &RationalMatrix, c: &RationalFunction| m.scaled(c);
         let phi = product(&second.state, &first.state);
         if hold.is_first_order {
             let early = product(&second.state, &(&share(&first.input, &fraction) - &first.slope));
@@ -69,15 +69,15 @@ pub(in crate::model) fn held(
     };
     // What passes on at once: the input at the sample.
     let (early_direct, now_direct) = match (fraction.is_zero(), hold.is_first_order) {
-        (true, _) => (Rational::ZERO, Rational::ONE),
-        (false, false) => (Rational::ONE, Rational::ZERO),
+        (true, _) => (RationalFunction::zero(), one.clone()),
+        (false, false) => (one.clone(), RationalFunction::zero()),
         (false, true) => (fraction.clone(), &one - &fraction),
     };
     let parts = Parts {
         phi,
         c: s.c,
         // By age of the input: -1 is the next sample.
-        by_age: [(-1, late, Rational::ZERO), (0, now, now_direct), (1, early, early_direct)],
+        by_age: [(-1, late, RationalFunction::zero()), (0, now, now_direct), (1, early, early_direct)],
         direct: s.d,
         samples: samples as i64,
         past: samples + usize::from(!fraction.is_zero()),
@@ -111,23 +111,32 @@ fn stand_in(s: System, hold: &Hold, delay: &RationalFunction) -> System {
     System { d, ..s }
 }
 
-/// Whole samples and the fraction of one in the dead time.
+/// Whole samples and the fraction of one in the dead time. Where that varies against the sample time, the whole samples are
+/// those near the values that the symbols know of.
 fn samples(
     delay: &RationalFunction,
     time: &RationalFunction,
     hold: &Hold,
     block: &BlockValues,
-) -> Result<(usize, Rational), Stop> {
+    symbols: &mut Symbols,
+) -> Result<(usize, RationalFunction), Stop> {
     let name = shorten(&block.name);
-    let ratio = delay.checked_div(time).and_then(|r| r.as_constant());
-    let Some(ratio) = ratio else {
+    let ratio = delay.checked_div(time);
+    let near = ratio.as_ref().and_then(|ratio| match ratio.as_constant() {
+        Some(ratio) => Some(ratio),
+        None => symbols.near_value(ratio),
+    });
+    let (Some(ratio), Some(near)) = (ratio, near) else {
         let message = format!("the dead time of '{name}' is no fixed number of samples");
         let error = refused("E-function", message, hold.span, "the dead time varies against the sample time");
         let help = "give it as a multiple of the sample time (delay = \"1.5*T\"), or set all that it depends on";
         return Err(Stop::Refused(Box::new(error.help(help))));
     };
-    let whole = ratio.floor();
-    let fraction = &ratio - &Rational::from(whole.clone());
+    if ratio.as_constant().is_none() {
+        symbols.note_samples(&ratio);
+    }
+    let whole = near.floor();
+    let fraction = &ratio - &RationalFunction::from(Rational::from(whole.clone()));
     match whole.to_i64().and_then(|m| usize::try_from(m).ok()).filter(|&m| m < MAX_ORDER) {
         Some(samples) => Ok((samples, fraction)),
         None => {
@@ -176,7 +185,7 @@ struct Parts {
     phi: RationalMatrix,
     c: RationalMatrix,
     /// For the age of an input against whole samples of delay: how it enters the next state, and what passes on at once.
-    by_age: [(i64, RationalMatrix, Rational); 3],
+    by_age: [(i64, RationalMatrix, RationalFunction); 3],
     direct: RationalMatrix,
     samples: i64,
     /// How many past inputs are states.
@@ -204,7 +213,7 @@ impl Parts {
         put(&mut a, 0, 0, &self.phi);
         put(&mut c, 0, 0, &self.c);
         for (age, enters, share) in &self.by_age {
-            let direct = self.direct.scaled(&share.clone().into());
+            let direct = self.direct.scaled(share);
             match self.samples + age {
                 // The next sample is not there yet: the state is x minus its part, which comes later.
                 -1 => {

@@ -1,12 +1,13 @@
 //! The document `jurist/intervals/1`.
 
-use super::number::{Enclosure, enclosure};
+use super::number::Exact;
 use super::schema_name;
 use super::{Answered, Bounds, End, ParameterQuestion, RequirementAsked};
 use crate::answer::Answer;
 use crate::problem::Problem;
 use crate::stability::{StableSet, UndecidedBracket};
 use jurist_algebra::limits::Exhausted;
+use jurist_algebra::number::Rational;
 use serde::{Deserialize, Serialize};
 
 schema_name!(IntervalsName, "jurist/intervals/1");
@@ -43,8 +44,8 @@ pub struct Stable {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct UndecidedEnclosure {
-    /// Its ends.
-    pub enclosure: Enclosure,
+    /// Its ends; null where there is none.
+    pub enclosure: [Option<Exact>; 2],
     /// What could not be told.
     pub why: String,
 }
@@ -84,7 +85,8 @@ impl Intervals {
 
 impl From<&UndecidedBracket> for UndecidedEnclosure {
     fn from(bracket: &UndecidedBracket) -> Self {
-        UndecidedEnclosure { enclosure: enclosure(&bracket.lower, &bracket.upper), why: bracket.why.clone() }
+        let end = |x: &Option<Rational>| x.as_ref().map(Exact::from);
+        UndecidedEnclosure { enclosure: [end(&bracket.lower), end(&bracket.upper)], why: bracket.why.clone() }
     }
 }
 
