@@ -7,7 +7,6 @@ mod helpers;
 mod laws {
     mod cancelled;
     mod dead_time;
-    mod dead_time_margins;
     mod fast_algebra;
     mod fast_isolation;
     mod fuzz_corpus;
@@ -35,6 +34,7 @@ mod models {
 mod loops {
     mod corridor;
     mod dead_time;
+    mod dead_time_margins;
     mod drive;
     mod examples;
     mod held_margins;

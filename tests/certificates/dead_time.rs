@@ -7,6 +7,7 @@ use crate::helpers::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};
+use jurist_engine::stability::Range;
 use std::time::Duration;
 
 const LIMITS: Limits = Limits::within(Duration::MAX);
@@ -44,8 +45,8 @@ fn stable_dead_times_are_certified() {
         assert!(certificate.contains("jurist/certificate/3"), "{function}");
         accept(&model, &certificate);
         for (lower, upper) in [("0", "1"), ("1/3", "20"), ("3", "7")] {
-            let domain = number(lower)..number(upper);
-            let answer = read(&model).ask().free("tau").within("tau", domain).stable_set(&Budget::unlimited());
+            let domain = Range::between(Some(number(lower)), Some(number(upper)));
+            let answer = read(&model).ask().free("tau").domain("tau", domain).stable_set(&Budget::unlimited());
             let certificate = answer.and_then(|answer| answer.certificate(&Budget::unlimited())).expect(function);
             accept(&model, &certificate);
         }

@@ -8,6 +8,7 @@ use crate::helpers::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};
+use jurist_engine::stability::Range;
 use std::time::Duration;
 
 const LIMITS: Limits = Limits::within(Duration::MAX);
@@ -94,7 +95,8 @@ fn what_no_checker_knows_gets_no_certificate() {
         [("drive-hold", "T"), ("lcl-inverter", "Lg"), ("dc-servo", "T_m"), ("anti-alias-filter", "w_f")]
     {
         let model = read(&example(name));
-        let domain = |p| model.ask().free(p).within(p, number("1/1000")..number("1/500"));
+        let times = || Range::between(Some(number("1/1000")), Some(number("1/500")));
+        let domain = |p: &str| model.ask().free(p).domain(p, times());
         let Ok(answer) = domain(parameter).stable_set(&Budget::unlimited()) else { continue };
         let refused = answer.certificate(&Budget::unlimited()).expect_err(name).to_string();
         assert!(refused.contains("no certificate"), "{name}: {refused}");

@@ -34,8 +34,13 @@ fn a_positioner_with_dead_time_has_these_margins_to_thirty_digits() {
     assert_eq!(margins.modulus.decimal(30), "0.315539627788758622195987663893");
     assert_eq!(margins.disk.alpha.as_ref().unwrap().decimal(30), "0.354717659386133510841458403888");
     // The first factors of the crossings of the negative real axis, each from its own branch.
-    let factors: Vec<String> =
-        answer.value().crossings.phase.iter().map(|c| real::enclosed(12, |bits| Some(c.factor.enclosure(bits))).unwrap()).collect();
+    let factors: Vec<String> = answer
+        .value()
+        .crossings
+        .phase
+        .iter()
+        .map(|c| real::enclosed(12, |bits| Some(c.factor.enclosure(bits))).unwrap())
+        .collect();
     assert_eq!(factors[..2], ["1.81320582644", "113.460272107"]);
 }
 

@@ -4,10 +4,12 @@
 //! unit in its last place at either end. Where an end cannot be known well enough, the whole computation is done again with
 //! more bits.
 
+mod bezout;
 mod exponential;
 mod functions;
 mod series;
 
+pub use bezout::{Enclosed, common_root, determinant_enclosed, enclosed_resultant, hybrid_bezout};
 pub use exponential::{BallMatrix, exponential, exponential_of_rationals};
 pub use functions::{cos_sin, exp, tan};
 pub use series::{Series, exponential_of_series, fundamental_solutions};

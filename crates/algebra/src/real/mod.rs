@@ -118,6 +118,14 @@ impl Real {
         self.refined(&square.min(&width * &half))
     }
 
+    /// One over the number, which must not be 0; known by enclosures unless it is rational.
+    pub fn recip(&self) -> Real {
+        match self.exact() {
+            Some(x) => Real::from(x.recip().expect("the number is not zero")),
+            None => Real::from(Transcendental::new(transcendental::Reciprocal(self.clone()))),
+        }
+    }
+
     /// The sign.
     pub fn sign(&self) -> Sign {
         self.compare_rational(&Rational::ZERO)
@@ -299,6 +307,12 @@ mod tests {
         assert!(ln(2).compare_rational(&parse_number("0.69314718055994530941723212146").unwrap()).is_lt());
         let (lo, hi) = ln(3).refined(&parse_number("1e-50").unwrap()).enclosure();
         assert!(lo < hi && hi - lo <= parse_number("1e-50").unwrap());
+    }
+
+    #[test]
+    fn reciprocals_are_enclosed() {
+        assert_eq!(ln(2).recip().decimal(30), "1.44269504088896340735992468100");
+        assert_eq!(Real::from(Rational::from(-4)).recip().exact(), Some(parse_number("-0.25").unwrap()));
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Real numbers that are known by what encloses them.
 
+use super::Real;
 use crate::limits::checkpoint;
 use crate::number::{Enclosure, Integer, Rational};
 use crate::poly::RealAlgebraic;
@@ -58,6 +59,35 @@ pub enum Origin {
 pub struct Transcendental {
     source: Arc<dyn Enclosing>,
     place: OnceLock<Enclosure>,
+}
+
+/// One over a number other than 0.
+#[derive(Debug)]
+pub(super) struct Reciprocal(pub Real);
+
+impl Enclosing for Reciprocal {
+    fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
+        let target = Rational::dyadic(&Integer::ONE, bits);
+        let mut x = self.0.clone();
+        loop {
+            checkpoint(bits);
+            let (lo, hi) = x.enclosure();
+            if lo.sign() == hi.sign()
+                && let (Some(above), Some(below)) = (lo.recip(), hi.recip())
+                && &above - &below <= target
+            {
+                return Enclosure::new(below, above);
+            }
+            x = x.refined_further();
+        }
+    }
+
+    fn origin(&self) -> Origin {
+        match &self.0 {
+            Real::Transcendental(x) => x.origin(),
+            Real::Algebraic(_) => Origin::Function { function: "reciprocal".to_owned(), details: Vec::new() },
+        }
+    }
 }
 
 /// Bits of the first enclosure.

@@ -6,7 +6,7 @@ use crate::number::{Integer, Rational};
 use crate::poly::{MultiPoly, RationalFunction};
 
 /// Bits of the bounds.
-const BITS: u64 = 128;
+pub(super) const BITS: u64 = 128;
 
 /// The pieces into which a time is divided at least.
 const PIECES: u64 = 64;
@@ -51,7 +51,7 @@ impl MovingSymbols {
 }
 
 /// `a` and `b` of `a T + b`.
-fn linear(f: &RationalFunction) -> Option<(Rational, Rational)> {
+pub(super) fn linear(f: &RationalFunction) -> Option<(Rational, Rational)> {
     let scale = Rational::from(&f.denominator().as_constant()?).recip()?;
     let p = f.numerator().to_univariate(0)?;
     (p.degree() <= Some(1)).then(|| (&Rational::from(&p.coeff(1)) * &scale, &Rational::from(&p.coeff(0)) * &scale))
@@ -84,9 +84,14 @@ fn bound(definition: &Definition, start: &Rational) -> Option<Ball> {
 }
 
 /// A bound of the entries of `exp(companion t)` for all `t` from a time on, where its norm has become less than 1/2.
-///
-/// With `q` the norm at that time and `M` the greatest norm before it, the norm at `j` times it and more is at most `q^j M`.
 fn dies_away(coefficients: &[Rational], time: &Rational) -> Option<Ball> {
+    let (q, within) = decay(coefficients, time)?;
+    (q.upper() < Rational::dyadic(&Integer::ONE, 1)).then(|| Ball::from_rational(&q.mul(&within).upper(), BITS))
+}
+
+/// The norm `q` of `exp(companion t)` at a time and the greatest norm `M` before it, as upper bounds: the norm from `j` times
+/// that time on to the next multiple is at most `q^j M`.
+pub(super) fn decay(coefficients: &[Rational], time: &Rational) -> Option<(Ball, Ball)> {
     let n = coefficients.len();
     let at = |t: &Ball| {
         exponential(&BallMatrix::from_fn(n, |i, j| {
@@ -129,9 +134,5 @@ fn dies_away(coefficients: &[Rational], time: &Rational) -> Option<Ball> {
             return None;
         }
     }
-    let q = norm(&whole);
-    if q.upper() >= Rational::dyadic(&Integer::ONE, 1) {
-        return None;
-    }
-    Some(Ball::from_rational(&q.mul(&within).upper(), BITS))
+    Some((norm(&whole), within))
 }

@@ -10,6 +10,8 @@
 
 mod beyond;
 mod definition;
+mod dominated;
+mod function;
 mod moving;
 mod normal_form;
 mod rational_series;
@@ -19,9 +21,11 @@ mod sign;
 mod specialise;
 
 pub use definition::Definition;
+pub use function::{Function, common_scale};
 pub use moving::{MovingSymbols, Zeros};
-pub use roots::{SymbolicPoly, common_factor, merged};
-pub use specialise::{are_coprime_in, is_square_free_in};
+pub use root::EnclosedPoly;
+pub use roots::{SymbolicPoly, common_factor, enclosed_roots, merged};
+pub use specialise::{are_coprime_in, is_square_free_in, resultants_seem_simple_in};
 
 use crate::ball::{Ball, BallMatrix, exp, exponential, exponential_of_rationals};
 use crate::matrix::Matrix;

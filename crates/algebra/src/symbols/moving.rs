@@ -1,11 +1,14 @@
 //! Symbols that depend on a parameter, such as `exp(-2*T)` in `T`, and the zeros of polynomials in the parameter and in them.
 
-use super::{Definition, Symbols};
+use super::function::polynomial_at;
+use super::{Definition, Function, Symbols};
 use crate::ball::{Ball, Series, fundamental_solutions};
 use crate::limits::{Budget, Exhausted, checkpoint};
 use crate::number::{Enclosure, Integer, Rational, Sign};
+use crate::poly::algebraic::simplest_between;
 use crate::poly::{MultiPoly, RationalFunction};
 use crate::real::{Enclosing, Origin, Real, Transcendental};
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// A table of symbols whose arguments are rational functions of a parameter (variable 0) and of earlier symbols (symbol `i` is
@@ -22,7 +25,7 @@ use std::sync::Arc;
 /// let symbols = Arc::new(MovingSymbols::new(vec![("X".into(), Definition::Exponential(minus))]));
 /// let p = MultiPoly::variable(1).minus(&MultiPoly::variable(0));
 /// let (zero, one) = (Rational::ZERO, Rational::ONE);
-/// let found = symbols.zeros_in(&p, &zero, &one, &Budget::unlimited()).unwrap();
+/// let found = symbols.zeros_in(&p.into(), &zero, &one, &Budget::unlimited()).unwrap();
 /// assert_eq!(found.zeros[0].decimal(20), "0.56714329040978387300");
 /// assert!(found.zeros.len() == 1 && found.undecided.is_empty());
 /// ```
@@ -50,6 +53,15 @@ const FIRST_BITS: u64 = 192;
 /// The orders of a zero at the lower end that are looked for.
 const MOST_ORDER: usize = 32;
 
+/// After so many intervals what is left stays undecided.
+const MOST_LOOKS: usize = 1200;
+
+/// How often the bits are doubled for one interval.
+const MOST_DOUBLINGS: usize = 4;
+
+/// Zeros that are fractions with fewer bits are recognised as such.
+const SHORT_BITS: u64 = 40;
+
 /// An interval this much shorter than the first one is given up.
 const MOST_HALVINGS: usize = 56;
 
@@ -66,6 +78,15 @@ impl MovingSymbols {
     /// Whether a symbol is an exponential, which is never zero.
     pub fn is_exponential(&self, i: usize) -> bool {
         matches!(self.table[i].1, Definition::Exponential(_))
+    }
+
+    /// The table in the reciprocal of the parameter; `None` where an argument divides by zero for every value.
+    pub fn inverted(&self) -> Option<MovingSymbols> {
+        let one_over = RationalFunction::variable(0).recip()?;
+        let images: Vec<RationalFunction> =
+            std::iter::once(one_over).chain((1..=self.table.len()).map(RationalFunction::variable)).collect();
+        let table = self.table.iter().map(|(name, d)| Some((name.clone(), d.try_map(|f| f.compose(&images))?)));
+        Some(MovingSymbols { table: table.collect::<Option<_>>()? })
     }
 
     /// The symbols where the parameter has a value; `None` where an argument divides by zero.
@@ -119,21 +140,28 @@ impl MovingSymbols {
         Some(values)
     }
 
-    /// The value of a polynomial in the parameter and symbols, the parameter anywhere in a ball.
-    pub fn enclose(&self, p: &MultiPoly, parameter: &Ball) -> Option<Ball> {
+    /// The values of polynomials in the parameter and symbols, the parameter anywhere in a ball; `None` where a divisor may
+    /// vanish.
+    pub fn enclose(&self, list: &[MultiPoly], parameter: &Ball) -> Option<Vec<Ball>> {
         let values = self.series(&Series::constant(parameter, 1))?;
-        Some(polynomial_at(p, &values).coefficients()[0].clone())
+        Some(list.iter().map(|p| polynomial_at(p, &values).coefficients()[0].clone()).collect())
+    }
+
+    /// The value of a function, the parameter anywhere in a ball.
+    fn value(&self, f: &Function, parameter: &Ball) -> Option<Ball> {
+        let values = self.series(&Series::constant(parameter, 1))?;
+        Some(f.at_series(&values).coefficients()[0].clone())
     }
 
     /// The Taylor polynomial of `f(m + r x)` for `|x| <= 1` around the middle of an interval, the last coefficient a bound
     /// of the rest: that of the power `terms`.
-    fn taylor(&self, f: &MultiPoly, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> Option<Vec<Ball>> {
+    fn taylor(&self, f: &Function, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> Option<Vec<Ball>> {
         let half = Rational::dyadic(&Integer::ONE, 1);
         let radius = Ball::from_rational(&(&(hi - lo) * &half), bits);
         let middle = Ball::from_rational(&lo.midpoint(hi), bits);
         let whole = Ball::between(lo, hi, bits);
         let series = |at: &Ball, terms| {
-            Some(polynomial_at(f, &self.series(&Series::linear(at, &radius, terms))?).coefficients().to_vec())
+            Some(f.at_series(&self.series(&Series::linear(at, &radius, terms))?).coefficients().to_vec())
         };
         let mut out = series(&middle, terms)?;
         out.push(series(&whole, terms + 1)?.pop()?);
@@ -153,7 +181,7 @@ impl MovingSymbols {
     /// [`Exhausted`] when the budget runs out.
     pub fn zeros_in(
         self: &Arc<Self>,
-        f: &MultiPoly,
+        f: &Function,
         lower: &Rational,
         upper: &Rational,
         budget: &Budget,
@@ -176,61 +204,79 @@ impl MovingSymbols {
             end = upper - &((upper - lower) * Rational::dyadic(&Integer::ONE, 40));
             found.undecided.push((end.clone(), upper.clone()));
         }
-        let mut todo = vec![(start, end, MOST_HALVINGS)];
-        while let Some((lo, hi, left)) = todo.pop() {
+        // The longest intervals first, so that a place where zeros crowd leaves the others decided.
+        let mut todo = VecDeque::from([(start, end, MOST_HALVINGS)]);
+        let mut looks = 0;
+        while let Some((lo, hi, left)) = todo.pop_front() {
             budget.check()?;
+            looks += 1;
             match budget.enter(|| self.look(f, &lo, &hi))? {
                 Look::None => {}
                 Look::One => brackets.push((lo, hi)),
-                Look::Unknown if left == 0 => found.undecided.push((lo, hi)),
+                Look::Unknown if left == 0 || looks > MOST_LOOKS => found.undecided.push((lo, hi)),
                 Look::Unknown => {
                     let middle = budget.enter(|| self.split_point(f, &lo, &hi))?;
-                    todo.push((middle.clone(), hi, left - 1));
-                    todo.push((lo, middle, left - 1));
+                    todo.push_back((lo, middle.clone(), left - 1));
+                    todo.push_back((middle, hi, left - 1));
                 }
             }
         }
+        brackets.sort();
         found.undecided.sort();
         found.undecided = joined(found.undecided);
         let shared = Arc::new(f.clone());
-        found.zeros = brackets
-            .into_iter()
-            .map(|(lo, hi)| {
-                let place = Enclosure::new(lo, hi);
-                let root =
-                    MovingRoot { symbols: Arc::clone(self), function: Arc::clone(&shared), place: place.clone() };
-                Real::from(Transcendental::within(root, place))
-            })
-            .collect();
+        for (lo, hi) in brackets {
+            let place = Enclosure::new(lo, hi);
+            let root = MovingRoot { symbols: Arc::clone(self), function: Arc::clone(&shared), place: place.clone() };
+            found.zeros.push(self.known(root, f, budget)?);
+        }
         Ok(found)
     }
 
-    /// Whether the function is zero at a rational value of the parameter.
-    ///
-    /// # Errors
-    /// As [`Symbols::sign`].
-    pub fn vanishes_at(&self, f: &MultiPoly, value: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
-        let Some(symbols) = self.at(value) else { return Ok(false) };
-        let at = f.substitute(0, value).0.map_variables(|i| i.saturating_sub(1));
-        symbols.is_zero(&at, budget)
+    /// The zero as a number: a rational one where it is a short fraction.
+    fn known(&self, root: MovingRoot, f: &Function, budget: &Budget) -> Result<Real, Exhausted> {
+        let width = root.place.upper() - root.place.lower();
+        let bits = SHORT_BITS + 8 + width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
+        let place = budget.enter(|| root.enclose(bits, None))?;
+        if let Some(short) = simplest_between(place.lower(), place.upper())
+            && short.numerator().bit_length() + short.denominator().bit_length() < SHORT_BITS
+            && self.vanishes_at(f, &short, budget)?
+        {
+            return Ok(Real::from(short));
+        }
+        Ok(Real::from(Transcendental::within(root, place)))
     }
 
-    fn sign_at(&self, f: &MultiPoly, at: &Rational, bits: u64) -> Option<Sign> {
-        self.enclose(f, &Ball::from_rational(at, bits))?.sign().filter(|s| s.is_ne())
+    fn sign_at(&self, f: &Function, at: &Rational, bits: u64) -> Option<Sign> {
+        self.value(f, &Ball::from_rational(at, bits))?.sign().filter(|s| s.is_ne())
     }
 
     /// A number about in the middle at which the function is certainly not zero.
-    fn split_point(&self, f: &MultiPoly, lo: &Rational, hi: &Rational) -> Rational {
+    fn split_point(&self, f: &Function, lo: &Rational, hi: &Rational) -> Rational {
         let at = |n: i64| lo + &(&(hi - lo) * &Rational::new(Integer::from(n), Integer::from(64)));
         [32, 31, 33, 29, 35].into_iter().map(at).find(|x| self.sign_at(f, x, FIRST_BITS).is_some()).unwrap_or(at(32))
     }
 
-    fn look(&self, f: &MultiPoly, lo: &Rational, hi: &Rational) -> Look {
+    fn look(&self, f: &Function, lo: &Rational, hi: &Rational) -> Look {
         // Twice the bits that the interval's width takes away.
         let width = hi - lo;
         let small = width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
-        let bits = FIRST_BITS + small * 4;
-        let Some(taylor) = self.taylor(f, lo, hi, TERMS, bits) else { return Look::Unknown };
+        let mut bits = FIRST_BITS + small * 4;
+        for _ in 0..MOST_DOUBLINGS {
+            let Some(taylor) = self.taylor(f, lo, hi, TERMS, bits) else { return Look::Unknown };
+            let found = self.judged(f, lo, hi, &taylor, bits);
+            // Whether more bits would tell more than a shorter interval.
+            let noise = taylor[..2].iter().map(Ball::width_units).max().unwrap_or(Integer::ZERO);
+            if !matches!(found, Look::Unknown) || noise < taylor[TERMS].magnitude_units() {
+                return found;
+            }
+            bits *= 2;
+        }
+        Look::Unknown
+    }
+
+    /// What a Taylor polynomial with a bound of its rest says.
+    fn judged(&self, f: &Function, lo: &Rational, hi: &Rational, taylor: &[Ball], bits: u64) -> Look {
         let tail = |from: usize, weight: fn(usize) -> u64| {
             let terms = taylor.iter().enumerate().skip(from);
             terms.fold(Integer::ZERO, |sum, (k, c)| sum + c.magnitude_units() * Integer::from(weight(k)))
@@ -250,7 +296,7 @@ impl MovingSymbols {
     }
 
     /// A number above `lower`, at which the function is zero, up to which it has no other zero.
-    fn clear_above(&self, f: &MultiPoly, lower: &Rational, upper: &Rational) -> Option<Rational> {
+    fn clear_above(&self, f: &Function, lower: &Rational, upper: &Rational) -> Option<Rational> {
         let order = self.order_at(f, lower)?;
         // f = (T - lower)^order (a + ...): the later coefficients on a short interval are less than the first one.
         let mut step = (upper - lower) * Rational::dyadic(&Integer::ONE, 3);
@@ -260,7 +306,7 @@ impl MovingSymbols {
             let terms = order + TERMS;
             let radius = Ball::from_rational(&step, bits);
             let series = |at: &Ball, terms| {
-                Some(polynomial_at(f, &self.series(&Series::linear(at, &radius, terms))?).coefficients().to_vec())
+                Some(f.at_series(&self.series(&Series::linear(at, &radius, terms))?).coefficients().to_vec())
             };
             let point = series(&Ball::from_rational(lower, bits), terms);
             let whole = series(&Ball::between(lower, &(lower + &step), bits), terms + 1);
@@ -278,11 +324,11 @@ impl MovingSymbols {
 
     /// The order of the zero at a rational number, where the series there is rational: then that of its first coefficient that
     /// is not zero.
-    fn order_at(&self, f: &MultiPoly, at: &Rational) -> Option<usize> {
+    fn order_at(&self, f: &Function, at: &Rational) -> Option<usize> {
         let mut terms = 4;
         while terms <= MOST_ORDER {
             let values = super::rational_series::values(&self.table, at, terms)?;
-            let series = super::rational_series::polynomial_at(f, &values);
+            let series = f.at_rational_series(&values);
             if let Some(order) = series.iter().position(|c| !c.is_zero()) {
                 return Some(order);
             }
@@ -312,38 +358,11 @@ fn joined(intervals: Vec<(Rational, Rational)>) -> Vec<(Rational, Rational)> {
     out
 }
 
-/// A polynomial at series.
-fn polynomial_at(p: &MultiPoly, values: &[Series]) -> Series {
-    let first = &values[0];
-    let (terms, bits) = (first.terms(), first.coefficients()[0].bits());
-    // Horner's scheme in the variables, the last one outermost: as few products as the shape of the polynomial allows.
-    fn horner(p: &MultiPoly, values: &[Series], zero: &Series) -> Series {
-        checkpoint(16);
-        if let Some(c) = p.as_constant() {
-            let one = Ball::from_integer(&c, zero.coefficients()[0].bits());
-            return Series::constant(&one, zero.terms());
-        }
-        let last = *p.variables().last().expect("not constant");
-        let parts = p.as_poly_in(last);
-        let mut sum: Option<Series> = None;
-        for part in parts.coeffs().iter().rev() {
-            let shifted = sum.map(|s| s.mul(&values[last]));
-            sum = Some(match (shifted, part.terms().is_empty()) {
-                (Some(s), true) => s,
-                (Some(s), false) => s.add(&horner(part, values, zero)),
-                (None, _) => horner(part, values, zero),
-            });
-        }
-        sum.unwrap_or_else(|| zero.clone())
-    }
-    horner(p, values, &Series::constant(&Ball::zero(bits), terms))
-}
-
 /// The only zero of a function in an interval on which it is monotone.
 #[derive(Debug)]
 struct MovingRoot {
     symbols: Arc<MovingSymbols>,
-    function: Arc<MultiPoly>,
+    function: Arc<Function>,
     place: Enclosure,
 }
 
@@ -362,10 +381,10 @@ impl Enclosing for MovingRoot {
             let middle = Ball::from_rational(&lo.midpoint(&hi), working).lower();
             let point = Ball::from_rational(&middle, working);
             let whole = Ball::between(&lo, &hi, working);
-            let at_middle = self.symbols.enclose(&self.function, &point);
+            let at_middle = self.symbols.value(&self.function, &point);
             let one = Ball::from_integer(&Integer::ONE, working);
             let slope = self.symbols.series(&Series::linear(&whole, &one, 2));
-            let slope = slope.map(|values| polynomial_at(&self.function, &values).coefficients()[1].clone());
+            let slope = slope.map(|values| self.function.at_series(&values).coefficients()[1].clone());
             if let (Some(at_middle), Some(slope)) = (&at_middle, slope)
                 && let Some(newton) = at_middle.div(&slope).and_then(|step| point.sub(&step).intersection(&whole))
                 && (newton.upper() - newton.lower()) <= &width * &half
@@ -390,7 +409,7 @@ impl Enclosing for MovingRoot {
     fn origin(&self) -> Origin {
         let names: Vec<String> =
             std::iter::once("p".to_owned()).chain(self.symbols.table.iter().map(|(n, _)| n.clone())).collect();
-        Origin::Function { function: self.function.display(&names).to_string(), details: Vec::new() }
+        Origin::Function { function: self.function.display(&names), details: Vec::new() }
     }
 }
 

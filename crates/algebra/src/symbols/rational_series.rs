@@ -13,7 +13,7 @@ fn constant(c: Rational, terms: usize) -> Series {
     out
 }
 
-fn product(a: &Series, b: &Series) -> Series {
+pub(super) fn product(a: &Series, b: &Series) -> Series {
     let coefficient = |k: usize| (0..=k).fold(Rational::ZERO, |sum, j| sum + &a[j] * &b[k - j]);
     (0..a.len()).map(coefficient).collect()
 }
@@ -22,7 +22,7 @@ fn sum(a: &Series, b: &Series) -> Series {
     a.iter().zip(b).map(|(x, y)| x + y).collect()
 }
 
-fn quotient(a: &Series, b: &Series) -> Option<Series> {
+pub(super) fn quotient(a: &Series, b: &Series) -> Option<Series> {
     let inverse = b[0].recip()?;
     let mut out: Series = Vec::with_capacity(a.len());
     for (k, first) in a.iter().enumerate() {

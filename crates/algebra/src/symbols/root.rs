@@ -1,16 +1,34 @@
-//! One real root of a polynomial over symbols, refined to any width.
+//! Polynomials with enclosed coefficients, and one real root of such a polynomial, refined to any width.
 
 use super::Symbols;
 use crate::ball::Ball;
-use crate::limits::checkpoint;
+use crate::limits::{Budget, Exhausted, checkpoint};
 use crate::number::{Enclosure, Integer, Rational};
-use crate::poly::MultiPoly;
+use crate::poly::{Domain, MultiPoly};
 use crate::real::{Enclosing, Origin};
 use std::cmp::Ordering;
+use std::fmt;
 use std::sync::Arc;
 
 /// Bits with which the direction is looked for first.
 const FIRST_BITS: u64 = 128;
+
+/// A polynomial in one unknown whose coefficients are real numbers that are known by enclosures.
+///
+/// Its first and last coefficients are not zero.
+pub trait EnclosedPoly: fmt::Debug + Send + Sync {
+    /// Enclosures of all coefficients from the constant term up, computed with so many bits.
+    fn enclose(&self, bits: u64) -> Vec<Ball>;
+
+    /// Whether a rational number other than 0 is a root.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out, and where it is not found out.
+    fn vanishes_at(&self, x: &Rational, budget: &Budget) -> Result<bool, Exhausted>;
+
+    /// Where its roots come from.
+    fn origin(&self) -> Origin;
+}
 
 /// A polynomial by its coefficients from the constant term up, polynomials in symbols.
 #[derive(Debug)]
@@ -19,9 +37,28 @@ pub(super) struct Coefficients {
     pub list: Vec<MultiPoly>,
 }
 
-impl Coefficients {
-    pub fn enclose(&self, bits: u64) -> Vec<Ball> {
+impl EnclosedPoly for Coefficients {
+    fn enclose(&self, bits: u64) -> Vec<Ball> {
         self.list.iter().map(|c| self.symbols.enclose(c, bits)).collect()
+    }
+
+    fn vanishes_at(&self, x: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
+        let mut sum = MultiPoly::zero();
+        let (n, d) = (x.numerator(), x.denominator());
+        let degree = self.list.len() - 1;
+        for (k, c) in self.list.iter().enumerate() {
+            sum = sum.plus(&c.scaled_by(&(n.pow(k as u64) * d.pow((degree - k) as u64))));
+        }
+        self.symbols.is_zero(&sum, budget)
+    }
+
+    fn origin(&self) -> Origin {
+        let names = self.symbols.names();
+        let used: std::collections::BTreeSet<usize> = self.list.iter().flat_map(MultiPoly::variables).collect();
+        Origin::Symbols {
+            symbols: used.into_iter().map(|i| (names[i].clone(), self.symbols.definition_text(i))).collect(),
+            polynomial: self.list.iter().map(|c| c.display(&names).to_string()).collect(),
+        }
     }
 }
 
@@ -35,10 +72,10 @@ pub(super) fn derivative(coefficients: &[Ball]) -> Vec<Ball> {
     coefficients.iter().enumerate().skip(1).map(|(k, c)| c.scaled(&Integer::from(k as u64))).collect()
 }
 
-/// The only root of a polynomial over symbols between two numbers, a simple one.
+/// The only root of a polynomial between two numbers, a simple one.
 #[derive(Debug)]
 pub(super) struct SymbolicRoot {
-    pub of: Arc<Coefficients>,
+    pub of: Arc<dyn EnclosedPoly>,
     pub place: Enclosure,
 }
 
@@ -87,13 +124,7 @@ impl Enclosing for SymbolicRoot {
     }
 
     fn origin(&self) -> Origin {
-        let symbols = &self.of.symbols;
-        let names = symbols.names();
-        let used: std::collections::BTreeSet<usize> = self.of.list.iter().flat_map(MultiPoly::variables).collect();
-        Origin::Symbols {
-            symbols: used.into_iter().map(|i| (names[i].clone(), symbols.definition_text(i))).collect(),
-            polynomial: self.of.list.iter().map(|c| c.display(&names).to_string()).collect(),
-        }
+        self.of.origin()
     }
 }
 

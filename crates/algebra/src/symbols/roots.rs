@@ -1,7 +1,7 @@
 //! Real roots of polynomials whose coefficients are polynomials in symbols.
 
 use super::Symbols;
-use super::root::{Coefficients, SymbolicRoot, derivative};
+use super::root::{Coefficients, EnclosedPoly, SymbolicRoot, derivative};
 use super::specialise::is_square_free_in;
 use crate::ball::Ball;
 use crate::limits::{Budget, Exhausted};
@@ -178,35 +178,56 @@ fn real_roots(
         return Ok(Vec::new());
     }
     let in_unknown = p.as_poly_in(0);
-    let mut coefficients: Vec<MultiPoly> = in_unknown.coeffs().iter().map(of_symbols).collect();
-    // Leading coefficients that vanish although they are no zero polynomials.
-    while coefficients.len() > 1 && symbols.is_zero(&coefficients[coefficients.len() - 1], budget)? {
-        coefficients.pop();
+    let mut list: Vec<MultiPoly> = in_unknown.coeffs().iter().map(of_symbols).collect();
+    // Coefficients that vanish although they are no zero polynomials.
+    while list.len() > 1 && symbols.is_zero(&list[list.len() - 1], budget)? {
+        list.pop();
     }
-    let root_of = Arc::new(Coefficients { symbols: Arc::clone(symbols), list: coefficients });
+    let mut zeros = 0;
+    while zeros + 1 < list.len() && symbols.is_zero(&list[zeros], budget)? {
+        zeros += 1;
+    }
+    list.drain(..zeros);
+    let others = Arc::new(Coefficients { symbols: Arc::clone(symbols), list });
+    let mut found = enclosed_roots(&(others as Arc<dyn EnclosedPoly>), lower, upper, budget)?;
+    let inside = lower.is_none_or(Rational::is_negative) && upper.is_none_or(|u| u.sign().is_gt());
+    if zeros > 0 && inside {
+        let at = found.partition_point(|root| root.sign().is_lt());
+        found.insert(at, Real::from(Rational::ZERO));
+    }
+    Ok(found)
+}
+
+/// The real roots strictly between two numbers of a polynomial with enclosed coefficients, ascending. Its first and last
+/// coefficients must not be zero, and its roots must be simple: else the search ends by itself, with an error.
+///
+/// Cost: enclosures of the coefficients, and the real roots of the two polynomials with their lower and their upper ends, with
+/// more and more bits until they part.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out, and where roots are not told apart with some thousand bits.
+pub fn enclosed_roots(
+    p: &Arc<dyn EnclosedPoly>,
+    lower: Option<&Rational>,
+    upper: Option<&Rational>,
+    budget: &Budget,
+) -> Result<Vec<Real>, Exhausted> {
     let real = |(lo, hi): (Rational, Rational), mirrored: bool| {
         let (lo, hi) = if mirrored { (-hi, -lo) } else { (lo, hi) };
         let place = Enclosure::new(lo, hi);
-        let root = SymbolicRoot { of: Arc::clone(&root_of), place: place.clone() };
+        let root = SymbolicRoot { of: Arc::clone(p), place: place.clone() };
         Real::from(Transcendental::within(root, place))
     };
-    let zero = Rational::ZERO;
-    let below = lower.is_none_or(Rational::is_negative);
-    let above = upper.is_none_or(|u| u.sign().is_gt());
     let mut out = Vec::new();
-    let has_zero = root_of.list.len() > 1 && symbols.is_zero(&root_of.list[0], budget)?;
-    if below {
+    if lower.is_none_or(Rational::is_negative) {
         let near = upper.filter(|u| u.is_negative()).map(|u| -u);
         let far = lower.map(|l| -l);
-        let found = positive_roots(&root_of, true, near.as_ref(), far.as_ref(), budget)?;
+        let found = positive_roots(&**p, true, near.as_ref(), far.as_ref(), budget)?;
         out.extend(found.into_iter().rev().map(|b| real(b, true)));
     }
-    if has_zero && below && above {
-        out.push(Real::from(zero.clone()));
-    }
-    if above {
+    if upper.is_none_or(|u| u.sign().is_gt()) {
         let near = lower.filter(|l| l.sign().is_gt());
-        let found = positive_roots(&root_of, false, near, upper, budget)?;
+        let found = positive_roots(&**p, false, near, upper, budget)?;
         out.extend(found.into_iter().map(|b| real(b, false)));
     }
     Ok(out)
@@ -215,43 +236,31 @@ fn real_roots(
 /// Brackets of the positive roots between `near` (0 where missing) and `far` (unbounded where missing), of `p(x)` or
 /// `p(-x)`: in each there is one root, the derivative keeps its sign, and brackets are disjoint.
 fn positive_roots(
-    p: &Coefficients,
+    p: &dyn EnclosedPoly,
     mirrored: bool,
     near: Option<&Rational>,
     far: Option<&Rational>,
     budget: &Budget,
 ) -> Result<Vec<(Rational, Rational)>, Exhausted> {
-    let mut list = p.list.clone();
-    let mut zeros = 0;
-    while zeros + 1 < list.len() && p.symbols.is_zero(&list[zeros], budget)? {
-        zeros += 1;
-    }
-    list.drain(..zeros);
-    if list.len() < 2 {
-        return Ok(Vec::new());
-    }
-    if mirrored {
-        list.iter_mut().enumerate().filter(|(k, _)| (k + zeros) % 2 == 1).for_each(|(_, c)| *c = c.negated());
-    }
-    let p = Coefficients { symbols: Arc::clone(&p.symbols), list };
     // A root at an end of the range is none inside, and is told from one by its exact zero.
     let at_end = |x: Option<&Rational>| -> Result<bool, Exhausted> {
-        let Some(x) = x else { return Ok(false) };
-        let mut sum = MultiPoly::zero();
-        let (n, d) = (x.numerator(), x.denominator());
-        let degree = p.list.len() - 1;
-        for (k, c) in p.list.iter().enumerate() {
-            sum = sum.plus(&c.scaled_by(&(n.pow(k as u64) * d.pow((degree - k) as u64))));
-        }
-        p.symbols.is_zero(&sum, budget)
+        let Some(x) = x.filter(|x| !x.is_zero()) else { return Ok(false) };
+        p.vanishes_at(&if mirrored { -x } else { x.clone() }, budget)
     };
-    let ends = [near.map_or(Ok(false), |x| at_end(Some(x)))?, at_end(far)?];
+    let ends = [at_end(near)?, at_end(far)?];
     let zero = Rational::ZERO;
     let mut bits = FIRST_BITS;
     while bits <= MOST_BITS {
         budget.check()?;
         let attempt = Attempt { bits, near: near.unwrap_or(&zero), far, ends, budget };
-        if let Some(found) = attempt.isolate(&budget.enter(|| p.enclose(bits))?)? {
+        let mut coefficients = budget.enter(|| p.enclose(bits))?;
+        if coefficients.len() < 2 {
+            return Ok(Vec::new());
+        }
+        if mirrored {
+            coefficients.iter_mut().skip(1).step_by(2).for_each(|c| *c = c.neg());
+        }
+        if let Some(found) = attempt.isolate(&coefficients)? {
             return Ok(found);
         }
         bits *= 2;

@@ -4,31 +4,91 @@
 //! on which a polynomial is square-free, or two are coprime, shows that no such factor is repeated or common. Lines nearly
 //! always show it, where a greatest common divisor in several variables would take long.
 
+use super::Function;
+use crate::limits::{Budget, Exhausted};
 use crate::number::Integer;
-use crate::poly::{Domain, MultiPoly, SquareFree, UniPoly};
+use crate::poly::{Domain, MultiPoly, Poly, SquareFree, UniPoly, resultant_formal};
 
-/// Lines that are tried.
-const LINES: u64 = 3;
+/// A line through small integers, parallel to an axis.
+pub(super) struct Line(u64);
 
-/// The polynomial in variable `j` on a line; `None` where its degree in `j` falls.
-fn on_line(p: &MultiPoly, j: usize, line: u64) -> Option<UniPoly> {
-    let count = p.degrees().len();
-    // Small numbers that are neither zero nor one, different for each variable and line.
-    let point: Vec<Integer> =
-        (0..count as u64).map(|i| Integer::from(3 + (i * 7 + line * 11) % 23 + (i * i + line) % 5)).collect();
-    let parts = p.as_poly_in(j);
-    let values = parts.coeffs().iter().map(|c| {
-        let mut at = point.clone();
-        at.resize(c.degrees().len().max(count), Integer::ONE);
-        c.eval_integers(&at)
-    });
-    let line = UniPoly::new(values.collect());
-    (line.degree() == parts.degree()).then_some(line)
+/// The lines that are tried.
+fn lines() -> impl Iterator<Item = Line> {
+    (0..3).map(Line)
+}
+
+impl Line {
+    /// The polynomial in variable `j` on the line, whatever its degree there.
+    fn value(&self, p: &MultiPoly, j: usize) -> UniPoly {
+        let line = self.0;
+        let count = p.degrees().len();
+        // Small numbers that are neither zero nor one, different for each variable and line.
+        let point: Vec<Integer> =
+            (0..count as u64).map(|i| Integer::from(3 + (i * 7 + line * 11) % 23 + (i * i + line) % 5)).collect();
+        let parts = p.as_poly_in(j);
+        let values = parts.coeffs().iter().map(|c| {
+            let mut at = point.clone();
+            at.resize(c.degrees().len().max(count), Integer::ONE);
+            c.eval_integers(&at)
+        });
+        UniPoly::new(values.collect())
+    }
+
+    /// The polynomial in variable `j` on the line; `None` where its degree in `j` falls.
+    pub fn polynomial(&self, p: &MultiPoly, j: usize) -> Option<UniPoly> {
+        let value = self.value(p, j);
+        let degree = p.degree_in(j) as usize;
+        (value.degree() == Some(degree) || (p.is_zero() && value.is_zero())).then_some(value)
+    }
+}
+
+/// The resultant of two polynomials, by all coefficients for their formal degrees, in variable `j` on a line.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub(super) fn resultant_on_line(
+    a: &[MultiPoly],
+    b: &[MultiPoly],
+    j: usize,
+    line: &Line,
+    budget: &Budget,
+) -> Result<Option<UniPoly>, Exhausted> {
+    let on = |list: &[MultiPoly]| list.iter().map(|p| line.polynomial(p, j)).collect::<Option<Vec<UniPoly>>>();
+    let (Some(of_a), Some(of_b)) = (on(a), on(b)) else { return Ok(None) };
+    resultant_formal(&Poly::new(of_a), a.len() - 1, &Poly::new(of_b), b.len() - 1, budget).map(Some)
 }
 
 /// Whether it is shown that no factor in which variable `j` occurs is repeated.
 pub fn is_square_free_in(p: &MultiPoly, j: usize) -> bool {
-    (0..LINES).any(|line| on_line(p, j, line).is_some_and(|u| SquareFree::new(u).is_some()))
+    lines().any(|line| line.polynomial(p, j).is_some_and(|u| SquareFree::new(u).is_some()))
+}
+
+/// Whether resultants among the functions, on a line, are not zero and, apart from powers of variable `j`, have no repeated
+/// factor in which it occurs and none in common with another function. No proof, as degree may be lost on all lines; for one
+/// who finds out when it is not so.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn resultants_seem_simple_in(functions: &[Function], j: usize, budget: &Budget) -> Result<bool, Exhausted> {
+    'lines: for line in lines() {
+        let mut parts = Vec::with_capacity(functions.len());
+        for f in functions {
+            let Some(value) = f.on_line(j, &line, budget)?.filter(|v| !v.is_zero()) else { continue 'lines };
+            let order = value.coeffs().iter().position(|c| !c.is_zero()).unwrap_or(0);
+            parts.push((UniPoly::new(value.coeffs()[order..].to_vec()), f.polynomial().is_none()));
+        }
+        let is_simple = |k: usize| {
+            let (part, is_resultant) = &parts[k];
+            let others = || parts.iter().enumerate().filter(|(i, _)| *i != k);
+            !is_resultant
+                || (SquareFree::new(part.clone()).is_some()
+                    && others().all(|(_, (other, _))| part.gcd(other).is_constant()))
+        };
+        if budget.enter(|| (0..parts.len()).all(is_simple))? {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// Whether it is shown that no factor in which variable `j` occurs is common.
@@ -36,8 +96,8 @@ pub fn are_coprime_in(a: &MultiPoly, b: &MultiPoly, j: usize) -> bool {
     if a.degree_in(j) == 0 || b.degree_in(j) == 0 {
         return true;
     }
-    let on = |line| Some(on_line(a, j, line)?.gcd(&on_line(b, j, line)?).is_constant());
-    (0..LINES).any(|line| on(line) == Some(true))
+    let on = |line: Line| Some(line.polynomial(a, j)?.gcd(&line.polynomial(b, j)?).is_constant());
+    lines().any(|line| on(line) == Some(true))
 }
 
 #[cfg(test)]

@@ -82,7 +82,9 @@ fn anywhere(problem: &Problem, delayed: &DelayedLoop, domain: &Range, budget: &B
         Err(NotSolved::Unbounded) => {
             let name = &problem.parameter().name;
             let message = format!("roots can be on the boundary at frequencies without end in the domain of '{name}'");
-            let help = format!("give the domain both ends, away from where the highest power of s vanishes: --domain {name}=LO..HI");
+            let help = format!(
+                "give the domain both ends, away from where the highest power of s vanishes: --domain {name}=LO..HI"
+            );
             Err(refused(message, help))
         }
         Err(reason) => Err(not_solved(reason)),

@@ -42,6 +42,14 @@ impl Problem {
     /// Unless one parameter is free.
     pub fn stable_set(self: &Arc<Self>, budget: &Budget) -> Result<Answer<StableSet>, Error> {
         budget.enter(|| {
+            if let Err(refused @ Error::Refused(_)) = self.algebra_over_symbols(budget) {
+                // A dead time may vary against its sample time.
+                return match self.stable_set_by_samples(budget) {
+                    Ok(Some(set)) => Ok(Answer::new(Arc::clone(self), set)),
+                    Err(Error::Stopped(stopped)) => Err(Error::Stopped(stopped)),
+                    _ => Err(refused),
+                };
+            }
             if let Some(delayed) = self.delayed(budget)? {
                 let set = super::dead_time::stable_set(self, delayed, budget)?;
                 return Ok(Answer::new(Arc::clone(self), set));

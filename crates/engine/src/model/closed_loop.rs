@@ -120,7 +120,7 @@ impl Evaluated {
             if let Some(closed_loop) = &mut self.closed_loop {
                 closed_loop.variables.truncate(first);
             }
-            self.symbols = Symbols::new(&self.polynomial.variables);
+            self.symbols = self.symbols.cleared();
         }
         self
     }
@@ -187,7 +187,25 @@ impl Model {
         values: &[(String, Rational)],
         budget: &Budget,
     ) -> Result<Evaluated, Error> {
-        let answer = self.answer(kept, values, budget)?;
+        self.evaluate_near(kept, values, &[], budget)
+    }
+
+    /// The same where dead times that vary against the sample time of their hold have as many whole samples as near these
+    /// values of the kept names: what is found holds from one whole number of samples to the next.
+    ///
+    /// Cost: that of [`Model::evaluate`].
+    ///
+    /// # Errors
+    /// As [`Model::evaluate`].
+    pub fn evaluate_near(
+        &self,
+        kept: &[String],
+        values: &[(String, Rational)],
+        near: &[Rational],
+        budget: &Budget,
+    ) -> Result<Evaluated, Error> {
+        let mut answer = self.answer(kept, values, budget)?;
+        answer.symbols = RefCell::new(answer.symbols.into_inner().near(near));
         if let Values::Characteristic(p) = &answer.values {
             let undefined = || Error::Undefined("a coefficient divides by zero".into());
             let mut coefficients = Vec::with_capacity(p.coefficients().len());

@@ -74,12 +74,45 @@ pub struct Symbols {
     modes: Vec<Vec<Rational>>,
     /// Whether a function or `pi` is written in the model, beside what holds bring.
     is_written: bool,
+    /// Values of the kept names near which dead times are divided into whole samples and a rest.
+    near: Vec<Rational>,
+    /// Dead times in samples that depend on kept names.
+    samples: Vec<RationalFunction>,
 }
 
 impl Symbols {
     /// No symbols beside these kept names.
     pub(in crate::model) fn new(kept: &[String]) -> Symbols {
         Symbols { kept: kept.to_vec(), ..Symbols::default() }
+    }
+
+    /// The same where dead times are divided near these values of the kept names.
+    pub(in crate::model) fn near(self, near: &[Rational]) -> Symbols {
+        Symbols { near: near.to_vec(), ..self }
+    }
+
+    /// Without symbols, where none is needed.
+    pub(in crate::model) fn cleared(&self) -> Symbols {
+        Symbols { samples: self.samples.clone(), ..Symbols::new(&self.kept) }
+    }
+
+    /// A function of the kept names near the values that are known.
+    pub(in crate::model) fn near_value(&self, f: &RationalFunction) -> Option<Rational> {
+        let known = f.variables().last().is_none_or(|last| *last < self.near.len());
+        let value = |f: RationalFunction, (i, x): (usize, &Rational)| f.substitute(i, x);
+        known.then(|| self.near.iter().enumerate().try_fold(f.clone(), value)?.as_constant()).flatten()
+    }
+
+    /// A dead time in samples that depends on kept names.
+    pub(in crate::model) fn note_samples(&mut self, ratio: &RationalFunction) {
+        if !self.samples.contains(ratio) {
+            self.samples.push(ratio.clone());
+        }
+    }
+
+    /// Dead times in samples that depend on kept names: from one whole number to the next the loop has another order.
+    pub fn varying_samples(&self) -> &[RationalFunction] {
+        &self.samples
     }
 
     /// Whether there are none: everything is rational in the kept names.

@@ -41,13 +41,18 @@ pub struct Algebra {
 impl Algebra {
     /// Evaluates the model for a question. The polynomial's variables are what is free.
     pub(super) fn of(problem: &Problem, budget: &Budget) -> Result<Algebra, Error> {
+        Algebra::near(problem, &[], budget)
+    }
+
+    /// The same where dead times have as many whole samples as near these values of what is free.
+    pub(super) fn near(problem: &Problem, near: &[Rational], budget: &Budget) -> Result<Algebra, Error> {
         budget.step("characteristic polynomial");
         let model = problem.model();
         let bound =
             problem.free().iter().position(|f| problem.region().is_free() && f.name == problem.region().bound_name());
         let kept: Vec<String> =
             problem.free().iter().enumerate().filter(|(i, _)| Some(*i) != bound).map(|(_, f)| f.name.clone()).collect();
-        let evaluated = match model.evaluate(&kept, problem.set(), budget) {
+        let evaluated = match model.evaluate_near(&kept, problem.set(), near, budget) {
             Ok(evaluated) => evaluated,
             Err(Error::Undefined(why)) => {
                 let formal_degree = symbolic_degree(model, &kept, problem.set(), budget)?;

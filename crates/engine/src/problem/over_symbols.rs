@@ -1,7 +1,7 @@
 //! Questions about loops with transcendental constants, such as plants behind a hold.
 
-use super::Problem;
-use crate::error::{Diagnostic, Error};
+use super::{Algebra, Problem};
+use crate::error::Error;
 use crate::model::{self, Symbol};
 use crate::stability::SymbolicPolynomial;
 use jurist_algebra::limits::Budget;
@@ -16,8 +16,7 @@ impl Problem {
     /// Cost: that of [`Problem::algebra_over_symbols`], and `O(n)` least common multiples.
     ///
     /// # Errors
-    /// As [`Problem::algebra_over_symbols`]; refused (`E-function`) where the question is inside of a function and its domain
-    /// is not bounded.
+    /// As [`Problem::algebra_over_symbols`].
     ///
     /// # Panics
     /// When more than one parameter is free.
@@ -28,24 +27,22 @@ impl Problem {
             let help = "known of it: verdict, intervals of one parameter, analyze, charpoly";
             return Err(super::delayed::refused("this cannot be asked of a loop with dead time yet", help));
         }
+        self.symbolic_of(algebra)
+    }
+
+    /// The same from algebra that is known.
+    pub(super) fn symbolic_of(&self, algebra: &Algebra) -> Result<Option<SymbolicPolynomial>, Error> {
         let Some(polynomial) = algebra.polynomial() else { return Ok(None) };
         let (symbols, free) = (algebra.symbols(), self.free().len());
         if !symbols.is_moving() {
             return Ok(Some(SymbolicPolynomial::new(polynomial, free, &Arc::new(fixed_symbols(symbols)?))));
         }
         let found = SymbolicPolynomial::with_moving(polynomial, &Arc::new(moving_symbols(symbols)?));
-        let asked = self.parameter();
-        let (lower, upper) = (asked.domain.lower.as_ref(), asked.domain.upper.as_ref());
-        let is_bounded = match (lower, upper) {
-            (Some(_), Some(_)) => true,
-            (Some(lower), None) => found.tail_start(lower, self.shape(), budget)?.is_some(),
-            _ => false,
+        let usual = self.parameter().nominal.clone();
+        let found = match usual {
+            Some(usual) => found.with_usual_value(usual),
+            None => found,
         };
-        if !is_bounded {
-            let message = format!("'{}' is inside of a function, and its domain is not bounded", asked.name);
-            let help = format!("give both bounds: --domain {}=LO..HI", asked.name);
-            return Err(Diagnostic::error("E-function", message).help(help).into());
-        }
         Ok(Some(found))
     }
 }

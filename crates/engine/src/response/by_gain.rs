@@ -34,7 +34,11 @@ fn affine(problem: &Problem, name: &str, budget: &Budget) -> Result<Option<ByGai
     Ok(over.map(|over| (over, sample_time.flatten())))
 }
 
-fn over_integers(d: &CharacteristicPolynomial, nominal: &Rational, problem: &Problem) -> Result<Option<(Over, Option<Rational>)>, Error> {
+fn over_integers(
+    d: &CharacteristicPolynomial,
+    nominal: &Rational,
+    problem: &Problem,
+) -> Result<Option<(Over, Option<Rational>)>, Error> {
     let side = |p: &MultiPoly| p.to_univariate(0).expect("one variable is kept");
     let coefficients: Vec<_> = d.coefficients.iter().map(|c| (side(c.numerator()), side(c.denominator()))).collect();
     let parametric = ParametricPolynomial::new(&coefficients, d.formal_degree, Vec::new());

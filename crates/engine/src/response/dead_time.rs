@@ -98,7 +98,7 @@ impl<'a> DeadTime<'a> {
     }
 
     fn zeros(&self, p: &MultiPoly, end: &Rational, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
-        let found = self.turning.zeros_in(p, &Rational::ZERO, end, budget)?;
+        let found = self.turning.zeros_in(&p.clone().into(), &Rational::ZERO, end, budget)?;
         match found.undecided.is_empty() {
             true => Ok(found.zeros),
             false => Err(Exhausted::new("precision", "frequencies of a loop with dead time")),
@@ -111,8 +111,8 @@ impl<'a> DeadTime<'a> {
         enclosed("quotient at a frequency", move |bits| {
             let (lo, hi) = at.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
             let omega = Ball::between(&lo, &hi, bits);
-            let value = |p: &MultiPoly| turning.enclose(p, &omega);
-            Some(value(&above)?.div(&value(&below)?)?.to_enclosure())
+            let values = turning.enclose(&[above.clone(), below.clone()], &omega)?;
+            Some(values[0].div(&values[1])?.to_enclosure())
         })
     }
 
@@ -253,12 +253,13 @@ impl<'a> DeadTime<'a> {
         let four = Integer::from(4) * &(&q * &q);
         let (one, other) = (Rational::from(&of_one), Rational::from(&of_loop).abs());
         if of_one.is_zero() {
-            return Err(refused("the disk margin of a loop with dead time is known for skews other than -1", "--skew 0"));
+            return Err(refused(
+                "the disk margin of a loop with dead time is known for skews other than -1",
+                "--skew 0",
+            ));
         }
         let twice = Rational::from(2) * Rational::from(&q);
-        let floor = |r: &Rational| {
-            &(&twice * &(Rational::ONE - r)) / &(one.abs() + &other * r)
-        };
+        let floor = |r: &Rational| &(&twice * &(Rational::ONE - r)) / &(one.abs() + &other * r);
         let extreme = self.least(&sum.scaled_by(&four), &below, floor, budget)?;
         let square = extreme.value().expect("finite somewhere").number(budget)?;
         let alpha = Some(square_root(&square, budget)?);

@@ -57,7 +57,7 @@ impl HeldDelay {
             let first = first.filter(|i| i.lower.as_ref().is_some_and(|l| begins(&l.value)));
             let Some(end) = first.and_then(|i| i.upper.as_ref()) else { return found(Some(from.into()), None) };
             if let Some(bracket) = set.undecided().first()
-                && end.value.compare_rational(&bracket.lower).is_gt()
+                && bracket.lower.as_ref().is_none_or(|lower| end.value.compare_rational(lower).is_gt())
             {
                 let what = "whether the loop touches the boundary with a dead time";
                 return Err(Exhausted::new("precision", what).into());

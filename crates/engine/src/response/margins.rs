@@ -1,8 +1,8 @@
 //! All margins of a loop cut at one signal.
 
 use super::crossings::Crossings;
-use super::extreme::extreme_over;
 use super::dead_time::DeadTime;
+use super::extreme::extreme_over;
 use super::ground::Ground;
 use super::open_loop::{OpenLoop, Over, Parts, with_parts};
 use super::value::{reciprocal, square_root};

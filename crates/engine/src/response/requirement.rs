@@ -214,9 +214,7 @@ impl Requirement {
     ) -> Result<bool, Exhausted> {
         let cut = || open_loop.expect("a margin is taken at a cut");
         match self {
-            Requirement::GainMargin { factor, .. } => {
-                has_gain_margin(&GainMargin::of(cut(), budget)?, factor, budget)
-            }
+            Requirement::GainMargin { factor, .. } => has_gain_margin(&GainMargin::of(cut(), budget)?, factor, budget),
             Requirement::PhaseMargin { twice_cosine, .. } => {
                 let crossings = Crossings::of(cut(), budget)?;
                 has_phase_margin(&PhaseMargin::of(cut(), &crossings, budget)?, twice_cosine, budget)

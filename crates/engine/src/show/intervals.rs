@@ -136,9 +136,16 @@ fn distinct_decimals(values: &[&Real], digits: usize) -> Vec<String> {
 /// A line for each bracket in which nothing is known.
 fn undecided_lines(set: &StableSet, digits: usize) -> String {
     let line = |b: &crate::stability::UndecidedBracket| {
-        let width = to_decimal(&(&b.upper - &b.lower), 2);
-        let ends = [&b.lower, &b.upper].map(|x| to_decimal(x, digits));
-        format!("undecided in [{}, {}] (width {width}): {}\n", ends[0], ends[1], b.why)
+        let shown = |x: &Rational| to_decimal(x, digits);
+        match (&b.lower, &b.upper) {
+            (Some(lo), Some(hi)) => {
+                let width = to_decimal(&(hi - lo), 2);
+                format!("undecided in [{}, {}] (width {width}): {}\n", shown(lo), shown(hi), b.why)
+            }
+            (Some(lo), None) => format!("undecided from {} on: {}\n", shown(lo), b.why),
+            (None, Some(hi)) => format!("undecided up to {}: {}\n", shown(hi), b.why),
+            (None, None) => format!("undecided: {}\n", b.why),
+        }
     };
     set.undecided().iter().map(line).collect()
 }

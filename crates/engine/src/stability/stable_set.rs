@@ -77,27 +77,28 @@ impl StableInterval {
     }
 }
 
-/// A short interval about which nothing is known, between neighbours that are decided.
+/// An interval about which nothing is known: a short one between neighbours that are decided, or what lies beyond all that
+/// was looked at.
 ///
 /// ```
 /// use jurist_engine::stability::UndecidedBracket;
-/// let bracket = UndecidedBracket::new(1.into(), 2.into(), "touching or crossing");
+/// let bracket = UndecidedBracket::new(Some(1.into()), Some(2.into()), "touching or crossing");
 /// assert_eq!(bracket.why, "touching or crossing");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct UndecidedBracket {
-    /// The lower end.
-    pub lower: Rational,
-    /// The upper end.
-    pub upper: Rational,
+    /// The lower end; `None` where there is none.
+    pub lower: Option<Rational>,
+    /// The upper end; `None` where there is none.
+    pub upper: Option<Rational>,
     /// What could not be told.
     pub why: String,
 }
 
 impl UndecidedBracket {
-    /// The bracket between two numbers.
-    pub fn new(lower: Rational, upper: Rational, why: impl Into<String>) -> Self {
+    /// The bracket between two numbers; `None` is infinite.
+    pub fn new(lower: Option<Rational>, upper: Option<Rational>, why: impl Into<String>) -> Self {
         UndecidedBracket { lower, upper, why: why.into() }
     }
 }

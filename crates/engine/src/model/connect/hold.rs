@@ -43,7 +43,7 @@ pub(in crate::model) fn held(
     positive(&time, &delay, hold)?;
     let Some(symbols) = symbols else { return Ok(stand_in(s, hold, &delay)) };
     let mut symbols = symbols.borrow_mut();
-    let (samples, fraction) = samples(&delay, &time, hold, block)?;
+    let (samples, fraction) = samples(&delay, &time, hold, block, &mut symbols)?;
     let zeros = if hold.is_first_order { 2 } else { 1 };
     let modes = Modes::of(&s.a, zeros, budget)?;
     let mut respond =
@@ -69,8 +69,8 @@ pub(in crate::model) fn held(
     };
     // What passes on at once: the input at the sample.
     let (early_direct, now_direct) = match (fraction.is_zero(), hold.is_first_order) {
-        (true, _) => (RationalFunction::zero(), RationalFunction::one()),
-        (false, false) => (RationalFunction::one(), RationalFunction::zero()),
+        (true, _) => (RationalFunction::zero(), one.clone()),
+        (false, false) => (one.clone(), RationalFunction::zero()),
         (false, true) => (fraction.clone(), &one - &fraction),
     };
     let parts = Parts {
@@ -111,26 +111,35 @@ fn stand_in(s: System, hold: &Hold, delay: &RationalFunction) -> System {
     System { d, ..s }
 }
 
-/// Whole samples and the fraction of one in the dead time.
+/// Whole samples and the fraction of one in the dead time. Where that varies against the sample time, the whole samples are
+/// those near the values that the symbols know of.
 fn samples(
     delay: &RationalFunction,
     time: &RationalFunction,
     hold: &Hold,
     block: &BlockValues,
+    symbols: &mut Symbols,
 ) -> Result<(usize, RationalFunction), Stop> {
     let name = shorten(&block.name);
     let ratio = delay.checked_div(time);
     if let (Some(ratio), Some(whole)) = (&ratio, hold.whole) {
         return Ok((whole, ratio - &RationalFunction::from(whole as i64)));
     }
-    let Some(ratio) = ratio.and_then(|r| r.as_constant()) else {
+    let near = ratio.as_ref().and_then(|ratio| match ratio.as_constant() {
+        Some(ratio) => Some(ratio),
+        None => symbols.near_value(ratio),
+    });
+    let (Some(ratio), Some(near)) = (ratio, near) else {
         let message = format!("the dead time of '{name}' is no fixed number of samples");
         let error = refused("E-function", message, hold.span, "the dead time varies against the sample time");
         let help = "give it as a multiple of the sample time (delay = \"1.5*T\"), or set all that it depends on";
         return Err(Stop::Refused(Box::new(error.help(help))));
     };
-    let whole = ratio.floor();
-    let fraction = &ratio - &Rational::from(whole.clone());
+    if ratio.as_constant().is_none() {
+        symbols.note_samples(&ratio);
+    }
+    let whole = near.floor();
+    let fraction = &ratio - &RationalFunction::from(Rational::from(whole.clone()));
     match whole.to_i64().and_then(|m| usize::try_from(m).ok()).filter(|&m| m < MAX_ORDER) {
         Some(samples) => Ok((samples, fraction.into())),
         None => {

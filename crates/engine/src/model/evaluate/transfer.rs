@@ -33,7 +33,10 @@ pub(in crate::model) fn fraction(e: &Expression, variable: &str, scope: &mut Sco
     let fraction = evaluate(e, &mut InVariable { scope, variable, rational: true })?;
     if fraction.looks_ahead(scope) {
         let error = Diagnostic::error("E-dead-time", "the transfer function looks ahead: it divides by a dead time");
-        return Err(error.at(e.span, "a prediction").help("a dead time tau is written exp(-tau*s), a factor of the numerator").into());
+        return Err(error
+            .at(e.span, "a prediction")
+            .help("a dead time tau is written exp(-tau*s), a factor of the numerator")
+            .into());
     }
     Ok(fraction)
 }

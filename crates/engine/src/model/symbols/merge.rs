@@ -44,7 +44,7 @@ impl Symbols {
     pub(in crate::model) fn merged(&self) -> Option<(Symbols, Vec<RationalFunction>)> {
         let families = self.families();
         let first = self.first();
-        let mut merged = Symbols::new(&self.kept);
+        let mut merged = self.cleared();
         merged.modes.clone_from(&self.modes);
         merged.is_written = self.is_written;
         let mut images: Vec<RationalFunction> = (0..first).map(RationalFunction::variable).collect();

@@ -8,7 +8,7 @@ use crate::prove::over_symbols::Enclosed;
 use crate::stability::Range;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{MultiPoly, simplest_between};
+use jurist_algebra::poly::{Domain, MultiPoly, simplest_between};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{SymbolicPoly, Symbols};
 use serde_json::Value;

@@ -1,6 +1,6 @@
 //! The document `jurist/intervals/1`.
 
-use super::number::{Enclosure, Exact, Number, enclosure};
+use super::number::{Exact, Number};
 use super::schema_name;
 use super::{Answered, Bounds, End, ParameterQuestion, RequirementAsked};
 use crate::answer::{Answer, Sensitivities, Sensitivity};
@@ -8,6 +8,7 @@ use crate::problem::Problem;
 use crate::show::real;
 use crate::stability::{StableSet, UndecidedBracket};
 use jurist_algebra::limits::Exhausted;
+use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
 use serde::{Deserialize, Serialize};
 
@@ -77,8 +78,8 @@ pub struct Stable {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct UndecidedEnclosure {
-    /// Its ends.
-    pub enclosure: Enclosure,
+    /// Its ends; null where there is none.
+    pub enclosure: [Option<Exact>; 2],
     /// What could not be told.
     pub why: String,
 }
@@ -125,7 +126,8 @@ impl Intervals {
 
 impl From<&UndecidedBracket> for UndecidedEnclosure {
     fn from(bracket: &UndecidedBracket) -> Self {
-        UndecidedEnclosure { enclosure: enclosure(&bracket.lower, &bracket.upper), why: bracket.why.clone() }
+        let end = |x: &Option<Rational>| x.as_ref().map(Exact::from);
+        UndecidedEnclosure { enclosure: [end(&bracket.lower), end(&bracket.upper)], why: bracket.why.clone() }
     }
 }
 

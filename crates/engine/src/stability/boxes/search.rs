@@ -44,7 +44,7 @@ pub(crate) struct Search<'a> {
     sides: &'a [Side],
     reference: &'a [Sign],
     /// The nearest crossing so far.
-    pub best: Option<Crossing>,
+    pub(super) best: Option<Crossing>,
 }
 
 impl<'a> Search<'a> {
@@ -53,7 +53,7 @@ impl<'a> Search<'a> {
     }
 
     /// The line in a direction; the factor is its parameter.
-    pub fn line(&self, direction: &[Rational]) -> Line<'a> {
+    pub(super) fn line(&self, direction: &[Rational]) -> Line<'a> {
         let (base, step) = ray(self.sides, direction);
         Line::new(self.p, base, step, self.reference)
     }
@@ -299,7 +299,7 @@ impl<'a> Search<'a> {
     }
 
     /// The derivative of what crosses by each parameter times its width, as shares that sum to 1.
-    pub fn shares(&self, crossing: &Crossing) -> Option<Vec<Rational>> {
+    pub(super) fn shares(&self, crossing: &Crossing) -> Option<Vec<Rational>> {
         let line = self.line(&crossing.direction);
         let gradient = line.gradient(&crossing.lo, &crossing.hi)?;
         let weights: Vec<Rational> = self

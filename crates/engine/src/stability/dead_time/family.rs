@@ -126,7 +126,11 @@ impl FamilyLoop {
 /// # Errors
 /// [`NotSolved`]: among others [`NotSolved::Unbounded`] where roots are on the line at frequencies without bound,
 /// [`NotSolved::Coincidence`] where they meet there or touch it.
-pub fn family_cells(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<GainCells, Never>, NotSolved> {
+pub fn family_cells(
+    family: &FamilyLoop,
+    range: &Range,
+    budget: &Budget,
+) -> Result<Result<GainCells, Never>, NotSolved> {
     budget.step("quasi-polynomial");
     let zero = Rational::ZERO;
     let moves = !family.tau.slope.is_zero() || !family.decay.slope.is_zero();
@@ -158,8 +162,9 @@ fn unbounded(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Resu
             return Ok(beyond.clone());
         }
         // A number at which nothing happens.
-        let mut at = [&range.lower, &range.upper].into_iter().flatten().map(Rational::abs).max().unwrap_or(Rational::ZERO)
-            + Rational::ONE;
+        let mut at =
+            [&range.lower, &range.upper].into_iter().flatten().map(Rational::abs).max().unwrap_or(Rational::ZERO)
+                + Rational::ONE;
         loop {
             budget.check()?;
             let value = &at * &Rational::from(sign);
@@ -345,7 +350,8 @@ fn inside(family: &FamilyLoop, zero: &FamilyZero, lower: &Rational, upper: &Rati
             }
             let Some(at) = family.at(end) else { continue };
             let fixed = if family.tau.at(end).is_zero() { at.without_delay() } else { at.content() };
-            if omega.contains(&Rational::ZERO) && family.growth(end).is_zero() && at.without_delay().coeff(0).is_zero() {
+            if omega.contains(&Rational::ZERO) && family.growth(end).is_zero() && at.without_delay().coeff(0).is_zero()
+            {
                 return Ok(false);
             }
             let (even, odd) = even_odd(&fixed);

@@ -139,10 +139,8 @@ impl Function {
     /// From the coefficients of `z^k s^j` at `[k][j]`, `s` being counted from the line.
     pub fn new(parts: &[Vec<UniPoly>], tau: &Line, decay: &Line) -> Function {
         // tau(p), its slope, and the slope of the growth tau(p) decay(p), over one denominator.
-        let growth_slope = [
-            &tau.slope * &decay.offset + &tau.offset * &decay.slope,
-            &tau.slope * &decay.slope * Rational::from(2),
-        ];
+        let growth_slope =
+            [&tau.slope * &decay.offset + &tau.offset * &decay.slope, &tau.slope * &decay.slope * Rational::from(2)];
         let numbers = [&tau.slope, &tau.offset, &growth_slope[0], &growth_slope[1]];
         let unit = numbers.iter().fold(Integer::ONE, |l, x| l.lcm(&x.denominator()));
         let whole = |x: &Rational| (x * &Rational::from(&unit)).numerator();
@@ -183,8 +181,7 @@ impl Function {
         let sets = [zeroth, w, p, ww, wp, pp]
             .map(|set| set.iter().map(|[re, im]| [Terms::of(re), Terms::of(im)]).collect::<Vec<_>>());
         let all = || sets.iter().flatten().flatten();
-        let degrees =
-            (all().map(|t| t.degrees.0).max().unwrap_or(0), all().map(|t| t.degrees.1).max().unwrap_or(0));
+        let degrees = (all().map(|t| t.degrees.0).max().unwrap_or(0), all().map(|t| t.degrees.1).max().unwrap_or(0));
         Function { degrees, sets, unit, tau: tau.clone(), decay: decay.clone() }
     }
 

@@ -70,8 +70,7 @@ pub(super) fn zeros(
     let mut at = first;
     while at < last {
         let middle = (&at << 1) + Integer::ONE;
-        let centre =
-            [Grid { numerator: Integer::ONE, exponent: a }, Grid { numerator: middle, exponent: b }];
+        let centre = [Grid { numerator: Integer::ONE, exponent: a }, Grid { numerator: middle, exponent: b }];
         open.push(Cell { centre, radius: [a, b] });
         at += Integer::ONE;
     }
@@ -162,7 +161,8 @@ struct Scaled {
 impl Scaled {
     fn new(local: &Local, radius: [i64; 2], unit: &Integer) -> Scaled {
         let square = unit * unit;
-        let by = |x: &Fixed, factor: &Integer| Fixed { re: &x.re * factor, im: &x.im * factor, error: &x.error * factor };
+        let by =
+            |x: &Fixed, factor: &Integer| Fixed { re: &x.re * factor, im: &x.im * factor, error: &x.error * factor };
         let value = by(&local.value, &square);
         let columns = [moved(&by(&local.by_omega, unit), radius[0]), moved(&by(&local.by_p, unit), radius[1])];
         let [ww, wp, pp] = &local.second;
@@ -305,9 +305,7 @@ impl FamilyZero {
                 return None;
             }
             // The new half width: that of the enclosure and of rounding the centre to a quarter of it.
-            while exponent > known.radius[i] - MOST_AT_ONCE
-                && power_of_two(exponent - known.radius[i] - 2) > relative
-            {
+            while exponent > known.radius[i] - MOST_AT_ONCE && power_of_two(exponent - known.radius[i] - 2) > relative {
                 exponent -= 1;
             }
             let centre = known.centre[i].rational() + Rational::from(x) / &denominator * &radius;

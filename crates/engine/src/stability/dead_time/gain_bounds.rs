@@ -94,9 +94,11 @@ impl GainLoop {
         let lower = |p: &UniPoly| UniPoly::new(p.coeffs().iter().take(n).map(Integer::abs).collect());
         let sum = |list: &mut dyn Iterator<Item = UniPoly>| list.fold(UniPoly::zero(), |sum, p| sum.plus(&p));
         let below = sum(&mut self.a.iter().map(lower));
-        let rest = sum(&mut self.a.iter().enumerate().map(|(k, p)| {
-            absolute(&p.derivative().scaled(&d)).plus(&lower(p).scaled(&times(k)))
-        }));
+        let rest = sum(&mut self
+            .a
+            .iter()
+            .enumerate()
+            .map(|(k, p)| absolute(&p.derivative().scaled(&d)).plus(&lower(p).scaled(&times(k)))));
         let slope = highest.iter().enumerate().fold(Integer::ZERO, |sum, (k, c)| sum + &times(k) * &c.abs());
         let slope = Rational::new(slope, least_top.clone());
         let other = absolute(&self.b[turns]);

@@ -51,7 +51,11 @@ impl GainPoint {
     }
 
     /// The same for an algebraic value, with its reciprocal.
-    pub(super) fn algebraic(value: RealAlgebraic, happening: Happening, budget: &Budget) -> Result<GainPoint, Exhausted> {
+    pub(super) fn algebraic(
+        value: RealAlgebraic,
+        happening: Happening,
+        budget: &Budget,
+    ) -> Result<GainPoint, Exhausted> {
         let value = Real::from(value);
         let is_zero = value.exact().is_some_and(|x| x.is_zero());
         let inverse = if is_zero { None } else { Some(reciprocal(&value, budget)?) };
@@ -244,7 +248,12 @@ impl Walk<'_> {
             let value = GainAt { axis: Arc::clone(self.axis), zero: Arc::clone(&zero) };
             let value = Real::from(Transcendental::new(value));
             let omega = Real::from(Transcendental::new(Frequency { zero }));
-            self.points.push(GainPoint { value, happening: Happening::Pair(omega), change: Some(change), inverse: None });
+            self.points.push(GainPoint {
+                value,
+                happening: Happening::Pair(omega),
+                change: Some(change),
+                inverse: None,
+            });
         }
         Ok(())
     }

@@ -1,8 +1,8 @@
 //! How many roots a loop with dead time has to the right of the imaginary axis: the principle of the argument with
 //! certified bounds.
 
-use super::family_function::{exponential, upper_exponential};
 use super::dyadic::{Dyadic, Step};
+use super::family_function::{exponential, upper_exponential};
 use super::turn::{Fixed, turned};
 use super::{Kind, QuasiPolynomial};
 use crate::stability::{Shape, count_roots};
@@ -253,7 +253,8 @@ impl<'p> Walk<'p> {
             let ratio = &half / &over;
             let r2 = &ratio * &ratio;
             let far = middle.rational() + &half;
-            let rest = weighted_at(&self.derivatives[TERMS], &self.weights, &far) * Rational::from(&(&Integer::ONE << self.scale));
+            let rest = weighted_at(&self.derivatives[TERMS], &self.weights, &far)
+                * Rational::from(&(&Integer::ONE << self.scale));
             let moved = Rational::from(&values[1].at_most()) * &ratio
                 + Rational::from(&values[2].at_most()) * &r2 * Rational::dyadic(&Integer::ONE, 1)
                 + rest * r2 * ratio * Rational::new(Integer::ONE, Integer::from(6));

@@ -7,6 +7,7 @@
 mod count;
 mod moving;
 mod pair;
+mod resultant;
 mod set;
 
 pub use set::symbolic_stable_set;
@@ -16,7 +17,7 @@ use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
-use jurist_algebra::symbols::{MovingSymbols, Symbols};
+use jurist_algebra::symbols::{Function, MovingSymbols, Symbols, common_scale, resultants_seem_simple_in};
 use std::sync::Arc;
 
 /// A characteristic polynomial in one parameter, or none, whose coefficients contain symbols.
@@ -55,6 +56,8 @@ pub struct SymbolicPolynomial {
     formal_degree: usize,
     /// The common denominator first.
     poles: Vec<MultiPoly>,
+    /// A usual value of the parameter.
+    usual: Rational,
 }
 
 /// What the symbols stand for.
@@ -96,7 +99,15 @@ impl SymbolicPolynomial {
             degree_loss: loss,
             formal_degree: d.formal_degree,
             poles,
+            usual: Rational::ONE,
         }
+    }
+
+    /// With a usual value of the parameter: where nothing else bounds it, it is looked at up to a multiple of that.
+    #[must_use]
+    pub fn with_usual_value(mut self, usual: Rational) -> Self {
+        self.usual = usual;
+        self
     }
 
     /// The polynomial without denominators.
@@ -148,51 +159,52 @@ impl SymbolicPolynomial {
                 return Ok(AtPoint::Undefined);
             }
         }
-        let coefficients = budget.enter(|| common_scale(&self.polynomial, value))?;
+        let coefficients = budget.enter(|| common_scale(self.polynomial.coeffs(), value))?;
         count::at_point(coefficients, self.formal_degree, &symbols, region, budget)
     }
 
     /// The boundary conditions; `None` where one of them holds for every value of the parameter because it is zero, or the
-    /// degree is not reached.
-    fn conditions(&self, region: Shape, budget: &Budget) -> Result<Option<Vec<(Cause, MultiPoly)>>, Exhausted> {
+    /// degree is not reached. The resultant is expanded where it has no more than `most` terms.
+    fn conditions(&self, region: Shape, most: u64, budget: &Budget) -> Result<Option<Vec<Condition>>, Exhausted> {
         let n = self.formal_degree;
         if self.polynomial.degree() != Some(n) {
             return Ok(None);
         }
         budget.step("boundary polynomials");
         let value = |x: i64| budget.enter(|| self.polynomial.eval(&MultiPoly::constant(Integer::from(x))));
-        let mut found = Vec::new();
+        let mut found: Vec<Condition> = Vec::new();
         if n > 0 {
             match region {
                 Shape::UnitDisc => {
-                    found.push((Cause::RootAtOne, value(1)?));
-                    found.push((Cause::RootAtMinusOne, value(-1)?));
+                    found.push((Cause::RootAtOne, value(1)?.into()));
+                    found.push((Cause::RootAtMinusOne, value(-1)?.into()));
                 }
-                Shape::LeftHalfPlane => found.push((Cause::RootAtZero, value(0)?)),
+                Shape::LeftHalfPlane => found.push((Cause::RootAtZero, value(0)?.into())),
             }
-            found.push((Cause::ComplexPair, self.pair(region).critical_constraint(budget)?));
         }
-        found.push((Cause::DegreeLost, self.degree_loss.clone()));
-        found.extend(self.poles.iter().map(|q| (Cause::Pole, q.clone())));
-        Ok((!found.iter().any(|(_, p)| p.is_zero())).then_some(found))
+        found.push((Cause::DegreeLost, self.degree_loss.clone().into()));
+        found.extend(self.poles.iter().map(|q| (Cause::Pole, q.clone().into())));
+        if n > 1 {
+            let pair = pair::Pair::of(&self.pair(region));
+            found.push((Cause::ComplexPair, Function::resultant(pair.a, pair.b)));
+            let functions: Vec<Function> = found.iter().map(|(_, f)| f.clone()).collect();
+            let resultant = &functions[functions.len() - 1];
+            if resultant.expanded_size() <= most || !resultants_seem_simple_in(&functions, 0, budget)? {
+                let expanded = self.pair(region).critical_constraint(budget)?;
+                found.pop();
+                found.push((Cause::ComplexPair, expanded.into()));
+            }
+        }
+        let is_zero = |(_, f): &Condition| f.polynomial().is_some_and(MultiPoly::is_zero);
+        Ok((!found.iter().any(is_zero)).then_some(found))
     }
 }
 
-/// The coefficients at a rational value of the parameter, times a common positive integer, in symbols as their table numbers
-/// them.
-fn common_scale(p: &Poly<MultiPoly>, value: &Rational) -> Vec<MultiPoly> {
-    let degree = p.coeffs().iter().map(|c| c.degree_in(0)).max().unwrap_or(0);
-    let (n, d) = (value.numerator(), value.denominator());
-    let at = |c: &MultiPoly| {
-        let in_parameter = c.as_poly_in(0);
-        let mut sum = MultiPoly::zero();
-        for (k, part) in in_parameter.coeffs().iter().enumerate() {
-            sum = sum.plus(&part.scaled_by(&(n.pow(k as u64) * d.pow(u64::from(degree) - k as u64))));
-        }
-        sum.map_variables(|i| i.saturating_sub(1))
-    };
-    p.coeffs().iter().map(at).collect()
-}
+/// What happens at the zeros of a function.
+type Condition = (Cause, Function);
+
+/// Resultants with no more terms than this are expanded: then repeated and common factors are known.
+const MOST_EXPANDED: u64 = 400;
 
 #[cfg(test)]
 mod tests;

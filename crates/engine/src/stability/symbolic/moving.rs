@@ -1,28 +1,28 @@
 //! The stable set where the parameter is inside of exponentials, such as the sample time of a held plant.
 
 use super::count::certain_count;
-use super::pair::{Common, FirstSubresultant, Values};
+use super::pair::{Common, CommonRoots, Pair, Values};
 use super::set::{Place, coprime, intervals, named_end};
-use super::{SymbolicPolynomial, Table};
+use super::{Condition, MOST_EXPANDED, SymbolicPolynomial};
 use crate::stability::{Cause, Causes, End, Range, Shape, StableSet, UndecidedBracket};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, SquareFree, UniPoly, isolate_real_roots_in};
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::{MovingSymbols, common_factor, is_square_free_in, merged};
+use jurist_algebra::symbols::{Function, MovingSymbols, common_factor, is_square_free_in, merged};
 use std::sync::Arc;
 
 impl Values for MovingSymbols {
-    fn at(&self, p: &MultiPoly, parameter: &Ball) -> Option<Ball> {
-        self.enclose(p, parameter)
+    fn at(&self, list: &[MultiPoly], parameter: &Ball) -> Option<Vec<Ball>> {
+        self.enclose(list, parameter)
     }
 }
 
 /// A boundary condition: its function, the factor of it without symbols, and the functions of the basis that divide it.
 struct Boundary {
     cause: Cause,
-    function: MultiPoly,
+    function: Function,
     algebraic: UniPoly,
     parts: Vec<usize>,
 }
@@ -41,61 +41,35 @@ pub(super) fn moving_stable_set(
     region: Shape,
     budget: &Budget,
 ) -> Result<StableSet, Exhausted> {
-    let Some(lower) = &range.lower else { panic!("the range is bounded below") };
-    let tail;
-    let upper = match &range.upper {
-        Some(upper) => upper,
-        None => {
-            tail = p.tail_start(lower, region, budget)?.expect("a tail that is decided");
-            &tail
-        }
+    let Some(conditions) = p.conditions(region, MOST_EXPANDED, budget)? else {
+        return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
     };
-    let nowhere = || StableSet::from_intervals(Vec::new(), Vec::new());
-    let Some(conditions) = p.conditions(region, budget)? else { return Ok(nowhere()) };
-    let mut split = Vec::with_capacity(conditions.len());
-    for (cause, function) in conditions {
-        split.push(budget.enter(|| {
-            let unknowns = function.variables();
-            let square_free = if unknowns.iter().all(|&j| is_square_free_in(&function, j)) {
-                function.clone()
-            } else if function.terms().len() > MOST_TERMS {
-                return (cause, function.clone(), UniPoly::one(), without_exponentials(function, symbols));
-            } else {
-                function.square_free_part()
-            };
-            let algebraic = common_factor(&square_free);
-            let divisor = MultiPoly::from_univariate(&algebraic, 0);
-            let rest = without_exponentials(square_free.div_exact(&divisor).expect("a common factor divides"), symbols);
-            (cause, function, algebraic, rest)
-        })?);
-    }
-    let rests: Vec<MultiPoly> = split.iter().map(|(_, _, _, rest)| rest.clone()).collect();
-    let (short, long): (Vec<MultiPoly>, Vec<MultiPoly>) =
-        rests.into_iter().partition(|rest| rest.terms().len() <= MOST_TERMS);
-    let mut basis = budget.enter(|| coprime(&short, &all_variables(&short)))?;
-    basis.extend(long);
-    let boundaries: Vec<Boundary> = budget.enter(|| {
-        let divides = |part: &MultiPoly, rest: &MultiPoly| {
-            part == rest || (rest.terms().len() <= MOST_TERMS && rest.div_exact(part).is_some())
-        };
-        let parts = |rest: &MultiPoly| (0..basis.len()).filter(|&k| divides(&basis[k], rest)).collect();
-        let boundary =
-            |(cause, function, algebraic, rest)| Boundary { cause, function, algebraic, parts: parts(&rest) };
-        split.into_iter().map(boundary).collect()
-    })?;
+    let reach = reach(p, symbols, &conditions, range, region, budget)?;
+    let (boundaries, basis) = split(conditions, symbols, budget)?;
     budget.step("isolating the boundaries' zeros");
     let mut all: Vec<Real> = Vec::new();
     for boundary in &boundaries {
         let Some(algebraic) = SquareFree::part_of(&boundary.algebraic) else { continue };
-        let roots = isolate_real_roots_in(&algebraic, Some(lower), Some(upper), budget)?;
+        let (lower, upper) = (reach.lower.as_ref(), reach.upper.as_ref());
+        let roots = isolate_real_roots_in(&algebraic, lower, upper, budget)?;
         all = merged(all, roots.into_iter().map(Real::from).collect(), budget)?;
     }
     let mut from: Vec<(usize, Real)> = Vec::new();
-    let mut undecided: Vec<(Rational, Rational, usize)> = Vec::new();
+    let mut undecided: Vec<Bracket> = reach.undecided.clone();
     for (k, part) in basis.iter().enumerate() {
-        let found = symbols.zeros_in(part, lower, upper, budget)?;
+        let mut found = symbols.zeros_in(part, &reach.from, &reach.to, budget)?;
+        undecided.extend(found.undecided.into_iter().map(|(lo, hi)| (Some(lo), Some(hi), Some(k))));
+        if let Some(inverted) = &reach.inverted {
+            let one_over = reach.to.recip().expect("a positive number");
+            let beyond = inverted.zeros_in(&part.inverted(), &Rational::ZERO, &one_over, budget)?;
+            found.zeros.extend(beyond.zeros.iter().rev().map(Real::recip));
+            let turned = |(lo, hi): (Rational, Rational)| (hi.recip(), lo.recip(), Some(k));
+            undecided.extend(beyond.undecided.into_iter().map(turned));
+            if symbols.vanishes_at(part, &reach.to, budget)? {
+                undecided.push((Some(reach.to.clone()), Some(reach.to.clone()), Some(k)));
+            }
+        }
         from.extend(found.zeros.iter().map(|zero| (k, zero.clone())));
-        undecided.extend(found.undecided.into_iter().map(|(lo, hi)| (lo, hi, k)));
         all = merged(all, found.zeros, budget)?;
     }
     let zeros: Vec<Zero> = all
@@ -106,25 +80,35 @@ pub(super) fn moving_stable_set(
         })
         .collect();
     let undecided = disjoint(undecided);
-    let first = FirstSubresultant::new(&p.pair(region), Arc::clone(symbols) as Arc<dyn Values>, budget)?;
-    let bounded = Range::between(Some(lower.clone()), Some(upper.clone()));
-    let examiner = Examiner { symbols, range: &bounded, boundaries: &boundaries, first, budget };
+    let common = (p.formal_degree > 1).then(|| {
+        let pair = Arc::new(Pair::of(&p.pair(region)));
+        CommonRoots::new(pair, Arc::clone(symbols) as Arc<dyn Values>)
+    });
+    let examiner = Examiner { symbols, range, boundaries: &boundaries, common, budget };
     let mut stable = Vec::new();
-    let mut from = lower.clone();
+    let mut lower = reach.lower.clone();
     for k in 0..=undecided.len() {
-        let to = undecided.get(k).map_or_else(|| upper.clone(), |b| b.0.clone());
-        if from < to {
-            let piece = Range::between(Some(from), Some(to.clone()));
+        let bracket = undecided.get(k);
+        let upper = bracket.map_or_else(|| reach.upper.clone(), |b| b.0.clone());
+        let is_piece = match (&lower, &upper) {
+            (Some(lower), Some(upper)) => lower < upper,
+            // A bracket without a lower end begins before everything.
+            (None, None) => bracket.is_none(),
+            _ => bracket.is_none_or(|b| b.0.is_some()),
+        };
+        if is_piece {
+            let piece = Range::between(lower.clone(), upper);
             let inside = |z: &&Zero| {
-                z.value.compare_rational(piece.lower.as_ref().expect("bounded")).is_gt()
-                    && z.value.compare_rational(&to).is_lt()
+                piece.lower.as_ref().is_none_or(|x| z.value.compare_rational(x).is_gt())
+                    && piece.upper.as_ref().is_none_or(|x| z.value.compare_rational(x).is_lt())
             };
             let zeros: Vec<&Zero> = zeros.iter().filter(inside).collect();
             let values = zeros.iter().map(|z| z.value.clone()).collect();
             let at = |sample: &Rational| p.at(sample, region, budget);
             let end = |place: Place<'_>, is_between: bool| match place {
                 Place::Domain(value) => {
-                    match undecided.iter().find(|b| value.exact().is_some_and(|x| x == b.0 || x == b.1)) {
+                    let exact = value.exact();
+                    match undecided.iter().find(|b| exact.is_some() && (exact == b.0 || exact == b.1)) {
                         Some(bracket) => Ok(Some(examiner.beside(value, bracket.2))),
                         None => examiner.at_domain(value).map(Some),
                     }
@@ -133,18 +117,119 @@ pub(super) fn moving_stable_set(
             };
             stable.extend(intervals(&piece, values, p.formal_degree(), at, end, budget)?);
         }
-        from = undecided.get(k).map_or_else(|| upper.clone(), |b| b.1.clone());
+        let Some(bracket) = bracket else { break };
+        lower = bracket.1.clone();
+        if lower.is_none() {
+            break;
+        }
     }
-    if range.upper.is_none()
-        && let Some(last) = stable.last_mut()
-        && last.upper.as_ref().is_some_and(|end| end.value.exact().as_ref() == Some(upper))
-    {
-        // The tail has the verdict of the last cell.
-        last.upper = None;
-    }
-    let brackets = undecided.into_iter().map(|(lo, hi, _)| UndecidedBracket::new(lo, hi, "touching or crossing"));
+    let brackets = undecided.into_iter().map(|(lo, hi, part)| {
+        let why = if part.is_some() { "touching or crossing" } else { "not looked at: give bounds of the domain" };
+        UndecidedBracket::new(lo, hi, why)
+    });
     Ok(StableSet::from_intervals(stable, brackets.collect()))
 }
+
+/// An interval in which nothing is known, and which function of the basis is why; none where it was not looked at.
+type Bracket = (Option<Rational>, Option<Rational>, Option<usize>);
+
+/// Where zeros are looked for: between `from` and `to`, and beyond `to` by the reciprocal of the parameter.
+struct Reach {
+    from: Rational,
+    to: Rational,
+    inverted: Option<Arc<MovingSymbols>>,
+    /// The ends of what is decided; none where that goes on for ever.
+    lower: Option<Rational>,
+    upper: Option<Rational>,
+    /// What lies outside of them in the range.
+    undecided: Vec<Bracket>,
+}
+
+/// How far a parameter goes that is not bounded: to where nothing happens any more, or, by its reciprocal, all the way, or
+/// else to a large multiple of its usual value.
+fn reach(
+    p: &SymbolicPolynomial,
+    symbols: &Arc<MovingSymbols>,
+    conditions: &[Condition],
+    range: &Range,
+    region: Shape,
+    budget: &Budget,
+) -> Result<Reach, Exhausted> {
+    let usual = p.usual.abs().max(Rational::dyadic(&Integer::ONE, 64));
+    let large = |x: &Rational| (x.abs() + &usual) * Rational::from(MULTIPLE);
+    let mut undecided = Vec::new();
+    let from = match (&range.lower, &range.upper) {
+        (Some(lower), _) => lower.clone(),
+        (None, upper) => {
+            let from = -large(upper.as_ref().unwrap_or(&Rational::ZERO));
+            undecided.push((None, Some(from.clone()), None));
+            from
+        }
+    };
+    let lower = Some(from.clone());
+    if let Some(to) = &range.upper {
+        return Ok(Reach { from, to: to.clone(), inverted: None, lower, upper: Some(to.clone()), undecided });
+    }
+    if let Some(to) = p.tail_start(symbols, conditions, &from, region, budget)? {
+        return Ok(Reach { from, to, inverted: None, lower, upper: None, undecided });
+    }
+    let to = large(&from);
+    let inverted = symbols.inverted().filter(|s| s.at(&Rational::ZERO).is_some());
+    if let Some(inverted) = inverted {
+        return Ok(Reach { from, to, inverted: Some(Arc::new(inverted)), lower, upper: None, undecided });
+    }
+    undecided.push((Some(to.clone()), None, None));
+    Ok(Reach { from, to: to.clone(), inverted: None, lower, upper: Some(to), undecided })
+}
+
+/// The boundary conditions and the functions they are made of.
+fn split(
+    conditions: Vec<Condition>,
+    symbols: &MovingSymbols,
+    budget: &Budget,
+) -> Result<(Vec<Boundary>, Vec<Function>), Exhausted> {
+    let mut split = Vec::with_capacity(conditions.len());
+    for (cause, function) in conditions {
+        split.push(budget.enter(|| {
+            let Some(p) = function.polynomial() else { return (cause, function, UniPoly::one(), None) };
+            let unknowns = p.variables();
+            let square_free = if unknowns.iter().all(|&j| is_square_free_in(p, j)) {
+                p.clone()
+            } else if p.terms().len() > MOST_TERMS {
+                return (cause, function.clone(), UniPoly::one(), Some(without_exponentials(p.clone(), symbols)));
+            } else {
+                p.square_free_part()
+            };
+            let algebraic = common_factor(&square_free);
+            let divisor = MultiPoly::from_univariate(&algebraic, 0);
+            let rest = without_exponentials(square_free.div_exact(&divisor).expect("a common factor divides"), symbols);
+            (cause, function, algebraic, Some(rest))
+        })?);
+    }
+    let rests = split.iter().filter_map(|(_, _, _, rest)| rest.clone());
+    let (short, long): (Vec<MultiPoly>, Vec<MultiPoly>) = rests.partition(|rest| rest.terms().len() <= MOST_TERMS);
+    let mut expanded = budget.enter(|| coprime(&short, &all_variables(&short)))?;
+    expanded.extend(long);
+    let mut basis: Vec<Function> = expanded.iter().cloned().map(Function::from).collect();
+    let mut boundaries = Vec::with_capacity(split.len());
+    for (cause, function, algebraic, rest) in split {
+        let divides = |part: &MultiPoly, rest: &MultiPoly| {
+            part == rest || (rest.terms().len() <= MOST_TERMS && rest.div_exact(part).is_some())
+        };
+        let parts = match rest {
+            Some(rest) => budget.enter(|| (0..expanded.len()).filter(|&k| divides(&expanded[k], &rest)).collect())?,
+            None => {
+                basis.push(function.clone());
+                vec![basis.len() - 1]
+            }
+        };
+        boundaries.push(Boundary { cause, function, algebraic, parts });
+    }
+    Ok((boundaries, basis))
+}
+
+/// Where nothing bounds a parameter and nothing dies away, it is looked at up to this multiple of its usual value.
+const MULTIPLE: i64 = 1024;
 
 /// Functions with more terms that may have repeated factors are not divided into them: a zero of even order then stays an
 /// undecided bracket.
@@ -158,18 +243,19 @@ const LAST_POWER: i64 = 60;
 
 impl SymbolicPolynomial {
     /// A number above `lower` from which on no root comes to the boundary, as all symbols have died away; `None` where none is
-    /// found because a symbol does not, or the parameter itself occurs in the coefficients.
+    /// found.
     ///
-    /// Cost: exponentials of small matrices and a root count for each of up to a hundred powers of two.
-    ///
-    /// # Errors
-    /// [`Exhausted`] when the budget runs out.
-    pub fn tail_start(&self, lower: &Rational, region: Shape, budget: &Budget) -> Result<Option<Rational>, Exhausted> {
-        let Table::Moving(symbols) = &self.symbols else { return Ok(None) };
-        if self.polynomial.coeffs().iter().chain(&self.poles).any(|c| c.degree_in(0) > 0) {
-            return Ok(None);
-        }
+    /// Cost: exponentials of small matrices and a root count or a determinant for each of up to a hundred powers of two.
+    fn tail_start(
+        &self,
+        symbols: &MovingSymbols,
+        conditions: &[Condition],
+        lower: &Rational,
+        region: Shape,
+        budget: &Budget,
+    ) -> Result<Option<Rational>, Exhausted> {
         budget.step("bounding what dies away");
+        let is_inside_only = self.polynomial.coeffs().iter().chain(&self.poles).all(|c| c.degree_in(0) == 0);
         for power in FIRST_POWER..=LAST_POWER {
             budget.check()?;
             let start = Rational::from(2).pow(power).expect("two is not zero");
@@ -178,6 +264,9 @@ impl SymbolicPolynomial {
             }
             let bound = |f: &MultiPoly| symbols.beyond(f, &start);
             let certain = budget.enter(|| {
+                if !is_inside_only {
+                    return conditions.iter().all(|(_, f)| symbols.has_no_zero_beyond(f, &start));
+                }
                 let poles = self.poles.iter().all(|pole| bound(pole).is_some_and(|b| !b.contains_zero()));
                 let coefficients: Option<Vec<Ball>> = self.polynomial.coeffs().iter().map(bound).collect();
                 poles && coefficients.is_some_and(|c| certain_count(&c, region).is_some())
@@ -205,12 +294,15 @@ fn without_exponentials(p: MultiPoly, symbols: &MovingSymbols) -> MultiPoly {
 }
 
 /// Brackets in ascending order, those that overlap as one.
-fn disjoint(mut brackets: Vec<(Rational, Rational, usize)>) -> Vec<(Rational, Rational, usize)> {
+fn disjoint(mut brackets: Vec<Bracket>) -> Vec<Bracket> {
     brackets.sort();
-    let mut out: Vec<(Rational, Rational, usize)> = Vec::new();
+    let mut out: Vec<Bracket> = Vec::new();
     for (lo, hi, k) in brackets {
         match out.last_mut() {
-            Some(last) if last.1 >= lo => last.1 = hi.max(last.1.clone()),
+            Some(last) if last.1.is_none() || lo <= last.1 => {
+                last.1 = if hi.is_none() || last.1.is_none() { None } else { hi.max(last.1.clone()) };
+                last.2 = last.2.or(k);
+            }
             _ => out.push((lo, hi, k)),
         }
     }
@@ -222,7 +314,7 @@ struct Examiner<'a> {
     symbols: &'a Arc<MovingSymbols>,
     range: &'a Range,
     boundaries: &'a [Boundary],
-    first: Option<FirstSubresultant>,
+    common: Option<CommonRoots>,
     budget: &'a Budget,
 }
 
@@ -245,9 +337,10 @@ impl Examiner<'_> {
     }
 
     /// Beside a bracket in which a function of the basis may have zeros.
-    fn beside(&self, value: &Real, part: usize) -> End {
+    fn beside(&self, value: &Real, part: Option<usize>) -> End {
         let mut causes = Causes::default();
-        self.boundaries.iter().filter(|b| b.parts.contains(&part)).for_each(|b| causes.insert(b.cause));
+        let touched = |b: &&Boundary| part.is_some_and(|part| b.parts.contains(&part));
+        self.boundaries.iter().filter(touched).for_each(|b| causes.insert(b.cause));
         End::new(value.clone(), causes, None)
     }
 
@@ -264,8 +357,8 @@ impl Examiner<'_> {
     }
 
     fn common_root(&self, value: &Real) -> Result<Common, Exhausted> {
-        match &self.first {
-            Some(first) => first.at(value, self.budget),
+        match &self.common {
+            Some(common) => common.at(value, self.budget),
             None => Ok(Common::Unknown),
         }
     }

@@ -1,10 +1,10 @@
 //! Where on the boundary a complex pair sits at a limit that is a root over symbols.
 
 use crate::stability::{ComplexPair, HalfSizePair, Shape};
-use jurist_algebra::ball::Ball;
+use jurist_algebra::ball::{Ball, common_root};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, subresultant_chain};
+use jurist_algebra::poly::{MultiPoly, Poly};
 use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
 use jurist_algebra::symbols::Symbols;
 use std::fmt;
@@ -25,61 +25,55 @@ pub(super) enum Common {
 
 /// What polynomials in the parameter (variable 0) and symbols are for a value of the parameter.
 pub(super) trait Values: fmt::Debug + Send + Sync {
-    /// The value of a polynomial, the parameter anywhere in a ball; `None` where a symbol has none.
-    fn at(&self, p: &MultiPoly, parameter: &Ball) -> Option<Ball>;
+    /// The values of polynomials, the parameter anywhere in a ball; `None` where a symbol has none.
+    fn at(&self, list: &[MultiPoly], parameter: &Ball) -> Option<Vec<Ball>>;
 }
 
 impl Values for Symbols {
-    fn at(&self, p: &MultiPoly, parameter: &Ball) -> Option<Ball> {
+    fn at(&self, list: &[MultiPoly], parameter: &Ball) -> Option<Vec<Ball>> {
         let bits = parameter.bits();
-        let in_parameter = p.as_poly_in(0);
-        let coefficients = in_parameter.coeffs().iter().rev();
-        Some(coefficients.fold(Ball::zero(bits), |sum, c| {
-            sum.mul(parameter).add(&self.enclose(&c.map_variables(|i| i.saturating_sub(1)), bits))
-        }))
+        let value = |p: &MultiPoly| {
+            let in_parameter = p.as_poly_in(0);
+            in_parameter.coeffs().iter().rev().fold(Ball::zero(bits), |sum, c| {
+                sum.mul(parameter).add(&self.enclose(&c.map_variables(|i| i.saturating_sub(1)), bits))
+            })
+        };
+        Some(list.iter().map(value).collect())
     }
 }
 
-/// The first subresultant of the half-size pair, as polynomials in the parameter and symbols: at a zero of the resultant its
-/// root is the common root.
-pub(super) struct FirstSubresultant {
-    constant: MultiPoly,
-    leading: MultiPoly,
-    values: Arc<dyn Values>,
-    region: Shape,
+/// The half-size pair as polynomials in the parameter and symbols, by all coefficients for the formal degrees.
+#[derive(Clone, Debug)]
+pub(super) struct Pair {
+    pub a: Vec<MultiPoly>,
+    pub b: Vec<MultiPoly>,
+    pub region: Shape,
 }
 
-impl FirstSubresultant {
-    /// `None` where the chain has none.
-    pub fn new(
-        pair: &HalfSizePair<MultiPoly>,
-        values: Arc<dyn Values>,
-        budget: &Budget,
-    ) -> Result<Option<FirstSubresultant>, Exhausted> {
-        let (a, b) = (&pair.a, &pair.b);
-        let (first, second) = if a.degree() >= b.degree() { (a, b) } else { (b, a) };
-        if second.is_zero() {
-            return Ok(None);
-        }
-        let chain = subresultant_chain(first, second, budget)?;
-        let linear = |p: &&Poly<MultiPoly>| p.degree() == Some(1);
-        Ok(chain.iter().rev().find(linear).map(|p| FirstSubresultant {
-            constant: p.coeff(0),
-            leading: p.coeff(1),
-            values,
-            region: pair.region,
-        }))
+impl Pair {
+    pub fn of(pair: &HalfSizePair<MultiPoly>) -> Pair {
+        let all = |p: &Poly<MultiPoly>, degree: usize| (0..=degree).map(|k| p.coeff(k)).collect();
+        Pair { a: all(&pair.a, pair.degree_a), b: all(&pair.b, pair.degree_b), region: pair.region }
+    }
+}
+
+/// Looks for the common root of the half-size pair where its resultant is zero.
+pub(super) struct CommonRoots {
+    pair: Arc<Pair>,
+    values: Arc<dyn Values>,
+}
+
+impl CommonRoots {
+    /// Of a pair that is not constant.
+    pub fn new(pair: Arc<Pair>, values: Arc<dyn Values>) -> CommonRoots {
+        CommonRoots { pair, values }
     }
 
     /// The common root at a zero of the resultant.
     pub fn at(&self, value: &Real, budget: &Budget) -> Result<Common, Exhausted> {
-        let root = CommonRoot {
-            constant: self.constant.clone(),
-            leading: self.leading.clone(),
-            values: Arc::clone(&self.values),
-            parameter: value.clone(),
-        };
-        let (lower, upper) = match self.region {
+        let root =
+            CommonRoot { pair: Arc::clone(&self.pair), values: Arc::clone(&self.values), parameter: value.clone() };
+        let (lower, upper) = match self.pair.region {
             Shape::UnitDisc => (Some(Rational::from(-2)), Rational::from(2)),
             Shape::LeftHalfPlane => (None, Rational::ZERO),
         };
@@ -89,7 +83,7 @@ impl FirstSubresultant {
             if let Some(x) = budget.enter(|| root.attempt(bits))? {
                 if *x.upper() < upper && lower.as_ref().is_none_or(|l| l < x.lower()) {
                     let x = Transcendental::within(root, x);
-                    return Ok(Common::Pair(ComplexPair::at_half_size_root(self.region, x)));
+                    return Ok(Common::Pair(ComplexPair::at_half_size_root(self.pair.region, x)));
                 }
                 if *x.lower() > upper || lower.as_ref().is_some_and(|l| x.upper() < l) {
                     return Ok(Common::Beyond);
@@ -101,22 +95,21 @@ impl FirstSubresultant {
     }
 }
 
-/// The root of the first subresultant at a value of the parameter.
+/// The common root of the pair at a value of the parameter.
 #[derive(Debug)]
 struct CommonRoot {
-    constant: MultiPoly,
-    leading: MultiPoly,
+    pair: Arc<Pair>,
     values: Arc<dyn Values>,
     parameter: Real,
 }
 
 impl CommonRoot {
-    /// An enclosure computed with so many bits; `None` where the leading coefficient may vanish.
+    /// An enclosure computed with so many bits; `None` where the root is not seen to be the only one.
     fn attempt(&self, bits: u64) -> Option<Enclosure> {
         let (lo, hi) = self.parameter.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
         let at = Ball::between(&lo, &hi, bits);
-        let value = |p: &MultiPoly| self.values.at(p, &at);
-        Some(value(&self.constant)?.neg().div(&value(&self.leading)?)?.to_enclosure())
+        let values = |list: &[MultiPoly]| self.values.at(list, &at);
+        Some(common_root(&values(&self.pair.a)?, &values(&self.pair.b)?)?.to_enclosure())
     }
 }
 
@@ -126,7 +119,7 @@ impl Enclosing for CommonRoot {
         let mut working = bits + 64;
         loop {
             checkpoint(working);
-            // The leading coefficient is not zero, as was seen when the root was made.
+            // With enough bits the root is seen to be the only one, as when it was found.
             if let Some(x) = self.attempt(working)
                 && x.upper() - x.lower() <= width
             {
@@ -137,6 +130,6 @@ impl Enclosing for CommonRoot {
     }
 
     fn origin(&self) -> Origin {
-        Origin::Function { function: "first subresultant".to_owned(), details: Vec::new() }
+        Origin::Function { function: "common root of the half-size pair".to_owned(), details: Vec::new() }
     }
 }

@@ -1,26 +1,59 @@
 //! The exact set of stable parameter values of a loop with transcendental constants.
 
 use super::moving::moving_stable_set;
-use super::pair::{Common, FirstSubresultant, Values};
-use super::{SymbolicPolynomial, Table};
+use super::pair::{Common, CommonRoots, Pair, Values};
+use super::resultant::PairResultant;
+use super::{MOST_EXPANDED, SymbolicPolynomial, Table};
 use crate::stability::{AtPoint, Cause, Causes, End, Range, Shape, StableInterval, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, MultiPoly};
+use jurist_algebra::poly::{Domain, MultiPoly, isolate_real_roots_in};
 use jurist_algebra::real::{Real, rational_between};
-use jurist_algebra::symbols::{SymbolicPoly, Symbols, are_coprime_in, merged};
+use jurist_algebra::symbols::{EnclosedPoly, Function, SymbolicPoly, Symbols, are_coprime_in, enclosed_roots, merged};
 use std::sync::Arc;
 
-/// A boundary condition and the polynomials over symbols it is made of.
+/// A polynomial in the parameter whose coefficients are numbers.
+enum Condition {
+    /// A polynomial over symbols.
+    Symbolic(SymbolicPoly),
+    /// A resultant that is not expanded.
+    Resultant(Arc<PairResultant>),
+}
+
+impl Condition {
+    fn vanishes_at(&self, x: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
+        match self {
+            Condition::Symbolic(p) => p.vanishes_at(x, budget),
+            Condition::Resultant(p) if x.is_zero() => Ok(p.vanishes_at_zero()),
+            Condition::Resultant(p) => p.vanishes_at(x, budget),
+        }
+    }
+
+    fn roots(&self, range: &Range, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+        let (lower, upper) = (range.lower.as_ref(), range.upper.as_ref());
+        let p = match self {
+            Condition::Symbolic(p) => return p.real_roots_in(lower, upper, budget),
+            Condition::Resultant(p) => p,
+        };
+        let mut found = enclosed_roots(&(Arc::clone(p) as Arc<dyn EnclosedPoly>), lower, upper, budget)?;
+        let inside = lower.is_none_or(Rational::is_negative) && upper.is_none_or(|u| u.sign().is_gt());
+        if p.vanishes_at_zero() && inside {
+            found = merged(found, vec![Real::from(Rational::ZERO)], budget)?;
+        }
+        Ok(found)
+    }
+}
+
+/// A boundary condition and the polynomials it is made of.
 struct Boundary {
     cause: Cause,
-    polynomial: SymbolicPoly,
+    condition: Condition,
     /// Which polynomials of the basis divide it.
     parts: Vec<usize>,
 }
 
-/// The boundary conditions, and the pairwise coprime polynomials over symbols they are made of.
-type Split = (Vec<Boundary>, Vec<SymbolicPoly>);
+/// The boundary conditions, and the pairwise coprime polynomials they are made of.
+type Split = (Vec<Boundary>, Vec<Condition>);
 
 /// A zero of the boundary polynomials, and from which polynomial of the basis it comes.
 struct Zero {
@@ -33,34 +66,53 @@ struct Zero {
 /// As [`stable_set`](crate::stability::stable_set): the zeros of the boundary polynomials cut the range into cells, and one
 /// rational sample decides each. Zeros are isolated with enclosed coefficients; what is zero is only ever an identity. With
 /// one parameter outside of all exponentials the set is always found, given the time. Where symbols depend on the parameter,
-/// its range has to be bounded, and brackets may stay undecided in which roots touch the boundary or cross it twice.
+/// brackets may stay undecided in which roots touch the boundary or cross it twice, and what lies beyond a large multiple of
+/// the parameter's usual value where nothing tells what happens there.
 ///
 /// Cost: one resultant over the polynomials in the parameter and the symbols, greatest common divisors of the boundary
 /// polynomials, and their zeros with more and more bits until all are told apart.
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out, and where a zero is not proved and not disproved by some thousand bits.
-///
-/// # Panics
-/// When symbols depend on the parameter and its range is not bounded: below, or above where there is no
-/// [`tail_start`](SymbolicPolynomial::tail_start).
 pub fn symbolic_stable_set(
     p: &SymbolicPolynomial,
     range: &Range,
     region: Shape,
     budget: &Budget,
 ) -> Result<StableSet, Exhausted> {
-    let nowhere = || StableSet::from_intervals(Vec::new(), Vec::new());
     let symbols = match &p.symbols {
         Table::Fixed(symbols) => symbols,
         Table::Moving(symbols) => return moving_stable_set(p, symbols, range, region, budget),
     };
-    let Some(found) = boundaries(p, symbols, region, budget)? else { return Ok(nowhere()) };
+    match set_over(p, symbols, range, region, MOST_EXPANDED, budget) {
+        // Zeros that coincide, or a resultant that is zero, show in its expansion.
+        Err(stopped) if stopped.budget.starts_with("precision") => {
+            set_over(p, symbols, range, region, u64::MAX, budget)
+        }
+        found => found,
+    }
+}
+
+/// The stable set; resultants with no more than `most` terms are expanded.
+pub(super) fn set_over(
+    p: &SymbolicPolynomial,
+    symbols: &Arc<Symbols>,
+    range: &Range,
+    region: Shape,
+    most: u64,
+    budget: &Budget,
+) -> Result<StableSet, Exhausted> {
+    let Some(found) = boundaries(p, symbols, region, most, budget)? else {
+        return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
+    };
     let (boundaries, basis) = found;
     budget.step("isolating the boundaries' zeros");
     let zeros = zeros(&boundaries, &basis, range, budget)?;
-    let first = FirstSubresultant::new(&p.pair(region), Arc::clone(symbols) as Arc<dyn Values>, budget)?;
-    let examiner = Examiner { p, range, boundaries: &boundaries, first, budget };
+    let common = (p.formal_degree > 1).then(|| {
+        let pair = Arc::new(Pair::of(&p.pair(region)));
+        CommonRoots::new(pair, Arc::clone(symbols) as Arc<dyn Values>)
+    });
+    let examiner = Examiner { p, range, boundaries: &boundaries, common, budget };
     let values = zeros.iter().map(|z| z.value.clone()).collect();
     let at = |sample: &Rational| p.at(sample, region, budget);
     let end = |place: Place<'_>, is_between: bool| match place {
@@ -129,20 +181,29 @@ pub(super) fn intervals(
     Ok(intervals)
 }
 
-/// The boundary conditions and the pairwise coprime polynomials over symbols they are made of; `None` where the loop is
-/// stable nowhere.
+/// The boundary conditions and the pairwise coprime polynomials they are made of; `None` where the loop is stable nowhere.
 fn boundaries(
     p: &SymbolicPolynomial,
     symbols: &Arc<Symbols>,
     region: Shape,
+    most: u64,
     budget: &Budget,
 ) -> Result<Option<Split>, Exhausted> {
-    let Some(conditions) = p.conditions(region, budget)? else { return Ok(None) };
+    let Some(conditions) = p.conditions(region, most, budget)? else { return Ok(None) };
     let mut found: Vec<(Cause, SymbolicPoly)> = Vec::new();
-    for (cause, polynomial) in conditions {
+    let mut resultant = None;
+    for (cause, function) in conditions {
         budget.check()?;
-        let Some(polynomial) = SymbolicPoly::new(&polynomial, symbols, budget)? else { return Ok(None) };
-        found.push((cause, polynomial));
+        match function {
+            Function::Polynomial(polynomial) => {
+                let Some(polynomial) = SymbolicPoly::new(&polynomial, symbols, budget)? else { return Ok(None) };
+                found.push((cause, polynomial));
+            }
+            Function::Resultant { .. } => {
+                let pair = Arc::new(Pair::of(&p.pair(region)));
+                resultant = Some((cause, Arc::new(PairResultant::new(&pair, symbols, budget)?)));
+            }
+        }
     }
     let rests: Vec<MultiPoly> = found.iter().map(|(_, b)| b.rest().clone()).collect();
     let basis = budget.enter(|| coprime(&rests, &[0]))?;
@@ -153,13 +214,21 @@ fn boundaries(
                 || (!are_coprime_in(polynomial.rest(), part, 0) && polynomial.rest().gcd(part).degree_in(0) > 0)
         };
         let parts = budget.enter(|| (0..basis.len()).filter(|&k| divides(&basis[k])).collect())?;
-        boundaries.push(Boundary { cause, polynomial, parts });
+        boundaries.push(Boundary { cause, condition: Condition::Symbolic(polynomial), parts });
     }
     let mut parts = Vec::with_capacity(basis.len());
     for part in &basis {
         // A factor of a polynomial whose content is not zero has none that is.
         let Some(part) = SymbolicPoly::new(part, symbols, budget)? else { return Ok(None) };
-        parts.push(part);
+        parts.push(Condition::Symbolic(part));
+    }
+    if let Some((cause, resultant)) = resultant {
+        boundaries.push(Boundary {
+            cause,
+            condition: Condition::Resultant(Arc::clone(&resultant)),
+            parts: vec![parts.len()],
+        });
+        parts.push(Condition::Resultant(resultant));
     }
     Ok(Some((boundaries, parts)))
 }
@@ -194,22 +263,17 @@ pub(super) fn coprime(polynomials: &[MultiPoly], unknowns: &[usize]) -> Vec<Mult
 }
 
 /// All zeros in the range, ascending.
-fn zeros(
-    boundaries: &[Boundary],
-    basis: &[SymbolicPoly],
-    range: &Range,
-    budget: &Budget,
-) -> Result<Vec<Zero>, Exhausted> {
+fn zeros(boundaries: &[Boundary], basis: &[Condition], range: &Range, budget: &Budget) -> Result<Vec<Zero>, Exhausted> {
     let (lower, upper) = (range.lower.as_ref(), range.upper.as_ref());
     let mut all: Vec<Real> = Vec::new();
     for boundary in boundaries {
-        let algebraic = boundary.polynomial.algebraic();
-        let roots = jurist_algebra::poly::isolate_real_roots_in(algebraic, lower, upper, budget)?;
+        let Condition::Symbolic(polynomial) = &boundary.condition else { continue };
+        let roots = isolate_real_roots_in(polynomial.algebraic(), lower, upper, budget)?;
         all = merged(all, roots.into_iter().map(Real::from).collect(), budget)?;
     }
     let mut from: Vec<(usize, Real)> = Vec::new();
     for (k, part) in basis.iter().enumerate() {
-        let roots = part.real_roots_in(lower, upper, budget)?;
+        let roots = part.roots(range, budget)?;
         from.extend(roots.iter().map(|root| (k, root.clone())));
         all = merged(all, roots, budget)?;
     }
@@ -232,7 +296,7 @@ struct Examiner<'a> {
     p: &'a SymbolicPolynomial,
     range: &'a Range,
     boundaries: &'a [Boundary],
-    first: Option<FirstSubresultant>,
+    common: Option<CommonRoots>,
     budget: &'a Budget,
 }
 
@@ -242,7 +306,7 @@ impl Examiner<'_> {
         let exact = value.exact().expect("an end of the range is rational");
         let mut zero = Vec::new();
         for boundary in self.boundaries {
-            zero.push(boundary.polynomial.vanishes_at(&exact, self.budget)?);
+            zero.push(boundary.condition.vanishes_at(&exact, self.budget)?);
         }
         let end = self.end(value, &zero, false)?;
         Ok(end.unwrap_or_else(|| End::new(value.clone(), Causes::default(), None)))
@@ -253,10 +317,12 @@ impl Examiner<'_> {
         let mut vanishes = Vec::new();
         for boundary in self.boundaries {
             let by_part = boundary.parts.iter().any(|k| zero.parts.contains(k));
-            let algebraic = zero.value.algebraic();
-            let by_root = algebraic.is_some_and(|x| x.sign_of(boundary.polynomial.algebraic().poly()).is_eq());
+            let by_root = match (&boundary.condition, zero.value.algebraic()) {
+                (Condition::Symbolic(p), Some(x)) => x.sign_of(p.algebraic().poly()).is_eq(),
+                _ => false,
+            };
             let by_value = match zero.value.exact() {
-                Some(exact) if !by_part && !by_root => boundary.polynomial.vanishes_at(&exact, self.budget)?,
+                Some(exact) if !by_part && !by_root => boundary.condition.vanishes_at(&exact, self.budget)?,
                 _ => false,
             };
             vanishes.push(by_part || by_root || by_value);
@@ -272,8 +338,8 @@ impl Examiner<'_> {
 
     fn common_root(&self, value: &Real) -> Result<Common, Exhausted> {
         debug_assert!(self.p.formal_degree >= 2);
-        match &self.first {
-            Some(first) => first.at(value, self.budget),
+        match &self.common {
+            Some(common) => common.at(value, self.budget),
             None => Ok(Common::Unknown),
         }
     }

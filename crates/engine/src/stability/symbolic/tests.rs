@@ -1,3 +1,4 @@
+use super::set::set_over;
 use super::*;
 use crate::stability::{End, Range, RootCount, StableSet};
 use jurist_algebra::number::{Integer, parse_number};
@@ -226,4 +227,60 @@ fn sample_times_are_decided_out_to_infinity_where_all_modes_die_away() {
     // A static gain above 1: unstable in the end.
     let set = stable(&resonance_in_time("3/2"), &range);
     assert!(set.intervals().iter().all(|i| i.upper.is_some()));
+}
+
+/// Coefficients that are polynomials of low degree in the gain and two symbols.
+fn random_loop(order: usize, seed: &mut u64) -> SymbolicPolynomial {
+    let mut next = |count: u64| {
+        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        Integer::from((*seed >> 40) % count)
+    };
+    let mut symbols = Symbols::new();
+    symbols.insert("X", Definition::exponential(number("-3/5")));
+    symbols.insert("t", Definition::tangent(number("2/7")));
+    let [k, x, t] = [0, 1, 2].map(RationalFunction::variable);
+    let mut coefficient = |size: u64| {
+        let mut number =
+            || RationalFunction::from(Rational::new(next(2 * size + 1) - Integer::from(size), Integer::from(9)));
+        let (a, b, c) = (number(), number(), number());
+        &(&a + &(&b * &x)) + &(&c * &(&x * &t))
+    };
+    // A stable polynomial without the gain: z^n and little else.
+    let mut list: Vec<RationalFunction> = (0..order).map(|_| &coefficient(2) + &(&k * &coefficient(9))).collect();
+    list.push(RationalFunction::one());
+    looped(list, symbols)
+}
+
+#[test]
+fn limits_by_enclosed_resultants_are_those_by_expanded_ones() {
+    let mut seed = 5;
+    let mut limits = 0;
+    for order in [2, 3, 4, 4, 5, 6] {
+        let p = random_loop(order, &mut seed);
+        let Table::Fixed(symbols) = &p.symbols else { unreachable!() };
+        let by = |most| set_over(&p, symbols, &Range::all(), Shape::UnitDisc, most, &Budget::unlimited()).unwrap();
+        let (enclosed, expanded) = (by(0), by(u64::MAX));
+        assert_eq!(ends(&enclosed, 25), ends(&expanded, 25), "order {order}");
+        limits += ends(&enclosed, 3).len();
+    }
+    assert!(limits > 3);
+}
+
+#[test]
+fn zeros_at_either_end_of_an_enclosed_resultant_are_known() {
+    // (z - 1)^2 (z - X) z + K (z - 9/10) z: a double integrator at K = 0; at infinity 0 and 9/10 are zeros, two roots go off.
+    let mut symbols = Symbols::new();
+    symbols.insert("X", Definition::exponential(-1));
+    let (k, x, one) = (RationalFunction::variable(0), RationalFunction::variable(1), RationalFunction::one());
+    let two = &one + &one;
+    let zero = RationalFunction::from(number("9/10"));
+    let list = vec![RationalFunction::zero(), -&(&x + &(&k * &zero)), &(&one + &(&two * &x)) + &k, -&(&two + &x), one];
+    let p = looped(list, symbols);
+    let Table::Fixed(symbols) = &p.symbols else { unreachable!() };
+    let pair = Arc::new(pair::Pair::of(&p.pair(Shape::UnitDisc)));
+    let resultant = resultant::PairResultant::new(&pair, symbols, &Budget::unlimited()).unwrap();
+    assert!(resultant.vanishes_at_zero());
+    let by = |most| set_over(&p, symbols, &Range::all(), Shape::UnitDisc, most, &Budget::unlimited()).unwrap();
+    assert_eq!(ends(&by(0), 25), ends(&by(u64::MAX), 25));
+    assert!(!by(0).is_empty());
 }

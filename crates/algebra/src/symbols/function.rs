@@ -1,0 +1,280 @@
+//! Functions of a parameter and symbols: polynomials in them, and resultants that are not expanded.
+
+use super::rational_series;
+use super::specialise::{Line, resultant_on_line};
+use super::{MovingSymbols, Symbols};
+use crate::ball::{Ball, Enclosed, Series, enclosed_resultant};
+use crate::limits::{Budget, Exhausted, checkpoint};
+use crate::number::{Integer, Rational};
+use crate::poly::{Domain, MultiPoly, Poly, UniPoly, resultant_formal};
+
+/// A function of a parameter (variable 0) and of symbols (symbol `i` is variable `i + 1`).
+///
+/// ```
+/// use jurist_algebra::poly::{Domain, MultiPoly};
+/// use jurist_algebra::symbols::Function;
+/// let [p, x] = [0, 1].map(MultiPoly::variable);
+/// // Res(z - p, z - x) is x - p up to the sign.
+/// let f = Function::resultant(vec![p.negated(), MultiPoly::one()], vec![x.negated(), MultiPoly::one()]);
+/// assert_eq!(f.expanded_size(), 4);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub enum Function {
+    /// A polynomial.
+    Polynomial(MultiPoly),
+    /// The resultant, up to the sign, of two polynomials in a further unknown for their formal degrees.
+    Resultant {
+        /// All coefficients of the first from the constant term up.
+        a: Vec<MultiPoly>,
+        /// All coefficients of the second, which has no more.
+        b: Vec<MultiPoly>,
+    },
+}
+
+impl From<MultiPoly> for Function {
+    fn from(p: MultiPoly) -> Function {
+        Function::Polynomial(p)
+    }
+}
+
+/// Bits after which a resultant that may be zero is expanded.
+const MOST_BITS: u64 = 1024;
+
+impl Function {
+    /// The resultant, up to the sign, of two polynomials given by all coefficients for their formal degrees.
+    ///
+    /// # Panics
+    /// When a list is empty, or both are constants.
+    pub fn resultant(a: Vec<MultiPoly>, b: Vec<MultiPoly>) -> Function {
+        assert!(!a.is_empty() && !b.is_empty() && a.len() + b.len() > 2, "polynomials of some formal degree");
+        if a.len() >= b.len() { Function::Resultant { a, b } } else { Function::Resultant { a: b, b: a } }
+    }
+
+    /// The polynomial; `None` where it is not expanded.
+    pub fn polynomial(&self) -> Option<&MultiPoly> {
+        match self {
+            Function::Polynomial(p) => Some(p),
+            Function::Resultant { .. } => None,
+        }
+    }
+
+    /// A bound of the number of terms when it is expanded.
+    pub fn expanded_size(&self) -> u64 {
+        match self {
+            Function::Polynomial(p) => p.terms().len() as u64,
+            Function::Resultant { a, b } => {
+                let degrees = |list: &[MultiPoly]| {
+                    let mut highest: Vec<u64> = Vec::new();
+                    for p in list {
+                        for (i, d) in p.degrees().into_iter().enumerate() {
+                            highest.resize(highest.len().max(i + 1), 0);
+                            highest[i] = highest[i].max(u64::from(d));
+                        }
+                    }
+                    highest
+                };
+                let (m, n) = (a.len() as u64 - 1, b.len() as u64 - 1);
+                let (of_a, of_b) = (degrees(a), degrees(b));
+                let at = |list: &[u64], i: usize| list.get(i).copied().unwrap_or(0);
+                let terms = |i: usize| n * at(&of_a, i) + m * at(&of_b, i) + 1;
+                (0..of_a.len().max(of_b.len())).map(terms).fold(1, u64::saturating_mul)
+            }
+        }
+    }
+
+    /// The same as a polynomial.
+    ///
+    /// Cost: a resultant in several variables.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn expanded(&self, budget: &Budget) -> Result<MultiPoly, Exhausted> {
+        match self {
+            Function::Polynomial(p) => Ok(p.clone()),
+            Function::Resultant { a, b } => {
+                let poly = |list: &[MultiPoly]| Poly::new(list.to_vec());
+                resultant_formal(&poly(a), a.len() - 1, &poly(b), b.len() - 1, budget)
+            }
+        }
+    }
+
+    /// The function on a line through small integers, in variable `j` alone, up to the sign; `None` where a degree in `j`
+    /// falls.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub(super) fn on_line(&self, j: usize, line: &Line, budget: &Budget) -> Result<Option<UniPoly>, Exhausted> {
+        match self {
+            Function::Polynomial(p) => Ok(line.polynomial(p, j)),
+            Function::Resultant { a, b } => resultant_on_line(a, b, j, line, budget),
+        }
+    }
+
+    /// The function of the reciprocal of the parameter, times a power of it.
+    pub fn inverted(&self) -> Function {
+        let reversed = |list: &[MultiPoly]| -> Vec<MultiPoly> {
+            let degree = list.iter().map(|p| p.degree_in(0)).max().unwrap_or(0);
+            let turned = |p: &MultiPoly| {
+                let mut coefficients = p.as_poly_in(0).into_coeffs();
+                coefficients.resize(degree as usize + 1, MultiPoly::zero());
+                coefficients.reverse();
+                MultiPoly::from_poly_in(&Poly::new(coefficients), 0)
+            };
+            list.iter().map(turned).collect()
+        };
+        match self {
+            Function::Polynomial(p) => Function::Polynomial(reversed(std::slice::from_ref(p)).swap_remove(0)),
+            Function::Resultant { a, b } => Function::Resultant { a: reversed(a), b: reversed(b) },
+        }
+    }
+
+    /// The variables that occur.
+    pub fn variables(&self) -> Vec<usize> {
+        let all: std::collections::BTreeSet<usize> = match self {
+            Function::Polynomial(p) => p.variables().into_iter().collect(),
+            Function::Resultant { a, b } => a.iter().chain(b).flat_map(MultiPoly::variables).collect(),
+        };
+        all.into_iter().collect()
+    }
+
+    /// The function at series of the parameter and the symbols.
+    pub(super) fn at_series(&self, values: &[Series]) -> Series {
+        match self {
+            Function::Polynomial(p) => polynomial_at(p, values),
+            Function::Resultant { a, b } => {
+                let at = |list: &[MultiPoly]| list.iter().map(|p| polynomial_at(p, values)).collect::<Vec<Series>>();
+                enclosed_resultant(&at(a), &at(b))
+            }
+        }
+    }
+
+    /// The function at series with rational coefficients.
+    pub(super) fn at_rational_series(&self, values: &[Vec<Rational>]) -> Vec<Rational> {
+        let at = |p: &MultiPoly| rational_series::polynomial_at(p, values);
+        match self {
+            Function::Polynomial(p) => at(p),
+            Function::Resultant { a, b } => {
+                let at = |list: &[MultiPoly]| list.iter().map(|p| Exact(at(p))).collect::<Vec<Exact>>();
+                enclosed_resultant(&at(a), &at(b)).0
+            }
+        }
+    }
+
+    /// Whether the function is zero where the parameter has a rational value, symbols there being as given.
+    ///
+    /// # Errors
+    /// As [`Symbols::sign`].
+    pub(super) fn vanishes_at(&self, value: &Rational, symbols: &Symbols, budget: &Budget) -> Result<bool, Exhausted> {
+        let put = |f: &MultiPoly| f.substitute(0, value).0.map_variables(|i| i.saturating_sub(1));
+        let Function::Resultant { a, b } = self else {
+            return symbols.is_zero(&put(self.polynomial().expect("a polynomial")), budget);
+        };
+        let (a, b) = (common_scale(a, value), common_scale(b, value));
+        let mut bits = 128;
+        while bits <= MOST_BITS {
+            let at = |list: &[MultiPoly]| list.iter().map(|p| symbols.enclose(p, bits)).collect::<Vec<Ball>>();
+            let resultant = budget.enter(|| enclosed_resultant(&at(&a), &at(&b)))?;
+            if let Some(sign) = resultant.sign() {
+                return Ok(sign.is_eq());
+            }
+            bits *= 2;
+        }
+        symbols.is_zero(&Function::resultant(a, b).expanded(budget)?, budget)
+    }
+
+    /// As text.
+    pub(super) fn display(&self, names: &[String]) -> String {
+        let list = |p: &[MultiPoly]| p.iter().map(|c| c.display(names).to_string()).collect::<Vec<_>>().join(", ");
+        match self {
+            Function::Polynomial(p) => p.display(names).to_string(),
+            Function::Resultant { a, b } => format!("resultant([{}], [{}])", list(a), list(b)),
+        }
+    }
+}
+
+/// Polynomials at a rational value of the parameter, all times one positive integer, in symbols as their table numbers them.
+pub fn common_scale(list: &[MultiPoly], value: &Rational) -> Vec<MultiPoly> {
+    let degree = list.iter().map(|c| c.degree_in(0)).max().unwrap_or(0);
+    let (n, d) = (value.numerator(), value.denominator());
+    let at = |c: &MultiPoly| {
+        let in_parameter = c.as_poly_in(0);
+        let mut sum = MultiPoly::zero();
+        for (k, part) in in_parameter.coeffs().iter().enumerate() {
+            sum = sum.plus(&part.scaled_by(&(n.pow(k as u64) * d.pow(u64::from(degree) - k as u64))));
+        }
+        sum.map_variables(|i| i.saturating_sub(1))
+    };
+    list.iter().map(at).collect()
+}
+
+/// A power series with rational coefficients.
+#[derive(Clone)]
+struct Exact(Vec<Rational>);
+
+impl Exact {
+    fn with(&self, other: &Exact, f: impl Fn(&Rational, &Rational) -> Rational) -> Exact {
+        Exact(self.0.iter().zip(&other.0).map(|(x, y)| f(x, y)).collect())
+    }
+}
+
+impl Enclosed for Exact {
+    fn nothing(&self) -> Exact {
+        Exact(vec![Rational::ZERO; self.0.len()])
+    }
+    fn plus(&self, other: &Exact) -> Exact {
+        self.with(other, |x, y| x + y)
+    }
+    fn minus(&self, other: &Exact) -> Exact {
+        self.with(other, |x, y| x - y)
+    }
+    fn times(&self, other: &Exact) -> Exact {
+        Exact(rational_series::product(&self.0, &other.0))
+    }
+    fn over(&self, other: &Exact) -> Option<Exact> {
+        rational_series::quotient(&self.0, &other.0).map(Exact)
+    }
+    fn is_nothing(&self) -> bool {
+        self.0.iter().all(Rational::is_zero)
+    }
+    fn least(&self) -> Integer {
+        if self.0[0].is_zero() { Integer::ZERO } else { Integer::ONE }
+    }
+}
+
+/// A polynomial at series.
+pub(super) fn polynomial_at(p: &MultiPoly, values: &[Series]) -> Series {
+    let first = &values[0];
+    let (terms, bits) = (first.terms(), first.coefficients()[0].bits());
+    // Horner's scheme in the variables, the last one outermost: as few products as the shape of the polynomial allows.
+    fn horner(p: &MultiPoly, values: &[Series], zero: &Series) -> Series {
+        checkpoint(16);
+        if let Some(c) = p.as_constant() {
+            let one = Ball::from_integer(&c, zero.coefficients()[0].bits());
+            return Series::constant(&one, zero.terms());
+        }
+        let last = *p.variables().last().expect("not constant");
+        let parts = p.as_poly_in(last);
+        let mut sum: Option<Series> = None;
+        for part in parts.coeffs().iter().rev() {
+            let shifted = sum.map(|s| s.mul(&values[last]));
+            sum = Some(match (shifted, part.terms().is_empty()) {
+                (Some(s), true) => s,
+                (Some(s), false) => s.add(&horner(part, values, zero)),
+                (None, _) => horner(part, values, zero),
+            });
+        }
+        sum.unwrap_or_else(|| zero.clone())
+    }
+    horner(p, values, &Series::constant(&Ball::zero(bits), terms))
+}
+
+impl MovingSymbols {
+    /// Whether the function is zero at a rational value of the parameter.
+    ///
+    /// # Errors
+    /// As [`Symbols::sign`].
+    pub fn vanishes_at(&self, f: &Function, value: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
+        let Some(symbols) = self.at(value) else { return Ok(false) };
+        f.vanishes_at(value, &symbols, budget)
+    }
+}

@@ -1,0 +1,178 @@
+//! Questions in which a dead time varies against the sample time of its hold: from one whole number of samples to the next the
+//! loop has another order, so the domain is divided there.
+
+use super::Problem;
+use super::evaluation::Algebra;
+use crate::error::Error;
+use crate::stability::{AtPoint, Cause, End, Range, StableInterval, StableSet, UndecidedBracket, symbolic_stable_set};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::RationalFunction;
+
+/// How many whole numbers of samples are looked at on either side of the usual one.
+const MOST_WINDOWS: i64 = 8;
+
+impl Problem {
+    /// The stable set where a dead time varies against its sample time; `None` where none does, or where the whole numbers of
+    /// samples are not at rational values of the parameter.
+    ///
+    /// At a whole number of samples the loop is the same from either side, but for states that do nothing: intervals go on
+    /// there. Numbers of samples far from the usual one stay undecided where the domain does not bound them.
+    ///
+    /// Cost: that of [`Problem::symbolic`] and [`symbolic_stable_set`] for each whole number of samples.
+    ///
+    /// # Errors
+    /// As [`Problem::symbolic`] and [`symbolic_stable_set`].
+    pub fn stable_set_by_samples(&self, budget: &Budget) -> Result<Option<StableSet>, Error> {
+        let [asked] = self.free() else { return Ok(None) };
+        if self.region().is_free() {
+            return Ok(None);
+        }
+        let domain = &asked.domain;
+        let usual = asked.nominal.clone().filter(|x| domain.contains(x)).unwrap_or_else(|| inside(domain));
+        let algebra = budget.enter(|| Algebra::near(self, &[usual.clone()], budget))??;
+        let ratios = algebra.symbols().varying_samples().to_vec();
+        if ratios.is_empty() {
+            return Ok(None);
+        }
+        let Some(breaks) = breaks(&ratios, domain, &usual) else { return Ok(None) };
+        let mut ends: Vec<Option<Rational>> = vec![domain.lower.clone()];
+        ends.extend(breaks.into_iter().map(Some));
+        ends.push(domain.upper.clone());
+        let (mut intervals, mut undecided): (Vec<StableInterval>, Vec<UndecidedBracket>) = (Vec::new(), Vec::new());
+        for window in ends.windows(2) {
+            let range = Range::between(window[0].clone(), window[1].clone());
+            let near = inside(&range);
+            if !ratios.iter().all(|ratio| is_looked_at(ratio, &near, &usual)) {
+                let why = "another number of samples, not looked at: give bounds of the domain";
+                undecided.push(UndecidedBracket::new(range.lower, range.upper, why));
+                continue;
+            }
+            let algebra = budget.enter(|| Algebra::near(self, &[near], budget))??;
+            let Some(polynomial) = self.symbolic_of(&algebra)? else { continue };
+            let found = symbolic_stable_set(&polynomial, &range, self.shape(), budget)?;
+            undecided.extend(found.undecided().iter().cloned());
+            let mut found = found.intervals().to_vec();
+            if let (Some(before), Some(first)) = (&range.lower, found.first_mut())
+                && domain.lower.as_ref() != Some(before)
+                && begins_at(first, before)
+            {
+                let at = polynomial.at(before, self.shape(), budget)?;
+                let is_stable = matches!(at, AtPoint::Defined { count, infinite: 0 } if count.inside == count.total());
+                let last =
+                    intervals.last_mut().filter(|last| last.upper.as_ref().is_some_and(|end| is_at(end, before)));
+                match last {
+                    Some(last) if is_stable => {
+                        last.upper = first.upper.take();
+                        found.remove(0);
+                    }
+                    _ => {}
+                }
+            }
+            intervals.extend(found);
+        }
+        // The divisions are not of the domain's making.
+        let is_end =
+            |end: &End| end.value.exact().is_some_and(|x| domain.lower == Some(x.clone()) || domain.upper == Some(x));
+        for interval in &mut intervals {
+            for end in [&mut interval.lower, &mut interval.upper].into_iter().flatten() {
+                if !is_end(end) {
+                    end.causes.remove(Cause::Domain);
+                }
+            }
+        }
+        Ok(Some(StableSet::from_intervals(intervals, undecided)))
+    }
+}
+
+fn is_at(end: &End, x: &Rational) -> bool {
+    end.value.exact().as_ref() == Some(x)
+}
+
+fn begins_at(interval: &StableInterval, x: &Rational) -> bool {
+    interval.lower.as_ref().is_some_and(|end| is_at(end, x))
+}
+
+/// A number inside of a range.
+fn inside(range: &Range) -> Rational {
+    match (&range.lower, &range.upper) {
+        (Some(lo), Some(hi)) => lo.midpoint(hi),
+        (Some(lo), None) => lo + &(lo.abs() + Rational::ONE),
+        (None, Some(hi)) => hi - &(hi.abs() + Rational::ONE),
+        (None, None) => Rational::ZERO,
+    }
+}
+
+fn value(ratio: &RationalFunction, at: &Rational) -> Option<Rational> {
+    ratio.substitute(0, at)?.as_constant()
+}
+
+/// Whether a number of samples is not too far from the usual one.
+fn is_looked_at(ratio: &RationalFunction, near: &Rational, usual: &Rational) -> bool {
+    let (Some(here), Some(there)) = (value(ratio, near), value(ratio, usual)) else { return false };
+    let (here, there) = (Rational::from(here.floor()), Rational::from(there.floor()));
+    !here.is_negative() && (here - there).abs() <= Rational::from(MOST_WINDOWS)
+}
+
+/// The values of the parameter in the domain at which a dead time is a whole number of samples, near the usual one, ascending;
+/// `None` where these are not known as rational numbers.
+fn breaks(ratios: &[RationalFunction], domain: &Range, usual: &Rational) -> Option<Vec<Rational>> {
+    let mut out = Vec::new();
+    for ratio in ratios {
+        let middle = value(ratio, usual)?.floor().to_i64()?;
+        for whole in (middle - MOST_WINDOWS).max(0)..=middle + MOST_WINDOWS + 1 {
+            let difference = ratio - &RationalFunction::from(Rational::from(whole));
+            let p = difference.numerator().to_univariate(0)?;
+            match p.degree() {
+                Some(0) => {}
+                Some(1) => {
+                    let root = Rational::new(-p.coeff(0), p.coeff(1));
+                    if domain.contains(&root) && !out.contains(&root) {
+                        out.push(root);
+                    }
+                }
+                _ => return None,
+            }
+        }
+    }
+    out.sort();
+    Some(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::answer::Verdict;
+    use crate::error::Source;
+    use crate::model::Model;
+
+    fn servo() -> Model {
+        let text = "time = 'discrete'\nsample_time = 'T'\n[parameters]\nT = { nominal = 0.1, min = 0 }\n\
+            L = { nominal = 0.12, min = 0 }\nK = { nominal = 2, min = 0 }\n[loop]\ninputs = ['r']\n[[block]]\n\
+            name = 'plant'\ninput = 'K*(r - y)'\noutput = 'y'\ntransfer = '1/(s*(s + 1))'\n\
+            discretize = { method = 'zoh', delay = 'L' }\n";
+        Model::from_toml(&Source::new("model.toml", text)).unwrap().0
+    }
+
+    #[test]
+    fn a_dead_time_of_any_fraction_of_a_sample_is_a_question() {
+        let budget = Budget::unlimited();
+        for (name, values) in
+            [("L", ["0.01", "0.1", "0.15", "0.33", "0.5", "0.7"]), ("T", ["0.02", "0.06", "0.12", "0.3", "0.7", "2"])]
+        {
+            let answer = servo().ask().free(name).stable_set(&budget).unwrap();
+            let set = answer.value();
+            for x in values {
+                let x: Rational = jurist_algebra::number::parse_number(x).unwrap();
+                let known = set
+                    .undecided()
+                    .iter()
+                    .all(|b| b.lower.as_ref().is_some_and(|lo| x < *lo) || b.upper.as_ref().is_some_and(|hi| *hi < x));
+                assert!(known, "{name} = {x}");
+                let verdict = servo().ask().set(name, x.clone()).verdict(&budget).unwrap().into_value().verdict;
+                assert_eq!(set.contains(&x), verdict == Verdict::Stable, "{name} = {x}");
+            }
+            assert_eq!(set.intervals().len(), 1, "{name}: {:?}", set.intervals());
+        }
+    }
+}

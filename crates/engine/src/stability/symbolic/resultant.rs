@@ -1,0 +1,230 @@
+//! The resultant of the half-size pair as a polynomial in the parameter whose coefficients are enclosed, not expanded in the
+//! symbols: they would have too many terms.
+
+use super::count::common_roots;
+use super::pair::Pair;
+use crate::stability::{HalfSizePair, Shape};
+use jurist_algebra::ball::{Ball, enclosed_resultant};
+use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly};
+use jurist_algebra::real::Origin;
+use jurist_algebra::symbols::{EnclosedPoly, Symbols, common_scale};
+use std::sync::Arc;
+
+/// Bits of the first attempt.
+const FIRST_BITS: u64 = 192;
+
+/// Bits after which a coefficient that is not known to be zero is given up.
+const MOST_BITS: u64 = 1 << 12;
+
+/// The resultant of the pair in the parameter (variable 0), up to the sign and without the coefficients at either end that are
+/// zero.
+#[derive(Debug)]
+pub(super) struct PairResultant {
+    /// By degree in the unknown of the pair, then by degree in the parameter.
+    a: Vec<Vec<MultiPoly>>,
+    b: Vec<Vec<MultiPoly>>,
+    pair: Arc<Pair>,
+    symbols: Arc<Symbols>,
+    /// The orders of the first and the last coefficient that are not zero.
+    low: usize,
+    high: usize,
+    /// The parameter is about a power of two with this exponent where the loop changes.
+    scale: i64,
+}
+
+impl PairResultant {
+    /// Finds out which coefficients at the ends are zero.
+    ///
+    /// At the value 0 of the parameter the resultant is zero at least as many times as the pair has common roots there, since
+    /// so much less is the rank of Sylvester's matrix. As many coefficients are zero, then; that the next one is not is seen
+    /// from its enclosure. The same holds for the coefficients of the highest powers of the parameter, infinity being a root
+    /// where both polynomials of the pair lose degree.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out, and where coefficients seem to be zero for no such reason.
+    pub fn new(pair: &Arc<Pair>, symbols: &Arc<Symbols>, budget: &Budget) -> Result<PairResultant, Exhausted> {
+        let split = |list: &[MultiPoly]| -> Vec<Vec<MultiPoly>> {
+            let part = |c: &MultiPoly| c.map_variables(|i| i.saturating_sub(1));
+            list.iter().map(|p| p.as_poly_in(0).coeffs().iter().map(part).collect()).collect()
+        };
+        let (a, b) = (split(&pair.a), split(&pair.b));
+        let degree = |list: &[Vec<MultiPoly>]| list.iter().map(Vec::len).max().unwrap_or(1).max(1) - 1;
+        let (in_a, in_b) = (degree(&a), degree(&b));
+        let high = (a.len() - 1) * in_b + (b.len() - 1) * in_a;
+        let (pair, symbols) = (Arc::clone(pair), Arc::clone(symbols));
+        let mut out = PairResultant { a, b, pair, symbols, low: 0, high, scale: 0 };
+        out.scale = budget.enter(|| out.likely_scale())?;
+        let (mut bits, mut known) = (FIRST_BITS, None);
+        while bits <= MOST_BITS {
+            let all = budget.enter(|| out.coefficients(bits))?;
+            let ends = (all.iter().position(|c| !c.contains_zero()), all.iter().rposition(|c| !c.contains_zero()));
+            if let (Some(first), Some(last)) = ends {
+                if first == 0 && last == high {
+                    return Ok(out);
+                }
+                // Asked for once it is known that it matters.
+                let (below, above) = match known {
+                    Some(known) => known,
+                    None => *known.insert((out.common_at_zero(budget)?, out.common_at_infinity(in_a, in_b, budget)?)),
+                };
+                if first == below && last + above == high {
+                    return Ok(PairResultant { low: first, high: last, ..out });
+                }
+            }
+            bits *= 2;
+        }
+        Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "zeros among the coefficients of the resultant"))
+    }
+
+    /// Whether the resultant is zero where the parameter is.
+    pub fn vanishes_at_zero(&self) -> bool {
+        self.low > 0
+    }
+
+    /// How many roots the pair has in common where the parameter is 0.
+    fn common_at_zero(&self, budget: &Budget) -> Result<usize, Exhausted> {
+        let first = |list: &[Vec<MultiPoly>]| list.iter().map(|c| c.first().cloned().unwrap_or_default()).collect();
+        common_degree(first(&self.a), first(&self.b), &self.symbols, self.pair.region, budget)
+    }
+
+    /// How many roots the coefficients of the highest powers of the parameter have in common.
+    fn common_at_infinity(&self, in_a: usize, in_b: usize, budget: &Budget) -> Result<usize, Exhausted> {
+        let last = |list: &[Vec<MultiPoly>], degree: usize| {
+            list.iter().map(|c| c.get(degree).cloned().unwrap_or_default()).collect()
+        };
+        common_degree(last(&self.a, in_a), last(&self.b, in_b), &self.symbols, self.pair.region, budget)
+    }
+
+    /// The exponent of two at which the terms with the parameter are about as large as those without.
+    fn likely_scale(&self) -> i64 {
+        let length = |k: usize| {
+            let parts = self.a.iter().chain(&self.b).filter_map(|c| c.get(k));
+            parts.map(|p| self.symbols.enclose(p, FIRST_BITS).magnitude_units().bit_length()).max().unwrap_or(0) as i64
+        };
+        match (length(0), length(1)) {
+            (0, _) | (_, 0) => 0,
+            (without, with) => without - with,
+        }
+    }
+
+    /// All coefficients, from values at small multiples of the likely scale.
+    fn coefficients(&self, bits: u64) -> Vec<Ball> {
+        let count = self.high + 1;
+        let working = bits + 16 + 2 * count as u64 * (u64::from(count.ilog2()) + 1);
+        let enclosed = |list: &[Vec<MultiPoly>]| -> Vec<Vec<Ball>> {
+            let scaled = |(k, c): (usize, &MultiPoly)| self.symbols.enclose(c, working).shifted(self.scale * k as i64);
+            list.iter().map(|c| c.iter().enumerate().map(scaled).collect()).collect()
+        };
+        let (a, b) = (enclosed(&self.a), enclosed(&self.b));
+        // 0, 1, -1, 2, -2, ...
+        let nodes: Vec<i64> = (0..count as i64).map(|k| if k % 2 == 0 { -k / 2 } else { (k + 1) / 2 }).collect();
+        let value = |node: &i64| {
+            checkpoint(count as u64);
+            let node = Integer::from(*node);
+            let at = |list: &[Vec<Ball>]| -> Vec<Ball> {
+                let horner =
+                    |c: &Vec<Ball>| c.iter().rev().fold(Ball::zero(working), |sum, c| sum.scaled(&node).add(c));
+                list.iter().map(horner).collect()
+            };
+            enclosed_resultant(&at(&a), &at(&b))
+        };
+        let mut differences: Vec<Ball> = nodes.iter().map(value).collect();
+        for order in 1..count {
+            for k in (order..count).rev() {
+                let step = nodes[k] - nodes[k - order];
+                let difference = differences[k].sub(&differences[k - 1]).divided_by(step.unsigned_abs());
+                differences[k] = if step < 0 { difference.neg() } else { difference };
+            }
+        }
+        // Newton's form in powers.
+        let mut out: Vec<Ball> = Vec::with_capacity(count);
+        for k in (0..count).rev() {
+            let minus = Integer::from(-nodes[k]);
+            out.insert(0, Ball::zero(working));
+            for i in 0..out.len() - 1 {
+                out[i] = out[i].add(&out[i + 1].scaled(&minus));
+            }
+            out[0] = out[0].add(&differences[k]);
+        }
+        out.iter().enumerate().map(|(k, c)| c.shifted(-self.scale * k as i64)).collect()
+    }
+}
+
+impl EnclosedPoly for PairResultant {
+    fn enclose(&self, bits: u64) -> Vec<Ball> {
+        self.coefficients(bits).drain(self.low..=self.high).collect()
+    }
+
+    fn vanishes_at(&self, x: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
+        let (a, b) = (common_scale(&self.pair.a, x), common_scale(&self.pair.b, x));
+        Ok(common_degree(a, b, &self.symbols, self.pair.region, budget)? > 0)
+    }
+
+    fn origin(&self) -> Origin {
+        let symbols =
+            (0..self.symbols.len()).map(|i| (self.symbols.names()[i].clone(), self.symbols.definition_text(i)));
+        Origin::Function { function: "resultant of the half-size pair".to_owned(), details: symbols.collect() }
+    }
+}
+
+/// How many roots, infinity among them, two polynomials have in common, given by their coefficients for the formal degrees.
+fn common_degree(
+    mut a: Vec<MultiPoly>,
+    mut b: Vec<MultiPoly>,
+    symbols: &Arc<Symbols>,
+    region: Shape,
+    budget: &Budget,
+) -> Result<usize, Exhausted> {
+    let mut found = 0;
+    let is_zero = |p: Option<&MultiPoly>| p.map_or(Ok(true), |p| symbols.is_zero(p, budget));
+    while a.len() + b.len() > 2 && is_zero(a.last())? && is_zero(b.last())? {
+        // A root at infinity, as long as neither has become constant.
+        if a.len() == 1 || b.len() == 1 {
+            return Ok(found + a.len().max(b.len()) - 1);
+        }
+        a.pop();
+        b.pop();
+        found += 1;
+    }
+    let ends: &[i64] = match region {
+        Shape::UnitDisc => &[2, -2],
+        Shape::LeftHalfPlane => &[0],
+    };
+    for &end in ends {
+        let at = MultiPoly::constant(Integer::from(end));
+        let value = |p: &[MultiPoly]| Poly::new(p.to_vec()).eval(&at);
+        while a.len() > 1
+            && b.len() > 1
+            && symbols.is_zero(&value(&a), budget)?
+            && symbols.is_zero(&value(&b), budget)?
+        {
+            (a, b) = (without_root(&a, &at), without_root(&b, &at));
+            found += 1;
+        }
+    }
+    if a.len() + b.len() == 2 {
+        return Ok(found);
+    }
+    for bits in [FIRST_BITS, 2 * FIRST_BITS, 4 * FIRST_BITS] {
+        let at = |list: &[MultiPoly]| list.iter().map(|p| symbols.enclose(p, bits)).collect::<Vec<Ball>>();
+        if !budget.enter(|| enclosed_resultant(&at(&a), &at(&b)))?.contains_zero() {
+            return Ok(found);
+        }
+    }
+    let (degree_a, degree_b) = (a.len() - 1, b.len() - 1);
+    let pair = HalfSizePair { a: Poly::new(a), b: Poly::new(b), degree_a, degree_b, region };
+    let rest = common_roots(&pair, symbols, budget)?.map_or(0, |common| common.coeffs().len() - 1);
+    Ok(found + rest)
+}
+
+/// The quotient by `x - r`, of a polynomial with the root `r`, its formal degree less by one.
+fn without_root(p: &[MultiPoly], r: &MultiPoly) -> Vec<MultiPoly> {
+    let mut out = p.to_vec();
+    for i in (1..out.len()).rev() {
+        out[i - 1] = out[i - 1].plus(&out[i].times(r));
+    }
+    out.remove(0);
+    out
+}
