@@ -41,7 +41,6 @@ fn other_commands_say_that_they_do_not_know_dead_time_yet() {
         vec!["jury", "examples/dead-time-pi.toml", "--param", "K_c"],
         vec!["map", "examples/dead-time-pi.toml", "-x", "K_c", "-y", "theta"],
         vec!["simulate", "examples/dead-time-pi.toml"],
-        vec!["verdict", "examples/dead-time-pi.toml", "--decay", "1/10"],
     ] {
         let run = jurist(&arguments);
         assert!(run.stderr.contains("E-dead-time"), "{arguments:?}: {}", run.stderr);

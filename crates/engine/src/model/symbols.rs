@@ -93,7 +93,7 @@ impl Symbols {
 
     /// Without symbols, where none is needed.
     pub(in crate::model) fn cleared(&self) -> Symbols {
-        Symbols { samples: self.samples.clone(), ..Symbols::new(&self.kept) }
+        Symbols { table: Vec::new(), nonzero: Vec::new(), ..self.clone() }
     }
 
     /// A function of the kept names near the values that are known.

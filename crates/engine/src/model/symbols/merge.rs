@@ -45,8 +45,6 @@ impl Symbols {
         let families = self.families();
         let first = self.first();
         let mut merged = self.cleared();
-        merged.modes.clone_from(&self.modes);
-        merged.is_written = self.is_written;
         let mut images: Vec<RationalFunction> = (0..first).map(RationalFunction::variable).collect();
         // The variable of each family, once its first member is there.
         let mut bases: Vec<Option<RationalFunction>> = vec![None; families.len()];

@@ -154,7 +154,7 @@ impl PairResultant {
 
 impl EnclosedPoly for PairResultant {
     fn enclose(&self, bits: u64) -> Vec<Ball> {
-        self.coefficients(bits).drain(self.low..=self.high).collect()
+        self.coefficients(bits).drain(self.low..=self.high).map(|c| c.with_bits(bits)).collect()
     }
 
     fn vanishes_at(&self, x: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
