@@ -75,6 +75,20 @@ fn margins_with_a_short_dead_time_are_near_those_without() {
     assert!(stable(&without).gain.upper.is_none() && stable(&with).gain.upper.is_some());
 }
 
+/// A delay margin as a requirement: 0.2753 s are borne.
+#[test]
+fn a_delay_margin_is_required_of_a_loop_with_dead_time() {
+    let model = positioner("2", "0.3");
+    let problem = model.ask().problem().unwrap();
+    let met = |seconds: &str| {
+        let asked = model.requirements(&[("delay_margin", seconds)], &[], &Budget::unlimited()).unwrap();
+        let found = problem.requirements_met(&asked.list, None, &Budget::unlimited()).unwrap();
+        (found[0].met, found[0].value(6).unwrap())
+    };
+    assert_eq!(met("0.2753070"), (true, "0.275307".to_owned()));
+    assert_eq!(met("0.2753071"), (false, "0.275307".to_owned()));
+}
+
 /// Dead time inside of the loop that is cut elsewhere is not one factor of the open loop.
 #[test]
 fn dead_time_that_is_no_single_factor_is_refused() {

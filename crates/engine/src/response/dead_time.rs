@@ -161,7 +161,7 @@ impl<'a> DeadTime<'a> {
         let both = DeadTime::in_omega(&r.numerator_squared.plus(&r.denominator_squared));
         let sum = both.plus(&self.twice_real());
         let denominator = DeadTime::in_omega(&r.denominator_squared);
-        let modulus_at = self.least(&sum, &denominator, |r| (Rational::ONE - r).clone(), budget)?;
+        let modulus_at = self.least(&sum, &denominator, |r| Rational::ONE - r, budget)?;
         let square = modulus_at.value().expect("finite somewhere").number(budget)?;
         let modulus = square_root(&square, budget)?;
         let peak_sensitivity = reciprocal(&modulus, budget)?;

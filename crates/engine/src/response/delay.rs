@@ -45,7 +45,8 @@ impl DelayMargin {
         let r = &parts.reduced;
         // Whether the modulus is one or more at the highest frequency.
         let (above, below) = at_end(&r.numerator_squared, &r.denominator_squared, &Place::Highest, parts.shape);
-        let is_above = parts.ground.sign(&above.minus(&below), budget)?.is_ge();
+        // Polynomials in s^2 < 0 have leading coefficients of either sign.
+        let is_above = parts.ground.sign(&above.minus(&below).times(&below), budget)?.is_ge();
         match parts.shape {
             Shape::LeftHalfPlane if is_above => Ok(DelayMargin::Zero),
             Shape::LeftHalfPlane => {

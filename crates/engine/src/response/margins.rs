@@ -155,6 +155,17 @@ impl Problem {
         skew: &Rational,
         budget: &Budget,
     ) -> Result<Answer<Margins>, Error> {
+        self.margins_with(at, skew, true, budget)
+    }
+
+    /// The dead time behind a hold takes the longest, and is left out where nobody asks for it.
+    pub(super) fn margins_with(
+        self: &Arc<Self>,
+        at: Option<&str>,
+        skew: &Rational,
+        with_held_delay: bool,
+        budget: &Budget,
+    ) -> Result<Answer<Margins>, Error> {
         budget.enter(|| {
             let verdict = self.verdict(budget)?.into_value();
             let open_loop = OpenLoop::of(self, at, budget)?;
@@ -175,7 +186,7 @@ impl Problem {
                 }
             };
             let held_delay = match &stable {
-                Some(stable) if !matches!(stable.delay, DelayMargin::Unbounded | DelayMargin::SamplesAtLeast(_)) => {
+                Some(stable) if with_held_delay && matches!(stable.delay, DelayMargin::Samples(_)) => {
                     budget.step("dead time behind the hold");
                     HeldDelay::of(self, &open_loop, budget)?
                 }

@@ -146,7 +146,10 @@ impl Problem {
         budget.enter(|| {
             let stable = self.verdict(budget)?.value().verdict == Verdict::Stable;
             let margins = match requirements.iter().any(Requirement::needs_cut) {
-                true => Some(Arc::new(self.margins(at, &Rational::ZERO, budget)?.into_value())),
+                true => {
+                    let is_delay = requirements.iter().any(|r| matches!(r, Requirement::DelayMargin(_)));
+                    Some(Arc::new(self.margins_with(at, &Rational::ZERO, is_delay, budget)?.into_value()))
+                }
                 false => None,
             };
             let about_roots = |r: &Requirement| matches!(r, Requirement::Damping(_) | Requirement::SettlingTime { .. });
