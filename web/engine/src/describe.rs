@@ -13,8 +13,10 @@ pub(crate) fn describe(text: &str) -> Reply {
     Reply::answered(match read(text) {
         Ok((model, warnings)) => {
             let check = Check::new(NAME, Some(model.source()), &warnings);
-            let remarks = Diagnostics::new(Some(model.source().clone()), warnings);
-            let text = if check.diagnostics.is_empty() { String::new() } else { render_error(&remarks, false) };
+            let text = match warnings.is_empty() {
+                true => String::new(),
+                false => render_error(&Diagnostics::new(Some(model.source().clone()), warnings), false),
+            };
             json!({ "check": check, "text": text.trim_end(), "model": said(&model) })
         }
         Err(refused) => {
