@@ -1527,7 +1527,7 @@ def check_windows(model, document, statement, values, extent):
             return (None if end is None else rational(end)) == own
         crossing, turns, between = parts(end, ["crossing", "turns", "between"])
         between = pair(between)
-        return [crossing, turns] == [*own[:2]] and between[0] <= own[2][0] and own[2][1] <= between[1]
+        return [count(crossing), count(turns)] == [*own[:2]] and between[0] <= own[2][0] and own[2][1] <= between[1]
 
     for interval, ends in zip(claimed, stable):
         need(all(map(fits, parts(interval, ["lower", "upper"]), ends)), "stable: an end is another")

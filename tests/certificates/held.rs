@@ -95,9 +95,15 @@ fn what_no_checker_knows_gets_no_certificate() {
         [("drive-hold", "T"), ("lcl-inverter", "Lg"), ("dc-servo", "T_m"), ("anti-alias-filter", "w_f")]
     {
         let model = read(&example(name));
+<<<<<<< ours
         let times = || Range::between(Some(number("1/1000")), Some(number("1/500")));
         let domain = |p: &str| model.ask().free(p).domain(p, times());
         let Ok(answer) = domain(parameter).stable_set(&Budget::unlimited()) else { continue };
+=======
+        let domain = Range::between(Some(number("1/1000")), Some(number("1/500")));
+        let asked = model.ask().free(parameter).domain(parameter, domain);
+        let Ok(answer) = asked.stable_set(&Budget::unlimited()) else { continue };
+>>>>>>> theirs
         let refused = answer.certificate(&Budget::unlimited()).expect_err(name).to_string();
         assert!(refused.contains("no certificate"), "{name}: {refused}");
     }

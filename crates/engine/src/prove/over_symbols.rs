@@ -3,7 +3,7 @@
 use jurist_algebra::ball::Ball;
 use jurist_algebra::number::{Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly};
-use jurist_algebra::symbols::{Symbols, common_factor};
+use jurist_algebra::symbols::{Symbols, are_coprime_in, common_factor, is_square_free_in};
 
 /// Pairwise coprime polynomials in the parameter (variable 0) and symbols, square-free in the parameter, of which all given ones are
 /// products up to factors without the parameter. What does not depend on symbols is apart.
@@ -12,12 +12,13 @@ pub(super) fn coprime_basis(polynomials: &[MultiPoly]) -> Vec<MultiPoly> {
     let mut todo: Vec<MultiPoly> = polynomials.to_vec();
     while let Some(p) = todo.pop() {
         let Some(mut part) = primitive_in_parameter(&p) else { continue };
-        let repeated = part.gcd(&part.derivative(0));
-        if repeated.degree_in(0) > 0 {
-            part = part.div_exact(&repeated).expect("a gcd divides");
-            todo.push(repeated);
-            todo.push(part);
-            continue;
+        if !is_square_free_in(&part, 0) {
+            let repeated = part.gcd(&part.derivative(0));
+            if repeated.degree_in(0) > 0 {
+                part = part.div_exact(&repeated).expect("a gcd divides");
+                todo.extend([repeated, part]);
+                continue;
+            }
         }
         let algebraic = MultiPoly::from_univariate(&common_factor(&part), 0);
         if algebraic.degree_in(0) > 0 && algebraic.degree_in(0) < part.degree_in(0) {
@@ -25,7 +26,8 @@ pub(super) fn coprime_basis(polynomials: &[MultiPoly]) -> Vec<MultiPoly> {
             todo.push(algebraic);
             continue;
         }
-        let common = basis.iter().map(|b| b.gcd(&part)).position(|g| g.degree_in(0) > 0);
+        let shares = |b: &MultiPoly| !are_coprime_in(b, &part, 0) && b.gcd(&part).degree_in(0) > 0;
+        let common = basis.iter().position(shares);
         match common {
             None => basis.push(part),
             Some(k) => {
