@@ -40,16 +40,16 @@ from ._errors import (
 )
 from ._exact import exact
 from ._loop import Loop
-from ._margins import At, DelayMargin, DiskMargin, GainCrossing, Margins, Norm, Peak, PhaseCrossing, PhaseMargin
 from ._polynomial import Polynomial
 from ._question import Parameter
 from ._real import Real
-from ._response import Bode, FrequencyResponse, Nyquist
 from ._sets import StableSet
-from ._tolerance import Factor, Tolerance, Worst
 
 if TYPE_CHECKING:
     from ._control import from_control, margins
+    from ._margins import At, DelayMargin, DiskMargin, GainCrossing, Margins, Norm, Peak, PhaseCrossing, PhaseMargin
+    from ._response import Bode, FrequencyResponse, Nyquist
+    from ._tolerance import Factor, Tolerance, Worst
     from ._rows import SweepResult
     from ._sweep import ray_executor, sweep, sweep_batches
     from ._sympy import from_sympy
@@ -57,6 +57,10 @@ if TYPE_CHECKING:
 __version__: str = _jurist.__version__
 
 _LATER = {
+    **dict.fromkeys(("At", "DelayMargin", "DiskMargin", "GainCrossing", "Margins", "Norm"), "_margins"),
+    **dict.fromkeys(("Peak", "PhaseCrossing", "PhaseMargin"), "_margins"),
+    **dict.fromkeys(("Bode", "FrequencyResponse", "Nyquist"), "_response"),
+    **dict.fromkeys(("Factor", "Tolerance", "Worst"), "_tolerance"),
     "from_control": "_control",
     "margins": "_control",
     "from_sympy": "_sympy",
@@ -133,7 +137,7 @@ del _name, _object
 
 
 def __getattr__(name: str) -> Any:
-    """What other libraries have a part in is imported when it is first used."""
+    """What other libraries have a part in, and what few ask for, is imported when it is first used."""
     if name in _LATER:
         import importlib
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -116,6 +115,8 @@ class Asker:
 
     def _file_of(self, words: Sequence[str], option: str, timeout: float | None) -> str:
         """What a command writes into the file that an option names."""
+        import tempfile
+
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "written")
             self._command([*words, option, path, "--quiet"], self._asked(timeout=timeout))

@@ -73,7 +73,8 @@ def plot_map(m: Map, ax: Any, x: Any, y: Any, columns: int, kw: dict[str, Any]) 
 
     ax = axes(ax)
     document = m.to_dict()
-    style = {"facecolor": _STABLE, "edgecolor": "none", "alpha": 0.55, **kw}
+    # Neighbours share an edge, which two smoothed ones would show.
+    style = {"facecolor": _STABLE, "edgecolor": "none", "alpha": 0.55, "antialiased": False, **kw}
     if not m.is_exact:
         for box in m.boxes:
             if box["verdict"] == "stable":
@@ -163,7 +164,9 @@ def plot_locus(locus: Locus, ax: Any, grid: bool, kw: dict[str, Any]) -> Any:
             signs = (1, -1) if im else (1,)
             ax.plot([re] * len(signs), [s * im for s in signs], "o", color=CROSSING, markersize=6)
         if crossing["at"]:
-            ax.annotate(crossing["label"], crossing["at"][0], (7, 7), textcoords="offset points", fontsize="small")
+            is_right = crossing["at"][0][0] > 0
+            offset, side = ((-7, 7), "right") if is_right else ((7, 7), "left")
+            ax.annotate(crossing["label"], crossing["at"][0], offset, textcoords="offset points", ha=side, fontsize="small")
     ax.grid(grid, alpha=0.3)
     ax.set_xlabel("real")
     ax.set_ylabel("imaginary")
@@ -189,5 +192,5 @@ def plot_shares(t: Tolerance, ax: Any, kw: dict[str, Any]) -> Any:
     if worst is not None:
         ax.bar_label(bars, [f"{share:.1%} {worst.signs.get(name, '')}" for name, share in shares], padding=3, fontsize="small")
     ax.set_xlim(0, 1.15 * max([share for _, share in shares], default=1.0))
-    ax.set_xlabel("share of the margin" + ("" if t.factor is None else f"; stable up to {t.factor.decimal} times the tolerances"))
+    ax.set_xlabel("share of the margin" + ("" if t.factor is None else f"; stable up to {float(t.factor.lower):.5g} times the tolerances"))
     return ax

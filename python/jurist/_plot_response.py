@@ -36,8 +36,9 @@ def plot_bode(response: FrequencyResponse, ax: Any, exact: bool, kw: dict[str, A
         for phase_crossing in found.phase_crossings:
             place = _place(response, phase_crossing.at)
             if place and phase_crossing.factor:
-                upper.plot([place], [-20 * math.log10(abs(phase_crossing.factor))], "o", color=CROSSING)
-                upper.annotate(f"k = {phase_crossing.factor:.5g}", (place, 0), (5, 5), textcoords="offset points", fontsize="small")
+                height = -20 * math.log10(abs(phase_crossing.factor))
+                upper.plot([place], [height], "o", color=CROSSING)
+                upper.annotate(f"k = {phase_crossing.factor:.5g}", (place, height), (6, 6), textcoords="offset points", fontsize="small")
         for crossing in found.gain_crossings:
             place = _place(response, crossing.at)
             if place:
@@ -49,6 +50,7 @@ def plot_bode(response: FrequencyResponse, ax: Any, exact: bool, kw: dict[str, A
                 note = f"{crossing.phase_margin_degrees:.5g}°"
                 lower.annotate(note, (place, degrees), (5, 5), textcoords="offset points", fontsize="small")
     for axis in (upper, lower):
+        axis.margins(y=0.15)
         axis.grid(True, which="both", alpha=0.3)
     upper.set_ylabel("modulus (dB)")
     lower.set_ylabel("phase (°)")

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any, Unpack, cast
 from ._asking import Asker
 from ._curves import Locus, Simulation
 from ._exact import Exact, fraction, text_of
-from ._margins import Margins, Norm
 from ._question import Waiting
-from ._response import Bode, Nyquist
 
 if TYPE_CHECKING:
     from ._loop import Loop
+    from ._margins import Margins, Norm
+    from ._response import Bode, Nyquist
 
 
 class ResponseQuestions(Asker):
@@ -60,6 +60,8 @@ class ResponseQuestions(Asker):
         >>> m.gain, m.upper, float(m.modulus.value)
         (<StableSet k: (-1/2, 4)>, <End 4: complex pair>, 0.7071067811865476)
         """
+        from ._margins import Margins
+
         asked = self._asked(values, **question)
         words = self._words("margins", asked)
         words += [] if at is None else [f"--at={at}"]
@@ -79,6 +81,8 @@ class ResponseQuestions(Asker):
         >>> n.value.polynomial, n.value.decimal(20)
         ((-16, 0, 3), '2.3094010767585030580')
         """
+        from ._margins import Norm
+
         asked = self._asked(values, **question)
         first, dash, *options = self._words("norm", asked)
         words = [first, dash, input, output, *options]
@@ -96,6 +100,8 @@ class ResponseQuestions(Asker):
         values : mapping, optional
         timeout : float, optional
         """
+        from ._response import Bode
+
         text, words = self._curve("bode", at, values, timeout)
         return Bode(text, self._itself, words)
 
@@ -103,6 +109,8 @@ class ResponseQuestions(Asker):
         self, at: str | None = None, values: Mapping[str, Exact] | None = None, *, timeout: float | None = None
     ) -> Nyquist:
         """The curve of the loop cut at a signal around -1, with the exact crossings on it; parameters as for `bode`."""
+        from ._response import Nyquist
+
         text, words = self._curve("nyquist", at, values, timeout)
         return Nyquist(text, self._itself, words)
 

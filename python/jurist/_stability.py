@@ -13,10 +13,10 @@ from ._exact import Exact, text_of
 from ._polynomial import Polynomial
 from ._question import Asking, AskingWithin, Bounds, warn
 from ._sets import StableSet
-from ._tolerance import Tolerance
 
 if TYPE_CHECKING:
     from ._loop import Loop
+    from ._tolerance import Tolerance
 
 
 class StabilityQuestions(Asker):
@@ -228,6 +228,8 @@ class StabilityQuestions(Asker):
         >>> t.holds, t.box["K"], t.factor.lower < 2 < t.factor.upper
         (True, (Fraction(1, 2), Fraction(3, 2)), True)
         """
+        from ._tolerance import Tolerance
+
         asked = self._asked(values, **question)
         words = self._words("tolerance", asked)
         if all is not None:

@@ -21,9 +21,9 @@ print("stable, but not fast:", stable - fast)
 servo = jurist.LoopBuilder("continuous")
 K = servo.parameter("K", 1, min=0)
 servo = servo.block("controller", "r - y", "u", f"{K}*(s + 1/4)/s").block("plant", "u", "y", "1/(s^3 + 3*s^2 + 2*s)").build(inputs=["r"], outputs=["y"])
-far = servo.intervals("K", modulus_margin="1/2", at="u")
+far = servo.intervals("K", modulus_margin="3/10", at="u")
 print("stable:", servo.intervals("K"))
-print("modulus margin 1/2:", far, "-", far[0].upper.requirement)
+print("modulus margin 3/10:", far, "-", far[0].upper.requirement)
 
 # %%
 figure, ax = plt.subplots(figsize=(6, 5))

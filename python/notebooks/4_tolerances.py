@@ -22,11 +22,12 @@ factors = {name: sorted(float(e.value / s.nominal) for i in s for e in (i.lower,
 figure, ax = plt.subplots(figsize=(7, 3))
 for k, (name, ends) in enumerate(factors.items()):
     ax.plot(ends, [k] * len(ends), "o")
-    ax.annotate(name, (1, k), (4, 4), textcoords="offset points")
 ax.axvline(1, color="gray")
 ax.set_xscale("symlog", linthresh=0.1)
 ax.set_xlabel("end / nominal")
-ax.set_yticks([])
+ax.set_xlim(left=-0.02)
+ax.set_yticks(range(len(factors)), list(factors))
+ax.margins(y=0.15)
 
 # %% [markdown]
 # All at once: is the drive stable for every combination within 20 %? That is proved over the whole box, or a point is found that is

@@ -24,5 +24,6 @@ assert again.asked == 0
 # %%
 frame = r.to_frame()
 plt.loglog(frame["p.T"].map(lambda t: float(jurist.exact(t))), frame["upper"])
+plt.gca().tick_params(axis="x", which="minor", labelrotation=60)
 plt.xlabel("T (s)")
 plt.ylabel("largest stable K_pwm (V)")

@@ -288,7 +288,7 @@ def test_a_rejected_certificate_names_the_step(small):
 
 def test_the_import_is_light():
     """Nothing that is optional is imported with the package."""
-    heavy = "numpy pandas pyarrow sympy control matplotlib tqdm flint mpmath asyncio dataclasses inspect tomllib".split()
+    heavy = "numpy pandas pyarrow sympy control matplotlib tqdm flint mpmath tempfile asyncio dataclasses inspect tomllib".split()
     done = run(f"import sys, jurist; print([m for m in {heavy!r} if m in sys.modules])")
     assert done.stdout == "[]\n", done
     assert set(dir(jurist)) >= set(jurist.__all__)
