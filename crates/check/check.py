@@ -1471,7 +1471,7 @@ def check_windows(model, document, statement, values, extent):
     need(n >= len(q) and p and q or len(q) - 1 == n and abs(q[n]) < abs(p[n]), "the loop is advanced, or neutral and never stable")
     total = (P.of(p) + P.of(q)).listed(0)
     if not total or not total[0]:
-        found, count, events = [], 1, []  # s = 0 for every dead time
+        found, right, events = [], 1, []  # s = 0 for every dead time
         need(crossings == [], "crossings: there is nothing to cross")
     else:
         f = (square_of_modulus(p) + -square_of_modulus(q)).listed(0)
@@ -1483,10 +1483,10 @@ def check_windows(model, document, statement, values, extent):
         enclosures = items(crossings, pair)
         need(all(a[1] <= b[0] for a, b in zip(enclosures, enclosures[1:])), "crossings: not in order")
         found = [Crossing(p, q, f, a, b, bits) for a, b in enclosures]
-        inside, on, count = places(total, False)
+        inside, on, right = places(total, False)
         at_zero = [c for c in found if c.is_one]
-        need(on == 2 * len(at_zero) and inside + on + count == n, "crossings: the roots without delay do not fit")
-        count += 2 * sum(c.direction > 0 for c in at_zero)
+        need(on == 2 * len(at_zero) and inside + on + right == n, "crossings: the roots without delay do not fit")
+        right += 2 * sum(c.direction > 0 for c in at_zero)
         last = None if high is None else high * base
         if found:
             growth = (0, 0)
@@ -1509,15 +1509,15 @@ def check_windows(model, document, statement, values, extent):
     for e0, e1, direction, j, k in events:
         at = Fraction(e0) / scale, Fraction(e1) / scale
         if at[1] < low:
-            count += 2 * direction
+            right += 2 * direction
             continue
         if high is not None and at[0] > high:
             break
         need(low < at[0] and (high is None or at[1] < high), "a switch is not told from an end of the domain")
-        if count == 0:
+        if right == 0:
             stable.append((before, (j, k, at)))
-        count, before = count + 2 * direction, (j, k, at)
-    if count == 0:
+        right, before = right + 2 * direction, (j, k, at)
+    if right == 0:
         need(high is not None or not found, "the count does not grow")
         stable.append((before, high))
     need(isinstance(claimed, list) and len(claimed) == len(stable), "stable: not as many intervals")

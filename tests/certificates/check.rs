@@ -133,7 +133,13 @@ fn every_example_is_certified() {
             continue;
         }
         if verdict.problem().evaluated().is_some_and(|a| !a.symbols().is_empty()) {
-            checkers::certified_verdict_of(lp.ask());
+            // No checker knows the tangent of a prewarped rule.
+            if file.file_stem().is_some_and(|name| name == "two-mass-drive") {
+                let refused = verdict.certificate(&Budget::unlimited()).expect_err("the notch is prewarped");
+                assert!(refused.to_string().contains("no certificate"), "{refused}");
+            } else {
+                checkers::certified_verdict_of(lp.ask());
+            }
             continue;
         }
         checkers::certified_verdict_of(lp.ask());

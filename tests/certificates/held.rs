@@ -52,7 +52,17 @@ fn held_plants_of_all_kinds_are_certified() {
         accept(&model, &certificate);
         for value in ["1/10", "1", "-1", "50"] {
             let answer = read(&model).ask().set("K", number(value)).verdict(&Budget::unlimited()).expect(plant);
-            let certificate = answer.certificate(&Budget::unlimited()).expect(plant);
+            let certificate = match answer.certificate(&Budget::unlimited()) {
+                Ok(certificate) => certificate,
+                // (1 - X)(1 + K) - 1: no exponential is left where K = -1.
+                Err(why) => {
+                    assert!(
+                        plant == PLANTS[0] && value == "-1" && why.to_string().contains("cancel"),
+                        "{plant}: {why}"
+                    );
+                    continue;
+                }
+            };
             accept(&model, &certificate);
             for key in ["degree", "inside", "on", "outside", "infinite"] {
                 let wrong = with_count_changed(&certificate, key);
@@ -95,15 +105,9 @@ fn what_no_checker_knows_gets_no_certificate() {
         [("drive-hold", "T"), ("lcl-inverter", "Lg"), ("dc-servo", "T_m"), ("anti-alias-filter", "w_f")]
     {
         let model = read(&example(name));
-<<<<<<< ours
-        let times = || Range::between(Some(number("1/1000")), Some(number("1/500")));
-        let domain = |p: &str| model.ask().free(p).domain(p, times());
-        let Ok(answer) = domain(parameter).stable_set(&Budget::unlimited()) else { continue };
-=======
         let domain = Range::between(Some(number("1/1000")), Some(number("1/500")));
         let asked = model.ask().free(parameter).domain(parameter, domain);
         let Ok(answer) = asked.stable_set(&Budget::unlimited()) else { continue };
->>>>>>> theirs
         let refused = answer.certificate(&Budget::unlimited()).expect_err(name).to_string();
         assert!(refused.contains("no certificate"), "{name}: {refused}");
     }
