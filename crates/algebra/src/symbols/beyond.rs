@@ -6,7 +6,7 @@ use crate::number::{Integer, Rational};
 use crate::poly::{MultiPoly, RationalFunction};
 
 /// Bits of the bounds.
-pub(super) const BITS: u64 = 128;
+pub(super) const BITS: u64 = 256;
 
 /// The pieces into which a time is divided at least.
 const PIECES: u64 = 64;

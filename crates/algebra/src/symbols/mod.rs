@@ -13,6 +13,7 @@ mod definition;
 mod dominated;
 mod function;
 mod moving;
+mod moving_root;
 mod normal_form;
 mod rational_series;
 mod root;

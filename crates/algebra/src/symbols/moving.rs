@@ -1,13 +1,14 @@
 //! Symbols that depend on a parameter, such as `exp(-2*T)` in `T`, and the zeros of polynomials in the parameter and in them.
 
 use super::function::polynomial_at;
+use super::moving_root::MovingRoot;
 use super::{Definition, Function, Symbols};
 use crate::ball::{Ball, Series, fundamental_solutions};
-use crate::limits::{Budget, Exhausted, checkpoint};
+use crate::limits::{Budget, Exhausted};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::algebraic::simplest_between;
 use crate::poly::{MultiPoly, RationalFunction};
-use crate::real::{Enclosing, Origin, Real, Transcendental};
+use crate::real::{Enclosing, Real, Transcendental};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -48,10 +49,13 @@ pub struct Zeros {
 const TERMS: usize = 12;
 
 /// Bits of the first attempt.
-const FIRST_BITS: u64 = 192;
+pub(super) const FIRST_BITS: u64 = 192;
 
 /// The orders of a zero at the lower end that are looked for.
 const MOST_ORDER: usize = 32;
+
+/// Exponents beyond this are not enclosed over an interval.
+const LARGEST: i64 = 1 << 15;
 
 /// After so many intervals what is left stays undecided.
 const MOST_LOOKS: usize = 1200;
@@ -114,7 +118,13 @@ impl MovingSymbols {
             let value = match definition {
                 Definition::Pi => Series::constant(&Ball::from_enclosure(&Enclosure::pi(bits + 8), bits), terms),
                 Definition::Root(x) => at(x)?.sqrt()?,
-                Definition::Exponential(x) => at(x)?.exp(),
+                Definition::Exponential(x) => {
+                    let x = at(x)?;
+                    if x.coefficients()[0].upper() > Rational::from(LARGEST) {
+                        return None;
+                    }
+                    x.exp()
+                }
                 Definition::Tangent { square, time } => {
                     let (w, t) = (at(square)?, at(time)?);
                     let row = fundamental_solutions(&[w, zero], &t);
@@ -127,7 +137,11 @@ impl MovingSymbols {
                         None => {
                             let n = polynomial.len() - 1;
                             let coefficients = polynomial[..n].iter().map(at).collect::<Option<Vec<Series>>>()?;
-                            let row = fundamental_solutions(&coefficients, &at(time)?);
+                            let time_there = at(time)?;
+                            if is_too_large(&coefficients, &time_there) {
+                                return None;
+                            }
+                            let row = fundamental_solutions(&coefficients, &time_there);
                             let value = row[*index].clone();
                             rows.push((polynomial, time, row));
                             value
@@ -148,7 +162,7 @@ impl MovingSymbols {
     }
 
     /// The value of a function, the parameter anywhere in a ball.
-    fn value(&self, f: &Function, parameter: &Ball) -> Option<Ball> {
+    pub(super) fn value(&self, f: &Function, parameter: &Ball) -> Option<Ball> {
         let values = self.series(&Series::constant(parameter, 1))?;
         Some(f.at_series(&values).coefficients()[0].clone())
     }
@@ -247,7 +261,7 @@ impl MovingSymbols {
         Ok(Real::from(Transcendental::within(root, place)))
     }
 
-    fn sign_at(&self, f: &Function, at: &Rational, bits: u64) -> Option<Sign> {
+    pub(super) fn sign_at(&self, f: &Function, at: &Rational, bits: u64) -> Option<Sign> {
         self.value(f, &Ball::from_rational(at, bits))?.sign().filter(|s| s.is_ne())
     }
 
@@ -338,6 +352,13 @@ impl MovingSymbols {
     }
 }
 
+/// Whether exponentials of a companion matrix anywhere in these balls may have too many bits to be of use.
+fn is_too_large(coefficients: &[Series], time: &Series) -> bool {
+    let size = |s: &Series| s.coefficients()[0].upper().abs().max(s.coefficients()[0].lower().abs());
+    let greatest = coefficients.iter().map(size).max().unwrap_or(Rational::ONE).max(Rational::ONE);
+    size(time) * greatest > Rational::from(LARGEST)
+}
+
 /// What a Taylor polynomial says of a function on an interval.
 enum Look {
     None,
@@ -356,76 +377,4 @@ fn joined(intervals: Vec<(Rational, Rational)>) -> Vec<(Rational, Rational)> {
         }
     }
     out
-}
-
-/// The only zero of a function in an interval on which it is monotone.
-#[derive(Debug)]
-struct MovingRoot {
-    symbols: Arc<MovingSymbols>,
-    function: Arc<Function>,
-    place: Enclosure,
-}
-
-impl Enclosing for MovingRoot {
-    fn enclose(&self, bits: u64, known: Option<&Enclosure>) -> Enclosure {
-        let known = known.unwrap_or(&self.place);
-        let (mut lo, mut hi) = (known.lower().clone(), known.upper().clone());
-        let target = Rational::dyadic(&Integer::ONE, bits);
-        let half = Rational::dyadic(&Integer::ONE, 1);
-        let mut working = bits + 96;
-        let rising = self.rises();
-        while &hi - &lo > target {
-            checkpoint(bits);
-            let width = &hi - &lo;
-            // A dyadic number in the middle, so that it is exact.
-            let middle = Ball::from_rational(&lo.midpoint(&hi), working).lower();
-            let point = Ball::from_rational(&middle, working);
-            let whole = Ball::between(&lo, &hi, working);
-            let at_middle = self.symbols.value(&self.function, &point);
-            let one = Ball::from_integer(&Integer::ONE, working);
-            let slope = self.symbols.series(&Series::linear(&whole, &one, 2));
-            let slope = slope.map(|values| self.function.at_series(&values).coefficients()[1].clone());
-            if let (Some(at_middle), Some(slope)) = (&at_middle, slope)
-                && let Some(newton) = at_middle.div(&slope).and_then(|step| point.sub(&step).intersection(&whole))
-                && (newton.upper() - newton.lower()) <= &width * &half
-            {
-                (lo, hi) = (newton.lower().max(lo), newton.upper().min(hi));
-                continue;
-            }
-            match at_middle.and_then(|v| v.sign()).filter(|s| s.is_ne()) {
-                Some(sign) if middle > lo && middle < hi => {
-                    if sign.is_gt() == rising {
-                        hi = middle;
-                    } else {
-                        lo = middle;
-                    }
-                }
-                _ => working *= 2,
-            }
-        }
-        Enclosure::new(lo, hi)
-    }
-
-    fn origin(&self) -> Origin {
-        let names: Vec<String> =
-            std::iter::once("p".to_owned()).chain(self.symbols.table.iter().map(|(n, _)| n.clone())).collect();
-        Origin::Function { function: self.function.display(&names), details: Vec::new() }
-    }
-}
-
-impl MovingRoot {
-    /// Whether the function is negative below the zero.
-    fn rises(&self) -> bool {
-        let mut working = FIRST_BITS;
-        loop {
-            let below = self.symbols.sign_at(&self.function, self.place.lower(), working);
-            let above = self.symbols.sign_at(&self.function, self.place.upper(), working);
-            if let (Some(a), Some(b)) = (below, above)
-                && a != b
-            {
-                return b.is_gt();
-            }
-            working *= 2;
-        }
-    }
 }
