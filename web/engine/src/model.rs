@@ -31,8 +31,7 @@ pub(crate) fn read(text: &str) -> Result<(Model, Vec<Diagnostic>), Diagnostics> 
         return Ok(known);
     }
     let (model, warnings) = Model::from_bytes(NAME, text.as_bytes())?;
-    let kept =
-        Kept { text: text.to_owned(), model: model.clone(), warnings: warnings.clone(), problems: Vec::new() };
+    let kept = Kept { text: text.to_owned(), model: model.clone(), warnings: warnings.clone(), problems: Vec::new() };
     KEPT_MODEL.set(Some(kept));
     Ok((model, warnings))
 }

@@ -38,8 +38,9 @@ pub(crate) fn point(request: &PointRequest) -> Result<Value, Error> {
 fn reasoned(result: Result<Value, Error>) -> Result<Value, Error> {
     match result {
         Err(stopped @ Error::Stopped(_)) => Err(stopped),
-        Err(error) => serde_json::from_str(&Reply::no(&error).to_text())
-            .or_else(|_| Ok(json!({ "defect": error.to_string() }))),
+        Err(error) => {
+            serde_json::from_str(&Reply::no(&error).to_text()).or_else(|_| Ok(json!({ "defect": error.to_string() })))
+        }
         known => known,
     }
 }
@@ -54,15 +55,13 @@ fn roots_at(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
         return Err(Error::Undefined(algebra.undefined().unwrap_or_default().to_owned()));
     };
     let symbols = algebra.symbols().values_approximate(&[]);
-    let value = |c: &jurist::RationalFunction| {
-        c.as_constant().or_else(|| Rational::from_f64(value_approximate(c, &symbols)))
-    };
+    let value =
+        |c: &jurist::RationalFunction| c.as_constant().or_else(|| Rational::from_f64(value_approximate(c, &symbols)));
     let Some(coefficients) = polynomial.coefficients.iter().map(value).collect::<Option<Vec<_>>>() else {
         return Ok(json!({ "none": "the coefficients leave the range of floating point" }));
     };
     let cleared = cleared(&coefficients);
-    let found: Vec<Value> =
-        roots(&cleared).iter().map(|r| json!([r.value.re, r.value.im, r.multiplicity])).collect();
+    let found: Vec<Value> = roots(&cleared).iter().map(|r| json!([r.value.re, r.value.im, r.multiplicity])).collect();
     Ok(json!({ "at": found }))
 }
 
@@ -82,7 +81,8 @@ fn response(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
         None => natural_duration(problem, budget)?.unwrap_or(1.0),
     };
     let system = SampledModel::from_loop(problem, duration / CONTINUOUS_SAMPLES, budget)?;
-    let named = |(name, value): &(jurist_engine::model::Name, Rational)| (name.name.clone(), value.to_f64_approximate());
+    let named =
+        |(name, value): &(jurist_engine::model::Name, Rational)| (name.name.clone(), value.to_f64_approximate());
     let initial: Vec<(String, f64)> = defaults.initial.iter().map(named).collect();
     let mut inputs: Vec<(String, f64)> = defaults.inputs.iter().map(named).collect();
     let mut note = String::new();
@@ -94,8 +94,7 @@ fn response(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
         note = format!("unit step of {}", first.name);
     }
     let steps: Vec<(String, usize, f64)> = inputs.into_iter().map(|(name, value)| (name, 0, value)).collect();
-    let drive =
-        excitation(|name| system.state_named(name), system.states.len(), &system.inputs, &initial, &steps)?;
+    let drive = excitation(|name| system.state_named(name), system.states.len(), &system.inputs, &initial, &steps)?;
     let least = if asked.is_some() { 1.0 } else { SAMPLES.0 };
     let wanted = (duration / system.sample_time).round().max(least);
     let samples = wanted.min(SAMPLES.1);

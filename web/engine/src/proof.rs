@@ -21,9 +21,7 @@ pub(crate) struct CertificateRequest {
 pub(crate) fn certificate(request: &CertificateRequest) -> Result<Value, Error> {
     let budget = budget();
     let certificate = match &request.free {
-        Some(name) => {
-            problem(&request.model, &request.set, &[name])?.stable_set(&budget)?.certificate(&budget)?
-        }
+        Some(name) => problem(&request.model, &request.set, &[name])?.stable_set(&budget)?.certificate(&budget)?,
         None => problem(&request.model, &request.set, &[])?.verdict(&budget)?.certificate(&budget)?,
     };
     Ok(json!({ "certificate": certificate }))
