@@ -67,7 +67,7 @@ export class Details {
         continue;
       }
       for (const [k, interval] of document.stable.entries()) {
-        for (const side of ["lower", "upper"] as const) parts.push(this.end(interval[side], `${side} end of interval ${k + 1}`));
+        for (const side of ["lower", "upper"] as const) parts.push(this.end(interval[side], `${name}: ${side} end of interval ${k + 1}`));
       }
       if (document.stable.length === 0) parts.push(h("p", {}, "empty: stable for no value"));
       parts.push(this.certificate(name));

@@ -1,10 +1,10 @@
-// The engine as the page sees it: two workers behind lanes. In a lane the last request counts; what was overtaken is dropped, or,
+// The engine as the page sees it: three workers behind lanes. In a lane the last request counts; what was overtaken is dropped, or,
 // once it runs, its worker is replaced by a new one made of the kept module.
 
 export type Reply = any;
 
-/** Answered while a parameter is dragged, or in its own time. */
-export type Speed = "quick" | "slow";
+/** Answered while a parameter is dragged, when there is time, or after minutes: nobody waits behind the next kind. */
+export type Speed = "quick" | "slow" | "long";
 
 interface Asked {
   id: number;
@@ -45,7 +45,7 @@ class Seat {
       const asked = { id: nextId++, lane, request, resolve };
       if (FIRST.has(lane)) this.waiting.unshift(asked);
       else this.waiting.push(asked);
-      if (this.running?.lane === lane && this.speed === "slow") this.giveUp();
+      if (this.running?.lane === lane && this.speed !== "quick") this.giveUp();
       // Somebody moves something: what runs has to make room before long.
       else if (this.running && (this.running.lane === lane || FIRST.has(lane))) this.hurry();
       this.next();
@@ -155,7 +155,7 @@ export class Engine {
     private readonly module: WebAssembly.Module,
   ) {
     this.source = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
-    this.seats = { quick: new Seat(this, "quick"), slow: new Seat(this, "slow") };
+    this.seats = { quick: new Seat(this, "quick"), slow: new Seat(this, "slow"), long: new Seat(this, "long") };
   }
 
   worker(): Worker {
@@ -171,11 +171,11 @@ export class Engine {
   /** Ends all work. What somebody ended is undecided, what nobody needs any more gets no answer. */
   cancel(wished = false): void {
     const reply = wished ? { stopped: "cancelled" } : undefined;
-    for (const seat of [this.seats.slow, this.seats.quick]) seat.cancel(reply);
+    for (const seat of Object.values(this.seats)) seat.cancel(reply);
   }
 
   get busy(): string | undefined {
-    return this.seats.slow.busy ?? this.seats.quick.busy;
+    return this.seats.long.busy ?? this.seats.slow.busy ?? this.seats.quick.busy;
   }
 
   took(lane: string, milliseconds: number): void {

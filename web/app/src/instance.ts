@@ -14,6 +14,9 @@ export interface Instance {
   lastWords(): string;
 }
 
+/** Half a pair of surrogates is no character: it goes as the one that says so. */
+const wellFormed = (_: string, value: unknown) => (typeof value === "string" ? value.replace(/\p{Surrogate}/gu, "\ufffd") : value);
+
 export async function instantiate(module: WebAssembly.Module, progress: (text: string) => void): Promise<Instance> {
   const decoder = new TextDecoder();
   const told = (at: number, length: number) =>
@@ -26,7 +29,7 @@ export async function instantiate(module: WebAssembly.Module, progress: (text: s
   };
   return {
     ask(request) {
-      const bytes = new TextEncoder().encode(JSON.stringify(request));
+      const bytes = new TextEncoder().encode(JSON.stringify(request, wellFormed));
       const at = exports.request(bytes.length);
       new Uint8Array(exports.memory.buffer, at, bytes.length).set(bytes);
       return JSON.parse(text(exports.answer()));

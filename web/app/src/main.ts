@@ -3,7 +3,7 @@
 import { commandLine, python, sets, withNominals } from "./copy.js";
 import { Details } from "./details.js";
 import { by, download, h, table, tabs } from "./dom.js";
-import { Engine, type Reply } from "./engine.js";
+import { Engine, type Reply, type Speed } from "./engine.js";
 import { examples } from "./examples.js";
 import { type Shared, pack, unpack } from "./link.js";
 import { load, script } from "./load.js";
@@ -67,12 +67,12 @@ class Page {
     by("plots").append(...figures.map((f) => f.element));
     const words = ["Map", "Roots", "Response", "Open loop"];
     by("pager").append(...figures.map((f, k) => h("button", { type: "button", click: () => f.element.scrollIntoView({ inline: "start", block: "nearest" }) }, words[k]!)));
-    engine.working = (lane) => this.working(lane);
+    engine.working = () => this.working();
     engine.progress = (_, text) => {
       if (!by("cancel").hidden) by("progress").textContent = text;
     };
     engine.idle = () => {
-      if (!engine.busy) this.working(undefined);
+      if (!engine.busy) this.working();
     };
     by("cancel").addEventListener("click", () => engine.cancel(true));
   }
@@ -81,7 +81,7 @@ class Page {
     return [this.map.figure, this.locus.figure, this.response.figure, this.loop.figure];
   }
 
-  private working(lane: string | undefined): void {
+  private working(): void {
     if (!this.engine.busy) {
       clearTimeout(this.quiet);
       this.quiet = 0;
@@ -89,7 +89,6 @@ class Page {
       by("cancel").hidden = true;
       return;
     }
-    if (this.quiet && !by("cancel").hidden) by("progress").textContent = `${lane}…`;
     this.quiet ||= window.setTimeout(() => {
       if (!this.engine.busy) return;
       by("progress").textContent = `${this.engine.busy}…`;
@@ -237,7 +236,7 @@ class Page {
   }
 
   /** Asks once for each key; what is overtaken leaves no trace. */
-  private async once(speed: "quick" | "slow", lane: string, request: unknown, use: (reply: Reply) => void): Promise<void> {
+  private async once(speed: Speed, lane: string, request: unknown, use: (reply: Reply) => void): Promise<void> {
     const key = JSON.stringify(request);
     if (this.known.get(lane) === key) return;
     this.known.set(lane, key);
@@ -308,7 +307,7 @@ class Page {
       const [x, y] = this.mapAxes;
       const request = { ask: "map", model: this.text, set: this.given(this.mapAxes), x, y };
       if (this.known.get("map") !== JSON.stringify(request)) {
-        void this.once("slow", "map", request, (reply) => {
+        void this.once("long", "map", request, (reply) => {
           this.map.data = reply;
           this.map.message = "";
           this.map.tabulate();

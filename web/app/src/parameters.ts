@@ -1,6 +1,7 @@
 // One row for each parameter: a box for the exact value and a slider whose track is the stable set.
 
 import { h, s } from "./dom.js";
+import { cut } from "./plot.js";
 import { type Scale, beside, decimalAt, float, isNumber, label, place, value } from "./numbers.js";
 
 export interface Parameter {
@@ -92,11 +93,11 @@ export class Row {
     this.element = h(
       "div",
       { class: "parameter" },
-      h("div", { class: "value" }, h("label", { for: id, title: description ?? "" }, name), this.box, h("span", { class: "unit" }, unit ?? ""), reset, locus, this.wrong),
+      h("div", { class: "value" }, h("label", { for: id, title: description ?? "" }, cut(name, 60)), this.box, h("span", { class: "unit" }, cut(unit ?? "", 30)), reset, locus, this.wrong),
       h("div", { class: "track" }, this.slider, this.ends),
       this.words,
     );
-    if (description) this.element.append(h("p", { class: "description" }, description));
+    if (description) this.element.append(h("p", { class: "description" }, cut(description, 300)));
     this.listen();
     this.draw();
   }

@@ -109,7 +109,7 @@ export class Figure {
   ) {
     this.svg = s("svg", { role: "img", "aria-labelledby": `${id}-title ${id}-sentence` });
     this.sentence = h("p", { id: `${id}-sentence`, class: "sentence" });
-    this.extra = h("div", { class: "table" });
+    this.extra = h("div", { class: "table", tabindex: 0, role: "region", "aria-label": `${tableTitle} (${title})` });
     this.controls = h("div", { class: "controls" });
     this.table = h("details", {}, h("summary", {}, tableTitle), this.extra);
     this.element = h(

@@ -137,7 +137,7 @@ export class MapPlot {
 
   /** The exact text, once for each map. */
   tabulate(): void {
-    this.figure.tabulate(h("pre", { tabindex: 0, role: "region", "aria-label": "limits of the map" }, String(this.data?.text ?? "")));
+    this.figure.tabulate(h("pre", {}, String(this.data?.text ?? "")));
   }
 }
 

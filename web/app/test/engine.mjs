@@ -9,6 +9,7 @@ import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, test } from "node:test";
 import { fileURLToPath } from "node:url";
+import { LONG, MAPPED } from "./examples.mjs";
 import { instance } from "./instance.mjs";
 import { randomModels } from "./models.mjs";
 
@@ -46,8 +47,6 @@ function same(name, text, ...args) {
 }
 
 const examples = readdirSync(join(root, "examples")).filter((file) => file.endsWith(".toml"));
-// Questions that the program itself leaves undecided after seconds: nothing is learned from waiting for them twice.
-const LONG = new Set(["anti-alias-filter", "dc-servo", "drive-hold", "lcl-inverter", "smith-predictor", "neutral-loop", "fiat-dedra"]);
 
 for (const file of examples) {
   const name = file.replace(".toml", "");
@@ -59,7 +58,7 @@ for (const file of examples) {
     const names = model.parameters.map((p) => p.name);
     if (LONG.has(name)) return;
     for (const parameter of names) same(name, text, "intervals", "--param", parameter, "--json");
-    if (names.length === 2) same(name, text, "map", "-x", names[0], "-y", names[1], "--json");
+    if (MAPPED.has(name)) same(name, text, "map", "-x", names[0], "-y", names[1], "--json");
   });
 }
 
