@@ -145,13 +145,20 @@ fn no_mutation_of_a_held_certificate_changes_what_is_proved() {
     }
 }
 
-/// Numbers in lowest terms.
+/// Numbers in lowest terms, the terms of a polynomial in one order.
 fn plain(json: Option<&Json>) -> Json {
     match json {
         Some(Json::Text(text)) => {
             jurist_algebra::number::parse_number(text).map_or_else(|_| text.as_str().into(), |q| q.to_string().into())
         }
-        Some(Json::List(items)) => Json::List(items.iter().map(|item| plain(Some(item))).collect()),
+        Some(Json::List(items)) => {
+            let mut items: Vec<Json> = items.iter().map(|item| plain(Some(item))).collect();
+            if items.iter().all(|item| matches!(item, Json::List(term) if matches!(term.first(), Some(Json::Text(_)))))
+            {
+                items.sort_by_key(Json::to_text);
+            }
+            Json::List(items)
+        }
         Some(Json::Object(pairs)) => Json::Object(pairs.iter().map(|(k, v)| (k.clone(), plain(Some(v)))).collect()),
         Some(other) => other.clone(),
         None => Json::Null,

@@ -5,7 +5,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, UniPoly};
 use jurist_engine::model::{Model, Time};
-use jurist_engine::response::{DelayMargin, Margins, PhaseMargin};
+use jurist_engine::response::{DelayMargin, Margins, PhaseMargin, RequiredEnd, Requirement};
 use jurist_engine::stability::{ParametricPolynomial, Range, Shape, count_roots, is_stable, stable_set};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -25,6 +25,24 @@ fn model(denominator: &UniPoly, numerator: &UniPoly, time: Time) -> Model {
 fn margins(denominator: &UniPoly, numerator: &UniPoly, time: Time) -> Margins {
     let asked = model(denominator, numerator, time).ask();
     asked.margins(Some("k"), &Rational::ZERO, &Budget::unlimited()).unwrap().into_value()
+}
+
+/// The same as a loop of one block, with a factor in front of the numerator.
+fn closed(denominator: &UniPoly, numerator: &UniPoly, time: Time, factor: &str) -> Model {
+    let (d, n) = (text(denominator, time.variable()), text(numerator, time.variable()));
+    read(&format!(
+        "time = '{}'\n[parameters]\nK = {{ nominal = 1 }}\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'L'\n\
+         input = 'r - y'\noutput = 'y'\ntransfer = '{factor}({n})/({d})'\n",
+        time.name()
+    ))
+}
+
+/// `|p|^2` on the boundary as a polynomial that mirrors itself.
+fn squared(p: &UniPoly, degree: usize, time: Time) -> UniPoly {
+    match time {
+        Time::Discrete => p.times(&p.reversed(degree)),
+        Time::Continuous => p.times(&p.negated_argument()),
+    }
 }
 
 fn shape(time: Time) -> Shape {
@@ -89,14 +107,10 @@ proptest! {
         let (lo, hi) = found.modulus.refined_to_digits(12).enclosure();
         let step = Rational::dyadic(&Integer::ONE, 40);
         let degree = d.coeffs().len().max(n.coeffs().len()) - 1;
-        let squared = |p: &UniPoly| match time {
-            Time::Discrete => p.times(&p.reversed(degree)),
-            Time::Continuous => p.times(&p.negated_argument()),
-        };
         let on_boundary = |m: Rational| {
             let (up, down) = (m.numerator(), m.denominator());
-            let left = squared(&d.plus(&n)).scaled(&(&down * &down));
-            let excess = left.minus(&squared(&d).scaled(&(&up * &up)));
+            let left = squared(&d.plus(&n), degree, time).scaled(&(&down * &down));
+            let excess = left.minus(&squared(&d, degree, time).scaled(&(&up * &up)));
             if excess.is_zero() { 0 } else { count_roots(&excess, shape(time)).on }
         };
         prop_assert_eq!(on_boundary(&lo - &step), 0);
@@ -146,5 +160,63 @@ proptest! {
         let product = found.modulus.refined_to_digits(20).enclosure().0 * found.peak_sensitivity.refined_to_digits(20).enclosure().0;
         let error = (product - Rational::ONE).abs();
         prop_assert!(error < Rational::dyadic(&Integer::ONE, 60));
+    }
+
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// `|T| < g` everywhere if `|N|^2 - g^2 |D0 + N|^2` has no root on the boundary.
+    #[test]
+    fn the_peak_gain_is_bracketed_by_counts_on_the_boundary((d, n, time) in stable_loop()) {
+        prop_assume!(n.degree() <= d.degree());
+        let asked = closed(&d, &n, time, "").ask();
+        let peak = asked.norm("r", "y", &Budget::unlimited()).unwrap().into_value().peak.unwrap();
+        let (lo, hi) = peak.value.refined_to_digits(12).enclosure();
+        let step = &lo * &Rational::dyadic(&Integer::ONE, 40);
+        let degree = d.coeffs().len().max(n.coeffs().len()) - 1;
+        let on_boundary = |g: Rational| {
+            let (up, down) = (g.numerator(), g.denominator());
+            let below = squared(&d.plus(&n), degree, time).scaled(&(&up * &up));
+            let excess = squared(&n, degree, time).scaled(&(&down * &down)).minus(&below);
+            if excess.is_zero() { 0 } else { count_roots(&excess, shape(time)).on }
+        };
+        prop_assert_eq!(on_boundary(&hi + &step), 0);
+        if matches!(peak.extreme, jurist_engine::response::Extreme::At { attained: true, .. }) {
+            prop_assert!(on_boundary(&lo - &step) > 0);
+        }
+    }
+
+    /// Inside of the stable set, and a stricter requirement leaves less.
+    #[test]
+    fn a_required_set_is_inside_the_stable_set((d, n, time) in stable_loop()) {
+        prop_assume!(n.degree() <= d.degree());
+        let problem = closed(&d, &n, time, "K*").ask().free("K").problem().unwrap();
+        let budget = Budget::unlimited();
+        let set = |least: i64| {
+            let requirement = Requirement::modulus_margin(Rational::new(least.into(), 4.into())).unwrap();
+            problem.required_set(&[requirement], None, &budget).unwrap().into_value()
+        };
+        let (weak, strict) = (set(1), set(3));
+        let inside = |i: &jurist_engine::response::RequiredInterval| {
+            let end = |end: &Option<RequiredEnd>| end.as_ref().map(|e| e.value().refined_to_digits(9).enclosure());
+            match (end(&i.lower), end(&i.upper)) {
+                (Some(a), Some(b)) => a.1.midpoint(&b.0),
+                (Some(a), None) => a.1 + Rational::ONE,
+                (None, Some(b)) => b.0 - Rational::ONE,
+                (None, None) => Rational::ZERO,
+            }
+        };
+        for k in weak.intervals.iter().chain(&strict.intervals).map(inside) {
+            let at = d.scaled(&k.denominator()).plus(&n.scaled(&k.numerator()));
+            prop_assert!(is_stable(&at, shape(time)), "{}", k);
+        }
+        for k in strict.intervals.iter().map(inside) {
+            let holds = |end: &Option<RequiredEnd>, above: bool| {
+                end.as_ref().is_none_or(|e| e.value().compare_rational(&k).is_lt() == above)
+            };
+            prop_assert!(weak.intervals.iter().any(|i| holds(&i.lower, true) && holds(&i.upper, false)), "{}", k);
+        }
     }
 }

@@ -11,6 +11,7 @@ mod smt2;
 mod text;
 
 use crate::error::{Diagnostic, Error};
+use crate::problem::Problem;
 use crate::stability::StableSet;
 
 pub use emit::SCHEMA;
@@ -21,6 +22,14 @@ fn refuse_transcendental(set: &StableSet, what: &str) -> Result<(), Error> {
         return Ok(());
     }
     Err(no_certificate(format!("{what}: the limits are not algebraic numbers")))
+}
+
+/// The checkers refuse a model with requirements until they can prove them.
+fn refuse_requirements(problem: &Problem) -> Result<(), Error> {
+    match problem.model().require().is_empty() {
+        true => Ok(()),
+        false => Err(no_certificate("no certificate: nothing proves the requirements of the model yet")),
+    }
 }
 
 fn no_certificate(why: impl Into<String>) -> Error {

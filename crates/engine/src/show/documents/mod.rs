@@ -45,7 +45,7 @@ pub use charpoly::{
 };
 pub use check::{Check, CheckName, Finding, FindingPlace, FindingSeverity};
 pub use end::{Bounds, End, FrequencyOfPair, PlainEnd};
-pub use intervals::{Intervals, IntervalsName, IntervalsOpen, Stable, UndecidedEnclosure};
+pub use intervals::{Intervals, IntervalsName, IntervalsOpen, SensitivityFound, Stable, UndecidedEnclosure};
 pub use jury::{
     Condition, Holds, Jury, JuryAtPoint, JuryInParameter, JuryName, PointTable, Relation, Row, RowsOpen, Solution,
     SolvedTable, TableKind, TableOpen,
