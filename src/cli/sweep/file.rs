@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn floats_are_read_as_they_were_written() {
-        for x in [0.1f64, 1.7976931348623157e308, 550.941166686675, 5e-324, 123456789.12345679] {
+        for x in [0.1f64, 1.5e308, 550.941166686675, 5e-324, 123456789.12345679] {
             for x in [x, -x, x.next_up(), x.next_down()] {
                 let Some(read) = row(&format!("{{\"key\": \"a\", \"lower\": {}, \"upper_hz\": null}}", float(x)))
                 else {
