@@ -3,12 +3,8 @@
 use super::cofactors::{Identity, identity};
 use super::line::{Line, Separator};
 use super::text::to_text;
-<<<<<<< ours
 use super::{dead_time, held};
-use super::{no_certificate, refuse_transcendental};
-=======
 use super::{no_certificate, refuse_requirements, refuse_transcendental};
->>>>>>> theirs
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
 use crate::problem::{Bound, Problem, Region};
@@ -43,11 +39,7 @@ impl Answer<StableSet> {
     /// algebraic numbers.
     pub fn certificate(&self, budget: &Budget) -> Result<String, Error> {
         budget.enter(|| {
-<<<<<<< ours
-=======
             refuse_requirements(self.problem())?;
-            refuse_transcendental(self.value(), "no certificate")?;
->>>>>>> theirs
             budget.step("certificate");
             let problem = self.problem();
             if let Some(delayed) = problem.delayed(budget)? {
@@ -109,17 +101,12 @@ impl Answer<PointVerdict> {
         budget.enter(|| {
             budget.step("certificate");
             let (problem, verdict) = (self.problem(), self.value());
-<<<<<<< ours
+            refuse_requirements(problem)?;
             if problem.delayed(budget)?.is_some() {
                 return Err(no_certificate("no certificate: the loop has dead time"));
             }
             if held::is_held(problem, budget)? {
                 return held::of_verdict(self, budget);
-=======
-            refuse_requirements(problem)?;
-            if problem.evaluated().is_some_and(|a| !a.symbols().is_empty()) {
-                return Err(no_certificate("no certificate: the loop has constants that are not rational"));
->>>>>>> theirs
             }
             let characteristic = match problem.parametric(budget)? {
                 None => Vec::new(),
