@@ -126,7 +126,10 @@ pub fn determinant_enclosed<R: Enclosed>(mut rows: Vec<Vec<R>>) -> R {
         let n = rows.len();
         // By column from the left, the row whose entry is farthest from zero.
         let best = |column: usize| {
-            (0..n).map(|i| (rows[i][column].least(), i)).max_by(|x, y| x.0.cmp(&y.0)).filter(|(least, _)| !least.is_zero())
+            (0..n)
+                .map(|i| (rows[i][column].least(), i))
+                .max_by(|x, y| x.0.cmp(&y.0))
+                .filter(|(least, _)| !least.is_zero())
         };
         let Some((column, row)) = (0..n).find_map(|column| best(column).map(|(_, row)| (column, row))) else { break };
         negative ^= (column + row) % 2 == 1;
@@ -280,8 +283,7 @@ mod tests {
             let (x, y) = (determinant_enclosed(rows.clone()), expanded(&rows));
             assert!(x.intersection(&y).is_some() && x.union(&y).width_units().bit_length() < 120, "{x:?} {y:?}");
             // No pivot is certain where every entry may vanish; the determinant is enclosed all the same.
-            let wide: Vec<Vec<Ball>> =
-                rows.iter().map(|r| r.iter().map(|x| x.union(&x.neg())).collect()).collect();
+            let wide: Vec<Vec<Ball>> = rows.iter().map(|r| r.iter().map(|x| x.union(&x.neg())).collect()).collect();
             let all = determinant_enclosed(wide);
             assert!(all.union(&x) == all, "{n}");
         }

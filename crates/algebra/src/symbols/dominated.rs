@@ -168,7 +168,8 @@ fn bound(definition: &Definition, power: i64, start: &Rational) -> Option<Powers
             let (q, within) = decay(&c, &time)?;
             // From j to j + 1 times that time, T^power is at most ((j + 1) time/slope)^power, and q^j of it falls.
             let falls = Ball::from_rational(&Rational::new(Integer::from(2), Integer::from(3)), BITS);
-            if q.upper() >= falls.power(power.unsigned_abs()).lower() || q.upper() >= Rational::dyadic(&Integer::ONE, 1) {
+            if q.upper() >= falls.power(power.unsigned_abs()).lower() || q.upper() >= Rational::dyadic(&Integer::ONE, 1)
+            {
                 return None;
             }
             let twice = &(&time + &time) / &slope;

@@ -164,12 +164,7 @@ impl Function {
     ///
     /// # Errors
     /// As [`Symbols::sign`].
-    pub(super) fn vanishes_at(
-        &self,
-        value: &Rational,
-        symbols: &Symbols,
-        budget: &Budget,
-    ) -> Result<bool, Exhausted> {
+    pub(super) fn vanishes_at(&self, value: &Rational, symbols: &Symbols, budget: &Budget) -> Result<bool, Exhausted> {
         let put = |f: &MultiPoly| f.substitute(0, value).0.map_variables(|i| i.saturating_sub(1));
         let Function::Resultant { a, b } = self else {
             return symbols.is_zero(&put(self.polynomial().expect("a polynomial")), budget);

@@ -81,7 +81,8 @@ pub fn resultants_seem_simple_in(functions: &[Function], j: usize, budget: &Budg
             let (part, is_resultant) = &parts[k];
             let others = || parts.iter().enumerate().filter(|(i, _)| *i != k);
             !is_resultant
-                || (SquareFree::new(part.clone()).is_some() && others().all(|(_, (other, _))| part.gcd(other).is_constant()))
+                || (SquareFree::new(part.clone()).is_some()
+                    && others().all(|(_, (other, _))| part.gcd(other).is_constant()))
         };
         if budget.enter(|| (0..parts.len()).all(is_simple))? {
             return Ok(true);

@@ -1,8 +1,8 @@
 //! Questions in which a dead time varies against the sample time of its hold: from one whole number of samples to the next the
 //! loop has another order, so the domain is divided there.
 
-use super::evaluation::Algebra;
 use super::Problem;
+use super::evaluation::Algebra;
 use crate::error::Error;
 use crate::stability::{AtPoint, Cause, End, Range, StableInterval, StableSet, UndecidedBracket, symbolic_stable_set};
 use jurist_algebra::limits::Budget;
@@ -59,7 +59,8 @@ impl Problem {
             {
                 let at = polynomial.at(before, self.shape(), budget)?;
                 let is_stable = matches!(at, AtPoint::Defined { count, infinite: 0 } if count.inside == count.total());
-                let last = intervals.last_mut().filter(|last| last.upper.as_ref().is_some_and(|end| is_at(end, before)));
+                let last =
+                    intervals.last_mut().filter(|last| last.upper.as_ref().is_some_and(|end| is_at(end, before)));
                 match last {
                     Some(last) if is_stable => {
                         last.upper = first.upper.take();
@@ -71,7 +72,8 @@ impl Problem {
             intervals.extend(found);
         }
         // The divisions are not of the domain's making.
-        let is_end = |end: &End| end.value.exact().is_some_and(|x| domain.lower == Some(x.clone()) || domain.upper == Some(x));
+        let is_end =
+            |end: &End| end.value.exact().is_some_and(|x| domain.lower == Some(x.clone()) || domain.upper == Some(x));
         for interval in &mut intervals {
             for end in [&mut interval.lower, &mut interval.upper].into_iter().flatten() {
                 if !is_end(end) {
@@ -140,9 +142,9 @@ fn breaks(ratios: &[RationalFunction], domain: &Range, usual: &Rational) -> Opti
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Model;
-    use crate::error::Source;
     use crate::answer::Verdict;
+    use crate::error::Source;
+    use crate::model::Model;
 
     fn servo() -> Model {
         let text = "time = 'discrete'\nsample_time = 'T'\n[parameters]\nT = { nominal = 0.1, min = 0 }\n\
@@ -155,14 +157,17 @@ mod tests {
     #[test]
     fn a_dead_time_of_any_fraction_of_a_sample_is_a_question() {
         let budget = Budget::unlimited();
-        for (name, values) in [("L", ["0.01", "0.1", "0.15", "0.33", "0.5", "0.7"]), ("T", ["0.02", "0.06", "0.12", "0.3", "0.7", "2"])] {
+        for (name, values) in
+            [("L", ["0.01", "0.1", "0.15", "0.33", "0.5", "0.7"]), ("T", ["0.02", "0.06", "0.12", "0.3", "0.7", "2"])]
+        {
             let answer = servo().ask().free(name).stable_set(&budget).unwrap();
             let set = answer.value();
             for x in values {
                 let x: Rational = jurist_algebra::number::parse_number(x).unwrap();
-                let known = set.undecided().iter().all(|b| {
-                    b.lower.as_ref().is_some_and(|lo| x < *lo) || b.upper.as_ref().is_some_and(|hi| *hi < x)
-                });
+                let known = set
+                    .undecided()
+                    .iter()
+                    .all(|b| b.lower.as_ref().is_some_and(|lo| x < *lo) || b.upper.as_ref().is_some_and(|hi| *hi < x));
                 assert!(known, "{name} = {x}");
                 let verdict = servo().ask().set(name, x.clone()).verdict(&budget).unwrap().into_value().verdict;
                 assert_eq!(set.contains(&x), verdict == Verdict::Stable, "{name} = {x}");

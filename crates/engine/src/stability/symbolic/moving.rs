@@ -217,9 +217,7 @@ fn split(
             part == rest || (rest.terms().len() <= MOST_TERMS && rest.div_exact(part).is_some())
         };
         let parts = match rest {
-            Some(rest) => {
-                budget.enter(|| (0..expanded.len()).filter(|&k| divides(&expanded[k], &rest)).collect())?
-            }
+            Some(rest) => budget.enter(|| (0..expanded.len()).filter(|&k| divides(&expanded[k], &rest)).collect())?,
             None => {
                 basis.push(function.clone());
                 vec![basis.len() - 1]

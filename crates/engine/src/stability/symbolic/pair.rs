@@ -71,11 +71,8 @@ impl CommonRoots {
 
     /// The common root at a zero of the resultant.
     pub fn at(&self, value: &Real, budget: &Budget) -> Result<Common, Exhausted> {
-        let root = CommonRoot {
-            pair: Arc::clone(&self.pair),
-            values: Arc::clone(&self.values),
-            parameter: value.clone(),
-        };
+        let root =
+            CommonRoot { pair: Arc::clone(&self.pair), values: Arc::clone(&self.values), parameter: value.clone() };
         let (lower, upper) = match self.pair.region {
             Shape::UnitDisc => (Some(Rational::from(-2)), Rational::from(2)),
             Shape::LeftHalfPlane => (None, Rational::ZERO),

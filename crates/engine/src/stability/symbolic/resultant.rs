@@ -124,7 +124,8 @@ impl PairResultant {
             checkpoint(count as u64);
             let node = Integer::from(*node);
             let at = |list: &[Vec<Ball>]| -> Vec<Ball> {
-                let horner = |c: &Vec<Ball>| c.iter().rev().fold(Ball::zero(working), |sum, c| sum.scaled(&node).add(c));
+                let horner =
+                    |c: &Vec<Ball>| c.iter().rev().fold(Ball::zero(working), |sum, c| sum.scaled(&node).add(c));
                 list.iter().map(horner).collect()
             };
             enclosed_resultant(&at(&a), &at(&b))
@@ -162,7 +163,8 @@ impl EnclosedPoly for PairResultant {
     }
 
     fn origin(&self) -> Origin {
-        let symbols = (0..self.symbols.len()).map(|i| (self.symbols.names()[i].clone(), self.symbols.definition_text(i)));
+        let symbols =
+            (0..self.symbols.len()).map(|i| (self.symbols.names()[i].clone(), self.symbols.definition_text(i)));
         Origin::Function { function: "resultant of the half-size pair".to_owned(), details: symbols.collect() }
     }
 }
@@ -193,7 +195,11 @@ fn common_degree(
     for &end in ends {
         let at = MultiPoly::constant(Integer::from(end));
         let value = |p: &[MultiPoly]| Poly::new(p.to_vec()).eval(&at);
-        while a.len() > 1 && b.len() > 1 && symbols.is_zero(&value(&a), budget)? && symbols.is_zero(&value(&b), budget)? {
+        while a.len() > 1
+            && b.len() > 1
+            && symbols.is_zero(&value(&a), budget)?
+            && symbols.is_zero(&value(&b), budget)?
+        {
             (a, b) = (without_root(&a, &at), without_root(&b, &at));
             found += 1;
         }

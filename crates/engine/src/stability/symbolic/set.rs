@@ -263,12 +263,7 @@ pub(super) fn coprime(polynomials: &[MultiPoly], unknowns: &[usize]) -> Vec<Mult
 }
 
 /// All zeros in the range, ascending.
-fn zeros(
-    boundaries: &[Boundary],
-    basis: &[Condition],
-    range: &Range,
-    budget: &Budget,
-) -> Result<Vec<Zero>, Exhausted> {
+fn zeros(boundaries: &[Boundary], basis: &[Condition], range: &Range, budget: &Budget) -> Result<Vec<Zero>, Exhausted> {
     let (lower, upper) = (range.lower.as_ref(), range.upper.as_ref());
     let mut all: Vec<Real> = Vec::new();
     for boundary in boundaries {

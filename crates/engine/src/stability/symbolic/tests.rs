@@ -240,7 +240,8 @@ fn random_loop(order: usize, seed: &mut u64) -> SymbolicPolynomial {
     symbols.insert("t", Definition::tangent(number("2/7")));
     let [k, x, t] = [0, 1, 2].map(RationalFunction::variable);
     let mut coefficient = |size: u64| {
-        let mut number = || RationalFunction::from(Rational::new(next(2 * size + 1) - Integer::from(size), Integer::from(9)));
+        let mut number =
+            || RationalFunction::from(Rational::new(next(2 * size + 1) - Integer::from(size), Integer::from(9)));
         let (a, b, c) = (number(), number(), number());
         &(&a + &(&b * &x)) + &(&c * &(&x * &t))
     };
@@ -257,9 +258,7 @@ fn limits_by_enclosed_resultants_are_those_by_expanded_ones() {
     for order in [2, 3, 4, 4, 5, 6] {
         let p = random_loop(order, &mut seed);
         let Table::Fixed(symbols) = &p.symbols else { unreachable!() };
-        let by = |most| {
-            set_over(&p, symbols, &Range::all(), Shape::UnitDisc, most, &Budget::unlimited()).unwrap()
-        };
+        let by = |most| set_over(&p, symbols, &Range::all(), Shape::UnitDisc, most, &Budget::unlimited()).unwrap();
         let (enclosed, expanded) = (by(0), by(u64::MAX));
         assert_eq!(ends(&enclosed, 25), ends(&expanded, 25), "order {order}");
         limits += ends(&enclosed, 3).len();
@@ -275,13 +274,7 @@ fn zeros_at_either_end_of_an_enclosed_resultant_are_known() {
     let (k, x, one) = (RationalFunction::variable(0), RationalFunction::variable(1), RationalFunction::one());
     let two = &one + &one;
     let zero = RationalFunction::from(number("9/10"));
-    let list = vec![
-        RationalFunction::zero(),
-        -&(&x + &(&k * &zero)),
-        &(&one + &(&two * &x)) + &k,
-        -&(&two + &x),
-        one,
-    ];
+    let list = vec![RationalFunction::zero(), -&(&x + &(&k * &zero)), &(&one + &(&two * &x)) + &k, -&(&two + &x), one];
     let p = looped(list, symbols);
     let Table::Fixed(symbols) = &p.symbols else { unreachable!() };
     let pair = Arc::new(pair::Pair::of(&p.pair(Shape::UnitDisc)));
