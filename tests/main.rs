@@ -99,6 +99,7 @@ mod program {
     #[cfg(unix)]
     mod outputs;
     mod regions;
+    mod report;
     mod simulate;
     mod undecided;
     mod usage;

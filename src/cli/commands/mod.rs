@@ -16,6 +16,7 @@ pub(super) mod margins;
 pub(super) mod new;
 pub(super) mod norm;
 pub(super) mod paper;
+pub(super) mod report;
 pub(super) mod simulate;
 pub(super) mod tolerance;
 pub(super) mod verdict;
@@ -142,6 +143,7 @@ impl Arguments {
             Some(Command::Norm(options)) => &options.output.run,
             Some(Command::Simulate(options)) => &options.run,
             Some(Command::Paper(options)) => &options.run,
+            Some(Command::Report(options)) => &options.run,
             Some(Command::Tolerance(options)) => &options.decision.output.run,
             Some(Command::Verify(options)) => &options.run,
             Some(Command::Check(options)) => &options.run,
@@ -167,6 +169,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Norm(options)) => norm::run(options, context),
         Some(Command::Simulate(options)) => simulate::run(options, context),
         Some(Command::Paper(options)) => paper::run(options, context),
+        Some(Command::Report(options)) => report::run(options, context),
         Some(Command::Tolerance(options)) => tolerance::run(options, context),
         Some(Command::Verify(options)) => verify::run(options, context),
         Some(Command::Check(options)) => check::run(options, context),
