@@ -105,6 +105,7 @@ mod program {
     #[cfg(unix)]
     mod outputs;
     mod regions;
+    mod report;
     mod simulate;
     mod sweep;
     mod undecided;

@@ -68,6 +68,8 @@ pub(super) enum Command {
     Sweep(commands::sweep::Options),
     /// Stable for every value within tolerances: proof or counterexample, and how far they can grow
     Tolerance(commands::tolerance::Options),
+    /// One page about one's own loop: verdict, limits and causes, margins, what moves them, worst corner, figures
+    Report(commands::report::Options),
     /// The built-in drive's paper once more, as one HTML report with figures
     Paper(commands::paper::Options),
     /// Re-checks a certificate against a model, with code that shares nothing with the engine

@@ -93,6 +93,10 @@ impl<'a> Names<'a> {
                 names.inputs = vec![("the model", &o.model), ("the certificate", &o.certificate)];
                 names.answer(None);
             }
+            Some(Command::Report(o)) => {
+                names.inputs.extend(o.model.model.iter().map(|model| ("the model", model.as_os_str())));
+                names.answer(Some(&o.output));
+            }
             Some(Command::Check(o)) => names.question(&o.model, &o.output),
             Some(Command::New(_) | Command::Paper(_) | Command::Explain(_) | Command::Completions(_)) => {}
         }

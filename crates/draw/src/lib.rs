@@ -6,6 +6,7 @@
 //! | [`scene`] | a drawing as data, written as SVG, PNG, PDF or in characters |
 //! | [`figures`] | axes and what stands between them: maps, loci, responses, block diagrams |
 //! | [`page`] | self-contained HTML pages |
+//! | [`report`] | one page about one loop |
 //! | [`document`] | responses and root loci as JSON |
 
 #![forbid(unsafe_code)]
@@ -14,5 +15,6 @@
 pub mod document;
 pub mod figures;
 pub mod page;
+pub mod report;
 pub mod scene;
 pub mod simulate;

@@ -10,12 +10,10 @@ use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_draw::document::locus_json;
-use jurist_draw::figures::locus_of;
+use jurist_draw::figures::{locus_of, locus_range};
 use jurist_draw::simulate::ParameterScale;
-use jurist_engine::answer::Answer;
 use jurist_engine::error::Diagnostic;
 use jurist_engine::show::documents::to_text;
-use jurist_engine::stability::StableSet;
 use std::slice::from_ref;
 
 /// Options of `jurist locus`.
@@ -53,7 +51,9 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     context.warn(None, answer.problem().warnings());
     let range = match &options.range {
         Some(text) => range_of(text, context)?,
-        None => default_range(&answer)?,
+        None => locus_range(&answer).ok_or_else(|| {
+            Diagnostic::error("E-usage", "the parameter's range is unknown").help("give it with --range LO..HI")
+        })?,
     };
     let scale = if options.log { Some(ParameterScale::Logarithmic) } else { None };
     let budget = &context.budget;
@@ -79,45 +79,4 @@ fn range_of(text: &str, context: &Context) -> Result<(Rational, Rational), Error
     let number = |part: &str| parse_number(part.trim()).map_err(|_| wrong("not two numbers"));
     let (lo, hi) = (number(lo)?, number(hi)?);
     if lo < hi { Ok((lo, hi)) } else { Err(wrong("nothing lies between")) }
-}
-
-/// Around every end of the stable set and the nominal value, a third more on both sides, within the
-/// domain.
-fn default_range(answer: &Answer<StableSet>) -> Result<(Rational, Rational), Error> {
-    let free = answer.problem().parameter();
-    let mut values: Vec<Rational> = free.nominal.iter().cloned().collect();
-    for end in answer.value().intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
-        let (lo, hi) = end.value.refined_to_digits(4).enclosure();
-        values.extend([lo, hi]);
-    }
-    values.sort();
-    let (Some(low), Some(high)) = (values.first().cloned(), values.last().cloned()) else {
-        return Err(Diagnostic::error("E-usage", "the parameter's range is unknown")
-            .help("give it with --range LO..HI")
-            .into());
-    };
-    let one = Rational::from(1);
-    let third = Rational::new(1.into(), 3.into());
-    let width = if low < high {
-        &high - &low
-    } else if high.is_zero() {
-        one
-    } else {
-        high.abs()
-    };
-    let (mut from, mut to) = (&low - &(&width * &third), &high + &(&width * &third));
-    // A locus of positive values begins where the loop is open.
-    let zero = Rational::from(0);
-    if from < zero && low >= zero {
-        from = zero;
-    }
-    let domain = &free.domain;
-    let inside = |edge: &Rational, direction: i64| edge + &width * Rational::new(direction.into(), 1000.into());
-    if let Some(lower) = domain.lower.as_ref().filter(|l| from <= **l) {
-        from = inside(lower, 1);
-    }
-    if let Some(upper) = domain.upper.as_ref().filter(|u| to >= **u) {
-        to = inside(upper, -1);
-    }
-    Ok((from, to))
 }

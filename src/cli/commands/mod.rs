@@ -16,6 +16,7 @@ pub(super) mod margins;
 pub(super) mod new;
 pub(super) mod norm;
 pub(super) mod paper;
+pub(super) mod report;
 pub(super) mod simulate;
 pub(super) mod sweep;
 pub(super) mod tolerance;
@@ -144,6 +145,7 @@ impl Arguments {
             Some(Command::Simulate(options)) => &options.run,
             Some(Command::Sweep(options)) => &options.run,
             Some(Command::Paper(options)) => &options.run,
+            Some(Command::Report(options)) => &options.run,
             Some(Command::Tolerance(options)) => &options.decision.output.run,
             Some(Command::Verify(options)) => &options.run,
             Some(Command::Check(options)) => &options.run,
@@ -170,6 +172,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Simulate(options)) => simulate::run(options, context),
         Some(Command::Sweep(options)) => sweep::run(options, context),
         Some(Command::Paper(options)) => paper::run(options, context),
+        Some(Command::Report(options)) => report::run(options, context),
         Some(Command::Tolerance(options)) => tolerance::run(options, context),
         Some(Command::Verify(options)) => verify::run(options, context),
         Some(Command::Check(options)) => check::run(options, context),

@@ -9,28 +9,16 @@ use crate::cli::picture::{Picture, deliver, wanted};
 use crate::cli::status::{Error, Outcome, Status};
 use clap::{Args, ValueEnum};
 use jurist_algebra::number::parse_number;
-use jurist_draw::document::{CircuitAnswer, SimulationAnswer, TimeUnit, simulation_json};
-use jurist_draw::figures::{Figure, heading, response_panels, stacked};
-use jurist_draw::simulate::{
-    Excitation, Pulse, Record, SampledModel, StepMeasures, SwitchedModel, excitation, natural_duration, signal_unit,
-};
-use jurist_engine::answer::Verdict;
+use jurist_draw::document::{CircuitAnswer, SimulationAnswer, simulation_json};
+use jurist_draw::figures::response_figure;
+use jurist_draw::simulate::{Course, Excitation, Pulse, Record, SwitchedModel, excitation, signal_unit};
 use jurist_engine::error::{Diagnostic, Source};
-use jurist_engine::model::{Model, Time};
+use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
 use jurist_engine::show::documents::to_text;
 
 /// The built-in drive as blocks, which is what a switched simulation reads.
 const DRIVE_BLOCKS: &str = include_str!("../../../examples/drive-blocks.toml");
-
-/// Longer runs are refused: they would fill the memory.
-const MOST_SAMPLES: f64 = 2e7;
-
-/// Samples of a continuous loop over the duration.
-const CONTINUOUS_SAMPLES: f64 = 2000.0;
-
-/// Samples where the model and the command line name no duration and a second has fewer.
-const LEAST_SAMPLES: f64 = 50.0;
 
 /// Where in its period a pulse lies.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
@@ -74,16 +62,6 @@ pub(in crate::cli) struct Options {
     pub run: RunOptions,
 }
 
-/// Inputs, initial values and the duration, from the model and the command line.
-struct Course {
-    /// Name, time, value.
-    inputs: Vec<(String, f64, f64)>,
-    initial: Vec<(String, f64)>,
-    duration: f64,
-    /// Fewer samples are too few to see; 1 where a duration was asked for.
-    least_samples: f64,
-}
-
 /// Draws to a file or on the terminal.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let kind = wanted(&options.picture)?;
@@ -93,7 +71,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     };
     let problem = question(context, &model, &options.model, &Default::default())?.problem()?;
     context.warn(None, problem.warnings());
-    let course = Course::of(options, &problem, context)?;
+    let course = course(options, &problem, context)?;
     context.budget.step("simulating");
     let (mut answer, finals) = if options.switched {
         (switched(options, &problem, &course, context)?, Vec::new())
@@ -103,7 +81,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     answer.trace = answer.trace.with_units(|name| signal_unit(&model, name));
     let verdict = problem.verdict(&context.budget)?.value().verdict;
     context.reporter.finish();
-    let figure = figure(&problem, &answer, if verdict == Verdict::Stable { &finals } else { &[] }, verdict);
+    let figure = response_figure(&problem, &answer, &finals, verdict);
     let table = || answer.trace.to_csv();
     let document = || to_text(&simulation_json(&problem, &answer));
     let out = Picture { figure: &figure, csv: &table, json: &document, csv_beside: options.picture.csv };
@@ -111,98 +89,30 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     Ok(Status::Holds)
 }
 
-/// The outputs over time, one panel each; of the circuit all but the duty ratios. Marked is how signals go to their
-/// final values, where these are known.
-fn figure(problem: &Problem, answer: &SimulationAnswer, finals: &[(String, f64)], verdict: Verdict) -> Figure {
+/// Inputs, initial values and the duration, from the model and the command line.
+fn course(options: &Options, problem: &Problem, context: &Context) -> Result<Course, Error> {
     let model = problem.model();
-    let all = || answer.trace.signals.iter().map(|s| s.name.clone());
-    let outputs: Vec<String> = model.outputs().iter().map(|o| o.name.name.clone()).collect();
-    let (shown, kind) = match &answer.circuit {
-        Some(_) => (all().filter(|n| !n.ends_with(".duty")).collect(), "Response of the switched circuit"),
-        None if outputs.is_empty() => (all().collect(), "Response"),
-        None => (outputs, "Response"),
-    };
-    let unit = TimeUnit::of(model, answer.sample_time).name();
-    let held = model.time() == Time::Discrete && answer.circuit.is_none();
-    let panels = response_panels(unit, &answer.trace, &shown, held);
-    let measured = panels.into_iter().zip(&shown).map(|(panel, name)| {
-        let last = finals.iter().find(|(n, _)| n == name).map(|(_, v)| *v);
-        let measures = last.and_then(|last| StepMeasures::of(&answer.trace, name, last));
-        let signal_unit = answer.trace.signal(name).map_or("", |s| &s.unit);
-        match measures {
-            Some(measures) => panel.with_step_measures(&measures, unit, signal_unit),
-            None => panel,
-        }
-    });
-    let panels: Vec<_> = measured.collect();
-    let mut heading = heading(kind, problem);
-    if verdict != Verdict::Stable && answer.circuit.is_none() {
-        heading.notes.push(format!("the loop is {}", verdict.name()));
+    let duration = options.duration.as_ref().map(|text| plain_number(context.line, "--duration", text)).transpose()?;
+    let mut course = Course::of(problem, duration.map(|d| d.to_f64_approximate()), &context.budget)?;
+    for text in &options.input {
+        course.inputs.push(input_step(text, context)?);
     }
-    stacked(&panels, 760.0, 230.0).headed(&heading)
-}
-
-impl Course {
-    fn of(options: &Options, problem: &Problem, context: &Context) -> Result<Course, Error> {
-        let model = problem.model();
-        let defaults = model.simulation();
-        let duration = match &options.duration {
-            Some(text) => plain_number(context.line, "--duration", text)?.to_f64_approximate(),
-            None => match &defaults.duration {
-                Some(duration) => duration.to_f64_approximate(),
-                None => natural_duration(problem, &context.budget)?.unwrap_or(1.0),
-            },
+    for text in &options.initial {
+        let (name, value, _) = parsed("--initial", text, context)?;
+        course.initial.push((name, value));
+    }
+    if course.is_at_rest() && !options.steady {
+        let what = match course.step_first_input(model) {
+            Some(first) => format!(
+                "a unit step of '{first}', since no input is given; --input NAME=VALUE or [simulation] gives others"
+            ),
+            None => "the loop has no inputs and begins at rest: --initial NAME=VALUE gives a state a value".to_owned(),
         };
-        if !(duration.is_finite() && duration > 0.0) {
-            return Err(Diagnostic::error("E-simulation", "the duration has to be positive").into());
+        if !options.run.quiet {
+            note(&what);
         }
-        let mut inputs: Vec<(String, f64, f64)> =
-            defaults.inputs.iter().map(|(n, v)| (n.name.clone(), 0.0, v.to_f64_approximate())).collect();
-        for text in &options.input {
-            inputs.push(input_step(text, context)?);
-        }
-        let mut initial: Vec<(String, f64)> =
-            defaults.initial.iter().map(|(n, v)| (n.name.clone(), v.to_f64_approximate())).collect();
-        for text in &options.initial {
-            let (name, value, _) = parsed("--initial", text, context)?;
-            initial.push((name, value));
-        }
-        if inputs.is_empty() && initial.is_empty() && !options.steady {
-            let what = match model.inputs().first() {
-                Some(first) => {
-                    inputs.push((first.name.clone(), 0.0, 1.0));
-                    format!(
-                        "a unit step of '{}', since no input is given; --input NAME=VALUE or [simulation] gives others",
-                        first.name
-                    )
-                }
-                None => {
-                    "the loop has no inputs and begins at rest: --initial NAME=VALUE gives a state a value".to_owned()
-                }
-            };
-            if !options.run.quiet {
-                note(&what);
-            }
-        }
-        let asked = options.duration.is_some() || defaults.duration.is_some();
-        let least_samples = if asked { 1.0 } else { LEAST_SAMPLES };
-        Ok(Course { inputs, initial, duration, least_samples })
     }
-
-    /// Inputs as steps at samples `period` apart.
-    fn steps(&self, period: f64) -> Vec<(String, usize, f64)> {
-        let sample = |t: f64| (t / period - 1e-9).ceil().max(0.0) as usize;
-        self.inputs.iter().map(|(name, t, v)| (name.clone(), sample(*t), *v)).collect()
-    }
-
-    fn samples(&self, period: f64) -> Result<usize, Error> {
-        let count = (self.duration / period).round().max(self.least_samples);
-        if count > MOST_SAMPLES {
-            let message = format!("{count:e} samples are too many for a simulation");
-            return Err(Diagnostic::error("E-simulation", message).help("shorten it with --duration").into());
-        }
-        Ok(count as usize)
-    }
+    Ok(course)
 }
 
 fn input_step(text: &str, context: &Context) -> Result<(String, f64, f64), Error> {
@@ -232,21 +142,12 @@ fn sampled(
     course: &Course,
     context: &Context,
 ) -> Result<(SimulationAnswer, Vec<(String, f64)>), Error> {
-    let step = course.duration / CONTINUOUS_SAMPLES;
-    let system = SampledModel::from_loop(problem, step, &context.budget)?;
-    let at = |name: &str| system.state_named(name);
-    let steps = course.steps(system.sample_time);
-    let drive = excitation(at, system.states.len(), &system.inputs, &course.initial, &steps)?;
-    let samples = course.samples(system.sample_time)?;
-    let trace = system.simulate_within(&drive, samples, &context.budget)?;
-    if trace.time.len() <= samples {
-        let last = trace.time.last().copied().unwrap_or(0.0);
+    let run = course.run(problem, &context.budget)?;
+    if !run.is_complete {
+        let last = run.trace.time.last().copied().unwrap_or(0.0);
         note(&format!("the response leaves the range of floating point after t = {last} s"));
     }
-    let sampled = problem.algebra_over_symbols(&context.budget)?.sample_time().is_some();
-    let constant = drive.steps.iter().all(|s| s.sample == 0);
-    let finals = if constant { system.final_values(&drive.inputs_at(0, system.inputs.len())) } else { Vec::new() };
-    Ok((SimulationAnswer { trace, sample_time: sampled.then_some(system.sample_time), circuit: None }, finals))
+    Ok((SimulationAnswer { trace: run.trace, sample_time: run.sample_time, circuit: None }, run.finals))
 }
 
 fn switched(

@@ -1,7 +1,7 @@
 //! The report's tables for LaTeX: floats to be read by `\\input`, without any package.
 
-use super::html::Table;
-use super::words::{Token, is_variable, tokens};
+use jurist_draw::page::Table;
+use jurist_draw::page::words::{Token, is_variable, tokens};
 use jurist_engine::show::notation::latex_symbol;
 
 /// Characters of a table's width at `\footnotesize` in a line of 12 cm.

@@ -1,33 +1,25 @@
 //! The limits of stability by several ways: printed, proved, and seen in runs.
 
 use super::facts::{AMPLITUDE, PERIOD, PUBLISHED_LIMITS, SPEED_REFERENCE};
-use super::html::Table;
 use super::runs::at;
 use jurist_algebra::limits::{Budget, Exhausted, join};
 use jurist_algebra::number::{Rational, enclosed_decimal};
 use jurist_algebra::real::Real;
+use jurist_draw::page::Table;
+use jurist_draw::report::{around_nominal, limit_text};
 use jurist_draw::simulate::{Pulse, SampledModel, SwitchedModel, growth_limit};
 use jurist_engine::answer::Answer;
 use jurist_engine::error::Error;
 use jurist_engine::model::Model;
-use jurist_engine::show::real;
 use jurist_engine::stability::StableSet;
 use nalgebra::DVector;
 
 /// The ends of the stable interval around the nominal value (or of the first).
 pub(super) fn ends(answer: &Answer<StableSet>) -> (Option<&Real>, Option<&Real>) {
-    let set = answer.value();
-    let nominal = answer.problem().parameter().nominal.as_ref();
-    let around = set.intervals().iter().position(|i| nominal.is_some_and(|n| i.contains(n)));
-    match set.intervals().get(around.unwrap_or(0)) {
+    match around_nominal(answer).or(answer.value().intervals().first()) {
         Some(i) => (i.lower.as_ref().map(|e| &e.value), i.upper.as_ref().map(|e| &e.value)),
         None => (None, None),
     }
-}
-
-/// The number to that many digits.
-pub(super) fn decimal(x: Option<&Real>, digits: usize) -> String {
-    x.map_or_else(|| "none".into(), |x| real::rounded(x, digits).decimal)
 }
 
 /// `1/x` of a positive number, correctly rounded.
@@ -67,7 +59,7 @@ pub(super) fn limits(model: &Model, blocks: &Model, printed: [&Model; 2], budget
         if shortest.is_some_and(|s| s.sign().is_gt()) {
             f.push_str(&format!(" (and f < {})", reciprocal(shortest, 8)));
         }
-        row([way, &decimal(lower, 16), &decimal(upper, 16), &f, "proved"]);
+        row([way, &limit_text(lower, 16), &limit_text(upper, 16), &f, "proved"]);
     }
     let growth = |k: f64, t: f64| {
         let problem = at(model, &Rational::from_f64(k)?, &Rational::from_f64(t)?).ok()?;

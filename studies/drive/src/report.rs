@@ -1,7 +1,6 @@
 //! The whole paper once more on one page.
 
 use super::diagrams::{chopper, current_controller, drive_blocks, pwm_signal, speed_controller, tracker};
-use super::html::{Table, figure, math, matrix, page, paragraph};
 use super::latex;
 use super::limits::limits;
 use super::runs;
@@ -11,10 +10,11 @@ use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_algebra::poly::RationalFunction;
 use jurist_draw::figures::{Figure, locus_of};
-use jurist_draw::page::escaped;
+use jurist_draw::page::{Section, Table, escaped, figure, math, matrix, paragraph, report_page};
+use jurist_draw::report::{comment_at, entries};
 use jurist_engine::answer::{Answer, ParametricTable};
 use jurist_engine::error::{Error, Source};
-use jurist_engine::model::{Form, Matrix, Model};
+use jurist_engine::model::{Form, Model};
 use jurist_engine::show::intervals::set_lines;
 use jurist_engine::show::notation::{Coefficient, coefficient_text, root_locus_form};
 
@@ -72,8 +72,10 @@ pub fn paper_report(budget: &Budget) -> Result<PaperReport, Error> {
     budget.step("limits by several ways");
     let limits = limits(&model, &blocks, [&printed[0], &printed[1]], budget)?;
     let sensitivity = sensitivity(&model, budget)?;
-    let html = page(
+    let section = |(id, heading, html)| Section { id, heading, html };
+    let html = report_page(
         "Stability of a PWM DC motor drive: the paper of Gürbüz and Akpınar (2002) once more, exactly",
+        "",
         &[
             ("drive", "The drive", drive),
             ("model", "The model", model_section(&model)),
@@ -85,7 +87,8 @@ pub fn paper_report(budget: &Budget) -> Result<PaperReport, Error> {
             ("limits", "Limits by several ways", limits.html() + &limits_remarks()),
             ("sensitivity", "What moves the limits", sensitivity_intro() + &sensitivity.html()),
             ("proved", "What is proved, what is drawn", proved()),
-        ],
+        ]
+        .map(section),
     );
     let latex = latex::floats(&[
         ("limits", &limits),
@@ -132,10 +135,7 @@ fn drive_section(
     let mut table = Table::new("Nominal values", &["name", "value", "meaning, unit"]);
     for c in model.constants() {
         let value = c.number.as_ref().map(|n| to_decimal(n, 8)).unwrap_or_default();
-        // The model's text says what a constant is in a comment on its line.
-        let line = model.source().text.get(c.span.start..).and_then(|rest| rest.lines().next()).unwrap_or_default();
-        let meaning = line.split_once('#').map_or("", |(_, words)| words.trim());
-        table.rows.push(vec![c.name.clone(), value, meaning.to_owned()]);
+        table.rows.push(vec![c.name.clone(), value, comment_at(model, c.span)]);
     }
     for p in model.parameters() {
         let value = p.nominal.as_ref().map(|n| to_decimal(n, 8)).unwrap_or_default();
@@ -144,15 +144,6 @@ fn drive_section(
     }
     html.push_str(&table.html());
     Ok(html)
-}
-
-/// The entries of a matrix as the model's text has them.
-fn entries(model: &Model, m: &Matrix) -> Vec<Vec<String>> {
-    let text = &model.source().text;
-    let entry = |e: &jurist_engine::model::Expression| {
-        text.get(e.span.start..e.span.end).unwrap_or_default().trim_matches('"').to_owned()
-    };
-    m.rows.iter().map(|r| r.iter().map(entry).collect()).collect()
 }
 
 fn model_section(model: &Model) -> String {

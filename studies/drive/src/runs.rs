@@ -1,11 +1,11 @@
 //! Figs. 7-14: the linear model, and beside it the circuit with its switches.
 
 use super::facts::{SPEED_REFERENCE, TEST_POINTS, TestPoint, constant};
-use super::html::{figure, paragraph};
 use super::report::NamedFigure;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_draw::figures::{ResponseCurve, response_panel};
+use jurist_draw::page::{figure, math, paragraph};
 use jurist_draw::simulate::{Excitation, Pulse, Record, SampledModel, Step, SwitchedModel, Trace, eigenvalues};
 use jurist_engine::error::Error;
 use jurist_engine::model::Model;
@@ -86,7 +86,7 @@ fn one_case(
         }
         run
     });
-    let mut html = format!("<h3>{}</h3>\n", super::html::math(case.heading));
+    let mut html = format!("<h3>{}</h3>\n", math(case.heading));
     let word = if growth < 1.0 { "settles" } else { "grows without bound" };
     html.push_str(&paragraph(&format!(
         "The linear model {word}: its dominant pair changes by a factor of {growth:.7} per period. {} From rest the \

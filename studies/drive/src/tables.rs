@@ -2,13 +2,14 @@
 
 use super::coefficient;
 use super::errata::{Comparison, Match, compare_all};
-use super::html::Table;
-use super::limits::{decimal, ends, reciprocal};
+use super::limits::{ends, reciprocal};
 use super::printed::{EQUATION_23, EQUATION_37, LIST_AFTER_36, Printed};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_algebra::real::Real;
+use jurist_draw::page::Table;
+use jurist_draw::report::{limit_text, percent_change};
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
@@ -85,8 +86,12 @@ pub(super) fn sensitivity(model: &Model, budget: &Budget) -> Result<Table, Error
         let mut row = first.to_vec();
         for (k, (x, x0)) in now.iter().zip(&base).enumerate() {
             let frequency = k == 2;
-            row.push(if frequency { reciprocal(x.as_ref(), 7) } else { decimal(x.as_ref(), 7) });
-            row.push(change(x.as_ref(), x0.as_ref(), frequency).unwrap_or_default());
+            row.push(if frequency { reciprocal(x.as_ref(), 7) } else { limit_text(x.as_ref(), 7) });
+            let change = x.as_ref().zip(x0.as_ref()).and_then(|(x, x0)| {
+                // A frequency is the reciprocal of its period.
+                if frequency { percent_change(x0, x) } else { percent_change(x, x0) }
+            });
+            row.push(change.unwrap_or_default());
         }
         row
     };
@@ -101,44 +106,4 @@ pub(super) fn sensitivity(model: &Model, budget: &Budget) -> Result<Table, Error
         }
     }
     Ok(table)
-}
-
-/// The relative change in percent to three digits; of the reciprocals for frequencies.
-fn change(x: Option<&Real>, base: Option<&Real>, reciprocal: bool) -> Option<String> {
-    let middle = |x: &Real| {
-        let (lo, hi) = x.refined_to_digits(20).enclosure();
-        lo.midpoint(&hi)
-    };
-    let (a, b) = (middle(x?), middle(base?));
-    let ratio = if reciprocal { b.checked_div(&a)? } else { a.checked_div(&b)? };
-    let percent = (&ratio - &Rational::ONE) * Rational::from(100);
-    let sign = if percent.sign().is_gt() { "+" } else { "" };
-    // The enclosures are far narrower than three digits ask for.
-    (!percent.is_zero()).then(|| format!("{sign}{}", three_digits(&percent)))
-}
-
-/// A number that is not zero to three digits, small ones with a power of ten.
-fn three_digits(value: &Rational) -> String {
-    let thousandth = Rational::new(1.into(), 1000.into());
-    if value.abs() >= thousandth {
-        return to_decimal(value, 3);
-    }
-    let (mut mantissa, mut power) = (value.clone(), 0);
-    while mantissa.abs() < Rational::ONE {
-        (mantissa, power) = (mantissa * Rational::from(10), power + 1);
-    }
-    format!("{}e-{power}", to_decimal(&mantissa, 3))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn small_changes_have_powers_of_ten() {
-        let q = |n: i64, d: i64| Rational::new(n.into(), d.into());
-        assert_eq!(three_digits(&q(-1, 300)), "-0.00333");
-        assert_eq!(three_digits(&q(1, 1000)), "0.001");
-        assert_eq!(three_digits(&q(1, 3_000_000)), "3.33e-7");
-    }
 }

@@ -1,6 +1,7 @@
 //! The root locus: the whole of it, and magnified where roots cross the boundary.
 
 mod marks;
+mod range;
 mod windows;
 
 use super::engineering::quantity;
@@ -16,6 +17,8 @@ use jurist_engine::model::Time;
 use jurist_engine::problem::Problem;
 use jurist_engine::show::layout::{short, visible};
 use jurist_engine::stability::{Cause, End, StableSet};
+pub use range::locus_range;
+
 use marks::Ends;
 use nalgebra::Complex;
 use windows::Square;

@@ -12,15 +12,17 @@ mod locus;
 pub mod map;
 mod panel;
 mod response;
+mod response_figure;
 mod responses;
 mod sketch;
 
 pub use axes::{Axis, Heading, Scale, Tick};
 pub use engineering::{quantity, unit_text};
 pub use facts::{facts, heading};
-pub use locus::{DrawnLocus, LocusFigure, locus_of, locus_panels};
+pub use locus::{DrawnLocus, LocusFigure, locus_of, locus_panels, locus_range};
 pub use panel::{Corner, Curve, Mark, Panel, Shape, Text, side_by_side, stacked};
 pub use response::{FrequencyResponse, ResponsePoint, bode, frequency_response, nyquist};
+pub use response_figure::response_figure;
 pub use responses::{ResponseCurve, axis_label, response_panel, response_panels, stairs, thinned};
 pub use sketch::Sketch;
 

@@ -2,8 +2,11 @@
 
 mod boxes;
 mod map;
+mod parts;
 mod shell;
+pub mod words;
 
 pub use boxes::map_boxes_page;
 pub use map::map_page;
+pub use parts::{Section, Table, figure, math, matrix, paragraph, report_page};
 pub use shell::{document, escaped};

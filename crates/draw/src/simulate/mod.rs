@@ -11,6 +11,7 @@
 //! - [`RootLocus`]: the roots as one parameter moves, followed by continuity.
 
 mod assignment;
+mod course;
 mod exact;
 mod exponential;
 mod fixed;
@@ -22,6 +23,7 @@ mod step;
 mod switched;
 mod trace;
 
+pub use course::{Course, LinearRun};
 pub use exact::exact_response;
 pub use exponential::{Exponential, StateIntegral};
 pub use from_loop::{excitation, signal_unit};

@@ -19,6 +19,12 @@ use jurist_algebra::real::Real;
 const PLACES: usize = 7;
 
 impl Answer<Margins> {
+    /// A name and a sentence for each margin, for a report; nothing for a loop that is not stable.
+    pub fn sentences(&self, digits: usize) -> Vec<(&'static str, String)> {
+        let margins = self.value();
+        margins.stable.as_ref().map(|stable| Writer { margins, digits }.sentences(stable)).unwrap_or_default()
+    }
+
     /// The margins for people: a sentence for each, and the crossings.
     pub fn text(&self, digits: usize) -> String {
         let (problem, margins) = (self.problem(), self.value());

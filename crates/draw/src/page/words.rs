@@ -2,7 +2,7 @@
 
 /// A piece of a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Token {
+pub enum Token {
     /// A word or a name, `class-C` included.
     Word(String),
     /// Digits, and a power of ten where `e` names one.
@@ -13,8 +13,13 @@ pub(super) enum Token {
     Sign(char),
 }
 
-/// The pieces of a text, in order.
-pub(super) fn tokens(text: &str) -> Vec<Token> {
+/// The pieces of a text, in order; together they are the whole text.
+///
+/// ```
+/// use jurist_draw::page::words::{Token, tokens};
+/// assert_eq!(tokens("T^2"), [Token::Word("T".into()), Token::Power("2".into())]);
+/// ```
+pub fn tokens(text: &str) -> Vec<Token> {
     let chars: Vec<char> = text.chars().collect();
     let while_ = |from: usize, test: &dyn Fn(char) -> bool| {
         (from..chars.len()).find(|k| !test(chars[*k])).unwrap_or(chars.len())
@@ -54,7 +59,12 @@ pub(super) fn tokens(text: &str) -> Vec<Token> {
 }
 
 /// Whether a word without an index is a variable. The article and units are not.
-pub(super) fn is_variable(word: &str) -> bool {
+///
+/// ```
+/// use jurist_draw::page::words::is_variable;
+/// assert!(is_variable("T") && !is_variable("V"));
+/// ```
+pub fn is_variable(word: &str) -> bool {
     word == "omega" || word.chars().count() == 1 && !["a", "s", "m", "A", "H", "N", "V"].contains(&word)
 }
 

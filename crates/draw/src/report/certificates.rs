@@ -1,0 +1,116 @@
+//! How to write the certificates of what the report says, and what they are.
+
+use super::Checker;
+use super::limits::Limits;
+use super::part::{Part, Parts, Work};
+use crate::page::{Table, escaped, paragraph};
+use jurist_engine::answer::{Answer, PointVerdict};
+use jurist_engine::problem::Question;
+
+/// About five seconds of one core.
+const WORK: Work = Work::Units(500_000_000);
+
+/// The words of a shell for the model, its settings, and files to write.
+pub(super) struct Commands<'a> {
+    /// The model's file; `None` for the built-in drive.
+    pub file: Option<&'a str>,
+    /// The values that are set.
+    pub question: &'a Question,
+}
+
+/// A word that a shell takes as it is.
+fn word(text: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+%".contains(c);
+    if !text.is_empty() && text.chars().all(plain) {
+        text.to_owned()
+    } else {
+        format!("'{}'", text.replace('\'', "'\\''"))
+    }
+}
+
+impl Commands<'_> {
+    /// `jurist COMMAND MODEL OPTIONS`
+    pub fn line(&self, command: &str, options: &[&str]) -> String {
+        let mut words = vec!["jurist".to_owned(), command.to_owned()];
+        words.extend(self.file.map(word));
+        words.extend(self.question.values_set().iter().map(|(n, v)| format!("--set {}", word(&format!("{n}={v}")))));
+        words.extend(options.iter().map(|o| word(o)));
+        words.join(" ")
+    }
+
+    /// `jurist verify MODEL FILE`, of the built-in drive with its text from a pipe.
+    fn verify(&self, certificate: &str) -> String {
+        match self.file {
+            Some(file) => format!("jurist verify {} {}", word(file), word(certificate)),
+            None => format!("jurist verify examples/drive.toml {}", word(certificate)),
+        }
+    }
+}
+
+pub(super) fn section(
+    commands: &Commands<'_>,
+    verdict: &Part<Answer<PointVerdict>>,
+    limits: &[Limits],
+    check: Option<Checker<'_>>,
+    parts: &Parts<'_>,
+) -> String {
+    let mut html = paragraph(
+        "A certificate is a file from which independent code proves an answer again: it reads the model itself and shares \
+         nothing with the code that found the answer.",
+    );
+    let mut lines = Vec::new();
+    let mut head = vec!["certificate", "size"];
+    head.extend(check.is_some().then_some("the independent check says"));
+    let mut table = Table::new("Certificates of this report's answers", &head);
+    let mut add = |what: String, file: String, line: String, text: Part<String>| {
+        let mut row = vec![what];
+        match text {
+            Err(missing) => row.extend([missing.sentence(), String::new()]),
+            Ok(text) => {
+                lines.extend([line, commands.verify(&file)]);
+                row.push(format!("{} bytes", text.len()));
+                row.extend(check.map(|check| match check(&text) {
+                    Ok(()) => "accepted".to_owned(),
+                    Err(why) => format!("not accepted: {why}"),
+                }));
+            }
+        }
+        row.truncate(head.len());
+        table.rows.push(row);
+    };
+    if let Ok(answer) = verdict {
+        let text = parts.part("certificate of the verdict", WORK, |budget| answer.certificate(budget));
+        let file = "verdict.json".to_owned();
+        let line = commands.line("verdict", &["--certificate", &file]);
+        add("the verdict".to_owned(), file, line, text);
+    }
+    for one in limits {
+        let Ok(answer) = &one.set else { continue };
+        let text = parts.part(&format!("certificate of {}", one.name), WORK, |budget| answer.certificate(budget));
+        let file = format!("{}.json", one.name);
+        let line = commands.line("intervals", &["--param", &one.name, "--certificate", &file]);
+        add(format!("all limits of {}", one.name), file, line, text);
+    }
+    if !table.rows.is_empty() {
+        html.push_str(&table.html());
+    }
+    if !lines.is_empty() {
+        let shown: Vec<String> = lines.iter().map(|line| escaped(line)).collect();
+        html.push_str(&format!("<pre>{}</pre>\n", shown.join("\n")));
+    }
+    html
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use jurist_engine::model::Model;
+
+    #[test]
+    fn names_that_a_shell_would_read_are_quoted() {
+        let question = Model::drive().ask().set("T", jurist_algebra::number::Rational::new(1.into(), 2000.into()));
+        let commands = Commands { file: Some("my loop's $(model).toml"), question: &question };
+        let line = commands.line("intervals", &["--param", "K_pwm"]);
+        assert_eq!(line, "jurist intervals 'my loop'\\''s $(model).toml' --set T=1/2000 --param K_pwm");
+    }
+}

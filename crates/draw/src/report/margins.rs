@@ -1,0 +1,58 @@
+//! The loop's margins and its Bode diagram, where it is clear where the loop is cut.
+
+use super::limits::{DIGITS, PLACES};
+use super::part::{Part, Parts, Work};
+use crate::figures::{bode, frequency_response};
+use crate::page::{Table, escaped, figure, math, paragraph};
+use jurist_algebra::number::Rational;
+use jurist_engine::answer::Answer;
+use jurist_engine::problem::Problem;
+use jurist_engine::response::Margins;
+use std::sync::Arc;
+
+/// About ten seconds of one core.
+const WORK: Work = Work::Units(1_000_000_000);
+
+pub(super) fn find(problem: &Part<Arc<Problem>>, parts: &Parts<'_>) -> Part<Answer<Margins>> {
+    let problem = problem.as_ref().map_err(Clone::clone)?;
+    parts.part("margins", WORK, |budget| problem.margins(None, &Rational::ZERO, budget))
+}
+
+pub(super) fn section(margins: &Part<Answer<Margins>>) -> String {
+    let answer = match margins {
+        Err(missing) => return missing.html(),
+        Ok(answer) => answer,
+    };
+    let cut = answer.value().open_loop.cut().name();
+    let mut html = paragraph(&format!(
+        "The loop is cut at <b>{}</b>: what comes back there is the open loop; 1 is its nominal factor.",
+        math(cut)
+    ));
+    let sentences = answer.sentences(PLACES);
+    if sentences.is_empty() {
+        html.push_str(&paragraph("The loop is not stable at the nominal point: only a stable loop has margins."));
+    } else {
+        let mut table = Table::new("Margins", &["margin", "value, and where it binds"]);
+        table.rows.extend(sentences.into_iter().map(|(name, text)| vec![name.to_owned(), text]));
+        html.push_str(&table.html());
+    }
+    let text = answer.text(DIGITS);
+    let text = text.lines().map(escaped).collect::<Vec<_>>().join("\n");
+    html + &format!("<details><summary>All crossings of the open loop</summary><pre>{text}</pre></details>\n")
+}
+
+pub(super) fn bode_section(margins: &Part<Answer<Margins>>, parts: &Parts<'_>) -> String {
+    let answer = match margins {
+        Err(missing) => return missing.html(),
+        Ok(answer) => answer,
+    };
+    let drawn = parts.part("Bode diagram", WORK, |_| Ok(bode(answer, &frequency_response(answer.value()))));
+    match drawn {
+        Err(missing) => missing.html(),
+        Ok(drawn) => figure(
+            "bode",
+            &drawn,
+            "Modulus and phase of the open loop; the curves are floating point, the marked crossings are exact",
+        ),
+    }
+}

@@ -1,0 +1,96 @@
+//! One page about one loop: the model, the verdict, every limit with its cause, margins, what moves the limits, the worst
+//! corner, pictures, certificates, and what is proved of all that.
+//!
+//! Every number is that of an answer. A part that is undefined, refused, or takes too long is replaced by one sentence
+//! with the reason; no part stops another.
+
+mod certificates;
+mod limit;
+mod limits;
+mod margins;
+mod model;
+mod part;
+mod pictures;
+mod proved;
+mod sensitivity;
+mod tolerance;
+
+pub use limit::{around_nominal, limit_text, percent_change};
+pub use model::{comment_at, entries};
+
+use crate::page::{Section, math, paragraph, report_page};
+use certificates::Commands;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_engine::problem::Question;
+use jurist_engine::show::layout::called;
+use part::{Parts, Work};
+
+/// Proves a certificate again by other code; an error is the reason why it was not accepted.
+pub type Checker<'a> = &'a dyn Fn(&str) -> Result<(), String>;
+
+/// The page, and whether it is all of it.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct LoopReport {
+    /// A page that needs nothing else.
+    pub html: String,
+    /// What ended the first part that the budget did not allow; `None` where every part is there or has a reason of its own.
+    pub stopped: Option<Exhausted>,
+}
+
+/// The report on a question in which no name is free: its parameters are asked about one after the other. `file` is the
+/// model's file in the command lines for certificates (`None` for the built-in drive), `check` the independent check of
+/// these.
+///
+/// Cost: that of every answer in it. The verdict and the limits end with the budget only; other parts are left out, too,
+/// when they take more than a fixed amount of work, so that the page is the same on every machine.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_draw::report::loop_report;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .characteristic("z^2 - z + K/2")
+///     .build()?;
+/// let report = loop_report(&model.ask(), None, None, &Budget::unlimited());
+/// assert!(report.html.contains("all 2 roots are inside the unit circle") && report.stopped.is_none());
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
+///
+/// # Panics
+/// When a name is free.
+pub fn loop_report(question: &Question, file: Option<&str>, check: Option<Checker<'_>>, budget: &Budget) -> LoopReport {
+    assert!(question.free_names().is_empty(), "a report frees one parameter after the other");
+    let parts = Parts::new(budget);
+    let model = question.model();
+    let problem = parts.part("the nominal point", Work::Any, |_| question.clone().problem());
+    let verdict = problem
+        .as_ref()
+        .map_err(Clone::clone)
+        .and_then(|problem| parts.part("the verdict", Work::Any, |budget| problem.verdict(budget)));
+    let limits = limits::find(question, &parts);
+    let margins = margins::find(&problem, &parts);
+    let section = |(id, heading, html): (&'static str, &'static str, String)| Section { id, heading, html };
+    let commands = Commands { file, question };
+    let sections = [
+        ("model", "The model", model::section(question)),
+        ("limits", "Verdict and limits", limits::section(&verdict, &limits)),
+        ("margins", "Margins of the loop", margins::section(&margins)),
+        ("sensitivity", "What moves the limits", sensitivity::section(question, &limits, &parts)),
+        ("tolerance", "Worst corner of the tolerances", tolerance::section(question, &parts)),
+        ("locus", "Root locus", pictures::locus(&limits, &parts)),
+        ("bode", "Bode diagram", margins::bode_section(&margins, &parts)),
+        ("response", "Response", pictures::response(&problem, &verdict, &parts)),
+        ("map", "Map of two parameters", pictures::map(question, &limits, &parts)),
+        ("certificates", "Certificates", certificates::section(&commands, &verdict, &limits, check, &parts)),
+        ("proved", "What is proved, what is drawn, what is left out", proved::section(model)),
+    ]
+    .map(section);
+    let title = format!("Stability report: {}", called(model.title()));
+    let mut lead = format!("At the nominal point <b>{}</b>.", math(&limits::verdict_sentence(&verdict)));
+    lead.extend(limits::nearest_sentence(&limits).map(|s| format!(" {}", math(&s))));
+    lead.push_str(&proved::rules(model));
+    let html = report_page(&title, &paragraph(&lead), &sections);
+    LoopReport { html, stopped: parts.stopped() }
+}

@@ -1,0 +1,131 @@
+//! Root locus, step response, and the map of the two parameters whose limits are nearest.
+
+use super::limits::{Limits, by_margin};
+use super::part::{Missing, Part, Parts, Work};
+use crate::document::SimulationAnswer;
+use crate::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
+use crate::figures::{Figure, locus_of, locus_range, response_figure};
+use crate::page::{figure, math, paragraph};
+use crate::simulate::Course;
+use jurist_algebra::limits::Budget;
+use jurist_engine::answer::{Answer, PointVerdict};
+use jurist_engine::error::{Diagnostic, Error};
+use jurist_engine::problem::{Problem, Question};
+use jurist_engine::show::region::goal_or_stable;
+use jurist_engine::stability::StableSet;
+use std::sync::Arc;
+
+/// About ten seconds of one core.
+const WORK: Work = Work::Units(1_000_000_000);
+
+/// Longer responses make no better picture.
+const MOST_SAMPLES: f64 = 1e6;
+
+/// Width and height of a map.
+const MAP: (f64, f64) = (860.0, 600.0);
+
+pub(super) fn locus(limits: &[Limits], parts: &Parts<'_>) -> String {
+    // A gain is what a locus is about; a time comes after.
+    let order = by_margin(limits);
+    let is_time =
+        |a: &&Answer<StableSet>| a.problem().sample_time().is_some_and(|(n, d)| !(n.is_constant() && d.is_constant()));
+    let gain = order.iter().copied().find(|a| !is_time(a));
+    let Some(answer) = gain.or(order.first().copied()) else {
+        return paragraph("No stable set of a parameter is known, so there is no locus to draw.");
+    };
+    let drawn = parts.part("root locus", WORK, |budget| {
+        let range =
+            locus_range(answer).ok_or_else(|| refused("the parameter has neither a limit nor a nominal value"))?;
+        locus_of(answer, &range, None, budget)
+    });
+    let drawn = match drawn {
+        Err(missing) => return missing.html(),
+        Ok(drawn) => drawn,
+    };
+    let [whole, near] = &drawn.parts;
+    let caption = "The roots are floating point; colours and crossings are those of the exact answer";
+    let mut html = format!(
+        "<div class=\"grid two\">{}{}</div>\n",
+        figure("locus-whole", whole, caption),
+        figure("locus-near", near, "The same, magnified where roots cross the boundary")
+    );
+    if !drawn.crossings.is_empty() {
+        let lines: String = drawn.crossings.iter().map(|c| format!("<li>{}</li>", math(&c.label))).collect();
+        html.push_str(&format!("<p>The boundary is crossed at</p><ul>{lines}</ul>\n"));
+    }
+    html
+}
+
+fn refused(why: &str) -> Error {
+    Diagnostic::error("E-usage", why).into()
+}
+
+pub(super) fn response(
+    problem: &Part<Arc<Problem>>,
+    verdict: &Part<Answer<PointVerdict>>,
+    parts: &Parts<'_>,
+) -> String {
+    let drawn = problem.as_ref().map_err(Clone::clone).and_then(|problem| {
+        let verdict = verdict.as_ref().map_err(Clone::clone)?;
+        parts.part("response", WORK, |budget| draw_response(problem, verdict, budget))
+    });
+    match drawn {
+        Err(missing) => missing.html(),
+        Ok((drawn, said)) => {
+            paragraph(&math(&said)) + &figure("response", &drawn, "Response of the linear loop; floating point")
+        }
+    }
+}
+
+fn draw_response(
+    problem: &Arc<Problem>,
+    verdict: &Answer<PointVerdict>,
+    budget: &Budget,
+) -> Result<(Figure, String), Error> {
+    let mut course = Course::of(problem, None, budget)?;
+    if course.is_at_rest() {
+        let first = course.step_first_input(problem.model());
+        first.ok_or_else(|| refused("the model names no inputs and no initial values: nothing moves the loop"))?;
+    }
+    let words = |name: &str, value: f64| format!("{name} = {value}");
+    let inputs = course.inputs.iter().filter(|(_, _, value)| *value != 0.0).map(|(n, _, v)| words(n, *v));
+    let initial = course.initial.iter().filter(|(_, v)| *v != 0.0).map(|(n, v)| format!("{} at first", words(n, *v)));
+    let said: Vec<String> = inputs.chain(initial).collect();
+    let said = if said.is_empty() { "All inputs are 0.".to_owned() } else { format!("With {}.", said.join(", ")) };
+    let run = course.run_within(problem, MOST_SAMPLES, budget)?;
+    let answer = SimulationAnswer { trace: run.trace, sample_time: run.sample_time, circuit: None };
+    Ok((response_figure(problem, &answer, &run.finals, verdict.value().verdict), said))
+}
+
+pub(super) fn map(question: &Question, limits: &[Limits], parts: &Parts<'_>) -> String {
+    let order = by_margin(limits);
+    let [first, second] = match order.as_slice() {
+        [first, second, ..] => [first, second].map(|a| a.problem().parameter().name.clone()),
+        [_] => {
+            return paragraph("One parameter is open: a map needs two. <code>jurist map</code> takes constants too.");
+        }
+        [] => return paragraph("No stable set of a parameter is known, so it is not clear which two would matter."),
+    };
+    let names = format!("{first} and {second}");
+    let chosen = paragraph(&math(&format!("Of {names} the limits are nearest to the nominal point.")));
+    let drawn: Part<Figure> = parts.part("map", WORK, |budget| {
+        let question = question.clone().free(&first).free(&second);
+        let answer = question.map(10, budget)?;
+        let windows = choose_windows(&answer, &[], &[WindowRequest::default(), WindowRequest::default()]);
+        let trace = trace_map(&answer, windows, budget)?;
+        Ok(MapContents::new(&answer, &trace, Vec::new(), budget)?.draw(MAP.0, MAP.1, true).figure)
+    });
+    let known = limits.iter().find_map(|l| l.set.as_ref().ok());
+    let goal = known.map_or_else(|| "stable".to_owned(), |a| goal_or_stable(a.problem()));
+    let caption = format!(
+        "Where the loop is {goal} in the plane of {names}: drawn in floating point around cells decided exactly"
+    );
+    match drawn {
+        Err(missing @ Missing::TooLong) => {
+            let help = format!("<code>jurist map -x {first} -y {second}</code> with windows decides it by boxes.");
+            chosen + &missing.html() + &paragraph(&help)
+        }
+        Err(missing) => chosen + &missing.html(),
+        Ok(drawn) => chosen + &figure("map", &drawn, &caption),
+    }
+}

@@ -1,0 +1,161 @@
+//! What moves the limits: every one computed again, exactly, with one number a tenth smaller or larger.
+
+use super::limits::Limits;
+use super::part::{Missing, Part, Parts, Work};
+use super::{around_nominal, limit_text, percent_change};
+use crate::page::{Table, math, paragraph};
+use jurist_algebra::limits::parallel_map;
+use jurist_algebra::number::Rational;
+use jurist_algebra::real::Real;
+use jurist_engine::answer::Answer;
+use jurist_engine::problem::Question;
+use jurist_engine::show::layout::short;
+use jurist_engine::stability::{Cause, End, StableSet};
+
+/// Digits of the limits in the tables, and those to which a limit counts as not moved.
+const DIGITS: (usize, usize) = (7, 12);
+
+/// Work of all questions together, which they share evenly, and the least and most of one: about ten seconds of one core, a fifth
+/// of a second and three seconds.
+const WORK: (u64, u64, u64) = (1_000_000_000, 20_000_000, 300_000_000);
+
+/// Ends of the interval around the nominal value; `None` where that is not stable.
+type Ends = Option<[Option<Real>; 2]>;
+
+/// A number that is changed.
+struct Changed {
+    name: String,
+    nominal: Rational,
+}
+
+/// The numbers of the model that a limit of `of` can depend on.
+fn changed(question: &Question, of: &str) -> Vec<Changed> {
+    let model = question.model();
+    let set = |name: &str| question.values_set().get(name).cloned();
+    let constants = model.constants().iter().filter_map(|c| Some((&c.name, c.number.clone()?)));
+    let parameters = model.parameters().iter().filter_map(|p| Some((&p.name, set(&p.name).or(p.nominal.clone())?)));
+    constants
+        .chain(parameters)
+        .map(|(name, number)| Changed { nominal: set(name).unwrap_or(number), name: name.clone() })
+        .filter(|c| c.name != of && !c.nominal.is_zero())
+        .collect()
+}
+
+/// Whether an end is more than the end of what was asked.
+fn binds(end: Option<&End>) -> bool {
+    end.is_some_and(|e| e.causes.iter().any(|c| c != Cause::Domain))
+}
+
+fn ends(answer: &Answer<StableSet>) -> Ends {
+    let value = |end: &Option<End>| end.as_ref().map(|e| e.value.clone());
+    around_nominal(answer).map(|i| [value(&i.lower), value(&i.upper)])
+}
+
+pub(super) fn section(question: &Question, limits: &[Limits], parts: &Parts<'_>) -> String {
+    let mut html = paragraph(
+        "Each limit once more with one number of the model 10 % smaller and 10 % larger, all others as they are. Nothing is \
+         estimated: every value is computed again from the model and correctly rounded.",
+    );
+    let questions: usize = limits.iter().map(|l| 2 * changed(question, &l.name).len()).sum();
+    let (total, least, most) = WORK;
+    let work = (total / questions.max(1) as u64).clamp(least, most);
+    let before = html.len();
+    for one in limits {
+        html.push_str(&of_parameter(question, one, work, parts));
+    }
+    if html.len() == before {
+        html.push_str(&paragraph("There is no limit around the nominal point that could move."));
+    }
+    html
+}
+
+fn of_parameter(question: &Question, limits: &Limits, work: u64, parts: &Parts<'_>) -> String {
+    let heading = format!("<h3>Limits of {}</h3>\n", math(&limits.name));
+    let answer = match &limits.set {
+        Err(missing) => return heading + &missing.html(),
+        Ok(answer) => answer,
+    };
+    let Some(around) = around_nominal(answer) else {
+        return heading + &paragraph("The nominal value is not inside of a stable interval: nothing is compared.");
+    };
+    let shown = [binds(around.lower.as_ref()), binds(around.upper.as_ref())];
+    if shown == [false, false] {
+        return String::new();
+    }
+    let base = ends(answer).unwrap_or_default();
+    let list = changed(question, &limits.name);
+    if list.is_empty() {
+        return heading + &paragraph("The model has no other number that could move them.");
+    }
+    parts.budget().step(&format!("what moves the limits of {}", limits.name));
+    let share = parts.budget().share(1, 2).silent();
+    let jobs: Vec<(usize, i64)> = (0..list.len()).flat_map(|k| [(k, 90), (k, 110)]).collect();
+    let found: Vec<Part<Ends>> = parallel_map(jobs, |(k, percent): (usize, i64)| {
+        let value = &list[k].nominal * &Rational::new(percent.into(), 100.into());
+        let asked = question.clone().set(&list[k].name, value).free(&limits.name);
+        parts.within(&share, Work::Units(work), |budget| Ok(ends(&asked.stable_set(budget)?)))
+    });
+    let (table, still) = table(&limits.name, &base, shown, &list, &found);
+    let mut html = heading + &table.html();
+    if !still.is_empty() {
+        let names = math(&still.join(", "));
+        html.push_str(&paragraph(&format!("To {} digits these do not move them: {names}.", DIGITS.1)));
+    }
+    let missing = found.iter().find_map(|f| f.as_ref().err());
+    html + &missing.map(Missing::html).unwrap_or_default()
+}
+
+/// The rows of the numbers that move a limit, and the names of those that do not.
+fn table(
+    name: &str,
+    base: &[Option<Real>; 2],
+    shown: [bool; 2],
+    list: &[Changed],
+    found: &[Part<Ends>],
+) -> (Table, Vec<String>) {
+    let mut head = vec!["changed".to_owned(), "to".to_owned()];
+    for (word, _) in ["lower", "upper"].into_iter().zip(shown).filter(|(_, shown)| *shown) {
+        head.extend([format!("{word} limit"), "change / %".to_owned()]);
+    }
+    let caption = format!("Limits of {name} with one number changed by a tenth");
+    let mut table = Table { caption, head, rows: Vec::new() };
+    let cells = |now: &Ends| -> Vec<String> {
+        let sides = (0..2).filter(|side| shown[*side]);
+        match now {
+            None => sides.flat_map(|_| ["not stable at nominal".to_owned(), String::new()]).collect(),
+            Some(now) => sides
+                .flat_map(|side| {
+                    let (x, x0) = (now[side].as_ref(), base[side].as_ref());
+                    let change = x.zip(x0).and_then(|(x, x0)| percent_change(x, x0));
+                    [limit_text(x, DIGITS.0), change.unwrap_or_default()]
+                })
+                .collect(),
+        }
+    };
+    let mut first = vec!["nothing".to_owned(), "nominal".to_owned()];
+    first.extend(cells(&Some(base.clone())));
+    table.rows.push(first);
+    let long = |ends: &[Option<Real>; 2]| -> Vec<String> {
+        (0..2).filter(|s| shown[*s]).map(|s| limit_text(ends[s].as_ref(), DIGITS.1)).collect()
+    };
+    let nominal = long(base);
+    let mut still = Vec::new();
+    for (k, changed) in list.iter().enumerate() {
+        let pair = &found[2 * k..2 * k + 2];
+        let same = |f: &Part<Ends>| matches!(f, Ok(Some(ends)) if long(ends) == nominal);
+        if pair.iter().all(same) {
+            still.push(changed.name.clone());
+            continue;
+        }
+        for (one, (percent, sign)) in pair.iter().zip([(90, "-10 %"), (110, "+10 %")]) {
+            let value = &changed.nominal * &Rational::new(percent.into(), 100.into());
+            let mut row = vec![changed.name.clone(), format!("{} ({sign})", short(&value))];
+            match one {
+                Ok(ends) => row.extend(cells(ends)),
+                Err(_) => row.extend(shown.iter().filter(|s| **s).flat_map(|_| ["left out".to_owned(), String::new()])),
+            }
+            table.rows.push(row);
+        }
+    }
+    (table, still)
+}
