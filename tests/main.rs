@@ -65,6 +65,7 @@ mod maps {
 mod tolerances {
     mod degenerate;
     mod held;
+    mod hostile;
     mod laws;
     mod program;
     mod published;

@@ -15,6 +15,7 @@ mod response;
 mod response_figure;
 mod responses;
 mod sketch;
+mod tolerances;
 
 pub use axes::{Axis, Heading, Scale, Tick};
 pub use engineering::{quantity, unit_text};
@@ -25,6 +26,7 @@ pub use response::{FrequencyResponse, ResponsePoint, bode, frequency_response, n
 pub use response_figure::response_figure;
 pub use responses::{ResponseCurve, axis_label, response_panel, response_panels, stairs, thinned};
 pub use sketch::Sketch;
+pub use tolerances::tolerance_figure;
 
 use crate::scene::{Colour, Scene};
 

@@ -12,9 +12,10 @@
 //! One parameter may be inside of its side: it stays where it is along these paths, and at the zero of least `rho` its
 //! determinant vanishes too, which [`super::tangent`] turns into a polynomial in the factor.
 
+use super::determinants::{derivatives, product};
 use super::factor::{LargestFactor, ToleranceProblem};
 use super::polynomial::Bundle;
-use super::prove::{Cell, Outcome, closed_by_vector, keeps_sign};
+use super::prove::{Cell, Closing, Outcome, closed_by_constant, closed_by_vector, keeps_sign};
 use super::search::ray;
 use super::sides::{Side, at_factor};
 use super::tangent::touching;
@@ -25,7 +26,6 @@ use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::real::Real;
-use std::collections::BTreeMap;
 
 /// Halvings of the parameters' sides at the corner, tried one after the other.
 const DEPTHS: [u32; 7] = [2, 4, 6, 9, 13, 18, 24];
@@ -92,8 +92,6 @@ impl ToleranceProblem<'_> {
         budget.step("proving the exact factor");
         let from = factor.lower.clone();
         let (Some(direction), Some(shares)) = (&factor.direction, &factor.shares) else { return Ok(None) };
-        let Some(place) = self.places(direction) else { return Ok(None) };
-        let inside = place.iter().position(|p| *p == Place::Inside);
         let narrow = end.value.refined_to_digits(30);
         let top = narrow.enclosure().1;
         let to = &top + &(&top * &Rational::dyadic(&Integer::ONE, BEYOND));
@@ -103,32 +101,56 @@ impl ToleranceProblem<'_> {
         }
         let causes: Vec<Cause> = end.causes.iter().collect();
         let [cause] = causes.as_slice() else { return Ok(None) };
-        let value = match inside {
-            None => {
-                let between = |z: &&RealAlgebraic| z.compare_rational(&from).is_gt() && z.compare_rational(&to).is_le();
-                if zeros.iter().filter(between).count() != 1 {
-                    return Ok(None);
-                }
-                end.value.clone()
+        // A parameter that stays at its nominal value may be one on which the zero does not depend: any side will do then.
+        let mut tried = None;
+        for idle in [Place::High, Place::Inside] {
+            let Some(place) = self.places(direction, idle).filter(|place| tried.as_ref() != Some(place)) else {
+                continue;
+            };
+            let Some(value) = self.candidate(&place, direction, [&from, &to], *cause, end, zeros, budget)? else {
+                continue;
+            };
+            let sides = at_factor(&self.sides, &to);
+            let idle = direction.iter().map(Rational::is_zero).collect();
+            let known = Known { from: from.clone(), to: to.clone(), value, place: place.clone(), idle };
+            let found = budget.enter(|| match cause {
+                Cause::ComplexPair => self.exact_pair(known, &sides, shares, factor, budget),
+                _ => self.exact_real(known, &sides, *cause, budget),
+            })??;
+            if found.is_some() {
+                return Ok(found);
             }
-            Some(inside) => {
-                let line = ray(&self.sides, direction);
-                match touching(&self.p.pair(), &line, inside, [&from, &to], budget)? {
-                    Some(value) if *cause == Cause::ComplexPair => Real::from(value),
-                    _ => return Ok(None),
-                }
-            }
-        };
-        let sides = at_factor(&self.sides, &to);
-        let known = Known { from, to, value, place };
-        budget.enter(|| match cause {
-            Cause::ComplexPair => self.exact_pair(known, &sides, shares, factor, budget),
-            _ => self.exact_real(known, &sides, *cause, budget),
-        })?
+            tried = Some(place);
+        }
+        Ok(None)
     }
 
-    /// Where the parameters are in a direction; `None` where more than one is inside of its side.
-    fn places(&self, direction: &[Rational]) -> Option<Vec<Place>> {
+    /// The only factor in an interval at which a zero can come first, by where the parameters are then.
+    #[expect(clippy::too_many_arguments, reason = "all of them are read once")]
+    fn candidate(
+        &self,
+        place: &[Place],
+        direction: &[Rational],
+        [from, to]: [&Rational; 2],
+        cause: Cause,
+        end: &End,
+        zeros: &[RealAlgebraic],
+        budget: &Budget,
+    ) -> Result<Option<Real>, Exhausted> {
+        let Some(inside) = place.iter().position(|p| *p == Place::Inside) else {
+            let between = |z: &&RealAlgebraic| z.compare_rational(from).is_gt() && z.compare_rational(to).is_le();
+            return Ok((zeros.iter().filter(between).count() == 1).then(|| end.value.clone()));
+        };
+        if cause != Cause::ComplexPair {
+            return Ok(None);
+        }
+        let line = ray(&self.sides, direction);
+        Ok(touching(&self.p.pair(), &line, inside, [from, to], budget)?.map(Real::from))
+    }
+
+    /// Where the parameters are in a direction, those at their nominal value `idle`; `None` where more than one is inside of its
+    /// side.
+    fn places(&self, direction: &[Rational], idle: Place) -> Option<Vec<Place>> {
         let pair = self.p.pair();
         let place = |((c, side), &degree): ((&Rational, &Side), &usize)| {
             let [low, high] = side.widths();
@@ -139,6 +161,7 @@ impl ToleranceProblem<'_> {
             match () {
                 () if low.is_zero() => Place::Low,
                 () if high.is_zero() || degree == 0 => Place::High,
+                () if c.is_zero() => idle,
                 () => Place::Inside,
             }
         };
@@ -149,6 +172,7 @@ impl ToleranceProblem<'_> {
     /// The part of a side around where a parameter is, of so many halvings; `None` where a parameter that is inside comes
     /// too near to the ends.
     fn part(&self, known: &Known, i: usize, at: &Rational, halvings: u32) -> Option<[Rational; 2]> {
+        let halvings = if known.idle[i] && known.place[i] != Place::Inside { 0 } else { halvings };
         let part = Rational::dyadic(&Integer::ONE, u64::from(halvings));
         match known.place[i] {
             Place::Low => Some([Rational::ZERO, part]),
@@ -263,7 +287,13 @@ impl ToleranceProblem<'_> {
         budget: &Budget,
     ) -> Result<Option<Tree>, Exhausted> {
         let (tensor, _) = Tensor::of_pair(&self.p.pair(), sides, FrequencyScale(self.scale));
-        cover(tensor, critical, &closed_by_vector, budget)
+        let closings: [Closing; 2] = [closed_by_constant, closed_by_vector];
+        for closing in closings {
+            if let Some(tree) = cover(tensor.clone(), critical, &closing, budget)? {
+                return Ok(Some(tree));
+            }
+        }
+        Ok(None)
     }
 
     /// A real root that reaches the boundary: everything else keeps away from it, and near the corner, outside of which it keeps
@@ -368,11 +398,13 @@ struct Known {
     to: Rational,
     value: Real,
     place: Vec<Place>,
+    /// Which parameters are at their nominal value, and may have no influence: the critical cell has all of their sides.
+    idle: Vec<bool>,
 }
 
 impl Known {
     fn proved(self, cell: CriticalCell, tree: Tree) -> ExactProof {
-        let Known { from, to, value, place } = self;
+        let Known { from, to, value, place, .. } = self;
         ExactProof { from, to, value, place, cell, tree }
     }
 }
@@ -393,40 +425,4 @@ fn around(share: &Rational, halvings: u64) -> [Rational; 2] {
     let at = share.checked_div(&unit).expect("a unit is not zero").floor();
     let edge = |k: i64| (&unit * &Rational::from(&at + &Integer::from(k))).max(Rational::ZERO).min(Rational::ONE);
     [edge(-2), edge(3)]
-}
-
-/// The derivatives of the pair by the frequency, which is one more variable, and by each parameter: `E_v, O_v, E_1, O_1, ...`.
-fn derivatives(pair: &Bundle) -> Bundle {
-    let count = pair.width / 2;
-    let parameters = pair.degrees.len();
-    let width = 2 + 2 * parameters;
-    let mut terms: BTreeMap<Vec<u32>, Vec<Integer>> = BTreeMap::new();
-    let mut add = |exponents: Vec<u32>, which: usize, c: Integer| {
-        terms.entry(exponents).or_insert_with(|| vec![Integer::ZERO; width])[which] += &c;
-    };
-    for (exponents, coefficients) in &pair.terms {
-        for (at, c) in coefficients.iter().enumerate().filter(|(_, c)| !c.is_zero()) {
-            let (odd, j) = (at / count, at % count);
-            let with = |power: usize| exponents.iter().copied().chain([power as u32]).collect::<Vec<u32>>();
-            if j > 0 {
-                add(with(j - 1), odd, c * &Integer::from(j as u64));
-            }
-            for (i, &e) in exponents.iter().enumerate().filter(|(_, e)| **e > 0) {
-                let mut lower = with(j);
-                lower[i] -= 1;
-                add(lower, 2 + 2 * i + odd, c * &Integer::from(u64::from(e)));
-            }
-        }
-    }
-    let mut degrees = pair.degrees.clone();
-    degrees.push(count - 1);
-    Bundle { width, degrees, terms: terms.into_iter().collect() }
-}
-
-/// The range of a product of two ranges.
-fn product(a: &(Integer, Integer), b: &(Integer, Integer)) -> (Integer, Integer) {
-    let all = [&a.0 * &b.0, &a.0 * &b.1, &a.1 * &b.0, &a.1 * &b.1];
-    let least = all.iter().min().expect("four").clone();
-    let greatest = all.iter().max().expect("four").clone();
-    (least, greatest)
 }

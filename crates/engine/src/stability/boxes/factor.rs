@@ -1,7 +1,9 @@
 //! The largest factor by which all tolerances can be scaled, between a proof and a point.
 
 use super::polynomial::BoxPolynomial;
-use super::prove::{BoxProof, MOST_COEFFICIENTS, Outcome, prove, signs_at};
+use super::prove::{
+    BoxProof, Closing, MOST_COEFFICIENTS, Outcome, closed_by_constant, closed_by_vector, prove, signs_at,
+};
 use super::search::{Crossing, Search};
 use super::sides::{Side, at_factor};
 use crate::stability::AtPoint;
@@ -10,6 +12,9 @@ use jurist_algebra::number::{Integer, Rational, Sign};
 
 /// A proof that needs more cells than this is first tried at a smaller factor.
 const CELLS: usize = 4000;
+
+/// Constant vectors are given up after so many cells.
+const CONSTANT_CELLS: usize = 4000;
 
 /// A box that needs more cells than this is not decided.
 const MOST_CELLS: usize = 1 << 18;
@@ -151,7 +156,14 @@ impl<'a> ToleranceProblem<'a> {
     }
 
     fn attempt(&self, factor: &Rational, cells: usize, budget: &Budget) -> Result<Outcome, Exhausted> {
-        budget.enter(|| prove(self.p, &at_factor(&self.sides, factor), &self.reference, self.scale, cells, budget))?
+        let sides = at_factor(&self.sides, factor);
+        let by = |closing: Closing, cells: usize| {
+            budget.enter(|| prove(self.p, &sides, &self.reference, self.scale, (closing, cells), budget))?
+        };
+        match by(closed_by_constant, cells.min(CONSTANT_CELLS))? {
+            Outcome::Open { .. } => by(closed_by_vector, cells),
+            outcome => Ok(outcome),
+        }
     }
 
     /// Whether the box of a factor is stable.

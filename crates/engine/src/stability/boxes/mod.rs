@@ -6,12 +6,14 @@
 //! values are not affine in it ([ZettlerGarloff1998](jurist_algebra::bibliography#zettlergarloff1998),
 //! [Farouki2012](jurist_algebra::bibliography#farouki2012)).
 
+mod determinants;
 mod exact;
 mod factor;
 mod line;
 mod multiplier;
 mod polynomial;
 mod prove;
+mod rough;
 mod search;
 mod separate;
 mod sides;

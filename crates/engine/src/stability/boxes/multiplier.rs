@@ -75,10 +75,14 @@ fn sought(tensor: &Tensor) -> Option<Sought> {
             return Some(Sought::Found(Multiplier { constant: vector[0], slopes }));
         }
     }
-    let product = raised.product(&rounded(room.min(40)));
+    let last = rounded(room.min(40));
+    let (product, least) = (raised.product(&last), raised.least(&last));
     let mut counts = tensor.counts().to_vec();
     axes.iter().for_each(|&axis| counts[axis] += 1);
-    Some(Sought::Missed(axes.into_iter().max_by_key(|&axis| (bend(&product, &counts, axis), std::cmp::Reverse(axis)))))
+    let bends = axes.into_iter().map(|axis| (bend(&product, &counts, axis), std::cmp::Reverse(axis)));
+    // Rounding alone does not say where to halve.
+    let most = bends.max().filter(|(bend, _)| *bend > 8 * least);
+    Some(Sought::Missed(most.map(|(_, axis)| axis.0)))
 }
 
 /// The greatest second difference along an axis.
@@ -100,8 +104,13 @@ impl Raised {
     }
 
     fn all_positive(&self, vector: &[(i128, i128)]) -> bool {
-        let least = self.error * vector.iter().map(|(a, b)| a.abs() + b.abs()).sum::<i128>();
+        let least = self.least(vector);
         self.product(vector).into_iter().all(|value| value > least)
+    }
+
+    /// How far a coefficient of the product may be from the true one.
+    fn least(&self, vector: &[(i128, i128)]) -> i128 {
+        self.error * vector.iter().map(|(a, b)| a.abs() + b.abs()).sum::<i128>()
     }
 }
 

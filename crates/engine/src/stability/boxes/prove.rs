@@ -13,12 +13,12 @@ use jurist_algebra::poly::algebraic::simplest_between;
 pub const MOST_COEFFICIENTS: usize = 1 << 20;
 
 /// Cells that wait may take so many bytes together.
-const WAITING_BYTES: usize = 2 << 30;
+const WAITING_BYTES: usize = 1 << 29;
 
 /// After so many cells a point of the present one is tested.
 const TESTED_EVERY: usize = 64;
 
-/// After so many nodes vectors that are affine in a cell are tried too, in cells halved so often.
+/// After so many nodes vectors that are affine in a cell are tried, in cells halved so often.
 const AFFINE_AFTER: (usize, u32) = (48, 6);
 
 /// Parts of each side in which a cell that stays open is tested.
@@ -124,7 +124,7 @@ fn not_stable_in(p: &BoxPolynomial, sides: &[[Rational; 2]]) -> Option<Vec<Ratio
     })
 }
 
-/// Decides one box, with at most so many cells.
+/// Decides one box, with at most so many cells, closed in this way.
 ///
 /// No root crosses the imaginary axis in a connected set on which no divisor, the constant and the leading coefficient and the
 /// pair `(E, O)` at no positive frequency vanish: the number of roots on either side is that of the nominal point, which is
@@ -135,7 +135,7 @@ pub(super) fn prove(
     sides: &[[Rational; 2]],
     reference: &[Sign],
     scale: i64,
-    most_cells: usize,
+    (closed, most_cells): (Closing, usize),
     budget: &Budget,
 ) -> Result<Outcome, Exhausted> {
     let mut certain = Vec::new();
@@ -152,7 +152,7 @@ pub(super) fn prove(
     let frequency = sides.len();
     while let Some(cell) = stack.pop() {
         budget.check()?;
-        let hint = match closed_by_vector(&cell, nodes.len()) {
+        let hint = match closed(&cell, nodes.len()) {
             Ok(node) => {
                 nodes.push(node);
                 continue;
@@ -194,13 +194,20 @@ pub(super) fn prove(
 
 /// The leaf of a cell without a zero of the pair, in a tree of so many nodes so far; where no vector shows it, the axis along
 /// which to halve the cell, if that is known.
-pub(super) fn closed_by_vector(cell: &Cell, nodes: usize) -> Result<Node, Option<usize>> {
+pub(super) type Closing = fn(&Cell, usize) -> Result<Node, Option<usize>>;
+
+/// [`Closing`] by vectors that are constant in a cell: enough where the worst point is a corner.
+pub(super) fn closed_by_constant(cell: &Cell, _: usize) -> Result<Node, Option<usize>> {
     let [x, y] = cell.tensor.planes.as_slice() else { unreachable!("a pair") };
-    if let Some((a, b)) = separating_vector(x, y, cell.tensor.error) {
-        return Ok(Node::Separated(a, b));
-    }
-    if nodes < AFFINE_AFTER.0 || cell.halvings() < AFFINE_AFTER.1 {
-        return Err(None);
+    let found = separating_vector(x, y, cell.tensor.error).ok_or(None)?;
+    Ok(Node::Separated(found.0, found.1))
+}
+
+/// [`Closing`] also by vectors that are affine in a cell.
+pub(super) fn closed_by_vector(cell: &Cell, nodes: usize) -> Result<Node, Option<usize>> {
+    let constant = closed_by_constant(cell, nodes);
+    if constant.is_ok() || nodes < AFFINE_AFTER.0 || cell.halvings() < AFFINE_AFTER.1 {
+        return constant;
     }
     match affine_multiplier(&cell.tensor) {
         Sought::Found(found) => Ok(Node::affine(found, cell.tensor.axes() - 1)),

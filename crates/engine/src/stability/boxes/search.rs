@@ -8,7 +8,7 @@ use jurist_algebra::poly::algebraic::simplest_between;
 use std::cmp::Ordering;
 
 /// While directions are compared, crossings are known to so many binary digits.
-const COARSE: u64 = 14;
+const COARSE: u64 = 36;
 
 /// The crossing of the best direction, in the end.
 const FINE: u64 = 60;
@@ -165,7 +165,11 @@ impl<'a> Search<'a> {
         let limit = self.best.as_ref().map(|b| b.hi.clone());
         let Some((mut current, mut line)) = self.nearer(&start, limit.as_ref()) else { return };
         for _ in 0..ROUNDS {
-            let Some(gradient) = line.gradient(&current.lo, &current.hi) else { break };
+            let closer = || {
+                let (lo, hi) = line.crossing(Some(&(&current.hi + &current.hi)), FINE)?;
+                line.gradient(&lo, &hi)
+            };
+            let Some(gradient) = line.gradient(&current.lo, &current.hi).or_else(closer) else { break };
             let wanted: Vec<Rational> = wanted(&gradient);
             let Some(turned) = self.normalised(wanted.clone()) else { break };
             if turned == current.direction {
@@ -261,12 +265,12 @@ impl<'a> Search<'a> {
 
     /// Narrows the stretch of the best crossing.
     pub fn refine(&mut self) {
-        if let Some(best) = &mut self.best {
-            let offset = best.clone();
-            let line = Search::new(self.p, self.sides, self.reference).line(&offset.direction);
-            if let Some((lo, hi)) = line.narrowed(offset.lo, offset.hi, FINE) {
-                (best.lo, best.hi) = (lo, hi);
-            }
+        // What rounded numbers found is tested exactly.
+        if let Some(Crossing { direction, lo, hi }) = self.best.take() {
+            let line = self.line(&direction);
+            let lo = if line.is_good(&lo) { lo } else { Rational::ZERO };
+            let found = if line.is_good(&hi) { line.crossing(None, FINE) } else { line.narrowed(lo, hi, FINE) };
+            self.best = found.map(|(lo, hi)| Crossing { direction, lo, hi });
         }
         self.settle();
         self.simplify();
