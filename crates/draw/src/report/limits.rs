@@ -3,7 +3,7 @@
 use super::around_nominal;
 use super::part::{Part, Parts, Work};
 use crate::page::{Table, math, paragraph};
-use jurist_algebra::number::{parse_number, to_decimal};
+use jurist_algebra::number::{Rational, parse_number, to_decimal};
 use jurist_engine::answer::{Answer, PointVerdict};
 use jurist_engine::problem::{Problem, Question};
 use jurist_engine::show::documents::{Answered, End, Intervals};
@@ -81,7 +81,9 @@ fn of_parameter(limits: &Limits) -> String {
 
 fn undecided(answer: &Answer<StableSet>) -> String {
     let line = |b: &jurist_engine::stability::UndecidedBracket| {
-        let [low, high] = [&b.lower, &b.upper].map(|x| to_decimal(x, DIGITS));
+        let shown =
+            |x: &Option<Rational>, infinite: &str| x.as_ref().map_or(infinite.to_owned(), |x| to_decimal(x, DIGITS));
+        let (low, high) = (shown(&b.lower, "-∞"), shown(&b.upper, "∞"));
         format!("<li>{}</li>", math(&format!("undecided in [{low}, {high}]: {}", b.why)))
     };
     let lines: String = answer.value().undecided().iter().map(line).collect();

@@ -129,7 +129,6 @@ impl<'a> DeadTime<'a> {
     pub fn crossings(&self, mut rational: Crossings, budget: &Budget) -> Result<Crossings, Error> {
         for crossing in &mut rational.gain {
             crossing.dead_time = Some(self.tau.clone());
-            crossing.tangent_squared = None;
         }
         rational.phase.retain(|c| matches!(c.place, Place::Lowest));
         rational.phase_everywhere = false;
