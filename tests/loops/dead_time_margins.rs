@@ -30,7 +30,7 @@ fn a_positioner_with_dead_time_has_these_margins_to_thirty_digits() {
     let DelayMargin::DeadTime(i) = margins.delay else { panic!("a dead time") };
     let shape = answer.value().open_loop.shape();
     let delay = real::enclosed(30, |bits| answer.value().crossings.gain[i].delay(shape, bits)).unwrap();
-    assert_eq!(delay, "0.275307071828024934211391935181");
+    assert_eq!(delay, "0.275307071828024934211391935180");
     assert_eq!(margins.modulus.decimal(30), "0.315539627788758622195987663893");
     assert_eq!(margins.disk.alpha.as_ref().unwrap().decimal(30), "0.354717659386133510841458403888");
     // The first factors of the crossings of the negative real axis, each from its own branch.
