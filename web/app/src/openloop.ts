@@ -1,0 +1,127 @@
+// The open loop: Bode and Nyquist plots with the exact margins.
+
+import { h, s, table } from "./dom.js";
+import { type Scale, label, short } from "./numbers.js";
+import { type Box, Figure, around, axes, equal, path } from "./plot.js";
+import { ABOVE, BELOW, Zoom, no, waiting, whole } from "./plots.js";
+
+export class OpenLoopPlot {
+  readonly figure: Figure;
+  readonly zoom: Zoom;
+  readonly cut: HTMLSelectElement;
+  data: any;
+  margins: any;
+  message = "";
+  private nyquist = false;
+  private readonly toggles: HTMLButtonElement[];
+
+  constructor(chosen: () => void) {
+    this.figure = new Figure("open-loop", "Open loop and margins", "Margins", (svg, w, hgt) => this.paint(svg, w, hgt));
+    this.zoom = new Zoom(() => this.figure.draw());
+    this.cut = h("select", { "aria-label": "where the loop is cut", title: "where the loop is cut", change: chosen });
+    this.toggles = [false, true].map((nyquist) =>
+      h("button", { type: "button", class: "small", "aria-pressed": String(!nyquist), click: () => this.show(nyquist) }, nyquist ? "Nyquist" : "Bode"),
+    );
+    this.figure.controls.append(this.cut, ...this.toggles, ...this.zoom.buttons);
+    this.show(false);
+  }
+
+  private show(nyquist: boolean): void {
+    this.nyquist = nyquist;
+    for (const [k, button] of this.toggles.entries()) button.setAttribute("aria-pressed", String((k === 1) === nyquist));
+    for (const button of this.zoom.buttons) button.hidden = !nyquist;
+    this.figure.draw();
+  }
+
+  private paint(svg: SVGSVGElement, width: number, height: number): void {
+    const data = this.data;
+    if (!data?.frequency) return waiting(svg, width, height, this.message || no(data) || "…");
+    if (this.nyquist) this.paintNyquist(svg, width, height, data);
+    else this.paintBode(svg, width, height, data);
+  }
+
+  private paintBode(svg: SVGSVGElement, width: number, height: number, data: any): void {
+    const finite = (k: number) => data.response[k][0] !== null && data.response[k][1] !== null;
+    const kept: number[] = data.frequency.map((_: number, k: number) => k).filter(finite);
+    const xs: Scale = { lower: data.frequency[0], upper: data.frequency.at(-1), log: true };
+    const decibels = kept.map((k) => [data.frequency[k], 20 * Math.log10(Math.hypot(data.response[k][0], data.response[k][1]))] as [number, number]).filter((p) => Number.isFinite(p[1]));
+    const phase = kept.map((k) => [data.frequency[k], data.phase_degrees[k]] as [number, number]);
+    const room = Math.max(20, (height - ABOVE * 2 - BELOW) / 2);
+    const top: Box = { ...whole(width, height), height: room };
+    const bottom: Box = { ...top, top: top.top + room + ABOVE + 4 };
+    const words = data.hertz ? "frequency (Hz)" : "frequency (rad/sample)";
+    const panels: [Box, [number, number][], string, string, number[]][] = [
+      [top, decibels, "gain (dB)", "", [0]],
+      [bottom, phase, "phase (degrees)", words, [-180, 180]],
+    ];
+    for (const [box, points, name, below, levels] of panels) {
+      const view = axes(svg, box, xs, around([...points.map((p) => p[1]), levels[0]!]), { x: below, y: name });
+      if (box === top) for (const t of svg.querySelectorAll(".tick[text-anchor=middle]")) t.remove();
+      for (const level of levels) {
+        view.inside.append(s("line", { class: "boundary", x1: box.left, x2: box.left + box.width, y1: view.y(level), y2: view.y(level) }));
+      }
+      for (const frequency of this.crossings()) {
+        view.inside.append(s("line", { class: "cross", x1: view.x(frequency), x2: view.x(frequency), y1: box.top, y2: box.top + box.height }));
+      }
+      view.inside.append(s("path", { class: "line c0", d: path(points, view) }));
+    }
+  }
+
+  private crossings(): number[] {
+    const { gain = [], phase = [] } = this.margins?.crossings ?? {};
+    const of = (c: any) => (this.data.hertz ? c.frequency_hz : c.angle);
+    return [...gain, ...phase].map(of).filter((f: unknown): f is number => typeof f === "number");
+  }
+
+  private paintNyquist(svg: SVGSVGElement, width: number, height: number, data: any): void {
+    const box = whole(width, height);
+    const { centre, half } = this.zoom.window([-0.5, 0], 2, [-1, 0]);
+    const [xs, ys] = equal(box, centre, half);
+    const view = axes(svg, box, xs, ys, { x: "Re L", y: "Im L" });
+    const { inside, x, y } = view;
+    inside.append(s("circle", { class: "boundary", cx: x(0), cy: y(0), r: box.width / (xs.upper - xs.lower) }));
+    const upper: [number, number][] = data.response.filter((p: (number | null)[]) => p[0] !== null && p[1] !== null);
+    inside.append(s("path", { class: "line c0", d: path(upper, view) }));
+    inside.append(s("path", { class: "line c0 mirrored", d: path(upper.map(([a, b]) => [a, -b] as const), view) }));
+    inside.append(s("path", { class: "root", d: `M${x(-1) - 6} ${y(0)}h12m-6-6v12` }));
+    inside.append(s("text", { class: "words", x: x(-1) + 6, y: y(0) - 6 }, "−1"));
+  }
+
+  say(): void {
+    const message = this.message || no(this.data) || no(this.margins);
+    const found = this.margins;
+    if (message || !found?.at) {
+      this.figure.say(message ?? "");
+      this.figure.tabulate("");
+    } else if (!found.stable) {
+      this.figure.say(`Cut at ${found.at}. The loop is ${found.verdict}: it has no margins.`);
+      this.figure.tabulate(this.table());
+    } else {
+      const db = (value: number | null) => (value === null ? "unlimited" : `${short(value, 4)} dB`);
+      const upper = found.gain?.upper ? `gain margin ${db(found.gain.upper_db)}` : "any larger gain";
+      const lower = found.gain?.lower ? `, lower ${db(found.gain.lower_db)}` : "";
+      const phase = found.phase ? `, phase margin ${label(found.phase.degrees, 4)}°` : "";
+      this.figure.say(`Cut at ${found.at}: ${upper}${lower}${phase}. The margins are exact, the curve is drawn in floating point.`);
+      this.figure.tabulate(this.table());
+    }
+    this.figure.draw();
+  }
+
+  private table(): HTMLTableElement {
+    const found = this.margins;
+    const hz = (of: any) => (of?.frequency_hz != null ? `${short(of.frequency_hz, 6)} Hz` : of?.angle != null ? `${short(of.angle, 6)} rad` : "");
+    const rows: string[][] = [];
+    const add = (name: string, value: string | undefined | null, at: any) => value != null && rows.push([name, value, hz(at)]);
+    add("gain margin, upper", found.gain?.upper && `${found.gain.upper.decimal} (${found.gain.upper_db} dB)`, found.gain?.upper);
+    add("gain margin, lower", found.gain?.lower && `${found.gain.lower.decimal} (${found.gain.lower_db} dB)`, found.gain?.lower);
+    add("phase margin", found.phase && `${found.phase.degrees}°`, found.phase);
+    const delay = found.delay;
+    add("delay margin", delay && (delay.unbounded ? "unlimited" : delay.seconds != null ? `${delay.seconds} s` : delay.samples != null ? `${delay.at_least ? "at least " : ""}${delay.samples} samples` : null), delay);
+    add("modulus margin, min |1 + L|", found.modulus?.value?.decimal, found.modulus);
+    add("peak of the sensitivity", found.modulus?.peak_sensitivity?.decimal, found.modulus);
+    add("disk margin", found.disk?.alpha?.decimal, found.disk);
+    for (const c of found.crossings?.gain ?? []) add("crossing |L| = 1", `phase margin ${c.phase_margin_degrees}°`, c);
+    for (const c of found.crossings?.phase ?? []) add("crossing L < 0", `factor ${c.factor}`, c);
+    return table(`Margins of the loop cut at ${found.at}`, ["margin", "value", "frequency"], rows);
+  }
+}
