@@ -61,6 +61,8 @@ mod maps {
 /// Any number of parameters: boxes of tolerances.
 mod tolerances {
     mod degenerate;
+    mod held;
+    mod hostile;
     mod laws;
     mod program;
     mod published;

@@ -7,7 +7,7 @@ use jurist_algebra::poly::UniPoly;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest, Verdict};
 use jurist_engine::model::Model;
 use jurist_engine::stability::boxes::BoxDecision;
-use jurist_engine::stability::{Shape, is_stable};
+use jurist_engine::stability::{Range, Shape, is_stable};
 use proptest::prelude::*;
 
 fn asked(model: &Model) -> Answer<ToleranceAnswer> {
@@ -127,6 +127,84 @@ proptest! {
         prop_assert!(
             around.lower.as_ref().is_some_and(|e| gap(e, &low)) || around.upper.as_ref().is_some_and(|e| gap(e, &high))
         );
+    }
+
+    #[test]
+    fn affine_families_agree_with_their_edges(
+        offsets in prop::collection::vec(2i64..9, 3),
+        slopes in prop::collection::vec(-3i64..=3, 9),
+        percent in prop::collection::vec(5i64..80, 3),
+    ) {
+        let parameters: Vec<(i64, i64)> = percent.into_iter().map(|percent| (10, percent)).collect();
+        let coefficient = |j: usize| {
+            let terms: Vec<String> = (0..3).map(|i| format!("({})*(p{i} - 1)", slopes[3 * j + i])).collect();
+            format!("({} + {})", offsets[j], terms.join(" + "))
+        };
+        let characteristic =
+            format!("s^3 + {}*s^2 + {}*s + {}", coefficient(2), coefficient(1), coefficient(0));
+        let model = continuous(&parameters, &characteristic);
+        let answer = asked(&model);
+        let sides: Vec<[Rational; 2]> = answer.value().sides.iter().map(|s| s.at(&Rational::ONE)).collect();
+        // On each edge one parameter moves and the others are at their ends.
+        let edge = |i: usize, mask: usize| {
+            let others = (0..3).filter(|&j| j != i).enumerate();
+            let set = others.map(|(bit, j)| (format!("p{j}"), sides[j][mask >> bit & 1].clone()));
+            let found = model.ask().set_all(set).free(format!("p{i}")).stable_set(&Budget::unlimited()).unwrap();
+            let [low, high] = &sides[i];
+            found.value().intervals().iter().any(|interval| {
+                interval.lower.as_ref().is_none_or(|e| e.value.compare_rational(low).is_lt())
+                    && interval.upper.as_ref().is_none_or(|e| e.value.compare_rational(high).is_gt())
+            })
+        };
+        let expected = (0..3).all(|i| (0..4).all(|mask| edge(i, mask)));
+        match &answer.value().decision {
+            BoxDecision::Undecided { .. } => prop_assert!(false, "an affine family is decided"),
+            decision => prop_assert_eq!(decision.is_stable(), expected),
+        }
+    }
+
+    #[test]
+    fn two_parameters_agree_with_their_map(a in 1i64..20, b in 1i64..20, percent in prop::collection::vec(5i64..95, 2)) {
+        let parameters = [(a, percent[0]), (b, percent[1])];
+        let model = continuous(&parameters, "s^3 + (1 + p0*p1)*s^2 + (p0 + p1^2)*s + p0*p1 + p1");
+        let answer = asked(&model);
+        let map = model.ask().free("p0").free("p1").map(6, &Budget::unlimited()).unwrap();
+        let within = |x: &Rational, [low, high]: &[Rational; 2]| {
+            let slice = map.value().decomposition.slice(x, &Range::all(), &Budget::unlimited()).unwrap();
+            // Walls between strips have no slice.
+            slice.is_none_or(|set| set.intervals().iter().any(|i| {
+                i.lower.as_ref().is_none_or(|e| e.compare_rational(low).is_lt())
+                    && i.upper.as_ref().is_none_or(|e| e.compare_rational(high).is_gt())
+            }))
+        };
+        let Some(factor) = &answer.value().factor else { return Ok(()) };
+        let sides: Vec<[Rational; 2]> = answer.value().sides.iter().map(|s| s.at(&factor.lower)).collect();
+        for part in 0..=8 {
+            let [low, high] = &sides[0];
+            let x = low + &(&(high - low) * &Rational::new(part.into(), 8.into()));
+            prop_assert!(within(&x, &sides[1]), "stable on the map too");
+        }
+        if let Some(witness) = &factor.witness {
+            let [x, y] = witness.point.as_slice() else { panic!("two parameters") };
+            let slice = map.value().decomposition.slice(x, &Range::all(), &Budget::unlimited()).unwrap();
+            prop_assert!(slice.is_none() || !within(x, &[y.clone(), y.clone()]), "not stable on the map either");
+        }
+    }
+
+    #[test]
+    fn a_box_within_a_stable_box_is_stable(
+        nominal in prop::collection::vec(5i64..30, 3),
+        percent in prop::collection::vec(5i64..60, 3),
+        share in 1i64..10,
+    ) {
+        let of = |share: i64| {
+            let parameters: Vec<(i64, i64)> = nominal.iter().zip(&percent).map(|(&n, &p)| (n, p * share / 10)).collect();
+            asked(&continuous(&parameters, "s^3 + (1 + p0*p1)*s^2 + (p0 + p1*p2)*s + p0*p2 + p1"))
+        };
+        let (inner, outer) = (of(share), of(10));
+        if outer.value().decision.is_stable() {
+            prop_assert!(inner.value().decision.is_stable());
+        }
     }
 
     #[test]

@@ -1,13 +1,13 @@
 //! Published problems: the largest factor of their tolerances, each confirmed a second way.
 
-use crate::helpers::model::example;
+use crate::helpers::model::{example, example_text, load};
 use crate::helpers::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::Domain;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest, Verdict};
 use jurist_engine::model::Model;
-use jurist_engine::stability::boxes::BoxDecision;
+use jurist_engine::stability::boxes::{BoxDecision, Place};
 
 fn asked(model: &Model, request: &ToleranceRequest) -> Answer<ToleranceAnswer> {
     model.ask().tolerance(request, &Budget::unlimited()).unwrap()
@@ -33,7 +33,7 @@ fn confirm(answer: &Answer<ToleranceAnswer>, digits: &str) {
     let (lower, upper) = (&factor.lower, factor.upper.as_ref().unwrap());
     let value = number(digits);
     assert!(*lower <= value && value <= *upper, "{digits}: {lower} {upper}");
-    assert!(&(upper - lower) * &Rational::from(100_000) <= *upper, "{digits}: the bracket is narrow");
+    assert!(&(upper - lower) * &Rational::from(1_000_000) <= *upper, "{digits}: the bracket is narrow");
     let witness = factor.witness.as_ref().expect("a point beyond");
     assert_ne!(verdict_at(answer, &witness.point), Verdict::Stable);
     let sides: Vec<[Rational; 2]> = answer.value().sides.iter().map(|side| side.at(lower)).collect();
@@ -86,7 +86,7 @@ fn vicino_tesi_and_milanese_1990() {
 #[test]
 fn the_bus_is_not_stable_over_its_whole_range() {
     let answer = of_example("bus-steering");
-    confirm(&answer, "0.9887712282815517");
+    confirm(&answer, "0.98877122828155174");
     assert!(answer.value().exact.is_some());
     let BoxDecision::NotStable { witness: Some(witness) } = &answer.value().decision else { panic!("a witness") };
     assert_eq!(verdict_at(&answer, &witness.point), Verdict::Unstable);
@@ -105,11 +105,41 @@ fn an_unstable_disc_that_lines_miss_is_found() {
     let answer = of_example("unstable-disc");
     let factor = answer.value().factor.as_ref().unwrap();
     let exact = number("3/11");
-    let upper = factor.upper.as_ref().unwrap();
-    assert!(factor.lower < exact && exact <= *upper, "{} {upper}", factor.lower);
+    // The point of the disc (q1 - 1)^2 + (q2 - 1)^2 <= 1/100 that is nearest is (11/10, 1), inside of a side of the box.
+    assert_eq!(factor.upper.as_ref(), Some(&exact));
+    assert!(factor.lower < exact && &exact - &factor.lower <= &exact * &number("1e-6"), "{}", factor.lower);
+    assert_eq!(factor.witness.as_ref().unwrap().point, [number("11/10"), number("1")]);
     assert!(!answer.value().decision.is_stable());
-    // Within the largest box the disc (q1 - 1)^2 + (q2 - 1)^2 <= 1/100 is not reached: q1 stays above 11/10.
     assert!(answer.value().sides[0].at(&factor.lower)[0] > number("11/10"));
+}
+
+#[test]
+fn the_factor_of_the_disc_is_exact_though_its_point_is_not_a_corner() {
+    let answer = of_example("unstable-disc");
+    let proof = answer.value().exact.as_ref().expect("closed");
+    assert_eq!(proof.value.exact(), Some(number("3/11")));
+    assert_eq!(proof.place, [Place::Low, Place::Inside]);
+}
+
+/// The disc of `unstable-disc` with another radius.
+fn disc(radius: &str) -> Answer<ToleranceAnswer> {
+    let text = example_text("unstable-disc.toml");
+    let constant = number("1") + &number(radius) * &number(radius);
+    let model = load(&text.replace("101/100", &constant.to_string()));
+    asked(&model, &ToleranceRequest::of_model(&model))
+}
+
+#[test]
+fn discs_of_every_radius_are_found_and_kept_clear_of() {
+    for (radius, exact) in [("1/1000", "399/1100"), ("1/1000000", "399999/1100000"), ("0", "4/11")] {
+        let answer = disc(radius);
+        let factor = answer.value().factor.as_ref().unwrap();
+        let exact = number(exact);
+        let upper = factor.upper.as_ref().unwrap();
+        assert!(factor.lower < exact && exact <= *upper, "{radius}: {} {upper}", factor.lower);
+        assert!(upper - &factor.lower <= upper * &number("1e-6"), "{radius}: {} {upper}", factor.lower);
+        assert_ne!(verdict_at(&answer, &factor.witness.as_ref().unwrap().point), Verdict::Stable);
+    }
 }
 
 /// Tolerances of 20 % of the drive's components.
@@ -145,7 +175,7 @@ fn the_drive_has_a_range_of_its_gain_for_all_tolerances() {
         let unsafe_at = side.unsafe_at.as_ref().unwrap();
         let (low, high) = if side.safe < *unsafe_at { (&side.safe, unsafe_at) } else { (unsafe_at, &side.safe) };
         assert!(*low <= last && first <= *high, "{digits}: {low} {high}");
-        assert!(&(high - low) * &Rational::from(900_000) <= *high, "six digits");
+        assert!(&(high - low) * &Rational::from(1_000_000) <= *high, "six digits");
         let witness = side.factor.witness.as_ref().expect("a witness just outside");
         assert_ne!(verdict_at(&answer, &witness.point), Verdict::Stable);
     }

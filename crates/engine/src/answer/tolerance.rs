@@ -1,21 +1,19 @@
 //! Tolerances: whether every point of a box is stable, and by how much the box can grow.
 
+mod decide;
+mod held;
+mod limit;
+
 use super::Answer;
 use crate::error::{Diagnostic, Error};
 use crate::model::{Model, Tolerance};
 use crate::problem::{Problem, Question};
-use crate::stability::boxes::{
-    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, LargestFactor, MOST_PARAMETERS, Side, ToleranceProblem, ray,
-};
-use crate::stability::{AtPoint, End, Range};
+use crate::stability::boxes::{BoxDecision, BoxVolume, ExactProof, LargestFactor, Side};
+use crate::stability::{AtPoint, End};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::RealAlgebraic;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-
-/// The part of the time that may be spent on the exact end of the worst line.
-const END_SHARE: (u32, u32) = (1, 3);
 
 /// What is asked about tolerances.
 ///
@@ -216,196 +214,4 @@ impl Question {
         }
         Problem::tolerance(&problem, sides, request, budget)
     }
-}
-
-impl Problem {
-    fn tolerance(
-        self: &Arc<Self>,
-        sides: Vec<Side>,
-        request: &ToleranceRequest,
-        budget: &Budget,
-    ) -> Result<Answer<ToleranceAnswer>, Error> {
-        let Some(d) = self.algebra(budget)?.polynomial() else {
-            let decision = BoxDecision::NotStable { witness: None };
-            return Ok(self.answered(sides, AtPoint::Undefined, decision));
-        };
-        let p = budget.enter(|| BoxPolynomial::new(d, self.shape()))?;
-        let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
-        let at = budget.enter(|| p.at(&nominal))?;
-        let Some(boxes) = budget.enter(|| ToleranceProblem::new(&p, sides.clone()))? else {
-            let decision = BoxDecision::not_stable_at(nominal, at.clone());
-            return Ok(self.answered(sides, at, decision));
-        };
-        if boxes.coefficients().is_none() {
-            return Err(too_many(&boxes));
-        }
-        let domain_factor = self.domain_factor(&sides);
-        let decision = boxes.decide(&Rational::ONE, budget)?;
-        let factor = boxes.largest_factor(&request.gap, domain_factor.as_ref(), budget)?;
-        let (worst, cells) = self.worst_end(&sides, &factor, budget)?.unzip();
-        let limit = match &request.limit {
-            None => None,
-            Some(name) => Some(self.tolerance_limit(&p, &sides, name, request, budget)?),
-        };
-        let exact = match (&worst, &cells) {
-            (Some(worst), Some(cells)) if request.exact => boxes.exact(&factor, &worst.end, cells, budget)?,
-            _ => None,
-        };
-        let volume = match &request.volume {
-            None => None,
-            Some(_) if boxes.parameters() > MOST_PARAMETERS => {
-                let message = format!("the volume of a box is found for up to {MOST_PARAMETERS} parameters");
-                return Err(Diagnostic::error("E-tolerance", message)
-                    .help("leave some out with --fix; the shares of the margin are found for any number")
-                    .into());
-            }
-            Some(undecided) => Some(boxes.volume(&Rational::ONE, undecided, budget)?),
-        };
-        let decision = agreed(decision, &factor, worst.as_ref().filter(|_| exact.is_some()));
-        let value = ToleranceAnswer {
-            sides,
-            nominal: at,
-            decision,
-            factor: Some(factor),
-            worst,
-            exact,
-            domain_factor,
-            limit,
-            volume,
-        };
-        Ok(Answer::new(Arc::clone(self), value))
-    }
-
-    fn answered(
-        self: &Arc<Self>,
-        sides: Vec<Side>,
-        nominal: AtPoint,
-        decision: BoxDecision,
-    ) -> Answer<ToleranceAnswer> {
-        let value = ToleranceAnswer {
-            sides,
-            nominal,
-            decision,
-            factor: None,
-            worst: None,
-            exact: None,
-            domain_factor: None,
-            limit: None,
-            volume: None,
-        };
-        Answer::new(Arc::clone(self), value)
-    }
-
-    /// The factor at which the first parameter reaches the end of its open domain.
-    fn domain_factor(&self, sides: &[Side]) -> Option<Rational> {
-        let mut factors = Vec::new();
-        for (free, side) in self.free().iter().zip(sides) {
-            let rooms = [
-                free.domain.lower.as_ref().map(|low| side.nominal() - low),
-                free.domain.upper.as_ref().map(|high| high - side.nominal()),
-            ];
-            for (room, width) in rooms.into_iter().zip(side.widths()) {
-                factors.extend(room.and_then(|room| room.checked_div(width)).filter(|f| f.sign().is_gt()));
-            }
-        }
-        factors.into_iter().min()
-    }
-
-    /// The exact end of the first stable interval on the worst line, where the time allows it.
-    fn worst_end(
-        self: &Arc<Self>,
-        sides: &[Side],
-        factor: &LargestFactor,
-        budget: &Budget,
-    ) -> Result<Option<(WorstEnd, Vec<RealAlgebraic>)>, Error> {
-        let (Some(direction), Some(upper)) = (&factor.direction, &factor.upper) else { return Ok(None) };
-        let (base, step) = ray(sides, direction);
-        let range = Range::between(Some(Rational::ZERO), Some(upper * &Rational::from(2)));
-        let part = budget.share(END_SHARE.0, END_SHARE.1);
-        let problem = Arc::new(self.on_ray("factor", &base, &step, range, &part)?);
-        let set = match problem.stable_set(&part) {
-            Ok(set) => set,
-            Err(Error::Stopped(_)) => return Ok(None),
-            Err(error) => return Err(error),
-        };
-        let first =
-            set.value().intervals().first().filter(|i| i.lower.as_ref().is_none_or(|end| end.value.sign().is_eq()));
-        let end = first.and_then(|i| i.upper.clone());
-        let zeros = set.value().cells().map(|cells| cells.zeros.clone()).unwrap_or_default();
-        Ok(end.map(|end| (WorstEnd { problem, end }, zeros)))
-    }
-
-    /// How far one parameter may go on either side while the others keep their tolerances.
-    fn tolerance_limit(
-        self: &Arc<Self>,
-        p: &BoxPolynomial,
-        sides: &[Side],
-        name: &str,
-        request: &ToleranceRequest,
-        budget: &Budget,
-    ) -> Result<ToleranceLimit, Error> {
-        let at = self.free().iter().position(|free| free.name == name).expect("the limit's parameter is free");
-        let nominal = sides[at].nominal().clone();
-        let unit = if nominal.is_zero() { Rational::ONE } else { nominal.abs() };
-        let mut found = [None, None];
-        for (upward, slot) in found.iter_mut().enumerate() {
-            let mut own: Vec<Side> =
-                sides.iter().map(|s| Side::fixed(s.nominal().clone(), s.widths().clone())).collect();
-            let mut widths = [Rational::ZERO, Rational::ZERO];
-            widths[upward] = unit.clone();
-            own[at] = Side::scaled(nominal.clone(), widths);
-            let Some(boxes) = ToleranceProblem::new(p, own.clone()) else { continue };
-            if !boxes.decide(&Rational::ZERO, budget)?.is_stable() {
-                continue;
-            }
-            let signed = if upward == 1 { unit.clone() } else { -&unit };
-            let value = |factor: &Rational| &nominal + &(&signed * factor);
-            let domain = &self.free()[at].domain;
-            let end = if upward == 1 { &domain.upper } else { &domain.lower };
-            let most = end.as_ref().and_then(|end| (end - &nominal).checked_div(&signed));
-            // The gap is one of the parameter's value, not of how far it has moved.
-            let gap = |factor: &Rational| {
-                let moved = &unit * factor;
-                let share = value(factor).abs().checked_div(&moved).unwrap_or(Rational::ONE);
-                (&request.gap * &share).min(request.gap.clone())
-            };
-            let factor = boxes.bracket(&gap, most.as_ref(), budget)?;
-            let worst = self.worst_end(&own, &factor, budget)?.map(|(worst, _)| worst);
-            *slot = Some(LimitSide {
-                safe: value(&factor.lower),
-                unsafe_at: factor.upper.as_ref().map(value),
-                factor,
-                worst,
-            });
-        }
-        Ok(ToleranceLimit { parameter: name.to_owned(), nominal, sides: found })
-    }
-}
-
-/// The decision about the box itself, where the bracket says more.
-fn agreed(decision: BoxDecision, factor: &LargestFactor, exact: Option<&WorstEnd>) -> BoxDecision {
-    match decision {
-        BoxDecision::Stable(_) => decision,
-        // The exact factor is in the bracket around 1, and not above 1.
-        BoxDecision::Undecided { .. }
-            if exact.is_some_and(|w| w.end.value.compare_rational(&Rational::ONE).is_le()) =>
-        {
-            BoxDecision::NotStable { witness: None }
-        }
-        _ if factor.upper.as_ref().is_some_and(|upper| *upper <= Rational::ONE) => {
-            let known = match decision {
-                BoxDecision::NotStable { witness } => witness,
-                _ => None,
-            };
-            BoxDecision::NotStable { witness: factor.witness.clone().or(known) }
-        }
-        _ => decision,
-    }
-}
-
-fn too_many(boxes: &ToleranceProblem) -> Error {
-    let message = format!("{} tolerances have too many Bernstein coefficients", boxes.parameters());
-    Diagnostic::error("E-tolerance", message)
-        .help("leave some out with --fix, or give a product of parameters that only occur together one tolerance")
-        .into()
 }

@@ -31,12 +31,7 @@ impl Problem {
         let Some(polynomial) = algebra.polynomial() else { return Ok(None) };
         let (symbols, free) = (algebra.symbols(), self.free().len());
         if !symbols.is_moving() {
-            let mut table = Symbols::new();
-            for symbol in symbols.iter() {
-                let place = |f: &RationalFunction| f.map_variables(|i| i.saturating_sub(symbols.first()));
-                table.push(&symbol.name, definition(symbol, place)?);
-            }
-            return Ok(Some(SymbolicPolynomial::new(polynomial, free, &Arc::new(table))));
+            return Ok(Some(SymbolicPolynomial::new(polynomial, free, &Arc::new(self.fixed_symbols(budget)?))));
         }
         let mut table = Vec::new();
         for symbol in symbols.iter() {
@@ -56,6 +51,26 @@ impl Problem {
             return Err(Diagnostic::error("E-function", message).help(help).into());
         }
         Ok(Some(found))
+    }
+}
+
+impl Problem {
+    /// What the symbols of a loop stand for, none of which depends on what is free.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`]; `E-dead-time`.
+    pub(crate) fn fixed_symbols(&self, budget: &Budget) -> Result<Symbols, Error> {
+        let symbols = self.algebra_over_symbols(budget)?.symbols();
+        if !symbols.delays().is_empty() {
+            let help = "known of it: verdict, intervals of one parameter, analyze, charpoly";
+            return Err(super::delayed::refused("this cannot be asked of a loop with dead time yet", help));
+        }
+        let mut table = Symbols::new();
+        for symbol in symbols.iter() {
+            let place = |f: &RationalFunction| f.map_variables(|i| i.saturating_sub(symbols.first()));
+            table.push(&symbol.name, definition(symbol, place)?);
+        }
+        Ok(table)
     }
 }
 

@@ -130,8 +130,8 @@ impl Shown<'_> {
                 let _ = writeln!(out, "they can grow    {lower} <= factor at least; no worse point was found");
             }
         }
-        if let (Some(proof), Some(worst)) = (&self.answer.exact, &self.answer.worst) {
-            let value = &worst.end.value;
+        if let Some(proof) = &self.answer.exact {
+            let value = &proof.value;
             let degree = value.algebraic().and_then(|v| v.polynomial().degree()).unwrap_or(0);
             let kind = match value.exact() {
                 Some(exact) => format!("exactly {}", short(&exact)),

@@ -43,6 +43,13 @@ pub enum AtPoint {
     },
 }
 
+impl AtPoint {
+    /// Whether all roots of a polynomial of this degree are inside.
+    pub fn is_stable(&self, degree: usize) -> bool {
+        matches!(self, AtPoint::Defined { count, infinite: 0 } if count.inside == degree)
+    }
+}
+
 impl ParametricPolynomial {
     /// From coefficients `numerator / denominator` for `z^0` first, the polynomials whose zeros make
     /// the loop undefined, and the degree of the polynomial in all parameters.

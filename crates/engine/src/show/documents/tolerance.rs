@@ -9,7 +9,7 @@ use crate::problem::Problem;
 use crate::show::bounded::at_most;
 use crate::show::real;
 use crate::show::tolerance::{sign_name, verdict_of};
-use crate::stability::boxes::{BoxDecision, LargestFactor, Witness};
+use crate::stability::boxes::{BoxDecision, ExactProof, LargestFactor, Witness};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, to_decimal};
 use serde::{Deserialize, Serialize};
@@ -207,7 +207,7 @@ fn found(problem: &Problem, answer: &ToleranceAnswer, digits: usize) -> Toleranc
             lower: (&f.lower).into(),
             upper: f.upper.as_ref().map(Exact::from),
             decimal: at_most(&f.lower, digits),
-            exact: answer.worst.as_ref().filter(|_| answer.exact.is_some()).map(|w| end_of(w, digits)),
+            exact: answer.worst.as_ref().zip(answer.exact.as_ref()).map(|(w, proof)| exact_end(w, proof, digits)),
             domain: answer.domain_factor.as_ref().map(Exact::from),
         }),
         worst: factor.and_then(|f| worst(problem, answer, f, digits)),
@@ -229,6 +229,15 @@ fn found(problem: &Problem, answer: &ToleranceAnswer, digits: usize) -> Toleranc
 
 fn end_of(worst: &WorstEnd, digits: usize) -> End {
     End::new(&worst.end, &worst.problem, digits)
+}
+
+/// The end of the worst line, or where a parameter is inside of its side the factor at which zeros meet, which is not above it.
+fn exact_end(worst: &WorstEnd, proof: &ExactProof, digits: usize) -> End {
+    if worst.end.value.is_same(&proof.value) {
+        return end_of(worst, digits);
+    }
+    let end = crate::stability::End::new(proof.value.clone(), worst.end.causes.clone(), None);
+    End::new(&end, &worst.problem, digits)
 }
 
 fn worst(problem: &Problem, answer: &ToleranceAnswer, factor: &LargestFactor, digits: usize) -> Option<WorstPoint> {

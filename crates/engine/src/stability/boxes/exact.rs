@@ -8,19 +8,24 @@
 //! on `C`, and by the implicit function theorem zeros go along as a `tau_i` shrinks, with `rho` not growing; they stay in `C`. So a
 //! zero of least `rho` can be taken on the line, and its factor is `r*`. Of a real root the same follows from the signs of the
 //! derivatives alone: towards the corner the polynomial falls.
+//!
+//! One parameter may be inside of its side: it stays where it is along these paths, and at the zero of least `rho` its
+//! determinant vanishes too, which [`super::tangent`] turns into a polynomial in the factor.
 
+use super::determinants::{derivatives, product};
 use super::factor::{LargestFactor, ToleranceProblem};
 use super::polynomial::Bundle;
-use super::prove::{Cell, Outcome, keeps_sign};
-use super::separate::separating_vector;
-use super::sides::at_factor;
+use super::prove::{Cell, Closing, Outcome, closed_by_constant, closed_by_vector, keeps_sign};
+use super::search::ray;
+use super::sides::{Side, at_factor};
+use super::tangent::touching;
 use super::tensor::{FrequencyScale, Tensor, expand};
 use super::tree::{Axis, Node, Tree};
 use crate::stability::{Cause, End};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
 use jurist_algebra::poly::RealAlgebraic;
-use std::collections::BTreeMap;
+use jurist_algebra::real::Real;
 
 /// Halvings of the parameters' sides at the corner, tried one after the other.
 const DEPTHS: [u32; 7] = [2, 4, 6, 9, 13, 18, 24];
@@ -39,22 +44,34 @@ pub struct ExactProof {
     pub from: Rational,
     /// Up to the box of this factor there is nothing worse than the corner.
     pub to: Rational,
-    /// For each parameter the side of the corner.
-    pub corner: Vec<bool>,
+    /// The largest factor.
+    pub value: Real,
+    /// Where each parameter is at the worst point.
+    pub place: Vec<Place>,
     /// All zeros of the pair, or of the polynomial of a real root, are in this cell of the box, which [`Tree`] marks `c`.
     pub cell: CriticalCell,
     /// Cells of frequency and parameters (of parameters alone for a real root) without a zero, but for those in the critical one.
     pub tree: Tree,
 }
 
-/// A cell at a corner of the box.
+/// Where a parameter is at the worst point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// At the lower end of its side.
+    Low,
+    /// At the upper end of its side.
+    High,
+    /// Between.
+    Inside,
+}
+
+/// A cell of the box around its worst point.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct CriticalCell {
-    /// Of each parameter's side the share `2^-halvings` at the corner.
-    pub halvings: Vec<u32>,
-    /// The part of the frequency axis, as `t` in `v = 4^scale t / (1 - t)`.
-    pub frequency: [Rational; 2],
+    /// The part of each parameter's side, as shares from 0 to 1; last that of the frequency axis, as `t` in
+    /// `v = 4^scale t / (1 - t)`.
+    pub parts: Vec<[Rational; 2]>,
 }
 
 impl ToleranceProblem<'_> {
@@ -75,7 +92,6 @@ impl ToleranceProblem<'_> {
         budget.step("proving the exact factor");
         let from = factor.lower.clone();
         let (Some(direction), Some(shares)) = (&factor.direction, &factor.shares) else { return Ok(None) };
-        let Some(corner) = self.corner(direction) else { return Ok(None) };
         let narrow = end.value.refined_to_digits(30);
         let top = narrow.enclosure().1;
         let to = &top + &(&top * &Rational::dyadic(&Integer::ONE, BEYOND));
@@ -83,39 +99,94 @@ impl ToleranceProblem<'_> {
         if to <= top || from >= narrow.enclosure().0 || &from + &from <= to || factor.proof.is_none() {
             return Ok(None);
         }
-        let between = |z: &&RealAlgebraic| z.compare_rational(&from).is_gt() && z.compare_rational(&to).is_le();
-        if zeros.iter().filter(between).count() != 1 {
-            return Ok(None);
-        }
         let causes: Vec<Cause> = end.causes.iter().collect();
         let [cause] = causes.as_slice() else { return Ok(None) };
-        let sides = at_factor(&self.sides, &to);
-        let known = Known { from, to, corner };
-        budget.enter(|| match cause {
-            Cause::ComplexPair => self.exact_pair(known, &sides, shares, factor, budget),
-            _ => self.exact_real(known, &sides, *cause, budget),
-        })?
+        // A parameter that stays at its nominal value may be one on which the zero does not depend: any side will do then.
+        let mut tried = None;
+        for idle in [Place::High, Place::Inside] {
+            let Some(place) = self.places(direction, idle).filter(|place| tried.as_ref() != Some(place)) else {
+                continue;
+            };
+            let Some(value) = self.candidate(&place, direction, [&from, &to], *cause, end, zeros, budget)? else {
+                continue;
+            };
+            let sides = at_factor(&self.sides, &to);
+            let idle = direction.iter().map(Rational::is_zero).collect();
+            let known = Known { from: from.clone(), to: to.clone(), value, place: place.clone(), idle };
+            let found = budget.enter(|| match cause {
+                Cause::ComplexPair => self.exact_pair(known, &sides, shares, factor, budget),
+                _ => self.exact_real(known, &sides, *cause, budget),
+            })??;
+            if found.is_some() {
+                return Ok(found);
+            }
+            tried = Some(place);
+        }
+        Ok(None)
     }
 
-    /// The corner that a direction leads to; `None` where a parameter is inside.
-    fn corner(&self, direction: &[Rational]) -> Option<Vec<bool>> {
+    /// The only factor in an interval at which a zero can come first, by where the parameters are then.
+    #[expect(clippy::too_many_arguments, reason = "all of them are read once")]
+    fn candidate(
+        &self,
+        place: &[Place],
+        direction: &[Rational],
+        [from, to]: [&Rational; 2],
+        cause: Cause,
+        end: &End,
+        zeros: &[RealAlgebraic],
+        budget: &Budget,
+    ) -> Result<Option<Real>, Exhausted> {
+        let Some(inside) = place.iter().position(|p| *p == Place::Inside) else {
+            let between = |z: &&RealAlgebraic| z.compare_rational(from).is_gt() && z.compare_rational(to).is_le();
+            return Ok((zeros.iter().filter(between).count() == 1).then(|| end.value.clone()));
+        };
+        if cause != Cause::ComplexPair {
+            return Ok(None);
+        }
+        let line = ray(&self.sides, direction);
+        Ok(touching(&self.p.pair(), &line, inside, [from, to], budget)?.map(Real::from))
+    }
+
+    /// Where the parameters are in a direction, those at their nominal value `idle`; `None` where more than one is inside of its
+    /// side.
+    fn places(&self, direction: &[Rational], idle: Place) -> Option<Vec<Place>> {
         let pair = self.p.pair();
-        direction
-            .iter()
-            .zip(&self.sides)
-            .zip(&pair.degrees)
-            .map(|((c, side), &degree)| {
-                let [low, high] = side.widths();
-                match c.abs() == Rational::ONE {
-                    true => Some(!c.is_negative()),
-                    // The corner on a side without width is the nominal value.
-                    false if low.is_zero() => Some(false),
-                    false if high.is_zero() => Some(true),
-                    // Without influence any side will do.
-                    false => (degree == 0).then_some(true),
-                }
-            })
-            .collect()
+        let place = |((c, side), &degree): ((&Rational, &Side), &usize)| {
+            let [low, high] = side.widths();
+            if c.abs() == Rational::ONE {
+                return if c.is_negative() { Place::Low } else { Place::High };
+            }
+            // The corner on a side without width is the nominal value; without influence any side will do.
+            match () {
+                () if low.is_zero() => Place::Low,
+                () if high.is_zero() || degree == 0 => Place::High,
+                () if c.is_zero() => idle,
+                () => Place::Inside,
+            }
+        };
+        let places: Vec<Place> = direction.iter().zip(&self.sides).zip(&pair.degrees).map(place).collect();
+        (places.iter().filter(|p| **p == Place::Inside).count() <= 1).then_some(places)
+    }
+
+    /// The part of a side around where a parameter is, of so many halvings; `None` where a parameter that is inside comes
+    /// too near to the ends.
+    fn part(&self, known: &Known, i: usize, at: &Rational, halvings: u32) -> Option<[Rational; 2]> {
+        let halvings = if known.idle[i] && known.place[i] != Place::Inside { 0 } else { halvings };
+        let part = Rational::dyadic(&Integer::ONE, u64::from(halvings));
+        match known.place[i] {
+            Place::Low => Some([Rational::ZERO, part]),
+            Place::High => Some([&Rational::ONE - &part, Rational::ONE]),
+            Place::Inside => {
+                let [low, high] = self.sides[i].at(&known.to);
+                let [least, most] = self.sides[i].at(&known.from);
+                let width = &high - &low;
+                let share = (at - &low).checked_div(&width)?;
+                let part = around(&share, u64::from(halvings));
+                let [a, b] = part.each_ref().map(|share| &low + &(&width * share));
+                (a > least && b < most).then_some(part)
+            }
+        }
     }
 
     fn exact_pair(
@@ -135,23 +206,24 @@ impl ToleranceProblem<'_> {
         let Some(v) = self.search().line(&crossing.direction).frequency(&crossing.lo) else { return Ok(None) };
         let v0 = Rational::from(4).pow(self.scale).expect("four is not zero");
         let Some(t) = v.checked_div(&(&v + &v0)) else { return Ok(None) };
+        let point = self.search().line(&crossing.direction).point(&crossing.lo);
         for depth in DEPTHS {
-            let halvings: Vec<u32> = shares
-                .iter()
-                .map(|share| if *share < Rational::dyadic(&Integer::ONE, u64::from(depth)) { 1 } else { depth })
-                .collect();
-            let unit = Rational::dyadic(&Integer::ONE, u64::from(depth) + 2);
-            let at = t.checked_div(&unit).expect("a unit is not zero").floor();
-            let edge =
-                |k: i64| (&unit * &Rational::from(&at + &Integer::from(k))).max(Rational::ZERO).min(Rational::ONE);
-            let cell = CriticalCell { halvings, frequency: [edge(-2), edge(3)] };
-            let [low, high] = &cell.frequency;
+            let halvings = |i: usize| {
+                let matters =
+                    known.place[i] == Place::Inside || shares[i] >= Rational::dyadic(&Integer::ONE, u64::from(depth));
+                if matters { depth } else { 1 }
+            };
+            let parts: Option<Vec<[Rational; 2]>> =
+                (0..sides.len()).map(|i| self.part(&known, i, &point[i], halvings(i))).collect();
+            let Some(mut parts) = parts else { continue };
+            parts.push(around(&t, u64::from(depth)));
+            let cell = CriticalCell { parts };
+            let [low, high] = &cell.parts[sides.len()];
             if low.is_zero() || high.is_one() || !self.turns_one_way(&known, sides, &cell, &v0) {
                 continue;
             }
-            if let Some(tree) = self.cover(sides, &known.corner, &cell, budget)? {
-                let Known { from, to, corner } = known;
-                return Ok(Some(ExactProof { from, to, corner, cell, tree }));
+            if let Some(tree) = self.cover(sides, &cell, budget)? {
+                return Ok(Some(known.proved(cell, tree)));
             }
         }
         Ok(None)
@@ -160,10 +232,9 @@ impl ToleranceProblem<'_> {
     /// Whether on the cell all determinants of the pair's derivatives by frequency and by a parameter, times the corner's
     /// signs, have the same strict sign.
     fn turns_one_way(&self, known: &Known, sides: &[[Rational; 2]], cell: &CriticalCell, v0: &Rational) -> bool {
-        let mut inner: Vec<[Rational; 2]> =
-            (0..sides.len()).map(|i| corner_part(&sides[i], known.corner[i], cell.halvings[i])).collect();
+        let mut inner: Vec<[Rational; 2]> = cell.sides(sides);
         let value = |t: &Rational| (v0 * t).checked_div(&(&Rational::ONE - t)).expect("below 1");
-        inner.push(cell.frequency.each_ref().map(value));
+        inner.push(cell.parts[sides.len()].each_ref().map(value));
         let derivatives = derivatives(&self.p.pair());
         let mut ranges: Vec<(Integer, Integer)> = Vec::new();
         for values in expand(&derivatives, &inner).chunks(derivatives.width) {
@@ -181,6 +252,10 @@ impl ToleranceProblem<'_> {
         }
         let (mut common, mut is_strict) = (None, false);
         for (i, &degree) in self.p.pair().degrees.iter().enumerate() {
+            let is_high = match known.place[i] {
+                Place::Inside => continue,
+                place => place == Place::High,
+            };
             if degree == 0 || sides[i][0] == sides[i][1] {
                 continue;
             }
@@ -194,11 +269,11 @@ impl ToleranceProblem<'_> {
                 (_, Sign::Less | Sign::Equal) => Sign::Less,
                 _ => return false,
             };
-            let sign = if known.corner[i] { sign } else { sign.reverse() };
+            let sign = if is_high { sign } else { sign.reverse() };
             if *common.get_or_insert(sign) != sign {
                 return false;
             }
-            let moves = self.sides[i].grows() && !self.sides[i].widths()[usize::from(known.corner[i])].is_zero();
+            let moves = self.sides[i].grows() && !self.sides[i].widths()[usize::from(is_high)].is_zero();
             is_strict |= moves && !low.is_zero() && !high.is_zero();
         }
         is_strict
@@ -208,16 +283,17 @@ impl ToleranceProblem<'_> {
     fn cover(
         &self,
         sides: &[[Rational; 2]],
-        corner: &[bool],
         critical: &CriticalCell,
         budget: &Budget,
     ) -> Result<Option<Tree>, Exhausted> {
         let (tensor, _) = Tensor::of_pair(&self.p.pair(), sides, FrequencyScale(self.scale));
-        let closed = |cell: &Tensor| {
-            let [x, y] = cell.planes.as_slice() else { unreachable!("a pair") };
-            separating_vector(x, y, cell.error).map(|(a, b)| Node::Separated(a, b))
-        };
-        cover(tensor, corner, critical, &closed, budget)
+        let closings: [Closing; 2] = [closed_by_constant, closed_by_vector];
+        for closing in closings {
+            if let Some(tree) = cover(tensor.clone(), critical, &closing, budget)? {
+                return Ok(Some(tree));
+            }
+        }
+        Ok(None)
     }
 
     /// A real root that reaches the boundary: everything else keeps away from it, and near the corner, outside of which it keeps
@@ -238,33 +314,34 @@ impl ToleranceProblem<'_> {
             }
         }
         let Some((f, sign)) = falling else { return Ok(None) };
-        let nowhere =
-            CriticalCell { halvings: vec![0; sides.len()], frequency: [Rational::from(2), Rational::from(3)] };
-        if self.cover(sides, &known.corner, &nowhere, budget)?.is_none() {
+        let mut parts = vec![[Rational::ZERO, Rational::ONE]; sides.len()];
+        parts.push([Rational::from(2), Rational::from(3)]);
+        if self.cover(sides, &CriticalCell { parts }, budget)?.is_none() {
             return Ok(None);
         }
         let bundle = Bundle::new(&[f], sides.len());
-        let closed = |cell: &Tensor| {
-            let (low, high) = cell.range(0);
-            let signed = if sign.is_gt() { low > cell.error } else { high < -cell.error };
-            signed.then(|| Node::Signed(sign.is_gt()))
+        let closed = |cell: &Cell, _: usize| {
+            let (low, high) = cell.tensor.range(0);
+            let signed = if sign.is_gt() { low > cell.tensor.error } else { high < -cell.tensor.error };
+            if signed { Ok(Node::Signed(sign.is_gt())) } else { Err(None) }
         };
         for depth in DEPTHS {
-            let halvings = vec![depth; sides.len()];
-            let inner: Vec<[Rational; 2]> =
-                (0..sides.len()).map(|i| corner_part(&sides[i], known.corner[i], depth)).collect();
-            let falls = |(i, &up): (usize, &bool)| {
+            let parts: Option<Vec<[Rational; 2]>> =
+                (0..sides.len()).map(|i| self.part(&known, i, &Rational::ZERO, depth)).collect();
+            let Some(mut parts) = parts else { return Ok(None) };
+            parts.push([Rational::ZERO, Rational::ONE]);
+            let cell = CriticalCell { parts };
+            let inner = cell.sides(sides);
+            let falls = |(i, place): (usize, &Place)| {
                 let slope = f.derivative(i);
-                let rising = if up { sign } else { sign.reverse() };
+                let rising = if *place == Place::High { sign } else { sign.reverse() };
                 expand(&Bundle::new(&[&slope], sides.len()), &inner).iter().all(|v| v.sign() != rising)
             };
-            if !known.corner.iter().enumerate().all(falls) {
+            if !known.place.iter().enumerate().all(falls) {
                 continue;
             }
-            let cell = CriticalCell { halvings, frequency: [Rational::ZERO, Rational::ONE] };
-            if let Some(tree) = cover(Tensor::of_one(&bundle, sides), &known.corner, &cell, &closed, budget)? {
-                let Known { from, to, corner } = known;
-                return Ok(Some(ExactProof { from, to, corner, cell, tree }));
+            if let Some(tree) = cover(Tensor::of_one(&bundle, sides), &cell, &closed, budget)? {
+                return Ok(Some(known.proved(cell, tree)));
             }
         }
         Ok(None)
@@ -274,29 +351,23 @@ impl ToleranceProblem<'_> {
 /// A tree of cells that are closed, but for those inside the critical cell; `None` where it takes too many.
 fn cover(
     tensor: Tensor,
-    corner: &[bool],
     critical: &CriticalCell,
-    closed: &dyn Fn(&Tensor) -> Option<Node>,
+    closed: &dyn Fn(&Cell, usize) -> Result<Node, Option<usize>>,
     budget: &Budget,
 ) -> Result<Option<Tree>, Exhausted> {
-    let frequency = corner.len();
-    let unit = [Rational::ZERO, Rational::ONE];
-    let part = |axis: usize| {
-        if axis == frequency {
-            critical.frequency.clone()
-        } else {
-            corner_part(&unit, corner[axis], critical.halvings[axis])
-        }
-    };
-    let parts: Vec<[Rational; 2]> = (0..=frequency).map(part).collect();
+    let parts = &critical.parts;
+    let frequency = parts.len() - 1;
     let mut stack = vec![Cell::whole(tensor)];
     let mut nodes = Vec::new();
     while let Some(cell) = stack.pop() {
         budget.check()?;
-        if let Some(node) = closed(&cell.tensor) {
-            nodes.push(node);
-            continue;
-        }
+        let hint = match closed(&cell, nodes.len()) {
+            Ok(node) => {
+                nodes.push(node);
+                continue;
+            }
+            Err(hint) => hint,
+        };
         let own: Vec<[Rational; 2]> = (0..=frequency).map(|axis| cell.part(axis)).collect();
         let beyond: Vec<usize> =
             (0..=frequency).filter(|&i| own[i][0] < parts[i][0] || own[i][1] > parts[i][1]).collect();
@@ -308,7 +379,11 @@ fn cover(
         if nodes.len() + stack.len() > CELLS {
             return Ok(None);
         }
-        let axis = if meets { cell.tensor.best_axis_of(&beyond) } else { cell.tensor.best_axis() };
+        let axis = match hint {
+            Some(axis) if !meets || beyond.contains(&axis) => Some(axis),
+            _ if meets => cell.tensor.best_axis_of(&beyond),
+            _ => cell.tensor.best_axis(),
+        };
         let Some(axis) = axis.or_else(|| meets.then(|| beyond[0])) else { return Ok(None) };
         nodes.push(Node::Halved(if axis == frequency { Axis::Frequency } else { Axis::Parameter(axis) }));
         let [low, high] = cell.halves(axis);
@@ -321,47 +396,33 @@ fn cover(
 struct Known {
     from: Rational,
     to: Rational,
-    corner: Vec<bool>,
+    value: Real,
+    place: Vec<Place>,
+    /// Which parameters are at their nominal value, and may have no influence: the critical cell has all of their sides.
+    idle: Vec<bool>,
 }
 
-/// The share `2^-halvings` of a side at its corner.
-fn corner_part([low, high]: &[Rational; 2], upper: bool, halvings: u32) -> [Rational; 2] {
-    let part = &(high - low) * &Rational::dyadic(&Integer::ONE, u64::from(halvings));
-    if upper { [high - &part, high.clone()] } else { [low.clone(), low + &part] }
-}
-
-/// The derivatives of the pair by the frequency, which is one more variable, and by each parameter: `E_v, O_v, E_1, O_1, ...`.
-fn derivatives(pair: &Bundle) -> Bundle {
-    let count = pair.width / 2;
-    let parameters = pair.degrees.len();
-    let width = 2 + 2 * parameters;
-    let mut terms: BTreeMap<Vec<u32>, Vec<Integer>> = BTreeMap::new();
-    let mut add = |exponents: Vec<u32>, which: usize, c: Integer| {
-        terms.entry(exponents).or_insert_with(|| vec![Integer::ZERO; width])[which] += &c;
-    };
-    for (exponents, coefficients) in &pair.terms {
-        for (at, c) in coefficients.iter().enumerate().filter(|(_, c)| !c.is_zero()) {
-            let (odd, j) = (at / count, at % count);
-            let with = |power: usize| exponents.iter().copied().chain([power as u32]).collect::<Vec<u32>>();
-            if j > 0 {
-                add(with(j - 1), odd, c * &Integer::from(j as u64));
-            }
-            for (i, &e) in exponents.iter().enumerate().filter(|(_, e)| **e > 0) {
-                let mut lower = with(j);
-                lower[i] -= 1;
-                add(lower, 2 + 2 * i + odd, c * &Integer::from(u64::from(e)));
-            }
-        }
+impl Known {
+    fn proved(self, cell: CriticalCell, tree: Tree) -> ExactProof {
+        let Known { from, to, value, place, .. } = self;
+        ExactProof { from, to, value, place, cell, tree }
     }
-    let mut degrees = pair.degrees.clone();
-    degrees.push(count - 1);
-    Bundle { width, degrees, terms: terms.into_iter().collect() }
 }
 
-/// The range of a product of two ranges.
-fn product(a: &(Integer, Integer), b: &(Integer, Integer)) -> (Integer, Integer) {
-    let all = [&a.0 * &b.0, &a.0 * &b.1, &a.1 * &b.0, &a.1 * &b.1];
-    let least = all.iter().min().expect("four").clone();
-    let greatest = all.iter().max().expect("four").clone();
-    (least, greatest)
+impl CriticalCell {
+    /// The part of the box.
+    fn sides(&self, whole: &[[Rational; 2]]) -> Vec<[Rational; 2]> {
+        let part = |([low, high], shares): (&[Rational; 2], &[Rational; 2])| {
+            shares.each_ref().map(|share| low + &(&(high - low) * share))
+        };
+        whole.iter().zip(&self.parts).map(part).collect()
+    }
+}
+
+/// Five parts of `2^-(halvings + 2)` of the unit interval around a share.
+fn around(share: &Rational, halvings: u64) -> [Rational; 2] {
+    let unit = Rational::dyadic(&Integer::ONE, halvings + 2);
+    let at = share.checked_div(&unit).expect("a unit is not zero").floor();
+    let edge = |k: i64| (&unit * &Rational::from(&at + &Integer::from(k))).max(Rational::ZERO).min(Rational::ONE);
+    [edge(-2), edge(3)]
 }

@@ -1,7 +1,9 @@
 //! The largest factor by which all tolerances can be scaled, between a proof and a point.
 
 use super::polynomial::BoxPolynomial;
-use super::prove::{BoxProof, MOST_COEFFICIENTS, Outcome, prove, signs_at};
+use super::prove::{
+    BoxProof, Closing, MOST_COEFFICIENTS, Outcome, closed_by_constant, closed_by_vector, prove, signs_at,
+};
 use super::search::{Crossing, Search};
 use super::sides::{Side, at_factor};
 use crate::stability::AtPoint;
@@ -10,6 +12,12 @@ use jurist_algebra::number::{Integer, Rational, Sign};
 
 /// A proof that needs more cells than this is first tried at a smaller factor.
 const CELLS: usize = 4000;
+
+/// Constant vectors are given up after so many cells.
+const CONSTANT_CELLS: usize = 4000;
+
+/// A box that needs more cells than this is not decided.
+const MOST_CELLS: usize = 1 << 18;
 
 /// How often a box that is not decided is made smaller.
 const RETREATS: u32 = 6;
@@ -91,6 +99,13 @@ pub struct Witness {
     pub at: AtPoint,
 }
 
+impl Witness {
+    /// A point and what is exactly known there.
+    pub fn new(point: Vec<Rational>, at: AtPoint) -> Witness {
+        Witness { point, at }
+    }
+}
+
 /// A bracket of the largest factor.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -141,7 +156,14 @@ impl<'a> ToleranceProblem<'a> {
     }
 
     fn attempt(&self, factor: &Rational, cells: usize, budget: &Budget) -> Result<Outcome, Exhausted> {
-        budget.enter(|| prove(self.p, &at_factor(&self.sides, factor), &self.reference, self.scale, cells, budget))?
+        let sides = at_factor(&self.sides, factor);
+        let by = |closing: Closing, cells: usize| {
+            budget.enter(|| prove(self.p, &sides, &self.reference, self.scale, (closing, cells), budget))?
+        };
+        match by(closed_by_constant, cells.min(CONSTANT_CELLS))? {
+            Outcome::Open { .. } => by(closed_by_vector, cells),
+            outcome => Ok(outcome),
+        }
     }
 
     /// Whether the box of a factor is stable.
@@ -153,7 +175,7 @@ impl<'a> ToleranceProblem<'a> {
     /// [`Exhausted`] when the budget runs out.
     pub fn decide(&self, factor: &Rational, budget: &Budget) -> Result<BoxDecision, Exhausted> {
         budget.step("proving the box");
-        match self.attempt(factor, usize::MAX >> 1, budget)? {
+        match self.attempt(factor, MOST_CELLS, budget)? {
             Outcome::Stable(proof) => Ok(BoxDecision::Stable(proof)),
             Outcome::Refuted(point) => Ok(BoxDecision::NotStable { witness: self.witness_near(&point) }),
             Outcome::Open { why, cell } => Ok(BoxDecision::Undecided { why, cell }),
@@ -194,19 +216,31 @@ impl<'a> ToleranceProblem<'a> {
         most: Option<&Rational>,
         budget: &Budget,
     ) -> Result<LargestFactor, Exhausted> {
-        self.bracket(&|_| gap.clone(), most, budget)
+        self.bracket(self.searched(budget)?, &|_| gap.clone(), most, budget)
     }
 
-    /// [`ToleranceProblem::largest_factor`] with a relative width that depends on the upper end.
+    /// The nearest points that are not stable, as far as a search without proof finds them.
+    pub(crate) fn searched(&self, budget: &Budget) -> Result<Search<'_>, Exhausted> {
+        budget.step("looking for the worst point");
+        let mut search = self.search();
+        budget.enter(|| search.run(self.scale))?;
+        Ok(search)
+    }
+
+    /// What a search found within the box of a factor.
+    pub(crate) fn refuted(&self, search: &Search, factor: &Rational) -> Option<Witness> {
+        let best = search.best.as_ref().filter(|best| best.hi <= *factor)?;
+        self.witness(search.line(&best.direction).witness(&best.lo, &best.hi)?)
+    }
+
+    /// [`ToleranceProblem::largest_factor`] from a search, with a relative width that depends on the upper end.
     pub(crate) fn bracket(
         &self,
+        mut search: Search,
         gap: &dyn Fn(&Rational) -> Rational,
         most: Option<&Rational>,
         budget: &Budget,
     ) -> Result<LargestFactor, Exhausted> {
-        budget.step("looking for the worst point");
-        let mut search = self.search();
-        budget.enter(|| search.run(self.scale))?;
         let mut proved: Option<(Rational, BoxProof)> = None;
         let mut open = None;
         let mut coarser = Rational::ONE;

@@ -1,12 +1,16 @@
 //! The loop along a straight line of parameters.
 
 use super::polynomial::{BoxPolynomial, Bundle};
+use super::rough::{Rough, RoughPoly, is_roughly_hurwitz};
 use crate::stability::is_hurwitz_routh;
 use jurist_algebra::limits::checkpoint;
 use jurist_algebra::number::{Integer, Rational, Sign};
 use jurist_algebra::poly::real_roots::signed_remainder_sequence;
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly};
 use std::cmp::Ordering;
+
+/// Stretches up to this many binary digits are found by rounded numbers.
+const ROUGH_BITS: u64 = 40;
 
 /// Growth beyond this factor is not searched.
 pub(super) const FARTHEST: u32 = 20;
@@ -21,6 +25,8 @@ pub(super) struct Line<'a> {
     certain: Vec<UniPoly>,
     /// The signs of these where the loop is known to be stable.
     reference: &'a [Sign],
+    /// The same polynomials, rounded: coefficients and certain ones.
+    rough: [Vec<RoughPoly>; 2],
 }
 
 /// How the polynomial that vanishes at a crossing depends on the parameters.
@@ -35,10 +41,9 @@ impl<'a> Line<'a> {
     pub fn new(p: &'a BoxPolynomial, base: Vec<Rational>, step: Vec<Rational>, reference: &'a [Sign]) -> Self {
         let coefficients = along(&p.coefficients, &base, &step);
         let one = |f| along(&Bundle::new(&[f], base.len()), &base, &step).remove(0);
-        let mut certain: Vec<UniPoly> = p.certain[..p.divisors].iter().map(|(_, f)| one(f)).collect();
-        certain.push(coefficients[0].clone());
-        certain.push(coefficients[p.formal_degree()].clone());
-        Line { p, base, step, coefficients, certain, reference }
+        let certain: Vec<UniPoly> = p.certain.iter().map(|(_, f)| one(f)).collect();
+        let rough = [&coefficients, &certain].map(|all| all.iter().map(RoughPoly::of).collect());
+        Line { p, base, step, coefficients, certain, reference, rough }
     }
 
     /// The point at `t`.
@@ -73,15 +78,25 @@ impl<'a> Line<'a> {
         kept && is_hurwitz_routh(&self.coefficients_at(t))
     }
 
-    /// A stretch `(lo, hi)` in which stability is lost, of width at most `hi / 2^bits`: `lo` is good, `hi` is not. Looked for up
-    /// to `limit`; `None` where nothing is found.
+    /// [`Line::is_good`] by rounded numbers, for the search.
+    fn seems_good(&self, t: &Rational) -> bool {
+        checkpoint(10);
+        let t = Rough::of_rational(t);
+        let [coefficients, certain] = &self.rough;
+        let kept = certain.iter().zip(self.reference).all(|(f, sign)| f.at(t).is_positive() == sign.is_gt());
+        kept && is_roughly_hurwitz(&coefficients.iter().map(|c| c.at(t)).collect::<Vec<_>>())
+    }
+
+    /// A stretch `(lo, hi)` in which stability is lost, of width at most `hi / 2^bits`: `lo` is good, `hi` is not; up to
+    /// [`ROUGH_BITS`] by rounded numbers only. Looked for up to `limit`; `None` where nothing is found.
     pub fn crossing(&self, limit: Option<&Rational>, bits: u64) -> Option<(Rational, Rational)> {
+        let is_good = |t: &Rational| if bits <= ROUGH_BITS { self.seems_good(t) } else { self.is_good(t) };
         let (mut lo, mut hi) = (Rational::ZERO, None);
         match limit {
             Some(limit) => {
                 for part in 1..=4 {
                     let t = limit * &Rational::new(part.into(), 4.into());
-                    if !self.is_good(&t) {
+                    if !is_good(&t) {
                         hi = Some(t);
                         break;
                     }
@@ -91,7 +106,7 @@ impl<'a> Line<'a> {
             None => {
                 for power in -12..=FARTHEST as i64 {
                     let t = Rational::from(2).pow(power).expect("two is not zero");
-                    if !self.is_good(&t) {
+                    if !is_good(&t) {
                         hi = Some(t);
                         break;
                     }
@@ -103,14 +118,17 @@ impl<'a> Line<'a> {
     }
 
     /// The stretch between a good and another place, narrowed.
-    pub fn narrowed(&self, mut lo: Rational, mut hi: Rational, bits: u64) -> Option<(Rational, Rational)> {
-        let share = Rational::dyadic(&Integer::ONE, bits);
-        let least = Rational::dyadic(&Integer::ONE, 200);
-        while &hi - &lo > &hi * &share && hi > least {
-            let middle = lo.midpoint(&hi);
-            if self.is_good(&middle) { lo = middle } else { hi = middle }
+    pub fn narrowed(&self, lo: Rational, hi: Rational, bits: u64) -> Option<(Rational, Rational)> {
+        let (near, far) = halved(lo.clone(), hi.clone(), bits.min(ROUGH_BITS), |t| self.seems_good(t));
+        if bits <= ROUGH_BITS {
+            return Some((near, far));
         }
-        Some((lo, hi))
+        // A little wider than rounding can be off.
+        let room = &far * &Rational::dyadic(&Integer::ONE, ROUGH_BITS - 2);
+        let (near, far) = ((&near - &room).max(lo.clone()), (&far + &room).min(hi.clone()));
+        let is_right = self.is_good(&near) && !self.is_good(&far);
+        let (lo, hi) = if is_right { (near, far) } else { (lo, hi) };
+        Some(halved(lo, hi, bits, |t| self.is_good(t)))
     }
 
     /// What vanishes in a narrow stretch and how it depends on the parameters; `None` where that cannot be told.
@@ -169,6 +187,17 @@ impl<'a> Line<'a> {
             })
             .or_else(|| simple().filter(|t| t <= hi).as_ref().and_then(candidate))
     }
+}
+
+/// Halves a stretch until its width is at most `hi / 2^bits`.
+fn halved(mut lo: Rational, mut hi: Rational, bits: u64, is_good: impl Fn(&Rational) -> bool) -> (Rational, Rational) {
+    let share = Rational::dyadic(&Integer::ONE, bits);
+    let least = Rational::dyadic(&Integer::ONE, 200);
+    while &hi - &lo > &hi * &share && hi > least {
+        let middle = lo.midpoint(&hi);
+        if is_good(&middle) { lo = middle } else { hi = middle }
+    }
+    (lo, hi)
 }
 
 /// The zero of a linear polynomial, or of another that has a rational one, in `(lo, hi]`.

@@ -6,19 +6,23 @@
 //! values are not affine in it ([ZettlerGarloff1998](jurist_algebra::bibliography#zettlergarloff1998),
 //! [Farouki2012](jurist_algebra::bibliography#farouki2012)).
 
+mod determinants;
 mod exact;
 mod factor;
 mod line;
+mod multiplier;
 mod polynomial;
 mod prove;
+mod rough;
 mod search;
 mod separate;
 mod sides;
+mod tangent;
 mod tensor;
 mod tree;
 mod volume;
 
-pub use exact::{CriticalCell, ExactProof};
+pub use exact::{CriticalCell, ExactProof, Place};
 pub use factor::{BoxDecision, LargestFactor, ToleranceProblem, Witness};
 pub(crate) use line::on_line;
 pub use polynomial::BoxPolynomial;

@@ -3,8 +3,11 @@
 use crate::stability::{AtPoint, Cause, Shape, count_roots};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly};
+use jurist_algebra::poly::{Domain, Monomial, MultiPoly, Poly, UniPoly};
 use std::collections::BTreeMap;
+
+/// Repeated factors of a polynomial of more terms are not looked for.
+const MOST_TERMS: usize = 64;
 
 /// Several polynomials in the same parameters, gathered by monomial: exponents with one coefficient for each polynomial.
 #[derive(Clone, Debug)]
@@ -113,12 +116,18 @@ impl BoxPolynomial {
     ///
     /// Cost: clearing denominators, and `O(n^2)` additions of polynomials in the parameters in discrete time.
     pub fn new(d: &CharacteristicPolynomial, shape: Shape) -> Self {
+        BoxPolynomial::over(d, d.variables.len(), shape)
+    }
+
+    /// The same with so many variables: parameters, and what else occurs in the coefficients.
+    ///
+    /// Cost: that of [`BoxPolynomial::new`].
+    pub fn over(d: &CharacteristicPolynomial, parameters: usize, shape: Shape) -> Self {
         let (original, denominator) = d.cleared();
         let n = d.formal_degree;
-        let parameters = d.variables.len();
         let mut divisors: Vec<MultiPoly> = Vec::new();
         for p in d.poles.iter().chain([&denominator]) {
-            let p = p.primitive_over_integers();
+            let p = without_squares(p);
             if !p.is_constant() && !divisors.contains(&p) {
                 divisors.push(p);
             }
@@ -133,8 +142,8 @@ impl BoxPolynomial {
         };
         let count = divisors.len();
         let mut certain: Vec<(Cause, MultiPoly)> = divisors.into_iter().map(|p| (Cause::Pole, p)).collect();
-        certain.push((at_zero, in_half_plane[0].clone()));
-        certain.push((at_infinity, in_half_plane[n].clone()));
+        certain.push((at_zero, without_squares(&in_half_plane[0])));
+        certain.push((at_infinity, without_squares(&in_half_plane[n])));
         let coefficients = Bundle::new(&in_half_plane.iter().collect::<Vec<_>>(), parameters);
         BoxPolynomial { original, certain, coefficients, divisors: count, parameters, formal_degree: n, shape }
     }
@@ -147,6 +156,20 @@ impl BoxPolynomial {
     /// The degree the polynomial is meant to have.
     pub fn formal_degree(&self) -> usize {
         self.formal_degree
+    }
+
+    /// The coefficients `c_0, ..., c_n` of the polynomial in the half plane, in the parameters.
+    pub fn in_half_plane(&self) -> Vec<MultiPoly> {
+        let part = |k: usize| {
+            let terms = self.coefficients.terms.iter().filter(|(_, c)| !c[k].is_zero());
+            MultiPoly::from_terms(terms.map(|(exponents, c)| (exponents.clone(), c[k].clone())))
+        };
+        (0..=self.formal_degree).map(part).collect()
+    }
+
+    /// What must not vanish in a stable box, each with what happens where it does, in the order of the trees of a proof.
+    pub fn certain(&self) -> &[(Cause, MultiPoly)] {
+        &self.certain
     }
 
     /// The exact root count at a point.
@@ -167,7 +190,7 @@ impl BoxPolynomial {
 
     /// Whether the loop is stable at a point: defined, of full degree, all roots inside.
     pub fn is_stable_at(&self, point: &[Rational]) -> bool {
-        matches!(self.at(point), AtPoint::Defined { count, infinite: 0 } if count.inside == self.formal_degree)
+        self.at(point).is_stable(self.formal_degree)
     }
 
     /// `E_0, ..., E_k, O_0, ..., O_k` with `P(i w) = E(w^2) + i w O(w^2)`.
@@ -183,6 +206,22 @@ impl BoxPolynomial {
             part(0).chain(part(1)).collect()
         })
     }
+}
+
+/// A polynomial with the same zeros that, where it has only simple factors, changes its sign there; of many terms only where
+/// these have a common factor.
+fn without_squares(p: &MultiPoly) -> MultiPoly {
+    let p = p.primitive_over_integers();
+    let is_linear = p.degrees().iter().all(|&degree| degree <= 1);
+    if is_linear || p.is_zero() {
+        return p;
+    }
+    let content = p.monomial_content();
+    if p.terms().len() > MOST_TERMS {
+        let once: Vec<u32> = content.exponents().iter().map(|&e| e.saturating_sub(1)).collect();
+        return p.div_exact_monomial(&Monomial::new(&once)).unwrap_or(p);
+    }
+    p.square_free_part().primitive_over_integers()
 }
 
 /// The coefficients of `(1 - s)^n D((1 + s)/(1 - s))`.

@@ -1,5 +1,6 @@
 //! The proof that a whole box is stable.
 
+use super::multiplier::{Sought, affine_multiplier};
 use super::polynomial::{BoxPolynomial, Bundle};
 use super::separate::separating_vector;
 use super::tensor::{FrequencyScale, Tensor};
@@ -12,10 +13,13 @@ use jurist_algebra::poly::algebraic::simplest_between;
 pub const MOST_COEFFICIENTS: usize = 1 << 20;
 
 /// Cells that wait may take so many bytes together.
-const WAITING_BYTES: usize = 2 << 30;
+const WAITING_BYTES: usize = 1 << 29;
 
 /// After so many cells a point of the present one is tested.
 const TESTED_EVERY: usize = 64;
+
+/// After so many nodes vectors that are affine in a cell are tried, in cells halved so often.
+const AFFINE_AFTER: (usize, u32) = (48, 6);
 
 /// Parts of each side in which a cell that stays open is tested.
 const PARTS: i64 = 8;
@@ -120,7 +124,7 @@ fn not_stable_in(p: &BoxPolynomial, sides: &[[Rational; 2]]) -> Option<Vec<Ratio
     })
 }
 
-/// Decides one box, with at most so many cells.
+/// Decides one box, with at most so many cells, closed in this way.
 ///
 /// No root crosses the imaginary axis in a connected set on which no divisor, the constant and the leading coefficient and the
 /// pair `(E, O)` at no positive frequency vanish: the number of roots on either side is that of the nominal point, which is
@@ -131,7 +135,7 @@ pub(super) fn prove(
     sides: &[[Rational; 2]],
     reference: &[Sign],
     scale: i64,
-    most_cells: usize,
+    (closed, most_cells): (Closing, usize),
     budget: &Budget,
 ) -> Result<Outcome, Exhausted> {
     let mut certain = Vec::new();
@@ -148,14 +152,16 @@ pub(super) fn prove(
     let frequency = sides.len();
     while let Some(cell) = stack.pop() {
         budget.check()?;
-        let [x, y] = cell.tensor.planes.as_slice() else { unreachable!("a pair") };
-        if let Some((a, b)) = separating_vector(x, y, cell.tensor.error) {
-            nodes.push(Node::Separated(a, b));
-            continue;
-        }
+        let hint = match closed(&cell, nodes.len()) {
+            Ok(node) => {
+                nodes.push(node);
+                continue;
+            }
+            Err(hint) => hint,
+        };
         let inner = || cell.sides(sides);
         tested += 1;
-        if tested % TESTED_EVERY == 0 {
+        if tested % (if nodes.len() < AFFINE_AFTER.0 { TESTED_EVERY } else { TESTED_EVERY / 4 }) == 0 {
             let point = simplest_point(&inner());
             if !p.is_stable_at(&point) {
                 return Ok(Outcome::Refuted(point));
@@ -171,7 +177,7 @@ pub(super) fn prove(
         } else {
             None
         };
-        let axis = cell.tensor.best_axis().filter(|_| why.is_none());
+        let axis = hint.or_else(|| cell.tensor.best_axis()).filter(|_| why.is_none());
         let Some(axis) = axis else {
             let cell = inner();
             if let Some(point) = not_stable_in(p, &cell) {
@@ -184,6 +190,29 @@ pub(super) fn prove(
         stack.extend([high, low]);
     }
     Ok(Outcome::Stable(BoxProof { certain, scale, weight, pair: Tree(nodes) }))
+}
+
+/// The leaf of a cell without a zero of the pair, in a tree of so many nodes so far; where no vector shows it, the axis along
+/// which to halve the cell, if that is known.
+pub(super) type Closing = fn(&Cell, usize) -> Result<Node, Option<usize>>;
+
+/// [`Closing`] by vectors that are constant in a cell: enough where the worst point is a corner.
+pub(super) fn closed_by_constant(cell: &Cell, _: usize) -> Result<Node, Option<usize>> {
+    let [x, y] = cell.tensor.planes.as_slice() else { unreachable!("a pair") };
+    let found = separating_vector(x, y, cell.tensor.error).ok_or(None)?;
+    Ok(Node::Separated(found.0, found.1))
+}
+
+/// [`Closing`] also by vectors that are affine in a cell.
+pub(super) fn closed_by_vector(cell: &Cell, nodes: usize) -> Result<Node, Option<usize>> {
+    let constant = closed_by_constant(cell, nodes);
+    if constant.is_ok() || nodes < AFFINE_AFTER.0 || cell.halvings() < AFFINE_AFTER.1 {
+        return constant;
+    }
+    match affine_multiplier(&cell.tensor) {
+        Sought::Found(found) => Ok(Node::affine(found, cell.tensor.axes() - 1)),
+        Sought::Missed(axis) => Err(axis),
+    }
 }
 
 /// The tree that proves that a polynomial keeps its sign in a box, or why that is not so or not known.

@@ -4,10 +4,11 @@ use super::line::{Gradient, Line, rounded, unit};
 use super::polynomial::BoxPolynomial;
 use super::sides::Side;
 use jurist_algebra::number::{Integer, Rational, Sign};
+use jurist_algebra::poly::algebraic::simplest_between;
 use std::cmp::Ordering;
 
 /// While directions are compared, crossings are known to so many binary digits.
-const COARSE: u64 = 14;
+const COARSE: u64 = 36;
 
 /// The crossing of the best direction, in the end.
 const FINE: u64 = 60;
@@ -38,12 +39,12 @@ pub(super) struct Crossing {
     pub hi: Rational,
 }
 
-pub(super) struct Search<'a> {
+pub(crate) struct Search<'a> {
     p: &'a BoxPolynomial,
     sides: &'a [Side],
     reference: &'a [Sign],
     /// The nearest crossing so far.
-    pub best: Option<Crossing>,
+    pub(super) best: Option<Crossing>,
 }
 
 impl<'a> Search<'a> {
@@ -52,7 +53,7 @@ impl<'a> Search<'a> {
     }
 
     /// The line in a direction; the factor is its parameter.
-    pub fn line(&self, direction: &[Rational]) -> Line<'a> {
+    pub(super) fn line(&self, direction: &[Rational]) -> Line<'a> {
         let (base, step) = ray(self.sides, direction);
         Line::new(self.p, base, step, self.reference)
     }
@@ -164,7 +165,11 @@ impl<'a> Search<'a> {
         let limit = self.best.as_ref().map(|b| b.hi.clone());
         let Some((mut current, mut line)) = self.nearer(&start, limit.as_ref()) else { return };
         for _ in 0..ROUNDS {
-            let Some(gradient) = line.gradient(&current.lo, &current.hi) else { break };
+            let closer = || {
+                let (lo, hi) = line.crossing(Some(&(&current.hi + &current.hi)), FINE)?;
+                line.gradient(&lo, &hi)
+            };
+            let Some(gradient) = line.gradient(&current.lo, &current.hi).or_else(closer) else { break };
             let wanted: Vec<Rational> = wanted(&gradient);
             let Some(turned) = self.normalised(wanted.clone()) else { break };
             if turned == current.direction {
@@ -260,18 +265,45 @@ impl<'a> Search<'a> {
 
     /// Narrows the stretch of the best crossing.
     pub fn refine(&mut self) {
-        if let Some(best) = &mut self.best {
-            let offset = best.clone();
-            let line = Search::new(self.p, self.sides, self.reference).line(&offset.direction);
-            if let Some((lo, hi)) = line.narrowed(offset.lo, offset.hi, FINE) {
-                (best.lo, best.hi) = (lo, hi);
-            }
+        // What rounded numbers found is tested exactly.
+        if let Some(Crossing { direction, lo, hi }) = self.best.take() {
+            let line = self.line(&direction);
+            let lo = if line.is_good(&lo) { lo } else { Rational::ZERO };
+            let found = if line.is_good(&hi) { line.crossing(None, FINE) } else { line.narrowed(lo, hi, FINE) };
+            self.best = found.map(|(lo, hi)| Crossing { direction, lo, hi });
         }
         self.settle();
+        self.simplify();
+    }
+
+    /// Takes simple numbers where they serve as well: for coordinates inside, and for the factor itself.
+    fn simplify(&mut self) {
+        let Some(best) = self.best.clone() else { return };
+        let near = Rational::dyadic(&Integer::ONE, u64::from(COORDINATE_BITS) - 5);
+        let simple = |c: &Rational| {
+            let is_inside = !c.is_zero() && c.abs() != Rational::ONE;
+            let simplest = if is_inside { simplest_between(&(c - &near), &(c + &near)) } else { None };
+            simplest.unwrap_or_else(|| c.clone())
+        };
+        let direction: Vec<Rational> = best.direction.iter().map(simple).collect();
+        if direction != best.direction {
+            let noise = &best.hi * &Rational::dyadic(&Integer::ONE, FINE - 2);
+            let limit = &best.hi + &noise;
+            if let Some((lo, hi)) = self.line(&direction).crossing(Some(&limit), FINE) {
+                self.best = Some(Crossing { direction, lo, hi });
+            }
+        }
+        let Some(best) = &mut self.best else { return };
+        let line = Search::new(self.p, self.sides, self.reference).line(&best.direction);
+        if let Some(t) = simplest_between(&best.lo, &best.hi)
+            && !self.p.is_stable_at(&line.point(&t))
+        {
+            best.hi = t;
+        }
     }
 
     /// The derivative of what crosses by each parameter times its width, as shares that sum to 1.
-    pub fn shares(&self, crossing: &Crossing) -> Option<Vec<Rational>> {
+    pub(super) fn shares(&self, crossing: &Crossing) -> Option<Vec<Rational>> {
         let line = self.line(&crossing.direction);
         let gradient = line.gradient(&crossing.lo, &crossing.hi)?;
         let weights: Vec<Rational> = self

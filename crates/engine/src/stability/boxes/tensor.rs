@@ -69,6 +69,27 @@ impl Tensor {
         self.planes[0].len()
     }
 
+    /// The number of coefficients along each axis.
+    pub fn counts(&self) -> &[usize] {
+        &self.counts
+    }
+
+    /// The number of coefficients along an axis.
+    pub fn count(&self, axis: usize) -> usize {
+        self.counts[axis]
+    }
+
+    /// The differences of neighbours of the pair along an axis.
+    pub fn differences(&self, axis: usize, mut f: impl FnMut(i128, i128)) {
+        let (stride, count) = (self.stride(axis), self.counts[axis]);
+        let [x, y] = self.planes.as_slice() else { unreachable!("a pair") };
+        for (x, y) in x.chunks(stride * count).zip(y.chunks(stride * count)) {
+            for at in 0..(count - 1) * stride {
+                f(x[at + stride] - x[at], y[at + stride] - y[at]);
+            }
+        }
+    }
+
     fn stride(&self, axis: usize) -> usize {
         self.counts[axis + 1..].iter().product()
     }

@@ -1,0 +1,188 @@
+//! The answer about a box, step by step: a point that is not stable, a proof, the largest factor.
+
+use super::held::Truth;
+use super::{ToleranceAnswer, ToleranceRequest, WorstEnd};
+use crate::answer::Answer;
+use crate::error::{Diagnostic, Error};
+use crate::problem::Problem;
+use crate::stability::boxes::{
+    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, LargestFactor, MOST_PARAMETERS, Side, ToleranceProblem, ray,
+};
+use crate::stability::{AtPoint, Range};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::RealAlgebraic;
+use std::sync::Arc;
+
+/// The part of the time that may be spent on the exact end of the worst line.
+const END_SHARE: (u32, u32) = (1, 3);
+
+impl Problem {
+    pub(super) fn tolerance(
+        self: &Arc<Self>,
+        sides: Vec<Side>,
+        request: &ToleranceRequest,
+        budget: &Budget,
+    ) -> Result<Answer<ToleranceAnswer>, Error> {
+        let truth = Truth::of(self, budget)?;
+        let Some(d) = self.algebra_over_symbols(budget)?.polynomial() else {
+            let decision = BoxDecision::NotStable { witness: None };
+            return Ok(self.answered(sides, AtPoint::Undefined, decision));
+        };
+        let all = truth.beside(&sides);
+        let p = budget.enter(|| BoxPolynomial::over(d, all.len(), self.shape()))?;
+        let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
+        let at = truth.at(&p, &nominal, budget)?;
+        let Some(boxes) = budget.enter(|| ToleranceProblem::new(&p, all.clone()))? else {
+            let decision = match truth.is_exact() || !at.is_stable(p.formal_degree()) {
+                true => BoxDecision::not_stable_at(nominal, at.clone()),
+                false => {
+                    BoxDecision::Undecided { why: "constants that are not told from their limits", cell: Vec::new() }
+                }
+            };
+            return Ok(self.answered(sides, at, decision));
+        };
+        if boxes.coefficients().is_none() {
+            return Err(too_many(&boxes));
+        }
+        let domain_factor = self.domain_factor(&sides);
+        let search = boxes.searched(budget)?;
+        let refuted = boxes.refuted(&search, &Rational::ONE).map(|witness| truth.confirmed(&p, witness, budget));
+        let decision = match refuted.transpose()?.flatten() {
+            Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
+            None => truth.decision(&p, boxes.decide(&Rational::ONE, budget)?, budget)?,
+        };
+        let factor = boxes.bracket(search, &|_| request.gap.clone(), domain_factor.as_ref(), budget)?;
+        let factor = truth.factor(&p, factor, budget)?;
+        let (worst, cells) = match truth.is_exact() {
+            true => self.worst_end(&sides, &factor, budget)?.unzip(),
+            false => (None, None),
+        };
+        let limit = match &request.limit {
+            None => None,
+            Some(name) => Some(self.tolerance_limit(&p, &sides, &truth, name, request, budget)?),
+        };
+        let exact = match (&worst, &cells) {
+            (Some(worst), Some(cells)) if request.exact => boxes.exact(&factor, &worst.end, cells, budget)?,
+            _ => None,
+        };
+        let volume = self.volume(&boxes, sides.len(), request, budget)?;
+        let decision = agreed(decision, &factor, exact.as_ref());
+        let value = ToleranceAnswer {
+            sides,
+            nominal: at,
+            decision,
+            factor: Some(factor),
+            worst,
+            exact,
+            domain_factor,
+            limit,
+            volume,
+        };
+        Ok(Answer::new(Arc::clone(self), value))
+    }
+
+    fn volume(
+        &self,
+        boxes: &ToleranceProblem,
+        parameters: usize,
+        request: &ToleranceRequest,
+        budget: &Budget,
+    ) -> Result<Option<BoxVolume>, Error> {
+        let Some(undecided) = &request.volume else { return Ok(None) };
+        if parameters > MOST_PARAMETERS {
+            let message = format!("the volume of a box is found for up to {MOST_PARAMETERS} parameters");
+            return Err(Diagnostic::error("E-tolerance", message)
+                .help("leave some out with --fix; the shares of the margin are found for any number")
+                .into());
+        }
+        Ok(Some(boxes.volume(&Rational::ONE, undecided, budget)?))
+    }
+
+    fn answered(
+        self: &Arc<Self>,
+        sides: Vec<Side>,
+        nominal: AtPoint,
+        decision: BoxDecision,
+    ) -> Answer<ToleranceAnswer> {
+        let value = ToleranceAnswer {
+            sides,
+            nominal,
+            decision,
+            factor: None,
+            worst: None,
+            exact: None,
+            domain_factor: None,
+            limit: None,
+            volume: None,
+        };
+        Answer::new(Arc::clone(self), value)
+    }
+
+    /// The factor at which the first parameter reaches the end of its open domain.
+    fn domain_factor(&self, sides: &[Side]) -> Option<Rational> {
+        let mut factors = Vec::new();
+        for (free, side) in self.free().iter().zip(sides) {
+            let rooms = [
+                free.domain.lower.as_ref().map(|low| side.nominal() - low),
+                free.domain.upper.as_ref().map(|high| high - side.nominal()),
+            ];
+            for (room, width) in rooms.into_iter().zip(side.widths()) {
+                factors.extend(room.and_then(|room| room.checked_div(width)).filter(|f| f.sign().is_gt()));
+            }
+        }
+        factors.into_iter().min()
+    }
+
+    /// The exact end of the first stable interval on the worst line, where the time allows it.
+    pub(super) fn worst_end(
+        self: &Arc<Self>,
+        sides: &[Side],
+        factor: &LargestFactor,
+        budget: &Budget,
+    ) -> Result<Option<(WorstEnd, Vec<RealAlgebraic>)>, Error> {
+        let (Some(direction), Some(upper)) = (&factor.direction, &factor.upper) else { return Ok(None) };
+        let (base, step) = ray(sides, direction);
+        let range = Range::between(Some(Rational::ZERO), Some(upper * &Rational::from(2)));
+        let part = budget.share(END_SHARE.0, END_SHARE.1);
+        let problem = Arc::new(self.on_ray("factor", &base, &step, range, &part)?);
+        let set = match problem.stable_set(&part) {
+            Ok(set) => set,
+            Err(Error::Stopped(_)) => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        let first =
+            set.value().intervals().first().filter(|i| i.lower.as_ref().is_none_or(|end| end.value.sign().is_eq()));
+        let end = first.and_then(|i| i.upper.clone());
+        let zeros = set.value().cells().map(|cells| cells.zeros.clone()).unwrap_or_default();
+        Ok(end.map(|end| (WorstEnd { problem, end }, zeros)))
+    }
+}
+
+/// The decision about the box itself, where the bracket says more.
+fn agreed(decision: BoxDecision, factor: &LargestFactor, exact: Option<&ExactProof>) -> BoxDecision {
+    match decision {
+        BoxDecision::Stable(_) => decision,
+        // The exact factor is in the bracket around 1, and not above 1.
+        BoxDecision::Undecided { .. }
+            if exact.is_some_and(|proof| proof.value.compare_rational(&Rational::ONE).is_le()) =>
+        {
+            BoxDecision::NotStable { witness: None }
+        }
+        _ if factor.upper.as_ref().is_some_and(|upper| *upper <= Rational::ONE) => {
+            let known = match decision {
+                BoxDecision::NotStable { witness } => witness,
+                _ => None,
+            };
+            BoxDecision::NotStable { witness: factor.witness.clone().or(known) }
+        }
+        _ => decision,
+    }
+}
+
+fn too_many(boxes: &ToleranceProblem) -> Error {
+    let message = format!("{} tolerances have too many Bernstein coefficients", boxes.parameters());
+    Diagnostic::error("E-tolerance", message)
+        .help("leave some out with --fix, or give a product of parameters that only occur together one tolerance")
+        .into()
+}

@@ -1,0 +1,129 @@
+//! Tolerances of loops with constants that are not rational, such as plants behind a hold whose times are fixed.
+//!
+//! Each symbol is one more side of the box, as wide as its enclosure: what is proved for all values in it holds for the true
+//! one. A point that is not stable is counted once more with the true constants.
+
+use crate::answer::Verdict;
+use crate::error::{Diagnostic, Error};
+use crate::problem::Problem;
+use crate::stability::AtPoint;
+use crate::stability::boxes::{BoxDecision, BoxPolynomial, LargestFactor, Side, Witness};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use std::sync::Arc;
+
+/// Symbols are enclosed with so many bits after the point.
+const SYMBOL_BITS: u64 = 512;
+
+/// What the polynomial's variables beyond the free parameters are.
+pub(super) struct Truth<'a> {
+    problem: &'a Arc<Problem>,
+    symbols: Vec<Side>,
+}
+
+impl<'a> Truth<'a> {
+    /// Encloses the symbols of a problem.
+    ///
+    /// # Errors
+    /// `E-function` where a parameter with a tolerance is inside of a function; `E-dead-time`.
+    pub fn of(problem: &'a Arc<Problem>, budget: &Budget) -> Result<Self, Error> {
+        let symbols = problem.algebra_over_symbols(budget)?.symbols();
+        if symbols.is_empty() {
+            return Ok(Truth { problem, symbols: Vec::new() });
+        }
+        if symbols.is_moving() && symbols.delays().is_empty() {
+            let moving = symbols.iter().filter(|symbol| symbol.is_moving).take(3);
+            let list: Vec<String> = moving.map(|symbol| symbol.name.clone()).collect();
+            let message = "a parameter with a tolerance is inside of a function: tolerances of it are not decided yet";
+            let help = format!("leave it out with --fix; the functions are {}", list.join(", "));
+            return Err(Diagnostic::error("E-function", message).help(help).into());
+        }
+        let table = problem.fixed_symbols(budget)?;
+        let values = budget.enter(|| table.values(SYMBOL_BITS))?;
+        let side = |ball: &jurist_algebra::ball::Ball| {
+            let (low, high) = (ball.lower(), ball.upper());
+            let middle = low.midpoint(&high);
+            let widths = [&middle - &low, &high - &middle];
+            Side::fixed(middle, widths)
+        };
+        Ok(Truth { problem, symbols: values.iter().map(side).collect() })
+    }
+
+    /// Whether everything is rational.
+    pub fn is_exact(&self) -> bool {
+        self.symbols.is_empty()
+    }
+
+    /// The sides of the parameters and those of the symbols.
+    pub fn beside(&self, sides: &[Side]) -> Vec<Side> {
+        sides.iter().chain(&self.symbols).cloned().collect()
+    }
+
+    /// The exact root count at a point of the parameters.
+    pub fn at(&self, p: &BoxPolynomial, point: &[Rational], budget: &Budget) -> Result<AtPoint, Error> {
+        if self.is_exact() {
+            return Ok(budget.enter(|| p.at(point))?);
+        }
+        let problem = self.problem;
+        let names = problem.free().iter().map(|free| free.name.clone());
+        let question = problem.model().ask().within(problem.region().clone()).set_all(problem.set().to_vec());
+        let verdict = question.set_all(names.zip(point.iter().cloned())).verdict(budget)?.into_value();
+        Ok(match (verdict.verdict, verdict.count) {
+            (Verdict::Undefined, _) | (_, None) => AtPoint::Undefined,
+            (_, Some(count)) => AtPoint::Defined { count, infinite: verdict.infinite },
+        })
+    }
+
+    /// A point that is not stable with the true constants.
+    pub fn confirmed(&self, p: &BoxPolynomial, witness: Witness, budget: &Budget) -> Result<Option<Witness>, Error> {
+        if self.is_exact() {
+            return Ok(Some(witness));
+        }
+        let mut point = witness.point;
+        point.truncate(self.problem.free().len());
+        let at = self.at(p, &point, budget)?;
+        Ok((!at.is_stable(p.formal_degree())).then(|| Witness::new(point, at)))
+    }
+
+    /// The decision with the true constants, for the parameters alone.
+    pub fn decision(&self, p: &BoxPolynomial, found: BoxDecision, budget: &Budget) -> Result<BoxDecision, Error> {
+        if self.is_exact() {
+            return Ok(found);
+        }
+        let close =
+            || BoxDecision::Undecided { why: "constants that are not told from their limits", cell: Vec::new() };
+        Ok(match found {
+            BoxDecision::NotStable { witness: Some(witness) } => match self.confirmed(p, witness, budget)? {
+                Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
+                None => close(),
+            },
+            BoxDecision::NotStable { witness: None } => close(),
+            BoxDecision::Undecided { why, mut cell } => {
+                cell.truncate(self.problem.free().len());
+                BoxDecision::Undecided { why, cell }
+            }
+            stable => stable,
+        })
+    }
+
+    /// The bracket with the true constants, for the parameters alone.
+    pub fn factor(&self, p: &BoxPolynomial, mut found: LargestFactor, budget: &Budget) -> Result<LargestFactor, Error> {
+        if self.is_exact() {
+            return Ok(found);
+        }
+        let free = self.problem.free().len();
+        let witness = match found.witness.take() {
+            None => None,
+            Some(witness) => self.confirmed(p, witness, budget)?,
+        };
+        if witness.is_none() {
+            (found.upper, found.direction, found.shares) = (None, None, None);
+        }
+        found.witness = witness;
+        found.direction.iter_mut().chain(&mut found.shares).for_each(|values| values.truncate(free));
+        if let Some((_, cell)) = &mut found.open {
+            cell.truncate(free);
+        }
+        Ok(found)
+    }
+}
