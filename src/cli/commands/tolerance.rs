@@ -3,17 +3,21 @@
 use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::assignments::in_line;
-use crate::cli::input::{decision, known_name, known_names};
+use crate::cli::input::{known_name, known_names, load, question};
+use crate::cli::output::ending;
+use crate::cli::picture::{Kind, Picture, deliver};
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_algebra::limits::Exhausted;
-use jurist_algebra::number::Rational;
-use jurist_engine::answer::ToleranceRequest;
+use jurist_algebra::number::{Rational, to_decimal};
+use jurist_draw::figures::tolerance_figure;
+use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
 use jurist_engine::error::Diagnostic;
 use jurist_engine::model::{Model, Tolerance};
-use jurist_engine::show::documents;
+use jurist_engine::show::documents::{self, to_text};
 use jurist_engine::show::tolerance_text;
 use jurist_engine::stability::boxes::BoxDecision;
+use std::ffi::OsString;
 use std::slice::from_ref;
 
 /// Options of `jurist tolerance`.
@@ -50,11 +54,17 @@ const MOST_DIGITS: u32 = 18;
 /// Answers on standard output or in a file: 0 stable for all values, 1 not, 3 undecided.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
-    let (model, question) = decision(&options.decision, context)?;
+    let picture = picture(output.output.as_ref());
+    if picture.is_none() {
+        context.check_output(output)?;
+    }
+    let model = load(options.decision.model.model.as_ref(), context)?;
+    let question = question(context, &model, &options.decision.model, &options.decision.region)?;
     let request = request(options, &model, context)?;
     let digits = output.digits() as usize;
     let answer = match decided(question.clone().tolerance(&request, &context.budget))? {
         Ok(answer) => answer,
+        Err(stopped) if picture.is_some() => return Ok(context.say_undecided(&stopped)),
         Err(stopped) => {
             let mut open = question;
             for (name, _) in &request.tolerances {
@@ -73,6 +83,19 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
             Diagnostic::warning("W-outside-domain", "the box of tolerances reaches the end of a parameter's domain");
         context.warn(None, &[warning]);
     }
+    if let Some(kind) = picture {
+        let figure = tolerance_figure(&answer, &context.budget)?;
+        context.reporter.finish();
+        let table = || shares_table(&answer);
+        let document = || to_text(&answer.json(digits));
+        let out = Picture { figure: &figure, csv: &table, json: &document, csv_beside: false };
+        deliver(&out, kind, output.output.as_ref())?;
+        return Ok(match &value.decision {
+            BoxDecision::Stable(_) => Status::Holds,
+            BoxDecision::Undecided { .. } => Status::Undecided,
+            _ => Status::DoesNotHold,
+        });
+    }
     let text_digits = output.digits.unwrap_or(BRACKET_DIGITS + 3) as usize;
     match &value.decision {
         BoxDecision::Undecided { why, .. } => {
@@ -84,6 +107,24 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
             Ok(if decision.is_stable() { Status::Holds } else { Status::DoesNotHold })
         }
     }
+}
+
+/// What picture a file is, by its ending.
+fn picture(file: Option<&OsString>) -> Option<Kind> {
+    match ending(file?).as_deref() {
+        Some("svg") => Some(Kind::Svg),
+        Some("png") => Some(Kind::Png),
+        Some("pdf") => Some(Kind::Pdf),
+        _ => None,
+    }
+}
+
+/// The shares, one a line.
+fn shares_table(answer: &Answer<ToleranceAnswer>) -> String {
+    let shares = answer.value().factor.iter().flat_map(|factor| factor.shares.iter().flatten());
+    let names = answer.problem().free().iter().map(|free| &free.name);
+    let lines = names.zip(shares).map(|(name, share)| format!("{name},{}\n", to_decimal(share, 12)));
+    std::iter::once("name,share\n".to_owned()).chain(lines).collect()
 }
 
 /// The tolerances of the model, of `--all` and of `--tol`, the later ones instead of the earlier.

@@ -14,6 +14,7 @@ mod panel;
 mod response;
 mod responses;
 mod sketch;
+mod tolerances;
 
 pub use axes::{Axis, Heading, Scale, Tick};
 pub use engineering::{quantity, unit_text};
@@ -23,6 +24,7 @@ pub use panel::{Corner, Curve, Mark, Panel, Shape, Text, side_by_side, stacked};
 pub use response::{FrequencyResponse, ResponsePoint, bode, frequency_response, nyquist};
 pub use responses::{ResponseCurve, axis_label, response_panel, response_panels, stairs, thinned};
 pub use sketch::Sketch;
+pub use tolerances::tolerance_figure;
 
 use crate::scene::{Colour, Scene};
 
