@@ -15,7 +15,7 @@
 use super::determinants::{derivatives, product};
 use super::factor::{LargestFactor, ToleranceProblem};
 use super::polynomial::Bundle;
-use super::prove::{Cell, Closing, Outcome, closed_by_constant, closed_by_vector, keeps_sign};
+use super::prove::{Cell, Outcome, closed_by_constant, closed_by_vector, keeps_sign};
 use super::search::ray;
 use super::sides::{Side, at_factor};
 use super::tangent::touching;
@@ -222,7 +222,7 @@ impl ToleranceProblem<'_> {
             if low.is_zero() || high.is_one() || !self.turns_one_way(&known, sides, &cell, &v0) {
                 continue;
             }
-            if let Some(tree) = self.cover(sides, &cell, budget)? {
+            if let Some(tree) = self.cover(sides, &cell, known.place.contains(&Place::Inside), budget)? {
                 return Ok(Some(known.proved(cell, tree)));
             }
         }
@@ -284,16 +284,15 @@ impl ToleranceProblem<'_> {
         &self,
         sides: &[[Rational; 2]],
         critical: &CriticalCell,
+        bends: bool,
         budget: &Budget,
     ) -> Result<Option<Tree>, Exhausted> {
         let (tensor, _) = Tensor::of_pair(&self.p.pair(), sides, FrequencyScale(self.scale));
-        let closings: [Closing; 2] = [closed_by_constant, closed_by_vector];
-        for closing in closings {
-            if let Some(tree) = cover(tensor.clone(), critical, &closing, budget)? {
-                return Ok(Some(tree));
-            }
+        if let Some(tree) = cover(tensor.clone(), critical, &closed_by_constant, budget)? {
+            return Ok(Some(tree));
         }
-        Ok(None)
+        // Zeros bend away from a point inside of a side only.
+        if bends { cover(tensor, critical, &closed_by_vector, budget) } else { Ok(None) }
     }
 
     /// A real root that reaches the boundary: everything else keeps away from it, and near the corner, outside of which it keeps
@@ -316,7 +315,7 @@ impl ToleranceProblem<'_> {
         let Some((f, sign)) = falling else { return Ok(None) };
         let mut parts = vec![[Rational::ZERO, Rational::ONE]; sides.len()];
         parts.push([Rational::from(2), Rational::from(3)]);
-        if self.cover(sides, &CriticalCell { parts }, budget)?.is_none() {
+        if self.cover(sides, &CriticalCell { parts }, false, budget)?.is_none() {
             return Ok(None);
         }
         let bundle = Bundle::new(&[f], sides.len());
