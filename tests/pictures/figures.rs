@@ -224,7 +224,8 @@ fn pictures(mut see: impl FnMut(&str, &Model, &str, &DrawnLocus)) {
         for p in model.parameters() {
             let answer = match model.ask().free(&p.name).stable_set(&budget) {
                 Ok(answer) => answer,
-                Err(Error::Refused(_)) => continue,
+                // A tie behind a hold may stay undecided.
+                Err(Error::Refused(_) | Error::Stopped(_)) => continue,
                 Err(other) => panic!("{name}: {other}"),
             };
             let ends = answer.value().intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
