@@ -58,7 +58,7 @@ const MOST_ORDER: usize = 32;
 const LARGEST: i64 = 1 << 15;
 
 /// After so many intervals what is left stays undecided.
-const MOST_LOOKS: usize = 1200;
+const MOST_LOOKS: usize = 250;
 
 /// How often the bits are doubled for one interval.
 const MOST_DOUBLINGS: usize = 4;
