@@ -50,9 +50,10 @@ fn plain(html: &str) -> String {
 
 /// The rows of the tables with this caption in a part, cell by cell.
 fn rows(html: &str, caption: &str) -> Vec<Vec<String>> {
+    let cell = |c: &str| plain(c).trim().to_owned();
     let table = |part: &str| -> Vec<Vec<String>> {
         let body = part.split("<tbody>").nth(1).and_then(|b| b.split("</tbody>").next()).expect("a body");
-        let cells = |row: &str| row.split("</td>").filter(|c| c.contains("<td")).map(plain).collect::<Vec<_>>();
+        let cells = |row: &str| row.split("</td>").filter(|c| c.contains("<td")).map(cell).collect::<Vec<_>>();
         body.split("</tr>").filter(|r| r.contains("<td")).map(cells).collect()
     };
     html.split(&format!("<caption>{caption}</caption>")).skip(1).flat_map(table).collect()
@@ -102,7 +103,13 @@ fn ends(set: &Value) -> Vec<&Value> {
 
 /// Every limit, cause and frequency of the page is that of `jurist analyze`, and none is missing.
 fn check_limits(html: &str, model: &str) {
-    let (long, short) = (json(&["analyze", model, "--json"]), json(&["analyze", model, "--json", "--digits", "7"]));
+    // What is not decided for one parameter (status 3) is for another.
+    let analysis = |digits: &str| -> Value {
+        let run = jurist(&["analyze", model, "--json", "--digits", digits]);
+        assert!([0, 3].contains(&run.status), "{model}: {}", run.stderr);
+        serde_json::from_str(&run.stdout).unwrap()
+    };
+    let (long, short) = (analysis("12"), analysis("7"));
     let part = section(html, "limits");
     let verdict = long["verdict"]["verdict"].as_str();
     if let Some(verdict) = verdict {
@@ -142,7 +149,8 @@ fn check_margins(html: &str, model: &str) {
         return;
     }
     let document: Value = serde_json::from_str(&run.stdout).unwrap();
-    assert!(part.contains(document["at"].as_str().unwrap()), "{model}");
+    // An index stands below the line, without its underscore.
+    assert!(part.contains(&document["at"].as_str().unwrap().replace('_', "")), "{model}");
     for place in
         [&document["phase"]["degrees"], &document["gain"]["upper"]["decimal"], &document["modulus"]["value"]["decimal"]]
     {
@@ -177,8 +185,10 @@ fn every_example_gives_a_complete_page() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|e| e == "toml") {
             let name = path.to_str().unwrap();
-            let html = page(name);
-            check_page(&html, name);
+            // Some are long: what the budget ends is a sentence of a page that is whole all the same.
+            let run = jurist(&["report", name, "-o", "-", "-q", "--timeout", "5"]);
+            assert!([0, 3].contains(&run.status), "{name}: {}", run.stderr);
+            check_page(&run.stdout, name);
         }
     }
 }
@@ -279,7 +289,7 @@ fn nothing_of_a_model_is_read_as_part_of_the_page() {
     );
     let run = jurist_with_input(&["report", "-", "-o", "-", "-q"], text.as_bytes());
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
-    check_page(&run.stdout.replace("src=x", ""), "hostile");
+    check_page(&run.stdout.replace("src=", ""), "hostile");
     assert!(plain(&run.stdout).contains("<script>alert(1)</script>"), "it is shown as text");
 }
 
