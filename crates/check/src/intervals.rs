@@ -11,6 +11,9 @@ use crate::format::Json;
 /// How a polynomial is written in the certificate; the text says which one it is.
 pub(super) type Reader<'r, P> = &'r dyn Fn(&Json, &str) -> Result<P, String>;
 
+/// An open interval of the line between two ends.
+type Stretch<P> = (End<P>, End<P>);
+
 /// A loop in one parameter.
 pub(super) struct Loop<'l, P> {
     pub discrete: bool,
@@ -225,7 +228,7 @@ fn walk<P: Coefficient>(
     factors: &[P],
     line: &Json,
     clock: &Clock,
-) -> Result<Vec<(End<P>, End<P>)>, String> {
+) -> Result<Vec<Stretch<P>>, String> {
     let line = list(line, "'line'")?;
     if line.len() % 2 == 0 {
         return Err("the line does not begin and end with a stretch".into());
@@ -240,7 +243,7 @@ fn walk<P: Coefficient>(
     };
     let mut before = outer(&domain.0);
     let mut before_is_stable = false;
-    let mut found: Vec<(End<P>, End<P>)> = Vec::new();
+    let mut found: Vec<Stretch<P>> = Vec::new();
     for (i, item) in line.iter().enumerate().step_by(2) {
         let after = match line.get(i + 1) {
             Some(json) => separator(json, factors, clock),

@@ -95,12 +95,11 @@ fn text<'r>(row: &'r Row, column: &str) -> &'r str {
     row.get(column).and_then(Value::as_str).unwrap_or_default()
 }
 
+/// Questions, each with its key.
+type Keyed = Vec<(String, Question)>;
+
 /// The questions with their keys, each once, and the names in their points.
-fn questions(
-    options: &Options,
-    model: &Model,
-    context: &Context,
-) -> Result<(Vec<(String, Question)>, BTreeSet<String>), Error> {
+fn questions(options: &Options, model: &Model, context: &Context) -> Result<(Keyed, BTreeSet<String>), Error> {
     known_names(context, model, "--param", &options.param)?;
     let refuse = |message: String, at| -> Error {
         in_line(context.line, vec![Diagnostic::error("E-set-twice", message).at(at, "a second time")]).into()

@@ -88,13 +88,13 @@ pub fn hybrid_bezout<R: Enclosed>(a: &[R], b: &[R]) -> Vec<Vec<R>> {
         // By power of x: (leading part of a) x^(m-n) (tail of b) - (tail of a)(leading part of b).
         let mut row = vec![zero.clone(); m];
         for lead in 0..=j {
-            for tail in 0..n - j {
+            for (tail, coefficient) in b[..n - j].iter().enumerate() {
                 let at = lead + tail + (m - n);
-                row[at] = row[at].plus(&a[m - j + lead].times(&b[tail]));
+                row[at] = row[at].plus(&a[m - j + lead].times(coefficient));
             }
-            for tail in 0..m - j {
+            for (tail, coefficient) in a[..m - j].iter().enumerate() {
                 let at = lead + tail;
-                row[at] = row[at].minus(&a[tail].times(&b[n - j + lead]));
+                row[at] = row[at].minus(&coefficient.times(&b[n - j + lead]));
             }
         }
         row.reverse();

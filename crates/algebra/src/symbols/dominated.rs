@@ -151,7 +151,7 @@ fn bound(definition: &Definition, power: i64, start: &Rational) -> Option<Powers
                 return Some(Powers::power(0, exponential(start)));
             }
             // T^power exp(slope T) falls from here on.
-            if !slope.is_negative() || &(-&slope * start) < &Rational::from(power) {
+            if !slope.is_negative() || (-&slope * start) < Rational::from(power) {
                 return None;
             }
             let at_start = Ball::from_rational(start, BITS).power(power.unsigned_abs());

@@ -30,7 +30,7 @@ impl Problem {
         }
         let domain = &asked.domain;
         let usual = asked.nominal.clone().filter(|x| domain.contains(x)).unwrap_or_else(|| inside(domain));
-        let algebra = budget.enter(|| Algebra::near(self, &[usual.clone()], budget))??;
+        let algebra = budget.enter(|| Algebra::near(self, std::slice::from_ref(&usual), budget))??;
         let ratios = algebra.symbols().varying_samples().to_vec();
         if ratios.is_empty() {
             return Ok(None);

@@ -48,7 +48,7 @@ impl<'a> DeadTime<'a> {
 
     /// A polynomial in `x = -omega^2` as one in `omega`.
     fn in_omega(p: &UniPoly) -> MultiPoly {
-        let sign = |i: usize| if i % 2 == 0 { Integer::ONE } else { -Integer::ONE };
+        let sign = |i: usize| if i.is_multiple_of(2) { Integer::ONE } else { -Integer::ONE };
         let terms = p.coeffs().iter().enumerate().map(|(i, c)| (vec![2 * i as u32], c * &sign(i)));
         MultiPoly::from_terms(terms)
     }
@@ -188,7 +188,7 @@ impl<'a> DeadTime<'a> {
             let half = size(crossing.phase(bits)).div(&Enclosure::from_rational(Rational::from(2)), bits)?;
             Some(tan(&Ball::from_enclosure(&half, bits))?.to_enclosure())
         });
-        Ok(PhaseMargin::Angle { tangent: Some(tangent), place })
+        Ok(PhaseMargin::Angle { tangent: Some(Box::new(tangent)), place })
     }
 
     /// The least value of `above/below`, squares of moduli in `omega`; where the modulus of the open loop is below `r`, the

@@ -48,7 +48,7 @@ impl HeldDelay {
         let mut whole = hold.samples.floor();
         for _ in 0..=HeldDelay::LOOKED_AT {
             let Some(count) = whole.to_i64().and_then(|n| usize::try_from(n).ok()) else { return Ok(None) };
-            whole = whole + Integer::ONE;
+            whole += Integer::ONE;
             let to = Rational::from(&whole) - &hold.samples;
             let more = MoreDeadTime::Free { whole: count };
             let set = stable_fractions(problem, &more, Range::between(Some(from.clone()), Some(to.clone())), budget)?;

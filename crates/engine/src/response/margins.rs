@@ -91,7 +91,7 @@ pub enum PhaseMargin {
     /// Less than an angle.
     Angle {
         /// `tan(phi/2)`; `None` for 180 degrees.
-        tangent: Option<Real>,
+        tangent: Option<Box<Real>>,
         /// The frequency; `None` where it is all.
         place: Option<Place>,
     },
@@ -117,7 +117,7 @@ impl PhaseMargin {
             return Some(Enclosure::from_rational(Rational::from(degrees)));
         }
         let working = bits + 16;
-        let half = Value::Number(tangent.clone()).enclosure(working).atan(working);
+        let half = Value::Number((**tangent).clone()).enclosure(working).atan(working);
         Some(super::disk::degrees(&half.mul(&Enclosure::from_rational(Rational::from(2)), working), bits))
     }
 }
@@ -287,7 +287,7 @@ impl PhaseMargin {
         }
         match (least, crossings.gain.first()) {
             (Some((place, square)), _) => {
-                let tangent = Some(square_root(&square.number(budget)?, budget)?);
+                let tangent = Some(Box::new(square_root(&square.number(budget)?, budget)?));
                 Ok(PhaseMargin::Angle { tangent, place: Some(place.clone()) })
             }
             (None, Some(opposite)) => Ok(PhaseMargin::Angle { tangent: None, place: Some(opposite.place.clone()) }),
@@ -304,7 +304,7 @@ impl PhaseMargin {
         let (above, below) = (&r.sum_squared, &r.difference_squared);
         let least = extreme_over(&parts.ground, above, below, parts.shape, Ordering::Less, budget)?;
         let square = least.value().expect("not infinite everywhere").number(budget)?;
-        let tangent = Some(square_root(&square, budget)?);
+        let tangent = Some(Box::new(square_root(&square, budget)?));
         Ok(PhaseMargin::Angle { tangent, place: least.place().cloned() })
     }
 }

@@ -170,7 +170,7 @@ impl OpenLoop {
     pub fn coefficients(&self, bits: u64) -> [Vec<Rational>; 2] {
         fn middles<G: Ground>(ground: &G, p: &Poly<G::Number>, bits: u64) -> Vec<Rational> {
             let value = |c: &G::Number| ground.enclose(&Poly::constant(c.clone()), &Rational::ZERO, bits);
-            p.coeffs().iter().map(|c| value(c)).map(|e| e.lower().midpoint(e.upper())).collect()
+            p.coeffs().iter().map(value).map(|e| e.lower().midpoint(e.upper())).collect()
         }
         with_parts!(self, parts => [&parts.denominator, &parts.numerator].map(|p| middles(&parts.ground, p, bits)))
     }
@@ -314,7 +314,7 @@ fn split_delay(
     let (mut tau, mut factor) = (Rational::ZERO, MultiPoly::one());
     for ((variable, delay), exponent) in delays.iter().zip(exponents) {
         if exponent > 0 {
-            tau = tau + delay.as_constant()? * Rational::from(i64::from(exponent));
+            tau += delay.as_constant()? * Rational::from(i64::from(exponent));
             factor = factor.times(&MultiPoly::variable(*variable).power(u64::from(exponent)));
         }
     }

@@ -141,7 +141,7 @@ fn samples(
     let whole = near.floor();
     let fraction = &ratio - &RationalFunction::from(Rational::from(whole.clone()));
     match whole.to_i64().and_then(|m| usize::try_from(m).ok()).filter(|&m| m < MAX_ORDER) {
-        Some(samples) => Ok((samples, fraction.into())),
+        Some(samples) => Ok((samples, fraction)),
         None => {
             let message = format!("the dead time of '{name}' is more than {MAX_ORDER} samples");
             Err(Stop::Refused(Box::new(refused("E-value", message, hold.span, "this hold"))))

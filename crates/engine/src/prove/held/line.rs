@@ -70,6 +70,9 @@ pub(super) fn zeros(
     Ok(all.into_iter().map(zero).collect())
 }
 
+/// The line and the stable intervals, as the certificate writes them.
+pub(super) type Written = (Vec<Value>, Vec<Value>);
+
 /// One attempt with a number of bits.
 pub(super) struct Attempt<'a> {
     pub proof: &'a Loop<'a>,
@@ -80,7 +83,7 @@ pub(super) struct Attempt<'a> {
 
 impl Attempt<'_> {
     /// The line and the stable intervals; `None` where a sign is not certain.
-    pub fn line(&self, mut zeros: Vec<Zero>) -> Result<Option<(Vec<Value>, Vec<Value>)>, Error> {
+    pub fn line(&self, mut zeros: Vec<Zero>) -> Result<Option<Written>, Error> {
         for zero in &mut zeros {
             if !self.isolate(zero)? {
                 return Ok(None);

@@ -236,7 +236,7 @@ impl Writer<'_> {
     fn phase(&self, phase: &PhaseMargin) -> PhaseMarginFound {
         let (tangent, place) = match phase {
             PhaseMargin::Unbounded => (None, None),
-            PhaseMargin::Angle { tangent, place } => (tangent.as_ref(), place.as_ref()),
+            PhaseMargin::Angle { tangent, place } => (tangent.as_deref(), place.as_ref()),
         };
         PhaseMarginFound {
             degrees: self.decimal(|bits| phase.degrees(bits)),

@@ -347,11 +347,14 @@ impl ToleranceProblem<'_> {
     }
 }
 
+/// What closes a cell, given the number of nodes so far; else the axis to halve first, where one is known.
+type Closes<'c> = &'c dyn Fn(&Cell, usize) -> Result<Node, Option<usize>>;
+
 /// A tree of cells that are closed, but for those inside the critical cell; `None` where it takes too many.
 fn cover(
     tensor: Tensor,
     critical: &CriticalCell,
-    closed: &dyn Fn(&Cell, usize) -> Result<Node, Option<usize>>,
+    closed: Closes<'_>,
     budget: &Budget,
 ) -> Result<Option<Tree>, Exhausted> {
     let parts = &critical.parts;

@@ -238,12 +238,12 @@ fn small_norm(rows: &[i64], width: usize) -> Vec<i128> {
     let mut x: Vec<i128> = row(0).iter().map(|&a| i128::from(a) << WEIGHT_BITS).collect();
     for step in 0..=STEPS {
         let (mut least, mut greatest) = ((i128::MAX, 0), (i128::MIN, 0));
-        for i in 0..count {
+        for (i, &weight) in weights.iter().enumerate() {
             let product = dot(row(i), &x);
             if product < least.0 {
                 least = (product, i);
             }
-            if weights[i] > 0 && product > greatest.0 {
+            if weight > 0 && product > greatest.0 {
                 greatest = (product, i);
             }
         }

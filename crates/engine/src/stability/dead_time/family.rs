@@ -174,7 +174,7 @@ fn unbounded(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Resu
             if quiet {
                 return Ok(Some(value));
             }
-            at = at + Rational::new(1.into(), 32.into());
+            at += Rational::new(1.into(), 32.into());
         }
     };
     let (low, high) = (end(&range.lower, -1)?, end(&range.upper, 1)?);

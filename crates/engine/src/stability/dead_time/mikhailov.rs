@@ -79,7 +79,7 @@ pub(super) fn roots_right_of_line(
         Kind::Neutral => return Err(NotCounted::Neutral),
         Kind::Retarded => {}
     }
-    Ok(budget.enter(|| Walk::new(p, tau, p.order(), growth).follow(0, budget))??).map(Some)
+    Ok(Some(budget.enter(|| Walk::new(p, tau, p.order(), growth).follow(0, budget))??))
 }
 
 /// The derivatives by `s`: the parts of `sum P_k z^k` become `P_k' - k tau P_k`, over a power of the denominator of tau.
