@@ -121,6 +121,53 @@ fn names_that_coq_keeps_for_itself_are_changed() {
 }
 
 #[test]
+fn keywords_of_coq_are_no_names_of_constants() {
+    let words =
+        ["Axiom", "CoFixpoint", "Definition", "Fixpoint", "Hypothesis", "Parameter", "Theorem", "Variable", "lib"];
+    let constants: String = words.iter().map(|word| format!("{word} = 1\n")).collect();
+    let model = format!(
+        "time = \"discrete\"\n[constants]\n{constants}[parameters]\nK = {{}}\n[loop]\nmatrix = [[\"K*{}\"]]\n",
+        words.join("*")
+    );
+    let text = file(&read(&model), "K").unwrap();
+    for word in words {
+        assert!(text.contains(&format!("Definition {word}_ : expr := 1.")), "{text}");
+    }
+}
+
+#[test]
+fn functions_in_entries_are_refused_where_they_have_rational_values_too() {
+    for entry in ["sqrt(4)/8", "exp(0)/8", "c/8", "0*pi"] {
+        let model = format!(
+            "time = \"discrete\"\n[constants]\nc = \"sqrt(9)\"\n[parameters]\nK = {{ nominal = 0 }}\n[loop]\n\
+             matrix = [[\"K\", \"{entry}\"], [1, 0]]\n"
+        );
+        let said = refusal(&model, "K");
+        let what = if entry.contains("pi") { "an entry contains pi" } else { "an entry contains a function" };
+        assert!(said.contains("E-coq") && said.contains(what), "{entry}: {said}");
+        assert!(point_file(&read(&model), &[]).unwrap_err().to_string().contains(what), "{entry}");
+    }
+    // A name of the model is no function, and a polynomial is stated by its coefficients.
+    let model = "time = \"discrete\"\n[constants]\npi = 3\n[parameters]\nK = {}\n[loop]\nmatrix = [[\"K/pi\"]]\n";
+    assert!(file(&read(model), "K").unwrap().contains("Definition pi : expr := 3."));
+    let model = "time = \"discrete\"\n[parameters]\nK = {}\n[loop]\ncharacteristic = \"z - sqrt(4)*K\"\n";
+    assert!(file(&read(model), "K").unwrap().contains("-2*K;\n  1]."));
+}
+
+#[test]
+fn loops_with_exponentials_are_refused_with_the_reason() {
+    for (example, parameter, why) in [
+        ("dead-time-pi", "K_c", "it contains z1 = exp(-3*s)"),
+        ("chatter", "k_c", "the loop is not rational"),
+        ("dc-servo", "K", "the loop is not rational"),
+        ("drive-hold", "K_pwm", "the loop is not rational"),
+    ] {
+        let said = refusal(&example_text(example), parameter);
+        assert!(said.contains("E-coq") && said.contains(why), "{example}: {said}");
+    }
+}
+
+#[test]
 fn block_diagrams_say_what_the_statement_is_about() {
     let text = file(&read(&example_text("digital-pll")), "K_i").unwrap();
     assert!(text.contains("that they belong to the diagram is not part of the theorem"), "{text}");

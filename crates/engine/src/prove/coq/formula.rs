@@ -7,8 +7,10 @@ use jurist_algebra::poly::UniPoly;
 use std::collections::HashMap;
 
 /// Words of Coq and of mathcomp's notations, and what a file of a loop uses itself.
-const TAKEN: &str = "as at cofix do else end exists exists2 fix for forall fun if in is let match mod nosimpl of return \
-    then using where with by IF Prop SProp Set Type R i p z x val expr matrix poly answer region list nil cons Num Par \
+const TAKEN: &str = "as at cofix do else end exists exists2 fix for forall fun if in is let lib match mod nosimpl of return \
+    then using where with by IF Axiom CoFixpoint Definition Fixpoint Hypothesis Parameter Theorem Variable \
+    SsrSyntax_is_Imported \
+    Prop SProp Set Type R i p z x val expr matrix poly answer region list nil cons Num Par \
     Model checked limits stable_set coefficients only_root eigenvalue map_mx map_poly real_complex root mx qr complex \
     poly_of rcfType true True False";
 
@@ -119,7 +121,7 @@ impl Formulas<'_> {
                 (Level::Product, format!("1/{}^{}", self.at(base, Level::Atom), k.unsigned_abs()))
             }
             Node::Power(base, k) => (Level::Power, format!("{}^{k}", self.at(base, Level::Atom))),
-            Node::Call(..) => unreachable!("a model with functions has no polynomial over the rationals"),
+            Node::Call(..) => unreachable!("entries with functions are refused before"),
         };
         if level < least { format!("({text})") } else { text }
     }

@@ -50,10 +50,11 @@ impl Answer<StableSet> {
         budget.enter(|| {
             budget.step("theorem for Coq");
             let problem = self.problem();
-            if !self.value().is_algebraic() {
-                return Err(refused("a limit is not algebraic", "there is none yet for held plants and dead time"));
-            }
+            // A loop with exponentials says so itself; what is left are other ways to an answer.
             let loop_ = Loop::of(problem, budget)?;
+            if !self.value().is_algebraic() {
+                return Err(refused("the answer was not decided by polynomials over the integers", OTHERS));
+            }
             let conditions = checker::conditions(&loop_.cleared, problem.region())
                 .ok_or_else(|| refused("a row of Jury's table is zero for every value of the parameter", OTHERS))?;
             let way = pieces::way(&conditions, self.value(), &problem.parameter().domain, budget)?;
@@ -97,9 +98,44 @@ impl Answer<PointVerdict> {
 }
 
 const OTHERS: &str = "take '--certificate' or '--smt2'";
+const CERTIFICATE: &str = "take '--certificate'";
 
 fn refused(why: impl Into<String>, help: impl Into<String>) -> Error {
     Diagnostic::error("E-coq", format!("no file for Coq: {}", why.into())).help(help).into()
+}
+
+/// What makes a loop one without polynomials over the integers; a long definition is left out.
+fn not_rational(name: &str, definition: &str) -> String {
+    if definition.starts_with("exp(") && definition.len() < 60 {
+        format!("the loop is not rational, it contains {name} = {definition}")
+    } else {
+        "the loop is not rational, it contains exponentials or other functions".to_owned()
+    }
+}
+
+/// A function, or `pi`, in the entries of a model of matrices or in what they are made of.
+fn unstated(model: &Model, set: &[(String, Rational)], kept: &[String]) -> Option<&'static str> {
+    let matrices = matrices(model);
+    let entries = || matrices.iter().flat_map(|(_, m)| m.entries());
+    let parameter = kept.first().map(String::as_str);
+    let used = used_names(model, set, parameter, entries());
+    let is_replaced = |name: &str| parameter == Some(name) || set.iter().any(|(other, _)| other == name);
+    let constants = used.iter().filter(|name| !is_replaced(name)).filter_map(|name| model.constant(name));
+    if entries().chain(constants.map(|c| &c.expression)).any(|e| e.has_function()) {
+        return Some("a function");
+    }
+    let is_the_number =
+        |name: &str| model.constant(name).is_none() && model.parameters().iter().all(|p| p.name != name);
+    (used.contains("pi") && is_the_number("pi")).then_some("pi")
+}
+
+/// The matrices of a model that is given by them, by their names in the file.
+fn matrices(model: &Model) -> Vec<(&'static str, &Matrix)> {
+    match model.form() {
+        Form::Matrix { matrix, .. } => vec![("A", matrix)],
+        Form::OutputFeedback { a, b, c, k, .. } => vec![("A", a), ("B", b), ("K", k), ("C", c)],
+        Form::Characteristic(_) | Form::Blocks(_) => Vec::new(),
+    }
 }
 
 /// The loop without the region.
@@ -120,7 +156,11 @@ impl Loop {
         let kept: Vec<String> = problem.free().iter().map(|f| f.name.clone()).collect();
         let evaluated = problem.model().evaluate(&kept, problem.set(), budget)?;
         if let Some((name, text)) = evaluated.symbols.definitions().into_iter().next() {
-            return Err(refused(format!("the loop is not rational, it contains {name} = {text}"), OTHERS));
+            return Err(refused(not_rational(&name, &text), CERTIFICATE));
+        }
+        if let Some(what) = unstated(problem.model(), problem.set(), &kept) {
+            let why = format!("an entry contains {what}, and entries are stated as typed");
+            return Err(refused(why, "write its value, where that is a rational number"));
         }
         let raw = evaluated.polynomial;
         let order = raw.formal_degree;
@@ -152,11 +192,7 @@ impl Loop {
     fn model(&self, problem: &Problem) -> (Subject, String, Names) {
         let model = problem.model();
         let parameter = problem.free().first().map(|f| f.name.as_str());
-        let matrices: Vec<(&str, &Matrix)> = match model.form() {
-            Form::Matrix { matrix, .. } => vec![("A", matrix)],
-            Form::OutputFeedback { a, b, c, k, .. } => vec![("A", a), ("B", b), ("K", k), ("C", c)],
-            Form::Characteristic(_) | Form::Blocks(_) => Vec::new(),
-        };
+        let matrices = matrices(model);
         let taken: Vec<&str> = matrices.iter().map(|(name, _)| *name).collect();
         let mut formulas = Formulas { source: model.source(), names: Names::new(&taken) };
         let own = parameter.map(|name| formulas.names.name(name)).unwrap_or_default();
