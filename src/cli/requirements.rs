@@ -56,7 +56,9 @@ impl RequirementOptions {
         ];
         let further: Vec<(&str, &str)> =
             options.iter().filter_map(|(name, text)| Some((*name, text.as_deref()?))).collect();
-        if further.is_empty() && model.require().is_empty() {
+        // A region alone is the question's own.
+        let asks = further.iter().any(|(name, _)| !["decay", "radius"].contains(name));
+        if !asks && model.require().is_empty() {
             return Ok((Requirements::default(), question));
         }
         let values = question.clone().problem()?.set().to_vec();

@@ -19,7 +19,7 @@ fn rows_are_the_answers_in_the_order_of_the_values() {
     assert_eq!(values, ["1/10000", "1/5000", "3/10000"]);
     for row in &found {
         let set = format!("T={}", row["p.T"].as_str().unwrap());
-        let answer = json(&["intervals", "--param", "K_pwm", "--digits", "17", "--set", &set]);
+        let answer = json(&["intervals", "--json", "--param", "K_pwm", "--digits", "17", "--set", &set]);
         let upper = &answer["stable"][0]["upper"];
         assert_eq!((&row["upper_decimal"], &row["upper_polynomial"]), (&upper["decimal"], &upper["polynomial"]));
         assert_eq!(row["upper_causes"], serde_json::json!(["complex pair"]));

@@ -9,7 +9,8 @@ use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::algebraic::simplest_between;
 use crate::poly::{MultiPoly, RationalFunction};
 use crate::real::{Enclosing, Real, Transcendental};
-use std::collections::VecDeque;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 use std::sync::Arc;
 
 /// A table of symbols whose arguments are rational functions of a parameter (variable 0) and of earlier symbols (symbol `i` is
@@ -26,7 +27,7 @@ use std::sync::Arc;
 /// let symbols = Arc::new(MovingSymbols::new(vec![("X".into(), Definition::Exponential(minus))]));
 /// let p = MultiPoly::variable(1).minus(&MultiPoly::variable(0));
 /// let (zero, one) = (Rational::ZERO, Rational::ONE);
-/// let found = symbols.zeros_in(&p.into(), &zero, &one, &Budget::unlimited()).unwrap();
+/// let found = symbols.zeros_in(&p.into(), &zero, &one, &one, &Budget::unlimited()).unwrap();
 /// assert_eq!(found.zeros[0].decimal(20), "0.56714329040978387300");
 /// assert!(found.zeros.len() == 1 && found.undecided.is_empty());
 /// ```
@@ -55,7 +56,7 @@ pub(super) const FIRST_BITS: u64 = 192;
 const MOST_ORDER: usize = 32;
 
 /// Exponents beyond this are not enclosed over an interval.
-const LARGEST: i64 = 1 << 15;
+const LARGEST: i64 = 1 << 12;
 
 /// After so many intervals what is left stays undecided.
 const MOST_LOOKS: usize = 250;
@@ -67,7 +68,7 @@ const MOST_DOUBLINGS: usize = 4;
 const SHORT_BITS: u64 = 40;
 
 /// An interval this much shorter than the first one is given up.
-const MOST_HALVINGS: usize = 56;
+const MOST_HALVINGS: i64 = 56;
 
 impl MovingSymbols {
     /// The table of these names and definitions.
@@ -182,7 +183,8 @@ impl MovingSymbols {
         Some(out)
     }
 
-    /// The zeros of a polynomial in the parameter and symbols strictly between two numbers.
+    /// The zeros of a polynomial in the parameter and symbols strictly between two numbers, looked for first on the scale of the
+    /// number `near`.
     ///
     /// On each of the intervals that the range is divided into, a Taylor polynomial with a bound of its rest shows that the
     /// function has no zero, or that it is monotone. At the lower end the function may have a zero of any order that its
@@ -198,6 +200,7 @@ impl MovingSymbols {
         f: &Function,
         lower: &Rational,
         upper: &Rational,
+        near: &Rational,
         budget: &Budget,
     ) -> Result<Zeros, Exhausted> {
         let mut found = Zeros::default();
@@ -218,20 +221,21 @@ impl MovingSymbols {
             end = upper - &((upper - lower) * Rational::dyadic(&Integer::ONE, 40));
             found.undecided.push((end.clone(), upper.clone()));
         }
-        // The longest intervals first, so that a place where zeros crowd leaves the others decided.
-        let mut todo = VecDeque::from([(start, end, MOST_HALVINGS)]);
+        // Every octave away from the usual value waits for two halvings, so that a place where zeros crowd leaves others decided.
+        let mut todo = BinaryHeap::from([Reverse((0, start, end, 0))]);
         let mut looks = 0;
-        while let Some((lo, hi, left)) = todo.pop_front() {
+        while let Some(Reverse((_, lo, hi, halvings))) = todo.pop() {
             budget.check()?;
             looks += 1;
             match budget.enter(|| self.look(f, &lo, &hi))? {
                 Look::None => {}
                 Look::One => brackets.push((lo, hi)),
-                Look::Unknown if left == 0 || looks > MOST_LOOKS => found.undecided.push((lo, hi)),
+                Look::Unknown if halvings == MOST_HALVINGS || looks > MOST_LOOKS => found.undecided.push((lo, hi)),
                 Look::Unknown => {
-                    let middle = budget.enter(|| self.split_point(f, &lo, &hi))?;
-                    todo.push_back((lo, middle.clone(), left - 1));
-                    todo.push_back((middle, hi, left - 1));
+                    let middle = budget.enter(|| self.split_point(f, &lo, &hi, near))?;
+                    for (lo, hi) in [(lo, middle.clone()), (middle, hi)] {
+                        todo.push(Reverse((2 * octaves(&lo, &hi, near) + halvings, lo, hi, halvings + 1)));
+                    }
                 }
             }
         }
@@ -265,8 +269,11 @@ impl MovingSymbols {
         self.value(f, &Ball::from_rational(at, bits))?.sign().filter(|s| s.is_ne())
     }
 
-    /// A number about in the middle at which the function is certainly not zero.
-    fn split_point(&self, f: &Function, lo: &Rational, hi: &Rational) -> Rational {
+    /// A number about in the middle, between far ends by their scale, at which the function is certainly not zero.
+    fn split_point(&self, f: &Function, lo: &Rational, hi: &Rational, near: &Rational) -> Rational {
+        if let Some(middle) = between_scales(lo, hi, near).filter(|x| self.sign_at(f, x, FIRST_BITS).is_some()) {
+            return middle;
+        }
         let at = |n: i64| lo + &(&(hi - lo) * &Rational::new(Integer::from(n), Integer::from(64)));
         [32, 31, 33, 29, 35].into_iter().map(at).find(|x| self.sign_at(f, x, FIRST_BITS).is_some()).unwrap_or(at(32))
     }
@@ -349,6 +356,51 @@ impl MovingSymbols {
             terms *= 2;
         }
         None
+    }
+}
+
+/// The exponent of the power of two near to a number that is not zero.
+fn exponent(x: &Rational) -> i64 {
+    x.numerator().bit_length() as i64 - x.denominator().bit_length() as i64
+}
+
+/// Ends on a side of zero are far apart from this many octaves on.
+const FAR: i64 = 3;
+
+/// What is nearer to zero than the usual value by this many octaves is divided from what is not.
+const SMALL: i64 = 8;
+
+/// A number about the geometric mean of ends that are far apart, as what happens at small values of a parameter happens on a
+/// small scale; none where they are not.
+fn between_scales(lo: &Rational, hi: &Rational, near: &Rational) -> Option<Rational> {
+    let power = |exponent: i64| Rational::from(2).pow(exponent).expect("two is not zero");
+    let small = if near.is_zero() { 0 } else { exponent(near) } - SMALL;
+    let of_positive = |lo: &Rational, hi: &Rational| {
+        let high = exponent(hi);
+        let low = if lo.is_zero() { small.min(high - FAR) } else { exponent(lo) };
+        (high - low >= FAR).then(|| power((low + high).div_euclid(2)))
+    };
+    if !lo.is_negative() {
+        return of_positive(lo, hi);
+    }
+    if hi.sign().is_le() {
+        return of_positive(&-hi, &-lo).map(|x| -x);
+    }
+    // Zero stays inside of a small interval: there may be a pole or a zero.
+    let [above, below] = [hi, &-lo].map(|end| exponent(end) > small + 1);
+    (above || below).then(|| if above { power(small) } else { -power(small) })
+}
+
+/// How many octaves an interval is away from a number; many where zero lies between.
+fn octaves(lo: &Rational, hi: &Rational, near: &Rational) -> i64 {
+    const OTHER_SIDE: i64 = 12;
+    if lo <= near && near <= hi {
+        return 0;
+    }
+    let closest = if near < lo { lo } else { hi };
+    match (closest.sign(), near.sign()) {
+        (a, b) if a == b && a.is_ne() => (exponent(closest) - exponent(near)).abs(),
+        _ => OTHER_SIDE,
     }
 }
 

@@ -119,7 +119,7 @@ fn zeros_of_exponential_polynomials_are_found() {
     let (symbols, budget) = (moving(), Budget::unlimited());
     let [t, x, c, s] = [0, 1, 2, 3].map(MultiPoly::variable);
     let zeros = |f: &MultiPoly, lo: &str, hi: &str| {
-        let found = symbols.zeros_in(&f.clone().into(), &number(lo), &number(hi), &budget).unwrap();
+        let found = symbols.zeros_in(&f.clone().into(), &number(lo), &number(hi), &number(hi), &budget).unwrap();
         assert!(found.undecided.is_empty(), "{:?}", found.undecided);
         found.zeros.iter().map(|z| z.decimal(20)).collect::<Vec<_>>()
     };
@@ -138,7 +138,9 @@ fn zeros_of_exponential_polynomials_are_found() {
 fn a_function_that_touches_zero_is_undecided_there_and_only_there() {
     let (symbols, budget) = (moving(), Budget::unlimited());
     let s = MultiPoly::variable(3);
-    let found = symbols.zeros_in(&MultiPoly::one().minus(&s).into(), &number("1"), &number("3"), &budget).unwrap();
+    let found = symbols
+        .zeros_in(&MultiPoly::one().minus(&s).into(), &number("1"), &number("3"), &number("2"), &budget)
+        .unwrap();
     assert!(found.zeros.is_empty() && found.undecided.len() == 1);
     let (lo, hi) = &found.undecided[0];
     assert!(*lo < number("1.570796326794897") && number("1.570796326794896") < *hi && hi - lo < number("1e-12"));

@@ -98,7 +98,7 @@ impl<'a> DeadTime<'a> {
     }
 
     fn zeros(&self, p: &MultiPoly, end: &Rational, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
-        let found = self.turning.zeros_in(&p.clone().into(), &Rational::ZERO, end, budget)?;
+        let found = self.turning.zeros_in(&p.clone().into(), &Rational::ZERO, end, end, budget)?;
         match found.undecided.is_empty() {
             true => Ok(found.zeros),
             false => Err(Exhausted::new("precision", "frequencies of a loop with dead time")),

@@ -57,11 +57,11 @@ pub(super) fn moving_stable_set(
     let mut from: Vec<(usize, Real)> = Vec::new();
     let mut undecided: Vec<Bracket> = reach.undecided.clone();
     for (k, part) in basis.iter().enumerate() {
-        let mut found = symbols.zeros_in(part, &reach.from, &reach.to, budget)?;
+        let mut found = symbols.zeros_in(part, &reach.from, &reach.to, &p.usual, budget)?;
         undecided.extend(found.undecided.into_iter().map(|(lo, hi)| (Some(lo), Some(hi), Some(k))));
         if let Some(inverted) = &reach.inverted {
             let one_over = reach.to.recip().expect("a positive number");
-            let beyond = inverted.zeros_in(&part.inverted(), &Rational::ZERO, &one_over, budget)?;
+            let beyond = inverted.zeros_in(&part.inverted(), &Rational::ZERO, &one_over, &one_over, budget)?;
             found.zeros.extend(beyond.zeros.iter().rev().map(Real::recip));
             let turned = |(lo, hi): (Rational, Rational)| (hi.recip(), lo.recip(), Some(k));
             undecided.extend(beyond.undecided.into_iter().map(turned));
@@ -167,6 +167,7 @@ fn reach(
         }
     };
     let lower = Some(from.clone());
+    let from = if from.is_zero() { p.after_death(symbols, conditions, range.upper.as_ref(), budget)? } else { from };
     if let Some(to) = &range.upper {
         return Ok(Reach { from, to: to.clone(), inverted: None, lower, upper: Some(to.clone()), undecided });
     }
@@ -276,6 +277,37 @@ impl SymbolicPolynomial {
             }
         }
         Ok(None)
+    }
+
+    /// The number between 0 and which nothing happens, where the symbols die away towards 0, as `exp(-T/T_m)` does with the time
+    /// constant `T_m`; 0 where none is found.
+    ///
+    /// Cost: as of [`Self::tail_start`], in the reciprocal of the parameter.
+    fn after_death(
+        &self,
+        symbols: &MovingSymbols,
+        conditions: &[Condition],
+        upper: Option<&Rational>,
+        budget: &Budget,
+    ) -> Result<Rational, Exhausted> {
+        if symbols.at(&Rational::ZERO).is_some() {
+            return Ok(Rational::ZERO);
+        }
+        let Some(inverted) = symbols.inverted() else { return Ok(Rational::ZERO) };
+        budget.step("bounding what dies away");
+        let functions: Vec<Function> = conditions.iter().map(|(_, f)| f.inverted()).collect();
+        for power in 0..=LAST_POWER {
+            budget.check()?;
+            let start = Rational::from(2).pow(power).expect("two is not zero");
+            let to = Rational::dyadic(&Integer::ONE, power.unsigned_abs().into());
+            if upper.is_some_and(|upper| to >= *upper) {
+                continue;
+            }
+            if budget.enter(|| functions.iter().all(|f| inverted.has_no_zero_beyond(f, &start)))? {
+                return Ok(to);
+            }
+        }
+        Ok(Rational::ZERO)
     }
 }
 

@@ -284,3 +284,24 @@ fn zeros_at_either_end_of_an_enclosed_resultant_are_known() {
     assert_eq!(ends(&by(0), 25), ends(&by(u64::MAX), 25));
     assert!(!by(0).is_empty());
 }
+
+#[test]
+fn a_time_constant_is_decided_down_to_zero_where_its_mode_dies_away() {
+    // A lag 1/(L s + 1) behind a hold with T = 1 and a gain: z - X + K (1 - X) with X = exp(-1/L), stable for X (1 + K) > K - 1.
+    let [l, x] = [0, 1].map(RationalFunction::variable);
+    let one = RationalFunction::one();
+    let symbols = MovingSymbols::new(vec![("X".into(), Definition::Exponential(-&l.recip().unwrap()))]);
+    let table = Arc::new(symbols);
+    for (gain, limit) in [("3", Some("1.4426950408889634074 z=-1")), ("1/2", None)] {
+        let gain = RationalFunction::from(number(gain));
+        let coefficients = vec![&(&gain * &(&one - &x)) - &x, one.clone()];
+        let variables = vec!["L".to_owned(), "X".to_owned()];
+        let d = CharacteristicPolynomial { variables, coefficients, formal_degree: 1, poles: Vec::new(), monic: true };
+        let p = SymbolicPolynomial::with_moving(&d, &table);
+        let set = stable(&p, &Range::between(Some(Rational::ZERO), Some(Rational::from(10))));
+        assert!(set.undecided().is_empty(), "{:?}", set.undecided());
+        let lower = ends(&set, 20)[0][0].clone();
+        // 1/ln 2 for a gain of 3.
+        assert_eq!(lower, limit.unwrap_or("0 domain"));
+    }
+}
