@@ -1,7 +1,7 @@
 //! Margins of loops with plants behind a hold, to thirty digits of mpmath at eighty, by another formulation: partial fractions
 //! for the plant, zeros of functions of the angle, dead time as a second unknown.
 
-use crate::helpers::model::load;
+use crate::helpers::model::{example, load};
 use crate::helpers::number::number;
 use crate::helpers::open_loops::{SERVO_BEHIND_A_HOLD, margins_of, stable};
 use crate::helpers::program::jurist_with_input;
@@ -90,4 +90,16 @@ fn a_model_with_requirements_is_checked_at_its_nominal_point() {
     );
     let run = jurist_with_input(&["verdict", "-"], with("phase = 45").as_bytes());
     assert!(run.status == 2 && run.stderr.contains("E-unknown-key"), "{}", run.stderr);
+}
+
+/// At the current error of the drive the factor is the chopper's gain.
+#[test]
+fn the_held_drive_is_cut_at_its_current_error() {
+    let drive = example("drive-hold");
+    let budget = Budget::unlimited();
+    let answer = margins_of(&drive, Some("current controller"));
+    let limit = drive.ask().free("K_pwm").stable_set(&budget).unwrap();
+    let limit = limit.value().intervals()[0].upper.clone().unwrap().value.refined_to_digits(30).enclosure().0;
+    let factor = stable(&answer).gain.upper.as_ref().unwrap().value.refined_to_digits(30).enclosure().0;
+    assert!((limit / number("110") - factor).abs() < number("1e-28"));
 }

@@ -31,7 +31,7 @@ fn domain() -> impl Strategy<Value = [Range; 2]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(32))]
+    #![proptest_config(ProptestConfig::with_cases(16))]
 
     #[test]
     fn every_point_has_the_verdict_of_its_cell_in_either_order(

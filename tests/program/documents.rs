@@ -64,18 +64,21 @@ fn every_document_of_the_examples_fits_its_schema() {
     for path in models {
         let file = path.to_str().unwrap();
         let (model, _) = Model::from_toml(&Source::new(file, std::fs::read_to_string(&path).unwrap())).unwrap();
-        for command in ["analyze", "charpoly", "verdict"] {
+        for command in ["charpoly", "verdict"] {
             document(&[command, file]);
         }
-        // Tables of loops behind a hold or with dead time are not known yet.
+        // Tables of loops behind a hold or with dead time are not known yet, and their limits may take long: a document that
+        // says what was known when the time was over has its schema too.
         let problem = model.ask().problem();
         let has_table = problem.map_or(true, |p| p.algebra(&Budget::unlimited()).is_ok());
+        let time: &[&str] = if has_table { &[] } else { &["--timeout", "0.2"] };
+        document(&[&["analyze", file], time].concat());
         if has_table {
             document(&["jury", file]);
         }
         for parameter in model.parameters() {
             // A parameter inside of a function needs a bounded domain.
-            let arguments = ["intervals", file, "--param", &parameter.name];
+            let arguments = [&["intervals", file, "--param", &parameter.name], time].concat();
             let run = jurist(&arguments);
             if run.status != 2 || has_table {
                 document(&arguments);

@@ -1,11 +1,12 @@
 //! Functions of a parameter and symbols: polynomials in them, and resultants that are not expanded.
 
 use super::rational_series;
-use super::specialise::{Line, resultant_on_line};
+use super::specialise::resultant_on_line;
 use super::{MovingSymbols, Symbols};
 use crate::ball::{Ball, Enclosed, Series, enclosed_resultant};
 use crate::limits::{Budget, Exhausted, checkpoint};
 use crate::number::{Integer, Rational};
+use crate::poly::multivariate::Line;
 use crate::poly::{Domain, MultiPoly, Poly, UniPoly, resultant_formal};
 
 /// A function of a parameter (variable 0) and of symbols (symbol `i` is variable `i + 1`).

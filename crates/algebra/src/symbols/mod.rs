@@ -26,7 +26,7 @@ pub use function::{Function, common_scale};
 pub use moving::{MovingSymbols, Zeros};
 pub use root::EnclosedPoly;
 pub use roots::{SymbolicPoly, common_factor, enclosed_roots, merged};
-pub use specialise::{are_coprime_in, is_square_free_in, resultants_seem_simple_in};
+pub use specialise::resultants_seem_simple_in;
 
 use crate::ball::{Ball, BallMatrix, exp, exponential, exponential_of_rationals};
 use crate::matrix::Matrix;

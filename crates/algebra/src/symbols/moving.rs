@@ -56,7 +56,7 @@ pub(super) const FIRST_BITS: u64 = 192;
 const MOST_ORDER: usize = 32;
 
 /// Exponents beyond this are not enclosed over an interval.
-const LARGEST: i64 = 1 << 12;
+const LARGEST: i64 = 1 << 13;
 
 /// After so many intervals what is left stays undecided.
 const MOST_LOOKS: usize = 250;
@@ -230,6 +230,7 @@ impl MovingSymbols {
             match budget.enter(|| self.look(f, &lo, &hi))? {
                 Look::None => {}
                 Look::One => brackets.push((lo, hi)),
+                Look::Hopeless => found.undecided.push((lo, hi)),
                 Look::Unknown if halvings == MOST_HALVINGS || looks > MOST_LOOKS => found.undecided.push((lo, hi)),
                 Look::Unknown => {
                     let middle = budget.enter(|| self.split_point(f, &lo, &hi, near))?;
@@ -293,7 +294,7 @@ impl MovingSymbols {
             }
             bits *= 2;
         }
-        Look::Unknown
+        Look::Hopeless
     }
 
     /// What a Taylor polynomial with a bound of its rest says.
@@ -417,6 +418,8 @@ enum Look {
     /// One zero, with a derivative that is not zero on the interval.
     One,
     Unknown,
+    /// Nothing, and no more of a shorter interval: the numbers would have too many bits.
+    Hopeless,
 }
 
 /// Intervals that touch, as one.

@@ -2,10 +2,10 @@
 
 use super::Symbols;
 use super::root::{Coefficients, EnclosedPoly, SymbolicRoot, derivative};
-use super::specialise::is_square_free_in;
 use crate::ball::Ball;
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Enclosure, Integer, Rational, Sign};
+use crate::poly::multivariate::is_square_free_in;
 use crate::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
 use crate::real::{Real, Transcendental, rational_between};
 use std::sync::Arc;

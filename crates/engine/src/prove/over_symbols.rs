@@ -2,8 +2,9 @@
 
 use jurist_algebra::ball::Ball;
 use jurist_algebra::number::{Integer, Rational, Sign};
+use jurist_algebra::poly::multivariate::{are_coprime_in, is_square_free_in};
 use jurist_algebra::poly::{Domain, MultiPoly};
-use jurist_algebra::symbols::{Symbols, are_coprime_in, common_factor, is_square_free_in};
+use jurist_algebra::symbols::{Symbols, common_factor};
 
 /// Pairwise coprime polynomials in the parameter (variable 0) and symbols, square-free in the parameter, of which all given ones are
 /// products up to factors without the parameter. What does not depend on symbols is apart.

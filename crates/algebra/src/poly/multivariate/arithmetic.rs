@@ -1,5 +1,6 @@
 //! Sums, products, powers and the operators.
 
+use super::lines::coefficients_are_coprime;
 use super::{Monomial, MultiPoly};
 use crate::limits::checkpoint;
 use crate::number::Integer;
@@ -243,6 +244,9 @@ impl Domain for MultiPoly {
     }
     fn gcd(&self, other: &Self) -> Self {
         super::gcd::gcd(self, other)
+    }
+    fn primitive_gcd_fast(a: &Poly<Self>, b: &Poly<Self>) -> Option<Poly<Self>> {
+        coefficients_are_coprime(a, b).then(Poly::one)
     }
     fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize) -> Option<Self> {
         crate::poly::modular::multimodular_resultant::over_multivariate(a, n, b, m)

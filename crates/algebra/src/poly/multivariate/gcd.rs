@@ -1,6 +1,7 @@
 //! Greatest common divisors.
 
 use super::MultiPoly;
+use super::lines::are_coprime;
 use crate::poly::{Domain, Poly, UniPoly};
 
 /// The greatest common divisor over the integers, contents included, with a positive leading
@@ -44,6 +45,7 @@ fn primitive_gcd(a: &MultiPoly, b: &MultiPoly) -> MultiPoly {
             let single = |p: &MultiPoly| p.to_univariate(i).expect("no other variable occurs");
             MultiPoly::from_univariate(&single(a).gcd(&single(b)), i)
         }
+        several if are_coprime(a, b, several) => MultiPoly::one(),
         several => {
             if a.terms().len() <= b.terms().len() && b.div_exact(a).is_some() {
                 return a.clone();

@@ -5,6 +5,7 @@ mod convert;
 mod display;
 mod division;
 mod gcd;
+mod lines;
 mod monomial;
 #[cfg(feature = "strategies")]
 pub mod strategies;
@@ -15,6 +16,8 @@ use crate::limits::checkpoint;
 use crate::number::Integer;
 use std::fmt;
 
+pub(crate) use lines::{Line, lines};
+pub use lines::{are_coprime_in, is_square_free_in};
 pub use monomial::Monomial;
 
 /// A sparse polynomial over the integers in variables 0, 1, 2, ...

@@ -8,9 +8,10 @@ use crate::stability::{Cause, Causes, End, Range, Shape, StableSet, UndecidedBra
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::multivariate::is_square_free_in;
 use jurist_algebra::poly::{Domain, MultiPoly, SquareFree, UniPoly, isolate_real_roots_in};
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::{Function, MovingSymbols, common_factor, is_square_free_in, merged};
+use jurist_algebra::symbols::{Function, MovingSymbols, common_factor, merged};
 use std::sync::Arc;
 
 impl Values for MovingSymbols {

@@ -7,9 +7,10 @@ use super::{MOST_EXPANDED, SymbolicPolynomial, Table};
 use crate::stability::{AtPoint, Cause, Causes, End, Range, Shape, StableInterval, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
+use jurist_algebra::poly::multivariate::are_coprime_in;
 use jurist_algebra::poly::{Domain, MultiPoly, isolate_real_roots_in};
 use jurist_algebra::real::{Real, rational_between};
-use jurist_algebra::symbols::{EnclosedPoly, Function, SymbolicPoly, Symbols, are_coprime_in, enclosed_roots, merged};
+use jurist_algebra::symbols::{EnclosedPoly, Function, SymbolicPoly, Symbols, enclosed_roots, merged};
 use std::sync::Arc;
 
 /// A polynomial in the parameter whose coefficients are numbers.
