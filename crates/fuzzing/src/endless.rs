@@ -22,7 +22,10 @@ pub const JOBS: [Job; 14] = [
     }),
     ("greatest common divisor in several variables", || {
         let (a, b) = (linear_form([1, 2, 3, 4, 5]).power(9), linear_form([2, -1, 3, -1, 1]).power(9));
-        a.plus(&MultiPoly::variable(0)).gcd(&b.plus(&MultiPoly::variable(1)));
+        // With a common factor, which no line rules out.
+        let common = linear_form([1, -1, 2, 1, 2]).plus(&MultiPoly::one());
+        let (a, b) = (a.plus(&MultiPoly::variable(0)), b.plus(&MultiPoly::variable(1)));
+        a.times(&common).gcd(&b.times(&common));
     }),
     ("greatest common divisor by primes", || {
         let long = Integer::from(3).pow(2_600_000);

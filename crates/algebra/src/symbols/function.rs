@@ -129,6 +129,15 @@ impl Function {
         }
     }
 
+    /// About how many products an evaluation takes.
+    pub(super) fn size(&self) -> u64 {
+        let terms = |list: &[MultiPoly]| list.iter().map(|p| p.terms().len() as u64).sum::<u64>();
+        match self {
+            Function::Polynomial(p) => 1 + p.terms().len() as u64,
+            Function::Resultant { a, b } => terms(a) + terms(b) + (a.len().max(b.len()) as u64).pow(3),
+        }
+    }
+
     /// The variables that occur.
     pub fn variables(&self) -> Vec<usize> {
         let all: std::collections::BTreeSet<usize> = match self {

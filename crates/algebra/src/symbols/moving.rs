@@ -59,7 +59,13 @@ const MOST_ORDER: usize = 32;
 const LARGEST: i64 = 1 << 13;
 
 /// After so many intervals what is left stays undecided.
-const MOST_LOOKS: usize = 250;
+const MOST_LOOKS: u64 = 4000;
+
+/// So many intervals are looked at whatever a look costs.
+const LEAST_LOOKS: u64 = 150;
+
+/// Intervals times the size of the function, beyond which what is left stays undecided.
+const MOST_WORK: u64 = 400_000;
 
 /// How often the bits are doubled for one interval.
 const MOST_DOUBLINGS: usize = 4;
@@ -223,6 +229,7 @@ impl MovingSymbols {
         }
         // Every octave away from the usual value waits for two halvings, so that a place where zeros crowd leaves others decided.
         let mut todo = BinaryHeap::from([Reverse((0, start, end, 0))]);
+        let most = (MOST_WORK / f.size()).clamp(LEAST_LOOKS, MOST_LOOKS);
         let mut looks = 0;
         while let Some(Reverse((_, lo, hi, halvings))) = todo.pop() {
             budget.check()?;
@@ -231,7 +238,7 @@ impl MovingSymbols {
                 Look::None => {}
                 Look::One => brackets.push((lo, hi)),
                 Look::Hopeless => found.undecided.push((lo, hi)),
-                Look::Unknown if halvings == MOST_HALVINGS || looks > MOST_LOOKS => found.undecided.push((lo, hi)),
+                Look::Unknown if halvings == MOST_HALVINGS || looks > most => found.undecided.push((lo, hi)),
                 Look::Unknown => {
                     let middle = budget.enter(|| self.split_point(f, &lo, &hi, near))?;
                     for (lo, hi) in [(lo, middle.clone()), (middle, hi)] {
@@ -408,8 +415,14 @@ fn octaves(lo: &Rational, hi: &Rational, near: &Rational) -> i64 {
 /// Whether exponentials of a companion matrix anywhere in these balls may have too many bits to be of use.
 fn is_too_large(coefficients: &[Series], time: &Series) -> bool {
     let size = |s: &Series| s.coefficients()[0].upper().abs().max(s.coefficients()[0].lower().abs());
-    let greatest = coefficients.iter().map(size).max().unwrap_or(Rational::ONE).max(Rational::ONE);
-    size(time) * greatest > Rational::from(LARGEST)
+    let n = coefficients.len() as i64;
+    // No root is larger than twice the greatest of the roots |c_k|^(1/(n - k)).
+    let octaves = coefficients.iter().enumerate().map(|(k, c)| {
+        let size = size(c);
+        if size.is_zero() { 0 } else { exponent(&size).div_euclid(n - k as i64) + 1 }
+    });
+    let rate = Rational::from(2).pow(octaves.max().unwrap_or(0).max(0)).expect("two is not zero");
+    size(time) * rate > Rational::from(LARGEST)
 }
 
 /// What a Taylor polynomial says of a function on an interval.

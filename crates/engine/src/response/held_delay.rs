@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::model::MoreDeadTime;
 use crate::problem::{Problem, fixed_symbols, moving_symbols};
 use crate::stability::{AtPoint, ComplexPair, Range, StableSet, SymbolicPolynomial, symbolic_stable_set};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::real::Real;
 use std::sync::Arc;
@@ -30,11 +30,23 @@ pub struct HeldDelay {
 }
 
 impl HeldDelay {
+    /// Loops that bear more samples are not looked at: each sample is a root more.
+    pub const MOST: u64 = 12;
+
     /// About so many samples of dead time are looked at.
     pub const LOOKED_AT: i64 = 63;
 
-    /// Of a stable loop; `None` where the cut is not that of a loop through the only block behind a hold.
-    pub(super) fn of(problem: &Problem, open_loop: &OpenLoop, budget: &Budget) -> Result<Option<HeldDelay>, Error> {
+    /// Of a stable loop that bears this many whole samples; `None` where the cut is not that of a loop through the only block
+    /// behind a hold, where they are more than [`HeldDelay::MOST`], and where an end is not told from a tie.
+    pub(super) fn of(
+        problem: &Problem,
+        open_loop: &OpenLoop,
+        borne: u64,
+        budget: &Budget,
+    ) -> Result<Option<HeldDelay>, Error> {
+        if borne > HeldDelay::MOST {
+            return Ok(None);
+        }
         let (model, values) = (problem.model(), problem.set());
         let Some(hold) = model.only_hold(values, budget)? else { return Ok(None) };
         let Ok(at_hold) = OpenLoop::of(problem, Some(&hold.block), budget) else { return Ok(None) };
@@ -57,10 +69,10 @@ impl HeldDelay {
             let first = first.filter(|i| i.lower.as_ref().is_some_and(|l| begins(&l.value)));
             let Some(end) = first.and_then(|i| i.upper.as_ref()) else { return found(Some(from.into()), None) };
             if let Some(bracket) = set.undecided().first()
-                && bracket.lower.as_ref().is_none_or(|lower| end.value.compare_rational(lower).is_gt())
+                && bracket.lower.as_ref().is_none_or(|lower| end.value.compare_rational(lower).is_ge())
             {
-                let what = "whether the loop touches the boundary with a dead time";
-                return Err(Exhausted::new("precision", what).into());
+                // Whether the loop touches the boundary there, or ends, is not known.
+                return Ok(None);
             }
             if end.value.compare_rational(&to).is_lt() {
                 return found(Some(end.value.clone()), end.pair.clone());

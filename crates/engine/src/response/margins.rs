@@ -186,9 +186,9 @@ impl Problem {
                 }
             };
             let held_delay = match &stable {
-                Some(stable) if with_held_delay && matches!(stable.delay, DelayMargin::Samples(_)) => {
+                Some(StableMargins { delay: DelayMargin::Samples(borne), .. }) if with_held_delay => {
                     budget.step("dead time behind the hold");
-                    HeldDelay::of(self, &open_loop, budget)?
+                    HeldDelay::of(self, &open_loop, *borne, budget)?
                 }
                 _ => None,
             };

@@ -245,12 +245,17 @@ impl<'a> ToleranceProblem<'a> {
         let mut open = None;
         let mut coarser = Rational::ONE;
         let (mut retreats, mut refutations) = (0, 0);
+        // At first not so near to the end: if that is not the nearest one, a box is refuted sooner than it is left open.
+        let mut is_rough = true;
         budget.step("proving the largest box");
         loop {
             let end = search.best.as_ref().map(|b| &b.lo).into_iter().chain(most).min();
             let target = match end {
                 None => Rational::from(FAR),
-                Some(end) => lowered(end, &(&gap(end) * &coarser).min(Rational::new(7.into(), 8.into()))),
+                Some(end) => {
+                    let least = if is_rough { Rational::new(1.into(), 1000.into()) } else { Rational::ZERO };
+                    lowered(end, &(&gap(end) * &coarser).max(least).min(Rational::new(7.into(), 8.into())))
+                }
             };
             if proved.as_ref().is_some_and(|(lower, _)| *lower >= target) {
                 break;
@@ -266,7 +271,10 @@ impl<'a> ToleranceProblem<'a> {
             match outcome {
                 Outcome::Stable(proof) => {
                     proved = Some((target, proof));
-                    break;
+                    if !is_rough {
+                        break;
+                    }
+                    is_rough = false;
                 }
                 Outcome::Refuted(point) => {
                     refutations += 1;
@@ -283,7 +291,7 @@ impl<'a> ToleranceProblem<'a> {
                     }
                     nearer?;
                     // A new end, a new attempt at the full precision.
-                    (coarser, retreats, open) = (Rational::ONE, 0, None);
+                    (coarser, retreats, open, is_rough) = (Rational::ONE, 0, None, proved.is_none());
                 }
                 Outcome::Open { why, cell } => {
                     open.get_or_insert((why, cell));
