@@ -144,7 +144,7 @@ mod tests {
         let f = square_of_modulus(&p).minus(&square_of_modulus(&q));
         let ratio = |n: i64, d: i64| Q::new(n.into(), d.into());
         let at = |a: Q, b: Q| Crossing::new([&p, &q], &f, &a, &b, 128, &clock).unwrap();
-        let (one, minus) = (at(ratio(7, 10), ratio(9, 10)), at(ratio(1, 1), ratio(3, 2)));
+        let (one, minus) = (at(ratio(7, 10), ratio(9, 10)), at(ratio(11, 10), ratio(3, 2)));
         assert!(one.is_one && !one.is_gain && one.theta == Interval::zero());
         assert!(!minus.is_one && minus.is_gain && minus.theta.scaled(&Z::from(2)) == minus.turn);
         assert!(Crossing::new([&p, &q], &f, &ratio(1, 10), &ratio(2, 10), 128, &clock).is_err());

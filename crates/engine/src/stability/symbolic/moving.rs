@@ -300,7 +300,7 @@ impl SymbolicPolynomial {
         for power in 0..=LAST_POWER {
             budget.check()?;
             let start = Rational::from(2).pow(power).expect("two is not zero");
-            let to = Rational::dyadic(&Integer::ONE, power.unsigned_abs().into());
+            let to = Rational::dyadic(&Integer::ONE, power.unsigned_abs());
             if upper.is_some_and(|upper| to >= *upper) {
                 continue;
             }
