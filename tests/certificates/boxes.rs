@@ -323,9 +323,9 @@ fn the_program_writes_and_verifies_certificates_of_boxes() {
     let proved = jurist(&["verify", &drive, &file, "--timeout", "inf"]);
     assert_eq!(proved.status, 0, "{}", proved.stderr);
     assert!(proved.stdout.contains("the loop is stable; these are the tolerances times"), "{}", proved.stdout);
-    // Another model, a wider box, a leaf of another vector.
+    // Another model (the box replaces the numbers of its own parameters), a wider box, a leaf of another vector.
     let other = folder.join("other.toml").to_str().unwrap().to_owned();
-    std::fs::write(&other, example_text("drive").replace("46e-3", "47e-3")).unwrap();
+    std::fs::write(&other, example_text("drive").replace("K_a  = 0.55", "K_a  = 0.56")).unwrap();
     assert_eq!(jurist(&["verify", &other, &file]).status, 4);
     let text = std::fs::read_to_string(&file).unwrap();
     let tree = text.rfind("\"tree\": \"").unwrap() + 9;
