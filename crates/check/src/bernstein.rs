@@ -132,9 +132,7 @@ impl Tensor {
         for mut right in self.planes {
             let mut left = right.clone();
             for (left, right) in left.chunks_mut(stride * count).zip(right.chunks_mut(stride * count)) {
-                for at in 0..stride {
-                    left[at] <<= count - 1;
-                }
+                left[..stride].iter_mut().for_each(|c| *c <<= count - 1);
                 for step in 1..count {
                     for at in 0..(count - step) * stride {
                         let next = std::mem::take(&mut right[at]) + &right[at + stride];
@@ -145,10 +143,8 @@ impl Tensor {
                     }
                 }
                 // After all steps the coefficient j of the upper half was added j times less than the first one.
-                for j in 1..count {
-                    for at in 0..stride {
-                        right[j * stride + at] <<= j;
-                    }
+                for (j, part) in right.chunks_mut(stride).enumerate().skip(1) {
+                    part.iter_mut().for_each(|c| *c <<= j);
                 }
             }
             low.push(left);
