@@ -75,6 +75,7 @@ mod tolerances {
 mod certificates {
     mod attacks;
     mod blocks;
+    mod boxes;
     mod check;
     mod coq;
     mod dead_time;

@@ -61,20 +61,20 @@ def product(factors):
     return value
 
 
-def excluded(function, box):
-    """The number of boxes until no zero is left, or None after SECONDS."""
+def excluded(function, box, seconds=SECONDS):
+    """The number of boxes until no zero is left, or None after so many seconds."""
     contractor = CtcInverse(function, IntervalVector([Interval(0.0), Interval(0.0)]))
-    start, count, waiting = time.perf_counter(), 0, [box]
+    start, count, waiting = time.process_time(), 0, [box]
     while waiting:
         box = waiting.pop()
         count += 1
         box = IntervalVector(contractor.contract(box))
         if box.is_empty():
             continue
-        if time.perf_counter() - start > SECONDS or box.max_diam() < 1e-9:
-            return None, time.perf_counter() - start, count
+        if time.process_time() - start > seconds or box.max_diam() < 1e-9:
+            return None, time.process_time() - start, count
         waiting.extend(box.bisect(box.max_diam_index(), 0.49))
-    return True, time.perf_counter() - start, count
+    return True, time.process_time() - start, count
 
 
 def main():

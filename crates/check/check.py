@@ -17,7 +17,7 @@ import sys
 import tomllib
 from fractions import Fraction
 from itertools import accumulate
-from math import gcd, isqrt, lcm, prod
+from math import comb, gcd, isqrt, lcm, prod
 
 MAX_TEXT, MAX_MODEL = 64 << 20, 4 << 20  # characters
 MAX_DIGITS = 100_000
@@ -1094,10 +1094,10 @@ def expanded(rows):
         need(len(minors) <= 20_000, "a loop with symbols is too large for the check")
     return next(iter(minors.values()), ZERO)
 
-def characteristic_polynomial(text, kept, values, symbols=None):
-    """Whether time is discrete, the degree, the coefficients of z^0, z^1, ... (none if undefined), the poles."""
+def loop_of(text, kept, values, boxed=(), symbols=None):
+    """The model, its loop with the parameters of a box behind those that have values, and these values."""
     model = Model(text)
-    names = [*([kept] if kept is not None else []), *values]
+    names = [*([kept] if kept is not None else []), *values, *boxed]
     need(len(set(names)) == len(names), "a parameter has two values")
     need(set(model.parameters) <= set(names), "a parameter has no value")
     numbers = set(names) - set(model.parameters)
@@ -1108,9 +1108,13 @@ def characteristic_polynomial(text, kept, values, symbols=None):
     # A constant that is set has another number, and nothing else changes.
     model.constants = model.constants | {name: str(x) for name, x in values.items() if name in numbers}
     values = {name: x for name, x in values.items() if name not in numbers}
-    variables = {name: v for v, name in enumerate(values, 2)} | ({} if kept is None else {kept: 1})
+    variables = {name: v for v, name in enumerate([*values, *boxed], 2)} | ({} if kept is None else {kept: 1})
     values = list(values.values())
-    loop = Loop(model, variables, values, Table() if symbols is None else symbols)
+    return model, Loop(model, variables, values, Table() if symbols is None else symbols), values
+
+def characteristic_polynomial(text, kept, values, symbols=None):
+    """Whether time is discrete, the degree, the coefficients of z^0, z^1, ... (none if undefined), the poles."""
+    model, loop, values = loop_of(text, kept, values, symbols=symbols)
     if isinstance(symbols, Fraction):
         return quasi_polynomial(model, loop, values)
     if symbols:
@@ -1373,6 +1377,262 @@ def half_size_pair(d, discrete):
     # (z^(j+1) + z^-j)/(z + 1), and (z^(j+1) - z^-j)/(z - 1)
     return in_x(even, ONE, Z + number(-1)), in_x(odd, ONE, Z + ONE), k, k
 
+# ---------------------------------------------------------------- boxes of tolerances
+
+class Tensor:
+    """Bernstein coefficients of polynomials over a box, each polynomial times a positive number; the last axis is the frequency and
+    runs fastest."""
+
+    def __init__(self, counts, planes):
+        self.counts, self.planes = counts, planes
+
+    @staticmethod
+    def of(lists, sides):
+        """Of lists of polynomials in the variables from 2 on, each list for the powers of the frequency."""
+        counts = [1 + max(p.degree(2 + i) for p in sum(lists, [])) for i in range(len(sides))] + [len(lists[0])]
+        need(prod(counts) <= 1 << 17, "a box has too many coefficients")
+        planes = []
+        for powers in lists:
+            plane = [0] * prod(counts)
+            for j, p in enumerate(powers):
+                for e, c in p.items():
+                    place, e = 0, e >> 2 * FIELD
+                    for count in counts[:-1]:
+                        place, e = place * count + (e & MASK), e >> FIELD
+                    plane[place * len(powers) + j] = c
+            planes.append(plane)
+        tensor = Tensor(counts, planes)
+        for i, (low, high) in enumerate(sides):
+            if counts[i] > 1:
+                tensor.multiply(i, to_bernstein(counts[i] - 1, low, high))
+        return tensor
+
+    @staticmethod
+    def of_pair(p, sides, v0, weight):
+        """Of (1 - t)^k E and weight (1 - t)^k O, v = v0 t/(1 - t), p(i w) = E(v) + i w O(v), v = w^2."""
+        k = (len(p) - 1) // 2
+        p = [c * number((-1) ** (j // 2)) for j, c in enumerate(p + [ZERO])]
+        tensor = Tensor.of([p[0:2 * k + 1:2], p[1:2 * k + 2:2]], sides)
+        ways = [comb(k, j) for j in range(k + 1)]
+        top, bottom, common = v0.numerator, v0.denominator, lcm(*ways)
+        for plane, w in zip(tensor.planes, (weight.denominator, weight.numerator)):
+            scales = [w * top ** j * bottom ** (k - j) * common // ways[j] for j in range(k + 1)]
+            spend(len(plane), size(plane), size(scales))
+            for j, scale in enumerate(scales):
+                plane[j::k + 1] = [c * scale for c in plane[j::k + 1]]
+        common = gcd(*(c for plane in tensor.planes for c in plane)) or 1
+        return Tensor(tensor.counts, [[c // common for c in plane] for plane in tensor.planes])
+
+    def slices(self, plane, axis):
+        """The coefficients with each index along an axis."""
+        stride, count = prod(self.counts[axis + 1:]), self.counts[axis]
+        if stride == 1:
+            return [plane[j::count] for j in range(count)]
+        starts = range(0, len(plane), stride * count)
+        return [[c for at in starts for c in plane[at + j * stride:at + (j + 1) * stride]] for j in range(count)]
+
+    def joined(self, slices, axis):
+        """A plane of slices, of which there may be other than before."""
+        stride, out = prod(self.counts[axis + 1:]), []
+        for at in range(0, len(slices[0]), stride):
+            for part in slices:
+                out += part[at:at + stride]
+        return out
+
+    def multiply(self, axis, matrix):
+        """A matrix times the coefficients along an axis."""
+        for n, plane in enumerate(self.planes):
+            spend(len(plane) * len(matrix), size(plane), max(map(size, matrix)))
+            parts = self.slices(plane, axis)
+            products = [[sum(map(int.__mul__, row, lane)) for lane in zip(*parts)] for row in matrix]
+            self.planes[n] = self.joined(products, axis)
+
+    def halves(self, axis):
+        """Over both halves along an axis, times a power of two [de Casteljau]."""
+        low, high, last = [], [], self.counts[axis] - 1
+        for plane in self.planes:
+            spend(len(plane) * last // 2, size(plane))
+            level, lower, upper = self.slices(plane, axis), [], []
+            for k in range(last, -1, -1):
+                lower.append([c << k for c in level[0]])
+                upper.insert(0, [c << k for c in level[-1]])
+                level = [list(map(int.__add__, a, b)) for a, b in zip(level, level[1:])]
+            low.append(self.joined(lower, axis))
+            high.append(self.joined(upper, axis))
+        return Tensor(self.counts, low), Tensor(self.counts, high)
+
+    def combined(self, a, b):
+        spend(2 * len(self.planes[0]), size(self.planes[0]), size([a, b]))
+        return [a * x + b * y for x, y in zip(*self.planes)]
+
+    def raised(self, plane, axis, times_share):
+        """The same polynomial, or times 2 u - 1, with one degree more along an axis, times that degree."""
+        parts, sign = self.slices(plane, axis), -1 if times_share else 1
+        n, none = len(parts), [0] * len(parts[0])
+        spend(2 * len(plane), size(plane))
+        return self.joined([[j * x + sign * (n - j) * y for x, y in zip(below, here)]
+                            for j, (below, here) in enumerate(zip([none, *parts], [*parts, none]))], axis)
+
+    def affine(self, axes, vectors):
+        """Of the product with a vector that is affine along axes."""
+        total = None
+        for k, (a, b) in enumerate(vectors):
+            term, shape = self.combined(a, b), Tensor(self.counts[:], [])
+            for i, axis in enumerate(axes):
+                term = shape.raised(term, axis, k == i + 1)
+                shape.counts[axis] += 1
+            total = term if total is None else list(map(int.__add__, total, term))
+        return total
+
+def to_bernstein(l, low, high):
+    """The matrix from the powers of p to Bernstein's polynomials of u, p = low + (high - low) u, times a positive number."""
+    q = lcm(low.denominator, high.denominator)
+    a, w, common = int(low * q), int((high - low) * q), lcm(*(comb(l, e) for e in range(l + 1)))
+    return [[q ** (l - f) * sum(common // comb(l, e) * comb(j, e) * comb(f, e) * a ** (f - e) * w ** e
+                                for e in range(min(j, f) + 1)) for f in range(l + 1)] for j in range(l + 1)]
+
+NODE = re.compile(r"x|s([0-9]{1,6}),|l(-?[0-9]+,-?[0-9]+);|a((?:[0-9]{1,6},|x,)*(?:[0-9]{1,6}|x)):([-0-9,]+);|[+-]")
+
+def follow(tree, whole):
+    """Whether the tree halves the box until each cell shows what is claimed: of one polynomial that it is not zero, of two that
+    they are not both."""
+    need(isinstance(tree, str), "a tree is a text")
+    at, stack, pair, last = 0, [whole], len(whole.planes) == 2, len(whole.counts) - 1
+    while stack:
+        cell = stack.pop()
+        node = NODE.match(tree, at)
+        need(node, "a tree ends too early, or has another part")
+        letter, at = node[0][0], node.end()
+        if letter in "xs":
+            axis = last if letter == "x" else int(node[1])
+            need(pair if letter == "x" else axis < last, "a tree halves what is not there")
+            stack += cell.halves(axis)[::-1]
+            need(len(stack) * len(cell.planes[0]) <= 1 << 21, "a tree is too deep")
+        elif letter in "+-":
+            need(not pair, "a sign where a vector must be")
+            need(all(c > 0 if letter == "+" else c < 0 for c in cell.planes[0]), "a leaf has not its sign")
+        else:
+            need(pair, "a vector where a sign must be")
+            axes = [last if axis == "x" else int(axis) for axis in node[3].split(",")] if letter == "a" else []
+            need(all(a < b for a, b in zip(axes, [*axes[1:], last + 1])), "the axes of a leaf are not in order")
+            need("x" in (node[3] or "") or last not in axes, "a leaf has an axis that is not there")
+            numbers = [integer(c) for c in (node[2] or node[4]).split(",")]
+            need(len(numbers) == 2 * len(axes) + 2, "a leaf has not one vector for each axis and one more")
+            need(all(c > 0 for c in cell.affine(axes, list(zip(numbers[::2], numbers[1::2])))), "a leaf is not on one side")
+    need(at == len(tree), "something follows a tree")
+
+def over_box(text, names, values):
+    """The coefficients in the parameters of a box, which are the variables from 2 on, and lists of polynomials at whose common zeros
+    the loop is undefined."""
+    model, loop, values = loop_of(text, None, values, names)
+    divisors = [cleared(divisor.at(values).coefficients(0)) for divisor in loop.scope.divisors]
+
+    def system(equations, unknowns):
+        return expanded([cleared([e.tops.get(name, ZERO).at(values) for name in unknowns]) for e in equations])
+
+    need(len(loop.equations) == len(loop.unknowns), "there are not as many equations as unknowns")
+    if "characteristic" in model.root["loop"]:
+        [equation], [name] = loop.equations, loop.unknowns
+        d, below = cleared([equation.tops.get(name, ZERO).at(values), equation.bottom.at(values)])
+        divisors.append([below])
+    else:
+        d = system(loop.equations, loop.unknowns)
+        need(d.degree(0) <= loop.degree, "a determinant has too high a degree")
+        divisors.append([d.lead(0) if d.degree(0) == loop.degree else ZERO])
+    for equations, states in loop.own:
+        own = system(equations, states)
+        divisors.append([own.lead(0) if own.degree(0) == len(states) else ZERO])
+    return model.discrete, d.coefficients(0) + [ZERO] * (loop.degree - d.degree(0)), divisors
+
+def vanishes_only_with(p, factors):
+    """Whether nothing but a number is left of a polynomial when what it has in common with the factors is divided out."""
+    p = p.primitive()
+    for f in factors:
+        while any(p):
+            quotient = p / f
+            if quotient is None:
+                common = p.common(f)
+                if not any(common):
+                    break
+                quotient = p / common
+            p = quotient
+    return bool(p) and not any(p)
+
+def check_tolerance(model, document, statement, values, discrete, extent):
+    names = ["schema", "statement", "characteristic", "factors", "pair"]
+    _, _, given, factors, pair = parts(document, names, ["model"])
+    *_, tolerances, factor, beyond = parts(statement, ["kind", "time", "set", "region", "tolerances", "factor", "beyond"])
+    need(extent != "parameter", "the region has no parameter here")
+    tolerances = items(tolerances, lambda item: parts(item, ["name", "nominal", "between"]))
+    names = [name_of(name) for name, _, _ in tolerances]
+    nominal = [rational(x) for _, x, _ in tolerances]
+    between = [items(ends, rational) for _, _, ends in tolerances]
+    factor = rational(factor)
+    need(names and factor >= 0 and all(len(ends) == 2 for ends in between), "there is no box")
+    need(all(low <= x <= high for x, (low, high) in zip(nominal, between)), "a nominal value is not within its tolerance")
+
+    def at_factor(factor):
+        return [[x + factor * (end - x) for end in ends] for x, ends in zip(nominal, between)]
+
+    def read(json_value):
+        out = {}
+        for c, *exponents in items(json_value, lambda term: items(term, lambda item: item)):
+            e = sum(count(k) << FIELD * (v + 2) for v, k in enumerate(exponents))
+            need(all(0 <= k <= MAX_DEGREE for k in exponents) and (not exponents or exponents[-1]), "a term is not in its shortest form")
+            need(len(exponents) <= len(names) and integer(c) and e not in out, "a term is not in its shortest form")
+            out[e] = integer(c)
+        return P(out)
+
+    def at(polynomials, point):
+        return P.of([c.get(0, 0) for c in cleared([p.at(point) for p in polynomials])]).listed(0)
+
+    is_discrete, own, divisors = over_box(model, names, values)
+    need(is_discrete == discrete, "the model's time is another")
+    own, given = in_region(own, discrete, extent), items(given, read)
+    need(len(given) == len(own) and any(given), "characteristic: not that of the model")
+    given = cleared(given)
+    k = min((k for k, c in enumerate(given) if c), key=lambda k: len(given[k]))
+    common = own[k] / given[k]
+    need(common is not None and all(g * common == o for g, o in zip(given, own)), "characteristic: not that of the model")
+    n, p = len(given) - 1, given
+    if discrete:  # (1 - s)^n D((1 + s)/(1 - s))
+        p = [ZERO] * (n + 1)
+        for i, c in enumerate(given):
+            row = [1]
+            for j in range(n):
+                row = [x + y if j < i else x - y for x, y in zip([*row, 0], [0, *row])]
+            p = [x + c * number(w) for x, w in zip(p, row)]
+    sides, known = at_factor(factor), []
+    for item in items(factors, lambda item: parts(item, ["polynomial", "tree"])):
+        f = read(item[0]).primitive()
+        need(any(f), "factors: one is constant")
+        follow(item[1], Tensor.of([[f]], sides))
+        known.append(f)
+    for ways in [[common], [p[0]], [p[n]], *divisors]:
+        need(any(vanishes_only_with(way, known) for way in ways), "factors: what must not vanish is not a product of them")
+    v0, weight, tree = parts(pair, ["v0", "weight", "tree"])
+    v0, weight = rational(v0), rational(weight)
+    need(v0 > 0 and weight > 0, "pair: a scale is not positive")
+    follow(tree, Tensor.of_pair(p, sides, v0, weight))
+    d = at(given, nominal)
+    need(len(d) == n + 1 and places(d, discrete) == (n, 0, 0), "stable: the nominal point is not")
+    sentence = f"in {statement['time']} time, {statement['region']}, "
+    sentence += ", ".join(f"{low} <= {name} <= {high}" for name, (low, high) in zip(names, sides))
+    sentence += "".join(f", {name} = {x}" for name, x in values.items()) + ": stable everywhere"
+    if beyond is not None:
+        keys = ["factor", "point", "degree", "inside", "on", "outside", "infinite"]
+        factor, point, *counts = parts(beyond, keys)
+        factor, point = rational(factor), items(point, rational)
+        need(factor >= 0 and len(point) == len(names), "beyond: there is no point")
+        need(all(low <= x <= high for x, (low, high) in zip(point, at_factor(factor))), "beyond: the point is not in its box")
+        undefined, d = any(not at(ways, point) for ways in divisors), at(own, point)
+        found = places(d, discrete) if d and not undefined else (0, 0, 0)
+        found = [n, *found, 0 if undefined else n - sum(found)]
+        need([*map(count, counts)] == found, f"beyond: the counts are {found}")
+        need(undefined or found[1] < n, "beyond: the point is stable")
+        sentence += "; not at " + ", ".join(f"{name} = {x}" for name, x in zip(names, point))
+    return sentence
+
 # ---------------------------------------------------------------- dead time
 
 def inverse_tangent(x, bits):
@@ -1603,10 +1863,10 @@ def read(certificate):
     hooks = {"parse_int": small, "parse_float": small, "parse_constant": small, "object_pairs_hook": strict}
     document = json.loads(certificate, **hooks)
     need(depth(document) <= MAX_DEPTH, "nested too deep")
-    need(isinstance(document, dict) and document.get("schema") in (RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME), "unknown schema")
+    need(isinstance(document, dict) and document.get("schema") in (RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES), "unknown schema")
     return document
 
-RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME = "jurist/certificate/1", "jurist/certificate/2", "jurist/certificate/3"
+RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES = (f"jurist/certificate/{version}" for version in range(1, 5))
 FURTHER = ["bits", "symbols", "modes"]
 
 def table_of(document):
@@ -1622,13 +1882,16 @@ def check(model, certificate):
     document = read(certificate)
     statement = document["statement"]
     kind, time, values, region = (statement[key] for key in ("kind", "time", "set", "region"))
-    need(kind in ("intervals", "verdict"), "unknown kind of statement")
+    kinds = ("tolerance",) if document["schema"] == OF_BOXES else ("intervals", "verdict")
+    need(kind in kinds, "unknown kind of statement")
     need(time in ("discrete", "continuous"), "unknown time")
     discrete = time == "discrete"
     values = {name_of(name): rational(x) for name, x in values.items()}
     [extent] = parts(region, ["radius" if discrete else "decay"])
     extent = "parameter" if extent == "parameter" else rational(extent)
     need(not discrete or extent == "parameter" or extent > 0, "the radius is not positive")
+    if kind == "tolerance":
+        return check_tolerance(model, document, statement, values, discrete, extent)
     if document["schema"] == WITH_DEAD_TIME:
         need(kind == "intervals" and not discrete, "unknown kind of statement")
         return check_windows(model, document, statement, values, extent)

@@ -106,6 +106,22 @@ fn a_single_point_that_is_not_stable_is_found() {
     assert_eq!(single.factor.unwrap().upper, Some(number("4/11")));
 }
 
+/// `a + (b^2 - 2)^2` vanishes only at `a = 0`, `b = sqrt(2)`: no rational point of the box is not stable, and none proves it stable.
+#[test]
+fn a_box_that_touches_at_an_irrational_point_is_undecided_with_the_cell() {
+    let parameters = "a = { nominal = 1, tolerance = 1 }\nb = { nominal = 1.4, tolerance = 0.5 }";
+    let real = answer(parameters, "s + a + (b^2 - 2)^2");
+    let BoxDecision::Undecided { cell, .. } = &real.decision else { panic!("{:?}", real.decision) };
+    let root = number("1.41421356237309504880");
+    assert!(cell[1][0] <= &root + &number("1e-20") && cell[1][1] >= root && &cell[1][1] - &cell[1][0] < number("1e-6"));
+    bracket_holds(&real, "1");
+    // Of a pair of roots the factor is proved to be exactly 1 instead, without a rational witness.
+    let pair = answer(parameters, "s^2 + (a + (b^2 - 2)^2)*s + 2");
+    assert!(matches!(&pair.decision, BoxDecision::NotStable { witness: None }), "{:?}", pair.decision);
+    bracket_holds(&pair, "1");
+    assert_eq!(pair.exact.unwrap().value.exact(), Some(Rational::ONE));
+}
+
 #[test]
 fn a_division_by_what_keeps_its_sign_is_no_obstacle() {
     let quotient =

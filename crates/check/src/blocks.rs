@@ -384,7 +384,7 @@ impl Diagram<'_, '_> {
 }
 
 /// A row of `n` entries times its least common denominator, which is free of the variable.
-fn cleared(row: Vec<(usize, &Fraction)>, n: usize, clock: &Clock) -> Result<Vec<Multi>, String> {
+pub(super) fn cleared(row: Vec<(usize, &Fraction)>, n: usize, clock: &Clock) -> Result<Vec<Multi>, String> {
     let mut common = Multi::one();
     for (_, f) in row.iter().filter(|(_, f)| !f.numerator.is_zero()) {
         if f.denominator != Multi::one() {

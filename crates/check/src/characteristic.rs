@@ -224,7 +224,7 @@ fn clear_row(parts: &[Vec<Vec<Q>>]) -> Vec<Entry> {
     parts.iter().map(|entry| Entry(entry.iter().map(uni).collect())).collect()
 }
 
-fn product(a: &[Vec<Fraction>], b: &[Vec<Fraction>], clock: &Clock) -> Result<Vec<Vec<Fraction>>, String> {
+pub(super) fn product(a: &[Vec<Fraction>], b: &[Vec<Fraction>], clock: &Clock) -> Result<Vec<Vec<Fraction>>, String> {
     let mut out = Vec::new();
     for row in a {
         let mut sums = Vec::new();

@@ -94,10 +94,12 @@ impl<'t> Declarations<'t> {
         Meaning { variables, values: Vec::new(), replaced: BTreeMap::new(), changes_constants: false }
     }
 
-    /// The model with one name in question and values for others: all parameters, and constants that are given as numbers.
+    /// The model with one name in question, or those of a box, and values for others: all parameters, and constants that are given
+    /// as numbers. The names of a box are the variables behind those that have a value.
     pub fn asked<'q>(
         &self,
         kept: Option<&'q str>,
+        boxed: &'q [String],
         values: &'q [(String, Q)],
         clock: &Clock,
     ) -> Result<Meaning<'q>, String> {
@@ -108,8 +110,9 @@ impl<'t> Declarations<'t> {
             changes_constants: false,
         };
         let mut seen = BTreeSet::new();
-        let kept = kept.map(|name| (name, None));
-        for (name, value) in kept.into_iter().chain(values.iter().map(|(name, value)| (name.as_str(), Some(value)))) {
+        let names = kept.into_iter().map(|name| (name, None));
+        let names = names.chain(values.iter().map(|(name, value)| (name.as_str(), Some(value))));
+        for (name, value) in names.chain(boxed.iter().map(|name| (name.as_str(), None))) {
             if !seen.insert(name) {
                 return Err(format!("'{}' has two values", shorten(name)));
             }
@@ -124,10 +127,17 @@ impl<'t> Declarations<'t> {
                     continue;
                 }
             }
-            let variable = value.map_or(1, |value| {
-                meaning.values.push(value.clone());
-                meaning.values.len() - 1
-            });
+            let variable = match value {
+                Some(value) => {
+                    meaning.values.push(value.clone());
+                    meaning.values.len() - 1
+                }
+                None if kept == Some(name) => 1,
+                // All values are there by now.
+                None => {
+                    meaning.values.len() + meaning.variables.values().filter(|v| **v >= meaning.values.len()).count()
+                }
+            };
             meaning.variables.insert(name.to_owned(), variable);
         }
         match self.parameters.iter().find(|name| !seen.contains(*name)) {
@@ -236,10 +246,10 @@ mod tests {
         let root = root.unwrap();
         let declared = Declarations::read(&root, &clock).unwrap();
         let two = [("c".to_owned(), Q::from(num_bigint::BigInt::from(2)))];
-        let meaning = declared.asked(Some("K"), &two, &clock).unwrap();
+        let meaning = declared.asked(Some("K"), &[], &two, &clock).unwrap();
         assert_eq!(meaning.variables, BTreeMap::from([("K".to_owned(), 1)]));
         assert_eq!(declared.scope(&meaning, &clock).unwrap().constants["c"].numerator.degree(1), 0);
-        for wrong in [declared.asked(Some("c"), &two, &clock), declared.asked(None, &two, &clock)] {
+        for wrong in [declared.asked(Some("c"), &[], &two, &clock), declared.asked(None, &[], &two, &clock)] {
             assert!(wrong.is_err());
         }
     }

@@ -15,6 +15,9 @@ pub const SCHEMA_WITH_SYMBOLS: &str = "jurist/certificate/2";
 /// The schema of certificates of stable dead times.
 pub const SCHEMA_WITH_DEAD_TIME: &str = "jurist/certificate/3";
 
+/// The schema of certificates of boxes of tolerances.
+pub const SCHEMA_OF_BOXES: &str = "jurist/certificate/4";
+
 /// Texts longer than this many bytes are refused unread.
 pub const MAX_TEXT: usize = 64 << 20;
 

@@ -7,7 +7,9 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod bernstein;
 mod blocks;
+mod boxes;
 mod characteristic;
 mod clock;
 mod coefficient;
@@ -29,6 +31,7 @@ mod model;
 mod multivariate;
 mod number;
 mod over;
+mod over_box;
 mod over_symbols;
 #[doc = include_str!("proved.md")]
 pub mod proved {}
@@ -42,7 +45,7 @@ mod univariate;
 mod verdict;
 
 use clock::{Clock, out_of_time};
-use format::{Json, SCHEMA, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS};
+use format::{Json, SCHEMA, SCHEMA_OF_BOXES, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS};
 use num_traits::Zero;
 use number::{Q, shorten};
 use over::Over;
@@ -107,7 +110,7 @@ impl Default for Limits {
 pub struct Proved {
     /// The statement in a sentence or two.
     pub statement: String,
-    /// The kind of the statement: `intervals` or `verdict`.
+    /// The kind of the statement: `intervals`, `verdict` or `tolerance`.
     pub kind: &'static str,
 }
 
@@ -256,8 +259,8 @@ fn checked(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Re
     // Another version may have other parts, so it is looked at first.
     let schema = json.get("schema").ok_or_else(|| "the certificate has no 'schema'".to_owned());
     let schema = Step::Format.of(schema.and_then(|s| text(s, "'schema'")))?;
-    if ![SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_WITH_DEAD_TIME].contains(&schema) {
-        let known = format!("'{SCHEMA}', '{SCHEMA_WITH_SYMBOLS}' or '{SCHEMA_WITH_DEAD_TIME}'");
+    if ![SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_WITH_DEAD_TIME, SCHEMA_OF_BOXES].contains(&schema) {
+        let known = format!("'{SCHEMA}', '{SCHEMA_WITH_SYMBOLS}', '{SCHEMA_WITH_DEAD_TIME}' or '{SCHEMA_OF_BOXES}'");
         let reason = format!("the schema is '{}', not {known}", shorten(schema));
         return Err(Rejection { step: Step::Format, reason });
     }
@@ -265,9 +268,12 @@ fn checked(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Re
         Step::Format.of(json.get("statement").ok_or_else(|| "the certificate has no 'statement'".into()))?;
     let kind = Step::Statement.of(statement.get("kind").ok_or_else(|| "the statement has no 'kind'".into()))?;
     match Step::Statement.of(text(kind, "'kind'"))? {
+        "tolerance" if schema == SCHEMA_OF_BOXES => boxes::check(model, &json, statement, &clock),
         "intervals" if schema == SCHEMA_WITH_DEAD_TIME => dead_time::check(model, &json, statement, &clock),
-        "intervals" => check_intervals(model, &json, statement, &clock),
-        "verdict" if schema != SCHEMA_WITH_DEAD_TIME => verdict::check(model, &json, statement, &clock),
+        "intervals" if schema != SCHEMA_OF_BOXES => check_intervals(model, &json, statement, &clock),
+        "verdict" if ![SCHEMA_WITH_DEAD_TIME, SCHEMA_OF_BOXES].contains(&schema) => {
+            verdict::check(model, &json, statement, &clock)
+        }
         other => {
             let reason = format!("unknown kind of statement '{}'", shorten(other));
             Err(Rejection { step: Step::Statement, reason })

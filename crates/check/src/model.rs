@@ -50,11 +50,32 @@ pub(super) fn asked(
     base: Option<&Q>,
     clock: &Clock,
 ) -> Result<Asked, String> {
+    read_for((kept, &[]), text, values, table, base, clock)
+}
+
+/// Reads the model for a question about a box of parameters, which are the variables behind those with a value.
+pub(super) fn asked_over_box(
+    text: &str,
+    boxed: &[String],
+    values: &[(String, Q)],
+    clock: &Clock,
+) -> Result<Asked, String> {
+    read_for((None, boxed), text, values, &Table::empty(), None, clock)
+}
+
+fn read_for(
+    (kept, boxed): (Option<&str>, &[String]),
+    text: &str,
+    values: &[(String, Q)],
+    table: &Table,
+    base: Option<&Q>,
+    clock: &Clock,
+) -> Result<Asked, String> {
     let root = toml::read(text)?;
     keys::known(&root)?;
     clock.reading(|| {
         let declared = Declarations::read(&root, clock)?;
-        let meaning = declared.asked(kept, values, clock)?;
+        let meaning = declared.asked(kept, boxed, values, clock)?;
         if meaning.changes_constants {
             // The model must be right as it is.
             evaluated(&root, &declared, &declared.as_written(), None, clock)?;

@@ -119,7 +119,7 @@ fn named(places: &Places, infinite: usize) -> &'static str {
 }
 
 /// The region, if it is not the usual one.
-fn within(extent: &Extent, discrete: bool) -> String {
+pub(super) fn within(extent: &Extent, discrete: bool) -> String {
     match extent {
         Extent::Parameter if discrete => " with all |z| < radius".into(),
         Extent::Parameter => " with all Re s < -decay".into(),

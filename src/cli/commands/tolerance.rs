@@ -4,9 +4,10 @@ use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_name, known_names, load, question};
-use crate::cli::output::ending;
+use crate::cli::output::{ending, write_answer};
 use crate::cli::picture::{Kind, Picture, deliver};
 use crate::cli::status::{Error, Outcome, Status};
+use crate::cli::written::check_certificate;
 use clap::Args;
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, to_decimal};
@@ -41,6 +42,9 @@ pub(in crate::cli) struct Options {
     /// Also says which share of the box is stable, up to 1 % that may stay undecided (at most six parameters)
     #[arg(long)]
     pub volume: bool,
+    /// Writes a certificate that 'jurist verify' re-checks: of the largest proved box and a point beyond
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<OsString>,
     #[command(flatten)]
     pub decision: DecisionOptions,
 }
@@ -77,16 +81,33 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, answer.problem().warnings());
-    let value = answer.value();
+    let certificate = match &options.certificate {
+        Some(file) => Some((answer.certificate(&context.budget)?, file)),
+        None => None,
+    };
+    if let Some((text, file)) = &certificate {
+        write_answer(text, Some(file))?;
+    }
+    let status = shown(&answer, picture, options, context)?;
+    if let Some((text, file)) = &certificate {
+        check_certificate(context, &output.run, &answer.problem().model().source().text, text, file);
+    }
+    Ok(status)
+}
+
+/// The answer where it is wanted.
+fn shown(answer: &Answer<ToleranceAnswer>, picture: Option<Kind>, options: &Options, context: &Context) -> Outcome {
+    let (output, value) = (&options.decision.output, answer.value());
+    let digits = output.digits() as usize;
     if value.domain_factor.as_ref().is_some_and(|factor| *factor <= Rational::ONE) {
         let warning =
             Diagnostic::warning("W-outside-domain", "the box of tolerances reaches the end of a parameter's domain");
         context.warn(None, &[warning]);
     }
     if let Some(kind) = picture {
-        let figure = tolerance_figure(&answer, &context.budget)?;
+        let figure = tolerance_figure(answer, &context.budget)?;
         context.reporter.finish();
-        let table = || shares_table(&answer);
+        let table = || shares_table(answer);
         let document = || to_text(&answer.json(digits));
         let out = Picture { figure: &figure, csv: &table, json: &document, csv_beside: false };
         deliver(&out, kind, output.output.as_ref())?;

@@ -207,7 +207,7 @@ fn coefficients(p: &SymbolicPolynomial) -> Vec<MultiPoly> {
 }
 
 /// Terms by ascending exponents of the parameter and the symbols.
-fn terms(p: &MultiPoly) -> Value {
+pub(super) fn terms(p: &MultiPoly) -> Value {
     let term = |(monomial, c): &(jurist_algebra::poly::Monomial, Integer)| {
         let mut exponents = monomial.exponents().to_vec();
         while exponents.last() == Some(&0) {
@@ -218,7 +218,7 @@ fn terms(p: &MultiPoly) -> Value {
     Value::Array(p.terms().iter().rev().map(term).collect())
 }
 
-fn polynomials(list: &[MultiPoly]) -> Value {
+pub(super) fn polynomials(list: &[MultiPoly]) -> Value {
     Value::Array(list.iter().map(terms).collect())
 }
 

@@ -1,5 +1,6 @@
 //! What independent programs can check: certificates, statements for SMT solvers, theorems for Coq.
 
+mod boxes;
 mod cofactors;
 mod coq;
 mod dead_time;

@@ -167,6 +167,11 @@ impl BoxPolynomial {
         (0..=self.formal_degree).map(part).collect()
     }
 
+    /// The coefficients of `1, z, ..., z^n` or `1, s, ..., s^n`, denominators cleared, in the parameters.
+    pub fn coefficients_in_region(&self) -> Vec<MultiPoly> {
+        (0..=self.formal_degree).map(|i| self.original.coeff(i)).collect()
+    }
+
     /// What must not vanish in a stable box, each with what happens where it does, in the order of the trees of a proof.
     pub fn certain(&self) -> &[(Cause, MultiPoly)] {
         &self.certain

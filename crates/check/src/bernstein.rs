@@ -1,0 +1,408 @@
+//! Bernstein coefficients over a box, exactly, and trees that halve it until each cell shows what is claimed.
+
+use super::clock::Clock;
+use super::multivariate::Multi;
+use super::number::{MAX_DIGITS, Q, Z, integer, shorten};
+use super::over_box::FIRST;
+use super::univariate::gcd;
+use num_traits::{One, Signed, Zero};
+
+/// More coefficients of a polynomial are refused.
+const MAX_COEFFICIENTS: usize = 1 << 17;
+
+/// The cells that wait may have so many coefficients together.
+const MAX_WAITING: usize = 1 << 21;
+
+/// The Bernstein coefficients of polynomials over a box, each polynomial times a positive number; the last axis is the frequency and
+/// runs fastest.
+#[derive(Clone)]
+pub(super) struct Tensor {
+    counts: Vec<usize>,
+    planes: Vec<Vec<Z>>,
+}
+
+impl Tensor {
+    /// Of one polynomial over a box of its parameters.
+    pub fn of_one(p: &Multi, sides: &[[Q; 2]], clock: &Clock) -> Result<Tensor, String> {
+        Tensor::new(&[vec![p.clone()]], sides, clock)
+    }
+
+    /// Of `(1 - t)^k E` and `weight (1 - t)^k O` for `v = v0 t/(1 - t)`, where `E(v) + i w O(v)`, `v = w^2`, is the polynomial
+    /// with these coefficients at `s = i w`.
+    pub fn of_pair(p: &[Multi], sides: &[[Q; 2]], v0: &Q, weight: &Q, clock: &Clock) -> Result<Tensor, String> {
+        let k = (p.len() - 1) / 2;
+        let part = |odd: usize| -> Vec<Multi> {
+            let at = |j: usize| p.get(2 * j + odd).cloned().unwrap_or_default();
+            (0..=k).map(|j| at(j).scaled(&Z::from(if j % 2 == 1 { -1 } else { 1 }))).collect()
+        };
+        let mut tensor = Tensor::new(&[part(0), part(1)], sides, clock)?;
+        let ways = binomials(k);
+        let common = ways.iter().fold(Z::one(), |l, b| &l / gcd(&l, b) * b);
+        let (top, bottom) = (v0.numer(), v0.denom());
+        let scales: Vec<Z> =
+            (0..=k).map(|j| top.pow(j as u32) * bottom.pow((k - j) as u32) * (&common / &ways[j])).collect();
+        for (plane, weight) in tensor.planes.iter_mut().zip([weight.denom(), weight.numer()]) {
+            let longest = scales.iter().map(Z::bits).max().unwrap_or(0) + weight.bits();
+            clock.spend(plane.len(), longest, plane.iter().map(Z::bits).max().unwrap_or(0))?;
+            for (c, scale) in plane.iter_mut().zip(scales.iter().cycle()) {
+                *c *= scale * weight;
+            }
+        }
+        tensor.reduce();
+        Ok(tensor)
+    }
+
+    /// Of lists of polynomials in the parameters, each list for the powers of the frequency.
+    fn new(lists: &[Vec<Multi>], sides: &[[Q; 2]], clock: &Clock) -> Result<Tensor, String> {
+        let degree = |i: usize| lists.iter().flatten().map(|p| p.degree(FIRST + i)).max().unwrap_or(0);
+        let mut counts: Vec<usize> = (0..sides.len()).map(|i| degree(i) + 1).collect();
+        counts.push(lists[0].len());
+        let size = counts.iter().try_fold(1usize, |n, &c| n.checked_mul(c)).filter(|&n| n <= MAX_COEFFICIENTS);
+        let size = size.ok_or_else(|| format!("there are more than {MAX_COEFFICIENTS} coefficients"))?;
+        let mut planes = vec![vec![Z::zero(); size]; lists.len()];
+        for (plane, list) in planes.iter_mut().zip(lists) {
+            for (j, p) in list.iter().enumerate() {
+                for (e, c) in &p.0 {
+                    let exponent = |i: usize| e.get(FIRST + i).copied().unwrap_or(0) as usize;
+                    let place = (0..sides.len()).fold(0, |place, i| place * counts[i] + exponent(i));
+                    plane[place * list.len() + j] = c.clone();
+                }
+            }
+        }
+        let mut tensor = Tensor { counts, planes };
+        for (i, side) in sides.iter().enumerate() {
+            if tensor.counts[i] > 1 {
+                tensor.change_basis(i, &to_bernstein(tensor.counts[i] - 1, side), clock)?;
+            }
+        }
+        tensor.reduce();
+        Ok(tensor)
+    }
+
+    fn len(&self) -> usize {
+        self.planes[0].len()
+    }
+
+    fn stride(&self, axis: usize) -> usize {
+        self.counts[axis + 1..].iter().product()
+    }
+
+    fn longest(&self) -> u64 {
+        self.planes.iter().flatten().map(Z::bits).max().unwrap_or(0)
+    }
+
+    /// Without integers common to all: a positive factor does not matter.
+    fn reduce(&mut self) {
+        let mut common = Z::zero();
+        for c in self.planes.iter().flatten() {
+            common = gcd(&common, c);
+            if common.is_one() {
+                return;
+            }
+        }
+        if !common.is_zero() {
+            self.planes.iter_mut().flatten().for_each(|c| *c /= &common);
+        }
+    }
+
+    /// A matrix times the coefficients along an axis.
+    fn change_basis(&mut self, axis: usize, matrix: &[Vec<Z>], clock: &Clock) -> Result<(), String> {
+        let (stride, count) = (self.stride(axis), self.counts[axis]);
+        let longest = matrix.iter().flatten().map(Z::bits).max().unwrap_or(0);
+        clock.spend(self.planes.len() * self.len() * count, longest, self.longest())?;
+        for plane in &mut self.planes {
+            for block in plane.chunks_mut(stride * count) {
+                for at in 0..stride {
+                    let lane: Vec<Z> = (0..count).map(|k| std::mem::take(&mut block[at + k * stride])).collect();
+                    for (j, row) in matrix.iter().enumerate() {
+                        let terms = row.iter().zip(&lane).filter(|(_, c)| !c.is_zero());
+                        block[at + j * stride] = terms.map(|(m, c)| m * c).sum();
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Over the lower and the upper half of the box along an axis, times a power of two (de Casteljau without divisions).
+    fn halves(self, axis: usize, clock: &Clock) -> Result<[Tensor; 2], String> {
+        let (stride, count) = (self.stride(axis), self.counts[axis]);
+        clock.spend(self.planes.len() * self.len() * count, self.longest(), 64)?;
+        let (mut low, mut high) = (Vec::new(), Vec::new());
+        for mut right in self.planes {
+            let mut left = right.clone();
+            for (left, right) in left.chunks_mut(stride * count).zip(right.chunks_mut(stride * count)) {
+                left[..stride].iter_mut().for_each(|c| *c <<= count - 1);
+                for step in 1..count {
+                    for at in 0..(count - step) * stride {
+                        let next = std::mem::take(&mut right[at]) + &right[at + stride];
+                        right[at] = next;
+                    }
+                    for at in 0..stride {
+                        left[step * stride + at] = &right[at] << (count - 1 - step);
+                    }
+                }
+                // After all steps the coefficient j of the upper half was added j times less than the first one.
+                for (j, part) in right.chunks_mut(stride).enumerate().skip(1) {
+                    part.iter_mut().for_each(|c| *c <<= j);
+                }
+            }
+            low.push(left);
+            high.push(right);
+        }
+        let make = |planes| Tensor { counts: self.counts.clone(), planes };
+        Ok([make(low), make(high)])
+    }
+
+    /// Whether all coefficients of `a` times the first and `b` times the second polynomial are positive.
+    fn is_separated(&self, a: &Z, b: &Z, clock: &Clock) -> Result<bool, String> {
+        clock.spend(2 * self.len(), self.longest(), a.bits().max(b.bits()))?;
+        Ok(self.planes[0].iter().zip(&self.planes[1]).all(|(x, y)| (x * a + y * b).is_positive()))
+    }
+
+    /// The same for a vector `(a, b)` plus `(a_k, b_k) (2 u_k - 1)` for some axes, `u_k` from 0 to 1 along each: the product has one degree
+    /// more along these axes.
+    fn is_separated_affinely(&self, axes: &[usize], vectors: &[[Z; 2]], clock: &Clock) -> Result<bool, String> {
+        let mut sum: Vec<Z> = Vec::new();
+        for (n, [a, b]) in vectors.iter().enumerate() {
+            clock.spend(4 * self.len() * (axes.len() + 1), self.longest(), a.bits().max(b.bits()))?;
+            let mut term: Vec<Z> = self.planes[0].iter().zip(&self.planes[1]).map(|(x, y)| x * a + y * b).collect();
+            let mut counts = self.counts.clone();
+            for (k, &axis) in axes.iter().enumerate() {
+                term = raised(&term, &counts, axis, n == k + 1);
+                counts[axis] += 1;
+            }
+            match sum.is_empty() {
+                true => sum = term,
+                false => sum.iter_mut().zip(term).for_each(|(s, t)| *s += t),
+            }
+        }
+        Ok(sum.iter().all(Z::is_positive))
+    }
+
+    fn has_sign(&self, positive: bool) -> bool {
+        self.planes[0].iter().all(|c| if positive { c.is_positive() } else { c.is_negative() })
+    }
+}
+
+fn binomials(n: usize) -> Vec<Z> {
+    let mut row = vec![Z::one()];
+    for k in 0..n {
+        let next = &row[k] * Z::from(n - k) / Z::from(k + 1);
+        row.push(next);
+    }
+    row
+}
+
+/// From the powers of a parameter to Bernstein's polynomials over an interval, times a positive number: with `p = (a + w u)/q`,
+/// `p^f = sum_e C(f, e) a^(f - e) w^e u^e / q^f`, and `u^e = sum_(j >= e) C(j, e)/C(l, e) B_j`.
+fn to_bernstein(l: usize, [low, high]: &[Q; 2]) -> Vec<Vec<Z>> {
+    let q = low.denom() / gcd(low.denom(), high.denom()) * high.denom();
+    let (a, b) = (low.numer() * (&q / low.denom()), high.numer() * (&q / high.denom()));
+    let w = b - &a;
+    let ways: Vec<Vec<Z>> = (0..=l).map(binomials).collect();
+    let common = ways[l].iter().fold(Z::one(), |lcm, b| &lcm / gcd(&lcm, b) * b);
+    let entry = |j: usize, f: usize| -> Z {
+        let term =
+            |e: usize| &common * &ways[j][e] / &ways[l][e] * &ways[f][e] * a.pow((f - e) as u32) * w.pow(e as u32);
+        (0..=j.min(f)).map(term).sum::<Z>() * q.pow((l - f) as u32)
+    };
+    (0..=l).map(|j| (0..=l).map(|f| entry(j, f)).collect()).collect()
+}
+
+/// Coefficients of one degree more along an axis, times that degree: of the same polynomial, or of it times `2 u - 1`.
+fn raised(values: &[Z], counts: &[usize], axis: usize, times_share: bool) -> Vec<Z> {
+    let stride: usize = counts[axis + 1..].iter().product();
+    let count = counts[axis];
+    let mut out = Vec::with_capacity(values.len() / count * (count + 1));
+    for block in values.chunks(stride * count) {
+        for j in 0..=count {
+            for at in 0..stride {
+                let below = if j > 0 { &block[(j - 1) * stride + at] * Z::from(j) } else { Z::zero() };
+                let above = if j < count { &block[j * stride + at] * Z::from(count - j) } else { Z::zero() };
+                out.push(if times_share { below - above } else { below + above });
+            }
+        }
+    }
+    out
+}
+
+/// What the leaves of a tree show.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Claim {
+    /// That the polynomial has no zero.
+    Sign,
+    /// That the two polynomials have no common zero.
+    Pair,
+}
+
+/// Walks through a tree over a whole box: `x` halves the frequency, `s` a parameter, and the lower half follows first; the leaves show
+/// the claim in their cells.
+pub(super) fn walk(text: &str, whole: Tensor, claim: Claim, clock: &Clock) -> Result<(), String> {
+    let last = whole.counts.len() - 1;
+    let mut rest = text;
+    let mut stack = vec![whole];
+    while let Some(cell) = stack.pop() {
+        clock.tick()?;
+        let mut letters = rest.chars();
+        let letter = letters.next().ok_or("the tree ends too early")?;
+        rest = letters.as_str();
+        let shown = match (letter, claim) {
+            ('x', Claim::Pair) | ('s', _) => {
+                let axis = if letter == 'x' { last } else { axis(until(&mut rest, ',')?, last)? };
+                let [low, high] = cell.halves(axis, clock)?;
+                stack.extend([high, low]);
+                if stack.len().saturating_mul(stack[0].len()) > MAX_WAITING {
+                    return Err("the tree is too deep".into());
+                }
+                true
+            }
+            ('l', Claim::Pair) => match numbers(until(&mut rest, ';')?)?.as_slice() {
+                [a, b] => cell.is_separated(a, b, clock)?,
+                _ => return Err("a vector has two numbers".into()),
+            },
+            ('a', Claim::Pair) => {
+                let axes: Vec<usize> = until(&mut rest, ':')?
+                    .split(',')
+                    .map(|text| if text == "x" { Ok(last) } else { axis(text, last) })
+                    .collect::<Result<_, _>>()?;
+                let all = numbers(until(&mut rest, ';')?)?;
+                let vectors: Vec<[Z; 2]> = all.chunks_exact(2).map(|v| [v[0].clone(), v[1].clone()]).collect();
+                if !axes.is_sorted_by(|a, b| a < b) || all.len() != 2 * (axes.len() + 1) {
+                    return Err("a leaf has not one vector for each axis and one more".into());
+                }
+                cell.is_separated_affinely(&axes, &vectors, clock)?
+            }
+            ('+' | '-', Claim::Sign) => cell.has_sign(letter == '+'),
+            _ => return Err(format!("'{}' is no part of this tree", letter.escape_debug())),
+        };
+        if !shown {
+            return Err(format!("a leaf '{letter}' does not show what it says"));
+        }
+    }
+    if rest.is_empty() { Ok(()) } else { Err("something follows the tree".into()) }
+}
+
+/// What stands before a mark; the text goes on behind it.
+fn until<'t>(rest: &mut &'t str, mark: char) -> Result<&'t str, String> {
+    let (before, after) = rest.split_once(mark).ok_or("the tree ends too early")?;
+    *rest = after;
+    Ok(before)
+}
+
+/// The number of a parameter.
+fn axis(text: &str, parameters: usize) -> Result<usize, String> {
+    let plain = text.len() <= 6 && text.bytes().all(|b| b.is_ascii_digit());
+    let number = text.parse().ok().filter(|&i: &usize| plain && i < parameters);
+    number.ok_or_else(|| format!("'{}' is the number of no parameter", shorten(&text.escape_debug().to_string())))
+}
+
+fn numbers(text: &str) -> Result<Vec<Z>, String> {
+    if text.len() > MAX_DIGITS {
+        return Err("a leaf is too long".into());
+    }
+    text.split(',').map(integer).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+    use std::time::Duration;
+
+    /// `2 x^2 y - 3 x + 5 y + 7` in variables 2 and 3.
+    fn example() -> Multi {
+        let terms = [(vec![0, 0, 2, 1], 2), (vec![0, 0, 1], -3), (vec![0, 0, 0, 1], 5), (vec![], 7)];
+        Multi(terms.into_iter().map(|(e, c)| (e, Z::from(c))).collect::<BTreeMap<_, _>>())
+    }
+
+    fn q(a: i64, b: i64) -> Q {
+        Q::new(Z::from(a), Z::from(b))
+    }
+
+    fn value(x: &Q, y: &Q) -> Q {
+        q(2, 1) * x * x * y - q(3, 1) * x + q(5, 1) * y + q(7, 1)
+    }
+
+    #[test]
+    fn corners_are_values_and_halves_are_those_of_the_halves() {
+        let clock = Clock::new(Duration::MAX);
+        let sides = [[q(-1, 3), q(5, 2)], [q(1, 7), q(3, 1)]];
+        let whole = Tensor::of_one(&example(), &sides, &clock).unwrap();
+        let corners = |t: &Tensor, sides: &[[Q; 2]; 2]| {
+            let all = &t.planes[0];
+            let ratio = value(&sides[0][0], &sides[1][0]) / Q::from(all[0].clone());
+            for (at, x, y) in [(1, 0, 1), (4, 1, 0), (5, 1, 1)] {
+                assert_eq!(&ratio * Q::from(all[at].clone()), value(&sides[0][x], &sides[1][y]));
+            }
+        };
+        corners(&whole, &sides);
+        let middle = (&sides[0][0] + &sides[0][1]) / q(2, 1);
+        let [low, high] = whole.halves(0, &clock).unwrap();
+        let lower = [[sides[0][0].clone(), middle.clone()], sides[1].clone()];
+        let upper = [[middle, sides[0][1].clone()], sides[1].clone()];
+        for (mut half, sides) in [(low, lower), (high, upper)] {
+            corners(&half, &sides);
+            half.reduce();
+            assert_eq!(half.planes, Tensor::of_one(&example(), &sides, &clock).unwrap().planes);
+        }
+    }
+
+    #[test]
+    fn a_raised_polynomial_is_the_same_and_its_product_is_that() {
+        // 1 + u and (1 + u)(2 u - 1) = -1 + u + 2 u^2, all times 2.
+        let values = [1, 2].map(Z::from);
+        assert_eq!(raised(&values, &[2], 0, false), [2, 3, 4].map(Z::from));
+        assert_eq!(raised(&values, &[2], 0, true), [-2, -1, 4].map(Z::from));
+    }
+
+    #[test]
+    fn a_tree_shows_what_its_leaves_show() {
+        let clock = Clock::new(Duration::MAX);
+        let sides = [[q(0, 1), q(1, 1)], [q(0, 1), q(1, 1)]];
+        let one = || Tensor::of_one(&example(), &sides, &clock).unwrap();
+        for (tree, is_right) in [
+            ("+", true),
+            ("s0,++", true),
+            ("s1,+s0,++", true),
+            ("-", false),
+            ("s0,+-", false),
+            ("s0,+", false),
+            ("++", false),
+            ("", false),
+            ("s2,++", false),
+            ("s,++", false),
+            ("s+0,++", false),
+            ("x++", false),
+            ("l1,0;", false),
+            ("é", false),
+        ] {
+            assert_eq!(walk(tree, one(), Claim::Sign, &clock).is_ok(), is_right, "{tree}");
+        }
+        // s^2 + a s + b with a, b in [1, 2]: E = b - v, O = a.
+        let variable = |k: usize| Multi::variable(FIRST + k);
+        let p = [variable(1), variable(0), Multi::one()];
+        let sides = [[q(1, 1), q(2, 1)], [q(1, 1), q(2, 1)]];
+        let pair = || Tensor::of_pair(&p, &sides, &q(4, 1), &q(1, 2), &clock).unwrap();
+        for (tree, is_right) in [
+            ("l-1,5;", true),
+            ("xl0,1;l-1,5;", true),
+            ("a0,x:-1,5,0,0,0,0;", true),
+            ("s1,l-1,5;a1:-2,10,0,1;", true),
+            ("l1,0;", false),
+            ("l0,1;", false),
+            ("l-1,4;", false),
+            ("l-1;", false),
+            ("l-1,5", false),
+            ("l-1,5,2;", false),
+            ("a0:-1,5;", false),
+            ("a0:-1,5,0,9;", false),
+            ("ax,0:-1,5,0,0,0,0;", false),
+            ("a0,0:-1,5,0,0,0,0;", false),
+            ("+", false),
+            ("c", false),
+        ] {
+            assert_eq!(walk(tree, pair(), Claim::Pair, &clock).is_ok(), is_right, "{tree}");
+        }
+    }
+}

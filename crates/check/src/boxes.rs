@@ -1,0 +1,252 @@
+//! Boxes of tolerances that are stable at every point, and points beyond that are not.
+
+use super::bernstein::{Claim, Tensor, walk};
+use super::clock::Clock;
+use super::multivariate::Multi;
+use super::number::{Q, Z, integer};
+use super::over_box::{FIRST, OverBox, common_factor, in_half_plane, in_region, over_box, vanishes_only_with};
+use super::over_symbols::{primitive, substituted};
+use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
+use super::statement::{Extent, count, extent, identifier, list, number, object, text, values};
+use super::univariate::Uni;
+use super::{Proved, Rejection, Step, is_discrete, verdict};
+use crate::format::Json;
+use num_traits::{Signed, Zero};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// A higher power of a parameter is refused.
+const MAX_EXPONENT: usize = 4000;
+
+/// The values of one parameter.
+struct Tolerance {
+    nominal: Q,
+    between: [Q; 2],
+}
+
+impl Tolerance {
+    /// The interval that is a factor times as wide, on both sides of the nominal value.
+    fn times(&self, factor: &Q) -> [Q; 2] {
+        self.between.each_ref().map(|end| &self.nominal + factor * (end - &self.nominal))
+    }
+}
+
+/// A point that is not stable.
+struct Beyond {
+    factor: Q,
+    point: Vec<Q>,
+    counts: [usize; 5],
+}
+
+struct Statement {
+    discrete: bool,
+    set: Vec<(String, Q)>,
+    extent: Extent,
+    names: Vec<String>,
+    sides: Vec<Tolerance>,
+    factor: Q,
+    beyond: Option<Beyond>,
+}
+
+impl Statement {
+    fn read(json: &Json) -> Result<Self, String> {
+        let keys = ["kind", "time", "set", "region", "tolerances", "factor", "beyond"];
+        let [_, time, set, region, tolerances, factor, beyond] = object(json, "the statement", keys, &[])?;
+        let discrete = is_discrete(time)?;
+        let extent = extent(region, discrete)?;
+        if extent == Extent::Parameter {
+            return Err("the region has no parameter here".into());
+        }
+        let (mut names, mut sides) = (Vec::new(), Vec::new());
+        for tolerance in list(tolerances, "'tolerances'")? {
+            let [name, nominal, between] = object(tolerance, "a tolerance", ["name", "nominal", "between"], &[])?;
+            names.push(identifier(text(name, "'name'")?)?.to_owned());
+            let nominal = number(nominal, "'nominal'")?;
+            let [low, high] = list(between, "'between'")? else { return Err("'between' has two ends".into()) };
+            let between = [number(low, "'between'")?, number(high, "'between'")?];
+            if between[0] > nominal || nominal > between[1] {
+                return Err("a nominal value is not within its tolerance".into());
+            }
+            sides.push(Tolerance { nominal, between });
+        }
+        let factor = number(factor, "'factor'")?;
+        if names.is_empty() || factor.is_negative() {
+            return Err("there is no box, or its factor is negative".into());
+        }
+        let beyond = match beyond {
+            Json::Null => None,
+            beyond => {
+                let keys = ["factor", "point", "degree", "inside", "on", "outside", "infinite"];
+                let [factor, point, counts @ ..] = object(beyond, "'beyond'", keys, &[])?;
+                let point =
+                    list(point, "'point'")?.iter().map(|x| number(x, "'point'")).collect::<Result<Vec<_>, _>>()?;
+                let mut numbers = [0; 5];
+                for (target, json) in numbers.iter_mut().zip(counts) {
+                    *target = count(json, "a count")?;
+                }
+                Some(Beyond { factor: number(factor, "'factor'")?, point, counts: numbers })
+            }
+        };
+        Ok(Statement { discrete, set: values(set)?, extent, names, sides, factor, beyond })
+    }
+
+    /// The box of a factor.
+    fn at(&self, factor: &Q) -> Vec<[Q; 2]> {
+        self.sides.iter().map(|side| side.times(factor)).collect()
+    }
+
+    fn in_words(&self) -> String {
+        let mut out = String::from("For all ");
+        for (i, (name, [low, high])) in self.names.iter().zip(self.at(&self.factor)).enumerate() {
+            let _ = write!(out, "{}{name} from {low} to {high}", if i == 0 { "" } else { ", " });
+        }
+        for (i, (name, value)) in self.set.iter().enumerate() {
+            let _ = write!(out, "{}{name} = {value}", if i == 0 { ", with " } else { ", " });
+        }
+        let within = verdict::within(&self.extent, self.discrete);
+        let _ = write!(out, ", the loop is stable{within}; these are the tolerances times {}.", self.factor);
+        if let Some(Beyond { factor, point, counts: [degree, inside, on, outside, infinite] }) = &self.beyond {
+            let point: Vec<String> = self.names.iter().zip(point).map(|(n, x)| format!("{n} = {x}")).collect();
+            let _ = write!(out, " At {}, within the tolerances times {factor}, it is not: ", point.join(", "));
+            let _ = match inside + on + outside + infinite < *degree {
+                true => write!(out, "it is undefined there."),
+                false => write!(
+                    out,
+                    "{inside} roots are inside, {on} on the boundary, {outside} outside, {infinite} infinite."
+                ),
+            };
+        }
+        out
+    }
+}
+
+pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
+    let keys = ["schema", "statement", "characteristic", "factors", "pair"];
+    let [_, _, characteristic, factors, pair] = Step::Format.of(object(json, "the certificate", keys, &["model"]))?;
+    let s = Step::Statement.of(Statement::read(statement))?;
+    let own = Step::Model.of(over_box(model, &s.names, &s.set, clock))?;
+    if own.discrete != s.discrete {
+        return Err(Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() });
+    }
+    let in_this_region = Step::Model.of(in_region(&own.coefficients, s.discrete, &s.extent))?;
+    let read = |json: &Json| polynomial(json, s.names.len());
+    let (given, common) = Step::Characteristic.of((|| {
+        let given = list(characteristic, "'characteristic'")?.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        let common = common_factor(&given, &in_this_region, clock)?;
+        Ok((given, common))
+    })())?;
+    let p = if s.discrete { in_half_plane(&given) } else { given.clone() };
+    let sides = s.at(&s.factor);
+    Step::Factors.of((|| {
+        let mut known = Vec::new();
+        for factor in list(factors, "'factors'")? {
+            let [polynomial, tree] = object(factor, "a factor", ["polynomial", "tree"], &[])?;
+            let f = primitive(vec![read(polynomial)?]).swap_remove(0);
+            if f.is_constant() {
+                return Err("a factor is constant".to_owned());
+            }
+            walk(text(tree, "'tree'")?, Tensor::of_one(&f, &sides, clock)?, Claim::Sign, clock)?;
+            known.push(f);
+        }
+        let ends = [&common, &p[0], &p[p.len() - 1]].map(|p| vec![p.clone()]);
+        for parts in own.divisors.iter().chain(&ends) {
+            let mut is_known = false;
+            for part in parts {
+                is_known = is_known || vanishes_only_with(part, &known, clock)?;
+            }
+            if !is_known {
+                return Err("what must not vanish is not a product of the factors".to_owned());
+            }
+        }
+        Ok(())
+    })())?;
+    Step::Boundary.of((|| {
+        let [v0, weight, tree] = object(pair, "'pair'", ["v0", "weight", "tree"], &[])?;
+        let (v0, weight) = (number(v0, "'v0'")?, number(weight, "'weight'")?);
+        if !v0.is_positive() || !weight.is_positive() {
+            return Err("'v0' or 'weight' is not positive".to_owned());
+        }
+        let whole = Tensor::of_pair(&p, &sides, &v0, &weight, clock)?;
+        walk(text(tree, "'tree'")?, whole, Claim::Pair, clock)
+    })())?;
+    Step::Stable.of((|| {
+        let nominal: Vec<Q> = s.sides.iter().map(|side| side.nominal.clone()).collect();
+        let at = at(&given, &nominal, clock)?;
+        let is_stable = if s.discrete { is_schur(&at, clock)? } else { is_hurwitz(&at, clock)? };
+        if at.0.len() != given.len() || !is_stable {
+            return Err("the nominal point is not stable".to_owned());
+        }
+        s.beyond.as_ref().map_or(Ok(()), |beyond| s.is_beyond(beyond, &own, &in_this_region, clock))
+    })())?;
+    Ok(Proved { statement: s.in_words(), kind: "tolerance" })
+}
+
+impl Statement {
+    /// Whether the point is in its box, has these counts, and is not stable.
+    fn is_beyond(&self, beyond: &Beyond, own: &OverBox, d: &[Multi], clock: &Clock) -> Result<(), String> {
+        let sides = self.at(&beyond.factor);
+        let is_inside = |(x, [low, high]): (&Q, &[Q; 2])| low <= x && x <= high;
+        if beyond.factor.is_negative()
+            || beyond.point.len() != sides.len()
+            || !beyond.point.iter().zip(&sides).all(is_inside)
+        {
+            return Err("the point is not in its box".into());
+        }
+        let n = d.len() - 1;
+        let mut is_undefined = false;
+        for parts in &own.divisors {
+            is_undefined = is_undefined || at(parts, &beyond.point, clock)?.is_zero();
+        }
+        let polynomial = at(d, &beyond.point, clock)?;
+        let (places, infinite) = match (is_undefined, polynomial.is_zero()) {
+            (true, _) => (Places::default(), 0),
+            (false, true) => (Places::default(), n),
+            (false, false) => {
+                let places = if self.discrete { places_by_circle } else { places_by_axis };
+                (places(&polynomial, clock)?, n - polynomial.degree())
+            }
+        };
+        let Places { inside, on, outside } = places;
+        if beyond.counts != [n, inside, on, outside, infinite] {
+            return Err(format!(
+                "degree {n}: {inside} roots are inside, {on} on the boundary, {outside} outside, {infinite} infinite"
+            ));
+        }
+        if !is_undefined && on + outside + infinite == 0 {
+            return Err("the point beyond is stable".into());
+        }
+        Ok(())
+    }
+}
+
+/// Polynomials at a point, together times a positive number, as coefficients of one polynomial.
+fn at(list: &[Multi], point: &[Q], clock: &Clock) -> Result<Uni, String> {
+    // Variables 0 and 1 are not there.
+    let values: Vec<Q> = (0..FIRST).map(|_| Q::zero()).chain(point.iter().cloned()).collect();
+    let constant = |p: Multi| p.0.into_values().next().unwrap_or_default();
+    Ok(Uni::new(substituted(list, &values, clock)?.into_iter().map(constant).collect()))
+}
+
+/// Reads a list of terms: each its coefficient and the exponents of the parameters of the box.
+fn polynomial(json: &Json, parameters: usize) -> Result<Multi, String> {
+    let mut terms: BTreeMap<Vec<u32>, Z> = BTreeMap::new();
+    for term in list(json, "a polynomial")? {
+        let [c, exponents @ ..] = list(term, "a term")? else { return Err("a term is empty".into()) };
+        let c = integer(text(c, "a coefficient")?)?;
+        let exponents = exponents.iter().map(|e| count(e, "an exponent")).collect::<Result<Vec<_>, _>>()?;
+        if c.is_zero() || exponents.last() == Some(&0) || exponents.len() > parameters {
+            return Err("a term is not in its shortest form".into());
+        }
+        if exponents.iter().any(|e| *e > MAX_EXPONENT) {
+            return Err("a polynomial has too high a degree".into());
+        }
+        let key = match exponents.is_empty() {
+            true => Vec::new(),
+            false => std::iter::repeat_n(0, FIRST).chain(exponents.into_iter().map(|e| e as u32)).collect(),
+        };
+        if terms.insert(key, c).is_some() {
+            return Err("a polynomial has a term twice".into());
+        }
+    }
+    Ok(Multi(terms))
+}

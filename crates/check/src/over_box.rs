@@ -1,0 +1,169 @@
+//! The characteristic polynomial of a loop in all parameters of a box. Nothing is brought to lowest terms.
+
+use super::blocks::cleared;
+use super::characteristic::{Form, product};
+use super::clock::Clock;
+use super::model;
+use super::multivariate::{Fraction, Multi};
+use super::number::{Q, Z};
+use super::over_symbols::{determinant, primitive, substituted};
+use super::statement::Extent;
+use num_traits::One;
+
+/// Of this variable on, polynomials are in the parameters of the box.
+pub(super) const FIRST: usize = 2;
+
+/// Polynomials in the parameters of a box.
+pub(super) struct OverBox {
+    pub discrete: bool,
+    /// One more than the degree with all parameters symbolic, from the constant term up: up to a factor that has no zero where the
+    /// loop is defined, the characteristic polynomial.
+    pub coefficients: Vec<Multi>,
+    /// The loop is undefined where all polynomials of one of these lists vanish.
+    pub divisors: Vec<Vec<Multi>>,
+}
+
+/// Reads the model; `set` has the values of all parameters but those of the box.
+pub(super) fn over_box(text: &str, names: &[String], set: &[(String, Q)], clock: &Clock) -> Result<OverBox, String> {
+    let asked = model::asked_over_box(text, names, set, clock)?;
+    clock.reading(|| {
+        let values = &asked.values;
+        let mut divisors = Vec::with_capacity(asked.divisors.len());
+        for divisor in &asked.divisors {
+            divisors.push(substituted(&divisor.coefficients(0), values, clock)?);
+        }
+        // The rows of a matrix whose determinant has a degree, and the coefficient of that power.
+        let mut led = |rows: &[Vec<Multi>], degree: usize| -> Result<Multi, String> {
+            let rows = rows.iter().map(|row| substituted(row, values, clock)).collect::<Result<Vec<_>, _>>()?;
+            let d = determinant(&rows, clock)?;
+            if d.degree(0) > degree {
+                return Err("a determinant has a higher degree than the model".into());
+            }
+            divisors.push(vec![d.coefficients(0).into_iter().nth(degree).unwrap_or_default()]);
+            Ok(d)
+        };
+        let (d, degree) = match &asked.form {
+            Form::Written(f) => {
+                let mut both = substituted(&[f.numerator.clone(), f.whole_denominator(clock)?], values, clock)?;
+                divisors.extend(both.pop().map(|below| vec![below]));
+                (both.pop().unwrap_or_default(), f.numerator.degree(0))
+            }
+            Form::Matrix(m) => (led(&less(m, clock)?, m.len())?, m.len()),
+            Form::Feedback([a, b, c, k]) => {
+                let bkc = product(&product(b, k, clock)?, c, clock)?;
+                let mut m = a.clone();
+                for (row, other) in m.iter_mut().zip(bkc) {
+                    for (entry, f) in row.iter_mut().zip(other) {
+                        *entry = entry.plus(&f.negated(), clock)?;
+                    }
+                }
+                (led(&less(&m, clock)?, m.len())?, m.len())
+            }
+            Form::System((rows, degree), alone) => {
+                for (rows, degree) in alone {
+                    led(rows, *degree)?;
+                }
+                (led(rows, *degree)?, *degree)
+            }
+        };
+        let mut coefficients = d.coefficients(0);
+        coefficients.resize(degree + 1, Multi::default());
+        Ok(OverBox { discrete: asked.discrete, coefficients, divisors })
+    })
+}
+
+/// The rows of `zI - M`, each times its denominators.
+fn less(m: &[Vec<Fraction>], clock: &Clock) -> Result<Vec<Vec<Multi>>, String> {
+    let mut out = Vec::with_capacity(m.len());
+    for (i, row) in m.iter().enumerate() {
+        let mut entries = Vec::with_capacity(row.len());
+        for (j, f) in row.iter().enumerate() {
+            let minus = f.clone().negated();
+            entries.push(if i == j { Fraction::variable(0).plus(&minus, clock)? } else { minus });
+        }
+        out.push(cleared(entries.iter().enumerate().collect(), m.len(), clock)?);
+    }
+    Ok(out)
+}
+
+/// `D(R z)` or `D(s - S)`, times a positive number.
+pub(super) fn in_region(d: &[Multi], discrete: bool, extent: &Extent) -> Result<Vec<Multi>, String> {
+    let Extent::Number(bound) = extent else { return Err("the region has no parameter here".into()) };
+    let n = d.len().saturating_sub(1) as u32;
+    let (top, bottom) = (bound.numer(), bound.denom());
+    if discrete {
+        return Ok(d.iter().zip(0..).map(|(c, k)| c.scaled(&(top.pow(k) * bottom.pow(n - k)))).collect());
+    }
+    // b^n D(x/b - a/b) in x = b s, shifted by -a, then back.
+    let mut c: Vec<Multi> = d.iter().zip(0..).map(|(c, k)| c.scaled(&bottom.pow(n - k))).collect();
+    for i in 0..c.len() {
+        for j in (i..c.len() - 1).rev() {
+            c[j] = c[j].minus(&c[j + 1].scaled(top));
+        }
+    }
+    Ok(c.iter().zip(0..).map(|(c, k)| c.scaled(&bottom.pow(k))).collect())
+}
+
+/// `(1 - s)^n D((1 + s)/(1 - s))`, whose roots are left of the imaginary axis where those of `D` are in the unit disc.
+pub(super) fn in_half_plane(d: &[Multi]) -> Vec<Multi> {
+    let n = d.len() - 1;
+    let mut out = vec![Multi::default(); n + 1];
+    for (i, c) in d.iter().enumerate() {
+        let mut factor = vec![Z::one()];
+        for k in 0..n {
+            factor.push(Z::from(0));
+            for j in (1..factor.len()).rev() {
+                let before = factor[j - 1].clone();
+                factor[j] = if k < i { &factor[j] + before } else { &factor[j] - before };
+            }
+        }
+        for (target, a) in out.iter_mut().zip(&factor) {
+            *target = target.plus(&c.scaled(a));
+        }
+    }
+    out
+}
+
+/// Whether the own polynomial is the given one times a common factor; that factor.
+pub(super) fn common_factor(given: &[Multi], own: &[Multi], clock: &Clock) -> Result<Multi, String> {
+    if given.len() != own.len() {
+        return Err(format!("there are {} coefficients, but the model's polynomial has {}", given.len(), own.len()));
+    }
+    let (given, own) = (primitive(given.to_vec()), primitive(own.to_vec()));
+    let shortest = (0..given.len()).filter(|&k| !given[k].is_zero()).min_by_key(|&k| given[k].0.len());
+    let k = shortest.ok_or("the polynomial is zero")?;
+    // Gauss: the quotient by polynomials without an integer common to all is integral.
+    let quotient = own[k].divided(&given[k], clock)?.ok_or_else(|| not_that(k))?;
+    for (k, (g, o)) in given.iter().zip(&own).enumerate() {
+        if g.times(&quotient, clock)? != *o {
+            return Err(not_that(k));
+        }
+    }
+    Ok(quotient)
+}
+
+fn not_that(k: usize) -> String {
+    format!("coefficient {k} is not that of the model")
+}
+
+/// Whether a polynomial has zeros only where one of the factors has: what it has in common with them is divided out, as often as
+/// there is anything, and a number other than zero is left.
+pub(super) fn vanishes_only_with(p: &Multi, factors: &[Multi], clock: &Clock) -> Result<bool, String> {
+    let Some(mut p) = primitive(vec![p.clone()]).pop().filter(|p| !p.is_zero()) else { return Ok(false) };
+    for f in factors {
+        while !p.is_constant() {
+            let quotient = match p.divided(f, clock)? {
+                Some(quotient) => quotient,
+                None => {
+                    let common = p.gcd(f, clock)?;
+                    match common.is_constant() {
+                        true => break,
+                        false => p.divided(&common, clock)?.ok_or("internal: a gcd does not divide")?,
+                    }
+                }
+            };
+            p = quotient;
+        }
+    }
+    Ok(p.is_constant())
+}
