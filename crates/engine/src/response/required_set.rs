@@ -3,6 +3,7 @@
 use super::cells::Cells;
 use super::family::{Boundaries, Family};
 use super::margins::Margins;
+use super::met::AtPoint;
 use super::requirement::{Requirement, scaled_by_exponential, sector_in_parameter};
 use super::{DelayMargin, HeldDelay};
 use crate::answer::{Answer, Verdict};
@@ -73,7 +74,7 @@ pub struct RequirementMet {
     pub met: bool,
 }
 
-fn no_damping() -> Error {
+pub(super) fn no_damping() -> Error {
     let error = Diagnostic::error("E-require", "a damping is required of continuous loops only");
     error.help("in discrete time ask for a radius, or a settling time").into()
 }
@@ -107,8 +108,9 @@ impl Problem {
             };
             budget.step("boundaries of the requirements");
             let mut boundaries = Vec::new();
+            let whole = self.without_region();
             for requirement in requirements {
-                boundaries.push(self.boundaries(requirement, family.as_ref(), budget)?);
+                boundaries.push(whole.boundaries(requirement, family.as_ref(), budget)?);
             }
             let mut intervals = Vec::new();
             if !stable.undecided().is_empty() {
@@ -118,7 +120,7 @@ impl Problem {
             for interval in stable.intervals() {
                 budget.step("testing a sample of each cell");
                 let cells =
-                    Cells { problem: self, requirements, boundaries: &boundaries, family: family.as_ref(), budget };
+                    Cells { problem: &whole, requirements, boundaries: &boundaries, family: family.as_ref(), budget };
                 intervals.extend(cells.within(interval.lower.as_ref(), interval.upper.as_ref())?);
             }
             Ok(Answer::new(Arc::clone(self), RequiredSet { intervals }))
@@ -154,7 +156,7 @@ impl Problem {
             };
             let about_roots = |r: &Requirement| matches!(r, Requirement::Damping(_) | Requirement::SettlingTime { .. });
             let closed = match requirements.iter().any(about_roots) {
-                true => self.parametric(budget)?.map(|p| p.specialised(&Rational::ZERO)),
+                true => self.without_region().parametric(budget)?.map(|p| p.specialised(&Rational::ZERO)),
                 false => None,
             };
             let closed = closed.unwrap_or_else(UniPoly::zero);
@@ -172,7 +174,7 @@ impl Problem {
                     _ if !stable => false,
                     (_, _, Some(met)) => met,
                     (Requirement::DelayMargin(least), Some(margins), _) => bears(margins, least, budget)?,
-                    _ => requirement.is_met(open_loop, &closed, self.shape(), budget)?,
+                    _ => AtPoint::new(open_loop, &closed, self.shape()).meets(requirement, budget)?,
                 };
                 out.push(RequirementMet { requirement: requirement.clone(), margins: margins.clone(), met });
             }
@@ -183,9 +185,9 @@ impl Problem {
     fn boundaries(
         &self,
         requirement: &Requirement,
-        family: Option<&Family>,
+        family: Option<&Family<UniPoly>>,
         budget: &Budget,
-    ) -> Result<Boundaries, Error> {
+    ) -> Result<Boundaries<UniPoly>, Error> {
         let undecided = || {
             let message = format!("the requirement {} is not decided for this loop", requirement.name());
             Error::from(
