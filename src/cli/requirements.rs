@@ -26,7 +26,7 @@ pub(super) struct RequirementOptions {
     /// Asks for a settling time: a decay of 4 over it, in discrete time a radius of exp(-4 T/time)
     #[arg(long, value_name = "TIME")]
     pub settling_time: Option<String>,
-    /// Asks for a damping of all roots (continuous time)
+    /// Asks for a damping of all roots, in discrete time of the roots ln(z)/T
     #[arg(long, value_name = "NUMBER")]
     pub damping: Option<String>,
     /// Where the loop is cut for margins: a signal, or a block (at its input) [default: the error of a single loop]

@@ -5,9 +5,11 @@ use super::ground::{Constants, Ground};
 use super::margins::{GainMargin, PhaseMargin, StableMargins, modulus_extreme};
 use super::open_loop::OpenLoop;
 use super::requirement::{Requirement, in_sector, scaled_by_exponential};
+use super::spiral::OnSpiral;
 use super::value::{Value, square_root};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{MultiPoly, RealAlgebraic, UniPoly};
 use jurist_algebra::real::Real;
 
@@ -52,6 +54,10 @@ impl<'a> AtPoint<'a> {
                 };
                 let square = Value::from(least * least);
                 Ok(self.modulus.insert(modulus).compare(&square, budget)?.is_ge())
+            }
+            Requirement::Damping(least) if self.shape == Shape::UnitDisc => {
+                let inside = OnSpiral::without_parameter(self.closed, least).count_at(&Rational::ZERO, budget)?;
+                Ok(Some(inside) == self.closed.degree())
             }
             Requirement::Damping(least) => {
                 // On the sector's edge a root is damped enough.

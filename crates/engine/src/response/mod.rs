@@ -9,6 +9,7 @@ mod asked;
 mod by_gain;
 mod cells;
 mod crossings;
+mod damped;
 mod dead_time;
 mod delay;
 mod disk;
@@ -25,6 +26,7 @@ mod place;
 mod required_map;
 mod required_set;
 mod requirement;
+mod spiral;
 mod value;
 
 pub use asked::Requirements;

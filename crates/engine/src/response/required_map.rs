@@ -2,7 +2,6 @@
 
 use super::family::Family;
 use super::met::AtPoint;
-use super::required_set::no_damping;
 use super::requirement::{Requirement, on_sector_edge};
 use crate::answer::{Answer, Map};
 use crate::error::{Diagnostic, Error};
@@ -80,6 +79,7 @@ fn not_in_a_plane(requirement: &Requirement) -> Error {
     let message = format!("the requirement {} is not decided for two parameters", requirement.name());
     let help = match requirement {
         Requirement::SettlingTime { .. } => "ask for a radius",
+        Requirement::Damping(_) => "ask 'intervals' for one parameter: the curve of a discrete loop is not algebraic",
         _ => "ask 'verdict' with a value for every parameter",
     };
     Diagnostic::error("E-require", message).help(help).into()
@@ -139,7 +139,7 @@ impl Problem {
         budget: &Budget,
     ) -> Result<Vec<MultiPoly>, Error> {
         let mut found = match (requirement, family) {
-            (Requirement::Damping(_), _) if self.shape() == Shape::UnitDisc => return Err(no_damping()),
+            (Requirement::Damping(_), _) if self.shape() == Shape::UnitDisc => return Err(not_in_a_plane(requirement)),
             (Requirement::Damping(least), _) => {
                 let [first, second] = on_sector_edge(closed, least);
                 // A root at 0 or at infinity is on the boundary of stability.

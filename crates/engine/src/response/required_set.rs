@@ -1,15 +1,17 @@
 //! For which values of a parameter a loop is stable and meets its requirements.
 
 use super::cells::Cells;
+use super::damped::changes;
 use super::family::{Boundaries, Family};
 use super::margins::Margins;
 use super::met::AtPoint;
 use super::requirement::{Requirement, scaled_by_exponential, sector_in_parameter};
+use super::spiral::OnSpiral;
 use super::{DelayMargin, HeldDelay};
 use crate::answer::{Answer, Verdict};
 use crate::error::{Diagnostic, Error};
 use crate::problem::Problem;
-use crate::stability::{End, Range, Shape, SymbolicPolynomial, boundary_polynomials, symbolic_stable_set};
+use crate::stability::{End, Range, Shape, StableSet, SymbolicPolynomial, boundary_polynomials, symbolic_stable_set};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Enclosure, Rational};
@@ -74,11 +76,6 @@ pub struct RequirementMet {
     pub met: bool,
 }
 
-pub(super) fn no_damping() -> Error {
-    let error = Diagnostic::error("E-require", "a damping is required of continuous loops only");
-    error.help("in discrete time ask for a radius, or a settling time").into()
-}
-
 impl Problem {
     /// For which values of the one free parameter the loop is stable and meets the requirements, margins being taken at a cut.
     ///
@@ -110,7 +107,7 @@ impl Problem {
             let mut boundaries = Vec::new();
             let whole = self.without_region();
             for requirement in requirements {
-                boundaries.push(whole.boundaries(requirement, family.as_ref(), budget)?);
+                boundaries.push(whole.boundaries(requirement, family.as_ref(), &stable, budget)?);
             }
             let mut intervals = Vec::new();
             if !stable.undecided().is_empty() {
@@ -162,9 +159,6 @@ impl Problem {
             let closed = closed.unwrap_or_else(UniPoly::zero);
             let mut out = Vec::with_capacity(requirements.len());
             for requirement in requirements {
-                if matches!(requirement, Requirement::Damping(_)) && self.shape() == Shape::UnitDisc {
-                    return Err(no_damping());
-                }
                 let open_loop = margins.as_ref().map(|m| &m.open_loop);
                 let known = match margins.as_ref().and_then(|m| m.stable.as_ref()) {
                     Some(stable) => requirement.is_met_by(stable, budget)?,
@@ -186,6 +180,7 @@ impl Problem {
         &self,
         requirement: &Requirement,
         family: Option<&Family<UniPoly>>,
+        stable: &StableSet,
         budget: &Budget,
     ) -> Result<Boundaries<UniPoly>, Error> {
         let undecided = || {
@@ -196,10 +191,16 @@ impl Problem {
         };
         let found = match (requirement, family) {
             (Requirement::Damping(least), _) => {
-                if self.shape() == Shape::UnitDisc {
-                    return Err(no_damping());
-                }
                 let Some(p) = self.parametric(budget)? else { return Err(undecided()) };
+                if self.shape() == Shape::UnitDisc {
+                    budget.step("roots on the spiral of the damping");
+                    let p = OnSpiral::new(p.polynomial(), least);
+                    let mut values = Vec::new();
+                    for interval in stable.intervals() {
+                        values.extend(changes(&p, interval, budget)?);
+                    }
+                    return Ok(Boundaries { values, ..Boundaries::none() });
+                }
                 let sector = sector_in_parameter(p, least);
                 let Some(found) = boundary_polynomials(&sector, self.shape(), budget)? else { return Err(undecided()) };
                 let zeros = found.into_iter().map(|b| b.polynomial.poly().clone()).collect();

@@ -36,7 +36,8 @@ pub enum Requirement {
     },
     /// `|1 + L|` is nowhere below this.
     ModulusMargin(Rational),
-    /// All roots have at least this damping: `cos` of the angle that they make with the negative real axis. Continuous time.
+    /// All roots have at least this damping: `cos` of the angle that they, or in discrete time `ln(z)`, make with the negative real
+    /// axis.
     Damping(Rational),
     /// Stable with all less dead time at the cut: at the input of a plant behind a hold, and in continuous time; else with so
     /// much delay in whole samples.
