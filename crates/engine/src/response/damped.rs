@@ -34,7 +34,8 @@ pub(super) fn changes(p: &OnSpiral, interval: &StableInterval, budget: &Budget) 
         return Err(Exhausted::new("a stable interval without end", "the damping of a discrete loop"));
     };
     let (a, b) = (lower.value.refined_to_digits(15).enclosure(), upper.value.refined_to_digits(15).enclosure());
-    let search = Search { p, ends: [lower, upper], inner: [a.1, b.0], budget };
+    let outer = [a.0.clone(), b.1.clone()];
+    let search = Search { p, ends: [lower, upper], outer, inner: [a.1, b.0], budget };
     let mut out = Vec::new();
     search.cut(&[a.0, b.1], BOXES, &mut out)?;
     Ok(out)
@@ -43,7 +44,9 @@ pub(super) fn changes(p: &OnSpiral, interval: &StableInterval, budget: &Budget) 
 struct Search<'a> {
     p: &'a OnSpiral,
     ends: [&'a End; 2],
-    /// Rational values next to the ends, inside or at them.
+    /// Rational values next to the ends, outside or at them.
+    outer: [Rational; 2],
+    /// Inside or at them.
     inner: [Rational; 2],
     budget: &'a Budget,
 }
@@ -86,12 +89,11 @@ impl Search<'_> {
 
     /// Whether the box holds an end at which 1 is a root.
     fn is_known_at_one(&self, from: &Rational, to: &Rational) -> bool {
-        let holds = |k: usize| match k {
-            0 => *from < self.inner[0],
-            _ => self.inner[1] < *to,
+        let holds = |k: usize| {
+            let (low, high) = ((&self.outer[k]).min(&self.inner[k]), (&self.outer[k]).max(&self.inner[k]));
+            from <= low && high <= to
         };
-        let is_exact = |k: usize| self.inner[k] == *from || self.inner[k] == *to;
-        (0..2).any(|k| (holds(k) || is_exact(k)) && self.ends[k].causes.contains(Cause::RootAtOne))
+        (0..2).any(|k| holds(k) && self.ends[k].causes.contains(Cause::RootAtOne))
     }
 }
 
@@ -174,5 +176,32 @@ impl Enclosing for Change {
     fn origin(&self) -> Origin {
         let details = vec![("count below".to_owned(), self.count_below.to_string())];
         Origin::Function { function: "root on the spiral of a damping".to_owned(), details }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stability::{ParametricPolynomial, Range, Shape, stable_set};
+    use jurist_algebra::poly::{Poly, UniPoly};
+
+    /// An integrator, a lag and two samples of delay with a zero: roots at 1 for the gain 0, at the end of the domain. The values are
+    /// mpmath's at 50 digits: there a negative root and a pair leave the spiral.
+    #[test]
+    fn gains_at_which_roots_have_the_damping_of_two_fifths() {
+        let budget = Budget::unlimited();
+        let polynomial =
+            Poly::new([&[0, -10][..], &[0, 11], &[900], &[-1900], &[1000]].map(UniPoly::from_i64).to_vec());
+        let p = ParametricPolynomial::from_integral(&polynomial, 4);
+        let domain = Range::between(Some(Rational::ZERO), None);
+        let set = stable_set(&p, &domain, Shape::UnitDisc, &budget).unwrap();
+        let [interval] = set.intervals() else { panic!("{set:?}") };
+        let damping = Rational::new(2.into(), 5.into());
+        let found = changes(&OnSpiral::new(&polynomial, &damping), interval, &budget).unwrap();
+        let decimals: Vec<String> = found.iter().map(|x| x.decimal(25)).collect();
+        assert_eq!(decimals, ["7.286368919065204252291676", "27.57670552299612977034143"]);
+        let p = OnSpiral::new(&polynomial, &damping);
+        let count = |k: i64| p.count_at(&Rational::new(k.into(), 10.into()), &budget).unwrap();
+        assert_eq!([1, 240, 280].map(count), [4, 3, 1]);
     }
 }

@@ -118,6 +118,8 @@ pub(super) enum Walk {
 
 /// The edge is cut into `2^FIRST_LEVEL` arcs at first.
 const FIRST_LEVEL: u64 = 5;
+/// So far all open arcs are halved, however many.
+const EVERYWHERE: u64 = 8;
 /// Bits of the first walk, and of the last.
 const BITS: (u64, u64) = (128, 1 << 14);
 
@@ -160,9 +162,9 @@ impl OnSpiral {
         };
         let first = (0..1i64 << FIRST_LEVEL).map(|k| Arc { at: Integer::from(k), level: FIRST_LEVEL });
         let mut arcs: Vec<(Arc, Option<u8>)> = first.map(|arc| (plane(&arc), arc)).map(|(p, arc)| (arc, p)).collect();
-        for _ in FIRST_LEVEL..halvings {
+        for level in FIRST_LEVEL..halvings {
             let open = arcs.iter().filter(|(_, plane)| plane.is_none()).count();
-            if open == 0 || open > most_open {
+            if open == 0 || (open > most_open && level >= EVERYWHERE) {
                 break;
             }
             let halved = |(arc, known): (Arc, Option<u8>)| match known {
