@@ -11,6 +11,9 @@ use jurist_algebra::poly::MultiPoly;
 /// Which of several things a stable point meets.
 type Met<'a> = dyn Fn(&[Rational; 2]) -> Result<Vec<bool>, Exhausted> + Sync + 'a;
 
+/// What each cell of each strip meets.
+type MetInStrips = Vec<Vec<Vec<bool>>>;
+
 /// What is asked of the stable points.
 pub(crate) struct Asked<'a> {
     /// Polynomials at whose zeros it may begin or cease to be met.
@@ -44,7 +47,7 @@ pub(crate) fn layers(
     let met = met_in(&strips, asked.met, false, budget)?;
     let swapped_curves: Vec<Curve> = curves.iter().map(swapped_curve).collect();
     let swapped_domain = [domain[1].clone(), domain[0].clone()];
-    let mut exchanged: Option<(Vec<Strip>, Vec<Vec<Vec<bool>>>)> = None;
+    let mut exchanged: Option<(Vec<Strip>, MetInStrips)> = None;
     let mut out = Vec::with_capacity(asked.sets.len());
     for set in asked.sets {
         let strips = restricted(&strips, &met, set);
@@ -78,12 +81,7 @@ pub(crate) fn layers(
 }
 
 /// What is met in each stable cell; nothing in the others.
-fn met_in(
-    strips: &[Strip],
-    met: &Met<'_>,
-    is_exchanged: bool,
-    budget: &Budget,
-) -> Result<Vec<Vec<Vec<bool>>>, Exhausted> {
+fn met_in(strips: &[Strip], met: &Met<'_>, is_exchanged: bool, budget: &Budget) -> Result<MetInStrips, Exhausted> {
     budget.step("testing what is required in each stable cell");
     let of = |strip: &Strip| {
         let one = |cell: &super::Cell| {
