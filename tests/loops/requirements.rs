@@ -161,7 +161,7 @@ fn the_damping_of_a_sampled_pair() {
          characteristic = 'z^2 - 6/5*r*z + r^2'\n",
     );
     let requirement = Requirement::damping(number("1/2")).unwrap();
-    let answer = required(&model, "r", None, &[requirement.clone()]);
+    let answer = required(&model, "r", None, std::slice::from_ref(&requirement));
     let [only] = answer.value().intervals.as_slice() else { panic!("{answer:?}") };
     let upper = only.upper.as_ref().unwrap();
     // exp(-acos(3/5)/sqrt(3)), by mpmath at 50 digits; not algebraic.
@@ -171,6 +171,10 @@ fn the_damping_of_a_sampled_pair() {
     let budget = Budget::unlimited();
     for (r, expected) in [("0.585", true), ("0.586", false)] {
         let problem = model.ask().set("r", number(r)).problem().unwrap();
-        assert_eq!(problem.requirements_met(&[requirement.clone()], None, &budget).unwrap()[0].met, expected, "{r}");
+        assert_eq!(
+            problem.requirements_met(std::slice::from_ref(&requirement), None, &budget).unwrap()[0].met,
+            expected,
+            "{r}"
+        );
     }
 }
