@@ -59,6 +59,7 @@ mod maps {
     mod laws;
     mod methods;
     mod program;
+    mod required;
 }
 
 /// Any number of parameters: boxes of tolerances.

@@ -9,7 +9,7 @@ use jurist_engine::problem::Question;
 use jurist_engine::response::Requirements;
 
 /// What is required beyond stability.
-#[derive(Args, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 pub(super) struct RequirementOptions {
     /// Asks for a gain margin both ways: '6 dB' or a factor
     #[arg(long, value_name = "MARGIN")]
@@ -26,7 +26,7 @@ pub(super) struct RequirementOptions {
     /// Asks for a settling time: a decay of 4 over it, in discrete time a radius of exp(-4 T/time)
     #[arg(long, value_name = "TIME")]
     pub settling_time: Option<String>,
-    /// Asks for a damping of all roots (continuous time)
+    /// Asks for a damping of all roots, in discrete time of the roots ln(z)/T
     #[arg(long, value_name = "NUMBER")]
     pub damping: Option<String>,
     /// Where the loop is cut for margins: a signal, or a block (at its input) [default: the error of a single loop]
@@ -77,6 +77,40 @@ impl RequirementOptions {
     }
 }
 
+/// Requirements of which a list asks for several at once, each for itself.
+const LISTED: [&str; 4] = ["gain_margin", "phase_margin", "modulus_margin", "damping"];
+
+impl RequirementOptions {
+    /// As [`RequirementOptions::asked`], with lists such as `30 deg, 45 deg`: those with the same name stand together.
+    pub fn asked_each(
+        &self,
+        model: &Model,
+        question: Question,
+        region: &RegionOptions,
+        context: &Context,
+    ) -> Result<(Requirements, Question), Error> {
+        let mut first = self.clone();
+        let mut further: Vec<(&str, String)> = Vec::new();
+        let listed = [&mut first.gain_margin, &mut first.phase_margin, &mut first.modulus_margin, &mut first.damping];
+        for (name, text) in LISTED.into_iter().zip(listed) {
+            let Some(list) = text.take() else { continue };
+            let mut parts = list.split(',').map(|part| part.trim().to_owned());
+            *text = parts.next();
+            further.extend(parts.map(|part| (name, part)));
+        }
+        let (mut asked, question) = first.asked(model, question, region, context)?;
+        if !further.is_empty() {
+            let values = question.clone().problem()?.set().to_vec();
+            for (name, text) in further {
+                let more = model.requirements(&[(name, &text)], &values, &context.budget)?;
+                let place = asked.list.iter().rposition(|r| r.name() == name).map_or(asked.list.len(), |k| k + 1);
+                asked.list.splice(place..place, more.list.into_iter().filter(|r| r.name() == name));
+            }
+        }
+        Ok((asked, question))
+    }
+}
+
 /// That nothing proves requirements yet.
 pub(super) fn refuse_proofs(model: &Model, asked: &Requirements, any_proof: bool) -> Result<(), Error> {
     if !any_proof || (asked.list.is_empty() && model.require().is_empty()) {
@@ -90,6 +124,6 @@ pub(super) fn refuse_proofs(model: &Model, asked: &Requirements, any_proof: bool
 pub(super) fn warn_of_ignored(model: &Model, context: &Context) {
     if !model.require().is_empty() {
         let warning = Diagnostic::warning("W-require", "[require] is not looked at here: stability alone is decided");
-        context.warn(None, &[warning.help("requirements are decided by 'verdict' and 'intervals'")]);
+        context.warn(None, &[warning.help("requirements are decided by 'verdict', 'intervals' and 'map'")]);
     }
 }

@@ -12,4 +12,5 @@ pub mod plane;
 pub mod polynomial;
 pub mod program;
 pub mod random;
+pub mod required;
 pub mod schema;

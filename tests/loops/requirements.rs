@@ -4,14 +4,13 @@ use crate::helpers::model::{example, load};
 use crate::helpers::number::{number, ratio};
 use crate::helpers::open_loops::{CONDITIONAL, RESONANT, SERVO};
 use crate::helpers::random::Random;
+use crate::helpers::required::{Known, is_met};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, Poly, UniPoly};
 use jurist_algebra::real::Real;
 use jurist_engine::answer::Answer;
 use jurist_engine::model::Model;
-use jurist_engine::response::{OpenLoop, RequiredEnd, RequiredSet, Requirement};
-use jurist_engine::stability::{ParametricPolynomial, Range, count_roots, is_stable, stable_set};
+use jurist_engine::response::{RequiredEnd, RequiredSet, Requirement};
 
 fn required(model: &Model, name: &str, at: Option<&str>, requirements: &[Requirement]) -> Answer<RequiredSet> {
     let problem = model.ask().free(name).problem().unwrap();
@@ -27,61 +26,6 @@ fn contains(set: &RequiredSet, x: &Rational) -> bool {
     set.intervals
         .iter()
         .any(|i| i.lower.as_ref().is_none_or(|l| inside(l, true)) && i.upper.as_ref().is_none_or(|u| inside(u, false)))
-}
-
-/// What the open loop is at a point, decided by stable sets of factors and rotations and by counts on the boundary; the
-/// production code goes by crossings.
-fn is_met(model: &Model, name: &str, at: Option<&str>, value: &Rational, requirement: &Known) -> bool {
-    let budget = Budget::unlimited();
-    let problem = model.ask().set(name, value.clone()).problem().unwrap();
-    let Ok(open_loop) = OpenLoop::of(&problem, at, &budget) else { return false };
-    let (d, n, shape) = (open_loop.denominator().unwrap(), open_loop.numerator().unwrap(), open_loop.shape());
-    if !is_stable(&d.plus(n), shape) {
-        return false;
-    }
-    let whole = |a: &UniPoly, b: &UniPoly, from: Rational, to: Rational| {
-        let degree = a.coeffs().len().max(b.coeffs().len()) - 1;
-        let coefficients: Vec<_> =
-            (0..=degree).map(|i| (Poly::new(vec![a.coeff(i), b.coeff(i)]), UniPoly::one())).collect();
-        let p = ParametricPolynomial::new(&coefficients, degree, Vec::new());
-        let set = stable_set(&p, &Range::between(Some(from.clone()), Some(to.clone())), shape, &budget).unwrap();
-        let [only] = set.intervals() else { return false };
-        let is = |end: &Option<jurist_engine::stability::End>, x: &Rational| {
-            end.as_ref().is_some_and(|e| e.value.compare_rational(x).is_eq())
-        };
-        is(&only.lower, &from) && is(&only.upper, &to)
-    };
-    match requirement {
-        Known::Gain(g) => {
-            let at_ends = [g.clone(), g.recip().unwrap()]
-                .iter()
-                .all(|k| is_stable(&d.scaled(&k.denominator()).plus(&n.scaled(&k.numerator())), shape));
-            at_ends && whole(d, n, g.recip().unwrap(), g.clone())
-        }
-        Known::Phase(square) => {
-            let (sum, difference) = (d.plus(n), d.minus(n));
-            whole(&sum.times(&sum), &difference.times(&difference), Rational::ZERO, square.clone())
-        }
-        Known::Modulus(m) => {
-            let degree = d.coeffs().len().max(n.coeffs().len()) - 1;
-            let squared = |p: &UniPoly| match shape {
-                jurist_engine::stability::Shape::UnitDisc => p.times(&p.reversed(degree)),
-                jurist_engine::stability::Shape::LeftHalfPlane => p.times(&p.negated_argument()),
-            };
-            let (p, q) = (m.numerator(), m.denominator());
-            let excess = squared(&d.plus(n)).scaled(&(&q * &q)).minus(&squared(d).scaled(&(&p * &p)));
-            // Somewhere above: at frequency 0, unless both vanish there.
-            let x = Rational::from(i64::from(matches!(shape, jurist_engine::stability::Shape::UnitDisc)));
-            count_roots(&excess, shape).on == 0 && excess.eval_rational(&x).sign().is_gt()
-        }
-    }
-}
-
-enum Known {
-    Gain(Rational),
-    /// `tan(phi/2)^2`.
-    Phase(Rational),
-    Modulus(Rational),
 }
 
 #[test]
@@ -101,14 +45,14 @@ fn sets_of_a_gain_agree_with_a_second_decision_at_random_points() {
             let answer = required(&model, name, None, &[requirement]);
             for _ in 0..12 {
                 let x = ratio(random.below(100_000) as i64 * scale, 100_000);
-                assert_eq!(contains(answer.value(), &x), is_met(&model, name, None, &x, &known), "{text} {x}");
+                assert_eq!(contains(answer.value(), &x), is_met(&model, &[(name, &x)], None, &known), "{text} {x}");
             }
             // On both sides of each end, as near as 1e-20.
             for end in answer.value().intervals.iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
                 let RequiredEnd::Requirement { value, .. } = end else { continue };
                 let (lo, hi) = value.refined(&number("1e-21")).enclosure();
                 let (below, above) = (lo - number("1e-20"), hi + number("1e-20"));
-                let met = [&below, &above].map(|x| is_met(&model, name, None, x, &known));
+                let met = [&below, &above].map(|x| is_met(&model, &[(name, x)], None, &known));
                 assert_eq!(met, [&below, &above].map(|x| contains(answer.value(), x)), "{text} {}", value.decimal(12));
                 assert_ne!(met[0], met[1], "{text} {}", value.decimal(12));
             }
@@ -206,4 +150,31 @@ fn a_settling_time_is_a_radius_that_is_not_algebraic() {
     let set = model.ask().free("K").within(asked.region.unwrap()).stable_set(&budget).unwrap();
     // s = -1: 1 - 4 + K = 0
     assert_eq!(set.value().intervals()[0].lower.as_ref().unwrap().value.exact(), Some(number("3")));
+}
+
+/// A pair whose damping falls with its modulus `r`, at a fixed angle.
+#[test]
+fn the_damping_of_a_sampled_pair() {
+    // z^2 - 2 r cos(phi) z + r^2 with cos(phi) = 3/5: phi = 0.9272952180016122, r = exp(-c phi), c = 1/sqrt(3) for damping 1/2.
+    let model = load(
+        "time = 'discrete'\n[parameters]\nr = { nominal = 0.5, min = 0, max = 1 }\n[loop]\n\
+         characteristic = 'z^2 - 6/5*r*z + r^2'\n",
+    );
+    let requirement = Requirement::damping(number("1/2")).unwrap();
+    let answer = required(&model, "r", None, std::slice::from_ref(&requirement));
+    let [only] = answer.value().intervals.as_slice() else { panic!("{answer:?}") };
+    let upper = only.upper.as_ref().unwrap();
+    // exp(-acos(3/5)/sqrt(3)), by mpmath at 50 digits; not algebraic.
+    assert_eq!(upper.value().decimal(30), "0.585450206638079748222324676334");
+    assert!(matches!(upper, RequiredEnd::Requirement { names, closed: true, .. } if names == &["damping"]));
+    assert!(matches!(only.lower, Some(RequiredEnd::Stability(_))));
+    let budget = Budget::unlimited();
+    for (r, expected) in [("0.585", true), ("0.586", false)] {
+        let problem = model.ask().set("r", number(r)).problem().unwrap();
+        assert_eq!(
+            problem.requirements_met(std::slice::from_ref(&requirement), None, &budget).unwrap()[0].met,
+            expected,
+            "{r}"
+        );
+    }
 }

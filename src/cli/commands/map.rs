@@ -7,15 +7,19 @@ use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, question};
 use crate::cli::output::{ending, note, unknown_ending};
 use crate::cli::picture::{pdf, png, write};
-use crate::cli::requirements::warn_of_ignored;
+use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
 use jurist_draw::page::map_page;
 use jurist_drive::published_limits;
-use jurist_engine::answer::{Answer, Map, MapOrBoxes};
+use jurist_engine::answer::{Answer, BoxRequest, Map, MapMethod, MapOrBoxes};
+use jurist_engine::error::Error as EngineError;
+use jurist_engine::problem::Problem;
+use jurist_engine::response::Requirements;
 use jurist_engine::show::{documents, map_boxes_text, map_text};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Digits to which places and frequencies are enclosed, at least and at most.
 const LIMIT_DIGITS: (usize, usize) = (10, 20);
@@ -50,6 +54,8 @@ pub(in crate::cli) struct Options {
     #[command(flatten)]
     pub method: MethodOptions,
     #[command(flatten)]
+    pub require: RequirementOptions,
+    #[command(flatten)]
     pub region: RegionOptions,
     #[command(flatten)]
     pub output: OutputOptions,
@@ -71,24 +77,25 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let [x, y] = axes.map(|(option, text)| axis(context.line, option, text));
     let requests = [x?, y?];
     let model = load(options.model.model.as_ref(), context)?;
-    warn_of_ignored(&model, context);
     let mut question = question(context, &model, &options.model, &options.region)?;
     for request in &requests {
         known_name(context, &model, &request.name, request.name_span)?;
         question = question.free(&request.name);
     }
+    let (asked, question) = options.require.asked_each(&model, question, &options.region, context)?;
     let boxes = options.method.request(&requests, context)?;
+    let method = options.method.method_for(&asked)?;
     let problem = question.plane_problem()?;
     let digits = options.output.digits() as usize;
     let places = digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1);
-    let answer = match decided(problem.map_by(options.method.method(), &boxes, places, &context.budget))? {
+    let answer = match decided(required(&problem, method, &boxes, places, &asked, context))? {
         Ok(MapOrBoxes::Exact(answer)) => *answer,
         Ok(MapOrBoxes::Boxes(boxes)) => {
             context.warn(None, problem.warnings());
             return map_boxes::answer(&boxes, &options.output, context);
         }
         Err(stopped) => {
-            let by_boxes = problem.ends_in_boxes(options.method.method(), &boxes);
+            let by_boxes = problem.ends_in_boxes(method, &boxes);
             let output = &options.output;
             let status = match (picture, by_boxes) {
                 // There is nothing to draw.
@@ -121,6 +128,24 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         None => context.answer(&options.output, || answer.text(digits), || answer.json(digits))?,
     }
     Ok(Status::Holds)
+}
+
+/// The map, with the regions in which requirements are met.
+fn required(
+    problem: &Arc<Problem>,
+    method: MapMethod,
+    boxes: &BoxRequest,
+    digits: usize,
+    asked: &Requirements,
+    context: &Context,
+) -> Result<MapOrBoxes, EngineError> {
+    match problem.map_by(method, boxes, digits, &context.budget)? {
+        MapOrBoxes::Exact(answer) if !asked.list.is_empty() => {
+            let answer = answer.with_requirements(&asked.list, asked.at.as_deref(), &context.budget)?;
+            Ok(MapOrBoxes::Exact(Box::new(answer)))
+        }
+        found => Ok(found),
+    }
 }
 
 /// The kind of picture that the output file's ending asks for, if it asks for one.

@@ -13,6 +13,7 @@ use jurist_draw::figures::map::boxes_figure;
 use jurist_draw::page::map_boxes_page;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod};
 use jurist_engine::error::Diagnostic;
+use jurist_engine::response::Requirements;
 use jurist_engine::stability::Range;
 use std::path::Path;
 
@@ -47,6 +48,18 @@ impl MethodOptions {
             MethodName::Boxes => MapMethod::Boxes,
             MethodName::Auto => MapMethod::Auto,
         }
+    }
+
+    /// The same beside requirements, which boxes do not decide.
+    pub fn method_for(&self, asked: &Requirements) -> Result<MapMethod, Error> {
+        if asked.list.is_empty() {
+            return Ok(self.method());
+        }
+        if self.method == MethodName::Boxes {
+            let error = Diagnostic::error("E-require", "boxes decide stability only, no requirements");
+            return Err(jurist_engine::error::Error::from(error.help("leave out '--method boxes'")).into());
+        }
+        Ok(MapMethod::Exact)
     }
 
     /// What may help when the exact map is not finished in time.

@@ -3,6 +3,7 @@
 use super::{Answer, MapLimit, RegionExtent};
 use crate::error::{Diagnostic, Error};
 use crate::problem::{Problem, Question};
+use crate::response::RequiredMap;
 use crate::stability::plane::{StabilityMap, stability_map, vanishing_boundary};
 use crate::stability::{Range, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -38,6 +39,8 @@ pub struct Map {
     /// Why the loop is stable at no point of the plane: `undefined`, or the name of the boundary polynomial that vanishes
     /// identically. `None` where that is not so.
     pub never_stable_cause: Option<&'static str>,
+    /// Where requirements are met, if something is required.
+    pub required: Option<RequiredMap>,
 }
 
 impl Map {
@@ -129,7 +132,7 @@ impl Problem {
             Some(p) => vanishing_boundary(p, self.shape(), budget)?.map(crate::stability::Cause::name),
         };
         let limits = Ok(Vec::new());
-        let map = Map { decomposition, limits, slices: Vec::new(), never_stable_cause };
+        let map = Map { decomposition, limits, slices: Vec::new(), never_stable_cause, required: None };
         let mut answer = Answer::new(Arc::clone(self), map);
         answer.value.limits = answer.region_extents(digits, budget);
         answer.value.slices = [0, 1].into_iter().filter_map(|fixed| answer.nominal_slice(fixed, budget)).collect();

@@ -261,6 +261,15 @@ impl Problem {
         Some((f.numerator().to_univariate(0)?, f.denominator().to_univariate(0)?))
     }
 
+    /// The same problem with plain stability in the place of a smaller region; its polynomial's roots are the loop's own.
+    pub(crate) fn without_region(self: &Arc<Self>) -> Arc<Problem> {
+        let plain = Region::of(self.time());
+        if self.region == plain {
+            return Arc::clone(self);
+        }
+        Arc::new(Problem::new(Arc::clone(&self.model), self.set.clone(), self.free.clone(), plain, Vec::new()))
+    }
+
     /// The problem that is left of one in two parameters when one of them (0 for the first) has a value. Its algebra follows
     /// from what is known.
     ///

@@ -1,6 +1,7 @@
 //! A stable interval cut into cells in each of which every requirement is met everywhere or nowhere.
 
 use super::family::{Boundaries, Family};
+use super::met::AtPoint;
 use super::requirement::Requirement;
 use super::{RequiredEnd, RequiredInterval};
 use crate::error::Error;
@@ -11,25 +12,28 @@ use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
 use jurist_algebra::real::{Real, rational_between};
 use jurist_algebra::symbols::merged;
+use std::slice::from_ref;
 
 /// What is asked in each cell.
 pub(super) struct Cells<'a> {
+    /// With the whole region of stability, whatever smaller one is asked for.
     pub problem: &'a Problem,
     pub requirements: &'a [Requirement],
-    pub boundaries: &'a [Boundaries],
-    pub family: Option<&'a Family>,
+    pub boundaries: &'a [Boundaries<UniPoly>],
+    pub family: Option<&'a Family<UniPoly>>,
     pub budget: &'a Budget,
 }
 
 impl Cells<'_> {
     /// The names of what is not met at a stable value.
     fn unmet(&self, value: &Rational) -> Result<Vec<&'static str>, Error> {
-        let open_loop = self.family.map(|f| f.at(value));
+        let open_loop = self.family.map(|f| f.at(from_ref(value)));
         let open_loop = open_loop.as_ref();
         let closed = self.problem.parametric(self.budget)?.map(|p| p.specialised(value)).unwrap_or_else(UniPoly::zero);
         let mut out = Vec::new();
+        let mut at = AtPoint::new(open_loop, &closed, self.problem.shape());
         for requirement in self.requirements {
-            if !requirement.is_met(open_loop, &closed, self.problem.shape(), self.budget)? {
+            if !at.meets(requirement, self.budget)? {
                 out.push(requirement.name());
             }
         }

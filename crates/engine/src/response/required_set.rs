@@ -1,14 +1,17 @@
 //! For which values of a parameter a loop is stable and meets its requirements.
 
 use super::cells::Cells;
+use super::damped::changes;
 use super::family::{Boundaries, Family};
 use super::margins::Margins;
+use super::met::AtPoint;
 use super::requirement::{Requirement, scaled_by_exponential, sector_in_parameter};
+use super::spiral::OnSpiral;
 use super::{DelayMargin, HeldDelay};
 use crate::answer::{Answer, Verdict};
 use crate::error::{Diagnostic, Error};
 use crate::problem::Problem;
-use crate::stability::{End, Range, Shape, SymbolicPolynomial, boundary_polynomials, symbolic_stable_set};
+use crate::stability::{End, Range, Shape, StableSet, SymbolicPolynomial, boundary_polynomials, symbolic_stable_set};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Enclosure, Rational};
@@ -73,11 +76,6 @@ pub struct RequirementMet {
     pub met: bool,
 }
 
-fn no_damping() -> Error {
-    let error = Diagnostic::error("E-require", "a damping is required of continuous loops only");
-    error.help("in discrete time ask for a radius, or a settling time").into()
-}
-
 impl Problem {
     /// For which values of the one free parameter the loop is stable and meets the requirements, margins being taken at a cut.
     ///
@@ -107,8 +105,9 @@ impl Problem {
             };
             budget.step("boundaries of the requirements");
             let mut boundaries = Vec::new();
+            let whole = self.without_region();
             for requirement in requirements {
-                boundaries.push(self.boundaries(requirement, family.as_ref(), budget)?);
+                boundaries.push(whole.boundaries(requirement, family.as_ref(), &stable, budget)?);
             }
             let mut intervals = Vec::new();
             if !stable.undecided().is_empty() {
@@ -118,7 +117,7 @@ impl Problem {
             for interval in stable.intervals() {
                 budget.step("testing a sample of each cell");
                 let cells =
-                    Cells { problem: self, requirements, boundaries: &boundaries, family: family.as_ref(), budget };
+                    Cells { problem: &whole, requirements, boundaries: &boundaries, family: family.as_ref(), budget };
                 intervals.extend(cells.within(interval.lower.as_ref(), interval.upper.as_ref())?);
             }
             Ok(Answer::new(Arc::clone(self), RequiredSet { intervals }))
@@ -154,15 +153,12 @@ impl Problem {
             };
             let about_roots = |r: &Requirement| matches!(r, Requirement::Damping(_) | Requirement::SettlingTime { .. });
             let closed = match requirements.iter().any(about_roots) {
-                true => self.parametric(budget)?.map(|p| p.specialised(&Rational::ZERO)),
+                true => self.without_region().parametric(budget)?.map(|p| p.specialised(&Rational::ZERO)),
                 false => None,
             };
             let closed = closed.unwrap_or_else(UniPoly::zero);
             let mut out = Vec::with_capacity(requirements.len());
             for requirement in requirements {
-                if matches!(requirement, Requirement::Damping(_)) && self.shape() == Shape::UnitDisc {
-                    return Err(no_damping());
-                }
                 let open_loop = margins.as_ref().map(|m| &m.open_loop);
                 let known = match margins.as_ref().and_then(|m| m.stable.as_ref()) {
                     Some(stable) => requirement.is_met_by(stable, budget)?,
@@ -172,7 +168,7 @@ impl Problem {
                     _ if !stable => false,
                     (_, _, Some(met)) => met,
                     (Requirement::DelayMargin(least), Some(margins), _) => bears(margins, least, budget)?,
-                    _ => requirement.is_met(open_loop, &closed, self.shape(), budget)?,
+                    _ => AtPoint::new(open_loop, &closed, self.shape()).meets(requirement, budget)?,
                 };
                 out.push(RequirementMet { requirement: requirement.clone(), margins: margins.clone(), met });
             }
@@ -183,9 +179,10 @@ impl Problem {
     fn boundaries(
         &self,
         requirement: &Requirement,
-        family: Option<&Family>,
+        family: Option<&Family<UniPoly>>,
+        stable: &StableSet,
         budget: &Budget,
-    ) -> Result<Boundaries, Error> {
+    ) -> Result<Boundaries<UniPoly>, Error> {
         let undecided = || {
             let message = format!("the requirement {} is not decided for this loop", requirement.name());
             Error::from(
@@ -194,10 +191,16 @@ impl Problem {
         };
         let found = match (requirement, family) {
             (Requirement::Damping(least), _) => {
-                if self.shape() == Shape::UnitDisc {
-                    return Err(no_damping());
-                }
                 let Some(p) = self.parametric(budget)? else { return Err(undecided()) };
+                if self.shape() == Shape::UnitDisc {
+                    budget.step("roots on the spiral of the damping");
+                    let p = OnSpiral::new(p.polynomial(), least);
+                    let mut values = Vec::new();
+                    for interval in stable.intervals() {
+                        values.extend(changes(&p, interval, budget)?);
+                    }
+                    return Ok(Boundaries { values, ..Boundaries::none() });
+                }
                 let sector = sector_in_parameter(p, least);
                 let Some(found) = boundary_polynomials(&sector, self.shape(), budget)? else { return Err(undecided()) };
                 let zeros = found.into_iter().map(|b| b.polynomial.poly().clone()).collect();

@@ -1,16 +1,10 @@
 //! Requirements on margins, and whether a loop meets them at a point.
 
-use super::crossings::Crossings;
-use super::ground::{Constants, Ground};
-use super::margins::{GainMargin, PhaseMargin, StableMargins, modulus_extreme};
-use super::open_loop::OpenLoop;
-use super::value::{Value, square_root};
 use crate::error::{Diagnostic, Error};
 use crate::stability::{ParametricPolynomial, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
-use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, Symbols};
 use std::sync::Arc;
 
@@ -42,7 +36,8 @@ pub enum Requirement {
     },
     /// `|1 + L|` is nowhere below this.
     ModulusMargin(Rational),
-    /// All roots have at least this damping: `cos` of the angle that they make with the negative real axis. Continuous time.
+    /// All roots have at least this damping: `cos` of the angle that they, or in discrete time `ln(z)`, make with the negative real
+    /// axis.
     Damping(Rational),
     /// Stable with all less dead time at the cut: at the input of a plant behind a hold, and in continuous time; else with so
     /// much delay in whole samples.
@@ -203,44 +198,6 @@ impl Requirement {
     pub(crate) fn needs_cut(&self) -> bool {
         !matches!(self, Requirement::Damping(_) | Requirement::SettlingTime { .. })
     }
-
-    /// Whether a stable closed loop meets it; `closed` is its polynomial.
-    pub(crate) fn is_met(
-        &self,
-        open_loop: Option<&OpenLoop>,
-        closed: &UniPoly,
-        shape: Shape,
-        budget: &Budget,
-    ) -> Result<bool, Exhausted> {
-        let cut = || open_loop.expect("a margin is taken at a cut");
-        match self {
-            Requirement::GainMargin { factor, .. } => has_gain_margin(&GainMargin::of(cut(), budget)?, factor, budget),
-            Requirement::PhaseMargin { twice_cosine, .. } => {
-                let crossings = Crossings::of(cut(), budget)?;
-                has_phase_margin(&PhaseMargin::of(cut(), &crossings, budget)?, twice_cosine, budget)
-            }
-            Requirement::ModulusMargin(least) => {
-                let found = modulus_extreme(cut(), budget)?;
-                let square = Value::from(least * least);
-                Ok(found.value().expect("finite somewhere").compare(&square, budget)?.is_ge())
-            }
-            Requirement::Damping(least) => {
-                // On the sector's edge a root is damped enough.
-                let inside = in_sector(&closed.map(|c| UniPoly::constant(c.clone())), least);
-                let inside = inside.map(|c| c.coeff(0));
-                let count = crate::stability::count_roots(&inside, shape);
-                Ok(count.outside == 0)
-            }
-            Requirement::SettlingTime { exponent, .. } => {
-                let (symbols, scaled) =
-                    scaled_by_exponential(closed.coeffs().iter().cloned().map(MultiPoly::constant), exponent);
-                // No root has a transcendental modulus, so none is on the circle.
-                Constants(symbols).is_stable(&scaled, shape, budget)
-            }
-            // Of the whole answer, with the dead time behind a hold.
-            Requirement::DelayMargin(_) => Ok(false),
-        }
-    }
 }
 
 /// The polynomial at `r z`, `r = exp(exponent)`, as variable 0 of the symbols; the coefficients are free of them.
@@ -257,45 +214,6 @@ pub(crate) fn scaled_by_exponential(
         power = power.times(&MultiPoly::variable(radius));
     }
     (Arc::new(symbols), Poly::new(scaled))
-}
-
-/// Whether the loop is stable for all factors from the inverse of one to itself.
-fn has_gain_margin(gain: &GainMargin, factor: &RealAlgebraic, budget: &Budget) -> Result<bool, Exhausted> {
-    let factor = Real::from(factor.clone());
-    let inverse = super::value::reciprocal(&factor, budget)?;
-    let above = match &gain.upper {
-        Some(end) => end.value.compare(&factor, budget)?.is_gt(),
-        None => true,
-    };
-    let below = match &gain.lower {
-        Some(end) => end.value.compare(&inverse, budget)?.is_lt(),
-        None => true,
-    };
-    Ok(above && below)
-}
-
-/// Whether the angle is at least that of twice a cosine.
-fn has_phase_margin(phase: &PhaseMargin, twice_cosine: &RealAlgebraic, budget: &Budget) -> Result<bool, Exhausted> {
-    let PhaseMargin::Angle { tangent: Some(tangent), .. } = phase else { return Ok(true) };
-    let least = Value::quotient(&UniPoly::from_i64(&[2, -1]), &UniPoly::from_i64(&[2, 1]), twice_cosine);
-    let least = square_root(&least.number(budget)?, budget)?;
-    Ok(tangent.compare(&least, budget)?.is_ge())
-}
-
-impl Requirement {
-    /// Whether margins that are known meet it; `None` where it is not about them.
-    pub(crate) fn is_met_by(&self, margins: &StableMargins, budget: &Budget) -> Result<Option<bool>, Exhausted> {
-        Ok(match self {
-            Requirement::GainMargin { factor, .. } => Some(has_gain_margin(&margins.gain, factor, budget)?),
-            Requirement::PhaseMargin { twice_cosine, .. } => {
-                Some(has_phase_margin(&margins.phase, twice_cosine, budget)?)
-            }
-            Requirement::ModulusMargin(least) => {
-                Some(budget.enter(|| margins.modulus.compare_rational(least).is_ge())?)
-            }
-            Requirement::Damping(_) | Requirement::DelayMargin(_) | Requirement::SettlingTime { .. } => None,
-        })
-    }
 }
 
 fn refused(message: &str) -> Error {
@@ -329,7 +247,7 @@ fn cyclotomic(n: usize) -> UniPoly {
 
 /// `P(a s) P(b s)` with `a, b = c (c +- j damping)`, `c^2 = 1 - damping^2`, times powers of the denominator: all its roots are in the
 /// left half plane just when those of `P` are in the sector of at least this damping.
-pub(crate) fn in_sector(p: &Poly<UniPoly>, damping: &Rational) -> Poly<UniPoly> {
+pub(crate) fn in_sector<R: Domain>(p: &Poly<R>, damping: &Rational) -> Poly<R> {
     let n = p.coeffs().len().saturating_sub(1);
     let square = Rational::ONE - damping * damping;
     // t_k = a^k + b^k, and a b = c^2.
@@ -351,14 +269,33 @@ pub(crate) fn in_sector(p: &Poly<UniPoly>, damping: &Rational) -> Poly<UniPoly> 
             clear = clear.lcm(&weight(i, j).denominator());
         }
     }
-    let mut out = vec![UniPoly::zero(); 2 * n + 1];
+    let mut out = vec![R::zero(); 2 * n + 1];
     for i in 0..=n {
         for j in 0..=n {
             let w = weight(i, j) * Rational::from(&clear);
-            out[i + j] = out[i + j].plus(&p.coeff(i).times(&p.coeff(j)).scaled(&w.numerator()));
+            out[i + j] = out[i + j].plus(&p.coeff(i).times(&p.coeff(j)).times(&R::from_integer(&w.numerator())));
         }
     }
     Poly::new(out)
+}
+
+/// Polynomials in `rho`, up to factors, whose common zeros are the roots `s = rho exp(j psi)`, `cos psi = -damping`: those on the
+/// sector's edge for `rho > 0`. They are the imaginary parts of `P` and of `P exp(-j psi)`, over `sin psi`, the first over `rho` too.
+pub(crate) fn on_sector_edge<R: Domain>(p: &Poly<R>, damping: &Rational) -> [Poly<R>; 2] {
+    let n = p.coeffs().len().saturating_sub(1);
+    // u_k = sin(k psi)/sin psi.
+    let twice_cosine = -(damping + damping);
+    let mut sines = vec![Rational::ZERO, Rational::ONE];
+    for k in 2..=n {
+        let next = &twice_cosine * &sines[k - 1] - &sines[k - 2];
+        sines.push(next);
+    }
+    let clear = sines.iter().fold(Integer::ONE, |l, u| l.lcm(&u.denominator()));
+    let weight = |u: &Rational| R::from_integer(&(u * &Rational::from(&clear)).numerator());
+    let first = (1..=n).map(|k| p.coeff(k).times(&weight(&sines[k]))).collect();
+    let before = |k: usize| if k == 0 { -Rational::ONE } else { sines[k - 1].clone() };
+    let second = (0..=n).map(|k| p.coeff(k).times(&weight(&before(k)))).collect();
+    [Poly::new(first), Poly::new(second)]
 }
 
 /// The sector's polynomial in the parameter that is free.
@@ -400,14 +337,18 @@ mod tests {
     #[test]
     fn the_sector_of_a_damped_pair() {
         // s^2 + 2 d s + 1 with d = 3/5 is on the edge of damping 3/5.
-        let p = Poly::new([5, 6, 5].map(|c| UniPoly::from_i64(&[c])).to_vec());
+        let p = UniPoly::from_i64(&[5, 6, 5]);
         let counted = |tenths: i64| {
-            let sector = in_sector(&p, &Rational::new(tenths.into(), 10.into())).map(|c| c.coeff(0));
+            let sector = in_sector(&p, &Rational::new(tenths.into(), 10.into()));
             let count = crate::stability::count_roots(&sector, Shape::LeftHalfPlane);
             (count.inside, count.on, count.outside)
         };
         assert_eq!(counted(5), (4, 0, 0));
         assert_eq!(counted(6), (2, 2, 0));
         assert_eq!(counted(7), (2, 0, 2));
+        // rho = 1 on the edge, and nowhere else.
+        let edge = |tenths: i64| on_sector_edge(&p, &Rational::new(tenths.into(), 10.into()));
+        let common = |tenths: i64| edge(tenths)[0].gcd(&edge(tenths)[1]);
+        assert_eq!([5, 6, 7].map(common), [&[1][..], &[-5, 5], &[5]].map(UniPoly::from_i64));
     }
 }

@@ -7,6 +7,7 @@ use super::super::legend::{self, hatched};
 use super::super::panel::{Shape, apart};
 use super::super::{FAINT, Figure, INK};
 use super::labels::{FrequencyPoint, extreme_points, frequencies, limits_on_lines, spaced};
+use super::layers::Layers;
 use super::lines::{Role, Wall, mechanism_colour, walls};
 use super::trace::MapTrace;
 use super::{REGION, UNSTABLE};
@@ -39,6 +40,7 @@ pub struct MapContents<'a> {
     pub(super) answer: &'a Answer<Map>,
     pub(super) map: &'a StabilityMap,
     pub(super) trace: &'a MapTrace,
+    pub(super) layers: Option<Layers<'a>>,
     /// The walls.
     pub walls: Vec<Wall>,
     /// For each wall, frequencies along it.
@@ -71,7 +73,11 @@ impl<'a> MapContents<'a> {
         }
         let mut on_lines = limits_on_lines(answer);
         on_lines.extend(extreme_points(answer));
-        Ok(MapContents { answer, map, trace, walls, frequencies: found, on_lines, published })
+        let layers = match &answer.value().required {
+            Some(found) => Some(Layers::new(found, &answer.problem().free()[1].domain, trace.windows.clone(), budget)?),
+            None => None,
+        };
+        Ok(MapContents { answer, map, trace, layers, walls, frequencies: found, on_lines, published })
     }
 
     /// The picture at a size, with or without its title.
@@ -80,7 +86,7 @@ impl<'a> MapContents<'a> {
     }
 
     /// The domain in places of the window: left, lower, right, upper, each from 0 to 1.
-    fn domain(&self) -> [f64; 4] {
+    pub(super) fn domain(&self) -> [f64; 4] {
         let end = |k: usize, end: &Option<Rational>, otherwise: f64| {
             end.as_ref().map_or(otherwise, |e| self.trace.windows[k].place(e.to_f64_approximate())).clamp(0.0, 1.0)
         };
@@ -142,6 +148,7 @@ impl<'a> Drawing<'a> {
     fn finish(mut self) -> MapFigure {
         self.ground();
         self.region();
+        self.layers();
         let frame = self.frame.clone();
         frame.draw(&mut self.scene);
         self.lines_through_nominal();
@@ -151,6 +158,7 @@ impl<'a> Drawing<'a> {
                 self.wall(k);
             }
         }
+        self.layer_edges();
         self.marks();
         self.limits_on_lines();
         for &k in edges.iter().filter(|k| self.contents.walls[**k].role == Role::Stable) {

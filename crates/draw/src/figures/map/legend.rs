@@ -19,6 +19,7 @@ impl Drawing<'_> {
         if !contents.map.regions.is_empty() {
             entries.push((Sample::Area(REGION), format!("{goal} (certified)")));
         }
+        entries.extend(self.layer_entries());
         let not = if goal == "stable" { "unstable".to_owned() } else { format!("not {goal}") };
         entries.push((Sample::Area(UNSTABLE), not));
         if contents.leaves_domain() {

@@ -6,6 +6,7 @@
 mod boxes;
 mod draw;
 mod labels;
+mod layers;
 mod legend;
 mod lines;
 mod trace;
@@ -23,6 +24,8 @@ use crate::scene::Colour;
 
 /// The ground of stable points.
 pub(crate) const REGION: Colour = Colour::css("#cfe8d8");
+/// The ground of stable points that meet all that is required.
+pub(crate) const MET: Colour = Colour::css("#7cc79d");
 /// The ground of unstable points.
 pub(crate) const UNSTABLE: Colour = Colour::css("#f7ece6");
 /// The ground of points outside the domain.

@@ -7,6 +7,7 @@ use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::poly::algebraic::simplest_between;
 use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, Map};
+use jurist_engine::stability::Range;
 use jurist_engine::stability::plane::{StabilityMap, Strip};
 
 /// Lines per width of the picture before refinement.
@@ -54,13 +55,22 @@ pub struct MapTrace {
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
 pub fn trace_map(answer: &Answer<Map>, windows: [AxisWindow; 2], budget: &Budget) -> Result<MapTrace, Exhausted> {
+    trace(&answer.value().decomposition, &answer.problem().free()[1].domain, windows, budget)
+}
+
+/// Traces the branches of a decomposition with this domain of `y`.
+pub(super) fn trace(
+    map: &StabilityMap,
+    y_domain: &Range,
+    windows: [AxisWindow; 2],
+    budget: &Budget,
+) -> Result<MapTrace, Exhausted> {
     budget.step("tracing the curves");
-    let map = &answer.value().decomposition;
     let mut strips = Vec::new();
     for (number, strip) in map.strips.iter().enumerate() {
         budget.check()?;
         budget.advance(number as u64, map.strips.len() as u64);
-        let tracer = Tracer { answer, map, strip, windows: &windows, budget };
+        let tracer = Tracer { y_domain, map, strip, windows: &windows, budget };
         let lines = tracer.lines()?;
         if lines.len() > 1 {
             strips.push(TracedStrip { strip: number, lines });
@@ -70,7 +80,7 @@ pub fn trace_map(answer: &Answer<Map>, windows: [AxisWindow; 2], budget: &Budget
 }
 
 struct Tracer<'a> {
-    answer: &'a Answer<Map>,
+    y_domain: &'a Range,
     map: &'a StabilityMap,
     strip: &'a Strip,
     windows: &'a [AxisWindow; 2],
@@ -160,7 +170,7 @@ impl Tracer<'_> {
 
     fn branches(&self, x: &Rational) -> Result<Vec<f64>, Exhausted> {
         let window = &self.windows[1];
-        let branches = self.map.branches(x, &self.answer.problem().free()[1].domain, self.budget)?;
+        let branches = self.map.branches(x, self.y_domain, self.budget)?;
         let width = (&window.upper - &window.lower) * Rational::dyadic(&jurist_algebra::number::Integer::ONE, 14);
         let place = |value: &RealAlgebraic| {
             let fine = if window.logarithmic { value.refined_to_digits(DIGITS) } else { value.refined(&width) };

@@ -171,7 +171,7 @@ pub(super) const REQUIRE: [Key; 9] = [
     key("phase_margin", Shape::Expression, "an angle: \"45 deg\""),
     key("modulus_margin", Shape::Expression, "the least |1 + L|, the inverse of the greatest sensitivity"),
     key("delay_margin", Shape::Expression, "a dead time in units of time"),
-    key("damping", Shape::Expression, "the least damping of all roots (continuous time)"),
+    key("damping", Shape::Expression, "the least damping of all roots; in discrete time of ln(z)/T"),
     key("decay", Shape::Expression, "all roots have Re s < -decay (continuous time)"),
     key("radius", Shape::Expression, "all roots have |z| < radius (discrete time)"),
     key("settling_time", Shape::Expression, "a decay of at least 4 over this time"),

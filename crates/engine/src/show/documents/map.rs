@@ -4,6 +4,7 @@ use super::Answered;
 use super::end::{Bounds, FrequencyOfPair, PlainEnd};
 use super::number::{Enclosure, Exact, Named, Number, enclosure};
 use super::question::{RegionBound, title};
+use super::required_map::RequiredInPlane;
 use super::schema_name;
 use crate::answer::{self, Answer, MapLimit, RegionExtent};
 use crate::model::Time;
@@ -84,6 +85,9 @@ pub struct Regions {
     pub strips: Vec<Strip>,
     /// The connected stable regions.
     pub regions: Vec<PlaneRegion>,
+    /// Where requirements are met; left out where nothing is required.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub required: Option<RequiredInPlane>,
 }
 
 /// No map.
@@ -336,6 +340,7 @@ impl Map {
                 curves: map.curves.iter().map(Curve::from).collect(),
                 strips: map.strips.iter().map(|s| Strip::new(s, map, problem.axes()[0], digits)).collect(),
                 regions: map.regions.iter().enumerate().map(region).collect(),
+                required: answer.required.as_ref().map(|found| RequiredInPlane::new(found, digits)),
             }
         };
         Map { schema: MapName::V1, question: MapQuestion::new(problem), answer: Answered::of(answer, known) }

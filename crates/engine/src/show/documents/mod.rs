@@ -28,6 +28,7 @@ mod norm;
 mod number;
 mod over;
 mod question;
+mod required_map;
 mod requirements;
 #[cfg(feature = "schema")]
 pub mod schemas;
@@ -62,6 +63,7 @@ pub use norm::{Norm, NormFound, NormName, NormOpen, PeakFound};
 pub use number::{Enclosure, Exact, Named, Number, NumberKind};
 pub use over::{AlgebraicPlace, Over};
 pub use question::{ParameterQuestion, PointQuestion, RegionBound};
+pub use required_map::{RequiredCell, RequiredInPlane, RequiredRegion, RequiredSetOfRegions, RequiredStrip};
 pub use requirements::{RequirementAsked, RequirementFound};
 pub use tolerance::{
     Factor, LimitRange, Tolerance, ToleranceFound, ToleranceName, ToleranceOpen, ToleranceVerdict, VolumeShares,

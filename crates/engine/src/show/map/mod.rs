@@ -1,6 +1,7 @@
 //! The stable region in two parameters, for people.
 
 mod boxes;
+mod required;
 mod text;
 
 pub use boxes::map_boxes_text;

@@ -4,6 +4,7 @@ use super::super::intervals::{domain_text, heading, set_lines, stable_lines, und
 use super::super::layout::{Columns, named_values, short, visible};
 use super::super::real;
 use super::super::region::{causes_text, goal_or_stable};
+use super::required::required_text;
 use crate::answer::{Answer, Map, MapLimit, RegionExtent};
 use crate::problem::{Free, Problem};
 use crate::stability::plane::{Branch, StabilityMap, StableRegion};
@@ -50,6 +51,9 @@ pub fn map_text(problem: &Problem, answer: Result<&Map, &Exhausted>, digits: usi
                 out.push_str(&region_text(number, region, answer.limits().get(k), map, problem, digits));
             }
         }
+    }
+    if let Some(found) = &answer.required {
+        out.push_str(&required_text(found, problem, digits));
     }
     out.push_str(&nominal_text(problem, answer, digits));
     out

@@ -53,7 +53,7 @@ impl PlanePolynomial {
     }
 
     /// The polynomial in `z` or `s`, denominators cleared.
-    pub(super) fn polynomial(&self) -> &Poly<MultiPoly> {
+    pub(crate) fn polynomial(&self) -> &Poly<MultiPoly> {
         &self.polynomial
     }
 
@@ -80,6 +80,11 @@ impl PlanePolynomial {
         }
         let count = count_roots(&special, region);
         AtPoint::Defined { count, infinite: self.formal_degree - count.total() }
+    }
+
+    /// The polynomial at a point, up to a factor.
+    pub(crate) fn specialised(&self, point: &[Rational; 2]) -> UniPoly {
+        UniPoly::from_rational_poly(&self.polynomial.map(|p| p.eval(point))).1
     }
 
     /// The polynomial in `y` alone at a rational `x`; `None` when the loop is undefined for every `y`.
@@ -139,10 +144,24 @@ pub fn boundary_curves(p: &PlanePolynomial, region: Shape, budget: &Budget) -> R
         }
         for factor in separated(&polynomial) {
             budget.check()?;
-            insert_coprime(&mut curves, cause, factor.square_free_part());
+            let mut causes = Causes::default();
+            causes.insert(cause);
+            insert_coprime(&mut curves, &causes, factor.square_free_part());
         }
     }
     Ok(Some(curves))
+}
+
+/// Adds curves on which something other than stability may change; they have no causes.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub(super) fn add_curves(curves: &mut Vec<Curve>, further: &[MultiPoly], budget: &Budget) -> Result<(), Exhausted> {
+    for factor in further.iter().flat_map(separated) {
+        budget.check()?;
+        insert_coprime(curves, &Causes::default(), factor.square_free_part());
+    }
+    Ok(())
 }
 
 /// Why a loop with a characteristic polynomial is stable at no point: the boundary polynomial that vanishes
@@ -184,8 +203,8 @@ fn separated(p: &MultiPoly) -> Vec<MultiPoly> {
 }
 
 /// Adds a square-free polynomial to a list of coprime ones: what is shared with a member is split off and
-/// carries both causes.
-fn insert_coprime(curves: &mut Vec<Curve>, cause: Cause, polynomial: MultiPoly) {
+/// carries the causes of both.
+fn insert_coprime(curves: &mut Vec<Curve>, own: &Causes, polynomial: MultiPoly) {
     let mut rest = polynomial;
     let mut parts = Vec::new();
     for curve in curves.iter_mut() {
@@ -199,7 +218,7 @@ fn insert_coprime(curves: &mut Vec<Curve>, cause: Cause, polynomial: MultiPoly) 
         rest = rest.div_exact(&common).expect("a gcd divides");
         let left = curve.polynomial.div_exact(&common).expect("a gcd divides");
         let mut causes = curve.causes.clone();
-        causes.insert(cause);
+        own.iter().for_each(|cause| causes.insert(cause));
         if left.is_constant() {
             curve.causes = causes;
         } else {
@@ -208,10 +227,8 @@ fn insert_coprime(curves: &mut Vec<Curve>, cause: Cause, polynomial: MultiPoly) 
         }
     }
     if !rest.is_constant() {
-        let mut causes = Causes::default();
-        causes.insert(cause);
         let rest = rest.primitive_over_integers();
-        parts.push(Curve { causes, polynomial: rest });
+        parts.push(Curve { causes: own.clone(), polynomial: rest });
     }
     curves.extend(parts);
 }

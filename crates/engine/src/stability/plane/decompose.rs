@@ -99,7 +99,7 @@ pub fn stability_map(
         return Ok(StabilityMap::never_stable());
     };
     let strips = decompose(p, &curves, domain, region, budget)?;
-    let groups = glue_stable_cells(&curves, &strips, &domain[1], budget)?;
+    let groups = glue_stable_cells(&curves, &strips, &domain[1], false, budget)?;
     let mut regions: Vec<StableRegion> = groups.into_iter().map(|cells| region_of(&strips, cells)).collect();
     let mut exchanged = Vec::new();
     if !regions.is_empty() {
@@ -107,7 +107,7 @@ pub fn stability_map(
         let swapped_curves: Vec<Curve> = curves.iter().map(swapped_curve).collect();
         let swapped_domain = [domain[1].clone(), domain[0].clone()];
         exchanged = decompose(&p.swapped(), &swapped_curves, &swapped_domain, region, budget)?;
-        let groups = glue_stable_cells(&swapped_curves, &exchanged, &domain[0], budget)?;
+        let groups = glue_stable_cells(&swapped_curves, &exchanged, &domain[0], false, budget)?;
         for r in &mut regions {
             let place = place_in_exchanged(r, &curves, &strips, &swapped_curves, &exchanged, domain, budget)?;
             let group = groups.iter().find(|g| g.contains(&place)).expect("a stable point is in a stable cell");
@@ -120,7 +120,7 @@ pub fn stability_map(
 
 /// A cell of the exchanged strips that is part of a region: that of a point of its first cell, moved up
 /// from the sample until it is on none of the finitely many walls.
-fn place_in_exchanged(
+pub(super) fn place_in_exchanged(
     region: &StableRegion,
     curves: &[Curve],
     strips: &[Strip],
@@ -165,7 +165,7 @@ pub(super) fn swapped_curve(curve: &Curve) -> Curve {
 }
 
 /// The region made of some cells; the extent in `y` is filled in later.
-fn region_of(strips: &[Strip], cells: Vec<(usize, usize)>) -> StableRegion {
+pub(super) fn region_of(strips: &[Strip], cells: Vec<(usize, usize)>) -> StableRegion {
     let first = cells.iter().map(|c| c.0).min().expect("a region has cells");
     let last = cells.iter().map(|c| c.0).max().expect("a region has cells");
     let x = AlgebraicInterval { lower: strips[first].x.lower.clone(), upper: strips[last].x.upper.clone() };
@@ -184,7 +184,7 @@ pub(super) fn at_x(f: &MultiPoly, x: &Rational) -> UniPoly {
     f.substitute(X, x).0.to_univariate(Y).expect("x is set")
 }
 
-fn decompose(
+pub(super) fn decompose(
     p: &PlanePolynomial,
     curves: &[Curve],
     domain: &[Range; 2],

@@ -12,7 +12,8 @@ use std::collections::BTreeSet;
 
 /// The stable cells grouped into connected regions, each group ascending.
 ///
-/// Two cells on either side of a wall are parts of one region when a horizontal segment leads from one
+/// Two neighbouring cells of one strip are parts of one region where `across` is asked for: then curves inside a region
+/// are no boundaries of it. Two cells on either side of a wall are parts of one region when a horizontal segment leads from one
 /// to the other without meeting a curve: that is proved by root counts. Where a few trials do not connect
 /// all that might be connected, one height is taken in every piece of the wall, found by Sturm's theorem
 /// over the wall's algebraic number.
@@ -20,6 +21,7 @@ pub(super) fn glue_stable_cells(
     curves: &[Curve],
     strips: &[Strip],
     y_domain: &Range,
+    across: bool,
     budget: &Budget,
 ) -> Result<Vec<Vec<(usize, usize)>>, Exhausted> {
     budget.step("connecting cells");
@@ -29,6 +31,14 @@ pub(super) fn glue_stable_cells(
         .flat_map(|(s, strip)| strip.cells.iter().enumerate().filter(|c| c.1.stable).map(move |(c, _)| (s, c)))
         .collect();
     let mut parent: Vec<usize> = (0..stable.len()).collect();
+    if across {
+        for i in 1..stable.len() {
+            let (below, above) = (stable[i - 1], stable[i]);
+            if below.0 == above.0 && below.1 + 1 == above.1 {
+                parent[i] = parent[i - 1];
+            }
+        }
+    }
     let polynomials: Vec<Poly<UniPoly>> = curves.iter().map(|c| in_y(&c.polynomial)).collect();
     let index = |cell: (usize, usize)| stable.binary_search(&cell).ok();
     for (s, pair) in strips.windows(2).enumerate() {

@@ -4,6 +4,7 @@ pub mod boxes;
 mod curves;
 mod decompose;
 mod glue;
+mod layers;
 mod limit;
 mod projection;
 mod query;
@@ -11,5 +12,6 @@ mod sturm_at;
 
 pub use curves::{Curve, PlanePolynomial, boundary_curves, vanishing_boundary};
 pub use decompose::{Branch, Cell, StabilityMap, StableRegion, Strip, stability_map};
+pub(crate) use layers::{Asked, layers};
 pub(crate) use limit::multi_value;
 pub use limit::{Limit, RegionLimits, region_limits};

@@ -1,0 +1,207 @@
+//! The values of a parameter at which a root of a discrete loop enters or leaves the spiral of a damping.
+
+use super::spiral::{Arc, OnSpiral, Values, Walk};
+use crate::stability::{Cause, End, StableInterval};
+use jurist_algebra::ball::Ball;
+use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
+use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
+
+/// Bits of the search.
+const BITS: u64 = 256;
+/// Arcs of a search are halved so often at most,
+const ARCS: u64 = 14;
+/// and only while no more of them are open: beside few roots near the edge.
+const MOST_OPEN: usize = 24;
+/// A value is enclosed with so many bits after the point at first.
+const PLACE_BITS: u64 = 64;
+/// Boxes of the parameter are halved so often at most.
+const BOXES: u32 = 40;
+
+/// The values strictly inside of a stable interval, ascending; they are not algebraic.
+///
+/// The interval is cut into boxes on which the edge of the spiral is walked for all values at once: either the number of
+/// roots inside is the same for all of them, or near one arc the function has independent derivatives, so that it
+/// vanishes once at most, and the numbers at both ends of the box tell whether it does.
+///
+/// Cost: some tens of walks for each value.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out, for an interval without end, and where boxes get too small: near a double root at 1, or where
+/// roots touch the edge.
+pub(super) fn changes(p: &OnSpiral, interval: &StableInterval, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+    let (Some(lower), Some(upper)) = (&interval.lower, &interval.upper) else {
+        return Err(Exhausted::new("a stable interval without end", "the damping of a discrete loop"));
+    };
+    let (a, b) = (lower.value.refined_to_digits(15).enclosure(), upper.value.refined_to_digits(15).enclosure());
+    let outer = [a.0.clone(), b.1.clone()];
+    let search = Search { p, ends: [lower, upper], outer, inner: [a.1, b.0], budget };
+    let mut out = Vec::new();
+    search.cut(&[a.0, b.1], BOXES, &mut out)?;
+    Ok(out)
+}
+
+struct Search<'a> {
+    p: &'a OnSpiral,
+    ends: [&'a End; 2],
+    /// Rational values next to the ends, outside or at them.
+    outer: [Rational; 2],
+    /// Inside or at them.
+    inner: [Rational; 2],
+    budget: &'a Budget,
+}
+
+impl Search<'_> {
+    fn cut(&self, [from, to]: &[Rational; 2], halvings: u32, out: &mut Vec<Real>) -> Result<(), Exhausted> {
+        self.budget.check()?;
+        let values = Values::between(from, to);
+        let open = match self.budget.enter(|| self.p.walk(&values, BITS, ARCS, MOST_OPEN))? {
+            Walk::Count(_) => return Ok(()),
+            Walk::Open(open) => open,
+        };
+        let angles = hull(&open);
+        // An arc at 1 is open where 1 is a root at the end of the interval.
+        let at_one = angles[0].is_zero();
+        let touches_one = at_one && self.is_known_at_one(from, to);
+        if (!at_one || touches_one) && self.budget.enter(|| self.p.is_one_to_one(&angles, &values, BITS))? {
+            // The only zero is the one at 1.
+            if touches_one {
+                return Ok(());
+            }
+            let (low, high) = (from.max(&self.inner[0]).clone(), to.min(&self.inner[1]).clone());
+            let counts = [self.p.count_at(&low, self.budget)?, self.p.count_at(&high, self.budget)?];
+            if counts[0] != counts[1] {
+                let p = self.p.clone();
+                let change = Change { p, angles, within: [low, high], count_below: counts[0] };
+                let place = self.budget.enter(|| change.enclose(PLACE_BITS, None))?;
+                out.push(Transcendental::within(change, place).into());
+            }
+            return Ok(());
+        }
+        if halvings == 0 {
+            let near = from.to_f64_approximate();
+            return Err(Exhausted::new(format!("boxes halved {BOXES} times"), format!("the damping near {near:.6e}")));
+        }
+        let middle = from.midpoint(to);
+        self.cut(&[from.clone(), middle.clone()], halvings - 1, out)?;
+        self.cut(&[middle, to.clone()], halvings - 1, out)
+    }
+
+    /// Whether the box holds an end at which 1 is a root.
+    fn is_known_at_one(&self, from: &Rational, to: &Rational) -> bool {
+        let holds = |k: usize| {
+            let (low, high) = ((&self.outer[k]).min(&self.inner[k]), (&self.outer[k]).max(&self.inner[k]));
+            from <= low && high <= to
+        };
+        (0..2).any(|k| holds(k) && self.ends[k].causes.contains(Cause::RootAtOne))
+    }
+}
+
+/// From the first arc to the last, in parts of pi.
+fn hull(open: &[Arc]) -> [Rational; 2] {
+    let first = open.first().map_or(Rational::ZERO, |arc| arc.ends()[0].clone());
+    let last = open.last().map_or(Rational::ONE, |arc| arc.ends()[1].clone());
+    [first, last]
+}
+
+/// The only value in a box at which a root is on the edge.
+#[derive(Debug)]
+struct Change {
+    p: OnSpiral,
+    /// Where on the edge, in parts of pi.
+    angles: [Rational; 2],
+    within: [Rational; 2],
+    /// The number of roots inside at the lower end.
+    count_below: usize,
+}
+
+impl Change {
+    /// Newton's method in angle and value from the middle of the box; what it gives is not proved.
+    fn guess(&self, bits: u64) -> Option<Rational> {
+        let working = bits + 64;
+        let middle = |[a, b]: &[Rational; 2]| a.midpoint(b);
+        let (mut t, mut k) = (middle(&self.angles), middle(&self.within));
+        let pi = Ball::from_enclosure(&Enclosure::pi(working), working);
+        let short = |x: Rational| Rational::dyadic(&Ball::from_rational(&x, working).middle_units(), working);
+        let rounds = 8 + (u64::BITS - bits.leading_zeros());
+        for _ in 0..rounds {
+            checkpoint(working);
+            let jet = self.p.at_middle(&[t.clone(), t.clone()], &Values::of(&k), working);
+            let (f, u, v) = (jet.value, jet.by_angle, jet.by_parameter);
+            let determinant = u.re.mul(&v.im).sub(&u.im.mul(&v.re));
+            let angle = f.re.mul(&v.im).sub(&f.im.mul(&v.re)).div(&determinant)?;
+            let value = u.re.mul(&f.im).sub(&u.im.mul(&f.re)).div(&determinant)?;
+            let number = |b: &Ball| Rational::dyadic(&b.middle_units(), working);
+            t = short(t - number(&angle.div(&pi)?));
+            k = short(k - number(&value));
+            let inside = |x: &Rational, [a, b]: &[Rational; 2]| a <= x && x <= b;
+            if !inside(&t, &self.angles) || !inside(&k, &self.within) {
+                return None;
+            }
+        }
+        Some(k)
+    }
+
+    /// Whether the change is above a value of the box.
+    fn is_above(&self, value: &Rational) -> bool {
+        // Inside a budget that was entered: what runs out ends there.
+        let count = self.p.count_at(value, &Budget::unlimited());
+        count.is_ok_and(|n| n == self.count_below)
+    }
+}
+
+impl Enclosing for Change {
+    fn enclose(&self, bits: u64, known: Option<&Enclosure>) -> Enclosure {
+        let width = Rational::dyadic(&Integer::ONE, bits);
+        let [mut low, mut high] = match known {
+            Some(e) => [e.lower().clone(), e.upper().clone()],
+            None => self.within.clone(),
+        };
+        if &high - &low > width
+            && let Some(near) = self.guess(bits)
+        {
+            let half = Rational::dyadic(&Integer::ONE, bits + 1);
+            let (below, above) = ((&near - &half).max(low.clone()), (&near + &half).min(high.clone()));
+            if below < above && self.is_above(&below) && !self.is_above(&above) {
+                return Enclosure::new(below, above);
+            }
+        }
+        while &high - &low > width {
+            let middle = low.midpoint(&high);
+            if self.is_above(&middle) { low = middle } else { high = middle }
+        }
+        Enclosure::new(low, high)
+    }
+
+    fn origin(&self) -> Origin {
+        let details = vec![("count below".to_owned(), self.count_below.to_string())];
+        Origin::Function { function: "root on the spiral of a damping".to_owned(), details }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stability::{ParametricPolynomial, Range, Shape, stable_set};
+    use jurist_algebra::poly::{Poly, UniPoly};
+
+    /// An integrator, a lag and two samples of delay with a zero: roots at 1 for the gain 0, at the end of the domain. The values are
+    /// mpmath's at 50 digits: there a negative root and a pair leave the spiral.
+    #[test]
+    fn gains_at_which_roots_have_the_damping_of_two_fifths() {
+        let budget = Budget::unlimited();
+        let polynomial =
+            Poly::new([&[0, -10][..], &[0, 11], &[900], &[-1900], &[1000]].map(UniPoly::from_i64).to_vec());
+        let p = ParametricPolynomial::from_integral(&polynomial, 4);
+        let domain = Range::between(Some(Rational::ZERO), None);
+        let set = stable_set(&p, &domain, Shape::UnitDisc, &budget).unwrap();
+        let [interval] = set.intervals() else { panic!("{set:?}") };
+        let damping = Rational::new(2.into(), 5.into());
+        let found = changes(&OnSpiral::new(&polynomial, &damping), interval, &budget).unwrap();
+        let decimals: Vec<String> = found.iter().map(|x| x.decimal(25)).collect();
+        assert_eq!(decimals, ["7.286368919065204252291676", "27.57670552299612977034143"]);
+        let p = OnSpiral::new(&polynomial, &damping);
+        let count = |k: i64| p.count_at(&Rational::new(k.into(), 10.into()), &budget).unwrap();
+        assert_eq!([1, 240, 280].map(count), [4, 3, 1]);
+    }
+}
