@@ -22,7 +22,7 @@ one() { # loop, parameter
     local name file why seconds_used statement order size
     name=$(printf '%s__%s' "$1" "$2" | tr -c 'A-Za-z0-9_\n' _)
     file=$files/$name.v
-    if ! "$program" intervals "../examples/$1.toml" --param "$2" --timeout 60 --coq "$file" > "$files/$name.out" 2>&1; then
+    if ! "$program" intervals "../examples/$1.toml" --param "$2" --timeout "$seconds" --coq "$file" > "$files/$name.out" 2>&1; then
         why=$(grep -m1 -E '^(error|undecided)' "$files/$name.out" || true)
         case $why in
             *'no file for Coq'*) echo "| $1 | \`$2\` | - | no file:${why#*no file for Coq:} | | |" ; return 0 ;;
