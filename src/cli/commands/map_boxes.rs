@@ -57,7 +57,7 @@ impl MethodOptions {
         }
         if self.method == MethodName::Boxes {
             let error = Diagnostic::error("E-require", "boxes decide stability only, no requirements");
-            return Err(jurist_engine::error::Error::from(error.help("leave out '--method boxes'")).into());
+            return Err(error.help("leave out '--method boxes'").into());
         }
         Ok(MapMethod::Exact)
     }
