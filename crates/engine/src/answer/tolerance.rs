@@ -161,7 +161,7 @@ impl Question {
     ///
     /// Names with a tolerance are left free; a value that was set is their nominal value.
     ///
-    /// Cost: that of [`ToleranceProblem::decide`] and [`ToleranceProblem::largest_factor`].
+    /// Cost: that of the decision of the box and of the bracket of the largest factor.
     ///
     /// ```
     /// use jurist_algebra::limits::Budget;

@@ -16,7 +16,7 @@ use jurist_algebra::number::Rational;
 /// let text = "time = 'continuous'\n[parameters]\nK = 2\n[loop]\ncharacteristic = 's^2 + 4*s + K'\n\
 ///             [require]\nsettling_time = 8\ndamping = 0.5\n";
 /// let (model, _) = Model::from_toml(&Source::new("model.toml", text))?;
-/// let problem = model.ask().problem()?;
+/// let problem = model.ask().problem().unwrap();
 /// let asked = model.requirements(&[], problem.set(), &Budget::unlimited()).unwrap();
 /// assert_eq!(asked.list[0].name(), "damping");
 /// assert_eq!(asked.region.unwrap().decay().unwrap().to_string(), "1/2"); // 4 over the settling time

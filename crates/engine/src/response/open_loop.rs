@@ -203,7 +203,7 @@ impl OpenLoop {
     /// let (problem, budget) = (model.ask().problem()?, Budget::unlimited());
     /// let open_loop = OpenLoop::of(&problem, None, &budget)?;
     /// let (real, imaginary) = open_loop.value_at(&Rational::from(-4), 64).unwrap(); // 1/(1 + 2j) = 1/5 - 2/5 j
-    /// assert_eq!((real.decimal(3), imaginary.decimal(3)), (Some("0.2".to_owned()), Some("-0.2".to_owned())));
+    /// assert_eq!((real.decimal(3), imaginary.decimal(3)), (Some("0.200".to_owned()), Some("-0.200".to_owned())));
     /// # Ok::<(), jurist_engine::error::Error>(())
     /// ```
     pub fn value_at(&self, x: &Rational, bits: u64) -> Option<(Enclosure, Enclosure)> {

@@ -87,7 +87,7 @@ impl Problem {
     /// computation of each margin in each cell.
     ///
     /// # Errors
-    /// [`Error::Refused`] as [`OpenLoop::of`], and `E-require` for a requirement that is not decided for such a loop; [`Error::Stopped`].
+    /// [`Error::Refused`] as [`OpenLoop::of`](crate::response::OpenLoop::of), and `E-require` for a requirement that is not decided for such a loop; [`Error::Stopped`].
     ///
     /// # Panics
     /// Unless one parameter is free.
