@@ -159,7 +159,7 @@ const STYLE: &str = "\
 body{font:16px/1.5 Georgia,'DejaVu Serif',serif;color:#222;background:#fff;max-width:68rem;margin:0 auto;padding:0 1rem 3rem}
 h1,h2,h3{font-family:Verdana,'DejaVu Sans',sans-serif;line-height:1.25}
 h1{font-size:1.5rem}h2{font-size:1.2rem;border-bottom:1px solid #bbb;margin-top:2.5rem}h3{font-size:1rem}
-p,li{max-width:44rem}
+p,li{max-width:44rem;overflow-wrap:anywhere}
 .wide{overflow-x:auto;margin:1rem 0}
 table{min-width:20rem;border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}
 caption{text-align:left;font-style:italic;padding-bottom:.3rem}
