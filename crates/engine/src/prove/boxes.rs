@@ -1,7 +1,7 @@
 //! Certificates of boxes of tolerances: the tree of cells, and a point beyond.
 
-use super::emit::{about, number, object, region, set};
 use super::held::{is_held, polynomials, terms};
+use super::statement::{about, number, object, region, set};
 use super::text::to_text;
 use super::{no_certificate, refuse_requirements};
 use crate::answer::{Answer, ToleranceAnswer};

@@ -1,7 +1,8 @@
 //! Certificates of stable dead times: where roots can cross the axis, and how often they have by each end.
 
-use super::emit::{about, number, object, polynomials, region, set};
+use super::emit::polynomials;
 use super::no_certificate;
+use super::statement::{self, about, number, object};
 use super::text::to_text;
 use crate::answer::Answer;
 use crate::error::Error;
@@ -66,16 +67,6 @@ pub(super) fn of_set(answer: &Answer<StableSet>, delayed: &DelayedLoop, budget: 
         let [lower, upper] = ends;
         stable.push(object([("lower", lower?), ("upper", upper?)]));
     }
-    let bound = |b: &Option<Rational>| b.as_ref().map_or(Value::Null, number);
-    let statement = object([
-        ("kind", "intervals".into()),
-        ("time", problem.time().name().into()),
-        ("parameter", problem.parameter().name.as_str().into()),
-        ("set", set(problem.set())),
-        ("region", region(problem.region())),
-        ("domain", object([("lower", bound(&domain.lower)), ("upper", bound(&domain.upper))])),
-        ("stable", Value::Array(stable)),
-    ]);
     let enclosure = |root: &RealAlgebraic| {
         let width = Rational::dyadic(&Integer::ONE, ROOT_BITS);
         let (a, b) = root.refined(&width).enclosure();
@@ -85,7 +76,7 @@ pub(super) fn of_set(answer: &Answer<StableSet>, delayed: &DelayedLoop, budget: 
     Ok(to_text(&object([
         ("schema", SCHEMA.into()),
         ("model", about(problem)),
-        ("statement", statement),
+        ("statement", statement::intervals(problem, stable)),
         ("bits", BITS.into()),
         ("delay", number(slope)),
         ("parts", polynomials(&[p.clone(), q.clone()])),

@@ -2,15 +2,15 @@
 
 use super::cofactors::{Identity, identity};
 use super::line::{Line, Separator};
+use super::statement::{self, about, boundary, number, object};
 use super::text::to_text;
 use super::{dead_time, held};
 use super::{no_certificate, refuse_requirements, refuse_transcendental};
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
-use crate::problem::{Bound, Problem, Region};
 use crate::stability::{HalfSizePair, ParametricPolynomial, Shape, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::number::Integer;
 use jurist_algebra::poly::{Domain, UniPoly};
 use serde_json::Value;
 
@@ -55,33 +55,15 @@ impl Answer<StableSet> {
                 proof = Proof::of(&coefficients, p, self, budget)?;
                 proof.characteristic = coefficients;
             }
-            let bound = |b: &Option<Rational>| b.as_ref().map_or(Value::Null, number);
-            let range = &problem.parameter().domain;
-            let domain = object([("lower", bound(&range.lower)), ("upper", bound(&range.upper))]);
             let stable = proof.line.as_ref().map(|line| line.stable_intervals()).unwrap_or_default();
             let stable = stable.iter().map(|(l, u)| object([("lower", end(l)), ("upper", end(u))]));
-            let statement = object([
-                ("kind", "intervals".into()),
-                ("time", problem.time().name().into()),
-                ("parameter", problem.parameter().name.as_str().into()),
-                ("set", set(problem.set())),
-                ("region", region(problem.region())),
-                ("domain", domain),
-                ("stable", stable.collect()),
-            ]);
-            let boundary = match &proof.identity {
-                None => Value::Null,
-                Some(i) => {
-                    object([("u", polynomials(&i.u)), ("v", polynomials(&i.v)), ("value", polynomial(&i.value))])
-                }
-            };
             let line = proof.line.as_ref().map(line_json).unwrap_or_default();
             let certificate = object([
                 ("schema", SCHEMA.into()),
                 ("model", about(problem)),
-                ("statement", statement),
+                ("statement", statement::intervals(problem, stable.collect())),
                 ("characteristic", polynomials(&proof.characteristic)),
-                ("boundary", boundary),
+                ("boundary", boundary(proof.identity.as_ref(), polynomial)),
                 ("factors", polynomials(&proof.factors)),
                 ("line", Value::Array(line)),
             ]);
@@ -112,23 +94,10 @@ impl Answer<PointVerdict> {
                 None => Vec::new(),
                 Some(p) => primitive(with_content(p), verdict.degree),
             };
-            let counts = verdict.count.unwrap_or_default();
-            let statement = object([
-                ("kind", "verdict".into()),
-                ("time", problem.time().name().into()),
-                ("set", set(problem.set())),
-                ("region", region(problem.region())),
-                ("verdict", verdict.verdict.name().into()),
-                ("degree", verdict.degree.into()),
-                ("inside", counts.inside.into()),
-                ("on", counts.on.into()),
-                ("outside", counts.outside.into()),
-                ("infinite", verdict.infinite.into()),
-            ]);
             let certificate = object([
                 ("schema", SCHEMA.into()),
                 ("model", about(problem)),
-                ("statement", statement),
+                ("statement", statement::verdict(problem, verdict)),
                 ("characteristic", polynomials(&characteristic)),
             ]);
             Ok(to_text(&certificate))
@@ -242,32 +211,12 @@ fn primitive(mut coefficients: Vec<UniPoly>, n: usize) -> Vec<UniPoly> {
     coefficients.iter().map(|c| c.div_exact_scalar(&content).expect("the content divides")).collect()
 }
 
-pub(super) fn object<const N: usize>(pairs: [(&str, Value); N]) -> Value {
-    Value::Object(pairs.into_iter().map(|(k, v)| (k.to_owned(), v)).collect())
-}
-
-pub(super) fn number(value: &Rational) -> Value {
-    value.to_string().into()
-}
-
 fn polynomial(p: &UniPoly) -> Value {
     Value::Array(p.coeffs().iter().map(|c| c.to_string().into()).collect())
 }
 
 pub(super) fn polynomials(list: &[UniPoly]) -> Value {
     Value::Array(list.iter().map(polynomial).collect())
-}
-
-pub(super) fn set(values: &[(String, Rational)]) -> Value {
-    Value::Object(values.iter().map(|(n, v)| (n.clone(), number(v))).collect())
-}
-
-pub(super) fn region(region: &Region) -> Value {
-    let value = match region.bound() {
-        Bound::Number(value) => number(value),
-        Bound::Free => "parameter".into(),
-    };
-    object([(region.bound_name(), value)])
 }
 
 fn end(separator: &Separator) -> Value {
@@ -308,12 +257,4 @@ fn line_json(line: &Line) -> Vec<Value> {
         ]));
     }
     out
-}
-
-/// Title and digest of the model, for people: the check reads the model itself.
-pub(super) fn about(problem: &Problem) -> Value {
-    let text = &problem.model().source().text;
-    let digest = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
-    let title = problem.title().map_or(Value::Null, Value::from);
-    object([("title", title), ("digest", format!("fnv1a64:{digest:016x}").into())])
 }

@@ -3,9 +3,9 @@
 mod line;
 
 use super::cofactors::{Identity, identity};
-use super::emit::{about, number, object, region, set};
 use super::no_certificate;
 use super::over_symbols::{Enclosed, coprime_basis};
+use super::statement::{self, about, boundary, number, object};
 use super::text::to_text;
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
@@ -106,33 +106,12 @@ pub(super) fn of_set(answer: &Answer<StableSet>, budget: &Budget) -> Result<Stri
         }
     }
     let (line, stable) = parts;
-    let bound = |b: &Option<Rational>| b.as_ref().map_or(Value::Null, number);
-    let range = &problem.parameter().domain;
-    let statement = object([
-        ("kind", "intervals".into()),
-        ("time", problem.time().name().into()),
-        ("parameter", problem.parameter().name.as_str().into()),
-        ("set", set(problem.set())),
-        ("region", region(problem.region())),
-        ("domain", object([("lower", bound(&range.lower)), ("upper", bound(&range.upper))])),
-        ("stable", Value::Array(stable)),
-    ]);
-    let boundary = match &proof.identity {
-        None => Value::Null,
-        Some(i) => object([("u", polynomials(&i.u)), ("v", polynomials(&i.v)), ("value", terms(&i.value))]),
-    };
-    Ok(to_text(&object([
-        ("schema", SCHEMA.into()),
-        ("model", about(problem)),
-        ("statement", statement),
-        ("bits", (bits + SPARE_BITS).into()),
-        ("symbols", definitions(&symbols)?),
-        ("modes", modes(problem, budget)?),
-        ("characteristic", polynomials(&d)),
-        ("boundary", boundary),
+    let steps = [
+        ("boundary", boundary(proof.identity.as_ref(), terms)),
         ("factors", polynomials(&proof.factors)),
         ("line", Value::Array(line)),
-    ])))
+    ];
+    certificate(problem, statement::intervals(problem, stable), (bits, &symbols), &d, steps, budget)
 }
 
 /// The certificate of a verdict.
@@ -172,27 +151,31 @@ pub(super) fn of_verdict(answer: &Answer<PointVerdict>, budget: &Budget) -> Resu
     if (own.inside, own.on, own.outside) != counts || verdict.infinite > 0 {
         return Err(no_certificate("no certificate: roots are on the circle"));
     }
-    let statement = object([
-        ("kind", "verdict".into()),
-        ("time", problem.time().name().into()),
-        ("set", set(problem.set())),
-        ("region", region(problem.region())),
-        ("verdict", verdict.verdict.name().into()),
-        ("degree", verdict.degree.into()),
-        ("inside", own.inside.into()),
-        ("on", own.on.into()),
-        ("outside", own.outside.into()),
-        ("infinite", 0.into()),
-    ]);
-    Ok(to_text(&object([
+    certificate(problem, statement::verdict(problem, verdict), (bits, &symbols), &d, [], budget)
+}
+
+/// A certificate over symbols: what it says, what the symbols are, and the steps that prove it.
+fn certificate<const N: usize>(
+    problem: &Problem,
+    statement: Value,
+    (bits, symbols): (u64, &Symbols),
+    characteristic: &[MultiPoly],
+    steps: [(&str, Value); N],
+    budget: &Budget,
+) -> Result<String, Error> {
+    let mut certificate = object([
         ("schema", SCHEMA.into()),
         ("model", about(problem)),
         ("statement", statement),
         ("bits", (bits + SPARE_BITS).into()),
-        ("symbols", definitions(&symbols)?),
+        ("symbols", definitions(symbols)?),
         ("modes", modes(problem, budget)?),
-        ("characteristic", polynomials(&d)),
-    ])))
+        ("characteristic", polynomials(characteristic)),
+    ]);
+    if let Value::Object(pairs) = &mut certificate {
+        pairs.extend(steps.map(|(name, value)| (name.to_owned(), value)));
+    }
+    Ok(to_text(&certificate))
 }
 
 /// As many coefficients as the degree and one, without an integer common to all of them.

@@ -9,6 +9,7 @@ mod held;
 mod line;
 mod over_symbols;
 mod smt2;
+mod statement;
 mod text;
 
 use crate::error::{Diagnostic, Error};

@@ -11,14 +11,14 @@ use super::layers::Layers;
 use super::lines::{Role, Wall, mechanism_colour, walls};
 use super::trace::MapTrace;
 use super::{REGION, UNSTABLE};
-use crate::scene::{Item, Point, Rectangle, Scene, Stroke, through};
+use crate::scene::{Item, Point, Rectangle, Scene, Segment, Stroke, through};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::error::Error;
 use jurist_engine::problem::Problem;
 use jurist_engine::show::region::goal_or_stable;
-use jurist_engine::stability::plane::StabilityMap;
+use jurist_engine::stability::plane::{StabilityMap, Strip};
 
 /// Frequencies for the page are this far apart.
 const FINE_SPACING: f64 = 14.0;
@@ -191,11 +191,25 @@ impl<'a> Drawing<'a> {
 
     /// The stable cells, filled as one path so that no seams show between strips.
     fn region(&mut self) {
-        let (contents, mut segments) = (self.contents, Vec::new());
-        let [_, bottom, _, top] = contents.domain();
-        for traced in &contents.trace.strips {
-            let cells = &contents.map.strips[traced.strip].cells;
-            for (number, _) in cells.iter().enumerate().filter(|(_, cell)| cell.stable) {
+        let contents = self.contents;
+        let strips = &contents.map.strips;
+        let segments = self.cells(contents.trace, strips, |strip, cell| strips[strip].cells[cell].stable);
+        if !segments.is_empty() {
+            self.scene.add(Item::Path { segments, fill: Some(REGION), stroke: None });
+        }
+    }
+
+    /// The outlines of the cells that are kept, by the numbers of their strip and of themselves in it.
+    pub(super) fn cells(
+        &self,
+        trace: &MapTrace,
+        strips: &[Strip],
+        keep: impl Fn(usize, usize) -> bool,
+    ) -> Vec<Segment> {
+        let [_, bottom, _, top] = self.contents.domain();
+        let mut segments = Vec::new();
+        for traced in &trace.strips {
+            for number in (0..strips[traced.strip].cells.len()).filter(|&cell| keep(traced.strip, cell)) {
                 let below = |v: &[f64]| number.checked_sub(1).map_or(bottom, |k| v[k]);
                 let above = |v: &[f64]| v.get(number).copied().unwrap_or(top);
                 let upper = traced.lines.iter().map(|l| (l.u, above(&l.v)));
@@ -206,9 +220,7 @@ impl<'a> Drawing<'a> {
                 }
             }
         }
-        if !segments.is_empty() {
-            self.scene.add(Item::Path { segments, fill: Some(REGION), stroke: None });
-        }
+        segments
     }
 
     pub(super) fn nominal(&self) -> Option<Point> {

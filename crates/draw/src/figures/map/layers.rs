@@ -116,22 +116,10 @@ impl Drawing<'_> {
     pub(super) fn layers(&mut self) {
         let contents = self.contents;
         let Some(layers) = &contents.layers else { return };
-        let (found, [_, bottom, _, top]) = (layers.found, contents.domain());
+        let found = layers.found;
         for level in 1..=found.requirements.len() {
-            let mut segments = Vec::new();
-            for traced in &layers.trace.strips {
-                let cells = 0..found.all().map.strips[traced.strip].cells.len();
-                for number in cells.filter(|c| found.met((traced.strip, *c)).len() == level) {
-                    let below = |v: &[f64]| number.checked_sub(1).map_or(bottom, |k| v[k]);
-                    let above = |v: &[f64]| v.get(number).copied().unwrap_or(top);
-                    let upper = traced.lines.iter().map(|l| (l.u, above(&l.v)));
-                    let lower = traced.lines.iter().rev().map(|l| (l.u, below(&l.v)));
-                    let points: Vec<Point> = upper.chain(lower).map(|(u, v)| self.at((u, v.clamp(0.0, 1.0)))).collect();
-                    if traced.lines.iter().any(|l| above(&l.v) > 0.0 && below(&l.v) < 1.0) {
-                        segments.extend(through(&apart(points), true));
-                    }
-                }
-            }
+            let strips = &found.all().map.strips;
+            let segments = self.cells(&layers.trace, strips, |strip, cell| found.met((strip, cell)).len() == level);
             if !segments.is_empty() {
                 let fill = shade(level, found.requirements.len());
                 // A thin edge of the same colour leaves no seams between neighbouring cells.

@@ -2,9 +2,9 @@
 
 use super::{Loop, coefficients, terms};
 use crate::error::Error;
-use crate::prove::emit::{number, object};
 use crate::prove::no_certificate;
 use crate::prove::over_symbols::Enclosed;
+use crate::prove::statement::{number, object};
 use crate::stability::Range;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};

@@ -27,6 +27,8 @@ mod strip;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_cells;
+#[cfg(test)]
 mod tests_family;
 #[cfg(test)]
 mod tests_gain;

@@ -1,11 +1,11 @@
 //! A parameter anywhere: limits found by Newton's method with 45 digits elsewhere, and the affine case both ways.
 
+use super::tests_cells::{interval, range};
 use super::*;
 use crate::stability::Range;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_algebra::poly::UniPoly;
-use jurist_algebra::real::{Real, rational_between};
 
 fn number(text: &str) -> Rational {
     parse_number(text).unwrap()
@@ -21,42 +21,11 @@ fn family(parts: &[&[&[i64]]], tau: Line, decay: Line) -> FamilyLoop {
     FamilyLoop::new(list, tau, decay)
 }
 
-fn range(lower: Option<&str>, upper: Option<&str>) -> Range {
-    Range::between(lower.map(number), upper.map(number))
-}
-
 /// The stable intervals, after every cell has been counted once more along the line.
 fn stable(family: &FamilyLoop, range: &Range, digits: usize) -> Vec<[Option<String>; 2]> {
     let budget = Budget::unlimited();
     let cells = family_cells(family, range, &budget).unwrap().unwrap();
-    assert_eq!(cells.right.len(), cells.points.len() + 1);
-    let ends: Vec<Option<Real>> = std::iter::once(range.lower.clone().map(Real::from))
-        .chain(cells.points.iter().map(|p| Some(p.value.clone())))
-        .chain(std::iter::once(range.upper.clone().map(Real::from)))
-        .collect();
-    let mut out = Vec::new();
-    for (i, pair) in ends.windows(2).enumerate() {
-        let sample = match (&pair[0], &pair[1]) {
-            (Some(l), Some(u)) => rational_between(l, u, &budget).unwrap().unwrap(),
-            (Some(l), None) => l.rational_above(),
-            (None, Some(u)) => u.rational_below(),
-            (None, None) => Rational::ZERO,
-        };
-        let count = family.count(&sample, &budget).unwrap().unwrap();
-        match cells.right[i] {
-            Some(right) => assert_eq!((count.on, count.right), (0, Some(right)), "cell {i} at {sample}"),
-            None => assert!(!count.is_stable(), "cell {i} at {sample}"),
-        }
-        if cells.right[i] == Some(0) {
-            let decimal = |end: &Option<Real>| end.as_ref().map(|x| x.decimal(digits));
-            out.push([decimal(&pair[0]), decimal(&pair[1])]);
-        }
-    }
-    out
-}
-
-fn interval(lower: &str, upper: &str) -> [Option<String>; 2] {
-    [Some(lower.to_owned()), Some(upper.to_owned())]
+    tests_cells::stable(&cells, range, digits, |sample| family.count(sample, &budget).unwrap().unwrap())
 }
 
 #[test]

@@ -1,53 +1,24 @@
 //! Gains at a fixed dead time: known limits, and every cell counted once more.
 
+use super::tests_cells::{interval, range};
 use super::*;
 use crate::stability::Range;
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{Rational, parse_number};
+use jurist_algebra::number::parse_number;
 use jurist_algebra::poly::UniPoly;
-use jurist_algebra::real::{Real, rational_between};
 
 fn gain(a: &[&[i64]], b: &[&[i64]], tau: &str) -> GainLoop {
     let list = |parts: &[&[i64]]| parts.iter().map(|p| UniPoly::from_i64(p)).collect();
     GainLoop::new(list(a), list(b), parse_number(tau).unwrap())
 }
 
-fn range(lower: Option<&str>, upper: Option<&str>) -> Range {
-    let end = |x: Option<&str>| x.map(|x| parse_number(x).unwrap());
-    Range::between(end(lower), end(upper))
-}
-
 /// The stable intervals as decimals, after every cell has been counted once more along the axis.
 fn stable(gain: &GainLoop, range: &Range, digits: usize) -> Vec<[Option<String>; 2]> {
     let budget = Budget::unlimited();
     let cells = gain_cells(gain, range, &budget).unwrap().unwrap();
-    let ends: Vec<Option<Real>> = std::iter::once(range.lower.clone().map(Real::from))
-        .chain(cells.points.iter().map(|p| Some(p.value.clone())))
-        .chain(std::iter::once(range.upper.clone().map(Real::from)))
-        .collect();
-    let mut out = Vec::new();
-    for (i, pair) in ends.windows(2).enumerate() {
-        let sample = match (&pair[0], &pair[1]) {
-            (Some(l), Some(u)) => rational_between(l, u, &budget).unwrap().unwrap(),
-            (Some(l), None) => l.rational_above(),
-            (None, Some(u)) => u.rational_below(),
-            (None, None) => Rational::ZERO,
-        };
-        let count = count_delayed_roots(&gain.at(&sample).unwrap(), &gain.tau, &budget).unwrap();
-        match cells.right[i] {
-            Some(right) => assert_eq!((count.on, count.right), (0, Some(right)), "cell {i} at {sample}"),
-            None => assert!(!count.is_stable(), "cell {i} at {sample}"),
-        }
-        if cells.right[i] == Some(0) {
-            let decimal = |end: &Option<Real>| end.as_ref().map(|x| x.decimal(digits));
-            out.push([decimal(&pair[0]), decimal(&pair[1])]);
-        }
-    }
-    out
-}
-
-fn interval(lower: &str, upper: &str) -> [Option<String>; 2] {
-    [Some(lower.to_owned()), Some(upper.to_owned())]
+    tests_cells::stable(&cells, range, digits, |sample| {
+        count_delayed_roots(&gain.at(sample).unwrap(), &gain.tau, &budget).unwrap()
+    })
 }
 
 #[test]
