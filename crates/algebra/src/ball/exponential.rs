@@ -41,19 +41,7 @@ impl BallMatrix {
     /// The product: `n^3` products of balls.
     pub fn mul(&self, other: &BallMatrix) -> BallMatrix {
         BallMatrix::from_fn(self.size, |i, j| {
-            let bits = self.at(i, j).bits;
-            let (mut lo, mut hi) = (Integer::ZERO, Integer::ZERO);
-            for k in 0..self.size {
-                let (a, b) = (self.at(i, k), other.at(k, j));
-                if a.is_zero() || b.is_zero() {
-                    continue;
-                }
-                // Rounded once, after the sum.
-                let (below, above) = a.product_ends(b);
-                lo += &below;
-                hi += &above;
-            }
-            Ball { lo: lo >> bits, hi: -(-hi >> bits), bits }
+            Ball::sum_of_products((0..self.size).map(|k| (self.at(i, k), other.at(k, j))), self.at(i, j).bits)
         })
     }
 

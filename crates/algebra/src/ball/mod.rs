@@ -9,10 +9,12 @@ mod exponential;
 mod functions;
 mod series;
 
-pub use bezout::{Enclosed, common_root, determinant_enclosed, enclosed_resultant, hybrid_bezout};
+pub use bezout::{
+    Enclosed, common_root, determinant_enclosed, enclosed_resultant, enclosed_resultant_by_minors, hybrid_bezout,
+};
 pub use exponential::{BallMatrix, exponential, exponential_of_rationals};
 pub use functions::{cos_sin, exp, tan};
-pub use series::{Series, exponential_of_series, fundamental_solutions};
+pub use series::{Series, fundamental_solutions};
 
 use crate::limits::checkpoint;
 use crate::number::{Enclosure, Integer, Rational, Sign};
@@ -187,21 +189,48 @@ impl Ball {
         Ball { lo: -&self.hi, hi: -&self.lo, bits: self.bits }
     }
 
-    /// The ends of the product in units of `2^-(2 bits)`.
-    fn product_ends(&self, other: &Ball) -> (Integer, Integer) {
+    /// The factors of the ends of the product; `None` where both balls have numbers of both signs.
+    fn factors<'b>(&'b self, other: &'b Ball) -> Option<[(&'b Integer, &'b Integer); 2]> {
         checkpoint(4 + (self.hi.bit_length() + other.hi.bit_length()) / 64);
         let (a, b, c, d) = (&self.lo, &self.hi, &other.lo, &other.hi);
-        match (a.is_negative(), b.sign().is_gt(), c.is_negative(), d.sign().is_gt()) {
-            (false, _, false, _) => (a * c, b * d),
-            (false, _, true, false) => (b * c, a * d),
-            (false, _, true, true) => (b * c, b * d),
-            (true, false, false, _) => (a * d, b * c),
-            (true, false, true, false) => (b * d, a * c),
-            (true, false, true, true) => (a * d, a * c),
-            (true, true, false, _) => (a * d, b * d),
-            (true, true, true, false) => (b * c, a * c),
-            (true, true, true, true) => ((a * d).min(b * c), (a * c).max(b * d)),
+        Some(match (a.is_negative(), b.sign().is_gt(), c.is_negative(), d.sign().is_gt()) {
+            (false, _, false, _) => [(a, c), (b, d)],
+            (false, _, true, false) => [(b, c), (a, d)],
+            (false, _, true, true) => [(b, c), (b, d)],
+            (true, false, false, _) => [(a, d), (b, c)],
+            (true, false, true, false) => [(b, d), (a, c)],
+            (true, false, true, true) => [(a, d), (a, c)],
+            (true, true, false, _) => [(a, d), (b, d)],
+            (true, true, true, false) => [(b, c), (a, c)],
+            (true, true, true, true) => return None,
+        })
+    }
+
+    /// The ends of the product in units of `2^-(2 bits)`.
+    fn product_ends(&self, other: &Ball) -> (Integer, Integer) {
+        match self.factors(other) {
+            Some([(a, b), (c, d)]) => (a * b, c * d),
+            None => {
+                let (a, b, c, d) = (&self.lo, &self.hi, &other.lo, &other.hi);
+                ((a * d).min(b * c), (a * c).max(b * d))
+            }
         }
+    }
+
+    /// The sum of products of as many pairs, rounded once.
+    fn sum_of_products<'b>(pairs: impl Iterator<Item = (&'b Ball, &'b Ball)>, bits: u64) -> Ball {
+        let (mut lo, mut hi) = (Integer::ZERO, Integer::ZERO);
+        for (a, b) in pairs.filter(|(a, b)| !a.is_zero() && !b.is_zero()) {
+            if let Some([below, above]) = a.factors(b) {
+                lo.add_mul_assign(below.0, below.1);
+                hi.add_mul_assign(above.0, above.1);
+            } else {
+                let (below, above) = a.product_ends(b);
+                lo += &below;
+                hi += &above;
+            }
+        }
+        Ball { lo: lo >> bits, hi: -(-hi >> bits), bits }
     }
 
     /// The product.

@@ -3,7 +3,7 @@
 use super::rational_series;
 use super::specialise::resultant_on_line;
 use super::{MovingSymbols, Symbols};
-use crate::ball::{Ball, Enclosed, Series, enclosed_resultant};
+use crate::ball::{Ball, Enclosed, Series, enclosed_resultant, enclosed_resultant_by_minors};
 use crate::limits::{Budget, Exhausted, checkpoint};
 use crate::number::{Integer, Rational};
 use crate::poly::multivariate::Line;
@@ -37,6 +37,9 @@ impl From<MultiPoly> for Function {
         Function::Polynomial(p)
     }
 }
+
+/// Polynomials of so many coefficients have few minors.
+const MOST_BY_MINORS: usize = 9;
 
 /// Bits after which a resultant that may be zero is expanded.
 const MOST_BITS: u64 = 1024;
@@ -153,7 +156,12 @@ impl Function {
             Function::Polynomial(p) => polynomial_at(p, values),
             Function::Resultant { a, b } => {
                 let at = |list: &[MultiPoly]| list.iter().map(|p| polynomial_at(p, values)).collect::<Vec<Series>>();
-                enclosed_resultant(&at(a), &at(b))
+                let (a, b) = (at(a), at(b));
+                if a.len() <= MOST_BY_MINORS {
+                    enclosed_resultant_by_minors(&a, &b)
+                } else {
+                    enclosed_resultant(&a, &b)
+                }
             }
         }
     }

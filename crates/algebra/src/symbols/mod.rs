@@ -11,6 +11,7 @@
 mod beyond;
 mod definition;
 mod dominated;
+mod forms;
 mod function;
 mod moving;
 mod moving_root;

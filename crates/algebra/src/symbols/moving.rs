@@ -1,5 +1,6 @@
 //! Symbols that depend on a parameter, such as `exp(-2*T)` in `T`, and the zeros of polynomials in the parameter and in them.
 
+use super::forms::{Form, Forms};
 use super::function::polynomial_at;
 use super::moving_root::MovingRoot;
 use super::{Definition, Function, Symbols};
@@ -7,7 +8,7 @@ use crate::ball::{Ball, Series, fundamental_solutions};
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::algebraic::simplest_between;
-use crate::poly::{MultiPoly, RationalFunction};
+use crate::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
 use crate::real::{Enclosing, Real, Transcendental};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -61,11 +62,11 @@ const LARGEST: i64 = 1 << 13;
 /// After so many intervals what is left stays undecided.
 const MOST_LOOKS: u64 = 4000;
 
-/// So many intervals are looked at whatever a look costs.
-const LEAST_LOOKS: u64 = 150;
+/// After so much work, in the units of [`checkpoint`](crate::limits::checkpoint), what is left stays undecided: some seconds.
+const MOST_WORK: u64 = 250_000_000;
 
-/// Intervals times the size of the function, beyond which what is left stays undecided.
-const MOST_WORK: u64 = 400_000;
+/// Where the range begins at 0 and the function is not known there, values smaller than the usual one by so many octaves are decided where that is seen at once.
+const MOST_OCTAVES: i64 = 12;
 
 /// How often the bits are doubled for one interval.
 const MOST_DOUBLINGS: usize = 4;
@@ -100,14 +101,32 @@ impl MovingSymbols {
         Some(MovingSymbols { table: table.collect::<Option<_>>()? })
     }
 
-    /// The symbols where the parameter has a value; `None` where an argument divides by zero.
+    /// The symbols where the parameter has a value; `None` where an argument divides by zero, or is negative under a root.
     pub fn at(&self, value: &Rational) -> Option<Symbols> {
         let put = |f: &RationalFunction| f.substitute(0, value)?.map_variables(|i| i.saturating_sub(1));
         let mut symbols = Symbols::new();
         for (name, definition) in &self.table {
-            symbols.push(name, definition.try_map(put)?);
+            let definition = definition.try_map(put)?;
+            if matches!(&definition, Definition::Root(x) if x.as_constant().is_some_and(|x| x.is_negative())) {
+                return None;
+            }
+            symbols.push(name, definition);
         }
         Some(symbols)
+    }
+
+    /// What changes its sign where the argument of a square root does, of the arguments that are rational functions of the parameter:
+    /// where one is negative nothing is defined.
+    pub fn signs_under_roots(&self) -> Vec<UniPoly> {
+        let arguments = self.table.iter().filter_map(|(_, definition)| match definition {
+            Definition::Root(x) => Some([x.numerator().to_univariate(0)?, x.denominator().to_univariate(0)?]),
+            _ => None,
+        });
+        let odd = |p: &UniPoly| {
+            let parts = p.square_free_decomposition().into_iter().filter(|(_, multiplicity)| multiplicity % 2 == 1);
+            parts.fold(UniPoly::one(), |product, (part, _)| product.times(&part))
+        };
+        arguments.flatten().map(|p| odd(&p)).filter(|p| !p.is_constant()).collect()
     }
 
     /// The parameter and all symbols as series, from the parameter's; `None` where a divisor may vanish.
@@ -176,7 +195,7 @@ impl MovingSymbols {
 
     /// The Taylor polynomial of `f(m + r x)` for `|x| <= 1` around the middle of an interval, the last coefficient a bound
     /// of the rest: that of the power `terms`.
-    fn taylor(&self, f: &Function, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> Option<Vec<Ball>> {
+    fn taylor(&self, f: &Form, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> Option<Vec<Ball>> {
         let half = Rational::dyadic(&Integer::ONE, 1);
         let radius = Ball::from_rational(&(&(hi - lo) * &half), bits);
         let middle = Ball::from_rational(&lo.midpoint(hi), bits);
@@ -212,7 +231,7 @@ impl MovingSymbols {
         let mut found = Zeros::default();
         let mut brackets: Vec<(Rational, Rational)> = Vec::new();
         let mut start = lower.clone();
-        if self.vanishes_at(f, lower, budget)? {
+        if self.may_vanish_at(f, lower, budget)? {
             match budget.enter(|| self.clear_above(f, lower, upper))? {
                 Some(end) => start = end,
                 None => {
@@ -223,22 +242,34 @@ impl MovingSymbols {
             }
         }
         let mut end = upper.clone();
-        if self.vanishes_at(f, upper, budget)? {
+        if self.may_vanish_at(f, upper, budget)? {
             end = upper - &((upper - lower) * Rational::dyadic(&Integer::ONE, 40));
             found.undecided.push((end.clone(), upper.clone()));
         }
+        // Whether the range goes down to 0 and nothing is known of the function there.
+        let is_open = start.is_zero();
         // Every octave away from the usual value waits for two halvings, so that a place where zeros crowd leaves others decided.
         let mut todo = BinaryHeap::from([Reverse((0, start, end, 0))]);
-        let most = (MOST_WORK / f.size()).clamp(LEAST_LOOKS, MOST_LOOKS);
+        let usual = if lower < near && near < upper { near.clone() } else { lower.midpoint(upper) };
+        let around = usual.abs() * Rational::dyadic(&Integer::ONE, 6);
+        let (lo, hi) = (&usual - &around, &usual + &around);
+        let forms = budget.enter(|| Forms::of(self, f).best_around(self, &lo, &hi, TERMS, FIRST_BITS))?;
+        // Counted, not timed: the same model has the same answer on every machine.
+        let work = Budget::with_work(MOST_WORK);
         let mut looks = 0;
         while let Some(Reverse((_, lo, hi, halvings))) = todo.pop() {
             budget.check()?;
             looks += 1;
-            match budget.enter(|| self.look(f, &lo, &hi))? {
+            let is_last = halvings == MOST_HALVINGS || looks > MOST_LOOKS || work.check().is_err();
+            match budget.enter(|| work.enter(|| self.look(f, &forms, &lo, &hi)))?.unwrap_or(Look::Hopeless) {
                 Look::None => {}
                 Look::One => brackets.push((lo, hi)),
                 Look::Hopeless => found.undecided.push((lo, hi)),
-                Look::Unknown if halvings == MOST_HALVINGS || looks > most => found.undecided.push((lo, hi)),
+                // Towards 0 there is no end of octaves.
+                Look::Unknown if is_open && hi < *near && octaves(&lo, &hi, near) > MOST_OCTAVES => {
+                    found.undecided.push((lo, hi));
+                }
+                Look::Unknown if is_last => found.undecided.push((lo, hi)),
                 Look::Unknown => {
                     let middle = budget.enter(|| self.split_point(f, &lo, &hi, near))?;
                     for (lo, hi) in [(lo, middle.clone()), (middle, hi)] {
@@ -257,6 +288,14 @@ impl MovingSymbols {
             found.zeros.push(self.known(root, f, budget)?);
         }
         Ok(found)
+    }
+
+    /// Whether the function is zero there, or that is neither proved nor disproved by some thousand bits.
+    fn may_vanish_at(&self, f: &Function, value: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
+        match self.vanishes_at(f, value, budget) {
+            Err(stopped) if stopped.budget.starts_with("precision") => Ok(true),
+            found => found,
+        }
     }
 
     /// The zero as a number: a rational one where it is a short fraction.
@@ -286,13 +325,20 @@ impl MovingSymbols {
         [32, 31, 33, 29, 35].into_iter().map(at).find(|x| self.sign_at(f, x, FIRST_BITS).is_some()).unwrap_or(at(32))
     }
 
-    fn look(&self, f: &Function, lo: &Rational, hi: &Rational) -> Look {
+    fn look(&self, f: &Function, forms: &Forms, lo: &Rational, hi: &Rational) -> Look {
         // Twice the bits that the interval's width takes away.
         let width = hi - lo;
         let small = width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
         let mut bits = FIRST_BITS + small * 4;
+        let form = forms.best(self, lo, hi, TERMS, bits);
         for _ in 0..MOST_DOUBLINGS {
-            let Some(taylor) = self.taylor(f, lo, hi, TERMS, bits) else { return Look::Unknown };
+            let Some(taylor) = self.taylor(form, lo, hi, TERMS, bits) else {
+                // What has no value in the middle nor at either end has none in between.
+                let has_none =
+                    |x: &Rational| self.series(&Series::constant(&Ball::from_rational(x, bits), 1)).is_none();
+                let is_lost = [lo.clone(), lo.midpoint(hi), hi.clone()].iter().all(has_none);
+                return if is_lost { Look::Hopeless } else { Look::Unknown };
+            };
             let found = self.judged(f, lo, hi, &taylor, bits);
             // Whether more bits would tell more than a shorter interval.
             let noise = taylor[..2].iter().map(Ball::width_units).max().unwrap_or(Integer::ZERO);

@@ -1,0 +1,340 @@
+//! A function in forms that are evaluated with less cancellation.
+//!
+//! Where a sampling period is short, `exp(-a T)` is about 1, and a boundary function such as `1 - exp(-a T) - a T` is small because
+//! terms of about 1 cancel. Bits make up for that at a point; over an interval of the parameter every term varies, and only very short
+//! intervals are decided. So each symbol is also written as the first terms of its series in time and what is left, which is small: the
+//! first terms cancel in the polynomial, once and exactly.
+//!
+//! A resultant is taken in its unknown `x` and in `x - 2`: that is small for roots near `z = 1`, `x = z + 1/z`, as most are where the
+//! sampling period is short.
+
+use super::function::polynomial_at;
+use super::{Definition, Function, MovingSymbols};
+use crate::ball::{Ball, Series};
+use crate::number::{Integer, Rational};
+use crate::poly::{Domain, MultiPoly, RationalFunction};
+
+/// The powers of time up to which symbols are expanded.
+const ORDERS: std::ops::RangeInclusive<u32> = 0..=3;
+
+/// A form has at most so many times the terms of the function, and so many more.
+const MOST_GROWTH: u64 = 4;
+const MOST_MORE: u64 = 300;
+
+/// So many forms are kept for a range of the parameter.
+const KEPT: usize = 3;
+
+/// Bits of the interval on which cancellation is measured.
+const MEASURED: u64 = 64;
+
+/// A function with what its symbols stand for.
+#[derive(Debug)]
+pub(super) struct Form {
+    function: Function,
+    /// By symbol: `q` times the symbol less `p` is the variable; none where it is the symbol.
+    starts: Vec<Option<Start>>,
+    /// The function has been multiplied by these powers of `q`, and divided by a number of so many bits.
+    powers: Vec<u64>,
+    divided: i64,
+}
+
+/// The first terms of a symbol: `p/q`, with `q` a positive number times a power of the parameter.
+#[derive(Clone, Debug)]
+struct Start {
+    p: MultiPoly,
+    q: MultiPoly,
+}
+
+/// The forms of a function, the function itself first.
+#[derive(Debug)]
+pub(super) struct Forms(Vec<Form>);
+
+impl Form {
+    /// The function at series of the parameter and the symbols, up to a factor that is not zero in an interval in which the parameter
+    /// keeps its sign.
+    pub fn at_series(&self, values: &[Series]) -> Series {
+        if self.starts.iter().all(Option::is_none) {
+            return self.function.at_series(values);
+        }
+        let of_symbol = |(start, value): (&Option<Start>, &Series)| match start {
+            None => value.clone(),
+            Some(start) => value.mul(&polynomial_at(&start.q, values)).sub(&polynomial_at(&start.p, values)),
+        };
+        let rest = self.starts.iter().zip(&values[1..]).map(of_symbol);
+        self.function.at_series(&std::iter::once(values[0].clone()).chain(rest).collect::<Vec<_>>())
+    }
+
+    /// Bits of the factor at a value of the parameter.
+    fn factor_bits(&self, parameter: &Ball) -> i64 {
+        let values = [Series::constant(parameter, 1)];
+        let bits = |start: &Start| {
+            let q = &polynomial_at(&start.q, &values).coefficients()[0].magnitude_units();
+            q.bit_length() as i64 - parameter.bits() as i64
+        };
+        let all = self.starts.iter().zip(&self.powers);
+        all.filter_map(|(start, power)| start.as_ref().map(|s| bits(s) * *power as i64)).sum::<i64>() - self.divided
+    }
+}
+
+impl Forms {
+    /// The forms of a function over a table.
+    ///
+    /// Cost: for each order, products of polynomials.
+    pub fn of(symbols: &MovingSymbols, f: &Function) -> Forms {
+        let nothing = || vec![None; symbols.table().len()];
+        let mut forms = vec![Form { function: f.clone(), starts: nothing(), powers: Vec::new(), divided: 0 }];
+        let about = about_two(f);
+        forms.extend(about.iter().map(|f| Form {
+            function: f.clone(),
+            starts: nothing(),
+            powers: Vec::new(),
+            divided: 0,
+        }));
+        for order in ORDERS {
+            let starts: Vec<Option<Start>> = symbols.table().iter().map(|(_, d)| start(d, order)).collect();
+            let texts =
+                |starts: &[Option<Start>]| starts.iter().map(|s| s.as_ref().map(|s| s.p.clone())).collect::<Vec<_>>();
+            if forms.iter().any(|known| texts(&known.starts) == texts(&starts)) {
+                continue;
+            }
+            forms.extend(about.iter().filter_map(|f| rewritten(f, starts.clone())));
+            forms.extend(rewritten(f, starts));
+        }
+        Forms(forms)
+    }
+
+    /// The function itself and the two forms that are best around this interval.
+    pub fn best_around(self, symbols: &MovingSymbols, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> Forms {
+        let costs = self.costs(symbols, lo, hi, terms, bits);
+        let mut forms: Vec<(usize, Form)> = self.0.into_iter().enumerate().collect();
+        if let Some(costs) = costs {
+            forms[1..].sort_by_key(|(i, _)| costs[*i]);
+        }
+        forms.truncate(KEPT);
+        Forms(forms.into_iter().map(|(_, form)| form).collect())
+    }
+
+    /// The form that is likely to decide the longest interval for its cost, around this one.
+    pub fn best(&self, symbols: &MovingSymbols, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> &Form {
+        let costs = self.costs(symbols, lo, hi, terms, bits).unwrap_or_default();
+        self.0.iter().zip(costs).min_by_key(|(_, cost)| *cost).map_or(&self.0[0], |(form, _)| form)
+    }
+
+    /// For each form the logarithm of its cost, in quarters of bits and times the number of terms; `None` where nothing has a value, or
+    /// the factors have zeros.
+    fn costs(
+        &self,
+        symbols: &MovingSymbols,
+        lo: &Rational,
+        hi: &Rational,
+        terms: usize,
+        bits: u64,
+    ) -> Option<Vec<i64>> {
+        if self.0.len() == 1 || (lo.is_negative() && hi.sign().is_gt()) {
+            return None;
+        }
+        let middle = lo.midpoint(hi);
+        let width = (hi - lo) * Rational::dyadic(&Integer::ONE, MEASURED);
+        let parameter = Ball::between(&(&middle - &width), &(&middle + &width), bits + 2 * MEASURED);
+        let values = symbols.series(&Series::constant(&parameter, 1))?;
+        // The interval that is decided is shorter by the power 1/terms of what cancels.
+        let cost = |form: &Form| {
+            let noise = form.at_series(&values).coefficients()[0].width_units().bit_length() as i64;
+            let size = i64::from(u128::from(form.function.size()).saturating_pow(4).ilog2());
+            4 * (noise - form.factor_bits(&parameter)) + size * terms as i64
+        };
+        Some(self.0.iter().map(cost).collect())
+    }
+}
+
+/// The resultant of the same polynomials in the unknown less 2; `None` where there is no unknown.
+fn about_two(f: &Function) -> Option<Function> {
+    let Function::Resultant { a, b } = f else { return None };
+    let moved = |list: &[MultiPoly]| {
+        let mut out = list.to_vec();
+        for from in 0..out.len() {
+            for i in (from..out.len() - 1).rev() {
+                out[i] = out[i].plus(&out[i + 1].scaled_by(&Integer::from(2)));
+            }
+        }
+        out
+    };
+    Some(Function::Resultant { a: moved(a), b: moved(b) })
+}
+
+/// The first terms of a symbol in powers of time; `None` where they are no polynomial over a power of the parameter.
+fn start(definition: &Definition, order: u32) -> Option<Start> {
+    let mut sum = RationalFunction::zero();
+    let mut found = None;
+    let mut add = |term: RationalFunction| -> bool {
+        sum = &sum + &term;
+        let start = Start { p: sum.numerator().clone(), q: sum.denominator().clone() };
+        let fits = is_monomial(&start.q);
+        if fits && !start.p.is_zero() {
+            found = Some(start);
+        }
+        fits
+    };
+    let over_factorial = |power: RationalFunction, k: u32| {
+        (1..=k).fold(power, |t, j| &t * &Rational::new(Integer::ONE, j.into()).into())
+    };
+    match definition {
+        Definition::Exponential(x) => {
+            for k in 0..=order {
+                if !add(over_factorial(x.pow(i64::from(k))?, k)) {
+                    break;
+                }
+            }
+        }
+        Definition::Tangent { square, time } => {
+            if order >= 1 && add(time.clone()) && order >= 3 {
+                let cube = &(square * &time.pow(3)?) * &Rational::new(Integer::ONE, 3.into()).into();
+                add(cube);
+            }
+        }
+        Definition::Fundamental { polynomial, index, time } => {
+            let n = polynomial.len() - 1;
+            let mut derivatives: Vec<RationalFunction> = Vec::new();
+            for k in 0..=order as usize {
+                let next = if k < n {
+                    if k == *index { RationalFunction::one() } else { RationalFunction::zero() }
+                } else {
+                    (0..n).fold(RationalFunction::zero(), |s, i| &s - &(&polynomial[i] * &derivatives[k - n + i]))
+                };
+                derivatives.push(next);
+                if !derivatives[k].is_zero() && !add(over_factorial(&derivatives[k] * &time.pow(k as i64)?, k as u32)) {
+                    break;
+                }
+            }
+        }
+        Definition::Pi | Definition::Root(_) => {}
+    }
+    found
+}
+
+/// Whether a polynomial is a positive number times a power of the parameter.
+fn is_monomial(q: &MultiPoly) -> bool {
+    let [(_, c)] = q.terms() else { return false };
+    c.sign().is_gt() && q.variables().iter().all(|&i| i == 0)
+}
+
+/// The function in what is left of the symbols; `None` where it has far more terms.
+fn rewritten(f: &Function, starts: Vec<Option<Start>>) -> Option<Form> {
+    let most = f.size() * MOST_GROWTH + MOST_MORE;
+    let (lists, orders): (Vec<Vec<MultiPoly>>, Vec<u64>) = match f {
+        Function::Polynomial(p) => (vec![vec![p.clone()]], vec![1]),
+        // A factor of all coefficients of one polynomial comes out by the degree of the other.
+        Function::Resultant { a, b } => (vec![a.clone(), b.clone()], vec![b.len() as u64 - 1, a.len() as u64 - 1]),
+    };
+    let mut powers = vec![0; starts.len()];
+    let mut divided = 0;
+    let mut out: Vec<Vec<MultiPoly>> = Vec::new();
+    for (mut list, times) in lists.into_iter().zip(orders) {
+        // From the last symbol: the first terms of one may have earlier ones.
+        for (i, start) in starts.iter().enumerate().rev() {
+            let Some(start) = start else { continue };
+            let degree = list.iter().map(|p| p.degree_in(i + 1)).max().unwrap_or(0);
+            if degree == 0 {
+                continue;
+            }
+            powers[i] += u64::from(degree) * times;
+            list = list.iter().map(|p| put(p, i + 1, start, degree)).collect();
+            if list.iter().map(|p| p.terms().len() as u64).sum::<u64>() > most {
+                return None;
+            }
+        }
+        let content = list.iter().fold(Integer::ZERO, |g, p| g.gcd(&p.integer_content()));
+        if !content.is_zero() {
+            divided += content.bit_length() as i64 * times as i64;
+            list = list.iter().map(|p| p.div_exact_integer(&content).expect("a content")).collect();
+        }
+        out.push(list);
+    }
+    let function = match (f, out.pop()?, out.pop()) {
+        (Function::Polynomial(_), mut list, _) => Function::Polynomial(list.pop()?),
+        (Function::Resultant { .. }, b, Some(a)) => Function::Resultant { a, b },
+        _ => return None,
+    };
+    Some(Form { function, starts, powers, divided })
+}
+
+/// `q^degree f` with `(p + x)/q` in place of the variable.
+fn put(f: &MultiPoly, variable: usize, start: &Start, degree: u32) -> MultiPoly {
+    let parts = f.as_poly_in(variable);
+    let image = start.p.plus(&MultiPoly::variable(variable));
+    let mut scale = MultiPoly::one();
+    let mut sum = MultiPoly::zero();
+    for k in (0..=degree as usize).rev() {
+        sum = sum.times(&image).plus(&parts.coeff(k).times(&scale));
+        scale = scale.times(&start.q);
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::parse_number;
+
+    fn number(text: &str) -> Rational {
+        parse_number(text).unwrap()
+    }
+
+    /// `exp(-2 T)`, `exp(-1/T)`, and both solutions of `y'' + 3 y' + T y = 0` at the time `T`.
+    fn table() -> MovingSymbols {
+        let t = RationalFunction::variable(0);
+        let constant = |n: i64| RationalFunction::from(Rational::from(n));
+        let polynomial = vec![t.clone(), constant(3), constant(1)];
+        let solution = |index| Definition::Fundamental { polynomial: polynomial.clone(), index, time: t.clone() };
+        let list = [
+            Definition::Exponential(&constant(-2) * &t),
+            Definition::Exponential(-&t.recip().unwrap()),
+            solution(0),
+            solution(1),
+        ];
+        MovingSymbols::new(list.into_iter().enumerate().map(|(i, d)| (format!("x{i}"), d)).collect())
+    }
+
+    #[test]
+    fn forms_are_multiples_of_the_function() {
+        let symbols = table();
+        let [t, x, y, c, s] = [0, 1, 2, 3, 4].map(MultiPoly::variable);
+        let product = x.times(&c).minus(&y.times(&y).times(&s)).plus(&t.times(&s));
+        let resultant = Function::resultant(vec![x.clone(), c.clone(), MultiPoly::one()], vec![s.minus(&t), y.clone()]);
+        for f in [Function::from(product), Function::from(x.minus(&MultiPoly::one())), resultant] {
+            let forms = Forms::of(&symbols, &f);
+            assert!(forms.0.len() > 2, "{}", forms.0.len());
+            for form in &forms.0 {
+                // Value over value and over the factors, which is the same number everywhere.
+                let ratio = |at: &str| {
+                    let parameter = Ball::from_rational(&number(at), 256);
+                    let values = symbols.series(&Series::constant(&parameter, 1)).unwrap();
+                    let value = |s: &Series| s.coefficients()[0].clone();
+                    let mut ratio = value(&form.at_series(&values)).div(&value(&f.at_series(&values))).unwrap();
+                    for (start, power) in form.starts.iter().zip(&form.powers) {
+                        let Some(start) = start else { continue };
+                        let q = value(&polynomial_at(&start.q, &values)).power(*power);
+                        ratio = ratio.div(&q).unwrap();
+                    }
+                    ratio
+                };
+                let (one, two) = (ratio("1/3"), ratio("5/4"));
+                assert!(one.intersection(&two).is_some() && !one.contains_zero(), "{form:?}");
+                assert!(one.union(&two).width_units().bit_length() < 128, "{form:?}");
+            }
+        }
+    }
+
+    /// `1 - exp(-2 T) - 2 T` is small of second order: terms of about 1 are gone from its second form.
+    #[test]
+    fn what_cancels_is_gone_from_the_form_that_is_chosen() {
+        let symbols = table();
+        let [t, x] = [0, 1].map(MultiPoly::variable);
+        let f = Function::from(MultiPoly::one().minus(&x).minus(&t).minus(&t));
+        let forms = Forms::of(&symbols, &f);
+        let (lo, hi) = (number("0.001"), number("0.0011"));
+        let best = forms.best(&symbols, &lo, &hi, 12, 192);
+        assert!(!std::ptr::eq(best, &forms.0[0]));
+        assert_eq!(best.function, Function::from(x.negated()));
+    }
+}
