@@ -31,6 +31,7 @@ class Cause(str, enum.Enum):
     POLE = "pole"
     NEUTRAL = "neutral"
     DOMAIN = "domain"
+    UNDECIDED = "undecided"
 
 
 class End:

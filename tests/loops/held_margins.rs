@@ -53,6 +53,20 @@ fn the_servo_behind_a_hold_has_these_margins_to_thirty_digits() {
     }
 }
 
+/// Only the fraction up to 18.46 samples had been looked at, and was called the margin.
+#[test]
+fn dead_time_behind_a_hold_is_not_less_than_the_whole_samples_that_are_borne() {
+    let model = load(include_str!("../../src/cli/templates/held-plant.toml"));
+    let answer = margins_of(&model, None);
+    assert!(matches!(stable(&answer).delay, DelayMargin::Samples(37)));
+    if let Some(held) = &answer.value().held_delay {
+        let seconds = real::enclosed(6, |bits| held.seconds(bits)).unwrap();
+        assert!(number(&seconds) > number("0.074"), "{seconds}");
+    }
+    let text = answer.text(12);
+    assert!(text.contains("37 samples borne, one more is not") && !text.contains("less than"), "{text}");
+}
+
 #[test]
 fn the_peak_gain_of_the_held_servo() {
     let answer = load(SERVO_BEHIND_A_HOLD).ask().norm("r", "y", &Budget::unlimited()).unwrap();

@@ -63,25 +63,25 @@ fn a_two_mass_drive_has_its_limits_without_expanded_resultants() {
     assert_eq!(ends(&answer, 28), [pair("0", "86.88936220041142519743286688")]);
 }
 
-/// Near half the sampling rate the resonance makes the loop unstable for a while: scipy's eigenvalues agree at 105300 and 105350,
-/// at 106600 and 106700.
 #[test]
-#[ignore = "minutes without optimisation: cargo test --release -p jurist-engine --test held_loops -- --ignored"]
-fn the_load_and_the_shaft_of_a_two_mass_drive_are_questions() {
+fn the_load_the_shaft_and_the_notch_of_a_two_mass_drive_are_questions() {
     let drive = two_mass();
-    let load = asked(&drive, "J_l", Some(["0.001", "0.005"]));
-    assert_eq!(ends(&load, 6), [pair("0.001", "0.005")]);
-    let stiffness = asked(&drive, "k_s", Some(["100", "200000"]));
+    assert_eq!(ends(&asked(&drive, "J_l", Some(["0.0015", "0.003"])), 6), [pair("0.0015", "0.003")]);
+    let stiffness = asked(&drive, "k_s", Some(["10000", "20000"]));
+    assert_eq!(ends(&stiffness, 20), [pair("10000", "17528.406587591054279")]);
+    let notch = asked(&drive, "w_n", Some(["10", "60"]));
+    assert_eq!(ends(&notch, 20), [pair("10", "25.518556409968414531"), pair("35.016425938176934911", "60")]);
+}
+
+/// Near half the sampling rate the resonance makes the loop unstable for a while: mpmath's zeros of the greatest
+/// eigenvalue's modulus less 1.
+#[test]
+fn a_resonance_near_half_the_sampling_rate_makes_a_short_unstable_interval() {
+    let stiffness = asked(&two_mass(), "k_s", Some(["105000", "107000"]));
     assert_eq!(
         ends(&stiffness, 20),
-        [
-            pair("100", "17528.406587591054279"),
-            pair("90934.166638724768312", "105322.40395958960613"),
-            pair("106630.56956865064", "200000")
-        ]
+        [pair("105000", "105322.40396030892005"), pair("106630.56956858969134", "107000")]
     );
-    let notch = asked(&drive, "w_n", Some(["1", "5000"]));
-    assert_eq!(ends(&notch, 20), [pair("1", "25.518556409968414531"), pair("35.016425938176934911", "5000")]);
 }
 
 const SERVO: &str = "time = 'discrete'\nsample_time = 'T'\n[parameters]\nK = { nominal = 4, min = 0 }\n\
@@ -138,13 +138,14 @@ fn an_anti_alias_filter_is_decided_in_its_controller() {
 }
 
 #[test]
-#[ignore = "minutes without optimisation"]
 fn an_anti_alias_filter_is_decided_in_its_corner_and_the_period() {
     let filter = anti_alias_filter();
-    let corner = asked(&filter, "w_f", Some(["1000", "10000"]));
-    assert_eq!(ends(&corner, 24), [pair("3425.14023966058718126468", "10000")]);
-    assert_eq!(ends(&asked(&filter, "T", None), 24), [pair("0", "0.000300085417190929061742714")]);
-    assert_eq!(ends(&asked(&filter, "L", None), 24), [pair("0.000477667319174346523511940", "oo")]);
+    let corner = asked(&filter, "w_f", Some(["3000", "4000"]));
+    assert_eq!(ends(&corner, 24), [pair("3425.14023966058718126469", "4000")]);
+    let period = asked(&filter, "T", Some(["2e-4", "4e-4"]));
+    assert_eq!(ends(&period, 24), [pair("0.0002", "0.000300085417190929061742714")]);
+    let inductance = asked(&filter, "L", Some(["3e-4", "1e-3"]));
+    assert_eq!(ends(&inductance, 24), [pair("0.000477667319174346523511940", "0.001")]);
 }
 
 /// The grid inductance, the sampling period and the gain of an inverter with an undamped filter.
@@ -167,10 +168,54 @@ fn an_inverter_is_decided_in_its_gain() {
 }
 
 #[test]
-#[ignore = "minutes without optimisation"]
 fn an_inverter_is_decided_in_the_grid_and_the_period() {
-    let slow = asked(&inverter("10e-6"), "T", Some(["5e-5", "2e-4"]));
+    let slow = asked(&inverter("10e-6"), "T", Some(["1e-4", "1.2e-4"]));
     assert_eq!(ends(&slow, 6)[0][0], "0.000110498");
-    let grid = asked(&inverter("2e-6"), "Lg", Some(["1e-5", "0.1"]));
-    agrees(&inverter("2e-6"), "Lg", &grid, &["2e-5", "0.0005", "0.003", "0.05"]);
+    let grid = asked(&inverter("2e-6"), "Lg", Some(["2e-4", "1e-3"]));
+    agrees(&inverter("2e-6"), "Lg", &grid, &["0.0003", "0.0005", "0.0009"]);
+}
+
+const UNDAMPED: &str = "time = 'discrete'\nsample_time = 'T'\n[parameters]\nT = { nominal = 0.05, min = 0 }\n[loop]\n\
+    inputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'PI'\ninput = 'r - y'\noutput = 'u'\n\
+    transfer = '(z - 9/10)/(z - 1)'\n[[block]]\nname = 'plant'\ninput = 'u'\noutput = 'y'\n\
+    transfer = '5/(s^2 + 25)'\ndiscretize = { method = 'zoh', delay = 'T' }\n";
+
+/// At a whole number of periods between two samples the oscillation is not seen: several boundary functions are zero there at once, and
+/// no identity says so.
+#[test]
+fn zeros_that_nothing_tells_apart_leave_a_bracket_and_no_lost_answer() {
+    let oscillation = read(UNDAMPED);
+    let periods = asked(&oscillation, "T", Some(["0.6", "0.66"]));
+    let [bracket] = periods.value().undecided() else { panic!("{:?}", periods.value().undecided()) };
+    let (lower, upper) = (bracket.lower.clone().unwrap(), bracket.upper.clone().unwrap());
+    let fifth_of_pi = number("0.62831853071795864769252867665590");
+    assert!(lower < fifth_of_pi && fifth_of_pi < upper && &upper - &lower < number("1e-15"));
+    agrees(&oscillation, "T", &periods, &["0.61", "0.628", "0.629", "0.65"]);
+    // The end of a bracket is no limit.
+    let [first, _] = periods.value().intervals() else { panic!("{:?}", ends(&periods, 20)) };
+    let end = first.upper.as_ref().unwrap();
+    assert_eq!((end.causes.to_string().as_str(), end.value.exact()), ("undecided", Some(lower)));
+    assert!(!end.causes.is_limit() && end.pair.is_none());
+    assert!(periods.text(8).contains("undecided beyond: no limit"), "{}", periods.text(8));
+}
+
+/// Where a square root has no value the loop is undefined, also where the root cancels.
+#[test]
+fn a_square_root_that_cancels_still_has_to_have_a_value() {
+    let with = |text: &str| {
+        read(&format!("time = 'continuous'\n[parameters]\nK = {{ nominal = 2 }}\n[loop]\ncharacteristic = '{text}'\n"))
+    };
+    for (text, expected) in [
+        ("s + 1 + 0*sqrt(K)", vec![pair("0", "5")]),
+        ("s + 1 + sqrt(K - 1) - sqrt(K - 1)", vec![pair("1", "5")]),
+        // Defined everywhere: the argument has no change of sign.
+        ("s + 1 + 0*sqrt((K - 2)^2)", vec![pair("-3", "5")]),
+        // Where it is negative or its denominator is.
+        ("s + 1 + 0*sqrt((K + 1)/(K - 2))", vec![pair("-3", "-1"), pair("2", "5")]),
+    ] {
+        let model = with(text);
+        let answer = asked(&model, "K", Some(["-3", "5"]));
+        assert_eq!(ends(&answer, 10), expected, "{text}");
+        agrees(&model, "K", &answer, &["-2", "-1/2", "1/2", "3/2", "3"]);
+    }
 }

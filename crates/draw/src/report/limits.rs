@@ -156,9 +156,9 @@ fn frequency(end: &End) -> Option<String> {
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 
-/// Whether a limit is only that of the question.
+/// Whether a limit is only that of the question, or of what is known.
 fn is_domain(end: &End) -> bool {
-    end.cause == Cause::Domain.name()
+    [Cause::Domain, Cause::Undecided].iter().any(|cause| end.cause == cause.name())
 }
 
 /// `5.008556 × nominal (13.99424 dB)`; no decibels where the parameter is a time of the loop.

@@ -10,7 +10,7 @@ use jurist_algebra::real::Real;
 use jurist_engine::answer::Answer;
 use jurist_engine::problem::Question;
 use jurist_engine::show::layout::short;
-use jurist_engine::stability::{Cause, End, StableSet};
+use jurist_engine::stability::{End, StableSet};
 
 /// Digits of the limits in the tables, and those to which a limit counts as not moved.
 const DIGITS: (usize, usize) = (7, 12);
@@ -43,7 +43,7 @@ fn changed(question: &Question, of: &str) -> Vec<Changed> {
 
 /// Whether an end is more than the end of what was asked.
 fn binds(end: Option<&End>) -> bool {
-    end.is_some_and(|e| e.causes.iter().any(|c| c != Cause::Domain))
+    end.is_some_and(|e| e.causes.is_limit())
 }
 
 fn ends(answer: &Answer<StableSet>) -> Ends {

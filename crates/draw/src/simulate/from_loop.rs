@@ -32,7 +32,11 @@ pub(super) fn refuse_dead_time(symbols: &Symbols) -> Result<(), Error> {
         return Ok(());
     }
     let error = Diagnostic::error("E-dead-time", "a loop with dead time is not simulated yet");
-    Err(error.help("known of it: verdict, intervals of one parameter, analyze, charpoly").into())
+    Err(error
+        .help(
+            "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, report",
+        )
+        .into())
 }
 
 impl SampledModel {

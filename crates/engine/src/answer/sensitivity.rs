@@ -68,7 +68,7 @@ impl Answer<StableSet> {
         let problem = self.problem();
         let mut ends: Vec<&End> =
             self.value().intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten().collect();
-        ends.retain(|end| end.causes.iter().any(|cause| cause != Cause::Domain));
+        ends.retain(|end| end.causes.is_limit());
         ends.dedup_by(|b, a| a.value.is_same(&b.value));
         let mut columns = Vec::new();
         for (name, value) in others(problem) {

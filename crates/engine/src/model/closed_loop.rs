@@ -115,7 +115,7 @@ impl Evaluated {
             && entries.all(is_free)
             && self.sample_time.iter().all(is_free);
         drop(entries);
-        if is_rational && !self.symbols.is_empty() {
+        if is_rational && !self.symbols.is_empty() && !self.symbols.has_moving_root() {
             self.polynomial.variables.truncate(first);
             if let Some(closed_loop) = &mut self.closed_loop {
                 closed_loop.variables.truncate(first);

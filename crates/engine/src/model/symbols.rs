@@ -135,6 +135,12 @@ impl Symbols {
         self.table.iter().any(|s| s.is_moving)
     }
 
+    /// Whether there is a square root of what depends on a kept name: the loop is undefined where that is negative, also where the
+    /// root itself cancels.
+    pub(in crate::model) fn has_moving_root(&self) -> bool {
+        self.table.iter().any(|s| s.is_moving && matches!(s.definition(), Some(Definition::Root(_))))
+    }
+
     /// The names of all variables: kept names, then symbols.
     pub fn variables(&self) -> Vec<String> {
         self.kept.iter().cloned().chain(self.table.iter().map(|s| s.name.clone())).collect()

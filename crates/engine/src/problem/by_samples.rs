@@ -44,7 +44,7 @@ impl Problem {
             let range = Range::between(window[0].clone(), window[1].clone());
             let near = inside(&range);
             if !ratios.iter().all(|ratio| is_looked_at(ratio, &near, &usual)) {
-                let why = "another number of samples, not looked at: give bounds of the domain";
+                let why = "more whole samples than are looked at in one question: give a shorter domain";
                 undecided.push(UndecidedBracket::new(range.lower, range.upper, why));
                 continue;
             }

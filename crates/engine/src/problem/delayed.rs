@@ -36,6 +36,13 @@ pub enum BaseDelay {
     },
 }
 
+/// The refusal of a question that is not known of loops with dead time.
+pub(crate) fn not_known() -> Error {
+    let help =
+        "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, report";
+    refused("this cannot be asked of a loop with dead time yet", help)
+}
+
 /// The refusal of a question about a loop with dead time.
 pub(crate) fn refused(message: impl Into<String>, help: impl Into<String>) -> Error {
     Diagnostic::error("E-dead-time", message).help(help).into()

@@ -24,8 +24,7 @@ impl Problem {
         assert!(self.free().len() <= 1, "one parameter is free");
         let algebra = self.algebra_over_symbols(budget)?;
         if !algebra.symbols().delays().is_empty() {
-            let help = "known of it: verdict, intervals of one parameter, analyze, charpoly";
-            return Err(super::delayed::refused("this cannot be asked of a loop with dead time yet", help));
+            return Err(super::delayed::not_known());
         }
         self.symbolic_of(algebra)
     }
@@ -55,8 +54,7 @@ impl Problem {
     pub(crate) fn fixed_symbols(&self, budget: &Budget) -> Result<Symbols, Error> {
         let symbols = self.algebra_over_symbols(budget)?.symbols();
         if !symbols.delays().is_empty() {
-            let help = "known of it: verdict, intervals of one parameter, analyze, charpoly";
-            return Err(super::delayed::refused("this cannot be asked of a loop with dead time yet", help));
+            return Err(super::delayed::not_known());
         }
         fixed_symbols(symbols)
     }

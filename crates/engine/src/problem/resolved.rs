@@ -1,7 +1,7 @@
 //! A question resolved: every name known, every value in its place, the algebra computed once.
 
 use super::Region;
-use super::delayed::{DelayedLoop, refused};
+use super::delayed::{DelayedLoop, not_known};
 use super::evaluation::{Algebra, parametric};
 use crate::error::{Diagnostic, Error};
 use crate::model::{ClosedLoop, Model, Symbols, Time};
@@ -155,14 +155,13 @@ impl Problem {
             return Ok(algebra);
         }
         if !algebra.symbols().delays().is_empty() {
-            let help = "known of it: verdict, intervals of one parameter, analyze, charpoly";
-            return Err(refused("this cannot be asked of a loop with dead time yet", help));
+            return Err(not_known());
         }
-        let error =
-            Diagnostic::error("E-function", "the loop is not rational: this question cannot be asked of it yet");
+        let message = "this is asked of rational loops only yet, and the loop has functions, as behind a hold";
         let list: Vec<String> =
             algebra.symbols().definitions().iter().take(4).map(|(name, text)| format!("{name} = {text}")).collect();
-        Err(error.help(format!("it contains {}", list.join(", "))).into())
+        let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, report";
+        Err(Diagnostic::error("E-function", message).help(format!("{help}; it contains {}", list.join(", "))).into())
     }
 
     /// The characteristic polynomial and what goes with it, for a question that can treat symbols: variables beyond those

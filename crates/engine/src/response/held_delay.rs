@@ -67,7 +67,10 @@ impl HeldDelay {
             let first = set.intervals().first();
             let begins = |end: &Real| end.compare_rational(&from).is_eq();
             let first = first.filter(|i| i.lower.as_ref().is_some_and(|l| begins(&l.value)));
-            let Some(end) = first.and_then(|i| i.upper.as_ref()) else { return found(Some(from.into()), None) };
+            let Some(end) = first.and_then(|i| i.upper.as_ref()) else {
+                let is_open = set.undecided().iter().any(|b| b.lower.as_ref().is_none_or(|lower| *lower <= from));
+                return if is_open { Ok(None) } else { found(Some(from.into()), None) };
+            };
             if let Some(bracket) = set.undecided().first()
                 && bracket.lower.as_ref().is_none_or(|lower| end.value.compare_rational(lower).is_ge())
             {

@@ -27,6 +27,8 @@ pub enum Cause {
     Pole,
     /// The parameter's domain ends there.
     Domain,
+    /// Nothing is known beyond: the end of what was decided, not a limit.
+    Undecided,
 }
 
 impl Cause {
@@ -41,6 +43,7 @@ impl Cause {
             Cause::Neutral => "neutral",
             Cause::Pole => "pole",
             Cause::Domain => "domain",
+            Cause::Undecided => "undecided",
         }
     }
 }
@@ -70,6 +73,11 @@ impl Causes {
         if let Err(place) = self.0.binary_search(&cause) {
             self.0.insert(place, cause);
         }
+    }
+
+    /// Whether stability ends for a reason of the loop's, and not where the question or what is known ends.
+    pub fn is_limit(&self) -> bool {
+        self.0.iter().any(|c| !matches!(c, Cause::Domain | Cause::Undecided))
     }
 
     /// Takes a reason back.

@@ -152,7 +152,17 @@ pub struct Cells {
 impl StableSet {
     /// A set that was found in another way than by boundary polynomials over the integers: its intervals, ascending and
     /// disjoint, and where nothing is known.
-    pub fn from_intervals(intervals: Vec<StableInterval>, undecided: Vec<UndecidedBracket>) -> StableSet {
+    ///
+    /// What ends at an end of a bracket ends for want of knowledge: its cause is [`Cause::Undecided`].
+    pub fn from_intervals(mut intervals: Vec<StableInterval>, undecided: Vec<UndecidedBracket>) -> StableSet {
+        for end in intervals.iter_mut().flat_map(|i| [&mut i.lower, &mut i.upper]).flatten() {
+            let exact = end.value.exact();
+            if exact.is_some() && undecided.iter().any(|b| b.lower == exact || b.upper == exact) {
+                let mut causes = Causes::default();
+                causes.insert(Cause::Undecided);
+                *end = End::new(end.value.clone(), causes, None);
+            }
+        }
         StableSet { intervals, undecided, way: Way::Other }
     }
 

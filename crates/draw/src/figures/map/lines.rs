@@ -44,7 +44,7 @@ pub fn mechanism_colour(causes: &Causes) -> (&'static str, &'static [f64]) {
         Some(Cause::RootAtMinusOne) => (COLOURS[3], &[4.0, 3.0]),
         Some(Cause::DegreeLost | Cause::Neutral) => (COLOURS[5], &[9.0, 3.0, 2.0, 3.0]),
         Some(Cause::Pole) => ("#777777", &[2.0, 3.0]),
-        Some(Cause::Domain) | None => ("#999999", &[1.0, 3.0]),
+        Some(Cause::Domain | Cause::Undecided) | None => ("#999999", &[1.0, 3.0]),
     }
 }
 
@@ -70,6 +70,7 @@ pub fn mechanism_words(causes: &Causes, answer: &Answer<Map>) -> String {
         (Cause::Neutral, _) => "difference operator not stable".into(),
         (Cause::Pole, _) => "loop undefined".into(),
         (Cause::Domain, _) => "end of the domain".into(),
+        (Cause::Undecided, _) => "undecided beyond".into(),
     };
     // On a curve of real roots the pair's constraint vanishes because a root is its own mirror image twice.
     let named: Vec<String> = match leading_cause(causes) {

@@ -184,6 +184,10 @@ impl SymbolicPolynomial {
         }
         found.push((Cause::DegreeLost, self.degree_loss.clone().into()));
         found.extend(self.poles.iter().map(|q| (Cause::Pole, q.clone().into())));
+        if let Table::Moving(symbols) = &self.symbols {
+            let signs = symbols.signs_under_roots();
+            found.extend(signs.iter().map(|p| (Cause::Pole, MultiPoly::from_univariate(p, 0).into())));
+        }
         if n > 1 {
             let pair = pair::Pair::of(&self.pair(region));
             found.push((Cause::ComplexPair, Function::resultant(pair.a, pair.b)));

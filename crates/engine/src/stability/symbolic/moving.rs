@@ -12,6 +12,7 @@ use jurist_algebra::poly::multivariate::is_square_free_in;
 use jurist_algebra::poly::{Domain, MultiPoly, SquareFree, UniPoly, isolate_real_roots_in};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Function, MovingSymbols, common_factor, merged};
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 impl Values for MovingSymbols {
@@ -59,19 +60,19 @@ pub(super) fn moving_stable_set(
     let mut undecided: Vec<Bracket> = reach.undecided.clone();
     for (k, part) in basis.iter().enumerate() {
         let mut found = symbols.zeros_in(part, &reach.from, &reach.to, &p.usual, budget)?;
-        undecided.extend(found.undecided.into_iter().map(|(lo, hi)| (Some(lo), Some(hi), Some(k))));
+        undecided.extend(found.undecided.into_iter().map(|(lo, hi)| (Some(lo), Some(hi))));
         if let Some(inverted) = &reach.inverted {
             let one_over = reach.to.recip().expect("a positive number");
             let beyond = inverted.zeros_in(&part.inverted(), &Rational::ZERO, &one_over, &one_over, budget)?;
             found.zeros.extend(beyond.zeros.iter().rev().map(Real::recip));
-            let turned = |(lo, hi): (Rational, Rational)| (hi.recip(), lo.recip(), Some(k));
+            let turned = |(lo, hi): (Rational, Rational)| (hi.recip(), lo.recip());
             undecided.extend(beyond.undecided.into_iter().map(turned));
-            if symbols.vanishes_at(part, &reach.to, budget)? {
-                undecided.push((Some(reach.to.clone()), Some(reach.to.clone()), Some(k)));
+            if is_or_may_be(symbols.vanishes_at(part, &reach.to, budget))? {
+                undecided.push((Some(reach.to.clone()), Some(reach.to.clone())));
             }
         }
         from.extend(found.zeros.iter().map(|zero| (k, zero.clone())));
-        all = merged(all, found.zeros, budget)?;
+        all = told_apart(all, found.zeros, &mut undecided, budget)?;
     }
     let zeros: Vec<Zero> = all
         .into_iter()
@@ -109,9 +110,10 @@ pub(super) fn moving_stable_set(
             let end = |place: Place<'_>, is_between: bool| match place {
                 Place::Domain(value) => {
                     let exact = value.exact();
-                    match undecided.iter().find(|b| exact.is_some() && (exact == b.0 || exact == b.1)) {
-                        Some(bracket) => Ok(Some(examiner.beside(value, bracket.2))),
-                        None => examiner.at_domain(value).map(Some),
+                    let is_beside = undecided.iter().any(|b| exact.is_some() && (exact == b.0 || exact == b.1));
+                    match is_beside {
+                        true => Ok(Some(End::new(value.clone(), Causes::default(), None))),
+                        false => examiner.at_domain(value).map(Some),
                     }
                 }
                 Place::Zero(k) => examiner.at_zero(zeros[k], is_between),
@@ -124,15 +126,65 @@ pub(super) fn moving_stable_set(
             break;
         }
     }
-    let brackets = undecided.into_iter().map(|(lo, hi, part)| {
-        let why = if part.is_some() { "touching or crossing" } else { "not looked at: give bounds of the domain" };
+    let brackets = undecided.into_iter().map(|(lo, hi)| {
+        let why = match (&lo, &hi) {
+            (Some(lo), Some(_)) if lo.is_zero() && range.lower.as_ref().is_some_and(Rational::is_zero) => {
+                "not resolved so near to 0"
+            }
+            (Some(_), Some(_)) => "touching or crossing",
+            _ => "not resolved so far out: give bounds of the domain",
+        };
         UndecidedBracket::new(lo, hi, why)
     });
     Ok(StableSet::from_intervals(stable, brackets.collect()))
 }
 
-/// An interval in which nothing is known, and which function of the basis is why; none where it was not looked at.
-type Bracket = (Option<Rational>, Option<Rational>, Option<usize>);
+/// Whether it is so, or neither proved nor disproved by some thousand bits.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+fn is_or_may_be(found: Result<bool, Exhausted>) -> Result<bool, Exhausted> {
+    match found {
+        Err(stopped) if stopped.budget.starts_with("precision") => Ok(true),
+        found => found,
+    }
+}
+
+/// Two ascending lists as one, each number once. Two that some thousand bits do not tell apart, and no identity shows to be the same,
+/// leave a bracket.
+fn told_apart(
+    a: Vec<Real>,
+    b: Vec<Real>,
+    undecided: &mut Vec<Bracket>,
+    budget: &Budget,
+) -> Result<Vec<Real>, Exhausted> {
+    let mut out = Vec::with_capacity(a.len() + b.len());
+    let (mut a, mut b) = (a.into_iter().peekable(), b.into_iter().peekable());
+    while let (Some(x), Some(y)) = (a.peek(), b.peek()) {
+        match x.compare(y, budget) {
+            Ok(Ordering::Less) => out.extend(a.next()),
+            Ok(Ordering::Greater) => out.extend(b.next()),
+            Ok(Ordering::Equal) => {
+                out.extend(a.next());
+                b.next();
+            }
+            Err(stopped) if stopped.budget.starts_with("precision") => {
+                let width = Rational::dyadic(&Integer::ONE, BRACKET_BITS);
+                let [(lo, hi), (least, most)] = [x, y].map(|x| x.refined(&width).enclosure());
+                undecided.push((Some(lo.min(least)), Some(hi.max(most))));
+                a.next();
+                b.next();
+            }
+            Err(stopped) => return Err(stopped),
+        }
+    }
+    out.extend(a);
+    out.extend(b);
+    Ok(out)
+}
+
+/// An interval in which nothing is known; none where it has no end.
+type Bracket = (Option<Rational>, Option<Rational>);
 
 /// Where zeros are looked for: between `from` and `to`, and beyond `to` by the reciprocal of the parameter.
 struct Reach {
@@ -163,7 +215,7 @@ fn reach(
         (Some(lower), _) => lower.clone(),
         (None, upper) => {
             let from = -large(upper.as_ref().unwrap_or(&Rational::ZERO));
-            undecided.push((None, Some(from.clone()), None));
+            undecided.push((None, Some(from.clone())));
             from
         }
     };
@@ -180,7 +232,7 @@ fn reach(
     if let Some(inverted) = inverted {
         return Ok(Reach { from, to, inverted: Some(Arc::new(inverted)), lower, upper: None, undecided });
     }
-    undecided.push((Some(to.clone()), None, None));
+    undecided.push((Some(to.clone()), None));
     Ok(Reach { from, to: to.clone(), inverted: None, lower, upper: Some(to), undecided })
 }
 
@@ -229,6 +281,9 @@ fn split(
     }
     Ok((boundaries, basis))
 }
+
+/// Bits of the ends of a bracket around two numbers that are not told apart.
+const BRACKET_BITS: u64 = 256;
 
 /// Where nothing bounds a parameter and nothing dies away, it is looked at up to this multiple of its usual value.
 const MULTIPLE: i64 = 1024;
@@ -330,13 +385,12 @@ fn without_exponentials(p: MultiPoly, symbols: &MovingSymbols) -> MultiPoly {
 fn disjoint(mut brackets: Vec<Bracket>) -> Vec<Bracket> {
     brackets.sort();
     let mut out: Vec<Bracket> = Vec::new();
-    for (lo, hi, k) in brackets {
+    for (lo, hi) in brackets {
         match out.last_mut() {
             Some(last) if last.1.is_none() || lo <= last.1 => {
                 last.1 = if hi.is_none() || last.1.is_none() { None } else { hi.max(last.1.clone()) };
-                last.2 = last.2.or(k);
             }
-            _ => out.push((lo, hi, k)),
+            _ => out.push((lo, hi)),
         }
     }
     out
@@ -356,7 +410,7 @@ impl Examiner<'_> {
         let exact = value.exact().expect("an end of the range is rational");
         let mut held = Vec::new();
         for boundary in self.boundaries {
-            if self.symbols.vanishes_at(&boundary.function, &exact, self.budget)? {
+            if is_or_may_be(self.symbols.vanishes_at(&boundary.function, &exact, self.budget))? {
                 held.push(boundary.cause);
             }
         }
@@ -367,14 +421,6 @@ impl Examiner<'_> {
         };
         let end = named_end(value, &held, self.range, false, pair)?;
         Ok(end.unwrap_or_else(|| End::new(value.clone(), Causes::default(), None)))
-    }
-
-    /// Beside a bracket in which a function of the basis may have zeros.
-    fn beside(&self, value: &Real, part: Option<usize>) -> End {
-        let mut causes = Causes::default();
-        let touched = |b: &&Boundary| part.is_some_and(|part| b.parts.contains(&part));
-        self.boundaries.iter().filter(touched).for_each(|b| causes.insert(b.cause));
-        End::new(value.clone(), causes, None)
     }
 
     fn at_zero(&self, zero: &Zero, is_between: bool) -> Result<Option<End>, Exhausted> {
