@@ -98,7 +98,7 @@ pub use jurist_algebra::real::Real;
 // Certificates, checked by code of their own.
 pub use jurist_check::{Limits, Proved, Rejection, Step, check};
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "commands")]
 pub mod cli;
 
 /// Pages of documentation.

@@ -27,6 +27,7 @@ use std::time::Duration;
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub command: Option<Command>,
+    #[cfg(feature = "cli")]
     #[command(flatten)]
     pub main_job: commands::main_job::Options,
 }
@@ -62,14 +63,18 @@ pub(super) enum Command {
     Nyquist(commands::frequency_response::Options),
     /// The peak gain (H-infinity norm) of a closed-loop transfer function, exactly
     Norm(commands::norm::Options),
+    #[cfg(feature = "cli")]
     /// Time response, of the sampled loop or of the switched circuit
     Simulate(commands::simulate::Options),
+    #[cfg(feature = "cli")]
     /// The same question at many points, on all cores; resumable
     Sweep(commands::sweep::Options),
     /// Stable for every value within tolerances: proof or counterexample, and how far they can grow
     Tolerance(commands::tolerance::Options),
+    #[cfg(feature = "cli")]
     /// One page about one's own loop: verdict, limits and causes, margins, what moves them, worst corner, figures
     Report(commands::report::Options),
+    #[cfg(feature = "cli")]
     /// The built-in drive's paper once more, as one HTML report with figures
     Paper(commands::paper::Options),
     /// Re-checks a certificate against a model, with code that shares nothing with the engine
@@ -81,6 +86,7 @@ pub(super) enum Command {
     New(commands::new::Options),
     /// What an error code or a word of the answers means
     Explain(commands::explain::Options),
+    #[cfg(feature = "cli")]
     /// A completion script for a shell
     Completions(commands::completions::Options),
 }

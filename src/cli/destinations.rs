@@ -61,6 +61,7 @@ impl<'a> Names<'a> {
     fn of(arguments: &'a Arguments) -> Result<Self, Error> {
         let mut names = Names::default();
         match &arguments.command {
+            #[cfg(feature = "cli")]
             None => names.answer(arguments.main_job.output.output.as_ref()),
             Some(Command::Analyze(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
             Some(Command::Tolerance(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
@@ -87,18 +88,25 @@ impl<'a> Names<'a> {
             }
             Some(Command::Bode(o) | Command::Nyquist(o)) => names.picture(&o.model.model, &o.picture)?,
             Some(Command::Locus(o)) => names.picture(&o.model.model, &o.picture)?,
+            #[cfg(feature = "cli")]
             Some(Command::Simulate(o)) => names.picture(&o.model.model, &o.picture)?,
+            #[cfg(feature = "cli")]
             Some(Command::Sweep(o)) => names.question(&o.model, &o.output),
             Some(Command::Verify(o)) => {
                 names.inputs = vec![("the model", &o.model), ("the certificate", &o.certificate)];
                 names.answer(None);
             }
+            #[cfg(feature = "cli")]
             Some(Command::Report(o)) => {
                 names.inputs.extend(o.model.model.iter().map(|model| ("the model", model.as_os_str())));
                 names.answer(Some(&o.output));
             }
             Some(Command::Check(o)) => names.question(&o.model, &o.output),
-            Some(Command::New(_) | Command::Paper(_) | Command::Explain(_) | Command::Completions(_)) => {}
+            #[cfg(feature = "cli")]
+            Some(Command::Paper(_) | Command::Completions(_)) => {}
+            #[cfg(not(feature = "cli"))]
+            None => {}
+            Some(Command::New(_) | Command::Explain(_)) => {}
         }
         Ok(names)
     }

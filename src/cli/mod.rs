@@ -1,6 +1,7 @@
 //! The command line: arguments, files, standard output, exit statuses.
 //!
-//! One file per command in `commands`; each returns a status or the reason why there is no answer.
+//! One file per command in `commands`; each returns a status or the reason why there is no answer. Without the feature `cli`
+//! there is no program, and the commands that only draw or make pages are left out.
 
 mod arguments;
 mod assignments;
@@ -11,14 +12,15 @@ mod destinations;
 mod input;
 mod output;
 mod picture;
-#[cfg(not(target_family = "wasm"))]
+#[cfg(all(feature = "cli", not(target_family = "wasm")))]
 mod progress;
-#[cfg(target_family = "wasm")]
+#[cfg(not(all(feature = "cli", not(target_family = "wasm"))))]
 #[path = "progress_untold.rs"]
 mod progress;
 mod replace;
 mod requirements;
 mod status;
+#[cfg(feature = "cli")]
 mod sweep;
 mod written;
 

@@ -10,6 +10,9 @@ use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::path::Path;
 
+/// Whether this build draws; where it does not, endings of pictures are unknown.
+pub(super) const DRAWS: bool = cfg!(feature = "cli");
+
 /// Pixels per unit of a PNG.
 const PNG_SCALE: f32 = 2.0;
 
@@ -41,9 +44,9 @@ pub(super) fn wanted(options: &PictureOptions) -> Result<Kind, Error> {
     }
     let Some(file) = options.output.as_ref().filter(|f| *f != "-") else { return Ok(Kind::Standard) };
     match ending(file).as_deref() {
-        Some("svg") => Ok(Kind::Svg),
-        Some("png") => Ok(Kind::Png),
-        Some("pdf") => Ok(Kind::Pdf),
+        Some("svg") if DRAWS => Ok(Kind::Svg),
+        Some("png") if DRAWS => Ok(Kind::Png),
+        Some("pdf") if DRAWS => Ok(Kind::Pdf),
         Some("csv") => Ok(Kind::Csv),
         Some("json") => Ok(Kind::Json),
         _ => Err(unknown_ending(file, &["svg", "png", "pdf", "csv", "json"]).into()),
@@ -60,7 +63,7 @@ pub(super) fn deliver(picture: &Picture<'_>, kind: Kind, file: Option<&OsString>
             return Ok(());
         }
         let print = |text: &str| write_answer(text, None);
-        if !std::io::stdout().is_terminal() {
+        if !DRAWS || !std::io::stdout().is_terminal() {
             return print(&(picture.csv)());
         }
         let plain = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
@@ -68,11 +71,11 @@ pub(super) fn deliver(picture: &Picture<'_>, kind: Kind, file: Option<&OsString>
     };
     let path = Path::new(file);
     match kind {
-        Kind::Svg => write(path, picture.figure.svg().as_bytes())?,
-        Kind::Png => write(path, &png(picture.figure)?)?,
-        Kind::Pdf => write(path, &pdf(picture.figure)?)?,
+        Kind::Svg if DRAWS => write(path, picture.figure.svg().as_bytes())?,
+        Kind::Png if DRAWS => write(path, &png(picture.figure)?)?,
+        Kind::Pdf if DRAWS => write(path, &pdf(picture.figure)?)?,
         Kind::Json => {}
-        Kind::Csv | Kind::Standard => write(path, (picture.csv)().as_bytes())?,
+        _ => write(path, (picture.csv)().as_bytes())?,
     }
     if picture.csv_beside && kind != Kind::Csv {
         write(&path.with_extension("csv"), (picture.csv)().as_bytes())?;

@@ -121,6 +121,15 @@ fn refuse_beyond_limit(_: u64) -> Result<()> {
     Ok(())
 }
 
+/// What is created may be read by its owner only.
+#[cfg(unix)]
+fn hide_from_others(options: &mut OpenOptions) {
+    std::os::unix::fs::OpenOptionsExt::mode(options, 0o600);
+}
+
+#[cfg(not(unix))]
+fn hide_from_others(_: &mut OpenOptions) {}
+
 /// A new file that is removed again unless it takes over the old one's name.
 struct Beside {
     path: PathBuf,
@@ -132,9 +141,8 @@ impl Beside {
     fn new(folder: &Path, old: Option<&Metadata>) -> Result<Beside> {
         let mut options = OpenOptions::new();
         options.write(true).create_new(true);
-        #[cfg(unix)]
         if old.is_some() {
-            std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+            hide_from_others(&mut options);
         }
         let mut count = 0_u32;
         loop {

@@ -6,12 +6,13 @@ use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, question};
 use crate::cli::output::{ending, note, unknown_ending};
-use crate::cli::picture::{pdf, png, write};
+use crate::cli::picture::{DRAWS, pdf, png, write};
 use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
 use jurist_draw::page::map_page;
+#[cfg(feature = "cli")]
 use jurist_drive::published_limits;
 use jurist_engine::answer::{Answer, BoxRequest, Map, MapMethod, MapOrBoxes};
 use jurist_engine::error::Error as EngineError;
@@ -121,11 +122,11 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         note(&format!("the regions are decided, what limits them is not: {stopped}"));
     }
     match picture {
-        Some(kind) => {
+        Some(kind) if DRAWS => {
             let windows = windows(options, &requests);
             context.budget.enter(|| draw(&answer, kind, windows, options, context))??;
         }
-        None => context.answer(&options.output, || answer.text(digits), || answer.json(digits))?,
+        _ => context.answer(&options.output, || answer.text(digits), || answer.json(digits))?,
     }
     Ok(Status::Holds)
 }
@@ -154,10 +155,10 @@ fn picture_of(options: &Options) -> Result<Option<Picture>, Error> {
         return Ok(None);
     };
     match ending(file).as_deref() {
-        Some("svg") => Ok(Some(Picture::Svg)),
-        Some("png") => Ok(Some(Picture::Png)),
-        Some("pdf") => Ok(Some(Picture::Pdf)),
-        Some("html" | "htm") => Ok(Some(Picture::Page)),
+        Some("svg") if DRAWS => Ok(Some(Picture::Svg)),
+        Some("png") if DRAWS => Ok(Some(Picture::Png)),
+        Some("pdf") if DRAWS => Ok(Some(Picture::Pdf)),
+        Some("html" | "htm") if DRAWS => Ok(Some(Picture::Page)),
         Some("txt" | "json") | None => Ok(None),
         Some(_) => Err(unknown_ending(file, &["txt", "json", "svg", "png", "pdf", "html"]).into()),
     }
@@ -203,4 +204,10 @@ fn draw(
     };
     context.reporter.finish();
     write(Path::new(file), &bytes)
+}
+
+/// Without the study of the drive there is nothing to compare with.
+#[cfg(not(feature = "cli"))]
+fn published_limits(_: &Problem) -> Vec<(f64, f64)> {
+    Vec::new()
 }

@@ -3,21 +3,27 @@
 pub(super) mod analyze;
 pub(super) mod charpoly;
 pub(super) mod check;
+#[cfg(feature = "cli")]
 pub(super) mod completions;
 pub(super) mod explain;
 pub(super) mod frequency_response;
 pub(super) mod intervals;
 pub(super) mod jury;
 pub(super) mod locus;
+#[cfg(feature = "cli")]
 pub(super) mod main_job;
 pub(super) mod map;
 mod map_boxes;
 pub(super) mod margins;
 pub(super) mod new;
 pub(super) mod norm;
+#[cfg(feature = "cli")]
 pub(super) mod paper;
+#[cfg(feature = "cli")]
 pub(super) mod report;
+#[cfg(feature = "cli")]
 pub(super) mod simulate;
+#[cfg(feature = "cli")]
 pub(super) mod sweep;
 pub(super) mod tolerance;
 pub(super) mod verdict;
@@ -131,6 +137,7 @@ impl Arguments {
     pub fn run_options(&self) -> &RunOptions {
         const NONE: &RunOptions = &RunOptions { timeout: None, threads: None, quiet: false, verbose: false };
         match &self.command {
+            #[cfg(feature = "cli")]
             None => &self.main_job.output.run,
             Some(Command::Analyze(options)) => &options.decision.output.run,
             Some(Command::Intervals(options)) => &options.decision.output.run,
@@ -142,14 +149,22 @@ impl Arguments {
             Some(Command::Margins(options)) => &options.output.run,
             Some(Command::Bode(options) | Command::Nyquist(options)) => &options.run,
             Some(Command::Norm(options)) => &options.output.run,
+            #[cfg(feature = "cli")]
             Some(Command::Simulate(options)) => &options.run,
+            #[cfg(feature = "cli")]
             Some(Command::Sweep(options)) => &options.run,
+            #[cfg(feature = "cli")]
             Some(Command::Paper(options)) => &options.run,
+            #[cfg(feature = "cli")]
             Some(Command::Report(options)) => &options.run,
             Some(Command::Tolerance(options)) => &options.decision.output.run,
             Some(Command::Verify(options)) => &options.run,
             Some(Command::Check(options)) => &options.run,
-            Some(Command::New(_) | Command::Explain(_) | Command::Completions(_)) => NONE,
+            #[cfg(feature = "cli")]
+            Some(Command::Completions(_)) => NONE,
+            #[cfg(not(feature = "cli"))]
+            None => NONE,
+            Some(Command::New(_) | Command::Explain(_)) => NONE,
         }
     }
 }
@@ -157,7 +172,10 @@ impl Arguments {
 /// Runs the command that the arguments name.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
     match &arguments.command {
+        #[cfg(feature = "cli")]
         None => main_job::run(&arguments.main_job, context),
+        #[cfg(not(feature = "cli"))]
+        None => Err(Diagnostic::error("E-usage", "a command is missing").into()),
         Some(Command::Analyze(options)) => analyze::run(options, context),
         Some(Command::Intervals(options)) => intervals::run(options, context),
         Some(Command::Verdict(options)) => verdict::run(options, context),
@@ -169,15 +187,20 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Bode(options)) => frequency_response::run(options, frequency_response::BODE, context),
         Some(Command::Nyquist(options)) => frequency_response::run(options, frequency_response::NYQUIST, context),
         Some(Command::Norm(options)) => norm::run(options, context),
+        #[cfg(feature = "cli")]
         Some(Command::Simulate(options)) => simulate::run(options, context),
+        #[cfg(feature = "cli")]
         Some(Command::Sweep(options)) => sweep::run(options, context),
+        #[cfg(feature = "cli")]
         Some(Command::Paper(options)) => paper::run(options, context),
+        #[cfg(feature = "cli")]
         Some(Command::Report(options)) => report::run(options, context),
         Some(Command::Tolerance(options)) => tolerance::run(options, context),
         Some(Command::Verify(options)) => verify::run(options, context),
         Some(Command::Check(options)) => check::run(options, context),
         Some(Command::New(options)) => new::run(options),
         Some(Command::Explain(options)) => explain::run(options),
+        #[cfg(feature = "cli")]
         Some(Command::Completions(options)) => completions::run(options),
     }
 }
