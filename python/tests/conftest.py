@@ -9,6 +9,9 @@ from pathlib import Path
 import jurist
 import pytest
 
+# Processes of the tests import what is installed, not what lies in the folder in which they begin.
+os.environ["PYTHONSAFEPATH"] = "1"
+
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = ROOT / "tests" / "corpus"
 

@@ -9,12 +9,11 @@ import sys
 import textwrap
 import warnings
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
-from pathlib import Path
 
 import jurist
 import pytest
+from conftest import ROOT
 
-PACKAGE = Path(jurist.__file__).parent
 HARD = """
 time = "discrete"
 [parameters]
@@ -354,21 +353,19 @@ def test_names_from_a_model_are_not_taken_for_html():
         assert "<b>" not in page.replace("<b>&lt;script&gt;</b>", "")
 
 
-def test_stubs_are_those_of_the_module():
-    done = subprocess.run(
-        [sys.executable, "-m", "mypy.stubtest", "jurist._jurist", "--mypy-config-file", str(PACKAGE.parent / "pyproject.toml")],
-        capture_output=True,
-        text=True,
-        cwd=PACKAGE.parent,
-        check=False,
-    )
+def mypy(folder, *words):
+    """Asks in an empty folder, where the package is the installed one."""
+    command = [sys.executable, "-m", *words, str(ROOT / "python" / "pyproject.toml")]
+    return subprocess.run(command, capture_output=True, text=True, cwd=folder, check=False)
+
+
+def test_stubs_are_those_of_the_module(tmp_path):
+    done = mypy(tmp_path, "mypy.stubtest", "jurist._jurist", "--mypy-config-file")
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_types_are_strict():
-    done = subprocess.run(
-        [sys.executable, "-m", "mypy", "--strict", "jurist"], capture_output=True, text=True, cwd=PACKAGE.parent, check=False
-    )
+def test_types_are_strict(tmp_path):
+    done = mypy(tmp_path, "mypy", "--strict", "-p", "jurist", "--config-file")
     assert done.returncode == 0, done.stdout
 
 
