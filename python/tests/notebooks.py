@@ -1,6 +1,7 @@
 """Runs the notebooks; with a second folder, writes them there with their outputs, and their pictures beside them."""
 
 import base64
+import os
 import sys
 import time
 from pathlib import Path
@@ -8,6 +9,12 @@ from pathlib import Path
 import jupytext
 import nbclient
 import nbformat
+
+
+# A kernel begins in this folder and imports what is installed.
+os.environ["PYTHONSAFEPATH"] = "1"
+# Pictures go into the notebook.
+os.environ.pop("MPLBACKEND", None)
 
 
 def main(folder, out=None):
