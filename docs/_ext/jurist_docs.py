@@ -4,6 +4,7 @@
 * ``{jurist-picture}``: a command line whose ``-o FILE`` is a picture; the text of the directive is its caption.
 * ``{model} NAME``: a model file, shown and kept for the commands after it on the page.
 * ``{jurist}`` (role): one value of a JSON document, ``intervals --param K_pwm | stable.0.upper.decimal``.
+* ``{live-page}``: the page in the browser itself, where ``web/build`` has made it (``PAGE``, else ``target/page``).
 * ``build_reference``: pages made of the program, its schemas and its examples.
 
 A command that does not end as expected stops the build.
@@ -14,6 +15,7 @@ import json
 import os
 import re
 import shlex
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -24,6 +26,7 @@ from sphinx.util.docutils import SphinxDirective, SphinxRole
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("JURIST", str(ROOT / "target" / "release" / "jurist"))
+PAGE = Path(os.environ.get("PAGE", ROOT / "target" / "page"))
 KEPT = Path(__file__).resolve().parents[1] / "_build" / "models"
 PICTURES = Path(__file__).resolve().parents[1] / "_generated"
 
@@ -112,6 +115,24 @@ class JuristValue(SphinxRole):
         for key in path.strip().split("."):
             value = value[int(key)] if key.lstrip("-").isdigit() else value[key]
         return [nodes.Text(str(value))], []
+
+
+class LivePage(SphinxDirective):
+    """The page in a frame, and a link to it; nothing where it is not built."""
+
+    def run(self):
+        if not (PAGE / "index.html").exists() or self.env.app.builder.format != "html":
+            return []
+        place = "../" * self.env.docname.count("/") + "live/index.html"
+        frame = f'<iframe class="live" src="{place}" title="jurist in the browser" loading="lazy"></iframe>'
+        link = f'<p><a href="{place}">The page alone</a></p>'
+        return [nodes.raw("", frame + link, format="html")]
+
+
+def copy_page(app, error):
+    """Puts the page beside the others."""
+    if error is None and app.builder.format == "html" and (PAGE / "index.html").exists():
+        shutil.copytree(PAGE, Path(app.outdir) / "live", dirs_exist_ok=True)
 
 
 def heading(text, mark="="):
@@ -309,5 +330,7 @@ def setup(app):
     app.add_directive("jurist-picture", JuristPicture)
     app.add_directive("model", Model)
     app.add_role("jurist", JuristValue())
+    app.add_directive("live-page", LivePage)
     app.connect("builder-inited", build_reference)
+    app.connect("build-finished", copy_page)
     return {"version": "1", "parallel_read_safe": True}

@@ -84,6 +84,7 @@ pub(super) enum Command {
     Check(commands::check::Options),
     /// A commented model file to begin with
     New(commands::new::Options),
+    #[cfg(feature = "cli")]
     /// What an error code or a word of the answers means
     Explain(commands::explain::Options),
     #[cfg(feature = "cli")]

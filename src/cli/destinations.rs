@@ -4,6 +4,7 @@ use super::arguments::{Arguments, Command, PictureOptions};
 use super::assignments::in_line;
 use super::commands::Context;
 use super::output::{ending, write_error};
+use super::picture::WRITES;
 use super::replace::Destination;
 use super::status::Error;
 use jurist_engine::error::Diagnostic;
@@ -32,6 +33,10 @@ pub(super) fn check(arguments: &Arguments, context: &Context) -> Result<(), Erro
     let inputs: Vec<_> = names.inputs.iter().map(|(what, name)| (what, name, Identity::of_input(name))).collect();
     let mut outputs: Vec<(&str, Identity)> = Vec::new();
     for (what, name) in &names.outputs {
+        if !WRITES && name != "-" {
+            let error = Diagnostic::error("E-write", format!("{what} goes to standard output here, not to a file"));
+            return Err(refuse(error.help("the program 'jurist' writes files"), name));
+        }
         let identity = Identity::of_output(name)?;
         if let Some((input, path, _)) = inputs.iter().find(|(_, _, input)| identity.is_some() && *input == identity) {
             let shown = if **path == "-" { "standard input".into() } else { path.to_string_lossy() };
@@ -103,10 +108,10 @@ impl<'a> Names<'a> {
             }
             Some(Command::Check(o)) => names.question(&o.model, &o.output),
             #[cfg(feature = "cli")]
-            Some(Command::Paper(_) | Command::Completions(_)) => {}
+            Some(Command::Paper(_) | Command::Explain(_) | Command::Completions(_)) => {}
             #[cfg(not(feature = "cli"))]
             None => {}
-            Some(Command::New(_) | Command::Explain(_)) => {}
+            Some(Command::New(_)) => {}
         }
         Ok(names)
     }

@@ -1,7 +1,7 @@
 //! The command line: arguments, files, standard output, exit statuses.
 //!
 //! One file per command in `commands`; each returns a status or the reason why there is no answer. Without the feature `cli`
-//! there is no program, and the commands that only draw or make pages are left out.
+//! there is no program: no file is written, and commands that only draw, make pages or explain are left out.
 
 mod arguments;
 mod assignments;

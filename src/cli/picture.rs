@@ -10,8 +10,8 @@ use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::path::Path;
 
-/// Whether this build draws; where it does not, endings of pictures are unknown.
-pub(super) const DRAWS: bool = cfg!(feature = "cli");
+/// Whether this build draws, and writes files at all; where it does not, every answer goes to standard output.
+pub(super) const WRITES: bool = cfg!(feature = "cli");
 
 /// Pixels per unit of a PNG.
 const PNG_SCALE: f32 = 2.0;
@@ -44,9 +44,9 @@ pub(super) fn wanted(options: &PictureOptions) -> Result<Kind, Error> {
     }
     let Some(file) = options.output.as_ref().filter(|f| *f != "-") else { return Ok(Kind::Standard) };
     match ending(file).as_deref() {
-        Some("svg") if DRAWS => Ok(Kind::Svg),
-        Some("png") if DRAWS => Ok(Kind::Png),
-        Some("pdf") if DRAWS => Ok(Kind::Pdf),
+        Some("svg") if WRITES => Ok(Kind::Svg),
+        Some("png") if WRITES => Ok(Kind::Png),
+        Some("pdf") if WRITES => Ok(Kind::Pdf),
         Some("csv") => Ok(Kind::Csv),
         Some("json") => Ok(Kind::Json),
         _ => Err(unknown_ending(file, &["svg", "png", "pdf", "csv", "json"]).into()),
@@ -63,7 +63,7 @@ pub(super) fn deliver(picture: &Picture<'_>, kind: Kind, file: Option<&OsString>
             return Ok(());
         }
         let print = |text: &str| write_answer(text, None);
-        if !DRAWS || !std::io::stdout().is_terminal() {
+        if !WRITES || !std::io::stdout().is_terminal() {
             return print(&(picture.csv)());
         }
         let plain = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
@@ -71,9 +71,9 @@ pub(super) fn deliver(picture: &Picture<'_>, kind: Kind, file: Option<&OsString>
     };
     let path = Path::new(file);
     match kind {
-        Kind::Svg if DRAWS => write(path, picture.figure.svg().as_bytes())?,
-        Kind::Png if DRAWS => write(path, &png(picture.figure)?)?,
-        Kind::Pdf if DRAWS => write(path, &pdf(picture.figure)?)?,
+        Kind::Svg if WRITES => write(path, picture.figure.svg().as_bytes())?,
+        Kind::Png if WRITES => write(path, &png(picture.figure)?)?,
+        Kind::Pdf if WRITES => write(path, &pdf(picture.figure)?)?,
         Kind::Json => {}
         _ => write(path, (picture.csv)().as_bytes())?,
     }

@@ -4,6 +4,7 @@ use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::{decision, known_names, only_parameter};
 use crate::cli::output::write_answer;
+use crate::cli::picture::WRITES;
 use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Outcome, Status};
 use crate::cli::written::check_certificate;
@@ -84,10 +85,10 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     if let Some((text, file)) = &certificate {
         write_answer(text, Some(file))?;
     }
-    if let Some(file) = &options.smt2 {
+    if let Some(file) = options.smt2.as_ref().filter(|_| WRITES) {
         write_answer(&answer.smt2(&context.budget)?, Some(file))?;
     }
-    if let Some(file) = &options.coq {
+    if let Some(file) = options.coq.as_ref().filter(|_| WRITES) {
         write_answer(&answer.coq(&context.budget)?, Some(file))?;
     }
     let table = match options.sensitivity {

@@ -6,7 +6,7 @@ use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, question};
 use crate::cli::output::{ending, note, unknown_ending};
-use crate::cli::picture::{DRAWS, pdf, png, write};
+use crate::cli::picture::{WRITES, pdf, png, write};
 use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
@@ -122,7 +122,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         note(&format!("the regions are decided, what limits them is not: {stopped}"));
     }
     match picture {
-        Some(kind) if DRAWS => {
+        Some(kind) if WRITES => {
             let windows = windows(options, &requests);
             context.budget.enter(|| draw(&answer, kind, windows, options, context))??;
         }
@@ -155,10 +155,10 @@ fn picture_of(options: &Options) -> Result<Option<Picture>, Error> {
         return Ok(None);
     };
     match ending(file).as_deref() {
-        Some("svg") if DRAWS => Ok(Some(Picture::Svg)),
-        Some("png") if DRAWS => Ok(Some(Picture::Png)),
-        Some("pdf") if DRAWS => Ok(Some(Picture::Pdf)),
-        Some("html" | "htm") if DRAWS => Ok(Some(Picture::Page)),
+        Some("svg") if WRITES => Ok(Some(Picture::Svg)),
+        Some("png") if WRITES => Ok(Some(Picture::Png)),
+        Some("pdf") if WRITES => Ok(Some(Picture::Pdf)),
+        Some("html" | "htm") if WRITES => Ok(Some(Picture::Page)),
         Some("txt" | "json") | None => Ok(None),
         Some(_) => Err(unknown_ending(file, &["txt", "json", "svg", "png", "pdf", "html"]).into()),
     }

@@ -4,7 +4,7 @@ use super::Context;
 use crate::cli::arguments::OutputOptions;
 use crate::cli::assignments::{AxisRequest, in_line, plain_number};
 use crate::cli::output::ending;
-use crate::cli::picture::{DRAWS, pdf, png, write};
+use crate::cli::picture::{WRITES, pdf, png, write};
 use crate::cli::status::{Error, Outcome, Status};
 use clap::{Args, ValueEnum};
 use jurist_algebra::limits::Exhausted;
@@ -100,7 +100,7 @@ pub(super) fn answer(boxes: &Answer<MapBoxes>, output: &OutputOptions, context: 
     let digits = output.digits() as usize;
     let file = output.output.as_ref().filter(|_| !output.json);
     let kind = file.and_then(|f| ending(f)).filter(|e| ["svg", "png", "pdf", "html", "htm"].contains(&e.as_str()));
-    if DRAWS && let (Some(file), Some(kind)) = (file, kind) {
+    if WRITES && let (Some(file), Some(kind)) = (file, kind) {
         let figure = boxes_figure(boxes, SIZE.0, SIZE.1);
         context.reporter.finish();
         let bytes = match kind.as_str() {

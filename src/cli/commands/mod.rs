@@ -5,6 +5,7 @@ pub(super) mod charpoly;
 pub(super) mod check;
 #[cfg(feature = "cli")]
 pub(super) mod completions;
+#[cfg(feature = "cli")]
 pub(super) mod explain;
 pub(super) mod frequency_response;
 pub(super) mod intervals;
@@ -161,10 +162,10 @@ impl Arguments {
             Some(Command::Verify(options)) => &options.run,
             Some(Command::Check(options)) => &options.run,
             #[cfg(feature = "cli")]
-            Some(Command::Completions(_)) => NONE,
+            Some(Command::Completions(_) | Command::Explain(_)) => NONE,
             #[cfg(not(feature = "cli"))]
             None => NONE,
-            Some(Command::New(_) | Command::Explain(_)) => NONE,
+            Some(Command::New(_)) => NONE,
         }
     }
 }
@@ -199,6 +200,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Verify(options)) => verify::run(options, context),
         Some(Command::Check(options)) => check::run(options, context),
         Some(Command::New(options)) => new::run(options),
+        #[cfg(feature = "cli")]
         Some(Command::Explain(options)) => explain::run(options),
         #[cfg(feature = "cli")]
         Some(Command::Completions(options)) => completions::run(options),

@@ -5,7 +5,7 @@ use crate::cli::arguments::DecisionOptions;
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_name, known_names, load, question};
 use crate::cli::output::{ending, write_answer};
-use crate::cli::picture::{DRAWS, Kind, Picture, deliver};
+use crate::cli::picture::{Kind, Picture, WRITES, deliver};
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::check_certificate;
 use clap::Args;
@@ -104,7 +104,7 @@ fn shown(answer: &Answer<ToleranceAnswer>, picture: Option<Kind>, options: &Opti
             Diagnostic::warning("W-outside-domain", "the box of tolerances reaches the end of a parameter's domain");
         context.warn(None, &[warning]);
     }
-    if let Some(kind) = picture.filter(|_| DRAWS) {
+    if let Some(kind) = picture.filter(|_| WRITES) {
         let figure = tolerance_figure(answer, &context.budget)?;
         context.reporter.finish();
         let table = || shares_table(answer);

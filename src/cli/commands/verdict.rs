@@ -4,6 +4,7 @@ use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::decision;
 use crate::cli::output::write_answer;
+use crate::cli::picture::WRITES;
 use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Outcome, Status};
 use crate::cli::written::check_certificate;
@@ -54,7 +55,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     if let Some((text, file)) = &certificate {
         write_answer(text, Some(file))?;
     }
-    if let Some(file) = &options.coq {
+    if let Some(file) = options.coq.as_ref().filter(|_| WRITES) {
         write_answer(&answer.coq(&context.budget)?, Some(file))?;
     }
     let digits = output.digits() as usize;

@@ -47,13 +47,13 @@ export async function serve() {
   return { url: `http://127.0.0.1:${server.address().port}/`, close };
 }
 
-/** Waits until an expression of the page holds; what it waits for is the page, not a clock. */
+/** Waits until an expression of the page holds; what it waits for is the page, not a clock: the end is for a page that hangs. */
 async function until(browser, expression, what) {
-  for (let k = 0; k < 2400; k++) {
+  for (let k = 0; k < 12000; k++) {
     if (await browser.value(`Boolean(${expression})`).catch(() => false)) return;
     await new Promise((done) => setTimeout(done, 50));
   }
-  throw new Error(`two minutes without: ${what ?? expression}; ${await browser.value("document.body.innerText").catch(() => "")}`);
+  throw new Error(`ten minutes without: ${what ?? expression}; ${await browser.value("document.body.innerText").catch(() => "")}`);
 }
 
 /** A browser with the page open and answered. */
