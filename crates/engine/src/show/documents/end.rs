@@ -120,7 +120,10 @@ pub struct End {
 
 impl End {
     pub(super) fn new(end: &stability::End, problem: &Problem, digits: usize) -> Self {
-        let margin = margin(&end.value, problem.free().first().and_then(|f| f.nominal.as_ref()), digits);
+        // What is only the end of what is known is no margin.
+        let nominal = problem.free().first().and_then(|f| f.nominal.as_ref());
+        let nominal = nominal.filter(|_| !end.causes.contains(stability::Cause::Undecided));
+        let margin = margin(&end.value, nominal, digits);
         End {
             number: Number::new(&end.value, digits),
             cause: end.causes.to_string(),
