@@ -125,7 +125,10 @@ def test_everything_that_is_answered_can_be_pickled(drive):
 
 
 INSIDE = """
-import _thread, jurist, sys, threading, time
+import _thread, jurist, signal, sys, threading, time
+
+# What runs in the background of a shell is deaf to interrupts, and so are the processes it starts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 def inside():
     "Whether the main thread has begun to ask the engine."
