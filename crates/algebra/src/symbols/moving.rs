@@ -116,7 +116,9 @@ impl MovingSymbols {
     }
 
     /// What changes its sign where the argument of a square root does, of the arguments that are rational functions of the parameter:
-    /// where one is negative nothing is defined.
+    /// where one is negative nothing is defined. Arguments with other symbols in them are left out.
+    ///
+    /// Cost: a square-free decomposition for each.
     pub fn signs_under_roots(&self) -> Vec<UniPoly> {
         let arguments = self.table.iter().filter_map(|(_, definition)| match definition {
             Definition::Root(x) => Some([x.numerator().to_univariate(0)?, x.denominator().to_univariate(0)?]),
@@ -290,8 +292,13 @@ impl MovingSymbols {
         Ok(found)
     }
 
-    /// Whether the function is zero there, or that is neither proved nor disproved by some thousand bits.
-    fn may_vanish_at(&self, f: &Function, value: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
+    /// Whether the function is zero at a rational value of the parameter, or that is neither proved nor disproved by some thousand bits.
+    ///
+    /// Cost: as of [`MovingSymbols::vanishes_at`].
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn may_vanish_at(&self, f: &Function, value: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
         match self.vanishes_at(f, value, budget) {
             Err(stopped) if stopped.budget.starts_with("precision") => Ok(true),
             found => found,
@@ -333,7 +340,7 @@ impl MovingSymbols {
         let form = forms.best(self, lo, hi, TERMS, bits);
         for _ in 0..MOST_DOUBLINGS {
             let Some(taylor) = self.taylor(form, lo, hi, TERMS, bits) else {
-                // What has no value in the middle nor at either end has none in between.
+                // Without a value in the middle and at both ends there is little hope for what is between: it stays undecided.
                 let has_none =
                     |x: &Rational| self.series(&Series::constant(&Ball::from_rational(x, bits), 1)).is_none();
                 let is_lost = [lo.clone(), lo.midpoint(hi), hi.clone()].iter().all(has_none);

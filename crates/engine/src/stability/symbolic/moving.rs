@@ -67,7 +67,7 @@ pub(super) fn moving_stable_set(
             found.zeros.extend(beyond.zeros.iter().rev().map(Real::recip));
             let turned = |(lo, hi): (Rational, Rational)| (hi.recip(), lo.recip());
             undecided.extend(beyond.undecided.into_iter().map(turned));
-            if is_or_may_be(symbols.vanishes_at(part, &reach.to, budget))? {
+            if symbols.may_vanish_at(part, &reach.to, budget)? {
                 undecided.push((Some(reach.to.clone()), Some(reach.to.clone())));
             }
         }
@@ -137,17 +137,6 @@ pub(super) fn moving_stable_set(
         UndecidedBracket::new(lo, hi, why)
     });
     Ok(StableSet::from_intervals(stable, brackets.collect()))
-}
-
-/// Whether it is so, or neither proved nor disproved by some thousand bits.
-///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-fn is_or_may_be(found: Result<bool, Exhausted>) -> Result<bool, Exhausted> {
-    match found {
-        Err(stopped) if stopped.budget.starts_with("precision") => Ok(true),
-        found => found,
-    }
 }
 
 /// Two ascending lists as one, each number once. Two that some thousand bits do not tell apart, and no identity shows to be the same,
@@ -410,7 +399,7 @@ impl Examiner<'_> {
         let exact = value.exact().expect("an end of the range is rational");
         let mut held = Vec::new();
         for boundary in self.boundaries {
-            if is_or_may_be(self.symbols.vanishes_at(&boundary.function, &exact, self.budget))? {
+            if self.symbols.may_vanish_at(&boundary.function, &exact, self.budget)? {
                 held.push(boundary.cause);
             }
         }
