@@ -129,13 +129,11 @@ def test_commands_about_every_model_are_the_programs_or_refused_alike(name, mode
         margins = "exp(" not in model and name not in MARGINS_TAKE_LONG
         commands = ["charpoly", "margins"] if margins else ["charpoly"]
         for ask in ([command, "--json"] for command in commands):
-            done = program(ask[0], str(path), *ask[1:], "-q", "--timeout=20")
-            if done.returncode == 3:
-                continue
+            done = program(ask[0], str(path), *ask[1:], "-q")
             try:
                 ours = loop.command(*ask)
             except jurist.JuristError as refused:
-                assert done.returncode == 2
+                assert done.returncode in (2, 3)
                 assert str(refused).splitlines()[0] in done.stderr
             else:
                 assert ours == done.stdout
