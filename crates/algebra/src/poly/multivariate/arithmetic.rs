@@ -246,7 +246,19 @@ impl Domain for MultiPoly {
         super::gcd::gcd(self, other)
     }
     fn primitive_gcd_fast(a: &Poly<Self>, b: &Poly<Self>) -> Option<Poly<Self>> {
-        coefficients_are_coprime(a, b).then(Poly::one)
+        if coefficients_are_coprime(a, b) {
+            return Some(Poly::one());
+        }
+        // With the unknown as variable 0.
+        let over = |p: &Poly<Self>| {
+            let shifted = p.map(|c| c.map_variables(|i| i + 1));
+            MultiPoly::from_poly_in(&shifted, 0).primitive_over_integers()
+        };
+        let (a, b) = (over(a), over(b));
+        let mut variables = a.variables();
+        variables.extend(b.variables().into_iter().filter(|&j| a.degree_in(j) == 0));
+        let g = super::gcd::gcd_in_fewer_variables(&a, &b, &variables)?;
+        Some(g.as_poly_in(0).map(|c| c.map_variables(|i| i - 1)))
     }
     fn resultant_fast(a: &Poly<Self>, n: usize, b: &Poly<Self>, m: usize) -> Option<Self> {
         crate::poly::modular::multimodular_resultant::over_multivariate(a, n, b, m)

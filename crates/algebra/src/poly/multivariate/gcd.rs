@@ -1,8 +1,10 @@
 //! Greatest common divisors.
 
-use super::MultiPoly;
-use super::lines::are_coprime;
+use super::lines::are_coprime_in;
+use super::{Monomial, MultiPoly};
+use crate::number::Integer;
 use crate::poly::{Domain, Poly, UniPoly};
+use std::collections::BTreeMap;
 
 /// The greatest common divisor over the integers, contents included, with a positive leading
 /// coefficient; `gcd(0, 0) = 0`.
@@ -45,8 +47,10 @@ fn primitive_gcd(a: &MultiPoly, b: &MultiPoly) -> MultiPoly {
             let single = |p: &MultiPoly| p.to_univariate(i).expect("no other variable occurs");
             MultiPoly::from_univariate(&single(a).gcd(&single(b)), i)
         }
-        several if are_coprime(a, b, several) => MultiPoly::one(),
         several => {
+            if let Some(g) = gcd_in_fewer_variables(a, b, several) {
+                return g;
+            }
             if a.terms().len() <= b.terms().len() && b.div_exact(a).is_some() {
                 return a.clone();
             }
@@ -62,6 +66,40 @@ fn primitive_gcd(a: &MultiPoly, b: &MultiPoly) -> MultiPoly {
             }
         }
     }
+}
+
+/// The gcd of polynomials of integer content 1 in the same variables, where lines show that some of these do not occur in
+/// it: it divides the coefficients of both as polynomials in these.
+pub(super) fn gcd_in_fewer_variables(a: &MultiPoly, b: &MultiPoly, variables: &[usize]) -> Option<MultiPoly> {
+    let left: Vec<usize> = variables.iter().copied().filter(|&j| !are_coprime_in(a, b, j)).collect();
+    if left.len() == variables.len() {
+        return None;
+    }
+    if left.is_empty() {
+        return Some(MultiPoly::one());
+    }
+    let mut coefficients = coefficients_over(a, &left);
+    coefficients.extend(coefficients_over(b, &left));
+    coefficients.sort_by_key(|c| c.terms().len());
+    let mut g = MultiPoly::zero();
+    for c in coefficients {
+        g = g.gcd(&c);
+        if g.is_constant() {
+            return Some(MultiPoly::one());
+        }
+    }
+    Some(g.primitive_over_integers())
+}
+
+/// The coefficients of a polynomial in the variables that are not in a list, polynomials in those of the list.
+fn coefficients_over(p: &MultiPoly, list: &[usize]) -> Vec<MultiPoly> {
+    let mut groups: BTreeMap<Vec<u32>, Vec<(Vec<u32>, Integer)>> = BTreeMap::new();
+    for (monomial, c) in p.terms() {
+        let outside = list.iter().fold(monomial.clone(), |m: Monomial, &i| m.with_exponent(i, 0));
+        let inside = monomial.checked_div(&outside).expect("a part of it");
+        groups.entry(outside.exponents().to_vec()).or_default().push((inside.exponents().to_vec(), c.clone()));
+    }
+    groups.into_values().map(MultiPoly::from_terms).collect()
 }
 
 /// The gcd of `a` and the coefficients of `b` as a polynomial in variable `i`, which does not
@@ -91,4 +129,39 @@ fn gcd_in_main_variable(a: &MultiPoly, b: &MultiPoly, main: usize) -> MultiPoly 
     let (a, b): (Poly<MultiPoly>, Poly<MultiPoly>) = (a.as_poly_in(main), b.as_poly_in(main));
     let g = MultiPoly::from_poly_in(&a.gcd(&b), main);
     if g.needs_negation() { g.negated() } else { g }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::poly::gcd::primitive_gcd_subresultant;
+
+    /// Common factors in one, two and three of four variables, with other factors in all, against the subresultant sequence.
+    #[test]
+    fn a_divisor_in_fewer_variables_is_found_among_the_coefficients() {
+        let [x, y, z, w] = [0, 1, 2, 3].map(MultiPoly::variable);
+        let one = MultiPoly::one();
+        let common = [
+            x.minus(&MultiPoly::constant(Integer::from(2))),
+            y.times(&y).plus(&one),
+            x.times(&y).plus(&MultiPoly::constant(Integer::from(3))),
+            x.times(&z).minus(&y).plus(&one),
+            one.clone(),
+        ];
+        let a = x.times(&y).plus(&z.times(&w)).plus(&one);
+        let b = x.times(&x).times(&w).minus(&y.times(&z)).plus(&w);
+        for f in &common {
+            for g in &common {
+                let expected = f.times(g).primitive_over_integers();
+                let (a, b) = (a.times(&expected), b.times(&expected));
+                assert_eq!(gcd(&a, &b), if expected.needs_negation() { expected.negated() } else { expected.clone() });
+                // The same as polynomials in x with coefficients in the others, which are numbered from 0.
+                let dense = |p: &MultiPoly| p.as_poly_in(0).map(|c| c.map_variables(|i| i - 1));
+                let (a, b) = (dense(&a).primitive_part(), dense(&b).primitive_part());
+                let found = Domain::gcd(&a, &b).primitive_part();
+                assert_eq!(found, primitive_gcd_subresultant(&a, &b).primitive_part());
+                assert!(MultiPoly::primitive_gcd_fast(&a, &b).is_some_and(|g| g.primitive_part() == found));
+            }
+        }
+    }
 }

@@ -56,11 +56,6 @@ pub fn are_coprime_in(a: &MultiPoly, b: &MultiPoly, j: usize) -> bool {
     lines().any(|line| on(line) == Some(true))
 }
 
-/// Whether it is shown that two polynomials in the same variables have no common factor that is not a number.
-pub(super) fn are_coprime(a: &MultiPoly, b: &MultiPoly, variables: &[usize]) -> bool {
-    variables.iter().all(|&j| are_coprime_in(a, b, j))
-}
-
 /// Whether it is shown that two polynomials with coefficients in several variables have no common factor but one of numbers
 /// and of these variables.
 pub(super) fn coefficients_are_coprime(a: &Poly<MultiPoly>, b: &Poly<MultiPoly>) -> bool {
