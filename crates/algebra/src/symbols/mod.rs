@@ -19,6 +19,7 @@ mod normal_form;
 mod rational_series;
 mod root;
 mod roots;
+mod scales;
 mod sign;
 mod specialise;
 

@@ -3,9 +3,10 @@
 use super::forms::{Form, Forms};
 use super::function::polynomial_at;
 use super::moving_root::MovingRoot;
+use super::scales::{between_scales, exponent, joined, octaves};
 use super::{Definition, Function, Symbols};
 use crate::ball::{Ball, Series, fundamental_solutions};
-use crate::limits::{Budget, Exhausted};
+use crate::limits::{Budget, Exhausted, parallel_map};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::algebraic::simplest_between;
 use crate::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
@@ -59,8 +60,11 @@ const MOST_ORDER: usize = 32;
 /// Exponents beyond this are not enclosed over an interval.
 const LARGEST: i64 = 1 << 13;
 
+/// So many intervals are looked at side by side, however many threads there are: work is counted, and what it decides is the same.
+const BATCH: usize = 4;
+
 /// After so many intervals what is left stays undecided.
-const MOST_LOOKS: u64 = 4000;
+const MOST_LOOKS: usize = 4000;
 
 /// After so much work, in the units of [`checkpoint`](crate::limits::checkpoint), what is left stays undecided: some seconds.
 const MOST_WORK: u64 = 250_000_000;
@@ -259,24 +263,33 @@ impl MovingSymbols {
         // Counted, not timed: the same model has the same answer on every machine.
         let work = Budget::with_work(MOST_WORK);
         let mut looks = 0;
-        while let Some(Reverse((_, lo, hi, halvings))) = todo.pop() {
+        while !todo.is_empty() {
             budget.check()?;
-            looks += 1;
-            let is_last = halvings == MOST_HALVINGS || looks > MOST_LOOKS || work.check().is_err();
-            match budget.enter(|| work.enter(|| self.look(f, &forms, &lo, &hi)))?.unwrap_or(Look::Hopeless) {
-                Look::None => {}
-                Look::One => brackets.push((lo, hi)),
-                Look::Hopeless => found.undecided.push((lo, hi)),
+            let batch: Vec<_> =
+                (0..BATCH).map_while(|_| todo.pop()).map(|Reverse((_, lo, hi, n))| (lo, hi, n)).collect();
+            looks += batch.len();
+            let is_last = looks > MOST_LOOKS;
+            let one = |(lo, hi, halvings): (Rational, Rational, i64)| {
                 // Towards 0 there is no end of octaves.
-                Look::Unknown if is_open && hi < *near && octaves(&lo, &hi, near) > MOST_OCTAVES => {
-                    found.undecided.push((lo, hi));
-                }
-                Look::Unknown if is_last => found.undecided.push((lo, hi)),
-                Look::Unknown => {
-                    let middle = budget.enter(|| self.split_point(f, &lo, &hi, near))?;
-                    for (lo, hi) in [(lo, middle.clone()), (middle, hi)] {
-                        todo.push(Reverse((2 * octaves(&lo, &hi, near) + halvings, lo, hi, halvings + 1)));
+                let is_far = || is_open && hi < *near && octaves(&lo, &hi, near) > MOST_OCTAVES;
+                let look = self.look(f, &forms, &lo, &hi);
+                let goes_on = matches!(look, Look::Unknown) && !is_last && halvings < MOST_HALVINGS && !is_far();
+                let middle = goes_on.then(|| self.split_point(f, &lo, &hi, near));
+                (look, middle)
+            };
+            let nothing = || batch.iter().map(|_| (Look::Unknown, None)).collect();
+            let seen: Vec<_> =
+                budget.enter(|| work.enter(|| parallel_map(batch.clone(), one)))?.unwrap_or_else(|_| nothing());
+            for ((lo, hi, halvings), (look, middle)) in batch.into_iter().zip(seen) {
+                match (look, middle) {
+                    (Look::None, _) => {}
+                    (Look::One, _) => brackets.push((lo, hi)),
+                    (Look::Unknown, Some(middle)) => {
+                        for (lo, hi) in [(lo, middle.clone()), (middle, hi)] {
+                            todo.push(Reverse((2 * octaves(&lo, &hi, near) + halvings, lo, hi, halvings + 1)));
+                        }
                     }
+                    _ => found.undecided.push((lo, hi)),
                 }
             }
         }
@@ -420,51 +433,6 @@ impl MovingSymbols {
     }
 }
 
-/// The exponent of the power of two near to a number that is not zero.
-fn exponent(x: &Rational) -> i64 {
-    x.numerator().bit_length() as i64 - x.denominator().bit_length() as i64
-}
-
-/// Ends on a side of zero are far apart from this many octaves on.
-const FAR: i64 = 3;
-
-/// What is nearer to zero than the usual value by this many octaves is divided from what is not.
-const SMALL: i64 = 8;
-
-/// A number about the geometric mean of ends that are far apart, as what happens at small values of a parameter happens on a
-/// small scale; none where they are not.
-fn between_scales(lo: &Rational, hi: &Rational, near: &Rational) -> Option<Rational> {
-    let power = |exponent: i64| Rational::from(2).pow(exponent).expect("two is not zero");
-    let small = if near.is_zero() { 0 } else { exponent(near) } - SMALL;
-    let of_positive = |lo: &Rational, hi: &Rational| {
-        let high = exponent(hi);
-        let low = if lo.is_zero() { small.min(high - FAR) } else { exponent(lo) };
-        (high - low >= FAR).then(|| power((low + high).div_euclid(2)))
-    };
-    if !lo.is_negative() {
-        return of_positive(lo, hi);
-    }
-    if hi.sign().is_le() {
-        return of_positive(&-hi, &-lo).map(|x| -x);
-    }
-    // Zero stays inside of a small interval: there may be a pole or a zero.
-    let [above, below] = [hi, &-lo].map(|end| exponent(end) > small + 1);
-    (above || below).then(|| if above { power(small) } else { -power(small) })
-}
-
-/// How many octaves an interval is away from a number; many where zero lies between.
-fn octaves(lo: &Rational, hi: &Rational, near: &Rational) -> i64 {
-    const OTHER_SIDE: i64 = 12;
-    if lo <= near && near <= hi {
-        return 0;
-    }
-    let closest = if near < lo { lo } else { hi };
-    match (closest.sign(), near.sign()) {
-        (a, b) if a == b && a.is_ne() => (exponent(closest) - exponent(near)).abs(),
-        _ => OTHER_SIDE,
-    }
-}
-
 /// Whether exponentials of a companion matrix anywhere in these balls may have too many bits to be of use.
 fn is_too_large(coefficients: &[Series], time: &Series) -> bool {
     let size = |s: &Series| s.coefficients()[0].upper().abs().max(s.coefficients()[0].lower().abs());
@@ -486,16 +454,4 @@ enum Look {
     Unknown,
     /// Nothing, and no more of a shorter interval: the numbers would have too many bits.
     Hopeless,
-}
-
-/// Intervals that touch, as one.
-fn joined(intervals: Vec<(Rational, Rational)>) -> Vec<(Rational, Rational)> {
-    let mut out: Vec<(Rational, Rational)> = Vec::new();
-    for (lo, hi) in intervals {
-        match out.last_mut() {
-            Some(last) if last.1 >= lo => last.1 = hi.max(last.1.clone()),
-            _ => out.push((lo, hi)),
-        }
-    }
-    out
 }

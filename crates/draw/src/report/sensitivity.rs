@@ -5,12 +5,12 @@ use super::part::{Missing, Part, Parts, Work};
 use super::{around_nominal, limit_text, percent_change};
 use crate::page::{Table, math, paragraph};
 use jurist_algebra::limits::parallel_map;
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::real::Real;
 use jurist_engine::answer::Answer;
 use jurist_engine::problem::Question;
 use jurist_engine::show::layout::short;
-use jurist_engine::stability::{End, StableSet};
+use jurist_engine::stability::{End, Range, StableSet};
 
 /// Digits of the limits in the tables, and those to which a limit counts as not moved.
 const DIGITS: (usize, usize) = (7, 12);
@@ -87,13 +87,26 @@ fn of_parameter(question: &Question, limits: &Limits, work: u64, parts: &Parts<'
     if list.is_empty() {
         return heading + &paragraph("The model has no other number that could move them.");
     }
+    let near = near(answer, &base, shown);
     parts.budget().step(&format!("what moves the limits of {}", limits.name));
     let share = parts.budget().share(1, 2).silent();
     let jobs: Vec<(usize, i64)> = (0..list.len()).flat_map(|k| [(k, 90), (k, 110)]).collect();
     let found: Vec<Part<Ends>> = parallel_map(jobs, |(k, percent): (usize, i64)| {
         let value = &list[k].nominal * &Rational::new(percent.into(), 100.into());
         let asked = question.clone().set(&list[k].name, value).free(&limits.name);
-        parts.within(&share, Work::Units(work), |budget| Ok(ends(&asked.stable_set(budget)?)))
+        parts.within(&share, Work::Units(work), |budget| {
+            // Mostly a limit moves little; what happens far away is another question, and may be a long one.
+            if let Some(near) = &near {
+                let answer = asked.clone().domain(&limits.name, near.clone()).stable_set(budget)?;
+                if let Some(around) = around_nominal(&answer)
+                    && !(shown[0] && !binds(around.lower.as_ref()))
+                    && !(shown[1] && !binds(around.upper.as_ref()))
+                {
+                    return Ok(ends(&answer));
+                }
+            }
+            Ok(ends(&asked.stable_set(budget)?))
+        })
     });
     let (table, still) = table(&limits.name, &base, shown, &list, &found);
     let mut html = heading + &table.html();
@@ -103,6 +116,27 @@ fn of_parameter(question: &Question, limits: &Limits, work: u64, parts: &Parts<'
     }
     let missing = found.iter().find_map(|f| f.as_ref().err());
     html + &missing.map(Missing::html).unwrap_or_default()
+}
+
+/// From the nominal value to twice as far away as each limit that is shown, as far as the domain goes.
+fn near(answer: &Answer<StableSet>, base: &[Option<Real>; 2], shown: [bool; 2]) -> Option<Range> {
+    let free = answer.problem().parameter();
+    let nominal = free.nominal.as_ref()?;
+    let distance = |side: usize| {
+        let (lo, hi) = base[side].as_ref().filter(|_| shown[side])?.refined_to_digits(3).enclosure();
+        Some((if side == 0 { nominal - lo } else { hi - nominal }) * Rational::from(2))
+    };
+    let least = [distance(0), distance(1)].into_iter().flatten().min()?;
+    let [below, above] =
+        [0, 1].map(|side| distance(side).unwrap_or_else(|| &least * &Rational::dyadic(&Integer::ONE, 4)));
+    let (mut lower, mut upper) = (nominal - below, nominal + above);
+    if let Some(end) = &free.domain.lower {
+        lower = lower.max(end.clone());
+    }
+    if let Some(end) = &free.domain.upper {
+        upper = upper.min(end.clone());
+    }
+    Some(Range::between(Some(lower), Some(upper)))
 }
 
 /// The rows of the numbers that move a limit, and the names of those that do not.

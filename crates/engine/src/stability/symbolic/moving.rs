@@ -6,7 +6,7 @@ use super::set::{Place, coprime, intervals, named_end};
 use super::{Condition, MOST_EXPANDED, SymbolicPolynomial};
 use crate::stability::{Cause, Causes, End, Range, Shape, StableSet, UndecidedBracket};
 use jurist_algebra::ball::Ball;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::multivariate::is_square_free_in;
 use jurist_algebra::poly::{Domain, MultiPoly, SquareFree, UniPoly, isolate_real_roots_in};
@@ -58,21 +58,13 @@ pub(super) fn moving_stable_set(
     }
     let mut from: Vec<(usize, Real)> = Vec::new();
     let mut undecided: Vec<Bracket> = reach.undecided.clone();
-    for (k, part) in basis.iter().enumerate() {
-        let mut found = symbols.zeros_in(part, &reach.from, &reach.to, &p.usual, budget)?;
-        undecided.extend(found.undecided.into_iter().map(|(lo, hi)| (Some(lo), Some(hi))));
-        if let Some(inverted) = &reach.inverted {
-            let one_over = reach.to.recip().expect("a positive number");
-            let beyond = inverted.zeros_in(&part.inverted(), &Rational::ZERO, &one_over, &one_over, budget)?;
-            found.zeros.extend(beyond.zeros.iter().rev().map(Real::recip));
-            let turned = |(lo, hi): (Rational, Rational)| (hi.recip(), lo.recip());
-            undecided.extend(beyond.undecided.into_iter().map(turned));
-            if symbols.may_vanish_at(part, &reach.to, budget)? {
-                undecided.push((Some(reach.to.clone()), Some(reach.to.clone())));
-            }
-        }
-        from.extend(found.zeros.iter().map(|zero| (k, zero.clone())));
-        all = told_apart(all, found.zeros, &mut undecided, budget)?;
+    let found: Vec<Result<Zeros, Exhausted>> =
+        parallel_map(basis.iter().collect::<Vec<_>>(), |part| zeros_of(part, symbols, &reach, &p.usual, budget));
+    for (k, found) in found.into_iter().enumerate() {
+        let (zeros, brackets) = found?;
+        undecided.extend(brackets);
+        from.extend(zeros.iter().map(|zero| (k, zero.clone())));
+        all = told_apart(all, zeros, &mut undecided, budget)?;
     }
     let zeros: Vec<Zero> = all
         .into_iter()
@@ -137,6 +129,32 @@ pub(super) fn moving_stable_set(
         UndecidedBracket::new(lo, hi, why)
     });
     Ok(StableSet::from_intervals(stable, brackets.collect()))
+}
+
+/// Zeros, ascending, and what may have others.
+type Zeros = (Vec<Real>, Vec<Bracket>);
+
+/// The zeros of a function as far as the reach goes.
+fn zeros_of(
+    part: &Function,
+    symbols: &Arc<MovingSymbols>,
+    reach: &Reach,
+    usual: &Rational,
+    budget: &Budget,
+) -> Result<Zeros, Exhausted> {
+    let found = symbols.zeros_in(part, &reach.from, &reach.to, usual, budget)?;
+    let mut zeros = found.zeros;
+    let mut undecided: Vec<Bracket> = found.undecided.into_iter().map(|(lo, hi)| (Some(lo), Some(hi))).collect();
+    if let Some(inverted) = &reach.inverted {
+        let one_over = reach.to.recip().expect("a positive number");
+        let beyond = inverted.zeros_in(&part.inverted(), &Rational::ZERO, &one_over, &one_over, budget)?;
+        zeros.extend(beyond.zeros.iter().rev().map(Real::recip));
+        undecided.extend(beyond.undecided.into_iter().map(|(lo, hi)| (hi.recip(), lo.recip())));
+        if symbols.may_vanish_at(part, &reach.to, budget)? {
+            undecided.push((Some(reach.to.clone()), Some(reach.to.clone())));
+        }
+    }
+    Ok((zeros, undecided))
 }
 
 /// Two ascending lists as one, each number once. Two that some thousand bits do not tell apart, and no identity shows to be the same,
