@@ -1,6 +1,6 @@
 //! The program about loops with dead time; their limits are in the corpus and in the library's own tests.
 
-use crate::helpers::program::{jurist, jurist_with_input};
+use crate::helpers::program::{json, jurist, jurist_with_input};
 use serde_json::Value;
 
 #[test]
@@ -40,9 +40,20 @@ fn other_commands_say_that_they_do_not_know_dead_time_yet() {
     for arguments in [
         vec!["jury", "examples/dead-time-pi.toml", "--param", "K_c"],
         vec!["map", "examples/dead-time-pi.toml", "-x", "K_c", "-y", "theta"],
-        vec!["simulate", "examples/dead-time-pi.toml"],
+        vec!["locus", "examples/dead-time-pi.toml", "--param", "K_c"],
     ] {
         let run = jurist(&arguments);
         assert!(run.stderr.contains("E-dead-time"), "{arguments:?}: {}", run.stderr);
     }
+}
+
+#[test]
+fn a_response_begins_after_the_dead_time_and_settles_where_the_loop_does() {
+    let document = json(&["simulate", "examples/dead-time-pi.toml", "--input", "r=1", "--duration", "100", "--json"]);
+    let signals = document["signals"].as_array().unwrap();
+    let y = signals.iter().find(|s| s["name"] == "y").unwrap()["values"].as_array().unwrap();
+    let value = |k: usize| y[k].as_f64().unwrap();
+    assert_eq!(y.len(), 2001);
+    // 3 seconds are 60 points; the integral brings it to 1.
+    assert!((0..=60).all(|k| value(k) == 0.0) && value(70) > 0.0 && (value(2000) - 1.0).abs() < 1e-3);
 }

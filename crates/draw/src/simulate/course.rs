@@ -1,7 +1,7 @@
 //! What a simulation is given, and the run of the linear loop under it.
 
 use super::sampled::simulation_error;
-use super::{SampledModel, Trace, excitation, natural_duration, signal_unit};
+use super::{DelayedModel, SampledModel, Trace, excitation, natural_duration, signal_unit};
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::{Diagnostic, Error};
 use jurist_engine::model::Model;
@@ -114,7 +114,7 @@ impl Course {
     /// The run of the linear loop, sampled finely where the loop is continuous.
     ///
     /// # Errors
-    /// [`Error`] as [`SampledModel::from_loop`], [`excitation`] and [`Course::samples`]; stopped.
+    /// [`Error`] as [`SampledModel::from_loop`], [`DelayedModel::from_loop`], [`excitation`] and [`Course::samples`]; stopped.
     pub fn run(&self, problem: &Problem, budget: &Budget) -> Result<LinearRun, Error> {
         self.run_within(problem, MOST_SAMPLES, budget)
     }
@@ -124,7 +124,11 @@ impl Course {
     /// # Errors
     /// [`Error`] as [`Course::run`].
     pub fn run_within(&self, problem: &Problem, most: f64, budget: &Budget) -> Result<LinearRun, Error> {
-        let system = SampledModel::from_loop(problem, self.duration / CONTINUOUS_SAMPLES, budget)?;
+        let step = self.duration / CONTINUOUS_SAMPLES;
+        if let Some(system) = DelayedModel::from_loop(problem, step, budget)? {
+            return self.run_delayed(problem, &system, budget);
+        }
+        let system = SampledModel::from_loop(problem, step, budget)?;
         let at = |name: &str| system.state_named(name);
         let steps = self.steps(system.sample_time);
         let drive = excitation(at, system.states.len(), &system.inputs, &self.initial, &steps)?;
@@ -136,5 +140,18 @@ impl Course {
         let finals = if constant { system.final_values(&drive.inputs_at(0, system.inputs.len())) } else { Vec::new() };
         let trace = trace.with_units(|name| signal_unit(problem.model(), name));
         Ok(LinearRun { trace, sample_time: sampled.then_some(system.sample_time), finals, is_complete })
+    }
+
+    fn run_delayed(&self, problem: &Problem, system: &DelayedModel, budget: &Budget) -> Result<LinearRun, Error> {
+        let at = |name: &str| system.state_named(name);
+        let steps = self.steps(system.step);
+        let drive = excitation(at, system.states.len(), &system.inputs, &self.initial, &steps)?;
+        let points = self.samples(system.step)?;
+        let trace = system.simulate_within(&drive, points, budget)?;
+        let is_complete = trace.time.len() > points;
+        let constant = drive.steps.iter().all(|s| s.sample == 0);
+        let finals = if constant { system.final_values(&drive.inputs_at(0, system.inputs.len())) } else { Vec::new() };
+        let trace = trace.with_units(|name| signal_unit(problem.model(), name));
+        Ok(LinearRun { trace, sample_time: None, finals, is_complete })
     }
 }

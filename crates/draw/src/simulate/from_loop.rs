@@ -26,17 +26,12 @@ pub(super) fn rounded(matrix: &RationalMatrix, symbols: &[f64]) -> Result<DMatri
     Ok(DMatrix::from_row_slice(matrix.rows(), matrix.columns(), &values))
 }
 
-/// `E-dead-time`: what has no finite number of states is not simulated.
-pub(super) fn refuse_dead_time(symbols: &Symbols) -> Result<(), Error> {
+/// `E-dead-time`: what has no finite number of states.
+fn refuse_dead_time(symbols: &Symbols) -> Result<(), Error> {
     if symbols.delays().is_empty() {
         return Ok(());
     }
-    let error = Diagnostic::error("E-dead-time", "a loop with dead time is not simulated yet");
-    Err(error
-        .help(
-            "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, report",
-        )
-        .into())
+    Err(Diagnostic::error("E-dead-time", "a loop with dead time has no finite number of states").into())
 }
 
 impl SampledModel {
@@ -46,7 +41,8 @@ impl SampledModel {
     /// sampled every `step` seconds, exactly for inputs that are constant in between.
     ///
     /// # Errors
-    /// [`Error`] as for the closed loop; `E-simulation` when the step is not positive.
+    /// [`Error`] as for the closed loop; `E-simulation` when the step is not positive; `E-dead-time` for a loop with dead
+    /// time, which is a [`DelayedModel`](super::DelayedModel).
     pub fn from_loop(problem: &Problem, step: f64, budget: &Budget) -> Result<SampledModel, Error> {
         let (ClosedLoop { a, e, c, d, states, inputs, outputs, .. }, symbols) =
             problem.closed_loop_over_symbols(budget)?;

@@ -6,12 +6,14 @@
 //!
 //! - [`SampledModel`]: the sampled linear model, `x(n+1) = A x(n) + E r(n)`; [`exact_response`] is
 //!   the same recursion over the rationals, for short runs.
+//! - [`DelayedModel`]: a continuous loop with dead time, by the method of steps.
 //! - [`SwitchedModel`]: the circuit itself, with its switching instants, ripple and saturation.
 //! - [`roots`]: all complex roots of an exact polynomial, right to plotting accuracy.
 //! - [`RootLocus`]: the roots as one parameter moves, followed by continuity.
 
 mod assignment;
 mod course;
+mod delayed;
 mod exact;
 mod exponential;
 mod fixed;
@@ -24,6 +26,7 @@ mod switched;
 mod trace;
 
 pub use course::{Course, LinearRun};
+pub use delayed::DelayedModel;
 pub use exact::exact_response;
 pub use exponential::{Exponential, StateIntegral};
 pub use from_loop::{excitation, signal_unit};

@@ -1,7 +1,7 @@
 //! What a step response shows: how long to look at it, where it ends, how far beyond that it goes.
 
-use super::from_loop::{refuse_dead_time, rounded};
-use super::{Trace, eigenvalues};
+use super::from_loop::rounded;
+use super::{DelayedModel, Trace, eigenvalues};
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::Error;
 use jurist_engine::model::{Time, value_approximate};
@@ -10,6 +10,8 @@ use nalgebra::Complex;
 
 /// Time constants of the slowest root that are looked at: the rest is below 1 %.
 const TIME_CONSTANTS: f64 = 5.0;
+/// Dead times that are looked at, at least.
+const DEAD_TIMES: f64 = 10.0;
 /// A root that grows is looked at until it is this many times as large.
 const GROWTH: f64 = 20.0;
 /// Rates below this share of the fastest are taken for roots on the boundary, which set no time.
@@ -19,13 +21,18 @@ const BAND: f64 = 0.02;
 
 /// How long the slowest root of a closed loop needs to die away, or the fastest that grows to grow: in seconds, or in
 /// samples where the model names no sample time; rounded up to 1, 2 or 5 times a power of ten. `None` where nothing
-/// sets a time.
+/// sets a time. With dead time: what the loop without its dead times needs, and at least ten of them.
 ///
 /// # Errors
 /// [`Error`] as for the closed loop.
 pub fn natural_duration(problem: &Problem, budget: &Budget) -> Result<Option<f64>, Error> {
     let (closed_loop, symbols) = problem.closed_loop_over_symbols(budget)?;
-    refuse_dead_time(symbols)?;
+    if let Some(delayed) = DelayedModel::from_loop(problem, 1.0, budget)? {
+        let roots = eigenvalues(&delayed.without_dead_time()).unwrap_or_default();
+        let own = duration(&roots.iter().map(|z| z.re).collect::<Vec<_>>()).unwrap_or(0.0);
+        let long = own.max(DEAD_TIMES * delayed.longest_dead_time());
+        return Ok((long > 0.0).then(|| rounded_up(long)));
+    }
     let symbols = symbols.values_approximate(&[]);
     let Some(roots) = eigenvalues(&rounded(&closed_loop.a, &symbols)?) else { return Ok(None) };
     let sample_time = match problem.algebra_over_symbols(budget)?.sample_time() {
