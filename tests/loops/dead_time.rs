@@ -39,7 +39,7 @@ fn a_sum_of_fractions_gains_no_factor_in_the_delay() {
 fn other_commands_say_that_they_do_not_know_dead_time_yet() {
     for arguments in [
         vec!["jury", "examples/dead-time-pi.toml", "--param", "K_c"],
-        vec!["map", "examples/dead-time-pi.toml", "-x", "K_c", "-y", "theta"],
+        vec!["map", "examples/dead-time-pi.toml", "-x", "K_c", "-y", "theta", "--method", "exact"],
         vec!["locus", "examples/dead-time-pi.toml", "--param", "K_c"],
     ] {
         let run = jurist(&arguments);
@@ -56,4 +56,17 @@ fn a_response_begins_after_the_dead_time_and_settles_where_the_loop_does() {
     assert_eq!(y.len(), 2001);
     // 3 seconds are 60 points; the integral brings it to 1.
     assert!((0..=60).all(|k| value(k) == 0.0) && value(70) > 0.0 && (value(2000) - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn a_map_of_a_loop_with_dead_time_is_made_of_boxes() {
+    let window = ["-x", "K_c=0.1..5", "-y", "theta=1..8", "--undecided", "0.4", "--json"];
+    let document = json(&[&["map", "examples/dead-time-pi.toml"], &window[..]].concat());
+    assert_eq!(document["schema"], "jurist/map-boxes/1");
+    let boxes = document["boxes"].as_array().unwrap();
+    let with = |verdict: &str| boxes.iter().filter(|b| b["verdict"] == verdict).count();
+    assert!(with("stable") > 0 && with("unstable") > 0, "{}", boxes.len());
+    // Where there is no window there are no boxes.
+    let run = jurist(&["map", "examples/dead-time-pi.toml", "-x", "K_c", "-y", "theta"]);
+    assert!(run.stderr.contains("boxes need a window of 'K_c' with two ends"), "{}", run.stderr);
 }

@@ -132,6 +132,8 @@ impl Problem {
 
     /// The stable region in the plane of the two free parameters by a method of choice.
     ///
+    /// Loops with dead time have boxes only.
+    ///
     /// Cost: of the exact decomposition that of [`Problem::map`]; of boxes
     /// ([ZettlerGarloff1998](jurist_algebra::bibliography#zettlergarloff1998)) about `1/h` of side `h` along each
     /// boundary curve, halved at the product of the curve's degrees times their sum.
@@ -153,6 +155,16 @@ impl Problem {
                 let map = self.described(part.enter(|| self.decomposed(part))??, digits, budget)?;
                 Ok(MapOrBoxes::Exact(Box::new(map)))
             };
+            let share = || budget.share(SUBDIVISION.0, SUBDIVISION.1);
+            let found = |boxes: BoxMap| {
+                let value = MapBoxes { goal: request.undecided.clone(), boxes };
+                MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value)))
+            };
+            if method != MapMethod::Exact
+                && let Some(plane) = self.delayed_plane(budget)?
+            {
+                return Ok(found(plane.boxes(&window_of(self, request)?, &request.undecided, &share())?));
+            }
             let window = match (method, window_of(self, request)) {
                 (MapMethod::Exact, _) => return exact(budget),
                 (MapMethod::Boxes, Err(refusal)) => return Err(refusal),
@@ -169,10 +181,7 @@ impl Problem {
                     answered => return answered,
                 }
             }
-            let share = budget.share(SUBDIVISION.0, SUBDIVISION.1);
-            let boxes = stability_boxes(p, &window, self.shape(), &request.undecided, &share)?;
-            let value = MapBoxes { goal: request.undecided.clone(), boxes };
-            Ok(MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value))))
+            Ok(found(stability_boxes(p, &window, self.shape(), &request.undecided, &share())?))
         })?
     }
 }
@@ -206,3 +215,6 @@ fn window_of(question: &Problem, request: &BoxRequest) -> Result<Window, Error> 
     }
     Ok(Window::new(&sides[0], &sides[1]).expect("both sides are bounded and not empty"))
 }
+
+#[cfg(test)]
+mod tests;

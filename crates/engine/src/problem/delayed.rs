@@ -38,8 +38,7 @@ pub enum BaseDelay {
 
 /// The refusal of a question that is not known of loops with dead time.
 pub(crate) fn not_known() -> Error {
-    let help =
-        "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, report";
+    let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, map by boxes, report";
     refused("this cannot be asked of a loop with dead time yet", help)
 }
 
@@ -59,8 +58,8 @@ impl DelayedLoop {
         }
         let free = problem.free().len();
         if free > 1 {
-            let help = "ask for one parameter: 'intervals --param NAME'";
-            return Err(refused("two parameters cannot be free in a loop with dead time yet", help));
+            let help = "ask for one parameter, 'intervals --param NAME', or for a map by boxes";
+            return Err(refused("this cannot be asked of two parameters in a loop with dead time yet", help));
         }
         let (delay, powers) = base_delay(&delays)?;
         // A decay rate that is asked for is one more variable before the symbols.
@@ -71,19 +70,7 @@ impl DelayedLoop {
             Bound::Free => Line { slope: Rational::ONE, offset: Rational::ZERO },
         };
         budget.enter(|| {
-            let mut scaled = polynomial.coefficients.clone();
-            let mut common = MultiPoly::one();
-            for f in &scaled {
-                let d = f.denominator();
-                let g = common.gcd(d);
-                common = common.times(&d.div_exact(&g).expect("a common divisor divides"));
-            }
-            if common.variables().into_iter().any(|v| power_of(v).is_some()) {
-                let help = "multiply the equation by its denominators";
-                return Err(refused("the characteristic function divides by an expression in exp(-tau*s)", help));
-            }
-            let factor = RationalFunction::from(common.clone());
-            scaled.iter_mut().for_each(|f| *f = &*f * &factor);
+            let (scaled, common) = cleared(&polynomial.coefficients, |v| power_of(v).is_some())?;
             let mut parts: Vec<Vec<UniPoly>> = Vec::new();
             let order = scaled.len();
             for (j, f) in scaled.iter().enumerate() {
@@ -193,6 +180,25 @@ impl DelayedLoop {
         };
         Some(GainLoop::new(part(0), part(1), tau.clone()))
     }
+}
+
+/// The coefficients times their common denominator, and that.
+pub(super) fn cleared(
+    coefficients: &[RationalFunction],
+    is_delay: impl Fn(usize) -> bool,
+) -> Result<(Vec<RationalFunction>, MultiPoly), Error> {
+    let mut common = MultiPoly::one();
+    for f in coefficients {
+        let d = f.denominator();
+        let g = common.gcd(d);
+        common = common.times(&d.div_exact(&g).expect("a common divisor divides"));
+    }
+    if common.variables().into_iter().any(is_delay) {
+        let help = "multiply the equation by its denominators";
+        return Err(refused("the characteristic function divides by an expression in exp(-tau*s)", help));
+    }
+    let factor = RationalFunction::from(common.clone());
+    Ok((coefficients.iter().map(|f| f * &factor).collect(), common))
 }
 
 /// Dead times that are larger multiples of their greatest common divisor are refused.

@@ -154,7 +154,7 @@ impl DelayedModel {
                 let from = past.time();
                 let steps = ((goal - from) / most).ceil().max(1.0);
                 for k in 1..=steps as usize {
-                    if taken % SAMPLES_BETWEEN_CHECKS == 0 {
+                    if taken.is_multiple_of(SAMPLES_BETWEEN_CHECKS) {
                         budget.check()?;
                     }
                     taken += 1;

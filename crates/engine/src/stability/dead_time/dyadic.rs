@@ -28,6 +28,11 @@ impl Dyadic {
         Rational::dyadic(&self.m, self.e)
     }
 
+    /// The power of two that is not above a positive number; `None` of zero.
+    pub fn floor_log2(&self) -> Option<i64> {
+        (!self.m.is_zero()).then(|| self.m.bit_length() as i64 - 1 - self.e as i64)
+    }
+
     /// The point a step further, or a half (`halves = 1`) of it.
     pub fn plus(&self, step: Step, halves: i64) -> Dyadic {
         let power = step.0 - halves;

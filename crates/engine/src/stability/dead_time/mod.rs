@@ -7,6 +7,7 @@
 //! | [`delay_cells`] | all dead times at which a loop is stable |
 //! | [`family_cells`] | all values of a parameter that enters anywhere, or of the decay rate |
 //! | [`gain_cells`] | all values of a parameter at a fixed dead time |
+//! | [`PlaneLoop::boxes`] | two parameters, by boxes |
 //! | [`count_delayed_roots`] | the roots at one rational dead time, by a certified count of the argument's turns |
 
 mod count;
@@ -22,6 +23,8 @@ mod gain_inverse;
 mod gain_points;
 mod mikhailov;
 mod over_root;
+mod plane;
+mod plane_walk;
 mod quasi_polynomial;
 mod strip;
 #[cfg(test)]
@@ -43,5 +46,6 @@ pub use family_function::Line;
 pub use gain::{GainCells, GainLoop, NotSolved, gain_cells};
 pub use gain_points::{GainPoint, Happening};
 pub use mikhailov::NotCounted;
+pub use plane::{DeadTime, PlaneLoop};
 pub use quasi_polynomial::{Kind, QuasiPolynomial};
 pub use windows::{DelayCells, Never, Switch, delay_cells};

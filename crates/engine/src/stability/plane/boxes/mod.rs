@@ -1,12 +1,14 @@
 //! Boxes of a window of two parameters, each proved stable, proved not stable, or left undecided.
 
 mod patch;
+mod places;
 mod subdivide;
 
 use super::curves::Curve;
 use crate::stability::Range;
 use jurist_algebra::number::Rational;
 
+pub(crate) use places::{Place, Seen, subdivided};
 pub use subdivide::stability_boxes;
 
 /// A bounded rectangle of two parameters.

@@ -75,7 +75,8 @@ fn is_enough(boxes: usize, level: u32, goal: &Rational) -> bool {
     Rational::dyadic(&Integer::from(boxes as u64), u64::from(level)) <= *goal
 }
 
-fn finished(
+/// The map of boxes that tile a window.
+pub(super) fn finished(
     window: Window,
     curves: Vec<crate::stability::plane::Curve>,
     mut boxes: Vec<PlaneBox>,

@@ -1,0 +1,123 @@
+//! Two parameters of a loop with dead time: boxes, each proved stable, proved not stable, or left undecided.
+
+use super::plane_walk::PlaneFunction;
+use crate::stability::plane::boxes::{BoxMap, Window, subdivided};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, MultiPoly};
+use std::collections::BTreeMap;
+
+/// `offset + slopes[0] x + slopes[1] y`: a dead time in a plane of two parameters.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct DeadTime {
+    /// The dead time where both parameters are zero.
+    pub offset: Rational,
+    /// By either parameter.
+    pub slopes: [Rational; 2],
+}
+
+impl DeadTime {
+    /// Adds a dead time so many times.
+    pub fn add(&mut self, other: &DeadTime, times: u32) {
+        let times = Rational::from(i64::from(times));
+        self.offset += &other.offset * &times;
+        self.slopes[0] += &other.slopes[0] * &times;
+        self.slopes[1] += &other.slopes[1] * &times;
+    }
+
+    fn minus(&self, other: &DeadTime) -> DeadTime {
+        let slopes = [0, 1].map(|i| &self.slopes[i] - &other.slopes[i]);
+        DeadTime { offset: &self.offset - &other.offset, slopes }
+    }
+
+    /// In the shares of a window.
+    pub(super) fn in_shares(&self, window: &Window) -> DeadTime {
+        let [a, b] = &self.slopes;
+        let offset = &self.offset + &(a * &window.x[0]) + b * &window.y[0];
+        DeadTime { offset, slopes: [a * &(&window.x[1] - &window.x[0]), b * &(&window.y[1] - &window.y[0])] }
+    }
+}
+
+/// `sum P(s; x, y) exp(-tau(x, y) s)` over any dead times: a loop with two parameters.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::MultiPoly;
+/// use jurist_engine::stability::Range;
+/// use jurist_engine::stability::dead_time::{DeadTime, PlaneLoop};
+/// use jurist_engine::stability::plane::boxes::Window;
+/// // s + x exp(-y s): stable for 0 < x y < pi/2
+/// let [x, one] = [MultiPoly::variable(0), MultiPoly::constant(1.into())];
+/// let y = DeadTime { offset: 0.into(), slopes: [0.into(), 1.into()] };
+/// let terms = [(DeadTime::default(), vec![MultiPoly::constant(0.into()), one]), (y.clone(), vec![x])];
+/// let plane = PlaneLoop::new(terms.into(), vec![y], Vec::new());
+/// let side = Range::between(Some(0.into()), Some(4.into()));
+/// let window = Window::new(&side, &side).unwrap();
+/// let map = plane.boxes(&window, &"1/2".parse().unwrap(), &Budget::unlimited()).unwrap();
+/// assert!(map.areas.stable > 0.into() && map.areas.unstable > 0.into());
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlaneLoop {
+    /// The coefficients of the powers of `s` for each dead time, that of zero first.
+    pub(super) terms: Vec<(DeadTime, Vec<MultiPoly>)>,
+    /// The loop has no meaning where one of these is negative.
+    pub(super) times: Vec<DeadTime>,
+    /// The loop is undefined where one of these vanishes.
+    pub(super) poles: Vec<MultiPoly>,
+}
+
+impl PlaneLoop {
+    /// The loop of the coefficients of the powers of `s` for each dead time, the dead times that are not to be negative, and
+    /// the polynomials at whose zeros it is undefined.
+    pub fn new(terms: BTreeMap<DeadTime, Vec<MultiPoly>>, times: Vec<DeadTime>, poles: Vec<MultiPoly>) -> PlaneLoop {
+        let is_used = |part: &Vec<MultiPoly>| part.iter().any(|c| !c.is_zero());
+        let mut terms: Vec<(DeadTime, Vec<MultiPoly>)> = terms.into_iter().filter(|(_, part)| is_used(part)).collect();
+        // A dead time that all have in common moves no root: that of the highest power of s is taken for it.
+        let degree = |part: &Vec<MultiPoly>| part.iter().rposition(|c| !c.is_zero());
+        let first = (0..terms.len()).rev().max_by_key(|&k| (degree(&terms[k].1), terms[k].0 == DeadTime::default()));
+        if let Some(first) = first {
+            terms.swap(0, first);
+            let least = terms[0].0.clone();
+            terms.iter_mut().for_each(|(time, _)| *time = time.minus(&least));
+        }
+        PlaneLoop { terms, times, poles }
+    }
+
+    /// Cuts a window into boxes until the share of the undecided area is at most `goal` (0 to 1).
+    ///
+    /// A box is decided by one walk along the imaginary axis on which the function stays away from zero for all values of
+    /// both parameters: then the number of roots to the right is the same at all of them, and the walk counts it
+    /// at the middle. A budget that runs out leaves more of the window undecided.
+    ///
+    /// Cost: an evaluation of the function and its first derivatives for each step of each walk.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out before there is a box.
+    pub fn boxes(&self, window: &Window, goal: &Rational, budget: &Budget) -> Result<BoxMap, Exhausted> {
+        let function = budget.enter(|| PlaneFunction::new(self, window))?;
+        Ok(subdivided(window, goal, budget, |place| Ok(function.look(place))))
+    }
+}
+
+/// Polynomials in the shares of a window, `x = x_0 + w_x u`, `y = y_0 + w_y v`, all multiplied by the same positive number.
+pub(super) fn in_shares(list: &[&MultiPoly], window: &Window) -> Vec<MultiPoly> {
+    let mut out: Vec<MultiPoly> = list.iter().map(|p| (*p).clone()).collect();
+    for (axis, [low, high]) in [&window.x, &window.y].into_iter().enumerate() {
+        let degree = out.iter().map(|p| p.degree_in(axis)).max().unwrap_or(0) as usize;
+        let length = high - low;
+        let common = low.denominator().lcm(&length.denominator());
+        let whole = |x: &Rational| (x * &Rational::from(&common)).numerator();
+        let shifted = &MultiPoly::variable(axis).scaled_by(&whole(&length)) + &MultiPoly::constant(whole(low));
+        let mut powers = vec![MultiPoly::one()];
+        for i in 0..degree {
+            powers.push(&powers[i] * &shifted);
+        }
+        for p in &mut out {
+            let parts = p.as_poly_in(axis);
+            *p = parts.coeffs().iter().enumerate().fold(MultiPoly::zero(), |sum, (i, c)| {
+                &sum + &(&powers[i] * &c.scaled_by(&common.pow((degree - i) as u64)))
+            });
+        }
+    }
+    out
+}
