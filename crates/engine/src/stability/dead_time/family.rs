@@ -3,7 +3,7 @@
 
 use super::count::{DelayCount, count_from_line};
 use super::family_function::{Function, Line, upper_exponential};
-use super::family_zeros::{Coordinate, FamilyZero, zeros};
+use super::family_zeros::{Coordinate, CoordinateOf, FamilyZero, zeros};
 use super::gain::{GainCells, NotSolved, sample, sorted};
 use super::gain_points::{GainPoint, Happening};
 use super::mikhailov::NotCounted;
@@ -37,6 +37,8 @@ pub struct FamilyLoop {
     parts: Vec<Vec<UniPoly>>,
     tau: Line,
     decay: Line,
+    /// `s` is in units of the parameter.
+    is_stretched: bool,
 }
 
 impl FamilyLoop {
@@ -53,7 +55,7 @@ impl FamilyLoop {
         }
         let first = parts.iter().position(|part| part.iter().any(|c| !c.is_zero())).expect("the function is not zero");
         parts.drain(..first);
-        FamilyLoop { parts, tau, decay }
+        FamilyLoop { parts, tau, decay, is_stretched: false }
     }
 
     /// The quasi-polynomial at one value, from the line; `None` where it vanishes identically.
@@ -154,6 +156,38 @@ pub fn family_cells(
     }
 }
 
+impl FamilyLoop {
+    /// The loop with `s` in units of the parameter, a number that is positive: roots that go to `s = 0` together with it stay.
+    /// The line is the imaginary axis, and the dead time a number.
+    fn stretched(&self) -> FamilyLoop {
+        assert!(self.decay.is_zero() && self.tau.slope.is_zero(), "another line would not stay");
+        let parts: Vec<Vec<UniPoly>> =
+            self.parts.iter().map(|part| part.iter().enumerate().map(|(j, c)| c.shifted_up(j)).collect()).collect();
+        let lowest = |c: &UniPoly| c.coeffs().iter().position(|x| !x.is_zero());
+        let common = parts.iter().flatten().filter_map(lowest).min().unwrap_or(0);
+        let divided = |c: &UniPoly| UniPoly::new(c.coeffs().iter().skip(common).cloned().collect());
+        let parts = parts.iter().map(|part| part.iter().map(divided).collect()).collect();
+        let tau = Line { slope: self.tau.offset.clone(), offset: Rational::ZERO };
+        FamilyLoop { is_stretched: true, ..FamilyLoop::new(parts, tau, self.decay.clone()) }
+    }
+}
+
+/// The cells of a range of the reciprocal of the parameter from zero on, or down to zero.
+fn outer(reversed: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<GainCells, Never>, NotSolved> {
+    match piece(reversed, range, budget) {
+        // Roots may go to s = 0 there, as those of a loop with a time constant that grows.
+        Err(reason @ (NotSolved::Coincidence | NotSolved::Unbounded))
+            if range.lower == Some(Rational::ZERO) && reversed.decay.is_zero() =>
+        {
+            match piece(&reversed.stretched(), range, budget) {
+                Err(NotSolved::Coincidence | NotSolved::Unbounded) => Err(reason),
+                other => other,
+            }
+        }
+        other => other,
+    }
+}
+
 /// A range without an end by pieces: beyond a number the reciprocal of the parameter is in a range with ends.
 fn unbounded(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<GainCells, Never>, NotSolved> {
     let reversed = family.reversed();
@@ -185,8 +219,8 @@ fn unbounded(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Resu
     };
     let recip = |x: &Option<Rational>| x.as_ref().and_then(Rational::recip);
     if range.upper.is_none() {
-        let outer = Range { lower: Some(Rational::ZERO), upper: recip(&high) };
-        match piece(&reversed, &outer, budget)? {
+        let beyond = Range { lower: Some(Rational::ZERO), upper: recip(&high) };
+        match outer(&reversed, &beyond, budget)? {
             Ok(cells) => {
                 let mut cells = inverted(cells)?;
                 whole.points.append(&mut cells.points);
@@ -197,8 +231,8 @@ fn unbounded(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Resu
         }
     }
     if range.lower.is_none() {
-        let outer = Range { lower: recip(&low), upper: Some(Rational::ZERO) };
-        match piece(&reversed, &outer, budget)? {
+        let beyond = Range { lower: recip(&low), upper: Some(Rational::ZERO) };
+        match outer(&reversed, &beyond, budget)? {
             Ok(cells) => {
                 let mut cells = inverted(cells)?;
                 cells.right.pop();
@@ -298,13 +332,13 @@ fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<G
             Sign::Equal => unreachable!("a regular zero"),
         };
         let zero = Arc::new(zero);
-        let coordinate = |which: usize, inverted: bool| {
-            Real::from(Transcendental::new(Coordinate { zero: Arc::clone(&zero), which, inverted }))
-        };
+        let coordinate =
+            |which: Coordinate| Real::from(Transcendental::new(CoordinateOf { zero: Arc::clone(&zero), which }));
+        let frequency = if family.is_stretched { Coordinate::Product } else { Coordinate::Frequency };
         let (happening, change) =
-            if is_real { (Happening::RootAtZero, step) } else { (Happening::Pair(coordinate(0, false)), 2 * step) };
-        let inverse = Some(coordinate(1, true));
-        points.push(GainPoint { value: coordinate(1, false), happening, change: Some(change), inverse });
+            if is_real { (Happening::RootAtZero, step) } else { (Happening::Pair(coordinate(frequency)), 2 * step) };
+        let inverse = Some(coordinate(Coordinate::Reciprocal));
+        points.push(GainPoint { value: coordinate(Coordinate::Parameter), happening, change: Some(change), inverse });
     }
     let points = sorted(points, budget)?;
     budget.step("counting roots in the gaps");

@@ -338,27 +338,37 @@ const MOST_AT_ONCE: i64 = 1 << 12;
 const FIRST_BITS: u64 = 48;
 const REAL_BITS: u64 = 128;
 
-/// The frequency (0) or the parameter (1) of a zero.
-#[derive(Debug)]
-pub(super) struct Coordinate {
-    pub zero: Arc<FamilyZero>,
-    pub which: usize,
-    /// Whether it is the reciprocal of the coordinate.
-    pub inverted: bool,
+/// A number that belongs to a zero.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Coordinate {
+    Frequency,
+    Parameter,
+    /// The reciprocal of the parameter.
+    Reciprocal,
+    /// The frequency times the parameter.
+    Product,
 }
 
-impl Enclosing for Coordinate {
+/// It, to be enclosed.
+#[derive(Debug)]
+pub(super) struct CoordinateOf {
+    pub zero: Arc<FamilyZero>,
+    pub which: Coordinate,
+}
+
+impl Enclosing for CoordinateOf {
     fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
         let goal = Rational::dyadic(&Integer::ONE, bits);
         let mut working = bits + 4;
         loop {
-            let place = self.zero.enclosures(working)[self.which].clone();
-            if !self.inverted {
-                return place;
-            }
-            if let Some(value) = Enclosure::from_rational(Rational::ONE).div(&place, working)
-                && value.upper() - value.lower() <= goal
-            {
+            let [omega, p] = self.zero.enclosures(working);
+            let value = match self.which {
+                Coordinate::Frequency => Some(omega),
+                Coordinate::Parameter => Some(p),
+                Coordinate::Reciprocal => Enclosure::from_rational(Rational::ONE).div(&p, 2 * working),
+                Coordinate::Product => Some(omega.mul(&p, 2 * working)),
+            };
+            if let Some(value) = value.filter(|value| value.upper() - value.lower() <= goal) {
                 return value;
             }
             working += working / 2 + 16;

@@ -38,15 +38,21 @@ fn the_square_of_a_gain_has_the_root_of_its_limit() {
 }
 
 #[test]
-fn a_double_time_constant_is_decided_in_a_domain_with_ends() {
+fn a_double_time_constant_is_decided_in_a_domain_without_end() {
     // (T s + 1)^2 + 2 exp(-s): T > 2/pi, at pi/2.
     let parts: &[&[&[i64]]] = &[&[&[1], &[0, 2], &[0, 0, 1]], &[&[2]]];
     let two_lags = family(parts, line("0", "1"), line("0", "0"));
     let limit = Some("0.6366197723675813430755350534900574".to_owned());
-    assert_eq!(stable(&two_lags, &range(Some("1/10"), Some("100")), 34), [[limit, Some("100".into())]]);
-    // In the reciprocal both roots come to s = 0 at the end of the range.
-    let open = family_cells(&two_lags, &range(Some("1/10"), None), &Budget::unlimited());
-    assert_eq!(open.unwrap_err(), NotSolved::Coincidence);
+    assert_eq!(stable(&two_lags, &range(Some("1/10"), Some("100")), 34), [[limit.clone(), Some("100".into())]]);
+    // Both roots come to s = 0 in the end, at the rate of 1/T.
+    let open = range(Some("1/10"), None);
+    assert_eq!(stable(&two_lags, &open, 34), [[limit, None]]);
+    let cells = family_cells(&two_lags, &open, &Budget::unlimited()).unwrap().unwrap();
+    let Some(Happening::Pair(omega)) = cells.points.last().map(|p| &p.happening) else { panic!("{:?}", cells.points) };
+    assert_eq!(omega.decimal(20), "1.5707963267948966192");
+    // Another line than the axis would move in units of 1/T.
+    let shifted = family(parts, line("0", "1"), line("0", "1/10"));
+    assert_eq!(family_cells(&shifted, &open, &Budget::unlimited()).unwrap_err(), NotSolved::Coincidence);
     // Down to zero, where the highest power is lost, there are crossings without end.
     let refused = family_cells(&two_lags, &range(Some("0"), Some("1")), &Budget::unlimited());
     assert_eq!(refused.unwrap_err(), NotSolved::Unbounded);
