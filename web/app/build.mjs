@@ -1,7 +1,7 @@
-// Makes the page of its parts: node build.mjs ENGINE.wasm OUTPUT_FOLDER
+// Makes the page of its parts: node build.mjs OUTPUT_FOLDER ENGINE.wasm [REST.wasm]
 //
-// Names of files hold a hash of their content. `engine-*.js` holds the engine's bytes as text, for a page that is opened from a
-// file, where nothing can be fetched.
+// The engine is whole, or what split.mjs made of it. Names of files hold a hash of their content. `engine-*.js` and `rest-*.js` hold
+// its bytes as text, for a page that is opened from a file, where nothing can be fetched.
 
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
@@ -12,9 +12,9 @@ import { gzipSync } from "node:zlib";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "../..");
-const [engineFile, output] = process.argv.slice(2);
-if (!output) {
-  console.error("usage: node build.mjs ENGINE.wasm OUTPUT_FOLDER");
+const [output, ...parts] = process.argv.slice(2);
+if (parts.length < 1 || parts.length > 2) {
+  console.error("usage: node build.mjs OUTPUT_FOLDER ENGINE.wasm [REST.wasm]");
   process.exit(2);
 }
 rmSync(output, { recursive: true, force: true });
@@ -51,10 +51,14 @@ const css = async (...names) => {
   return result.outputFiles[0].text.trim();
 };
 
-const wasm = readFileSync(engineFile);
-const engine = put("engine", "wasm", wasm);
-const packed = gzipSync(wasm, { level: 9 }).toString("base64");
-const engineScript = put("engine", "js", `globalThis.juristEngine="${packed}";`);
+/** A part of the engine, and the script that holds its bytes. */
+function module(name, file) {
+  const wasm = readFileSync(file);
+  const packed = gzipSync(wasm, { level: 9 }).toString("base64");
+  return [put(name, "wasm", wasm), put(name, "js", `globalThis.juristEngine="${packed}";`)];
+}
+const [engine, engineScript] = module("engine", parts[0]);
+const [rest, restScript] = parts[1] ? module("rest", parts[1]) : ["", ""];
 const folder = join(root, "examples");
 const names = readdirSync(folder).filter((name) => name.endsWith(".toml")).sort();
 const texts = names.map((name) => [name, readFileSync(join(folder, name), "utf8")]);
@@ -68,6 +72,8 @@ const script = put(
     DRIVE: readFileSync(join(folder, "drive.toml"), "utf8"),
     ENGINE_FILE: engine,
     ENGINE_SCRIPT: engineScript,
+    REST_FILE: rest,
+    REST_SCRIPT: restScript,
     EDITOR_SCRIPT: editor,
     EXAMPLES_SCRIPT: examples,
     PICTURE_STYLE: await css("picture.css"),
@@ -92,7 +98,7 @@ const filled = { POLICY: policy, STYLE: style, SCRIPT: script, VERSION: version 
 const page = readFileSync(join(here, "index.html"), "utf8").replace(/%([A-Z]+)%/g, (_, name) => filled[name]);
 writeFileSync(join(output, "index.html"), page);
 
-const kept = [engine, examples, editor, script, style];
+const kept = [engine, ...(rest ? [rest] : []), examples, editor, script, style];
 const hash = createHash("sha256").update(page).update(kept.join()).digest("hex").slice(0, 10);
 const service = await bundle("service.ts", { VERSION: `jurist-${hash}`, FILES: ["index.html", ...kept] });
 writeFileSync(join(output, "service.js"), service);

@@ -1,5 +1,6 @@
 // The engine as the page sees it: three workers behind lanes. In a lane the last request counts; what was overtaken is dropped, or,
-// once it runs, its worker is replaced by a new one made of the kept module.
+// once it runs, its worker is replaced by a new one made of the kept module. What needs the engine's second part before that is there
+// waits for it.
 
 export type Reply = any;
 
@@ -83,10 +84,22 @@ class Seat {
     worker.onerror = (event) => worker === this.worker && this.broken(event.message || "the worker does not start");
   }
 
+  /** The second part of the engine. */
+  complete(rest: WebAssembly.Module): void {
+    this.worker?.postMessage({ rest });
+  }
+
   private told(data: any): void {
     if (data.ready) {
       this.ready = true;
       this.next();
+    } else if (data.incomplete) {
+      this.worker?.terminate();
+      clearTimeout(this.timer);
+      if (this.running) this.waiting.unshift(this.running);
+      this.running = undefined;
+      this.ready = false;
+      void this.owner.whole().then(() => this.begin());
     } else if (data.failed) {
       this.owner.failed(data.failed);
     } else if (data.progress !== undefined) {
@@ -141,6 +154,8 @@ class Seat {
 export class Engine {
   private readonly seats: Record<Speed, Seat>;
   private readonly source: string;
+  private rest: WebAssembly.Module | undefined;
+  private arriving: Promise<void> | undefined;
   /** How often a worker was replaced. */
   replaced = 0;
   /** Milliseconds of the last answer in each lane. */
@@ -153,6 +168,7 @@ export class Engine {
   constructor(
     script: string,
     private readonly module: WebAssembly.Module,
+    private readonly loadRest: () => Promise<WebAssembly.Module | undefined>,
   ) {
     this.source = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
     this.seats = { quick: new Seat(this, "quick"), slow: new Seat(this, "slow"), long: new Seat(this, "long") };
@@ -160,8 +176,22 @@ export class Engine {
 
   worker(): Worker {
     const worker = new Worker(this.source);
-    worker.postMessage({ module: this.module });
+    worker.postMessage({ module: this.module, rest: this.rest });
     return worker;
+  }
+
+  /** Until the second part of the engine is there. */
+  whole(): Promise<void> {
+    const arrived = (rest: WebAssembly.Module | undefined) => {
+      this.rest = rest;
+      if (rest) for (const seat of Object.values(this.seats)) seat.complete(rest);
+    };
+    const lost = (why: unknown) => {
+      this.arriving = undefined;
+      this.failed(why instanceof Error ? why.message : String(why));
+      throw why;
+    };
+    return (this.arriving ??= this.loadRest().then(arrived, lost));
   }
 
   ask(speed: Speed, lane: string, request: unknown): Promise<Reply | undefined> {

@@ -1,20 +1,26 @@
-// The module: compiled while it arrives; from a file, where nothing can be fetched, from a script that holds its bytes.
+// The engine's two modules: compiled while they arrive; from a file, where nothing can be fetched, from scripts that hold their bytes.
 
 declare global {
   var juristEngine: string | undefined;
 }
 
-export async function load(): Promise<WebAssembly.Module> {
+/** What the first screens need. */
+export const loadFirst = () => load(ENGINE_FILE, ENGINE_SCRIPT);
+
+/** All else; nothing where the engine is in one part. */
+export const loadRest = () => (REST_FILE ? load(REST_FILE, REST_SCRIPT) : Promise.resolve(undefined));
+
+async function load(file: string, packedFile: string): Promise<WebAssembly.Module> {
   if (location.protocol !== "file:") {
-    const response = await fetch(ENGINE_FILE);
-    if (!response.ok) throw new Error(`${ENGINE_FILE}: ${response.status}`);
+    const response = await fetch(file);
+    if (!response.ok) throw new Error(`${file}: ${response.status}`);
     // A server may not know the type of the file.
     if (!response.headers.get("content-type")?.startsWith("application/wasm")) {
       return WebAssembly.compile(await response.arrayBuffer());
     }
     return WebAssembly.compileStreaming(response);
   }
-  await script(ENGINE_SCRIPT);
+  await script(packedFile);
   const packed = Uint8Array.from(atob(globalThis.juristEngine!), (c) => c.charCodeAt(0));
   globalThis.juristEngine = undefined;
   const bytes = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -34,3 +40,5 @@ export function script(file: string): Promise<void> {
 
 declare const ENGINE_FILE: string;
 declare const ENGINE_SCRIPT: string;
+declare const REST_FILE: string;
+declare const REST_SCRIPT: string;

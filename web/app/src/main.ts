@@ -2,7 +2,7 @@
 
 import { by } from "./dom.js";
 import { Engine } from "./engine.js";
-import { load } from "./load.js";
+import { loadFirst, loadRest } from "./load.js";
 import { Page } from "./page.js";
 import { wire } from "./wire.js";
 
@@ -18,9 +18,9 @@ function fail(why: unknown): void {
 async function begin(): Promise<void> {
   by<HTMLTextAreaElement>("text").value = DRIVE;
   const arrived = performance.now();
-  const module = await load();
+  const module = await loadFirst();
   performance.measure("module", { start: arrived, end: performance.now() });
-  const engine = new Engine(WORKER, module);
+  const engine = new Engine(WORKER, module, loadRest);
   engine.failed = fail;
   const page = new Page(engine);
   // For those who look into the page, and for its tests.
@@ -28,7 +28,7 @@ async function begin(): Promise<void> {
   wire(page);
   await page.follow();
   if (!location.hash) await page.open(DRIVE, { m: DRIVE });
-  await page.improve().catch(() => {});
+  await Promise.all([page.improve(), engine.whole()]).catch(() => {});
   if ("serviceWorker" in navigator && location.protocol.startsWith("http")) {
     await navigator.serviceWorker.register("service.js").catch(() => {});
   }

@@ -1,10 +1,11 @@
 // The worker: one instance of the engine, one request after the other.
 
-import { type Instance, instantiate } from "./instance.js";
+import { Incomplete, type Instance, instantiate } from "./instance.js";
 
-interface Begin {
+/** The engine, its first part to begin with and the rest with it or later. */
+interface Parts {
   module?: WebAssembly.Module;
-  bytes?: ArrayBuffer;
+  rest?: WebAssembly.Module;
 }
 
 interface Ask {
@@ -13,11 +14,12 @@ interface Ask {
 }
 
 let instance: Instance | undefined;
+let rest: WebAssembly.Module | undefined;
 let current = 0;
 
-async function begin({ module, bytes }: Begin): Promise<void> {
-  const compiled = module ?? (await WebAssembly.compile(bytes!));
-  instance = await instantiate(compiled, (text) => postMessage({ id: current, progress: text }));
+async function begin(module: WebAssembly.Module): Promise<void> {
+  const progress = (text: string) => postMessage({ id: current, progress: text });
+  instance = await instantiate(module, progress, () => rest);
   postMessage({ ready: true });
 }
 
@@ -29,11 +31,13 @@ function answer({ id, request }: Ask): void {
     postMessage({ id, reply, took: performance.now() - begun });
   } catch (error) {
     // After a trap nothing in the instance can be relied upon: the page throws this worker away.
+    if (error instanceof Incomplete) return postMessage({ id, incomplete: true });
     postMessage({ id, reply: { defect: instance!.lastWords() || String(error) }, took: performance.now() - begun, broken: true });
   }
 }
 
-onmessage = ({ data }: MessageEvent<Begin | Ask>) => {
-  if ("request" in data) answer(data);
-  else begin(data).catch((error: unknown) => postMessage({ failed: String(error) }));
+onmessage = ({ data }: MessageEvent<Parts | Ask>) => {
+  if ("request" in data) return answer(data);
+  rest = data.rest ?? rest;
+  if (data.module) begin(data.module).catch((error: unknown) => postMessage({ failed: String(error) }));
 };

@@ -15,9 +15,12 @@ export async function moduleOf(file, define = {}) {
   return import(`data:text/javascript,${encodeURIComponent(result.outputFiles[0].text)}`);
 }
 
+/** ENGINE names the module, whole or its first part, REST the second. */
 export async function instance() {
   const file = process.env.ENGINE ?? join(root, "target/wasm/wasm32-unknown-unknown/web/jurist_web.wasm");
+  const compiled = (name) => WebAssembly.compile(readFileSync(name));
+  const rest = process.env.REST && (await compiled(process.env.REST));
   const { instantiate } = await moduleOf("instance.ts");
-  return instantiate(await WebAssembly.compile(readFileSync(file)), () => {});
+  return instantiate(await compiled(file), () => {}, () => rest);
 }
 

@@ -319,10 +319,33 @@ test("from a server it is kept, and opens again without one", async () => {
   }
 });
 
-test("its script is within its budget, and its sizes and times are told", async (t) => {
+test("what needs the second part of the engine before that is there waits for it", async () => {
+  const pending = await page.value(`(async () => {
+    const { engine, page } = jurist;
+    const whole = engine.rest;
+    let arrive;
+    engine.rest = undefined;
+    engine.arriving = undefined;
+    engine.loadRest = () => new Promise((done) => (arrive = () => done(whole)));
+    engine.cancel();
+    engine.seats.quick.replace();
+    const request = { ask: "program", model: page.text, arguments: ["charpoly", "-", "--format", "latex"] };
+    const late = engine.ask("quick", "late", request);
+    while (!arrive) await new Promise((r) => setTimeout(r, 1));
+    const verdict = engine.ask("quick", "verdict", { ask: "program", model: page.text, arguments: ["verdict", "-", "--json"] });
+    arrive();
+    return [(await late).output, JSON.parse((await verdict).output).verdict];
+  })()`);
+  assert.match(pending[0], /z\^\{?6/);
+  assert.equal(pending[1], "stable");
+  assert.equal(await page.value('document.getElementById("failure").hidden'), true);
+});
+
+test("its engine and its script are within their budgets, and sizes and times are told", async (t) => {
   const packed = (pattern) => readdirSync(folder).filter((f) => pattern.test(f)).reduce((sum, f) => sum + gzipSync(readFileSync(join(folder, f)), { level: 9 }).length, 0);
-  const [engine, script] = [packed(/^engine-.*\.wasm$/), packed(/^page-.*\.js$/)];
-  t.diagnostic(`engine ${engine} bytes compressed, script before the editor ${script}`);
+  const [engine, rest, script] = [packed(/^engine-.*\.wasm$/), packed(/^rest-.*\.wasm$/), packed(/^page-.*\.js$/)];
+  t.diagnostic(`engine ${engine} bytes compressed by gzip and ${rest} behind them, script before the editor ${script}`);
+  assert.ok(engine <= 1.4e6, `the engine has ${engine} bytes`);
   assert.ok(script <= 60e3, `the script has ${script} bytes`);
   await page.open(fromFile);
   const times = await page.value(`(async () => {
