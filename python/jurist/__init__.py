@@ -48,6 +48,7 @@ from ._sets import StableSet
 if TYPE_CHECKING:
     from ._control import from_control, margins
     from ._margins import At, DelayMargin, DiskMargin, GainCrossing, Margins, Norm, Peak, PhaseCrossing, PhaseMargin
+    from ._report import Report
     from ._response import Bode, FrequencyResponse, Nyquist
     from ._tolerance import Factor, Tolerance, Worst
     from ._rows import SweepResult
@@ -60,6 +61,7 @@ _LATER = {
     **dict.fromkeys(("At", "DelayMargin", "DiskMargin", "GainCrossing", "Margins", "Norm"), "_margins"),
     **dict.fromkeys(("Peak", "PhaseCrossing", "PhaseMargin"), "_margins"),
     **dict.fromkeys(("Bode", "FrequencyResponse", "Nyquist"), "_response"),
+    "Report": "_report",
     **dict.fromkeys(("Factor", "Tolerance", "Worst"), "_tolerance"),
     "from_control": "_control",
     "margins": "_control",
@@ -107,6 +109,7 @@ __all__ = [
     "Proved",
     "QuestionError",
     "Real",
+    "Report",
     "Simulation",
     "StableSet",
     "SweepResult",

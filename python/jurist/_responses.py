@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any, Unpack, cast
 from ._asking import Asker
 from ._curves import Locus, Simulation
 from ._exact import Exact, fraction, text_of
-from ._question import Waiting
+from ._question import Bounds, Waiting
 
 if TYPE_CHECKING:
     from ._loop import Loop
     from ._margins import Margins, Norm
+    from ._report import Report
     from ._response import Bode, Nyquist
 
 
@@ -184,6 +185,35 @@ class ResponseQuestions(Asker):
         words += [] if duration is None else [f"--duration={text_of(duration)}"]
         text, done, _ = self._command([*words, *(["--switched"] if switched else []), "--json"], asked)
         return Simulation(text, self._itself, done)
+
+    def report(
+        self,
+        values: Mapping[str, Exact] | None = None,
+        *,
+        domain: Mapping[str, Bounds] | None = None,
+        timeout: float | None = None,
+    ) -> Report:
+        """One page about this loop: verdict, limits and causes, margins, what moves them, the worst corner, figures.
+
+        Parameters
+        ----------
+        values : mapping, optional
+        domain : mapping from names to pairs, optional
+            Replaces the open domains of parameters.
+        timeout : float, optional
+
+        Examples
+        --------
+        >>> import jurist
+        >>> page = jurist.Loop.drive().report({"T": "2e-4"})
+        >>> "0.0002" in page.html or "1/5000" in page.html
+        True
+        """
+        from ._report import Report
+
+        asked = self._asked(values, domain=domain, timeout=timeout)
+        page = self._command([*self._words("report", asked), "-o", "-"], asked)[0]
+        return Report(page, self._itself.title or self._itself.name)
 
     def to_control(self, input: str, output: str, values: Mapping[str, Exact] | None = None) -> Any:
         """The closed-loop transfer function from an input to an output, for python-control.

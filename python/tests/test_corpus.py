@@ -1,5 +1,6 @@
 """The corpus of models: the same answers as the program, byte for byte, and those that are expected."""
 
+import pickle
 import warnings
 from decimal import Decimal, getcontext
 
@@ -116,6 +117,14 @@ def test_every_kind_of_answer_is_the_programs_document(command, ask, drive):
 def test_requirements_and_cuts_at_signals_are_the_programs(words, ask):
     path = ROOT / "examples" / "drive-blocks.toml"
     assert ask(jurist.Loop.from_file(path)).json() == program(words[0], str(path), *words[1:], "--at", "V_a", "--json", "-q").stdout
+
+
+def test_the_report_is_the_programs_page(drive, tmp_path):
+    ours = drive.report({"T": "2e-4"}, domain={"K_pwm": (0, 500)})
+    page = program("report", "-", "--set", "T=2e-4", "--domain", "K_pwm=0..500", "-o", "-", "-q", stdin=drive.to_toml()).stdout
+    assert ours.save(tmp_path / "report.html").read_text() == ours.html == page
+    assert page != drive.report().html
+    assert pickle.loads(pickle.dumps(ours)) == ours
 
 
 @pytest.mark.parametrize(("name", "model", "expectations"), corpus(), ids=lambda x: x if isinstance(x, str) and len(x) < 60 else "")

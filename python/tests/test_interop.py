@@ -34,6 +34,12 @@ def test_a_system_without_a_gain_is_asked_about_itself():
         jurist.from_control(ct.tf([[[1], [1]]], [[[1, 1], [1, 2]]]), gain="k")
 
 
+def test_margins_of_several_inputs_are_refused_in_words():
+    both = ct.append(ct.tf([1], [1, 1]), ct.tf([2], [1, 3]))
+    with pytest.raises(ValueError, match="2 inputs and 2 outputs: connect its parts by LoopBuilder"):
+        jurist.margins(both)
+
+
 def test_an_unspecified_time_is_asked_for():
     system = ct.tf([1], [1, 0.5], dt=None)
     with pytest.raises(ValueError, match="dt is None"):

@@ -99,6 +99,17 @@ def test_loops_and_answers_travel_through_loky_and_cloudpickle():
     assert cloudpickle.loads(cloudpickle.dumps(jurist.Real)) is jurist.Real
 
 
+def test_loops_answers_and_errors_travel_to_a_worker_of_dask_and_back(drive):
+    from distributed import Client, LocalCluster
+
+    with LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+        there = client.submit(jurist.Loop.intervals, drive, "K_pwm").result(timeout=120)
+        assert there == drive.intervals("K_pwm")
+        assert client.submit(there.__contains__, "550.94").result(timeout=120)
+        with pytest.raises(jurist.QuestionError, match="did you mean 'K_pwm'"):
+            client.submit(jurist.Loop.intervals, drive, "K_pmw").result(timeout=120)
+
+
 def test_everything_that_is_answered_can_be_pickled(drive):
     things = [
         drive,
@@ -351,7 +362,7 @@ def test_pages_use_the_colour_of_their_surroundings(drive):
 def test_names_from_a_model_are_not_taken_for_html():
     text = 'title = "<script>"\ntime = "discrete"\nparameters.K = { unit = "<b>" }\nloop.characteristic = "z - K"'
     loop = jurist.Loop.from_toml(text)
-    for page in (loop._repr_html_(), loop.intervals("K")._repr_html_()):
+    for page in (loop._repr_html_(), loop.intervals("K")._repr_html_(), loop.report()._repr_html_()):
         assert "<script>" not in page
         assert "<b>" not in page.replace("<b>&lt;script&gt;</b>", "")
 
