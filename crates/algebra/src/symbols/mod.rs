@@ -22,6 +22,7 @@ mod roots;
 mod scales;
 mod sign;
 mod specialise;
+mod taylor;
 
 pub use definition::Definition;
 pub use function::{Function, common_scale};

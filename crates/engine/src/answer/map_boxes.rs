@@ -132,7 +132,7 @@ impl Problem {
 
     /// The stable region in the plane of the two free parameters by a method of choice.
     ///
-    /// Loops with dead time have boxes only.
+    /// Loops with dead time or with other functions, as behind a hold, have boxes only.
     ///
     /// Cost: of the exact decomposition that of [`Problem::map`]; of boxes
     /// ([ZettlerGarloff1998](jurist_algebra::bibliography#zettlergarloff1998)) about `1/h` of side `h` along each
@@ -160,10 +160,14 @@ impl Problem {
                 let value = MapBoxes { goal: request.undecided.clone(), boxes };
                 MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value)))
             };
-            if method != MapMethod::Exact
-                && let Some(plane) = self.delayed_plane(budget)?
-            {
-                return Ok(found(plane.boxes(&window_of(self, request)?, &request.undecided, &share())?));
+            if method != MapMethod::Exact {
+                let share = share();
+                if let Some(plane) = self.delayed_plane(budget)? {
+                    return Ok(found(plane.boxes(&window_of(self, request)?, &request.undecided, &share)?));
+                }
+                if let Some(plane) = self.symbolic_plane(budget)? {
+                    return Ok(found(plane.boxes(&window_of(self, request)?, &request.undecided, &share)?));
+                }
             }
             let window = match (method, window_of(self, request)) {
                 (MapMethod::Exact, _) => return exact(budget),
@@ -218,3 +222,5 @@ fn window_of(question: &Problem, request: &BoxRequest) -> Result<Window, Error> 
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_held;

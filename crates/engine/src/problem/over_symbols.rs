@@ -1,9 +1,9 @@
 //! Questions about loops with transcendental constants, such as plants behind a hold.
 
 use super::{Algebra, Problem};
-use crate::error::Error;
+use crate::error::{Diagnostic, Error};
 use crate::model::{self, Symbol};
-use crate::stability::SymbolicPolynomial;
+use crate::stability::{SymbolicPlane, SymbolicPolynomial};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::poly::RationalFunction;
 use jurist_algebra::symbols::{Definition, MovingSymbols, Symbols};
@@ -57,6 +57,49 @@ impl Problem {
             return Err(super::delayed::not_known());
         }
         fixed_symbols(symbols)
+    }
+}
+
+impl Problem {
+    /// The polynomial in the two free parameters over the constants of the model, of which some may be functions of one of the two;
+    /// `None` where the loop is rational, and where it is undefined for all values.
+    ///
+    /// Cost: that of [`Problem::algebra_over_symbols`], and of [`SymbolicPlane::new`].
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`]; `E-dead-time`; `E-function` where functions depend on both parameters.
+    ///
+    /// # Panics
+    /// Unless two parameters are free.
+    pub fn symbolic_plane(&self, budget: &Budget) -> Result<Option<SymbolicPlane>, Error> {
+        assert_eq!(self.free().len(), 2, "two parameters are free");
+        let algebra = self.algebra_over_symbols(budget)?;
+        let symbols = algebra.symbols();
+        let Some(polynomial) = algebra.polynomial().filter(|_| !symbols.is_empty()) else { return Ok(None) };
+        if !symbols.delays().is_empty() {
+            return Err(super::delayed::not_known());
+        }
+        let arguments = symbols.iter().filter_map(|symbol| symbol.definition());
+        let inside: Vec<usize> = arguments.flat_map(|d| d.arguments()).flat_map(RationalFunction::variables).collect();
+        let plane = match [0, 1].map(|axis| inside.contains(&axis)) {
+            [true, true] => {
+                let [x, y] = [0, 1].map(|i| &self.free()[i].name);
+                let message = format!("'{x}' and '{y}' are both inside of functions, as behind a hold");
+                let help = "one axis of a map may be a sample time or a constant of a held plant, not both";
+                return Err(Diagnostic::error("E-function", message).help(help).into());
+            }
+            [false, false] => SymbolicPlane::new(polynomial, self.shape(), &Arc::new(fixed_symbols(symbols)?)),
+            [first, _] => {
+                let axis = usize::from(!first);
+                let place = |i: usize| if i == axis { 0 } else { i.saturating_sub(1) };
+                let mut table = Vec::new();
+                for symbol in symbols.iter() {
+                    table.push((symbol.name.clone(), definition(symbol, |f| f.map_variables(place))?));
+                }
+                SymbolicPlane::with_moving(polynomial, self.shape(), &Arc::new(MovingSymbols::new(table)), axis)
+            }
+        };
+        Ok(Some(plane))
     }
 }
 

@@ -35,7 +35,7 @@ pub use parametric::{AtPoint, ParametricPolynomial};
 pub use root_count::{RootCount, count_roots, is_stable};
 pub use routh::{RouthTable, is_hurwitz_routh, routh_table};
 pub use stable_set::{Cells, End, StableInterval, StableSet, UndecidedBracket, end_at, stable_set};
-pub use symbolic::{SymbolicPolynomial, symbolic_stable_set};
+pub use symbolic::{SymbolicPlane, SymbolicPolynomial, symbolic_stable_set};
 
 /// Where the roots of the characteristic polynomial of a stable loop lie.
 ///

@@ -6,17 +6,17 @@ use crate::model::Model;
 use crate::stability::plane::boxes::BoxVerdict;
 use jurist_algebra::number::parse_number;
 
-fn number(text: &str) -> Rational {
+pub(super) fn number(text: &str) -> Rational {
     parse_number(text).unwrap()
 }
 
-fn load(text: &str) -> Model {
+pub(super) fn load(text: &str) -> Model {
     Model::from_toml(&Source::new("model.toml", text)).unwrap_or_else(|e| panic!("{e}\n{text}")).0
 }
 
-type Side<'a> = (&'a str, &'a str, &'a str);
+pub(super) type Side<'a> = (&'a str, &'a str, &'a str);
 
-fn boxes(model: &Model, [x, y]: [Side; 2], undecided: &str) -> BoxMap {
+pub(super) fn boxes(model: &Model, [x, y]: [Side; 2], undecided: &str) -> BoxMap {
     let side = |(_, low, high): Side| Range::between(Some(number(low)), Some(number(high)));
     let request = BoxRequest::new([side(x), side(y)], number(undecided));
     let problem = model.ask().free(x.0).free(y.0).plane_problem().unwrap();
@@ -27,7 +27,7 @@ fn boxes(model: &Model, [x, y]: [Side; 2], undecided: &str) -> BoxMap {
 }
 
 /// At values of `y`, every box that is decided agrees with the stable set of `x` near both of its ends and between.
-fn slices_are_stable_sets(model: &Model, sides: [Side; 2], undecided: &str, values: &[&str]) {
+pub(super) fn slices_are_stable_sets(model: &Model, sides: [Side; 2], undecided: &str, values: &[&str]) {
     let map = boxes(model, sides, undecided);
     let whole = map.window.area();
     assert!(map.areas.undecided <= &whole * &number(undecided), "{}", map.areas.undecided.to_f64_approximate());

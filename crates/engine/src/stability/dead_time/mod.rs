@@ -46,6 +46,8 @@ pub use family_function::Line;
 pub use gain::{GainCells, GainLoop, NotSolved, gain_cells};
 pub use gain_points::{GainPoint, Happening};
 pub use mikhailov::NotCounted;
+pub(crate) use plane::in_shares_of;
 pub use plane::{DeadTime, PlaneLoop};
+pub(crate) use plane_walk::{PlaneFunction, Shares};
 pub use quasi_polynomial::{Kind, QuasiPolynomial};
 pub use windows::{DelayCells, Never, Switch, delay_cells};

@@ -1,9 +1,9 @@
 //! Two parameters of a loop with dead time: boxes, each proved stable, proved not stable, or left undecided.
 
-use super::plane_walk::PlaneFunction;
+use super::plane_walk::{PlaneFunction, Shares};
 use crate::stability::plane::boxes::{BoxMap, Window, subdivided};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly};
 use std::collections::BTreeMap;
 
@@ -83,6 +83,20 @@ impl PlaneLoop {
         PlaneLoop { terms, times, poles }
     }
 
+    fn in_shares(&self, window: &Window) -> Shares {
+        let flat: Vec<MultiPoly> = self.terms.iter().flat_map(|(_, part)| part).cloned().collect();
+        let mut shares = in_shares(&flat, window).into_iter();
+        let exact = |p: MultiPoly| (p, Integer::ZERO);
+        Shares {
+            parts: self.terms.iter().map(|(_, part)| shares.by_ref().take(part.len()).collect()).collect(),
+            slack: Vec::new(),
+            slack_axis: 0,
+            poles: in_shares(&self.poles, window).into_iter().map(exact).collect(),
+            delays: self.terms.iter().map(|(time, _)| time.in_shares(window)).collect(),
+            times: self.times.iter().map(|time| time.in_shares(window)).collect(),
+        }
+    }
+
     /// Cuts a window into boxes until the share of the undecided area is at most `goal` (0 to 1).
     ///
     /// A box is decided by one walk along the imaginary axis on which the function stays away from zero for all values of
@@ -94,30 +108,31 @@ impl PlaneLoop {
     /// # Errors
     /// [`Exhausted`] when the budget runs out before there is a box.
     pub fn boxes(&self, window: &Window, goal: &Rational, budget: &Budget) -> Result<BoxMap, Exhausted> {
-        let function = budget.enter(|| PlaneFunction::new(self, window))?;
+        let function = budget.enter(|| PlaneFunction::new(self.in_shares(window)))?;
         Ok(subdivided(window, goal, budget, |place| Ok(function.look(place))))
     }
 }
 
 /// Polynomials in the shares of a window, `x = x_0 + w_x u`, `y = y_0 + w_y v`, all multiplied by the same positive number.
-pub(super) fn in_shares(list: &[&MultiPoly], window: &Window) -> Vec<MultiPoly> {
-    let mut out: Vec<MultiPoly> = list.iter().map(|p| (*p).clone()).collect();
-    for (axis, [low, high]) in [&window.x, &window.y].into_iter().enumerate() {
-        let degree = out.iter().map(|p| p.degree_in(axis)).max().unwrap_or(0) as usize;
-        let length = high - low;
-        let common = low.denominator().lcm(&length.denominator());
-        let whole = |x: &Rational| (x * &Rational::from(&common)).numerator();
-        let shifted = &MultiPoly::variable(axis).scaled_by(&whole(&length)) + &MultiPoly::constant(whole(low));
-        let mut powers = vec![MultiPoly::one()];
-        for i in 0..degree {
-            powers.push(&powers[i] * &shifted);
-        }
-        for p in &mut out {
-            let parts = p.as_poly_in(axis);
-            *p = parts.coeffs().iter().enumerate().fold(MultiPoly::zero(), |sum, (i, c)| {
-                &sum + &(&powers[i] * &c.scaled_by(&common.pow((degree - i) as u64)))
-            });
-        }
+fn in_shares(list: &[MultiPoly], window: &Window) -> Vec<MultiPoly> {
+    in_shares_of(&in_shares_of(list, 0, &window.x), 1, &window.y)
+}
+
+/// Polynomials in the share of one parameter's range, all multiplied by the same positive number.
+pub(crate) fn in_shares_of(list: &[MultiPoly], axis: usize, [low, high]: &[Rational; 2]) -> Vec<MultiPoly> {
+    let degree = list.iter().map(|p| p.degree_in(axis)).max().unwrap_or(0) as usize;
+    let length = high - low;
+    let common = low.denominator().lcm(&length.denominator());
+    let whole = |x: &Rational| (x * &Rational::from(&common)).numerator();
+    let shifted = &MultiPoly::variable(axis).scaled_by(&whole(&length)) + &MultiPoly::constant(whole(low));
+    let mut powers = vec![MultiPoly::one()];
+    for i in 0..degree {
+        powers.push(&powers[i] * &shifted);
     }
-    out
+    let one = |p: &MultiPoly| {
+        p.as_poly_in(axis).coeffs().iter().enumerate().fold(MultiPoly::zero(), |sum, (i, c)| {
+            &sum + &(&powers[i] * &c.scaled_by(&common.pow((degree - i) as u64)))
+        })
+    };
+    list.iter().map(one).collect()
 }

@@ -1,24 +1,35 @@
 //! A walk along the imaginary axis for a whole box of two parameters at once.
 
 use super::dyadic::{Dyadic, Step};
-use super::plane::{DeadTime, PlaneLoop, in_shares};
+use super::plane::DeadTime;
 use super::turn::{Fixed, turned};
-use crate::stability::plane::boxes::{BoxVerdict, Place, Seen, Window};
+use crate::stability::plane::boxes::{BoxVerdict, Place, Seen};
 use jurist_algebra::limits::checkpoint;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, UniPoly};
 
-/// The function and its derivatives, over the shares `u` (0), `v` (1) of a window and the frequency (2); those of order `n`
-/// are multiplied by `unit^n`.
+/// A function over the shares `u` (0), `v` (1) of a window, both in `[0, 1]`.
 #[derive(Debug)]
-pub(super) struct PlaneFunction {
+pub(crate) struct Shares {
     /// The coefficients of the powers of `s` for each dead time.
-    parts: Vec<Vec<MultiPoly>>,
-    poles: Vec<MultiPoly>,
-    /// The dead time of each part, in the shares; none for the first.
-    delays: Vec<DeadTime>,
+    pub parts: Vec<Vec<MultiPoly>>,
+    /// By how much the coefficient of each power of `s` is off at most, in the first part; none are where it is empty.
+    pub slack: Vec<Integer>,
+    /// The axis to cut where that is too much.
+    pub slack_axis: usize,
+    /// The loop is undefined where one of these vanishes, each known up to a bound.
+    pub poles: Vec<(MultiPoly, Integer)>,
+    /// The dead time of each part; none for the first.
+    pub delays: Vec<DeadTime>,
     /// The loop has no meaning where one of these is negative.
-    times: Vec<DeadTime>,
+    pub times: Vec<DeadTime>,
+}
+
+/// The function with its derivatives, also over the frequency (2); those of order `n` are multiplied by `unit^n`.
+#[derive(Debug)]
+pub(crate) struct PlaneFunction {
+    shares: Shares,
+    slack: UniPoly,
     /// `f`, then its derivatives by frequency, `u` and `v`: both parts of the factor of the turn of each part.
     first: [Vec<[MultiPoly; 2]>; 4],
     /// The second derivatives `ww`, `wu`, `wv`, `uu`, `uv`, `vv`: the sums of the moduli of all terms.
@@ -36,16 +47,13 @@ const SCALE: u64 = 96;
 const OMEGA: usize = 2;
 
 impl PlaneFunction {
-    pub fn new(plane: &PlaneLoop, window: &Window) -> PlaneFunction {
-        let coefficients = || plane.terms.iter().map(|(_, part)| part);
-        let order = coefficients().filter_map(|part| part.iter().rposition(|c| !c.is_zero())).max().unwrap_or(0);
-        let flat: Vec<&MultiPoly> = coefficients().flatten().collect();
-        let mut shares = in_shares(&flat, window).into_iter();
-        let parts: Vec<Vec<MultiPoly>> =
-            coefficients().map(|part| shares.by_ref().take(part.len()).collect()).collect();
-        let poles = in_shares(&plane.poles.iter().collect::<Vec<_>>(), window);
-        let delays: Vec<DeadTime> = plane.terms.iter().map(|(time, _)| time.in_shares(window)).collect();
-        let times = plane.times.iter().map(|time| time.in_shares(window)).collect();
+    /// Cost: a product for each dead time and each term of the derivatives.
+    pub fn new(shares: Shares) -> PlaneFunction {
+        let Shares { parts, delays, .. } = &shares;
+        // What is known of a coefficient may be its bound alone.
+        let is_used = |j: usize, c: &MultiPoly| !c.is_zero() || shares.slack.get(j).is_some_and(|x| !x.is_zero());
+        let degree = |part: &Vec<MultiPoly>| part.iter().enumerate().rposition(|(j, c)| is_used(j, c));
+        let order = parts.iter().filter_map(degree).max().unwrap_or(0);
         let numbers = delays.iter().flat_map(|time| [&time.offset, &time.slopes[0], &time.slopes[1]]);
         let unit = numbers.fold(Integer::ONE, |l, x| l.lcm(&x.denominator()));
         let whole = |x: &Rational| (x * &Rational::from(&unit)).numerator();
@@ -78,24 +86,25 @@ impl PlaneFunction {
             let own = first.iter().flatten().flatten().map(|p| p.degree_in(axis)).max().unwrap_or(0);
             second.iter().map(|p| p.degree_in(axis)).max().unwrap_or(0).max(own)
         });
-        PlaneFunction { parts, poles, delays, times, first, second, unit, degrees, order }
+        let slack = UniPoly::new(shares.slack.clone());
+        PlaneFunction { shares, slack, first, second, unit, degrees, order }
     }
 
     /// Walks along the axis, or tells where to cut.
     pub fn look(&self, place: &Place) -> Seen {
         let wider = place.wider();
         let ranges = |list: &[DeadTime]| -> Vec<[Rational; 2]> { list.iter().map(|time| range(time, place)).collect() };
-        let own = ranges(&self.times);
-        if self.parts.is_empty() || own.iter().any(|[_, most]| !most.sign().is_gt()) {
+        let own = ranges(&self.shares.times);
+        if self.shares.parts.is_empty() || own.iter().any(|[_, most]| !most.sign().is_gt()) {
             // No loop has a negative dead time.
             return Seen::Decided(BoxVerdict::Unstable { outside: None });
         }
-        if own.iter().chain(&ranges(&self.delays)).any(|[least, _]| least.is_negative()) {
+        if own.iter().chain(&ranges(&self.shares.delays)).any(|[least, _]| least.is_negative()) {
             return Seen::Cut(wider);
         }
-        for pole in &self.poles {
+        for (pole, slack) in &self.shares.poles {
             let (middle, spread) = self.spread(pole, place);
-            if middle.abs() <= spread {
+            if middle.abs() <= spread + Rational::from(slack) {
                 return Seen::Cut(wider);
             }
         }
@@ -114,10 +123,11 @@ impl PlaneFunction {
     /// A power of two beyond which the highest undelayed power of `s` outweighs all other terms in the whole box.
     fn bound(&self, place: &Place) -> Option<u64> {
         let sizes: Vec<Vec<(Rational, Rational)>> =
-            self.parts.iter().map(|part| part.iter().map(|c| self.spread(c, place)).collect()).collect();
+            self.shares.parts.iter().map(|part| part.iter().map(|c| self.spread(c, place)).collect()).collect();
         let (top, spread) = sizes[0].get(self.order)?;
-        let least = top.abs() - spread;
-        let mut sums = vec![Rational::ZERO; self.order + 1];
+        let slack = |j: usize| Rational::from(&self.slack.coeff(j));
+        let least = top.abs() - spread - slack(self.order);
+        let mut sums: Vec<Rational> = (0..self.order).map(slack).chain([Rational::ZERO]).collect();
         for (k, part) in sizes.iter().enumerate() {
             for (j, (middle, spread)) in part.iter().enumerate().filter(|(j, _)| (k, *j) != (0, self.order)) {
                 sums[j] += middle.abs() + spread;
@@ -182,7 +192,7 @@ impl<'f> Walk<'f> {
         let second = function.second.each_ref().map(|p| function.collapsed(p, &upper));
         let [u, v] = [0, 1].map(|i| middle[i].rational());
         let delay = |time: &DeadTime| &time.offset + &(&time.slopes[0] * &u) + &time.slopes[1] * &v;
-        let delays = function.delays.iter().map(delay).collect();
+        let delays = function.shares.delays.iter().map(delay).collect();
         let halves = place.halvings.map(|h| -i64::from(h) - 1);
         let (shift, over) = (function.shift(&middle), function.shift(&upper));
         Walk { function, first, middle: shift, second, upper: over, delays, halves }
@@ -263,9 +273,14 @@ impl<'f> Walk<'f> {
         let (u_part, v_part) = (first(&by_u, a), first(&by_v, b));
         let sides =
             &(&u_part + &v_part) + &(shifted_up(&uu, 2 * a - 1) + shifted_up(&uv, a + b) + shifted_up(&vv, 2 * b - 1));
+        let slack = (scaled(&self.function.slack, &far, 0) + Integer::ONE) * unit * unit;
         let along = first(&by_omega, h) + shifted_up(&ww, 2 * h - 1) + shifted_up(&wu, h + a) + shifted_up(&wv, h + b);
         let two_thirds = &(value.at_least() * unit * unit) << 1;
         let three = Integer::from(3);
+        if &slack * &three >= two_thirds {
+            return Cone::TooWide(self.function.shares.slack_axis);
+        }
+        let sides = sides + slack;
         if &sides * &three >= two_thirds {
             // The step may be long, but no shorter one will do about its middle.
             return Cone::TooWide(usize::from(v_part > u_part));

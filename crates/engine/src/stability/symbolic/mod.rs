@@ -7,9 +7,11 @@
 mod count;
 mod moving;
 mod pair;
+mod plane;
 mod resultant;
 mod set;
 
+pub use plane::SymbolicPlane;
 pub use set::symbolic_stable_set;
 
 use super::{AtPoint, Cause, HalfSizePair, Shape};
