@@ -73,9 +73,10 @@ def plot_map(m: Map, ax: Any, x: Any, y: Any, columns: int, kw: dict[str, Any]) 
 
     ax = axes(ax)
     document = m.to_dict()
-    # Neighbours share an edge, which two smoothed ones would show.
-    style = {"facecolor": _STABLE, "edgecolor": "none", "alpha": 0.55, "antialiased": False, **kw}
+    style = {"facecolor": _STABLE, "edgecolor": "none", "alpha": 0.55, **kw}
     if not m.is_exact:
+        # Neighbours share an edge, which two smoothed ones would show.
+        style = {"antialiased": False, **style}
         for box in m.boxes:
             if box["verdict"] == "stable":
                 (x0, x1), (y0, y1) = ([float(exact(b)) for b in box[side]] for side in ("x", "y"))
@@ -93,19 +94,8 @@ def plot_map(m: Map, ax: Any, x: Any, y: Any, columns: int, kw: dict[str, Any]) 
         region = loop._region_by(m._words)
         sets = [[tuple(i) for i in loop.intervals(m.y, {**asked, m.x: float(at)}, **region)] for at in inner]
         bottom, top = _window(document, "y", y)
-        quads = []
-        for k, (left, right) in enumerate(zip(inner[:-1], inner[1:], strict=True)):
-            if len(sets[k]) == len(sets[k + 1]):
-                for (a, b), (c, d) in zip(sets[k], sets[k + 1], strict=True):
-                    ends = [min(max(v, bottom), top) for v in (a, c, d, b)]
-                    quads.append([(left, ends[0]), (right, ends[1]), (right, ends[2]), (left, ends[3])])
-            else:
-                middle = 0.5 * (left + right)
-                for start, end, found in ((left, middle, sets[k]), (middle, right, sets[k + 1])):
-                    for a, b in found:
-                        a, b = min(max(a, bottom), top), min(max(b, bottom), top)
-                        quads.append([(start, a), (end, a), (end, b), (start, b)])
-        ax.add_collection(PolyCollection(quads, **style))
+        held = [[(min(max(a, bottom), top), min(max(b, bottom), top)) for a, b in found] for found in sets]
+        ax.add_collection(PolyCollection(_bands(inner, held), **style))
         if logarithmic:
             ax.set_xscale("log")
         if bottom > 0 and top / bottom > 100:
@@ -118,6 +108,28 @@ def plot_map(m: Map, ax: Any, x: Any, y: Any, columns: int, kw: dict[str, Any]) 
     ax.set_xlabel(_named(m.x, document["unit"]["x"]))
     ax.set_ylabel(_named(m.y, document["unit"]["y"]))
     return ax
+
+
+def _bands(places: list[float], held: list[list[tuple[float, float]]]) -> list[list[tuple[float, float]]]:
+    """Outlines of what columns hold: intervals go on as long as there are as many of them, and end half way where there are not."""
+    out: list[list[tuple[float, float]]] = []
+    open_bands: list[list[tuple[float, float, float]]] = []
+
+    def close() -> None:
+        for band in open_bands:
+            out.append([(x, a) for x, a, _ in band] + [(x, b) for x, _, b in reversed(band)])
+
+    for k, (at, found) in enumerate(zip(places, held, strict=True)):
+        if k == 0 or len(found) != len(held[k - 1]):
+            middle = at if k == 0 else 0.5 * (places[k - 1] + at)
+            for band in open_bands:
+                band.append((middle, *band[-1][1:]))
+            close()
+            open_bands = [[(middle, a, b)] for a, b in found]
+        for band, (a, b) in zip(open_bands, found, strict=True):
+            band.append((at, a, b))
+    close()
+    return out
 
 
 def _window(document: dict[str, Any], axis: str, given: Any) -> tuple[float, float]:
@@ -166,7 +178,10 @@ def plot_locus(locus: Locus, ax: Any, grid: bool, kw: dict[str, Any]) -> Any:
         if crossing["at"]:
             is_right = crossing["at"][0][0] > 0
             offset, side = ((-7, 7), "right") if is_right else ((7, 7), "left")
-            ax.annotate(crossing["label"], crossing["at"][0], offset, textcoords="offset points", ha=side, fontsize="small")
+            # Lines go on behind the words.
+            plate = {"boxstyle": "square,pad=0.1", "facecolor": ax.get_facecolor(), "edgecolor": "none", "alpha": 0.85}
+            label = crossing["label"]
+            ax.annotate(label, crossing["at"][0], offset, textcoords="offset points", ha=side, fontsize="small", bbox=plate)
     ax.grid(grid, alpha=0.3)
     ax.set_xlabel("real")
     ax.set_ylabel("imaginary")
