@@ -38,6 +38,7 @@ mod loops {
     mod drive;
     mod examples;
     mod held_margins;
+    mod held_pictures;
     mod large;
     mod margins;
     mod paper;

@@ -11,16 +11,18 @@ use super::{COLOURS, Figure};
 use crate::simulate::{Crossing, LocusOptions, ParameterScale, RootLocus, trace_root_locus};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, to_decimal};
+use jurist_algebra::poly::{Poly, UniPoly};
 use jurist_engine::answer::Answer;
 use jurist_engine::error::Error;
 use jurist_engine::model::Time;
 use jurist_engine::problem::Problem;
 use jurist_engine::show::layout::{short, visible};
-use jurist_engine::stability::{Cause, End, StableSet};
+use jurist_engine::stability::{Cause, End, ParametricPolynomial, StableSet, SymbolicPolynomial};
 pub use range::locus_range;
 
 use marks::Ends;
 use nalgebra::Complex;
+use std::borrow::Cow;
 use windows::Square;
 
 /// What a locus figure shows.
@@ -62,6 +64,37 @@ pub struct DrawnLocus {
     pub parts: [Figure; 2],
 }
 
+/// The characteristic polynomial, exact or with constants rounded far beyond what is seen.
+enum Polynomial<'p> {
+    Exact(Option<&'p ParametricPolynomial>),
+    Rounded(Option<SymbolicPolynomial>),
+}
+
+impl Polynomial<'_> {
+    fn of<'p>(problem: &'p Problem, budget: &Budget) -> Result<Polynomial<'p>, Error> {
+        if problem.algebra_over_symbols(budget)?.symbols().is_empty() {
+            return Ok(Polynomial::Exact(problem.parametric(budget)?));
+        }
+        Ok(Polynomial::Rounded(problem.symbolic(budget)?))
+    }
+
+    /// At a value of the parameter; `None` where it is undefined.
+    fn at(&self, value: &Rational) -> Option<UniPoly> {
+        match self {
+            Polynomial::Exact(p) => p.filter(|p| !p.is_undefined_at(value)).map(|p| p.specialised(value)),
+            Polynomial::Rounded(p) => p.as_ref()?.rounded_at(value),
+        }
+    }
+
+    /// With the parameter; `None` where that is inside of functions.
+    fn whole(&self) -> Option<Cow<'_, Poly<UniPoly>>> {
+        match self {
+            Polynomial::Exact(p) => p.map(|p| Cow::Borrowed(p.polynomial())),
+            Polynomial::Rounded(p) => p.as_ref()?.rounded().map(Cow::Owned),
+        }
+    }
+}
+
 /// Bits to which the ends of the stable set are known for a picture.
 const PICTURE_BITS: u64 = 60;
 
@@ -99,11 +132,8 @@ pub fn locus_of(
         a > 0.0 && b / a > 100.0
     };
     let scale = scale.unwrap_or(if wide { ParameterScale::Logarithmic } else { ParameterScale::Linear });
-    let polynomial = problem.parametric(budget)?;
-    let of = |value: &Rational| {
-        let p = polynomial?;
-        (!p.is_undefined_at(value)).then(|| p.specialised(value))
-    };
+    let polynomial = Polynomial::of(problem, budget)?;
+    let of = |value: &Rational| polynomial.at(value);
     // How far a continuous locus reaches is seen at its ends.
     let mut reach = 2.0f64;
     if !discrete {
@@ -120,7 +150,7 @@ pub fn locus_of(
     let nominal = problem.parameter().nominal.as_ref().and_then(|value| Some((value, of(value)?)));
     let nominal = nominal.map(|(value, p)| (format!("closed loop at {name} = {}", quantity(&short(value), &unit)), p));
     let ends = Ends { parameter: name, range: [shown(&range.0), shown(&range.1)] };
-    let marks = marks::of(polynomial.map(|p| p.polynomial()), nominal, &locus, &ends);
+    let marks = marks::of(polynomial.whole().as_deref(), nominal, &locus, &ends);
     let mut heading = heading(&format!("Root locus in {name}"), problem);
     heading.notes.insert(0, format!("{name} from {} to {}", shown(&range.0), shown(&range.1)));
     let figure =

@@ -9,6 +9,7 @@ mod moving;
 mod pair;
 mod plane;
 mod resultant;
+mod rounded;
 mod set;
 
 pub use plane::SymbolicPlane;

@@ -89,8 +89,11 @@ pub(crate) fn subdivided(
             stopped = Some(format!("boxes ({} undecided)", frontier.len()));
             break;
         }
-        let mut next = Vec::new();
-        let mut rest = frontier.into_iter();
+        // The largest first: what is left at last is about as large everywhere.
+        let halvings = |place: &Place| place.halvings[0] + place.halvings[1];
+        let fewest = frontier.iter().map(halvings).min().unwrap_or(0);
+        let (largest, mut next): (Vec<Place>, Vec<Place>) = frontier.into_iter().partition(|p| halvings(p) == fewest);
+        let mut rest = largest.into_iter();
         while stopped.is_none() && rest.len() > 0 {
             let group: Vec<Place> = rest.by_ref().take(GROUP).collect();
             let all: Vec<(Place, Result<Seen, Exhausted>)> = parallel_map(group, looked);
