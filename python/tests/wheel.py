@@ -28,6 +28,7 @@ def main(path, profile="release"):
     assert metadata["Requires-Python"] == ">=3.11"
     assert "jurist=jurist.__main__:main" in entry.replace(" ", "")
     assert "malachite-nz" in parts, "no list of parts"
+    assert "path+file:/" not in parts, "the list of parts names folders of this machine"
     assert "jurist/py.typed" in names
     assert "jurist/_jurist.pyi" in names
     assert re.search(r"-cp311-abi3-", path), path
