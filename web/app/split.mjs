@@ -33,27 +33,39 @@ try {
   rmSync(scratch, { recursive: true });
 }
 
-/** What the page asks about the drive before anything is touched, and about any other model until it has a verdict. */
+/** What the page asks about the drive before anything is touched and while it is dragged, and about any other model until it has a verdict. */
 function firstScreens(ask) {
   const program = (model, ...args) => ask({ ask: "program", model, arguments: args });
+  const options = (set) => set.flatMap(([name, value]) => ["--set", `${name}=${value}`]);
+  const at = (model, set) => {
+    program(model, "verdict", "-", "--json", ...options(set));
+    ask({ ask: "point", model, set, response: true });
+  };
   const common = (model) => {
     const described = ask({ ask: "describe", model });
-    program(model, "verdict", "-", "--json");
-    ask({ ask: "point", model, set: [], response: true });
-    return described.model?.parameters.map((p) => p.name) ?? [];
+    const set = (described.model?.parameters ?? []).filter((p) => p.nominal !== null).map((p) => [p.name, p.nominal]);
+    at(model, set);
+    return set;
   };
   const read = (file) => readFileSync(join(examples, file), "utf8");
   const drive = read("drive.toml");
-  const [y, x] = common(drive);
-  for (const name of [x, y]) program(drive, "intervals", "-", "--param", name, "--json");
-  ask({ ask: "map", model: drive, set: [], x, y });
-  program(drive, "locus", "-", "--param", y, "--json");
-  program(drive, "margins", "-", "--json");
-  program(drive, "bode", "-", "--json");
+  const set = common(drive);
+  const [y, x] = set.map(([name]) => name);
+  const but = (...names) => set.filter(([name]) => !names.includes(name));
+  for (const value of ["0.01", "1/3", "551", "549.99"]) at(drive, [[y, value], ...but(y)]);
+  for (const name of [x, y]) {
+    program(drive, "intervals", "-", "--param", name, "--json", ...options(but(name)));
+    program(drive, "locus", "-", "--param", name, "--json", "--quiet", ...options(but(name)));
+  }
+  for (const [across, up] of [[x, y], [y, x]]) ask({ ask: "map", model: drive, set: [], x: across, y: up });
+  for (const command of ["margins", "bode"]) program(drive, command, "-", "--json", ...options(set));
   ask({ ask: "describe", model: drive.replace(`${y} = {`, "K = {") });
   program(null, "new", "--list");
   for (const file of readdirSync(examples)) if (file.endsWith(".toml")) common(read(file));
-  for (const text of randomModels(100)) for (const name of common(text).slice(0, 1)) program(text, "intervals", "-", "--param", name, "--json");
+  for (const text of randomModels(100)) {
+    const [[name]] = common(text);
+    program(text, "intervals", "-", "--param", name, "--json");
+  }
 }
 
 /** Which functions were called, in the form that wasm-split reads. */

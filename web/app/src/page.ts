@@ -327,6 +327,7 @@ export class Page {
   }
 
   private verdict(reply: Reply): void {
+    performance.mark("verdict");
     const document = this.document(reply);
     const message = no(reply);
     const verdict: Verdict = document?.verdict ?? undefined;

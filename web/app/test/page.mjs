@@ -319,6 +319,26 @@ test("from a server it is kept, and opens again without one", async () => {
   }
 });
 
+test("the first screens, and dragging, need nothing of the second part of the engine", async () => {
+  await page.open(fromFile);
+  await page.value(`(async () => {
+    const { engine, page } = jurist;
+    Object.assign(globalThis, { whole: engine.rest });
+    engine.rest = undefined;
+    engine.arriving = new Promise(() => {});
+    for (const seat of Object.values(engine.seats)) seat.replace();
+    page.known.clear();
+    page.ask();
+  })()`);
+  await page.settled();
+  for (const value of ["0.02", "300", "550.9", "560"]) {
+    await page.value(`jurist.page.entered("K_pwm", "${value}", false)`);
+    await page.settled();
+  }
+  assert.equal(await page.value('document.getElementById("verdict-word").textContent'), "unstable");
+  await page.value("jurist.engine.rest = whole");
+});
+
 test("what needs the second part of the engine before that is there waits for it", async () => {
   const pending = await page.value(`(async () => {
     const { engine, page } = jurist;
