@@ -39,6 +39,7 @@ mod loops {
     mod examples;
     mod held_margins;
     mod held_pictures;
+    mod held_requirements;
     mod large;
     mod margins;
     mod paper;

@@ -79,6 +79,7 @@ fn bound(definition: &Definition, start: &Rational) -> Option<Ball> {
             Some(least.neg().union(&least))
         }
         Definition::Root(x) => Ball::from_rational(&x.as_constant()?, BITS).sqrt(),
+        Definition::Algebraic(x) => Some(Definition::enclosed(x, BITS)),
         Definition::Pi | Definition::Tangent { .. } => None,
     }
 }

@@ -1,13 +1,16 @@
 //! What a symbol stands for.
 
-use crate::number::Rational;
-use crate::poly::RationalFunction;
+use crate::ball::Ball;
+use crate::number::{Enclosure, Integer, Rational};
+use crate::poly::{MultiPoly, RationalFunction, RealAlgebraic};
 
 /// What a symbol stands for. Arguments are rational functions of earlier symbols, numbered as in the table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Definition {
     /// The circle number.
     Pi,
+    /// A real algebraic number.
+    Algebraic(RealAlgebraic),
     /// The square root that is not negative.
     Root(RationalFunction),
     /// `exp(x)`.
@@ -49,10 +52,16 @@ impl Definition {
         Definition::Tangent { square: RationalFunction::one(), time: x.into().into() }
     }
 
+    /// An algebraic number with that many bits.
+    pub(super) fn enclosed(x: &RealAlgebraic, bits: u64) -> Ball {
+        let (lo, hi) = x.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
+        Ball::between(&lo, &hi, bits)
+    }
+
     /// The functions it is made of.
     pub fn arguments(&self) -> Vec<&RationalFunction> {
         match self {
-            Definition::Pi => Vec::new(),
+            Definition::Pi | Definition::Algebraic(_) => Vec::new(),
             Definition::Root(x) | Definition::Exponential(x) => vec![x],
             Definition::Tangent { square, time } => vec![square, time],
             Definition::Fundamental { polynomial, time, .. } => polynomial.iter().chain([time]).collect(),
@@ -62,7 +71,7 @@ impl Definition {
     /// The same with other arguments; `None` where one of them has none.
     pub fn try_map(&self, mut f: impl FnMut(&RationalFunction) -> Option<RationalFunction>) -> Option<Definition> {
         Some(match self {
-            Definition::Pi => Definition::Pi,
+            Definition::Pi | Definition::Algebraic(_) => self.clone(),
             Definition::Root(x) => Definition::Root(f(x)?),
             Definition::Exponential(x) => Definition::Exponential(f(x)?),
             Definition::Tangent { square, time } => Definition::Tangent { square: f(square)?, time: f(time)? },
@@ -79,6 +88,13 @@ impl Definition {
         let shown = |f: &RationalFunction| f.display(variables).to_string();
         match self {
             Definition::Pi => "pi".into(),
+            Definition::Algebraic(x) => {
+                let p = MultiPoly::from_univariate(x.polynomial(), 0);
+                let p = p.display(&["x".to_owned()]).to_string();
+                let (lo, hi) = x.refined_to_digits(12).enclosure();
+                let decimal = Enclosure::new(lo, hi).decimal(12).unwrap_or_else(|| "a number".into());
+                format!("the root {decimal} of {p}")
+            }
             Definition::Root(x) => format!("sqrt({})", shown(x)),
             Definition::Exponential(x) => format!("exp({})", shown(x)),
             Definition::Tangent { square, time } if square.is_one() => format!("tan({})", shown(time)),

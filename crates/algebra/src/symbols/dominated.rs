@@ -180,6 +180,7 @@ fn bound(definition: &Definition, power: i64, start: &Rational) -> Option<Powers
             let root = Ball::from_rational(&x.as_constant()?, BITS).sqrt()?;
             Some(Powers::power(0, root))
         }
+        Definition::Algebraic(x) => Some(Powers::power(0, Definition::enclosed(x, BITS))),
         Definition::Pi | Definition::Tangent { .. } => None,
     }
 }

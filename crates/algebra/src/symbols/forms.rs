@@ -207,7 +207,7 @@ fn start(definition: &Definition, order: u32) -> Option<Start> {
                 }
             }
         }
-        Definition::Pi | Definition::Root(_) => {}
+        Definition::Pi | Definition::Algebraic(_) | Definition::Root(_) => {}
     }
     found
 }

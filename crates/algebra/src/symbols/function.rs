@@ -62,6 +62,15 @@ impl Function {
         }
     }
 
+    /// The polynomials it is made of.
+    pub(super) fn polynomials(&self) -> impl Iterator<Item = &MultiPoly> {
+        let (a, b) = match self {
+            Function::Polynomial(p) => (std::slice::from_ref(p), &[][..]),
+            Function::Resultant { a, b } => (a.as_slice(), b.as_slice()),
+        };
+        a.iter().chain(b)
+    }
+
     /// A bound of the number of terms when it is expanded.
     pub fn expanded_size(&self) -> u64 {
         match self {
@@ -143,10 +152,7 @@ impl Function {
 
     /// The variables that occur.
     pub fn variables(&self) -> Vec<usize> {
-        let all: std::collections::BTreeSet<usize> = match self {
-            Function::Polynomial(p) => p.variables().into_iter().collect(),
-            Function::Resultant { a, b } => a.iter().chain(b).flat_map(MultiPoly::variables).collect(),
-        };
+        let all: std::collections::BTreeSet<usize> = self.polynomials().flat_map(MultiPoly::variables).collect();
         all.into_iter().collect()
     }
 

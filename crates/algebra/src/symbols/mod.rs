@@ -168,6 +168,7 @@ impl Symbols {
         let at = |f: &RationalFunction| self.quotient_at(f, bits);
         match definition {
             Definition::Pi => Some(Ball::from_enclosure(&Enclosure::pi(bits + 8), bits)),
+            Definition::Algebraic(x) => Some(Definition::enclosed(x, bits)),
             Definition::Root(x) => at(x)?.sqrt(),
             Definition::Exponential(x) => Some(exp(&at(x)?)),
             Definition::Tangent { square, time } => {
@@ -249,6 +250,7 @@ impl Symbols {
 fn at_rationals(definition: &Definition, bits: u64) -> Option<Ball> {
     match definition {
         Definition::Pi => Some(Ball::from_enclosure(&Enclosure::pi(bits + 8), bits)),
+        Definition::Algebraic(x) => Some(Definition::enclosed(x, bits)),
         Definition::Root(x) => {
             let x = x.as_constant()?;
             Ball::from_rational(&x, 2 * bits + 2).sqrt().map(|root| root.with_bits(bits))

@@ -87,6 +87,23 @@ impl MovingSymbols {
         MovingSymbols { table }
     }
 
+    /// The table with another symbol at its end.
+    pub fn with(&self, name: &str, definition: Definition) -> MovingSymbols {
+        let mut table = self.table.clone();
+        table.push((name.to_owned(), definition));
+        MovingSymbols { table }
+    }
+
+    /// The number of symbols.
+    pub fn len(&self) -> usize {
+        self.table.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.table.is_empty()
+    }
+
     pub(super) fn table(&self) -> &[(String, Definition)] {
         &self.table
     }
@@ -149,6 +166,7 @@ impl MovingSymbols {
             let zero = Series::constant(&Ball::zero(bits), terms);
             let value = match definition {
                 Definition::Pi => Series::constant(&Ball::from_enclosure(&Enclosure::pi(bits + 8), bits), terms),
+                Definition::Algebraic(x) => Series::constant(&Definition::enclosed(x, bits), terms),
                 Definition::Root(x) => at(x)?.sqrt()?,
                 Definition::Exponential(x) => {
                     let x = at(x)?;
@@ -237,8 +255,9 @@ impl MovingSymbols {
         let mut found = Zeros::default();
         let mut brackets: Vec<(Rational, Rational)> = Vec::new();
         let mut start = lower.clone();
-        if self.may_vanish_at(f, lower, budget)? {
-            match budget.enter(|| self.clear_above(f, lower, upper))? {
+        let at_lower = self.vanishing(f, lower, budget)?;
+        if at_lower != Some(false) {
+            match budget.enter(|| self.clear_above(f, lower, upper, at_lower == Some(true)))? {
                 Some(end) => start = end,
                 None => {
                     let width = (upper - lower) * Rational::dyadic(&Integer::ONE, 40);
@@ -312,9 +331,14 @@ impl MovingSymbols {
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
     pub fn may_vanish_at(&self, f: &Function, value: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
+        Ok(self.vanishing(f, value, budget)? != Some(false))
+    }
+
+    /// Whether the function is zero at a rational value of the parameter; `None` where that is neither proved nor disproved.
+    fn vanishing(&self, f: &Function, value: &Rational, budget: &Budget) -> Result<Option<bool>, Exhausted> {
         match self.vanishes_at(f, value, budget) {
-            Err(stopped) if stopped.budget.starts_with("precision") => Ok(true),
-            found => found,
+            Err(stopped) if stopped.budget.starts_with("precision") => Ok(None),
+            found => found.map(Some),
         }
     }
 
@@ -360,9 +384,10 @@ impl MovingSymbols {
                 return if is_lost { Look::Hopeless } else { Look::Unknown };
             };
             let found = self.judged(f, lo, hi, &taylor, bits);
-            // Whether more bits would tell more than a shorter interval.
+            // Where the function varies by more than is noise, a shorter interval tells more than more bits do.
             let noise = taylor[..2].iter().map(Ball::width_units).max().unwrap_or(Integer::ZERO);
-            if !matches!(found, Look::Unknown) || noise < taylor[TERMS].magnitude_units() {
+            let variation = taylor[1..].iter().map(Ball::magnitude_units).max().unwrap_or(Integer::ZERO);
+            if !matches!(found, Look::Unknown) || noise < (variation >> 8) {
                 return found;
             }
             bits *= 2;
@@ -390,9 +415,10 @@ impl MovingSymbols {
         Look::Unknown
     }
 
-    /// A number above `lower`, at which the function is zero, up to which it has no other zero.
-    fn clear_above(&self, f: &Function, lower: &Rational, upper: &Rational) -> Option<Rational> {
-        let order = self.order_at(f, lower)?;
+    /// A number above `lower`, at which the function is zero, up to which it has no other zero. Where that it is zero is all that is known
+    /// for certain, the zero may turn out to be a simple one.
+    fn clear_above(&self, f: &Function, lower: &Rational, upper: &Rational, is_zero: bool) -> Option<Rational> {
+        let order = self.order_at(f, lower).or_else(|| is_zero.then(|| self.least_order(f, lower)))?;
         // f = (T - lower)^order (a + ...): the later coefficients on a short interval are less than the first one.
         let mut step = (upper - lower) * Rational::dyadic(&Integer::ONE, 3);
         for _ in 0..MOST_HALVINGS {
@@ -415,6 +441,19 @@ impl MovingSymbols {
             step *= Rational::dyadic(&Integer::ONE, 1);
         }
         None
+    }
+
+    /// The least order that a zero at this number can have: a function of a power of the parameter has zeros of multiples of its order at 0.
+    fn least_order(&self, f: &Function, at: &Rational) -> usize {
+        let depends = |d: &Definition| d.arguments().iter().any(|x| x.variables().contains(&0));
+        if !at.is_zero() || self.table.iter().any(|(_, d)| depends(d)) {
+            return 1;
+        }
+        let exponents = f.polynomials().flat_map(|p| p.terms().iter().map(|(m, _)| Integer::from(m.exponent(0))));
+        exponents
+            .fold(Integer::ZERO, |g, e| g.gcd(&e))
+            .to_i64()
+            .map_or(1, |step| step.clamp(1, MOST_ORDER as i64) as usize)
     }
 
     /// The order of the zero at a rational number, where the series there is rational: then that of its first coefficient that

@@ -246,7 +246,7 @@ impl Symbols {
                 denominator.insert(Number::default(), &Number::rational(-w));
                 Some(Quotient { numerator, denominator })
             }
-            Definition::Fundamental { .. } | Definition::Pi => None,
+            Definition::Fundamental { .. } | Definition::Pi | Definition::Algebraic(_) => None,
         }
     }
 }

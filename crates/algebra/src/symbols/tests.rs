@@ -1,7 +1,7 @@
 use super::*;
 use crate::limits::Budget;
 use crate::number::parse_number;
-use crate::poly::Domain;
+use crate::poly::{Domain, SquareFree, UniPoly};
 
 fn number(text: &str) -> Rational {
     parse_number(text).unwrap()
@@ -144,4 +144,26 @@ fn a_function_that_touches_zero_is_undecided_there_and_only_there() {
     assert!(found.zeros.is_empty() && found.undecided.len() == 1);
     let (lo, hi) = &found.undecided[0];
     assert!(*lo < number("1.570796326794897") && number("1.570796326794896") < *hi && hi - lo < number("1e-12"));
+}
+
+/// `K^2 (X - K^2 r)` with `X = exp(-1)`, `r` the root of 2: the double zero at 0 is one of a function of `K^2`, and leaves nothing open.
+#[test]
+fn a_zero_at_the_end_of_a_function_of_a_square_is_seen_to_be_alone() {
+    let root = crate::poly::isolate_real_roots(
+        &SquareFree::new(UniPoly::from_i64(&[-2, 0, 1])).unwrap(),
+        &Budget::unlimited(),
+    )
+    .unwrap()
+    .pop()
+    .unwrap();
+    let table = vec![("X".to_owned(), Definition::exponential(-1)), ("r".to_owned(), Definition::Algebraic(root))];
+    let symbols = Arc::new(MovingSymbols::new(table));
+    let [k, x, r] = [0, 1, 2].map(MultiPoly::variable);
+    let square = k.times(&k);
+    let f = square.times(&x.minus(&square.times(&r)));
+    let (zero, one) = (Rational::ZERO, Rational::ONE);
+    let found = symbols.zeros_in(&f.into(), &zero, &one, &one, &Budget::unlimited()).unwrap();
+    // sqrt(exp(-1)/sqrt(2))
+    assert_eq!(found.zeros.iter().map(|z| z.decimal(20)).collect::<Vec<_>>(), ["0.51002945749382402528"]);
+    assert!(found.undecided.is_empty(), "{:?}", found.undecided);
 }

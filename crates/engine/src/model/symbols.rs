@@ -378,6 +378,7 @@ impl Meaning {
     fn letter(&self) -> &'static str {
         match self {
             Meaning::Constant(Definition::Pi) => "pi",
+            Meaning::Constant(Definition::Algebraic(_)) => "a",
             Meaning::Constant(Definition::Root(_)) => "r",
             Meaning::Constant(Definition::Exponential(_)) => "X",
             Meaning::Constant(Definition::Tangent { .. }) => "t",

@@ -311,6 +311,13 @@ impl Problem {
         Ok(problem)
     }
 
+    /// The problem with its one free parameter at a value.
+    pub(crate) fn with_value(&self, value: &Rational) -> Problem {
+        let mut set = self.set.clone();
+        set.push((self.parameter().name.clone(), value.clone()));
+        Problem::new(Arc::clone(&self.model), set, Vec::new(), self.region.clone(), Vec::new())
+    }
+
     /// [`Problem::on_line`] for one who needs the polynomial only in the form that is decided.
     pub(crate) fn line(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Error> {
         let algebra = self.algebra(budget)?.beside_polynomial(fixed, value);

@@ -44,49 +44,8 @@ impl Cells<'_> {
     pub fn within(&self, lower: Option<&End>, upper: Option<&End>) -> Result<Vec<RequiredInterval>, Error> {
         let (least, most) = (lower.map(|end| &end.value), upper.map(|end| &end.value));
         let zeros = self.zeros_between(least, most)?;
-        let mut cells = Vec::with_capacity(zeros.len() + 1);
-        for i in 0..=zeros.len() {
-            self.budget.check()?;
-            let below = if i == 0 { least } else { Some(&zeros[i - 1]) };
-            let above = zeros.get(i).or(most);
-            let sample = match (below, above) {
-                (Some(a), Some(b)) => rational_between(a, b, self.budget)?.expect("they differ"),
-                (Some(a), None) => self.budget.enter(|| a.rational_above())?,
-                (None, Some(b)) => self.budget.enter(|| b.rational_below())?,
-                (None, None) => Rational::ZERO,
-            };
-            cells.push(self.unmet(&sample)?);
-        }
-        let mut out: Vec<RequiredInterval> = Vec::new();
-        let stability = |end: Option<&End>| end.cloned().map(RequiredEnd::Stability);
-        let mut begun: Option<Option<RequiredEnd>> = cells[0].is_empty().then(|| stability(lower));
-        for (i, zero) in zeros.iter().enumerate() {
-            let (before, after) = (&cells[i], &cells[i + 1]);
-            match (before.is_empty(), after.is_empty()) {
-                (true, false) => {
-                    let upper = Some(self.end(zero, after)?);
-                    out.push(RequiredInterval { lower: begun.take().expect("an interval has begun"), upper });
-                }
-                (false, true) => begun = Some(Some(self.end(zero, before)?)),
-                (true, true) => {
-                    // A rational value between two cells is decided like any other.
-                    let unmet = match zero.exact() {
-                        Some(value) => self.unmet(&value)?,
-                        None => Vec::new(),
-                    };
-                    if !unmet.is_empty() {
-                        let end = RequiredEnd::Requirement { value: zero.clone(), names: unmet, closed: false };
-                        let lower = begun.replace(Some(end.clone())).expect("an interval has begun");
-                        out.push(RequiredInterval { lower, upper: Some(end) });
-                    }
-                }
-                (false, false) => {}
-            }
-        }
-        if let Some(lower) = begun {
-            out.push(RequiredInterval { lower, upper: stability(upper) });
-        }
-        Ok(out)
+        let is_closed = |i: usize, names: &[&'static str]| self.is_closed(&zeros[i], names);
+        required_parts([lower, upper], &zeros, &|value| self.unmet(value), &is_closed, self.budget)
     }
 
     /// Where a requirement may begin or cease to be met, strictly between two numbers, ascending.
@@ -121,9 +80,9 @@ impl Cells<'_> {
         Ok(out)
     }
 
-    /// The end at a zero beyond which some are not met. A modulus margin and a damping are continuous where the loop is stable,
-    /// and so is a phase margin unless a crossing appears; a gain margin asks for stability at its own ends too.
-    fn end(&self, zero: &Real, names: &[&'static str]) -> Result<RequiredEnd, Error> {
+    /// Whether at a zero beyond which some are not met all are met yet. A modulus margin and a damping are continuous where the
+    /// loop is stable, and so is a phase margin unless a crossing appears; a gain margin asks for stability at its own ends too.
+    fn is_closed(&self, zero: &Real, names: &[&'static str]) -> Result<bool, Error> {
         let unmet = |r: &Requirement| names.contains(&r.name());
         let mut closed = true;
         for (requirement, boundary) in self.requirements.iter().zip(self.boundaries).filter(|(r, _)| unmet(r)) {
@@ -137,6 +96,64 @@ impl Cells<'_> {
                 Requirement::SettlingTime { .. } | Requirement::DelayMargin(_) => true,
             };
         }
-        Ok(RequiredEnd::Requirement { value: zero.clone(), names: names.to_vec(), closed })
+        Ok(closed)
     }
+}
+
+/// The parts of a stable interval in which everything is met, from one sample of each cell between neighbouring candidates.
+///
+/// `unmet` has the names of what is not met at a value; `is_closed` tells whether at a candidate, of which the number is given, all is
+/// met yet when these are not met beyond.
+pub(super) fn required_parts(
+    [lower, upper]: [Option<&End>; 2],
+    candidates: &[Real],
+    unmet: &dyn Fn(&Rational) -> Result<Vec<&'static str>, Error>,
+    is_closed: &dyn Fn(usize, &[&'static str]) -> Result<bool, Error>,
+    budget: &Budget,
+) -> Result<Vec<RequiredInterval>, Error> {
+    let (least, most) = (lower.map(|end| &end.value), upper.map(|end| &end.value));
+    let mut cells = Vec::with_capacity(candidates.len() + 1);
+    for i in 0..=candidates.len() {
+        budget.check()?;
+        let below = if i == 0 { least } else { Some(&candidates[i - 1]) };
+        let above = candidates.get(i).or(most);
+        let sample = match (below, above) {
+            (Some(a), Some(b)) => rational_between(a, b, budget)?.expect("they differ"),
+            (Some(a), None) => budget.enter(|| a.rational_above())?,
+            (None, Some(b)) => budget.enter(|| b.rational_below())?,
+            (None, None) => Rational::ZERO,
+        };
+        cells.push(unmet(&sample)?);
+    }
+    let mut out: Vec<RequiredInterval> = Vec::new();
+    let stability = |end: Option<&End>| end.cloned().map(RequiredEnd::Stability);
+    let binding = |i: usize, names: &[&'static str]| -> Result<RequiredEnd, Error> {
+        let (value, closed) = (candidates[i].clone(), is_closed(i, names)?);
+        Ok(RequiredEnd::Requirement { value, names: names.to_vec(), closed })
+    };
+    let mut begun: Option<Option<RequiredEnd>> = cells[0].is_empty().then(|| stability(lower));
+    for (i, value) in candidates.iter().enumerate() {
+        let (before, after) = (&cells[i], &cells[i + 1]);
+        match (before.is_empty(), after.is_empty()) {
+            (true, false) => {
+                let upper = Some(binding(i, after)?);
+                out.push(RequiredInterval { lower: begun.take().expect("an interval has begun"), upper });
+            }
+            (false, true) => begun = Some(Some(binding(i, before)?)),
+            (true, true) => {
+                // A rational value between two cells is decided like any other.
+                let names = value.exact().map(|value| unmet(&value)).transpose()?.unwrap_or_default();
+                if !names.is_empty() {
+                    let end = RequiredEnd::Requirement { value: value.clone(), names, closed: false };
+                    let lower = begun.replace(Some(end.clone())).expect("an interval has begun");
+                    out.push(RequiredInterval { lower, upper: Some(end) });
+                }
+            }
+            (false, false) => {}
+        }
+    }
+    if let Some(lower) = begun {
+        out.push(RequiredInterval { lower, upper: stability(upper) });
+    }
+    Ok(out)
 }

@@ -4,7 +4,7 @@ use super::open_loop::OpenLoop;
 use super::place::{modulus_squared, product};
 use super::requirement::Requirement;
 use crate::error::{Diagnostic, Error};
-use crate::model::{Cut, Opened};
+use crate::model::{ClosedLoop, Cut, Opened};
 use crate::problem::Problem;
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -50,18 +50,54 @@ impl Parameters for MultiPoly {
 
 /// The open loop with what is free left in it: polynomials in the frequency's variable over those in the parameters.
 pub(crate) struct Family<R> {
-    denominator: Poly<R>,
-    numerator: Poly<R>,
-    shape: Shape,
+    quotient: Quotient<R>,
     sample_time: Option<Rational>,
     cut: Cut,
-    /// The number of parameters, and so the variable of a required number that is not rational.
+    /// The number of parameters.
     free: usize,
     /// Where the open loop is undefined.
     pub undefined: R,
 }
 
-/// Polynomials in what is free, at whose zeros a requirement may begin or cease to be met.
+/// `N/D0` over a ring in which the parameters are.
+pub(super) struct Quotient<R> {
+    pub denominator: Poly<R>,
+    pub numerator: Poly<R>,
+    pub shape: Shape,
+}
+
+/// How the variable of the frequency is eliminated, and a required number `alpha` that is not rational.
+pub(super) trait Elimination<R: Domain> {
+    /// A function of the parameters.
+    type Left;
+
+    /// One that is known.
+    fn function(&self, f: R) -> Self::Left;
+
+    /// What is zero where `p` and `a + alpha b` have a common root.
+    fn common_root(
+        &self,
+        p: &Poly<R>,
+        a: &Poly<R>,
+        b: &Poly<R>,
+        alpha: &RealAlgebraic,
+        budget: &Budget,
+    ) -> Result<Self::Left, Exhausted>;
+
+    /// What is zero where `a + alpha b` is.
+    fn sum(&self, a: &R, b: &R, alpha: &RealAlgebraic, budget: &Budget) -> Result<Self::Left, Exhausted>;
+
+    /// What is zero where a square-free polynomial of degree 2 at least has a repeated root.
+    fn discriminant(&self, p: &Poly<R>, budget: &Budget) -> Result<Self::Left, Exhausted>;
+}
+
+/// By resultants that are expanded; conjugates of the required number come with it.
+struct Expanded {
+    /// The variable of the required number.
+    variable: usize,
+}
+
+/// Functions of what is free, at whose zeros a requirement may begin or cease to be met.
 pub(crate) struct Boundaries<R> {
     /// All of them.
     pub zeros: Vec<R>,
@@ -82,49 +118,68 @@ impl<R: Parameters> Family<R> {
         let Opened { system, sample_time, symbols } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
         if !symbols.is_empty() {
             let message =
-                "requirements on margins are decided at points for loops with functions that are not rational";
-            let help = "ask 'verdict' or 'margins' with a value for every parameter";
+                "requirements on margins are decided in one parameter for loops with functions that are not rational";
+            let help = "ask 'intervals' for one of the parameters, or 'margins' with a value for each";
             return Err(Diagnostic::error("E-require", message).help(help).into());
         }
-        let column = system.inputs.len().max(system.e.columns()) - 1;
-        let transfer = system.transfer_function_at(0, column, budget)?;
-        let all: Vec<RationalFunction> =
-            transfer.denominator.coefficients.iter().cloned().chain(transfer.numerator.iter().map(|f| -f)).collect();
-        let common = all.iter().fold(R::one(), |l, f| {
-            let d = R::lowered(f.denominator());
-            l.times(&d.div_exact(&l.gcd(&d)).expect("a gcd divides"))
-        });
-        let cleared = |f: &RationalFunction| {
-            let factor = common.div_exact(&R::lowered(f.denominator())).expect("a common multiple");
-            R::lowered(f.numerator()).times(&factor)
-        };
-        let split = transfer.denominator.coefficients.len();
-        let denominator = Poly::new(all[..split].iter().map(cleared).collect());
-        let numerator: Poly<R> = Poly::new(all[split..].iter().map(cleared).collect());
-        if numerator.is_zero() {
-            let message = format!("nothing comes back to '{}': there is no loop through it", cut.name());
-            return Err(Diagnostic::error("E-cut", message).into());
+        let (quotient, undefined) = Quotient::of(&system, problem.shape(), R::lowered, budget)?;
+        if quotient.numerator.is_zero() {
+            return Err(nothing_comes_back(&cut));
         }
         let sample_time = sample_time.and_then(|t| t.as_constant());
-        Ok(Family {
-            denominator,
-            numerator,
-            shape: problem.shape(),
-            sample_time,
-            cut,
-            free: kept.len(),
-            undefined: common,
-        })
+        Ok(Family { quotient, sample_time, cut, free: kept.len(), undefined })
     }
 
     /// The open loop at a point.
     pub fn at(&self, point: &[Rational]) -> OpenLoop {
         let part = |p: &Poly<R>| p.coeffs().iter().map(|c| c.value(point)).collect::<Vec<_>>();
-        let (denominator, numerator) = super::open_loop::integral(part(&self.denominator), part(&self.numerator));
-        OpenLoop::from_parts(self.cut.clone(), denominator, numerator, self.shape, self.sample_time.clone())
+        let (denominator, numerator) =
+            super::open_loop::integral(part(&self.quotient.denominator), part(&self.quotient.numerator));
+        OpenLoop::from_parts(self.cut.clone(), denominator, numerator, self.quotient.shape, self.sample_time.clone())
     }
 
     pub fn boundaries(&self, requirement: &Requirement, budget: &Budget) -> Result<Boundaries<R>, Exhausted> {
+        self.quotient.boundaries(&Expanded { variable: self.free }, requirement, budget)
+    }
+}
+
+impl<R: Domain> Quotient<R> {
+    /// From the cut to the cut, and the common denominator of all coefficients.
+    pub fn of(
+        system: &ClosedLoop,
+        shape: Shape,
+        ring: impl Fn(&MultiPoly) -> R,
+        budget: &Budget,
+    ) -> Result<(Quotient<R>, R), Error> {
+        let column = system.inputs.len().max(system.e.columns()) - 1;
+        let transfer = system.transfer_function_at(0, column, budget)?;
+        let all: Vec<RationalFunction> =
+            transfer.denominator.coefficients.iter().cloned().chain(transfer.numerator.iter().map(|f| -f)).collect();
+        budget
+            .enter(|| {
+                let common = all.iter().fold(R::one(), |l, f| {
+                    let d = ring(f.denominator());
+                    l.times(&d.div_exact(&l.gcd(&d)).expect("a gcd divides"))
+                });
+                let cleared = |f: &RationalFunction| {
+                    let factor = common.div_exact(&ring(f.denominator())).expect("a common multiple");
+                    ring(f.numerator()).times(&factor)
+                };
+                let split = transfer.denominator.coefficients.len();
+                let denominator = Poly::new(all[..split].iter().map(cleared).collect());
+                let numerator = Poly::new(all[split..].iter().map(cleared).collect());
+                (Quotient { denominator, numerator, shape }, common)
+            })
+            .map_err(Error::from)
+    }
+
+    /// Where a requirement may begin or cease to be met.
+    pub fn boundaries<E: Elimination<R>>(
+        &self,
+        by: &E,
+        requirement: &Requirement,
+        budget: &Budget,
+    ) -> Result<Boundaries<E::Left>, Exhausted> {
         let common = budget.enter(|| self.denominator.gcd(&self.numerator))?;
         let divided = |p: &Poly<R>| p.div_exact(&common).expect("a gcd divides");
         let (d, n) = (divided(&self.denominator), divided(&self.numerator));
@@ -133,47 +188,60 @@ impl<R: Parameters> Family<R> {
         let below = squared(&d);
         let (twice_real, imaginary) = product(&n, &d, degree, self.shape);
         let twice_below = below.scaled(&integer(2));
+        let one = || by.function(R::one());
+        let repeated = |p: &Poly<R>| match p.degree() {
+            Some(2..) => by.discriminant(p, budget),
+            _ => Ok(one()),
+        };
+        let eliminated = |p: &Poly<R>, a: &Poly<R>, b: &Poly<R>, alpha: &RealAlgebraic| match p.is_constant() {
+            true => Ok(one()),
+            false => by.common_root(p, a, b, alpha, budget),
+        };
+        let at_ends = |p: &Poly<R>| self.at_ends(p).into_iter().map(|f| by.function(f)).collect::<Vec<_>>();
         Ok(match requirement {
             Requirement::ModulusMargin(least) => {
                 let (p, q) = (least.numerator(), least.denominator());
                 let excess = squared(&d.plus(&n)).scaled(&R::from_integer(&(&q * &q)));
                 let excess = excess.minus(&below.scaled(&R::from_integer(&(&p * &p))));
                 let excess = budget.enter(|| excess.square_free_part())?;
-                let mut zeros = self.at_ends(&excess);
-                zeros.push(discriminant_of(&excess, budget)?);
-                Boundaries { zeros, values: Vec::new(), touches: R::one() }
+                let mut zeros = at_ends(&excess);
+                zeros.push(repeated(&excess)?);
+                Boundaries { zeros, values: Vec::new(), touches: one() }
             }
             Requirement::PhaseMargin { twice_cosine, .. } => {
-                // Modulus one, and the real part is minus the cosine: twice_real + 2 cos |D0|^2 = 0.
-                let excess = squared(&n).minus(&below);
+                // Modulus one, and the real part is minus the cosine: twice_real + 2 cos |N|^2 = 0. Of a gain, N is a multiple.
+                let above = squared(&n);
+                let excess = above.minus(&below);
                 let excess = without_common(&excess, &[&below, &twice_real], budget)?;
-                let mut zeros = self.at_ends(&excess);
-                zeros.push(self.eliminated(&excess, &twice_real, &below, twice_cosine, budget)?);
-                let touches = discriminant_of(&excess, budget)?;
-                zeros.push(touches.clone());
-                Boundaries { zeros, values: Vec::new(), touches }
+                // At an end of the range L = 1: where it is -1 there, stability ends.
+                let ends = self.values_at_ends(&d, &n, degree).into_iter().map(|(d, n)| n.minus(&d));
+                let ends = ends.chain(excess.leading().cloned()).filter(|f| !f.is_zero());
+                let mut zeros: Vec<_> = ends.map(|f| by.function(f)).collect();
+                zeros.push(eliminated(&excess, &twice_real, &above, twice_cosine)?);
+                zeros.push(repeated(&excess)?);
+                Boundaries { zeros, values: Vec::new(), touches: repeated(&excess)? }
             }
             Requirement::GainMargin { factor, .. } => {
                 // Real, and the factor makes it -1: 2 |D0|^2 + k twice_real = 0.
                 let mut zeros = Vec::new();
-                let mut touches = R::one();
+                let mut touches = one();
                 if !imaginary.is_zero() {
                     let imaginary = without_common(&imaginary, &[&below, &twice_real], budget)?;
-                    zeros.extend(self.at_ends(&imaginary));
-                    zeros.push(self.eliminated(&imaginary, &twice_below, &twice_real, factor, budget)?);
-                    zeros.push(self.eliminated(&imaginary, &twice_real, &twice_below, factor, budget)?);
-                    touches = discriminant_of(&imaginary, budget)?;
-                    zeros.push(touches.clone());
+                    zeros.extend(at_ends(&imaginary));
+                    zeros.push(eliminated(&imaginary, &twice_below, &twice_real, factor)?);
+                    zeros.push(eliminated(&imaginary, &twice_real, &twice_below, factor)?);
+                    zeros.push(repeated(&imaginary)?);
+                    touches = repeated(&imaginary)?;
                 }
                 for (a, b) in self.values_at_ends(&d, &n, degree) {
                     for (a, b) in [(&a, &b), (&b, &a)] {
-                        zeros.push(self.norm(a, b, factor, budget)?);
+                        zeros.push(by.sum(a, b, factor, budget)?);
                     }
                 }
                 Boundaries { zeros, values: Vec::new(), touches }
             }
             Requirement::Damping(_) | Requirement::DelayMargin(_) | Requirement::SettlingTime { .. } => {
-                Boundaries::none()
+                Boundaries { zeros: Vec::new(), values: Vec::new(), touches: one() }
             }
         })
     }
@@ -199,9 +267,16 @@ impl<R: Parameters> Family<R> {
         out.retain(|(a, b)| !a.is_zero() && !b.is_zero());
         out
     }
+}
 
-    /// Where `p` and `a + alpha b` have a common root, and more.
-    fn eliminated(
+impl<R: Parameters> Elimination<R> for Expanded {
+    type Left = R;
+
+    fn function(&self, f: R) -> R {
+        f
+    }
+
+    fn common_root(
         &self,
         p: &Poly<R>,
         a: &Poly<R>,
@@ -209,35 +284,56 @@ impl<R: Parameters> Family<R> {
         alpha: &RealAlgebraic,
         budget: &Budget,
     ) -> Result<R, Exhausted> {
-        if p.is_constant() {
-            return Ok(R::one());
-        }
         if let Some(alpha) = alpha.exact() {
-            let scaled = |p: &Poly<R>, by: &Integer| p.scaled(&R::from_integer(by));
-            return resultant(p, &scaled(a, &alpha.denominator()).plus(&scaled(b, &alpha.numerator())), budget);
+            return resultant(p, &plus_multiple(a, b, &alpha), budget);
         }
         let lift = |p: &Poly<R>| p.map(R::lifted);
-        let with = lift(a).plus(&lift(b).scaled(&MultiPoly::variable(self.free)));
+        let with = lift(a).plus(&lift(b).scaled(&MultiPoly::variable(self.variable)));
         let value = resultant(&lift(p), &with, budget)?;
         self.norm_of(&value, alpha, budget)
     }
 
-    /// The norm of `a + alpha b`.
-    fn norm(&self, a: &R, b: &R, alpha: &RealAlgebraic, budget: &Budget) -> Result<R, Exhausted> {
+    fn sum(&self, a: &R, b: &R, alpha: &RealAlgebraic, budget: &Budget) -> Result<R, Exhausted> {
         if let Some(alpha) = alpha.exact() {
-            let scaled = |p: &R, by: &Integer| p.times(&R::from_integer(by));
-            return Ok(scaled(a, &alpha.denominator()).plus(&scaled(b, &alpha.numerator())));
+            return Ok(plus_multiple_of(a, b, &alpha));
         }
-        self.norm_of(&a.lifted().plus(&b.lifted().times(&MultiPoly::variable(self.free))), alpha, budget)
+        self.norm_of(&a.lifted().plus(&b.lifted().times(&MultiPoly::variable(self.variable))), alpha, budget)
     }
 
+    fn discriminant(&self, p: &Poly<R>, budget: &Budget) -> Result<R, Exhausted> {
+        discriminant(p, budget)
+    }
+}
+
+impl Expanded {
     /// The resultant with the polynomial of `alpha`, the variable after those that are free.
-    fn norm_of(&self, value: &MultiPoly, alpha: &RealAlgebraic, budget: &Budget) -> Result<R, Exhausted> {
-        let in_alpha = value.as_poly_in(self.free);
+    fn norm_of<R: Parameters>(
+        &self,
+        value: &MultiPoly,
+        alpha: &RealAlgebraic,
+        budget: &Budget,
+    ) -> Result<R, Exhausted> {
+        let in_alpha = value.as_poly_in(self.variable);
         let polynomial = alpha.polynomial().map(|c| MultiPoly::constant(c.clone()));
         let left = if in_alpha.is_constant() { in_alpha.coeff(0) } else { resultant(&in_alpha, &polynomial, budget)? };
         Ok(R::lowered(&left))
     }
+}
+
+/// The refusal of a cut through which there is no loop.
+pub(super) fn nothing_comes_back(cut: &Cut) -> Error {
+    let message = format!("nothing comes back to '{}': there is no loop through it", cut.name());
+    Diagnostic::error("E-cut", message).into()
+}
+
+/// `a + alpha b` times the denominator of `alpha`.
+pub(super) fn plus_multiple<R: Domain>(a: &Poly<R>, b: &Poly<R>, alpha: &Rational) -> Poly<R> {
+    a.scaled(&R::from_integer(&alpha.denominator())).plus(&b.scaled(&R::from_integer(&alpha.numerator())))
+}
+
+/// The same of numbers.
+pub(super) fn plus_multiple_of<R: Domain>(a: &R, b: &R, alpha: &Rational) -> R {
+    a.times(&R::from_integer(&alpha.denominator())).plus(&b.times(&R::from_integer(&alpha.numerator())))
 }
 
 fn integer<R: Domain>(x: i64) -> R {
@@ -250,11 +346,6 @@ fn without_common<R: Domain>(p: &Poly<R>, others: &[&Poly<R>], budget: &Budget) 
         let common = others.iter().fold(p.clone(), |g, q| g.gcd(q));
         p.div_exact(&common).expect("a gcd divides").square_free_part()
     })
-}
-
-/// The discriminant of a square-free polynomial; 1 where it has at most one root.
-fn discriminant_of<R: Domain>(p: &Poly<R>, budget: &Budget) -> Result<R, Exhausted> {
-    if p.degree().is_none_or(|n| n < 2) { Ok(R::one()) } else { discriminant(p, budget) }
 }
 
 impl<R: Domain> Boundaries<R> {

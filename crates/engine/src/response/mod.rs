@@ -22,6 +22,7 @@ mod margins;
 mod met;
 mod norm;
 mod open_loop;
+mod over_symbols;
 mod place;
 mod required_map;
 mod required_set;

@@ -2,6 +2,7 @@
 
 use super::Place;
 use super::by_gain::{by_gain, only_gain};
+use super::family::nothing_comes_back;
 use super::ground::{Constants, Ground, Integers};
 use super::place::{modulus_squared, product};
 use crate::error::{Diagnostic, Error};
@@ -127,8 +128,7 @@ impl OpenLoop {
         };
         let open_loop = OpenLoop { cut, shape, sample_time, over, dead_time };
         if open_loop.over.is_open() {
-            let message = format!("nothing comes back to '{}': there is no loop through it", open_loop.cut.name());
-            return Err(Diagnostic::error("E-cut", message).into());
+            return Err(nothing_comes_back(&open_loop.cut));
         }
         Ok(open_loop)
     }

@@ -5,13 +5,16 @@ use super::damped::changes;
 use super::family::{Boundaries, Family};
 use super::margins::Margins;
 use super::met::AtPoint;
+use super::over_symbols::SymbolicFamily;
 use super::requirement::{Requirement, scaled_by_exponential, sector_in_parameter};
 use super::spiral::OnSpiral;
 use super::{DelayMargin, HeldDelay};
 use crate::answer::{Answer, Verdict};
 use crate::error::{Diagnostic, Error};
 use crate::problem::Problem;
-use crate::stability::{End, Range, Shape, StableSet, SymbolicPolynomial, boundary_polynomials, symbolic_stable_set};
+use crate::stability::{
+    End, Range, Shape, StableSet, SymbolicPolynomial, UndecidedBracket, boundary_polynomials, symbolic_stable_set,
+};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Enclosure, Rational};
@@ -25,6 +28,8 @@ use std::sync::Arc;
 pub struct RequiredSet {
     /// The intervals, ascending.
     pub intervals: Vec<RequiredInterval>,
+    /// Where it is not told, ascending.
+    pub undecided: Vec<UndecidedBracket>,
 }
 
 /// An interval; `None` is an infinite end.
@@ -83,6 +88,9 @@ impl Problem {
     /// appear or vanish (the discriminant), or where one enters the range of frequencies at its ends: zeros of resultants in
     /// the parameter. One rational value between two neighbours is decided exactly.
     ///
+    /// Where the loop contains functions that are not rational, as a plant behind a hold brings them, the same is asked of resultants
+    /// that are enclosed and not expanded, and what these leave open is [`RequiredSet::undecided`].
+    ///
     /// Cost: that of [`Problem::stable_set`], a few resultants for each requirement in polynomials of the order's degree, and one
     /// computation of each margin in each cell.
     ///
@@ -99,13 +107,19 @@ impl Problem {
     ) -> Result<Answer<RequiredSet>, Error> {
         budget.enter(|| {
             let stable = self.stable_set(budget)?.into_value();
+            let whole = self.without_region();
+            if requirements.iter().any(Requirement::needs_cut)
+                && let Some(family) = SymbolicFamily::of(&whole, at, budget)?
+            {
+                budget.step("boundaries of the requirements");
+                return Ok(Answer::new(Arc::clone(self), family.required_set(requirements, &stable, budget)?));
+            }
             let family = match requirements.iter().any(Requirement::needs_cut) {
                 true => Some(Family::of(self, at, budget)?),
                 false => None,
             };
             budget.step("boundaries of the requirements");
             let mut boundaries = Vec::new();
-            let whole = self.without_region();
             for requirement in requirements {
                 boundaries.push(whole.boundaries(requirement, family.as_ref(), &stable, budget)?);
             }
@@ -120,7 +134,7 @@ impl Problem {
                     Cells { problem: &whole, requirements, boundaries: &boundaries, family: family.as_ref(), budget };
                 intervals.extend(cells.within(interval.lower.as_ref(), interval.upper.as_ref())?);
             }
-            Ok(Answer::new(Arc::clone(self), RequiredSet { intervals }))
+            Ok(Answer::new(Arc::clone(self), RequiredSet { intervals, undecided: Vec::new() }))
         })?
     }
 

@@ -5,7 +5,7 @@ use super::margins::margin;
 use super::{real, region};
 use crate::answer::{Answer, Frequency};
 use crate::problem::Problem;
-use crate::stability::{Cause, End, IntervalSet, Range, StableSet};
+use crate::stability::{Cause, End, IntervalSet, Range, StableSet, UndecidedBracket};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, parse_number, to_decimal};
 use jurist_algebra::poly::RealAlgebraic;
@@ -55,14 +55,14 @@ pub fn answer_lines(problem: &Problem, set: Result<&StableSet, &Exhausted>, digi
         Ok(set) if set.is_empty() && problem.evaluated().is_some_and(|a| a.undefined().is_some()) => {
             format!("{asked}: {goal} nowhere, undefined for every {name}\n")
         }
-        Ok(set) if set.is_empty() => format!("{asked}: {goal} nowhere\n{}", undecided_lines(set, digits)),
+        Ok(set) if set.is_empty() => format!("{asked}: {goal} nowhere\n{}", undecided_lines(set.undecided(), digits)),
         Ok(set) => {
             let mut out = format!("{asked}: {goal} for\n");
             for interval in stable_lines(name, set, digits) {
                 out.push_str(&format!("    {interval}\n"));
             }
             out.push_str(&end_lines(set, problem, digits));
-            out.push_str(&undecided_lines(set, digits));
+            out.push_str(&undecided_lines(set.undecided(), digits));
             out
         }
     }
@@ -134,8 +134,8 @@ fn distinct_decimals(values: &[&Real], digits: usize) -> Vec<String> {
 }
 
 /// A line for each bracket in which nothing is known.
-fn undecided_lines(set: &StableSet, digits: usize) -> String {
-    let line = |b: &crate::stability::UndecidedBracket| {
+pub(super) fn undecided_lines(brackets: &[UndecidedBracket], digits: usize) -> String {
+    let line = |b: &UndecidedBracket| {
         let shown = |x: &Rational| to_decimal(x, digits);
         match (&b.lower, &b.upper) {
             (Some(lo), Some(hi)) => {
@@ -147,7 +147,7 @@ fn undecided_lines(set: &StableSet, digits: usize) -> String {
             (None, None) => format!("undecided: {}\n", b.why),
         }
     };
-    set.undecided().iter().map(line).collect()
+    brackets.iter().map(line).collect()
 }
 
 /// A row for each end: value, cause, frequency, margin.

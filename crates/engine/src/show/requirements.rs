@@ -1,6 +1,6 @@
 //! Requirements for people.
 
-use super::intervals::{domain_text, heading};
+use super::intervals::{domain_text, heading, undecided_lines};
 use super::layout::Columns;
 use super::{real, region};
 use crate::answer::Answer;
@@ -21,8 +21,9 @@ impl Answer<RequiredSet> {
         let wanted: Vec<String> = requirements.iter().map(Requirement::text).collect();
         let goal = format!("{}, {}", region::goal_or_stable(problem), wanted.join(", "));
         let mut out = format!("{}\n{asked}: {goal}", heading(problem));
+        let undecided = undecided_lines(&self.value().undecided, digits);
         if self.value().intervals.is_empty() {
-            return out + " nowhere\n";
+            return out + " nowhere\n" + &undecided;
         }
         out.push_str(" for\n");
         let mut columns = Columns::new("    ");
@@ -46,7 +47,7 @@ impl Answer<RequiredSet> {
                 columns.row([decimal(end), why]);
             }
         }
-        format!("{out}ends\n{columns}")
+        format!("{out}ends\n{columns}{undecided}")
     }
 }
 

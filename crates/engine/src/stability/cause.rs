@@ -67,6 +67,12 @@ impl fmt::Display for Cause {
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
 pub struct Causes(Vec<Cause>);
 
+impl From<Cause> for Causes {
+    fn from(cause: Cause) -> Causes {
+        Causes(vec![cause])
+    }
+}
+
 impl Causes {
     /// Adds a reason, once.
     pub fn insert(&mut self, cause: Cause) {

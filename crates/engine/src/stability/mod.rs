@@ -35,6 +35,7 @@ pub use parametric::{AtPoint, ParametricPolynomial};
 pub use root_count::{RootCount, count_roots, is_stable};
 pub use routh::{RouthTable, is_hurwitz_routh, routh_table};
 pub use stable_set::{Cells, End, StableInterval, StableSet, UndecidedBracket, end_at, stable_set};
+pub(crate) use symbolic::{Bracket, told_apart, zeros_of_functions};
 pub use symbolic::{SymbolicPlane, SymbolicPolynomial, symbolic_stable_set};
 
 /// Where the roots of the characteristic polynomial of a stable loop lie.

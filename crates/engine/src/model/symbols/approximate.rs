@@ -32,6 +32,7 @@ impl Symbols {
             // Dead time is a function of s and has no value.
             let value = symbol.definition().map_or(f64::NAN, |definition| match definition {
                 Definition::Pi => std::f64::consts::PI,
+                Definition::Algebraic(x) => x.refined_to_digits(17).enclosure().0.to_f64_approximate(),
                 Definition::Root(x) => at(x).sqrt(),
                 Definition::Exponential(x) => at(x).exp(),
                 Definition::Tangent { square, time } => {

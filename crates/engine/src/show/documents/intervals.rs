@@ -97,9 +97,11 @@ impl Intervals {
     pub(super) fn of_bounds(
         question: ParameterQuestion,
         stable: Vec<Bounds<End>>,
+        undecided: &[UndecidedBracket],
         require: Vec<RequirementAsked>,
     ) -> Self {
-        let answer = Answered::Known(Stable { stable, undecided: Vec::new() });
+        let undecided = undecided.iter().map(UndecidedEnclosure::from).collect();
+        let answer = Answered::Known(Stable { stable, undecided });
         Intervals { schema: IntervalsName::V1, question, require, answer, sensitivity: Vec::new() }
     }
 

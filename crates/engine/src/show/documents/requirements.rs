@@ -64,6 +64,7 @@ impl Answer<RequiredSet> {
         Intervals::of_bounds(
             ParameterQuestion::new(problem),
             bounds.collect(),
+            &self.value().undecided,
             requirements.iter().map(Into::into).collect(),
         )
     }

@@ -4,6 +4,7 @@
 //! a loop without them is decided by signs of polynomials in symbols: the boundary polynomials are the same, and so is the
 //! half-size pair.
 
+mod boundary_zeros;
 mod count;
 mod moving;
 mod pair;
@@ -12,6 +13,7 @@ mod resultant;
 mod rounded;
 mod set;
 
+pub(crate) use boundary_zeros::{Bracket, told_apart, zeros_of_functions};
 pub use plane::SymbolicPlane;
 pub use set::symbolic_stable_set;
 

@@ -1,38 +1,23 @@
 //! The stable set where the parameter is inside of exponentials, such as the sample time of a held plant.
 
+use super::boundary_zeros::{Boundary, Reach, Zero, split, zeros_within};
 use super::count::certain_count;
 use super::pair::{Common, CommonRoots, Pair, Values};
-use super::set::{Place, coprime, intervals, named_end};
+use super::set::{Place, intervals, named_end};
 use super::{Condition, MOST_EXPANDED, SymbolicPolynomial};
 use crate::stability::{Cause, Causes, End, Range, Shape, StableSet, UndecidedBracket};
 use jurist_algebra::ball::Ball;
-use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::multivariate::is_square_free_in;
-use jurist_algebra::poly::{Domain, MultiPoly, SquareFree, UniPoly, isolate_real_roots_in};
+use jurist_algebra::poly::MultiPoly;
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::{Function, MovingSymbols, common_factor, merged};
-use std::cmp::Ordering;
+use jurist_algebra::symbols::{Function, MovingSymbols};
 use std::sync::Arc;
 
 impl Values for MovingSymbols {
     fn at(&self, list: &[MultiPoly], parameter: &Ball) -> Option<Vec<Ball>> {
         self.enclose(list, parameter)
     }
-}
-
-/// A boundary condition: its function, the factor of it without symbols, and the functions of the basis that divide it.
-struct Boundary {
-    cause: Cause,
-    function: Function,
-    algebraic: UniPoly,
-    parts: Vec<usize>,
-}
-
-/// A zero of the boundary functions, and from which of the basis it comes.
-struct Zero {
-    value: Real,
-    parts: Vec<usize>,
 }
 
 /// As [`symbolic_stable_set`](super::symbolic_stable_set) for symbols that depend on the parameter.
@@ -48,32 +33,7 @@ pub(super) fn moving_stable_set(
     };
     let reach = reach(p, symbols, &conditions, range, region, budget)?;
     let (boundaries, basis) = split(conditions, symbols, budget)?;
-    budget.step("isolating the boundaries' zeros");
-    let mut all: Vec<Real> = Vec::new();
-    for boundary in &boundaries {
-        let Some(algebraic) = SquareFree::part_of(&boundary.algebraic) else { continue };
-        let (lower, upper) = (reach.lower.as_ref(), reach.upper.as_ref());
-        let roots = isolate_real_roots_in(&algebraic, lower, upper, budget)?;
-        all = merged(all, roots.into_iter().map(Real::from).collect(), budget)?;
-    }
-    let mut from: Vec<(usize, Real)> = Vec::new();
-    let mut undecided: Vec<Bracket> = reach.undecided.clone();
-    let found: Vec<Result<Zeros, Exhausted>> =
-        parallel_map(basis.iter().collect::<Vec<_>>(), |part| zeros_of(part, symbols, &reach, &p.usual, budget));
-    for (k, found) in found.into_iter().enumerate() {
-        let (zeros, brackets) = found?;
-        undecided.extend(brackets);
-        from.extend(zeros.iter().map(|zero| (k, zero.clone())));
-        all = told_apart(all, zeros, &mut undecided, budget)?;
-    }
-    let zeros: Vec<Zero> = all
-        .into_iter()
-        .map(|value| {
-            let parts = from.iter().filter(|(_, root)| root.is_same(&value)).map(|(k, _)| *k).collect();
-            Zero { value, parts }
-        })
-        .collect();
-    let undecided = disjoint(undecided);
+    let (zeros, undecided) = zeros_within(&boundaries, &basis, symbols, &reach, &p.usual, budget)?;
     let common = (p.formal_degree > 1).then(|| {
         let pair = Arc::new(Pair::of(&p.pair(region)));
         CommonRoots::new(pair, Arc::clone(symbols) as Arc<dyn Values>)
@@ -131,80 +91,6 @@ pub(super) fn moving_stable_set(
     Ok(StableSet::from_intervals(stable, brackets.collect()))
 }
 
-/// Zeros, ascending, and what may have others.
-type Zeros = (Vec<Real>, Vec<Bracket>);
-
-/// The zeros of a function as far as the reach goes.
-fn zeros_of(
-    part: &Function,
-    symbols: &Arc<MovingSymbols>,
-    reach: &Reach,
-    usual: &Rational,
-    budget: &Budget,
-) -> Result<Zeros, Exhausted> {
-    let found = symbols.zeros_in(part, &reach.from, &reach.to, usual, budget)?;
-    let mut zeros = found.zeros;
-    let mut undecided: Vec<Bracket> = found.undecided.into_iter().map(|(lo, hi)| (Some(lo), Some(hi))).collect();
-    if let Some(inverted) = &reach.inverted {
-        let one_over = reach.to.recip().expect("a positive number");
-        let beyond = inverted.zeros_in(&part.inverted(), &Rational::ZERO, &one_over, &one_over, budget)?;
-        zeros.extend(beyond.zeros.iter().rev().map(Real::recip));
-        undecided.extend(beyond.undecided.into_iter().map(|(lo, hi)| (hi.recip(), lo.recip())));
-        if symbols.may_vanish_at(part, &reach.to, budget)? {
-            undecided.push((Some(reach.to.clone()), Some(reach.to.clone())));
-        }
-    }
-    Ok((zeros, undecided))
-}
-
-/// Two ascending lists as one, each number once. Two that some thousand bits do not tell apart, and no identity shows to be the same,
-/// leave a bracket.
-fn told_apart(
-    a: Vec<Real>,
-    b: Vec<Real>,
-    undecided: &mut Vec<Bracket>,
-    budget: &Budget,
-) -> Result<Vec<Real>, Exhausted> {
-    let mut out = Vec::with_capacity(a.len() + b.len());
-    let (mut a, mut b) = (a.into_iter().peekable(), b.into_iter().peekable());
-    while let (Some(x), Some(y)) = (a.peek(), b.peek()) {
-        match x.compare(y, budget) {
-            Ok(Ordering::Less) => out.extend(a.next()),
-            Ok(Ordering::Greater) => out.extend(b.next()),
-            Ok(Ordering::Equal) => {
-                out.extend(a.next());
-                b.next();
-            }
-            Err(stopped) if stopped.budget.starts_with("precision") => {
-                let width = Rational::dyadic(&Integer::ONE, BRACKET_BITS);
-                let [(lo, hi), (least, most)] = [x, y].map(|x| x.refined(&width).enclosure());
-                undecided.push((Some(lo.min(least)), Some(hi.max(most))));
-                a.next();
-                b.next();
-            }
-            Err(stopped) => return Err(stopped),
-        }
-    }
-    out.extend(a);
-    out.extend(b);
-    Ok(out)
-}
-
-/// An interval in which nothing is known; none where it has no end.
-type Bracket = (Option<Rational>, Option<Rational>);
-
-/// Where zeros are looked for: between `from` and `to`, and beyond `to` by the reciprocal of the parameter.
-struct Reach {
-    from: Rational,
-    to: Rational,
-    inverted: Option<Arc<MovingSymbols>>,
-    /// The ends of what is decided; none where that goes on for ever.
-    lower: Option<Rational>,
-    upper: Option<Rational>,
-    /// What lies outside of them in the range.
-    undecided: Vec<Bracket>,
-}
-
 /// How far a parameter goes that is not bounded: to where nothing happens any more, or, by its reciprocal, all the way, or
 /// else to a large multiple of its usual value.
 fn reach(
@@ -215,89 +101,19 @@ fn reach(
     region: Shape,
     budget: &Budget,
 ) -> Result<Reach, Exhausted> {
-    let usual = p.usual.abs().max(Rational::dyadic(&Integer::ONE, 64));
-    let large = |x: &Rational| (x.abs() + &usual) * Rational::from(MULTIPLE);
-    let mut undecided = Vec::new();
-    let from = match (&range.lower, &range.upper) {
-        (Some(lower), _) => lower.clone(),
-        (None, upper) => {
-            let from = -large(upper.as_ref().unwrap_or(&Rational::ZERO));
-            undecided.push((None, Some(from.clone())));
-            from
-        }
+    let start = match &range.lower {
+        Some(lower) if lower.is_zero() => Some(p.after_death(symbols, conditions, range.upper.as_ref(), budget)?),
+        _ => None,
     };
-    let lower = Some(from.clone());
-    let from = if from.is_zero() { p.after_death(symbols, conditions, range.upper.as_ref(), budget)? } else { from };
-    if let Some(to) = &range.upper {
-        return Ok(Reach { from, to: to.clone(), inverted: None, lower, upper: Some(to.clone()), undecided });
+    let reach = Reach::without_tail(symbols, range, start, &p.usual);
+    if range.upper.is_none()
+        && let Some(to) = p.tail_start(symbols, conditions, &reach.from, region, budget)?
+    {
+        let undecided = reach.undecided.into_iter().filter(|(_, hi)| hi.is_some()).collect();
+        return Ok(Reach { to, inverted: None, upper: None, undecided, ..reach });
     }
-    if let Some(to) = p.tail_start(symbols, conditions, &from, region, budget)? {
-        return Ok(Reach { from, to, inverted: None, lower, upper: None, undecided });
-    }
-    let to = large(&from);
-    let inverted = symbols.inverted().filter(|s| s.at(&Rational::ZERO).is_some());
-    if let Some(inverted) = inverted {
-        return Ok(Reach { from, to, inverted: Some(Arc::new(inverted)), lower, upper: None, undecided });
-    }
-    undecided.push((Some(to.clone()), None));
-    Ok(Reach { from, to: to.clone(), inverted: None, lower, upper: Some(to), undecided })
+    Ok(reach)
 }
-
-/// The boundary conditions and the functions they are made of.
-fn split(
-    conditions: Vec<Condition>,
-    symbols: &MovingSymbols,
-    budget: &Budget,
-) -> Result<(Vec<Boundary>, Vec<Function>), Exhausted> {
-    let mut split = Vec::with_capacity(conditions.len());
-    for (cause, function) in conditions {
-        split.push(budget.enter(|| {
-            let Some(p) = function.polynomial() else { return (cause, function, UniPoly::one(), None) };
-            let unknowns = p.variables();
-            let square_free = if unknowns.iter().all(|&j| is_square_free_in(p, j)) {
-                p.clone()
-            } else if p.terms().len() > MOST_TERMS {
-                return (cause, function.clone(), UniPoly::one(), Some(without_exponentials(p.clone(), symbols)));
-            } else {
-                p.square_free_part()
-            };
-            let algebraic = common_factor(&square_free);
-            let divisor = MultiPoly::from_univariate(&algebraic, 0);
-            let rest = without_exponentials(square_free.div_exact(&divisor).expect("a common factor divides"), symbols);
-            (cause, function, algebraic, Some(rest))
-        })?);
-    }
-    let rests = split.iter().filter_map(|(_, _, _, rest)| rest.clone());
-    let (short, long): (Vec<MultiPoly>, Vec<MultiPoly>) = rests.partition(|rest| rest.terms().len() <= MOST_TERMS);
-    let mut expanded = budget.enter(|| coprime(&short, &all_variables(&short)))?;
-    expanded.extend(long);
-    let mut basis: Vec<Function> = expanded.iter().cloned().map(Function::from).collect();
-    let mut boundaries = Vec::with_capacity(split.len());
-    for (cause, function, algebraic, rest) in split {
-        let divides = |part: &MultiPoly, rest: &MultiPoly| {
-            part == rest || (rest.terms().len() <= MOST_TERMS && rest.div_exact(part).is_some())
-        };
-        let parts = match rest {
-            Some(rest) => budget.enter(|| (0..expanded.len()).filter(|&k| divides(&expanded[k], &rest)).collect())?,
-            None => {
-                basis.push(function.clone());
-                vec![basis.len() - 1]
-            }
-        };
-        boundaries.push(Boundary { cause, function, algebraic, parts });
-    }
-    Ok((boundaries, basis))
-}
-
-/// Bits of the ends of a bracket around two numbers that are not told apart.
-const BRACKET_BITS: u64 = 256;
-
-/// Where nothing bounds a parameter and nothing dies away, it is looked at up to this multiple of its usual value.
-const MULTIPLE: i64 = 1024;
-
-/// Functions with more terms that may have repeated factors are not divided into them: a zero of even order then stays an
-/// undecided bracket.
-const MOST_TERMS: usize = 120;
 
 /// The values that are tried for the beginning of the tail: powers of two from this one on.
 const FIRST_POWER: i64 = -40;
@@ -374,35 +190,6 @@ impl SymbolicPolynomial {
     }
 }
 
-/// All variables that occur.
-fn all_variables(polynomials: &[MultiPoly]) -> Vec<usize> {
-    let all: std::collections::BTreeSet<usize> = polynomials.iter().flat_map(MultiPoly::variables).collect();
-    all.into_iter().collect()
-}
-
-/// Without factors that are powers of exponentials, which are never zero.
-fn without_exponentials(p: MultiPoly, symbols: &MovingSymbols) -> MultiPoly {
-    let content = p.monomial_content();
-    let kept = (0..content.exponents().len()).filter(|&i| i == 0 || !symbols.is_exponential(i - 1));
-    let monomial = kept.fold(content.clone(), |m, i| m.with_exponent(i, 0));
-    p.div_exact_monomial(&monomial).expect("the content divides")
-}
-
-/// Brackets in ascending order, those that overlap as one.
-fn disjoint(mut brackets: Vec<Bracket>) -> Vec<Bracket> {
-    brackets.sort();
-    let mut out: Vec<Bracket> = Vec::new();
-    for (lo, hi) in brackets {
-        match out.last_mut() {
-            Some(last) if last.1.is_none() || lo <= last.1 => {
-                last.1 = if hi.is_none() || last.1.is_none() { None } else { hi.max(last.1.clone()) };
-            }
-            _ => out.push((lo, hi)),
-        }
-    }
-    out
-}
-
 /// Finds out what happens at an end of a stable cell.
 struct Examiner<'a> {
     symbols: &'a Arc<MovingSymbols>,
@@ -433,9 +220,7 @@ impl Examiner<'_> {
     fn at_zero(&self, zero: &Zero, is_between: bool) -> Result<Option<End>, Exhausted> {
         let mut held = Vec::new();
         for boundary in self.boundaries {
-            let by_part = boundary.parts.iter().any(|k| zero.parts.contains(k));
-            let by_root = zero.value.algebraic().is_some_and(|x| x.sign_of(&boundary.algebraic).is_eq());
-            if by_part || by_root {
+            if boundary.has(zero) {
                 held.push(boundary.cause);
             }
         }

@@ -1,0 +1,319 @@
+//! Requirements on margins in one parameter where the loop contains functions that are not rational, such as a plant behind a hold.
+
+use super::cells::required_parts;
+use super::family::{Elimination, Quotient, nothing_comes_back, plus_multiple, plus_multiple_of};
+use super::met::AtPoint;
+use super::open_loop::OpenLoop;
+use super::requirement::Requirement;
+use super::{RequiredInterval, RequiredSet};
+use crate::error::{Diagnostic, Error};
+use crate::model::{Cut, Opened};
+use crate::problem::{Problem, moving_symbols};
+use crate::stability::{
+    Bracket, Cause, End, Range, StableInterval, StableSet, UndecidedBracket, told_apart, zeros_of_functions,
+};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic, UniPoly};
+use jurist_algebra::real::Real;
+use jurist_algebra::symbols::{Definition, Function, MovingSymbols};
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+/// The open loop over the parameter (variable 0) and the symbols (symbol `i` is variable `i + 1`).
+pub(super) struct SymbolicFamily<'a> {
+    /// With the whole region of stability, whatever smaller one is asked for.
+    problem: &'a Problem,
+    at: Option<&'a str>,
+    quotient: Quotient<MultiPoly>,
+    undefined: MultiPoly,
+    symbols: MovingSymbols,
+}
+
+/// By resultants that are not expanded; a required number that is not rational is a symbol more.
+struct Unexpanded {
+    variable: usize,
+}
+
+impl Elimination<MultiPoly> for Unexpanded {
+    type Left = Function;
+
+    fn function(&self, f: MultiPoly) -> Function {
+        f.into()
+    }
+
+    fn common_root(
+        &self,
+        p: &Poly<MultiPoly>,
+        a: &Poly<MultiPoly>,
+        b: &Poly<MultiPoly>,
+        alpha: &RealAlgebraic,
+        _: &Budget,
+    ) -> Result<Function, Exhausted> {
+        let with = match alpha.exact() {
+            Some(alpha) => plus_multiple(a, b, &alpha),
+            None => a.plus(&b.scaled(&MultiPoly::variable(self.variable))),
+        };
+        if with.is_zero() {
+            return Ok(MultiPoly::zero().into());
+        }
+        Ok(Function::resultant(p.coeffs().to_vec(), with.into_coeffs()))
+    }
+
+    fn sum(&self, a: &MultiPoly, b: &MultiPoly, alpha: &RealAlgebraic, _: &Budget) -> Result<Function, Exhausted> {
+        Ok(Function::from(match alpha.exact() {
+            Some(alpha) => plus_multiple_of(a, b, &alpha),
+            None => a.plus(&b.times(&MultiPoly::variable(self.variable))),
+        }))
+    }
+
+    fn discriminant(&self, p: &Poly<MultiPoly>, _: &Budget) -> Result<Function, Exhausted> {
+        // Up to the leading coefficient, which is a boundary itself.
+        Ok(Function::resultant(p.coeffs().to_vec(), p.derivative().into_coeffs()))
+    }
+}
+
+/// A value at which a requirement may begin or cease to be met.
+struct Candidate {
+    value: Real,
+    /// The names of the requirements for which a crossing may appear there at once.
+    touches: Vec<&'static str>,
+}
+
+impl<'a> SymbolicFamily<'a> {
+    /// `None` of a loop in which everything is rational.
+    pub fn of(problem: &'a Problem, at: Option<&'a str>, budget: &Budget) -> Result<Option<Self>, Error> {
+        let cut = problem.model().cut(at)?;
+        if matches!(cut, Cut::Gain(_)) {
+            return Ok(None);
+        }
+        let kept = [problem.parameter().name.clone()];
+        let Opened { system, symbols, .. } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
+        if symbols.is_empty() {
+            return Ok(None);
+        }
+        if !symbols.delays().is_empty() {
+            let message = "requirements on margins are decided at points for loops with dead time in continuous time";
+            let help = "ask 'verdict' or 'margins' with a value for every parameter";
+            return Err(Diagnostic::error("E-require", message).help(help).into());
+        }
+        let (quotient, undefined) = Quotient::of(&system, problem.shape(), MultiPoly::clone, budget)?;
+        if quotient.numerator.is_zero() {
+            return Err(nothing_comes_back(&cut));
+        }
+        Ok(Some(SymbolicFamily { problem, at, quotient, undefined, symbols: moving_symbols(&symbols)? }))
+    }
+
+    /// The parts of the stable set in which all requirements are met, and where that is not told.
+    pub fn required_set(
+        &self,
+        requirements: &[Requirement],
+        stable: &StableSet,
+        budget: &Budget,
+    ) -> Result<RequiredSet, Error> {
+        let mut found = RequiredSet { intervals: Vec::new(), undecided: stable.undecided().to_vec() };
+        for interval in stable.intervals() {
+            self.within(interval, requirements, &mut found, budget)?;
+        }
+        Ok(found)
+    }
+
+    fn within(
+        &self,
+        interval: &StableInterval,
+        requirements: &[Requirement],
+        found: &mut RequiredSet,
+        budget: &Budget,
+    ) -> Result<(), Error> {
+        let (candidates, mut brackets) = self.candidates(interval, requirements, budget)?;
+        brackets.retain(|b| {
+            let begins =
+                |lo: &Rational| interval.upper.as_ref().is_none_or(|end| end.value.compare_rational(lo).is_gt());
+            let ends = |hi: &Rational| interval.lower.as_ref().is_none_or(|end| end.value.compare_rational(hi).is_lt());
+            b.lower.as_ref().is_none_or(begins) && b.upper.as_ref().is_none_or(ends)
+        });
+        let mut lower = interval.lower.clone();
+        for bracket in &brackets {
+            let edge = |x: &Rational| End::new(Real::from(x.clone()), Cause::Undecided.into(), None);
+            if let Some(below) = &bracket.lower {
+                let upper = Some(edge(below));
+                if is_between(below, lower.as_ref(), interval.upper.as_ref()) {
+                    found.intervals.extend(self.cells(&lower, &upper, &candidates, requirements, budget)?);
+                }
+            }
+            found.undecided.push(bracket.clone());
+            match &bracket.upper {
+                Some(above) if is_between(above, lower.as_ref(), interval.upper.as_ref()) => lower = Some(edge(above)),
+                Some(above) if interval.upper.as_ref().is_none_or(|u| u.value.compare_rational(above).is_gt()) => {}
+                _ => return Ok(()),
+            }
+        }
+        found.intervals.extend(self.cells(&lower, &interval.upper, &candidates, requirements, budget)?);
+        Ok(())
+    }
+
+    /// All values strictly inside of a stable interval at which a requirement may begin or cease to be met, and what may have
+    /// others.
+    fn candidates(
+        &self,
+        interval: &StableInterval,
+        requirements: &[Requirement],
+        budget: &Budget,
+    ) -> Result<(Vec<Candidate>, Vec<UndecidedBracket>), Error> {
+        // An end that is not rational lies strictly inside.
+        let outward = |end: &Option<End>, is_lower: bool| {
+            let (lo, hi) = end.as_ref()?.value.refined_to_digits(9).enclosure();
+            Some(if is_lower { lo } else { hi })
+        };
+        let range = Range::between(outward(&interval.lower, true), outward(&interval.upper, false));
+        let usual = self.problem.parameter().nominal.clone().unwrap_or(Rational::ONE);
+        let mut all: Vec<Candidate> = Vec::new();
+        let mut undecided = Vec::new();
+        for requirement in requirements {
+            budget.check()?;
+            let by = Unexpanded { variable: self.symbols.len() + 1 };
+            let alpha = match requirement {
+                Requirement::PhaseMargin { twice_cosine, .. } => twice_cosine.clone(),
+                Requirement::GainMargin { factor, .. } => factor.clone(),
+                _ => RealAlgebraic::from_rational(Rational::ZERO),
+            };
+            let symbols = Arc::new(self.symbols.with("alpha", Definition::Algebraic(alpha)));
+            let boundaries = self.quotient.boundaries(&by, requirement, budget)?;
+            // The one at which crossings appear comes first.
+            let mut functions = vec![boundaries.touches];
+            functions.extend(boundaries.zeros.into_iter().flat_map(without_contents));
+            functions.push(self.undefined.clone().into());
+            if functions.iter().any(|f| f.polynomial().is_some_and(MultiPoly::is_zero)) {
+                let message = format!("the requirement {} is not decided for this loop", requirement.name());
+                let help = "a polynomial of its boundary vanishes for every value";
+                return Err(Diagnostic::error("E-require", message).help(help).into());
+            }
+            let (zeros, brackets) = zeros_of_functions(functions, &symbols, &range, &usual, budget)?;
+            let mut open: Vec<Bracket> = brackets;
+            let mut list = Vec::new();
+            for (value, of) in zeros {
+                match is_inside(&value, interval, budget) {
+                    Ok(true) => list.push((value, of.contains(&0))),
+                    Ok(false) => {}
+                    Err(stopped) if stopped.budget.starts_with("precision") => open.push(around(&value)),
+                    Err(stopped) => return Err(stopped.into()),
+                }
+            }
+            let known = all.iter().map(|c| c.value.clone()).collect();
+            let new = list.iter().map(|(value, _)| value.clone()).collect();
+            let values = told_apart(known, new, &mut open, budget)?;
+            all = values
+                .into_iter()
+                .map(|value| {
+                    let mut touches: Vec<&'static str> =
+                        all.iter().filter(|c| c.value.is_same(&value)).flat_map(|c| c.touches.clone()).collect();
+                    if list.iter().any(|(x, is_touch)| *is_touch && x.is_same(&value)) {
+                        touches.push(requirement.name());
+                    }
+                    Candidate { value, touches }
+                })
+                .collect();
+            let why = format!("where {} begins or ceases to be met", requirement.name());
+            undecided.extend(open.into_iter().map(|(lo, hi)| UndecidedBracket::new(lo, hi, why.clone())));
+        }
+        undecided.sort_by(|a, b| (&a.lower, &a.upper).cmp(&(&b.lower, &b.upper)));
+        Ok((all, undecided))
+    }
+
+    /// The parts between two ends in which everything is met; nothing is undecided there.
+    fn cells(
+        &self,
+        lower: &Option<End>,
+        upper: &Option<End>,
+        candidates: &[Candidate],
+        requirements: &[Requirement],
+        budget: &Budget,
+    ) -> Result<Vec<RequiredInterval>, Error> {
+        let (least, most) = (lower.as_ref().map(|end| &end.value), upper.as_ref().map(|end| &end.value));
+        let mut inside: Vec<&Candidate> = Vec::new();
+        for c in candidates {
+            let above = match least {
+                Some(least) => c.value.compare(least, budget)?.is_gt(),
+                None => true,
+            };
+            let below = match most {
+                Some(most) => c.value.compare(most, budget)?.is_lt(),
+                None => true,
+            };
+            if above && below {
+                inside.push(c);
+            }
+        }
+        let values: Vec<Real> = inside.iter().map(|c| c.value.clone()).collect();
+        let unmet = |value: &Rational| self.unmet(value, requirements, budget);
+        let is_closed = |i: usize, names: &[&'static str]| {
+            let bound = |name: &str| name == "gain_margin" || inside[i].touches.iter().any(|t| *t == name);
+            Ok(!names.iter().any(|name| bound(name)))
+        };
+        required_parts([lower.as_ref(), upper.as_ref()], &values, &unmet, &is_closed, budget)
+    }
+
+    /// The names of what is not met at a stable value.
+    fn unmet(
+        &self,
+        value: &Rational,
+        requirements: &[Requirement],
+        budget: &Budget,
+    ) -> Result<Vec<&'static str>, Error> {
+        let problem = self.problem.with_value(value);
+        let open_loop = OpenLoop::of(&problem, self.at, budget)?;
+        let closed = UniPoly::zero();
+        let mut here = AtPoint::new(Some(&open_loop), &closed, self.problem.shape());
+        let mut out = Vec::new();
+        for requirement in requirements {
+            if !here.meets(requirement, budget)? {
+                out.push(requirement.name());
+            }
+        }
+        Ok(out)
+    }
+}
+
+/// A resultant as that of the primitive parts, and the contents.
+fn without_contents(f: Function) -> Vec<Function> {
+    let Function::Resultant { a, b } = f else { return vec![f] };
+    let mut out = Vec::new();
+    let mut primitive = |list: Vec<MultiPoly>| {
+        let content = list.iter().fold(MultiPoly::zero(), |g, c| g.gcd(c));
+        if content.is_constant() {
+            return list;
+        }
+        let divided = list.iter().map(|c| c.div_exact(&content).expect("the content divides")).collect();
+        out.push(Function::from(content));
+        divided
+    };
+    let (a, b) = (primitive(a), primitive(b));
+    out.push(Function::resultant(a, b));
+    out
+}
+
+/// Whether a number is strictly inside of a stable interval.
+fn is_inside(x: &Real, interval: &StableInterval, budget: &Budget) -> Result<bool, Exhausted> {
+    for (end, order) in [(&interval.lower, Ordering::Greater), (&interval.upper, Ordering::Less)] {
+        if let Some(end) = end
+            && x.compare(&end.value, budget)? != order
+        {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// Bits of the bracket around a number that is not told from an end.
+const BRACKET_BITS: u64 = 256;
+
+fn around(x: &Real) -> Bracket {
+    let width = Rational::dyadic(&Integer::ONE, BRACKET_BITS);
+    let (lo, hi) = x.refined(&width).enclosure();
+    (Some(lo - &width), Some(hi + &width))
+}
+
+fn is_between(x: &Rational, lower: Option<&End>, upper: Option<&End>) -> bool {
+    lower.is_none_or(|end| end.value.compare_rational(x).is_lt())
+        && upper.is_none_or(|end| end.value.compare_rational(x).is_gt())
+}

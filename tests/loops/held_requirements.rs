@@ -1,0 +1,129 @@
+//! Requirements on margins of loops with plants behind a hold: ends to thirty digits of mpmath at forty, by partial fractions for the
+//! plant and secants in the parameter; points by the margins themselves.
+
+use crate::helpers::model::{example, load};
+use crate::helpers::number::{number, ratio};
+use crate::helpers::program::jurist;
+use crate::helpers::random::Random;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_engine::answer::Answer;
+use jurist_engine::model::Model;
+use jurist_engine::response::{RequiredEnd, RequiredSet, Requirement};
+use jurist_engine::stability::Range;
+
+fn required(model: &Model, name: &str, domain: [&str; 2], requirement: &Requirement) -> Answer<RequiredSet> {
+    let range = Range::between(Some(number(domain[0])), Some(number(domain[1])));
+    let problem = model.ask().free(name).domain(name, range).problem().unwrap();
+    let list = std::slice::from_ref(requirement);
+    problem.required_set(list, None, &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The one interval's upper end, where the requirement binds and is met yet unless it is one of gain.
+fn upper(answer: &Answer<RequiredSet>, requirement: &Requirement) -> String {
+    let set = answer.value();
+    assert!(set.undecided.is_empty(), "{:?}", set.undecided);
+    let [interval] = set.intervals.as_slice() else { panic!("{set:?}") };
+    assert!(matches!(&interval.lower, Some(RequiredEnd::Stability(_))), "{interval:?}");
+    let Some(RequiredEnd::Requirement { value, names, closed }) = &interval.upper else { panic!("{interval:?}") };
+    assert_eq!(names, &[requirement.name()]);
+    assert_eq!(*closed, requirement.name() != "gain_margin");
+    assert!(value.algebraic().is_none());
+    value.decimal(30)
+}
+
+fn is_met(model: &Model, name: &str, value: &Rational, requirement: &Requirement) -> bool {
+    let problem = model.ask().set(name, value.clone()).problem().unwrap();
+    let list = std::slice::from_ref(requirement);
+    problem.requirements_met(list, None, &Budget::unlimited()).unwrap()[0].met
+}
+
+#[test]
+fn the_gain_of_the_servo_behind_a_hold_with_these_margins_to_thirty_digits() {
+    let (model, budget) = (example("dc-servo"), Budget::unlimited());
+    let mut random = Random::new(12);
+    for (requirement, decimal) in [
+        (Requirement::phase_margin(&number("45")), "30.4313481803674863466602325528"),
+        (Requirement::modulus_margin(number("1/2")), "38.2172486070037411107780469170"),
+        (Requirement::gain_margin_in_decibels(&number("6"), &budget), "59.1080350898575304859796968838"),
+    ] {
+        let requirement = requirement.unwrap();
+        let answer = required(&model, "K", ["0", "200"], &requirement);
+        assert_eq!(upper(&answer, &requirement), decimal);
+        let end = number(decimal);
+        for _ in 0..4 {
+            let value = ratio(random.below(117_000) as i64 + 1, 1000);
+            assert_eq!(is_met(&model, "K", &value, &requirement), value < end, "{} {value}", requirement.text());
+        }
+    }
+}
+
+/// The sample time is inside of the exponential.
+#[test]
+fn the_slowest_sampling_with_this_phase_margin() {
+    let (model, requirement) = (example("dc-servo"), Requirement::phase_margin(&number("45")).unwrap());
+    let answer = required(&model, "T", ["1/200", "1/50"], &requirement);
+    assert_eq!(upper(&answer, &requirement), "0.0130670953584381647312917966814");
+    for (value, met) in [("0.0130", true), ("0.0131", false)] {
+        assert_eq!(is_met(&model, "T", &number(value), &requirement), met, "{value}");
+    }
+}
+
+/// Two requirements at once, each of which binds on a side: an angle wants a small gain, and where the crossing is at a low frequency
+/// the integrator's lag a large one.
+#[test]
+fn a_window_of_gains_between_two_angles() {
+    let text = r#"
+        time = "discrete"
+        sample_time = "1/10"
+        [parameters]
+        K = { nominal = 1, min = 0 }
+        [loop]
+        inputs = ["r"]
+        outputs = ["y"]
+        [[block]]
+        name = "PI"
+        input = "r - y"
+        output = "u"
+        transfer = "K*(z - 4/5)/(z - 1)"
+        [[block]]
+        name = "plant"
+        input = "u"
+        output = "y"
+        transfer = "1/(s*(s + 4))"
+        discretize = "zoh"
+    "#;
+    let model = load(text);
+    let requirement = Requirement::phase_margin(&number("30")).unwrap();
+    let answer = required(&model, "K", ["0", "100"], &requirement);
+    let inside = |x: &Rational| {
+        let set = answer.value();
+        let above = |end: &Option<RequiredEnd>| end.as_ref().is_none_or(|e| e.value().compare_rational(x).is_lt());
+        let below = |end: &Option<RequiredEnd>| end.as_ref().is_none_or(|e| e.value().compare_rational(x).is_gt());
+        set.intervals.iter().any(|i| above(&i.lower) && below(&i.upper))
+    };
+    let open = |x: &Rational| {
+        let is_at = |b: &jurist_engine::stability::UndecidedBracket| {
+            b.lower.as_ref().is_none_or(|lo| lo <= x) && b.upper.as_ref().is_none_or(|hi| x <= hi)
+        };
+        answer.value().undecided.iter().any(is_at)
+    };
+    let mut both = [0, 0];
+    for tenths in (1..300).step_by(23) {
+        let x = ratio(tenths, 10);
+        assert!(!open(&x), "{x}");
+        let met = is_met(&model, "K", &x, &requirement);
+        assert_eq!(met, inside(&x), "{x}");
+        both[usize::from(met)] += 1;
+    }
+    assert!(both.iter().all(|n| *n > 0), "{both:?}");
+}
+
+#[test]
+fn the_program_says_for_which_gains_the_margin_is_there() {
+    let run = jurist(&["intervals", "examples/dc-servo.toml", "--param", "K", "--phase-margin", "45", "--json"]);
+    let document: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(document["stable"][0]["upper"]["decimal"], "30.4313481804");
+    assert_eq!(document["stable"][0]["upper"]["requirement"], "phase_margin");
+    assert_eq!(document["undecided"], serde_json::json!([]));
+}
