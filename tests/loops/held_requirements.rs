@@ -69,8 +69,7 @@ fn the_slowest_sampling_with_this_phase_margin() {
     }
 }
 
-/// Two requirements at once, each of which binds on a side: an angle wants a small gain, and where the crossing is at a low frequency
-/// the integrator's lag a large one.
+/// A double integrator: a large gain is too fast for the hold, and with a small one the crossing is where both integrators lag.
 #[test]
 fn a_window_of_gains_between_two_angles() {
     let text = r#"
@@ -85,7 +84,7 @@ fn a_window_of_gains_between_two_angles() {
         name = "PI"
         input = "r - y"
         output = "u"
-        transfer = "K*(z - 4/5)/(z - 1)"
+        transfer = "K*(z - 24/25)/(z - 1)"
         [[block]]
         name = "plant"
         input = "u"
@@ -125,5 +124,5 @@ fn the_program_says_for_which_gains_the_margin_is_there() {
     let document: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
     assert_eq!(document["stable"][0]["upper"]["decimal"], "30.4313481804");
     assert_eq!(document["stable"][0]["upper"]["requirement"], "phase_margin");
-    assert_eq!(document["undecided"], serde_json::json!([]));
+    assert!(document.get("undecided").is_none(), "{document}");
 }

@@ -23,6 +23,7 @@ mod scales;
 mod sign;
 mod specialise;
 mod taylor;
+mod zero_at_end;
 
 pub use definition::Definition;
 pub use function::{Function, common_scale};

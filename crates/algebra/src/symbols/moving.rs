@@ -49,13 +49,10 @@ pub struct Zeros {
 }
 
 /// Terms of the Taylor polynomials; halving an interval makes what is left out 2^12 times smaller.
-const TERMS: usize = 12;
+pub(super) const TERMS: usize = 12;
 
 /// Bits of the first attempt.
 pub(super) const FIRST_BITS: u64 = 192;
-
-/// The orders of a zero at the lower end that are looked for.
-const MOST_ORDER: usize = 32;
 
 /// Exponents beyond this are not enclosed over an interval.
 const LARGEST: i64 = 1 << 13;
@@ -79,7 +76,7 @@ const MOST_DOUBLINGS: usize = 4;
 const SHORT_BITS: u64 = 40;
 
 /// An interval this much shorter than the first one is given up.
-const MOST_HALVINGS: i64 = 56;
+pub(super) const MOST_HALVINGS: i64 = 56;
 
 impl MovingSymbols {
     /// The table of these names and definitions.
@@ -413,62 +410,6 @@ impl MovingSymbols {
             };
         }
         Look::Unknown
-    }
-
-    /// A number above `lower`, at which the function is zero, up to which it has no other zero. Where that it is zero is all that is known
-    /// for certain, the zero may turn out to be a simple one.
-    fn clear_above(&self, f: &Function, lower: &Rational, upper: &Rational, is_zero: bool) -> Option<Rational> {
-        let order = self.order_at(f, lower).or_else(|| is_zero.then(|| self.least_order(f, lower)))?;
-        // f = (T - lower)^order (a + ...): the later coefficients on a short interval are less than the first one.
-        let mut step = (upper - lower) * Rational::dyadic(&Integer::ONE, 3);
-        for _ in 0..MOST_HALVINGS {
-            let small = step.denominator().bit_length().saturating_sub(step.numerator().bit_length());
-            let bits = FIRST_BITS + small * (2 * order as u64 + 4);
-            let terms = order + TERMS;
-            let radius = Ball::from_rational(&step, bits);
-            let series = |at: &Ball, terms| {
-                Some(f.at_series(&self.series(&Series::linear(at, &radius, terms))?).coefficients().to_vec())
-            };
-            let point = series(&Ball::from_rational(lower, bits), terms);
-            let whole = series(&Ball::between(lower, &(lower + &step), bits), terms + 1);
-            if let (Some(point), Some(mut whole)) = (point, whole) {
-                let rest = whole.pop().map_or(Integer::ZERO, |c| c.magnitude_units());
-                let later = point[order + 1..].iter().fold(rest, |sum, c| sum + c.magnitude_units());
-                if point[order].least_magnitude_units() > later {
-                    return Some(lower + &step);
-                }
-            }
-            step *= Rational::dyadic(&Integer::ONE, 1);
-        }
-        None
-    }
-
-    /// The least order that a zero at this number can have: a function of a power of the parameter has zeros of multiples of its order at 0.
-    fn least_order(&self, f: &Function, at: &Rational) -> usize {
-        let depends = |d: &Definition| d.arguments().iter().any(|x| x.variables().contains(&0));
-        if !at.is_zero() || self.table.iter().any(|(_, d)| depends(d)) {
-            return 1;
-        }
-        let exponents = f.polynomials().flat_map(|p| p.terms().iter().map(|(m, _)| Integer::from(m.exponent(0))));
-        exponents
-            .fold(Integer::ZERO, |g, e| g.gcd(&e))
-            .to_i64()
-            .map_or(1, |step| step.clamp(1, MOST_ORDER as i64) as usize)
-    }
-
-    /// The order of the zero at a rational number, where the series there is rational: then that of its first coefficient that
-    /// is not zero.
-    fn order_at(&self, f: &Function, at: &Rational) -> Option<usize> {
-        let mut terms = 4;
-        while terms <= MOST_ORDER {
-            let values = super::rational_series::values(&self.table, at, terms)?;
-            let series = f.at_rational_series(&values);
-            if let Some(order) = series.iter().position(|c| !c.is_zero()) {
-                return Some(order);
-            }
-            terms *= 2;
-        }
-        None
     }
 }
 

@@ -45,7 +45,7 @@ impl Cells<'_> {
         let (least, most) = (lower.map(|end| &end.value), upper.map(|end| &end.value));
         let zeros = self.zeros_between(least, most)?;
         let is_closed = |i: usize, names: &[&'static str]| self.is_closed(&zeros[i], names);
-        required_parts([lower, upper], &zeros, &|value| self.unmet(value), &is_closed, self.budget)
+        required_parts([lower, upper], &zeros, |value| self.unmet(value), is_closed, self.budget)
     }
 
     /// Where a requirement may begin or cease to be met, strictly between two numbers, ascending.
@@ -104,13 +104,17 @@ impl Cells<'_> {
 ///
 /// `unmet` has the names of what is not met at a value; `is_closed` tells whether at a candidate, of which the number is given, all is
 /// met yet when these are not met beyond.
-pub(super) fn required_parts(
+pub(super) fn required_parts<U, C>(
     [lower, upper]: [Option<&End>; 2],
     candidates: &[Real],
-    unmet: &dyn Fn(&Rational) -> Result<Vec<&'static str>, Error>,
-    is_closed: &dyn Fn(usize, &[&'static str]) -> Result<bool, Error>,
+    unmet: U,
+    is_closed: C,
     budget: &Budget,
-) -> Result<Vec<RequiredInterval>, Error> {
+) -> Result<Vec<RequiredInterval>, Error>
+where
+    U: Fn(&Rational) -> Result<Vec<&'static str>, Error>,
+    C: Fn(usize, &[&'static str]) -> Result<bool, Error>,
+{
     let (least, most) = (lower.map(|end| &end.value), upper.map(|end| &end.value));
     let mut cells = Vec::with_capacity(candidates.len() + 1);
     for i in 0..=candidates.len() {

@@ -247,10 +247,10 @@ impl<'a> SymbolicFamily<'a> {
         let values: Vec<Real> = inside.iter().map(|c| c.value.clone()).collect();
         let unmet = |value: &Rational| self.unmet(value, requirements, budget);
         let is_closed = |i: usize, names: &[&'static str]| {
-            let bound = |name: &str| name == "gain_margin" || inside[i].touches.iter().any(|t| *t == name);
+            let bound = |name: &'static str| name == "gain_margin" || inside[i].touches.contains(&name);
             Ok(!names.iter().any(|name| bound(name)))
         };
-        required_parts([lower.as_ref(), upper.as_ref()], &values, &unmet, &is_closed, budget)
+        required_parts([lower.as_ref(), upper.as_ref()], &values, unmet, is_closed, budget)
     }
 
     /// The names of what is not met at a stable value.

@@ -37,6 +37,9 @@ pub(super) struct Zero {
 /// An interval in which nothing is known; none where it has no end.
 pub(crate) type Bracket = (Option<Rational>, Option<Rational>);
 
+/// A zero, and which of the functions have it.
+pub(crate) type ZeroOf = (Real, Vec<usize>);
+
 /// The zeros of functions in a range, ascending, each with which of the functions it is a zero of, and where there may be others.
 ///
 /// `usual` is a value on whose scale zeros are looked for first.
@@ -51,7 +54,7 @@ pub(crate) fn zeros_of_functions(
     range: &Range,
     usual: &Rational,
     budget: &Budget,
-) -> Result<(Vec<(Real, Vec<usize>)>, Vec<Bracket>), Exhausted> {
+) -> Result<(Vec<ZeroOf>, Vec<Bracket>), Exhausted> {
     let reach = Reach::without_tail(symbols, range, None, usual);
     let conditions = functions.into_iter().map(|f| (Cause::Undecided, f)).collect();
     let (boundaries, basis) = split(conditions, symbols, budget)?;
