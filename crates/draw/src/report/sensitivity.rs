@@ -99,8 +99,8 @@ fn of_parameter(question: &Question, limits: &Limits, work: u64, parts: &Parts<'
             if let Some(near) = &near {
                 let answer = asked.clone().domain(&limits.name, near.clone()).stable_set(budget)?;
                 if let Some(around) = around_nominal(&answer)
-                    && !(shown[0] && !binds(around.lower.as_ref()))
-                    && !(shown[1] && !binds(around.upper.as_ref()))
+                    && (!shown[0] || binds(around.lower.as_ref()))
+                    && (!shown[1] || binds(around.upper.as_ref()))
                 {
                     return Ok(ends(&answer));
                 }
