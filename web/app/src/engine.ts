@@ -34,7 +34,8 @@ class Seat {
     private readonly owner: Engine,
     private readonly speed: Speed,
   ) {
-    this.begin();
+    // The others begin when they are first asked: what somebody waits for has the machine for itself until then.
+    if (speed === "quick") this.begin();
   }
 
   /** Asks; `undefined` where a later request of the lane came first. */
@@ -49,6 +50,7 @@ class Seat {
       if (this.running?.lane === lane && this.speed !== "quick") this.giveUp();
       // Somebody moves something: what runs has to make room before long.
       else if (this.running && (this.running.lane === lane || FIRST.has(lane))) this.hurry();
+      if (!this.worker) this.begin();
       this.next();
     });
   }

@@ -241,7 +241,7 @@ export class Page {
   /** Everything that a point needs: the verdict and the pictures that move at once, the rest when there is time. */
   private ask(): void {
     const given = sets(this.given());
-    void this.once("quick", "verdict", this.program("verdict", "-", "--json", ...given), (reply) => this.verdict(reply));
+    this.told = this.once("quick", "verdict", this.program("verdict", "-", "--json", ...given), (reply) => this.verdict(reply));
     const point = { ask: "point", model: this.text, set: this.given(), response: true };
     void this.once("quick", "point", point, (reply) => {
       this.locus.roots = no(reply) ? reply : reply.roots;
@@ -261,10 +261,12 @@ export class Page {
   }
 
   private laterTimer = 0;
+  /** Until the verdict is there. */
+  private told = Promise.resolve();
 
   private later(): void {
     clearTimeout(this.laterTimer);
-    this.laterTimer = window.setTimeout(() => this.slow(), 60);
+    this.laterTimer = window.setTimeout(() => void this.told.then(() => this.slow()), 60);
   }
 
   private slow(): void {

@@ -71,7 +71,7 @@ export async function opened(url, { width = 1200, height = 900, mobile = false, 
     },
     /** Until there is nothing more to answer, but for a map that takes minutes. */
     answered: ({ map = true } = {}) =>
-      until(browser, `Object.entries(jurist.engine.seats).every(([name, s]) => s.ready && s.waiting.length === 0 && !s.busy || ${!map} && name === "long") && ` + 'document.getElementById("verdict-word").textContent !== "…" && document.querySelector(".cm-content")', "answers"),
+      until(browser, `Object.entries(jurist.engine.seats).every(([name, s]) => (s.ready || !s.worker) && s.waiting.length === 0 && !s.busy || ${!map} && name === "long") && ` + 'document.getElementById("verdict-word").textContent !== "…" && document.querySelector(".cm-content")', "answers"),
     async take(text, options) {
       await browser.value(`jurist.page.open(${JSON.stringify(text)}, { m: "" })`);
       await page.settled(options);
