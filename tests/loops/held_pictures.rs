@@ -1,6 +1,6 @@
-//! Maps and loci of loops with plants behind a hold, as the program makes them.
+//! Maps, loci and tables of loops with plants behind a hold, as the program makes them.
 
-use crate::helpers::program::json;
+use crate::helpers::program::{json, jurist};
 use serde_json::Value;
 
 #[test]
@@ -38,4 +38,19 @@ fn a_locus_behind_a_hold_crosses_the_circle_at_the_certified_limit() {
             assert!((radius - 1.0).abs() < 1e-9, "{model} {parameter} = {value}: {radius}");
         }
     }
+}
+
+#[test]
+fn the_table_behind_a_hold_holds_up_to_the_certified_limit() {
+    // The limit is 117.936....
+    for (gain, holds) in [("117.9", true), ("118", false)] {
+        let document = json(&["jury", "examples/dc-servo.toml", "--set", &format!("K={gain}"), "--json"]);
+        assert_eq!((&document["schema"], &document["holds"]), (&"jurist/jury/1".into(), &Value::from(holds)));
+        let entry = &document["rows"][1]["entries"][0];
+        assert!(entry[0].is_string() && entry[1].is_string(), "{entry}");
+        let failing = document["conditions"].as_array().unwrap().iter().filter(|c| c["holds"] == false).count();
+        assert_eq!(failing == 0, holds);
+    }
+    let refused = jurist(&["jury", "examples/dc-servo.toml", "--param", "K"]);
+    assert!(refused.stderr.contains("jury at a point"), "{}", refused.stderr);
 }

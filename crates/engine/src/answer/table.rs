@@ -3,7 +3,7 @@
 use super::Answer;
 use crate::error::{Diagnostic, Error};
 use crate::problem::{Problem, Question};
-use crate::stability::{ClassicalTest, Range, StableSet, classical_test, stable_set};
+use crate::stability::{ClassicalTest, EnclosedTable, Range, Shape, StableSet, classical_test, stable_set};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
@@ -34,6 +34,9 @@ pub struct ParametricTable {
     pub stable: StableSet,
 }
 
+/// Digits to which entries are enclosed.
+const ENCLOSED_DIGITS: usize = 60;
+
 /// The table at a point.
 ///
 /// ```
@@ -54,11 +57,16 @@ pub struct PointTable {
     /// The table with constant entries: each condition holds everywhere or nowhere. `None` where the
     /// loop is undefined.
     pub test: Option<ClassicalTest>,
+    /// The table where the loop has functions, as behind a hold: its entries are enclosed. `test` is `None` then.
+    pub enclosed: Option<EnclosedTable>,
 }
 
 impl PointTable {
     /// Whether all conditions hold: the loop is defined and stable.
     pub fn holds(&self) -> bool {
+        if let Some(table) = &self.enclosed {
+            return table.holds();
+        }
         self.test.as_ref().is_some_and(|test| !test.intersection.intervals().is_empty())
     }
 }
@@ -115,16 +123,25 @@ impl Problem {
 
     /// The table at the point that the values of all parameters are.
     ///
-    /// Cost: that of [`Problem::algebra`], once, and of a table of numbers: `O(n^2)` operations.
+    /// Cost: that of [`Problem::algebra`], once, and of a table of numbers: `O(n^2)` operations. Behind a hold that of
+    /// [`SymbolicPolynomial::jury_table`](crate::stability::SymbolicPolynomial::jury_table), with enough digits for what is shown.
     ///
     /// # Errors
-    /// [`Error::Stopped`] when the budget runs out.
+    /// [`Error::Stopped`] when the budget runs out; `E-function` for continuous loops with functions.
     pub fn point_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointTable>, Error> {
         budget.enter(|| {
+            let symbols = self.algebra_over_symbols(budget)?.symbols();
+            if !symbols.is_empty() && symbols.delays().is_empty() && self.shape() == Shape::UnitDisc {
+                let enclosed = match self.symbolic(budget)? {
+                    Some(p) => p.jury_table(ENCLOSED_DIGITS, budget)?,
+                    None => None,
+                };
+                return Ok(Answer::new(Arc::clone(self), PointTable { test: None, enclosed }));
+            }
             // A coefficient or a pole of a point is a number.
             let defined = self.parametric(budget)?.filter(|p| !p.is_undefined_at(&Rational::ZERO));
             let test = defined.map(|p| classical_test(p, &Range::all(), self.shape(), budget)).transpose()?;
-            Ok(Answer::new(Arc::clone(self), PointTable { test }))
+            Ok(Answer::new(Arc::clone(self), PointTable { test, enclosed: None }))
         })?
     }
 }

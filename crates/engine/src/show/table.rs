@@ -8,9 +8,9 @@ use super::region;
 use crate::answer::{Answer, ParametricTable, PointTable};
 use crate::model::Time;
 use crate::problem::Problem;
-use crate::stability::{ClassicalTest, ScaledPoly, Table, UNDIVIDED_ORDER, row_name};
+use crate::stability::{ClassicalTest, EnclosedTable, ScaledPoly, Table, UNDIVIDED_ORDER, row_name};
 use jurist_algebra::limits::Exhausted;
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Rational, enclosed_decimal, to_decimal};
 use jurist_algebra::poly::UniPoly;
 
 /// Characters per line of a printed table.
@@ -161,6 +161,10 @@ fn point_table_text(problem: &Problem, answer: &PointTable, digits: usize) -> St
         out.push_str(&format!(", {}", named_values(problem.set())));
     }
     out.push('\n');
+    if let Some(table) = &answer.enclosed {
+        out.push_str(&enclosed_text(table, digits));
+        return out;
+    }
     let Some(test) = &answer.test else {
         out.push_str("the loop is undefined here\n");
         return out;
@@ -169,14 +173,36 @@ fn point_table_text(problem: &Problem, answer: &PointTable, digits: usize) -> St
     out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has them exactly)\n"));
     out.push_str(&entries_text(test, None, digits));
     out.push_str(&format!("\nConditions\n{}", determinants(test)));
+    let conditions = test.conditions.iter().map(|c| (c.name.as_str(), !c.solution.intervals().is_empty()));
+    out.push_str(&decided_text(conditions, answer.holds()));
+    out
+}
+
+fn decided_text<'a>(conditions: impl Iterator<Item = (&'a str, bool)>, all: bool) -> String {
     let mut columns = Columns::new("  ");
-    for c in &test.conditions {
-        let holds = if c.solution.intervals().is_empty() { "does not hold" } else { "holds" };
-        columns.row([c.name.clone(), holds.to_owned()]);
+    for (name, holds) in conditions {
+        columns.row([name.to_owned(), if holds { "holds" } else { "does not hold" }.to_owned()]);
     }
-    let all = if answer.holds() { "all hold: stable" } else { "not stable" };
+    let all = if all { "all hold: stable" } else { "not stable" };
     columns.row(["all together".to_owned(), all.to_owned()]);
-    out.push_str(&columns.to_string());
+    columns.to_string()
+}
+
+/// A table whose entries are enclosed.
+fn enclosed_text(table: &EnclosedTable, digits: usize) -> String {
+    let n = table.rows.first().map_or(0, |row| row.entries.len().saturating_sub(1));
+    let rows = table.rows.iter().map(|r| (r.name.clone(), r.entries.len(), r.divided_by.clone()));
+    let mut out = jury_scheme(n, rows);
+    out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has enclosures)\n"));
+    for row in &table.rows {
+        for (k, entry) in row.entries.iter().enumerate() {
+            let (lo, hi) = (entry.lower(), entry.upper());
+            let decimal = enclosed_decimal(lo, hi, digits).unwrap_or_else(|| to_decimal(&lo.midpoint(hi), digits));
+            out.push_str(&format!("  {}_{k} = {decimal}\n", row.name));
+        }
+    }
+    let conditions = table.conditions.iter().map(|c| (c.name.as_str(), c.holds));
+    out.push_str(&format!("\nConditions\n{}", decided_text(conditions, table.holds())));
     out
 }
 
@@ -191,29 +217,34 @@ fn determinants(test: &ClassicalTest) -> &'static str {
 /// The arrangement of the rows by their names, as textbooks print it.
 fn scheme(test: &ClassicalTest) -> String {
     let n = order(test);
-    let mut columns = Columns::new("  ");
-    let mut divided = Vec::new();
     match &test.table {
-        Table::Jury(_) => {
-            columns.row((0..=n).map(|k| format!("z^{k}")));
-            for row in rows(test) {
-                let names: Vec<String> = (0..row.entries.len()).map(|k| format!("{}_{k}", row.name)).collect();
-                // The last row of the table stands alone.
-                if row.entries.len() > 3 || n < 3 {
-                    columns.row(names.clone());
-                    columns.row(names.into_iter().rev());
-                } else {
-                    columns.row(names);
-                }
-                divided.extend(row.divided_by.map(|by| format!("row {} by {by}", row.name)));
-            }
-        }
+        Table::Jury(_) => jury_scheme(n, rows(test).into_iter().map(|r| (r.name, r.entries.len(), r.divided_by))),
         Table::Routh(table) => {
+            let mut columns = Columns::new("  ");
             for (i, row) in table.rows.iter().enumerate() {
                 let names = (0..row.len()).map(|k| format!("r_{i},{k}"));
                 columns.row(std::iter::once(format!("s^{}", n.saturating_sub(i))).chain(names));
             }
+            format!("\n{columns}")
         }
+    }
+}
+
+/// Of Jury's rows: their names, lengths, and what they were divided by.
+fn jury_scheme(n: usize, rows: impl Iterator<Item = (String, usize, Option<String>)>) -> String {
+    let mut columns = Columns::new("  ");
+    let mut divided = Vec::new();
+    columns.row((0..=n).map(|k| format!("z^{k}")));
+    for (name, length, divided_by) in rows {
+        let names: Vec<String> = (0..length).map(|k| format!("{name}_{k}")).collect();
+        // The last row of the table stands alone.
+        if length > 3 || n < 3 {
+            columns.row(names.clone());
+            columns.row(names.into_iter().rev());
+        } else {
+            columns.row(names);
+        }
+        divided.extend(divided_by.map(|by| format!("row {name} by {by}")));
     }
     let mut out = format!("\n{columns}");
     if !divided.is_empty() {

@@ -36,7 +36,9 @@ pub use root_count::{RootCount, count_roots, is_stable};
 pub use routh::{RouthTable, is_hurwitz_routh, routh_table};
 pub use stable_set::{Cells, End, StableInterval, StableSet, UndecidedBracket, end_at, stable_set};
 pub(crate) use symbolic::{Bracket, told_apart, zeros_of_functions};
-pub use symbolic::{SymbolicPlane, SymbolicPolynomial, symbolic_stable_set};
+pub use symbolic::{
+    Comparison, EnclosedCondition, EnclosedRow, EnclosedTable, SymbolicPlane, SymbolicPolynomial, symbolic_stable_set,
+};
 
 /// Where the roots of the characteristic polynomial of a stable loop lie.
 ///

@@ -1,6 +1,7 @@
 //! The document `jurist/jury/1`: in one parameter, or at a point.
 
 use super::end::{Bounds, End, PlainEnd};
+use super::number::{Enclosure, enclosure};
 use super::question::title;
 use super::schema_name;
 use super::{Answered, Exact, Named, Open, ParameterQuestion, PointQuestion, RegionBound};
@@ -8,7 +9,9 @@ use crate::answer::{self, Answer, ParametricTable};
 use crate::model::Time;
 use crate::problem::Problem;
 use crate::show::table::{coefficients, order, rows};
-use crate::stability::{ClassicalTest, Inequality, ScaledPoly, Table, row_name};
+use crate::stability::{
+    ClassicalTest, Comparison, EnclosedCondition, EnclosedRow, Inequality, ScaledPoly, Table, row_name,
+};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, UniPoly};
@@ -49,7 +52,9 @@ pub struct JuryInParameter {
 #[serde(untagged)]
 pub enum JuryAtPoint {
     /// The table.
-    Known(PointTable),
+    Known(PointTable<Exact>),
+    /// The table of a loop with functions, as behind a hold: lower and upper bounds of the entries.
+    Enclosed(PointTable<Enclosure>),
     /// The budget did not allow it.
     Undecided {
         /// The kind of document.
@@ -122,8 +127,8 @@ pub struct TableOpen {
 
 /// A table at a point; rows and conditions are empty where the loop is undefined.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct PointTable {
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "PointTableOf{E}"))]
+pub struct PointTable<E> {
     /// The kind of document.
     pub schema: JuryName,
     /// The model's title; empty where it has none.
@@ -140,9 +145,9 @@ pub struct PointTable {
     #[serde(flatten)]
     pub region: RegionBound,
     /// The rows.
-    pub rows: Vec<Row<Exact>>,
+    pub rows: Vec<Row<E>>,
     /// The conditions of stability.
-    pub conditions: Vec<Condition<Exact, Holds>>,
+    pub conditions: Vec<Condition<E, Holds>>,
     /// Whether all conditions hold: the loop is defined and stable.
     pub holds: bool,
 }
@@ -305,20 +310,61 @@ impl JuryAtPoint {
                 return JuryAtPoint::Undecided { schema, question: PointQuestion::new(problem), open: stopped.into() };
             }
         };
+        if let Some(table) = &answer.enclosed {
+            let rows = table.rows.iter().map(enclosed_row).collect();
+            let conditions = table.conditions.iter().map(enclosed_condition).collect();
+            return JuryAtPoint::Enclosed(point_table(problem, rows, conditions, answer.holds()));
+        }
         let test = answer.test.as_ref();
         let holds = |c: &crate::stability::Condition| Holds { holds: !c.solution.intervals().is_empty() };
-        JuryAtPoint::Known(PointTable {
-            schema,
-            title: title(problem),
-            time: problem.time(),
-            table: problem.time().into(),
-            parameter: (),
-            set: problem.set().into(),
-            region: problem.region().into(),
-            rows: test.map(|t| table_rows(t, constant)).unwrap_or_default(),
-            conditions: test.map(|t| conditions(t, constant, holds)).unwrap_or_default(),
-            holds: answer.holds(),
-        })
+        let rows = test.map(|t| table_rows(t, constant)).unwrap_or_default();
+        let conditions = test.map(|t| conditions(t, constant, holds)).unwrap_or_default();
+        JuryAtPoint::Known(point_table(problem, rows, conditions, answer.holds()))
+    }
+}
+
+fn point_table<E>(
+    problem: &Problem,
+    rows: Vec<Row<E>>,
+    conditions: Vec<Condition<E, Holds>>,
+    holds: bool,
+) -> PointTable<E> {
+    PointTable {
+        schema: JuryName::V1,
+        title: title(problem),
+        time: problem.time(),
+        table: problem.time().into(),
+        parameter: (),
+        set: problem.set().into(),
+        region: problem.region().into(),
+        rows,
+        conditions,
+        holds,
+    }
+}
+
+fn bounds(e: &jurist_algebra::number::Enclosure) -> Enclosure {
+    enclosure(e.lower(), e.upper())
+}
+
+fn enclosed_row(row: &EnclosedRow) -> Row<Enclosure> {
+    let entries = row.entries.iter().map(bounds).collect();
+    Row { name: row.name.clone(), entries, divided_by: row.divided_by.clone() }
+}
+
+fn enclosed_condition(c: &EnclosedCondition) -> Condition<Enclosure, Holds> {
+    let relation = match c.comparison {
+        Comparison::Greater => Relation::Greater,
+        Comparison::GreaterAbsolute => Relation::GreaterAbsolute,
+        Comparison::SmallerAbsolute => Relation::SmallerAbsolute,
+    };
+    Condition {
+        name: c.name.clone(),
+        relation,
+        left: bounds(&c.left),
+        right: bounds(&c.right),
+        row: c.row.map(row_name),
+        result: Holds { holds: c.holds },
     }
 }
 

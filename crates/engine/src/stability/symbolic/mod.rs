@@ -6,6 +6,7 @@
 
 mod boundary_zeros;
 mod count;
+mod jury;
 mod moving;
 mod pair;
 mod plane;
@@ -14,6 +15,7 @@ mod rounded;
 mod set;
 
 pub(crate) use boundary_zeros::{Bracket, told_apart, zeros_of_functions};
+pub use jury::{Comparison, EnclosedCondition, EnclosedRow, EnclosedTable};
 pub use plane::SymbolicPlane;
 pub use set::symbolic_stable_set;
 

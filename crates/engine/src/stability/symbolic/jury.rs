@@ -1,0 +1,254 @@
+//! The Jury table of a loop whose coefficients are numbers over symbols, with enclosed entries.
+
+use super::{SymbolicPolynomial, Table};
+use crate::stability::{UNDIVIDED_ORDER, row_name};
+use jurist_algebra::ball::Ball;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Enclosure, Integer};
+use jurist_algebra::poly::MultiPoly;
+use jurist_algebra::symbols::Symbols;
+
+/// How two sides of a condition compare.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Comparison {
+    /// The left side is greater.
+    Greater,
+    /// The left side has the greater absolute value.
+    GreaterAbsolute,
+    /// The left side has the smaller absolute value.
+    SmallerAbsolute,
+}
+
+/// A row of the table.
+#[derive(Clone, Debug)]
+pub struct EnclosedRow {
+    /// `a`, `b`, ...
+    pub name: String,
+    /// The entries, for `z^0` first.
+    pub entries: Vec<Enclosure>,
+    /// The entry that the row was divided by, such as `a_0`.
+    pub divided_by: Option<String>,
+}
+
+/// A condition, decided.
+#[derive(Clone, Debug)]
+pub struct EnclosedCondition {
+    /// As textbooks write it.
+    pub name: String,
+    /// How the sides are to compare.
+    pub comparison: Comparison,
+    /// The left side.
+    pub left: Enclosure,
+    /// The right side.
+    pub right: Enclosure,
+    /// The row that it is on; none for the values at 1 and -1.
+    pub row: Option<usize>,
+    /// Whether it holds, for certain.
+    pub holds: bool,
+}
+
+/// Jury's table with its conditions, each entry enclosed and each condition decided.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct EnclosedTable {
+    /// The rows.
+    pub rows: Vec<EnclosedRow>,
+    /// The conditions, in the order of [`classical_test`](crate::stability::classical_test).
+    pub conditions: Vec<EnclosedCondition>,
+}
+
+impl EnclosedTable {
+    /// Whether all conditions hold: the loop is stable.
+    pub fn holds(&self) -> bool {
+        self.conditions.iter().all(|c| c.holds)
+    }
+}
+
+/// Bits of the first attempt, and of the last.
+const FIRST_BITS: u64 = 256;
+const MOST_BITS: u64 = 1 << 15;
+
+impl SymbolicPolynomial {
+    /// Jury's table of a discrete loop without parameter, whose entries are enclosed to a relative width of `10^-(digits + 2)`;
+    /// `None` where the loop is undefined, or its degree lost.
+    ///
+    /// A condition holds, or does not, where the enclosures of its sides are apart; values at 1 and -1 that are zero are
+    /// recognised. As in [`jury_table`](crate::stability::jury_table), rows are divided by their known factors above order 8.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::model::{Model, Time};
+    /// // z^2 - exp(-1) z + 1/2
+    /// let (model, _) = Model::builder(Time::Discrete).characteristic("z^2 - exp(-1)*z + 1/2").build()?;
+    /// let budget = Budget::unlimited();
+    /// let p = model.ask().problem()?.symbolic(&budget)?.unwrap();
+    /// let table = p.jury_table(12, &budget)?.unwrap();
+    /// assert!(table.holds() && table.conditions.len() == 3);
+    /// assert!(table.rows[0].entries[1].contains(&"-0.36787944117144232159552377".parse().unwrap()));
+    /// # Ok::<(), jurist_engine::error::Error>(())
+    /// ```
+    ///
+    /// Cost: `O(n^2)` products of enclosures, with twice as many bits until all is certain.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out, and where a condition is not told from an equality.
+    pub fn jury_table(&self, digits: usize, budget: &Budget) -> Result<Option<EnclosedTable>, Exhausted> {
+        let Table::Fixed(symbols) = &self.symbols else { unreachable!("without parameter symbols are numbers") };
+        budget.step("the table");
+        let number = |p: &MultiPoly| p.map_variables(|i| i.saturating_sub(1));
+        for pole in self.poles.iter().chain([&self.degree_loss]) {
+            if symbols.is_zero(&number(pole), budget)? {
+                return Ok(None);
+            }
+        }
+        let mut at_ends = Vec::new();
+        for z in [1, -1] {
+            let value = number(&self.polynomial.eval(&MultiPoly::constant(Integer::from(z))));
+            at_ends.push(if symbols.is_zero(&value, budget)? { MultiPoly::constant(Integer::ZERO) } else { value });
+        }
+        let mut bits = FIRST_BITS;
+        while bits <= MOST_BITS {
+            budget.check()?;
+            if let Some(table) = budget.enter(|| self.enclosed_table(symbols, &at_ends, digits, bits))? {
+                return Ok(Some(table));
+            }
+            bits *= 2;
+        }
+        Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "the conditions of the table"))
+    }
+
+    fn enclosed_table(
+        &self,
+        symbols: &Symbols,
+        at_ends: &[MultiPoly],
+        digits: usize,
+        bits: u64,
+    ) -> Option<EnclosedTable> {
+        let n = self.formal_degree;
+        let number = |p: &MultiPoly| symbols.enclose(&p.map_variables(|i| i.saturating_sub(1)), bits);
+        let denominator = number(&self.poles[0]);
+        let own = |p: &Ball| p.div(&denominator);
+        let first = (0..=n).map(|k| own(&number(&self.polynomial.coeff(k)))).collect::<Option<Vec<Ball>>>()?;
+        let mut rows = vec![first];
+        while rows[rows.len() - 1].len() > 3 {
+            let last = &rows[rows.len() - 1];
+            let m = last.len() - 1;
+            let entry = |k: usize| last[0].mul(&last[k]).sub(&last[m].mul(&last[m - k]));
+            let entries = (0..m).map(entry);
+            let next = if n > UNDIVIDED_ORDER && rows.len() >= 3 {
+                let factor = &rows[rows.len() - 2][0];
+                entries.map(|e| e.div(factor)).collect::<Option<Vec<Ball>>>()?
+            } else {
+                entries.collect()
+            };
+            rows.push(next);
+        }
+        let mut conditions = Vec::new();
+        if n > 0 {
+            let lead = &rows[0][n];
+            let is_positive = lead.sign()?.is_gt();
+            let zero = Ball::zero(bits);
+            for (value, end) in at_ends.iter().zip(["Q(1)".to_owned(), format!("(-1)^{n}*Q(-1)")]) {
+                let value = own(&symbols.enclose(value, bits))?;
+                let value = if end != "Q(1)" && n % 2 == 1 { value.neg() } else { value };
+                let (name, value) = if is_positive { (end, value) } else { (format!("a_{n}*{end}"), value.mul(lead)) };
+                let holds = value.sign()?.is_gt();
+                conditions.push((format!("{name} > 0"), Comparison::Greater, value, zero.clone(), None, holds));
+            }
+            for (i, row) in rows.iter().enumerate() {
+                let (first, last, m) = (&row[0], &row[row.len() - 1], n - i);
+                let is_smaller = if first.magnitude_units() < last.least_magnitude_units() {
+                    true
+                } else if first.least_magnitude_units() > last.magnitude_units() {
+                    false
+                } else {
+                    return None;
+                };
+                let letter = row_name(i);
+                let (name, comparison, holds) = match (i, is_positive) {
+                    (0, true) => (format!("|a_0| < a_{n}"), Comparison::SmallerAbsolute, is_smaller),
+                    (0, false) => (format!("|a_0| < |a_{n}|"), Comparison::SmallerAbsolute, is_smaller),
+                    _ => (format!("|{letter}_0| > |{letter}_{m}|"), Comparison::GreaterAbsolute, !is_smaller),
+                };
+                conditions.push((name, comparison, first.clone(), last.clone(), Some(i), holds));
+            }
+        }
+        let power = Integer::from(10).pow(digits as u64 + 2);
+        let is_narrow = |b: &Ball| b.is_zero() || b.width_units() * &power <= b.least_magnitude_units();
+        let sides = conditions.iter().flat_map(|(_, _, left, right, ..)| [left, right]);
+        if !rows.iter().flatten().chain(sides).all(is_narrow) {
+            return None;
+        }
+        let shown = |b: &Ball| shortened(b, digits).to_enclosure();
+        let row = |(i, entries): (usize, &Vec<Ball>)| EnclosedRow {
+            name: row_name(i),
+            entries: entries.iter().map(shown).collect(),
+            divided_by: (n > UNDIVIDED_ORDER && i >= 3).then(|| format!("{}_0", row_name(i - 2))),
+        };
+        let condition =
+            |(name, comparison, left, right, row, holds): (String, Comparison, Ball, Ball, Option<usize>, bool)| {
+                EnclosedCondition { name, comparison, left: shown(&left), right: shown(&right), row, holds }
+            };
+        let rows = rows.iter().enumerate().map(row).collect();
+        Some(EnclosedTable { rows, conditions: conditions.into_iter().map(condition).collect() })
+    }
+}
+
+/// The ball with no more bits than its digits need.
+fn shortened(b: &Ball, digits: usize) -> Ball {
+    let least = b.least_magnitude_units();
+    if least.is_zero() {
+        return b.clone();
+    }
+    // log2(10) < 10/3; two digits more, and one for each rounding.
+    let needed = (digits as u64 + 3) * 10 / 3 + 8;
+    let known = least.bit_length();
+    if known > needed { b.with_bits(b.bits().saturating_sub(known - needed)) } else { b.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Model, Time};
+
+    fn table(characteristic: &str) -> Option<EnclosedTable> {
+        let (model, _) = Model::builder(Time::Discrete).characteristic(characteristic).build().unwrap();
+        let budget = Budget::unlimited();
+        let p = model.ask().problem().unwrap().symbolic(&budget).unwrap().unwrap();
+        p.jury_table(12, &budget).unwrap()
+    }
+
+    #[test]
+    fn rows_are_those_of_the_textbook() {
+        // a = [X, 0, 1/2, 1] with X = exp(-1): b_k = X a_k - a_(3 - k).
+        let table = table("z^3 + z^2/2 + exp(-1)").unwrap();
+        let x = (-1f64).exp();
+        let value = |e: &Enclosure| e.lower().midpoint(e.upper()).to_f64_approximate();
+        let b: Vec<f64> = table.rows[1].entries.iter().map(value).collect();
+        for (found, exact) in b.iter().zip([x * x - 1.0, -0.5, 0.5 * x]) {
+            assert!((found - exact).abs() < 1e-12, "{b:?}");
+        }
+        let names: Vec<&str> = table.conditions.iter().map(|c| c.name.as_str()).collect();
+        assert_eq!(names, ["Q(1) > 0", "(-1)^3*Q(-1) > 0", "|a_0| < a_3", "|b_0| > |b_2|"]);
+        assert!(table.holds());
+    }
+
+    #[test]
+    fn a_root_at_one_is_seen_by_an_identity() {
+        let table = table("z^2 - (1 + exp(-1))*z + exp(-1)").unwrap();
+        let first = &table.conditions[0];
+        assert!(!first.holds && first.left.lower().is_zero() && first.left.upper().is_zero());
+        assert!(table.conditions[1..].iter().all(|c| c.holds) && !table.holds());
+    }
+
+    #[test]
+    fn tables_agree_with_counts_also_above_the_order_where_rows_are_divided() {
+        for (radius, order) in [("1/2", 3), ("9/10", 5), ("11/10", 5), ("4/5", 10), ("6/5", 10)] {
+            // Roots on a circle around 0, and one at exp(-1).
+            let text = format!("(z - exp(-1))*(z^{} + ({radius})^{})", order - 1, order - 1);
+            let found = table(&text).unwrap();
+            assert_eq!(found.holds(), !radius.starts_with("11") && !radius.starts_with('6'), "{text}");
+            assert_eq!(found.rows.iter().any(|r| r.divided_by.is_some()), order > 8, "{text}");
+        }
+    }
+}
