@@ -43,6 +43,7 @@ mod loops {
     mod large;
     mod margins;
     mod paper;
+    mod peaks;
     mod requirements;
     mod sensitivity;
 }
