@@ -203,6 +203,10 @@ fn blocks() {
             block("r", "y", "transfer = 'K/s'\ndiscretize = { method = 'tustin', T = 1, prewarp = 3.2 }"),
             "E-discretize@11:52",
         ),
+        (
+            block("r", "y", "transfer = 'K/s'\ndiscretize = { method = 'tustin', T = 1, prewarp = 0 }"),
+            "E-discretize@11:52",
+        ),
         (block("r", "y", "transfer = 'K/s'\ndiscretize = { method = 'tustn', T = 1 }"), "E-discretize@11:25"),
         (block("r", "y", "transfer = 'K/s'\ndiscretize = { method = 'forward' }"), "E-discretize@11:1"),
         (block("r", "y", "A = [[1]]\nB = [[1, 2]]"), "E-size@11:5"),
@@ -211,6 +215,14 @@ fn blocks() {
         let found = model(&blocks);
         assert!(found.iter().any(|f| f == expected), "{blocks}: {found:?}");
     }
+}
+
+/// It was said too that a sample time is missing, which cannot be right as well.
+#[test]
+fn a_hold_in_a_continuous_loop_is_one_error() {
+    let head = "time = 'continuous'\n[parameters]\nK = { nominal = 1 }\n[loop]\ninputs = ['r']\noutputs = ['y']\n";
+    let block = "[[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/s'\ndiscretize = 'zoh'\n";
+    assert_eq!(errors(&format!("{head}{block}")), ["E-discretize@12:1"]);
 }
 
 #[test]

@@ -209,6 +209,12 @@ impl Evaluator<'_, '_> {
             return Some(DiscretizationValues::Rule { method: d.method, value, prewarp: None });
         };
         let frequency = frequency?;
+        if frequency.is_zero() {
+            let error = Diagnostic::error("E-discretize", "the frequency of 'prewarp' must be positive");
+            let help = "leave 'prewarp' out: the rule as it is has no error at frequency 0";
+            (self.report)(error.at(span, "not positive").help(help).into());
+            return None;
+        }
         let angle = &frequency * &time;
         let half = &angle * &RationalFunction::from(Rational::new(1.into(), 2.into()));
         let tangent = self.scope.call(Function::Tan, half, span);

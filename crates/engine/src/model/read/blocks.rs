@@ -88,14 +88,17 @@ fn block(value: &Value, time: Time, sample_time: Option<&Expression>, reader: &m
             None
         }
     };
-    let discretization = table.entry("discretize").and_then(|entry| discretize(entry, sample_time, reader));
     let continuous = table.entry("discretize").is_some();
-    if let Some(entry) = table.entry("discretize")
-        && time == Time::Continuous
-    {
-        let error = Diagnostic::error("E-discretize", "a continuous loop has nothing to discretise");
-        reader.report(error.at(entry.key_span, "time = \"continuous\"").help("leave 'discretize' out"));
-    }
+    let discretization = match table.entry("discretize") {
+        Some(entry) if time == Time::Continuous => {
+            let error = Diagnostic::error("E-discretize", "a continuous loop has nothing to discretise");
+            let help =
+                "a loop with a hold is sampled: time = \"discrete\" and a sample_time; else leave 'discretize' out";
+            reader.report(error.at(entry.key_span, "time = \"continuous\"").help(help));
+            None
+        }
+        entry => entry.and_then(|entry| discretize(entry, sample_time, reader)),
+    };
     let dynamics = dynamics(table, &meant, value, &name, time, continuous, reader);
     let pwm = table.entry("pwm").and_then(|entry| pwm(entry, reader));
     let (inputs, outputs, dynamics) = (inputs?, outputs?, dynamics?);
