@@ -118,6 +118,23 @@ fn a_window_of_gains_between_two_angles() {
     assert!(both.iter().all(|n| *n > 0), "{both:?}");
 }
 
+/// Roots are not looked at where margins are: what is about roots has to be refused beside them.
+#[test]
+fn what_is_about_roots_is_refused_beside_a_margin() {
+    let problem = example("dc-servo").ask().free("K").problem().unwrap();
+    let margin = Requirement::phase_margin(&number("45")).unwrap();
+    let others = [
+        Requirement::damping(number("9/10")),
+        Requirement::settling_time(number("1/10"), &number("1/500")),
+        Requirement::delay_margin(number("1/100")),
+    ];
+    for other in others {
+        let list = [margin.clone(), other.unwrap()];
+        let refused = problem.required_set(&list, None, &Budget::unlimited()).unwrap_err().to_string();
+        assert!(refused.contains(list[1].name()), "{refused}");
+    }
+}
+
 #[test]
 fn the_program_says_for_which_gains_the_margin_is_there() {
     let run = jurist(&["intervals", "examples/dc-servo.toml", "--param", "K", "--phase-margin", "45", "--json"]);

@@ -111,6 +111,12 @@ impl<'a> SymbolicFamily<'a> {
         stable: &StableSet,
         budget: &Budget,
     ) -> Result<RequiredSet, Error> {
+        if let Some(other) = requirements.iter().find(|r| !r.needs_cut() || matches!(r, Requirement::DelayMargin(_))) {
+            let message = format!("the requirement {} is not decided as a set for this loop", other.name());
+            let help =
+                "it contains functions that are not rational: 'verdict' decides it with a value for every parameter";
+            return Err(Diagnostic::error("E-require", message).help(help).into());
+        }
         let mut found = RequiredSet { intervals: Vec::new(), undecided: stable.undecided().to_vec() };
         for interval in stable.intervals() {
             self.within(interval, requirements, &mut found, budget)?;
