@@ -113,8 +113,12 @@ impl<'a> SymbolicFamily<'a> {
     ) -> Result<RequiredSet, Error> {
         if let Some(other) = requirements.iter().find(|r| !r.needs_cut() || matches!(r, Requirement::DelayMargin(_))) {
             let message = format!("the requirement {} is not decided as a set for this loop", other.name());
-            let help =
-                "it contains functions that are not rational: 'verdict' decides it with a value for every parameter";
+            let help = match other {
+                Requirement::DelayMargin(_) => "ask 'verdict' with a value for every parameter",
+                _ => {
+                    "margins of loops with functions that are not rational are decided, roots in smaller regions not yet"
+                }
+            };
             return Err(Diagnostic::error("E-require", message).help(help).into());
         }
         let mut found = RequiredSet { intervals: Vec::new(), undecided: stable.undecided().to_vec() };
