@@ -56,6 +56,17 @@ proptest! {
     }
 
     #[test]
+    fn divisors_common_with_a_power_of_two(a in integer(), odd in integer(), power in 0u64..300, more in 0u64..300) {
+        let (y, b) = (Integer::ONE << power, (&odd * &a) << more);
+        for x in [&a, &b, &-&b, &Integer::ZERO, &(Integer::ONE << more)] {
+            let expected = gcd(big(x), big(&y));
+            prop_assert_eq!(big(&x.gcd(&y)), expected.clone());
+            prop_assert_eq!(big(&y.gcd(x)), expected.clone());
+            prop_assert_eq!(big(&x.gcd(&-&y)), expected);
+        }
+    }
+
+    #[test]
     fn integers_agree_with_num_bigint(a in integer(), b in nonzero_integer(), m in 1u64..) {
         let (x, y) = (big(&a), big(&b));
         prop_assert_eq!(big(&(&a + &b)), &x + &y);

@@ -2,6 +2,7 @@
 
 use crate::helpers::drive::{sampled_drive, switched_drive};
 use crate::helpers::number::ratio;
+use crate::helpers::program::jurist_with_input;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_draw::figures::{
@@ -153,6 +154,37 @@ fn on_a_logarithmic_axis_decades_are_equally_far_apart() {
     }
     for label in [">1 Hz<", ">10 Hz<", ">1000 Hz<"] {
         assert!(svg.contains(label), "{label}");
+    }
+}
+
+/// "5000 Hz" at the end of an axis was wider than the margin.
+#[test]
+fn words_at_the_ends_of_axes_are_inside_of_the_picture() {
+    let model = include_str!("../../src/cli/templates/lcl-filter.toml");
+    for name in ["bode", "nyquist"] {
+        let file = std::env::temp_dir().join(format!("jurist-{}-{name}.svg", std::process::id()));
+        jurist_with_input(&[name, "-", "-o", file.to_str().unwrap(), "-q"], model.as_bytes());
+        let svg = std::fs::read_to_string(&file).unwrap();
+        std::fs::remove_file(&file).unwrap();
+        let number = |text: &str, key: &str| -> Option<f64> {
+            let rest = &text[text.find(&format!("{key}=\""))? + key.len() + 2..];
+            rest[..rest.find('"')?].parse().ok()
+        };
+        let width = number(&svg, " width").unwrap();
+        let mut seen = 0;
+        for part in svg.split("<text ").skip(1).filter(|t| t.contains("middle") && !t.contains("rotate")) {
+            let (Some(x), Some(size)) = (number(part, "x"), number(part, "font-size")) else { continue };
+            let words = &part[part.find('>').unwrap() + 1..part.find("</text>").unwrap()];
+            // Titles are broken by their true width.
+            if words.chars().count() > 12 {
+                continue;
+            }
+            // Letters of these fonts are rarely wider than six tenths of their size.
+            let half = words.chars().count() as f64 * 0.6 * size / 2.0;
+            assert!(x - half >= 0.0 && x + half <= width, "{name}: {words:?} at {x} of {width}");
+            seen += 1;
+        }
+        assert!(seen > 4, "{name}: {seen}");
     }
 }
 

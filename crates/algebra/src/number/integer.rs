@@ -125,6 +125,14 @@ impl Integer {
             }
             checkpoint(huge::work_of_gcd(n, m));
         }
+        // One of the two is a power of two where numbers are dyadic, as ends of enclosures are.
+        for (x, y) in [(self, other), (other, self)] {
+            if let (Some(power), Some(zeros)) = (y.trailing_zeros(), x.trailing_zeros())
+                && power + 1 == y.bit_length()
+            {
+                return Integer::ONE << power.min(zeros);
+            }
+        }
         Integer(Inner::from(a.gcd(b)))
     }
 

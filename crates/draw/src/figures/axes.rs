@@ -170,6 +170,9 @@ fn angle_step(range: (f64, f64), count: f64) -> f64 {
 /// Sizes of letters: at ticks, and of the titles of axes.
 const TICK_SIZE: f64 = 11.0;
 const TITLE_SIZE: f64 = 12.0;
+
+/// What the words at a tick keep free of the edge of the figure.
+const EDGE: f64 = 4.0;
 /// Below the axes: numbers and the title.
 pub(super) const BELOW: f64 = 44.0;
 
@@ -232,6 +235,8 @@ impl Frame {
             scene.line((x, bottom), (x, bottom + length(t)), ink(1.0));
             let Some(label) = &t.label else { continue };
             let half = width(label, TICK_SIZE) / 2.0;
+            // One at the end of the axis may be wider than the margin.
+            let x = x.min(scene.width - half - EDGE).max(half + EDGE);
             if x - half > last + 6.0 {
                 scene.words(Words::new(label, (x, bottom + 18.0), TICK_SIZE, INK).anchored(Anchor::Middle));
                 last = x + half;
