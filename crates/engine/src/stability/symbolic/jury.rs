@@ -5,7 +5,7 @@ use crate::stability::{UNDIVIDED_ORDER, row_name};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer};
-use jurist_algebra::poly::MultiPoly;
+use jurist_algebra::poly::{Domain, MultiPoly};
 use jurist_algebra::symbols::Symbols;
 
 /// How two sides of a condition compare.
@@ -68,12 +68,15 @@ impl EnclosedTable {
 const FIRST_BITS: u64 = 256;
 const MOST_BITS: u64 = 1 << 15;
 
+/// Rows with more terms are not looked through for entries that are zero.
+const MOST_TERMS: usize = 400;
+
 impl SymbolicPolynomial {
     /// Jury's table of a discrete loop without parameter, whose entries are enclosed to a relative width of `10^-(digits + 2)`;
     /// `None` where the loop is undefined, or its degree lost.
     ///
     /// A condition holds, or does not, where the enclosures of its sides are apart; values at 1 and -1 that are zero are
-    /// recognised. As in [`jury_table`](crate::stability::jury_table), rows are divided by their known factors above order 8.
+    /// recognised, and zero entries of rows that are short over the symbols. As in [`jury_table`](crate::stability::jury_table), rows are divided by their known factors above order 8.
     ///
     /// ```
     /// use jurist_algebra::limits::Budget;
@@ -107,20 +110,46 @@ impl SymbolicPolynomial {
             at_ends.push(if symbols.is_zero(&value, budget)? { MultiPoly::constant(Integer::ZERO) } else { value });
         }
         let mut bits = FIRST_BITS;
+        let mut zeros = Vec::new();
         while bits <= MOST_BITS {
             budget.check()?;
-            if let Some(table) = budget.enter(|| self.enclosed_table(symbols, &at_ends, digits, bits))? {
+            if let Some(table) = budget.enter(|| self.enclosed_table(symbols, &at_ends, &zeros, digits, bits))? {
                 return Ok(Some(table));
+            }
+            if zeros.is_empty() {
+                zeros = self.zero_entries(symbols, budget)?;
             }
             bits *= 2;
         }
         Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "the conditions of the table"))
     }
 
+    /// Which entries of the first rows are zero: no enclosure shows that. As far as rows that are not divided stay short.
+    fn zero_entries(&self, symbols: &Symbols, budget: &Budget) -> Result<Vec<Vec<bool>>, Exhausted> {
+        let number = |k: usize| self.polynomial.coeff(k).map_variables(|i| i.saturating_sub(1));
+        let mut row: Vec<MultiPoly> = (0..=self.formal_degree).map(number).collect();
+        let mut zeros = Vec::new();
+        loop {
+            let is_zero = |entry: &MultiPoly| match symbols.is_zero(entry, budget) {
+                Err(stopped) if stopped.budget.starts_with("precision") => Ok(false),
+                found => found,
+            };
+            zeros.push(row.iter().map(is_zero).collect::<Result<Vec<bool>, Exhausted>>()?);
+            let terms: usize = row.iter().map(|entry| entry.terms().len()).sum();
+            if row.len() <= 3 || terms > MOST_TERMS {
+                return Ok(zeros);
+            }
+            let m = row.len() - 1;
+            let entry = |k: usize| row[0].times(&row[k]).minus(&row[m].times(&row[m - k]));
+            row = budget.enter(|| (0..m).map(entry).collect())?;
+        }
+    }
+
     fn enclosed_table(
         &self,
         symbols: &Symbols,
         at_ends: &[MultiPoly],
+        zeros: &[Vec<bool>],
         digits: usize,
         bits: u64,
     ) -> Option<EnclosedTable> {
@@ -128,7 +157,12 @@ impl SymbolicPolynomial {
         let number = |p: &MultiPoly| symbols.enclose(&p.map_variables(|i| i.saturating_sub(1)), bits);
         let denominator = number(&self.poles[0]);
         let own = |p: &Ball| p.div(&denominator);
+        let known = |row: Vec<Ball>, i: usize| -> Vec<Ball> {
+            let is_zero = |k: usize| zeros.get(i).is_some_and(|row| row[k]);
+            row.into_iter().enumerate().map(|(k, b)| if is_zero(k) { Ball::zero(bits) } else { b }).collect()
+        };
         let first = (0..=n).map(|k| own(&number(&self.polynomial.coeff(k)))).collect::<Option<Vec<Ball>>>()?;
+        let first = known(first, 0);
         let mut rows = vec![first];
         while rows[rows.len() - 1].len() > 3 {
             let last = &rows[rows.len() - 1];
@@ -141,7 +175,7 @@ impl SymbolicPolynomial {
             } else {
                 entries.collect()
             };
-            rows.push(next);
+            rows.push(known(next, rows.len()));
         }
         let mut conditions = Vec::new();
         if n > 0 {
@@ -210,6 +244,7 @@ fn shortened(b: &Ball, digits: usize) -> Ball {
 mod tests {
     use super::*;
     use crate::model::{Model, Time};
+    use jurist_algebra::number::Rational;
 
     fn table(characteristic: &str) -> Option<EnclosedTable> {
         let (model, _) = Model::builder(Time::Discrete).characteristic(characteristic).build().unwrap();
@@ -239,6 +274,15 @@ mod tests {
         let first = &table.conditions[0];
         assert!(!first.holds && first.left.lower().is_zero() && first.left.upper().is_zero());
         assert!(table.conditions[1..].iter().all(|c| c.holds) && !table.holds());
+    }
+
+    /// `b_1 = X/2 - X/2` is zero by an identity; it was taken for a number that more bits would tell from zero.
+    #[test]
+    fn a_zero_entry_of_a_row_does_not_hide_the_table() {
+        let table = table("z^3 + exp(-1)/2*z^2 + z/2 + exp(-1)").unwrap();
+        let entry = &table.rows[1].entries[1];
+        assert!(entry.lower().is_zero() && entry.upper().is_zero());
+        assert!(table.holds() && !table.rows[1].entries[0].contains(&Rational::ZERO));
     }
 
     #[test]
