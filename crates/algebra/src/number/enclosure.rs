@@ -4,8 +4,12 @@
 //! an interval that contains every value of the exact operation on the operands, and gets narrower as
 //! the number of bits grows.
 
+use super::rounding::{
+    binary_exponent, product_down, product_up, quotient_down, round_down, round_up, scaled_floor, sum_down, unscaled,
+};
 use super::{Integer, Rational, enclosed_decimal};
 use crate::limits::checkpoint;
+use std::sync::OnceLock;
 
 /// A closed interval that is known to contain a real number.
 ///
@@ -63,7 +67,7 @@ impl Enclosure {
 
     /// The sum.
     pub fn add(&self, other: &Enclosure, bits: u64) -> Enclosure {
-        Enclosure { lo: &self.lo + &other.lo, hi: &self.hi + &other.hi }.rounded(bits)
+        Enclosure { lo: sum_down(&self.lo, &other.lo, bits), hi: -sum_down(&-&self.hi, &-&other.hi, bits) }
     }
 
     /// The difference.
@@ -78,20 +82,41 @@ impl Enclosure {
 
     /// The product.
     pub fn mul(&self, other: &Enclosure, bits: u64) -> Enclosure {
-        let products = [&self.lo * &other.lo, &self.lo * &other.hi, &self.hi * &other.lo, &self.hi * &other.hi];
-        let lo = products.iter().min().expect("four products").clone();
-        let hi = products.iter().max().expect("four products").clone();
-        Enclosure { lo, hi }.rounded(bits)
+        if self.hi.is_negative() {
+            return self.neg().mul(other, bits).neg();
+        }
+        if other.lo.is_negative() && !self.lo.is_negative() {
+            // The other one has the sign to choose by: either below zero or on both sides of it.
+            let lo = product_down(&self.hi, &other.lo, bits);
+            let factor = if other.hi.is_negative() { &self.lo } else { &self.hi };
+            return Enclosure { lo, hi: product_up(factor, &other.hi, bits) };
+        }
+        if !self.lo.is_negative() {
+            let lo = product_down(&self.lo, &other.lo, bits);
+            return Enclosure { lo, hi: product_up(&self.hi, &other.hi, bits) };
+        }
+        // This one is on both sides of zero.
+        if !other.lo.is_negative() {
+            let lo = product_down(&self.lo, &other.hi, bits);
+            return Enclosure { lo, hi: product_up(&self.hi, &other.hi, bits) };
+        }
+        let lo = product_down(&self.lo, &other.hi, bits).min(product_down(&self.hi, &other.lo, bits));
+        let hi = product_up(&self.lo, &other.lo, bits).max(product_up(&self.hi, &other.hi, bits));
+        Enclosure { lo, hi }
     }
 
     /// The quotient; `None` when the divisor contains zero.
     pub fn div(&self, other: &Enclosure, bits: u64) -> Option<Enclosure> {
-        if !other.lo.is_negative() && !other.lo.is_zero() || other.hi.is_negative() {
-            let inverse = Enclosure { lo: other.hi.recip()?, hi: other.lo.recip()? };
-            Some(self.mul(&inverse, bits))
-        } else {
-            None
+        if other.hi.is_negative() {
+            return self.neg().div(&other.neg(), bits);
         }
+        if other.lo.is_negative() || other.lo.is_zero() {
+            return None;
+        }
+        let below = if self.lo.is_negative() { &other.lo } else { &other.hi };
+        let above = if self.hi.is_negative() { &other.hi } else { &other.lo };
+        let (lo, hi) = (quotient_down(&self.lo, below, bits), -quotient_down(&-&self.hi, above, bits));
+        Some(Enclosure { lo, hi })
     }
 
     /// The square root of the non-negative part.
@@ -110,14 +135,13 @@ impl Enclosure {
 
     /// pi, by Machin's formula `pi/4 = 4 atan(1/5) - atan(1/239)`.
     ///
-    /// Cost: `O(bits)` products and divisions of `bits` bits.
+    /// Cost: `O(bits)` products and divisions of `bits` bits; what most questions ask for is computed once.
     pub fn pi(bits: u64) -> Enclosure {
-        let term = |n: i64, factor: i64| {
-            let x = Rational::new(Integer::ONE, Integer::from(n));
-            atan_series(&Enclosure::from_rational(x), bits + 8)
-                .mul(&Enclosure::from_rational(Rational::from(factor)), bits + 8)
-        };
-        term(5, 16).sub(&term(239, 4), bits)
+        static KEPT: OnceLock<Enclosure> = OnceLock::new();
+        if bits > KEPT_PI_BITS {
+            return pi_by_machin(bits);
+        }
+        KEPT.get_or_init(|| pi_by_machin(KEPT_PI_BITS)).rounded(bits)
     }
 
     /// The arc tangent, which is increasing.
@@ -146,6 +170,18 @@ impl Enclosure {
     }
 }
 
+/// Bits of pi that are kept: with those in between, enough for about 100 digits.
+const KEPT_PI_BITS: u64 = 512;
+
+fn pi_by_machin(bits: u64) -> Enclosure {
+    let term = |n: i64, factor: i64| {
+        let x = Rational::new(Integer::ONE, Integer::from(n));
+        atan_series(&Enclosure::from_rational(x), bits + 8)
+            .mul(&Enclosure::from_rational(Rational::from(factor)), bits + 8)
+    };
+    term(5, 16).sub(&term(239, 4), bits)
+}
+
 /// Calls `enclose` with more and more bits until all numbers of the enclosure round to the same
 /// decimal; `None` if that does not happen by 64 times the digits asked for (the value is then a tie or
 /// exactly representable, which a transcendental number never is).
@@ -158,41 +194,6 @@ pub fn to_decimal_refining(digits: usize, mut enclose: impl FnMut(u64) -> Option
         bits *= 2;
     }
     None
-}
-
-/// `floor(r 2^s)` for a shift of either sign.
-fn scaled_floor(r: &Rational, s: i64) -> Integer {
-    let (n, d) = (r.numerator(), r.denominator());
-    if s >= 0 { (&n << s as u64).div_mod_floor(&d).0 } else { n.div_mod_floor(&(&d << s.unsigned_abs())).0 }
-}
-
-/// `n 2^-s` for a shift of either sign.
-fn unscaled(n: &Integer, s: i64) -> Rational {
-    if s >= 0 { Rational::dyadic(n, s as u64) } else { Rational::from(n << s.unsigned_abs()) }
-}
-
-/// `floor(log2 |r|)` of a number that is not zero.
-///
-/// The bit lengths alone tell it but for one, and differently for 4/3 and 3/2: with them the rounding
-/// grid would depend on the quotient, and a smaller number could be rounded to a larger one.
-fn binary_exponent(r: &Rational) -> i64 {
-    let (n, d) = (r.numerator().abs(), r.denominator());
-    let e = n.bit_length() as i64 - d.bit_length() as i64;
-    let reaches = if e >= 0 { n >= &d << e.unsigned_abs() } else { &n << e.unsigned_abs() >= d };
-    if reaches { e } else { e - 1 }
-}
-
-/// The largest number of `bits` significant bits (at least one) that is not above `r`; monotone.
-fn round_down(r: &Rational, bits: u64) -> Rational {
-    if r.is_zero() {
-        return Rational::ZERO;
-    }
-    let s = bits.max(1) as i64 - 1 - binary_exponent(r);
-    unscaled(&scaled_floor(r, s), s)
-}
-
-fn round_up(r: &Rational, bits: u64) -> Rational {
-    -round_down(&-r, bits)
 }
 
 /// The shift `k` of the square root's last bit: the root has `bits + 1` significant bits.

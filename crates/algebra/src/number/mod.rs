@@ -12,6 +12,7 @@ mod integer;
 mod parse;
 mod rational;
 mod root;
+mod rounding;
 #[cfg(feature = "strategies")]
 pub mod strategies;
 

@@ -95,6 +95,11 @@ impl Rational {
         self.denominator.clone()
     }
 
+    /// Numerator and denominator, to look at.
+    pub(super) fn parts(&self) -> (&Integer, &Integer) {
+        (&self.numerator, &self.denominator)
+    }
+
     /// Whether this is 0.
     pub fn is_zero(&self) -> bool {
         self.numerator.is_zero()

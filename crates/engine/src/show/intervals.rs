@@ -3,11 +3,11 @@
 use super::layout::{Columns, fraction, headline, named_values, short, visible};
 use super::margins::margin;
 use super::{real, region};
-use crate::answer::{Answer, Frequency};
+use crate::answer::Answer;
 use crate::problem::Problem;
 use crate::stability::{Cause, End, IntervalSet, Range, StableSet, UndecidedBracket};
 use jurist_algebra::limits::Exhausted;
-use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, parse_number, to_decimal};
+use jurist_algebra::number::{Rational, parse_number, to_decimal};
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::real::Real;
 
@@ -175,21 +175,8 @@ fn end_cells(end: &End, decimal: String, problem: &Problem, digits: usize) -> Ve
         _ => String::new(),
     };
     let places = digits.min(7);
-    let once = problem.frequency(end, real::bits_for(places));
-    let pick = |part: fn(&Frequency) -> Option<Enclosure>| {
-        let narrow = once.as_ref().and_then(part)?;
-        let decimal = enclosed_decimal(narrow.lower(), narrow.upper(), places);
-        decimal.or_else(|| real::enclosed(places, |bits| problem.frequency(end, bits).as_ref().and_then(part)))
-    };
-    let mut at = Vec::new();
-    if let Some(hertz) = pick(|f| f.hertz.clone()) {
-        at.push(format!("{hertz} Hz"));
-    }
-    if let Some(angle) = pick(|f| f.angle.clone()) {
-        at.push(format!("{angle} rad"));
-    } else if let Some(rate) = pick(|f| f.radians_per_second.clone()) {
-        at.push(format!("{rate} rad/s"));
-    }
+    let frequency = real::ShownFrequency::new(places, |bits| problem.frequency(end, bits));
+    let at = frequency.map(|f| f.words(places, "rad")).unwrap_or_default();
     let causes = region::causes_text(&end.causes, problem);
     let mut cause = if at.is_empty() { causes } else { format!("{causes} at {}", at.join(", ")) };
     if end.causes.contains(Cause::Pole) {

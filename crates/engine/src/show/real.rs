@@ -1,5 +1,6 @@
 //! Real numbers and enclosures as correctly rounded decimals.
 
+use crate::answer::Frequency;
 use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, to_decimal_refining};
 use jurist_algebra::real::Real;
 
@@ -39,6 +40,42 @@ pub fn enclosed(digits: usize, mut enclose: impl FnMut(u64) -> Option<Enclosure>
         let bits = 8 * digits as u64 + 64;
         enclose(bits).map(|e| jurist_algebra::number::to_decimal(&e.lower().midpoint(e.upper()), digits))
     })
+}
+
+/// The decimal of a number of which an enclosure is at hand; narrower ones are asked for only next to a tie.
+pub fn enclosed_in(digits: usize, narrow: &Enclosure, enclose: impl FnMut(u64) -> Option<Enclosure>) -> Option<String> {
+    enclosed_decimal(narrow.lower(), narrow.upper(), digits).or_else(|| enclosed(digits, enclose))
+}
+
+/// A frequency that is computed once for all that is shown of it.
+pub struct ShownFrequency<F> {
+    once: Frequency,
+    at: F,
+}
+
+impl<F: Fn(u64) -> Option<Frequency>> ShownFrequency<F> {
+    /// From enclosures as narrow as so many bits; `None` where there is no frequency.
+    pub fn new(digits: usize, at: F) -> Option<Self> {
+        Some(ShownFrequency { once: at(bits_for(digits))?, at })
+    }
+
+    /// The first enclosure.
+    pub fn enclosed(&self) -> &Frequency {
+        &self.once
+    }
+
+    /// The decimal of one of its parts.
+    pub fn decimal(&self, places: usize, part: fn(&Frequency) -> Option<Enclosure>) -> Option<String> {
+        enclosed_in(places, &part(&self.once)?, |bits| (self.at)(bits).as_ref().and_then(part))
+    }
+
+    /// `12.5 Hz` and `0.7853982 rad per sample`, the angle in words of the caller, the rate where there is no angle.
+    pub fn words(&self, places: usize, angle_unit: &str) -> Vec<String> {
+        let hertz = self.decimal(places, |f| f.hertz.clone()).map(|hertz| format!("{hertz} Hz"));
+        let angle = self.decimal(places, |f| f.angle.clone()).map(|angle| format!("{angle} {angle_unit}"));
+        let rate = || self.decimal(places, |f| f.radians_per_second.clone()).map(|rate| format!("{rate} rad/s"));
+        hertz.into_iter().chain(angle.or_else(rate)).collect()
+    }
 }
 
 /// A decimal as a JSON number; none for what is too large for one.

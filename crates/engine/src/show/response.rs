@@ -9,7 +9,7 @@ use crate::answer::{Answer, Frequency};
 use crate::model::Cut;
 use crate::problem::Problem;
 use crate::response::{
-    self, DelayMargin, Direction, Extreme, HeldDelay, Margins, Norm, PhaseMargin, Place, StableMargins,
+    self, DelayMargin, Direction, Extreme, GainCrossing, HeldDelay, Margins, Norm, PhaseMargin, Place, StableMargins,
 };
 use crate::stability::{End, Shape};
 use jurist_algebra::number::{Enclosure, Rational};
@@ -69,16 +69,7 @@ fn decimal(digits: usize, enclose: impl FnMut(u64) -> Option<Enclosure>) -> Stri
 
 /// `12.5 Hz, 78.53982 rad/s`; the angle instead of the rate in discrete time.
 fn frequency_text(at: impl Fn(u64) -> Option<Frequency>) -> Option<String> {
-    at(real::bits_for(PLACES))?;
-    let part =
-        |pick: fn(&Frequency) -> Option<Enclosure>| real::enclosed(PLACES, |bits| at(bits).as_ref().and_then(pick));
-    let mut parts = Vec::new();
-    parts.extend(part(|f| f.hertz.clone()).map(|hertz| format!("{hertz} Hz")));
-    match part(|f| f.angle.clone()) {
-        Some(angle) => parts.push(format!("{angle} rad per sample")),
-        None => parts.extend(part(|f| f.radians_per_second.clone()).map(|rate| format!("{rate} rad/s"))),
-    }
-    Some(parts.join(", "))
+    Some(real::ShownFrequency::new(PLACES, at)?.words(PLACES, "rad per sample").join(", "))
 }
 
 impl Writer<'_> {
@@ -199,6 +190,23 @@ impl Writer<'_> {
         )
     }
 
+    /// The phase divided by the frequency, in samples and in seconds.
+    fn delay_at(&self, c: &GainCrossing) -> Option<String> {
+        let delay = |bits| c.delay(self.shape(), bits);
+        let narrow = delay(real::bits_for(PLACES) + 16)?;
+        let text = real::enclosed_in(PLACES, &narrow, delay)?;
+        if self.shape() == Shape::LeftHalfPlane {
+            return Some(format!("PM/omega {text} s"));
+        }
+        let Some(period) = self.margins.open_loop.sample_time() else {
+            return Some(format!("PM/omega {text} samples"));
+        };
+        let period = Enclosure::from_rational(period.clone());
+        let narrow = narrow.mul(&period, real::bits_for(PLACES));
+        let seconds = real::enclosed_in(PLACES, &narrow, |bits| Some(delay(bits + 16)?.mul(&period, bits)))?;
+        Some(format!("PM/omega {text} samples = {seconds} s"))
+    }
+
     fn crossings(&self) -> String {
         let crossings = &self.margins.crossings;
         let mut columns = Columns::new("    ");
@@ -207,20 +215,12 @@ impl Writer<'_> {
         }
         for c in &crossings.gain {
             let margin = decimal(PLACES, |bits| Some(response::degrees(&c.phase(bits + 16), bits)));
-            let delay = real::enclosed(PLACES, |bits| c.delay(self.shape(), bits));
-            let unit = if self.shape() == Shape::UnitDisc { "samples" } else { "s" };
+            let delay = self.delay_at(c).unwrap_or_default();
             let way = match c.direction {
                 Direction::Falling => "falling",
                 Direction::Rising => "rising",
                 Direction::Touching => "touching",
             };
-            let period = self.margins.open_loop.sample_time().filter(|_| self.shape() == Shape::UnitDisc);
-            let seconds = period.and_then(|t| {
-                let t = Enclosure::from_rational(t.clone());
-                real::enclosed(PLACES, |bits| Some(c.delay(self.shape(), bits + 16)?.mul(&t, bits)))
-            });
-            let seconds = seconds.map(|s| format!(" = {s} s")).unwrap_or_default();
-            let delay = delay.map(|d| format!("PM/omega {d} {unit}{seconds}")).unwrap_or_default();
             columns.row([
                 "modulus 1".to_owned(),
                 self.at(Some(&c.place)),

@@ -7,7 +7,7 @@ use crate::show::margins::margin;
 use crate::show::real::{self, JSON_NUMBER_DIGITS};
 use crate::show::region;
 use crate::stability::{self, AlgebraicInterval, IntervalSet, Range};
-use jurist_algebra::number::{self, Rational, enclosed_decimal};
+use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::real::Real;
 use serde::{Deserialize, Serialize};
@@ -71,15 +71,9 @@ impl FrequencyOfPair {
     /// From enclosures as narrow as so many bits.
     pub(super) fn new(digits: usize, at: impl Fn(u64) -> Option<Frequency>) -> Self {
         let places = digits.min(JSON_NUMBER_DIGITS);
-        // One enclosure is narrow enough for nearly every decimal; only a value next to a tie asks for another.
-        let once = at(real::bits_for(digits));
-        let pick = |part: fn(&Frequency) -> Option<number::Enclosure>| {
-            let narrow = once.as_ref().and_then(part)?;
-            let decimal = enclosed_decimal(narrow.lower(), narrow.upper(), places);
-            let decimal = decimal.or_else(|| real::enclosed(places, |bits| at(bits).as_ref().and_then(part)));
-            real::json_number(&decimal?)
-        };
-        let hertz = once.as_ref().and_then(|f| f.hertz.as_ref());
+        let frequency = real::ShownFrequency::new(digits, at);
+        let pick = |part| real::json_number(&frequency.as_ref()?.decimal(places, part)?);
+        let hertz = frequency.as_ref().and_then(|f| f.enclosed().hertz.as_ref());
         FrequencyOfPair {
             frequency_hz: pick(|f| f.hertz.clone()),
             frequency_enclosure: hertz.map(|e| enclosure(e.lower(), e.upper())),
