@@ -1561,7 +1561,8 @@ def vanishes_only_with(p, factors):
 def check_tolerance(model, document, statement, values, discrete, extent):
     names = ["schema", "statement", "characteristic", "factors", "pair"]
     _, _, given, factors, pair = parts(document, names, ["model"])
-    *_, tolerances, factor, beyond = parts(statement, ["kind", "time", "set", "region", "tolerances", "factor", "beyond"])
+    keys = ["kind", "time", "set", "region", "tolerances", "factor", "limit", "beyond"]
+    *_, tolerances, factor, limit, beyond = parts(statement, keys)
     need(extent != "parameter", "the region has no parameter here")
     tolerances = items(tolerances, lambda item: parts(item, ["name", "nominal", "between"]))
     names = [name_of(name) for name, _, _ in tolerances]
@@ -1571,8 +1572,11 @@ def check_tolerance(model, document, statement, values, discrete, extent):
     need(names and factor >= 0 and all(len(ends) == 2 for ends in between), "there is no box")
     need(all(low <= x <= high for x, (low, high) in zip(nominal, between)), "a nominal value is not within its tolerance")
 
-    def at_factor(factor):
-        return [[x + factor * (end - x) for end in ends] for x, ends in zip(nominal, between)]
+    need(limit is None or limit in names, "the limit is that of no tolerance")
+
+    def at_factor(factor, of_limit=None):
+        factors = [of_limit if of_limit is not None and limit in (None, name) else factor for name in names]
+        return [[x + factor * (end - x) for end in ends] for factor, x, ends in zip(factors, nominal, between)]
 
     def read(json_value):
         out = {}
@@ -1619,12 +1623,12 @@ def check_tolerance(model, document, statement, values, discrete, extent):
     sentence = f"in {statement['time']} time, {statement['region']}, "
     sentence += ", ".join(f"{low} <= {name} <= {high}" for name, (low, high) in zip(names, sides))
     sentence += "".join(f", {name} = {x}" for name, x in values.items()) + ": stable everywhere"
-    if beyond is not None:
-        keys = ["factor", "point", "degree", "inside", "on", "outside", "infinite"]
-        factor, point, *counts = parts(beyond, keys)
-        factor, point = rational(factor), items(point, rational)
-        need(factor >= 0 and len(point) == len(names), "beyond: there is no point")
-        need(all(low <= x <= high for x, (low, high) in zip(point, at_factor(factor))), "beyond: the point is not in its box")
+    keys = ["factor", "point", "degree", "inside", "on", "outside", "infinite"]
+    for own_factor, point, *counts in items(beyond, lambda item: parts(item, keys)):
+        own_factor, point = rational(own_factor), items(point, rational)
+        need(own_factor >= 0 and len(point) == len(names), "beyond: there is no point")
+        box = at_factor(factor, own_factor)
+        need(all(low <= x <= high for x, (low, high) in zip(point, box)), "beyond: the point is not in its box")
         undefined, d = any(not at(ways, point) for ways in divisors), at(own, point)
         found = places(d, discrete) if d and not undefined else (0, 0, 0)
         found = [n, *found, 0 if undefined else n - sum(found)]

@@ -89,9 +89,8 @@ fn is_true(text: &str, json: &Json) -> bool {
         verdict(corner) == Verdict::Stable
     });
     let beyond = get(&statement, "beyond");
-    stable
-        && (beyond == Json::Null
-            || verdict(items(get(&beyond, "point")).iter().map(number).collect()) != Verdict::Stable)
+    let unstable = |point: Json| verdict(items(get(&point, "point")).iter().map(number).collect()) != Verdict::Stable;
+    stable && items(beyond).into_iter().all(unstable)
 }
 
 #[test]
@@ -167,6 +166,34 @@ fn boxes_of_generated_loops_are_certified() {
     assert!(boxes >= 4, "{boxes} boxes");
 }
 
+/// The certificate of the safe range of one parameter: one box, and a point beyond each end with the others in their tolerances.
+#[test]
+fn the_safe_range_of_one_parameter_is_certified_with_both_ends() {
+    let (drive, small) = (example_text("drive"), small());
+    let asked = [
+        (&drive, twenty_percent("R_a L_a J B_v K_a k_1 k_2 E_sw").limit("K_pwm")),
+        (&small, ToleranceRequest::new([("b", "1".parse().unwrap()), ("c", "10%".parse().unwrap())]).limit("a")),
+    ];
+    for (text, request) in asked {
+        let name = request.limit.clone().unwrap();
+        let answer = read(text).ask().tolerance(&request, &Budget::unlimited()).unwrap();
+        let certificate = answer.certificate(&Budget::unlimited()).unwrap();
+        accept(text, &certificate);
+        let json = Json::parse(&certificate).unwrap();
+        let statement = json.get("statement").unwrap();
+        assert_eq!(statement.get("limit"), Some(&Json::Text(name.clone())));
+        let Some(Json::List(beyond)) = statement.get("beyond") else { panic!("points") };
+        let [Some(lower), Some(upper)] = &answer.value().limit.as_ref().unwrap().sides else { panic!("both sides") };
+        let known = [lower, upper].iter().filter(|side| side.unsafe_at.is_some()).count();
+        assert!(beyond.len() == known && known > 0, "{} of {known}", beyond.len());
+        assert!(is_true(text, &json), "{certificate}");
+        // Another parameter's range: its tolerance alone would have to hold the points.
+        let other = answer.problem().free().iter().find(|free| free.name != name).unwrap();
+        let lie = with(&certificate, &format!("\"limit\": \"{name}\""), &format!("\"limit\": \"{}\"", other.name));
+        reject(text, &lie, Step::Stable);
+    }
+}
+
 #[test]
 fn a_nominal_point_that_is_not_stable_has_the_certificate_of_its_verdict() {
     let text = model("continuous", "a = { nominal = -1, tolerance = 1 }", "s + a");
@@ -218,8 +245,8 @@ fn with(certificate: &str, from: &str, to: &str) -> String {
 const BY_HAND: &str = r#"{
     "schema": "jurist/certificate/4",
     "statement": {"kind": "tolerance", "time": "continuous", "set": {"b": "0"}, "region": {"decay": "0"},
-        "tolerances": [{"name": "a", "nominal": "2", "between": ["1", "3"]}], "factor": "1",
-        "beyond": {"factor": "2", "point": ["0"], "degree": 1, "inside": 0, "on": 1, "outside": 0, "infinite": 0}},
+        "tolerances": [{"name": "a", "nominal": "2", "between": ["1", "3"]}], "factor": "1", "limit": null,
+        "beyond": [{"factor": "2", "point": ["0"], "degree": 1, "inside": 0, "on": 1, "outside": 0, "infinite": 0}]},
     "characteristic": [[["1", 1]], [["1"]]],
     "factors": [{"polynomial": [["1", 1]], "tree": "s0,++"}],
     "pair": {"v0": "4", "weight": "1", "tree": "s0,l1,0;l1,1;"}
@@ -234,10 +261,11 @@ fn a_certificate_by_hand_is_accepted_and_lies_about_it_are_not() {
         BY_HAND_MODEL,
         &with(
             BY_HAND,
-            r#""beyond": {"factor": "2", "point": ["0"], "degree": 1, "inside": 0, "on": 1, "outside": 0, "infinite": 0}"#,
-            r#""beyond": null"#,
+            r#""beyond": [{"factor": "2", "point": ["0"], "degree": 1, "inside": 0, "on": 1, "outside": 0, "infinite": 0}]"#,
+            r#""beyond": []"#,
         ),
     );
+    accept(BY_HAND_MODEL, &with(BY_HAND, r#""limit": null"#, r#""limit": "a""#));
     for (step, from, to) in [
         (Step::Format, "certificate/4", "certificate/5"),
         (Step::Statement, "certificate/4", "certificate/3"),
@@ -250,6 +278,9 @@ fn a_certificate_by_hand_is_accepted_and_lies_about_it_are_not() {
         (Step::Statement, r#""nominal": "2""#, r#""nominal": "4""#),
         (Step::Statement, r#"[{"name": "a", "nominal": "2", "between": ["1", "3"]}]"#, "[]"),
         (Step::Statement, r#""factor": "1""#, r#""factor": "-1""#),
+        (Step::Statement, r#""limit": null"#, r#""limit": "b""#),
+        (Step::Statement, r#""limit": null"#, r#""limit": ["a"]"#),
+        (Step::Statement, r#""beyond": ["#, r#""beyond": ["0", "#),
         (Step::Model, r#""name": "a""#, r#""name": "b""#),
         (Step::Model, r#""name": "a""#, r#""name": "c""#),
         (Step::Model, r#""set": {"b": "0"}"#, r#""set": {}"#),

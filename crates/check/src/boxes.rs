@@ -38,6 +38,19 @@ struct Beyond {
     counts: [usize; 5],
 }
 
+impl Beyond {
+    fn read(json: &Json) -> Result<Self, String> {
+        let keys = ["factor", "point", "degree", "inside", "on", "outside", "infinite"];
+        let [factor, point, counts @ ..] = object(json, "'beyond'", keys, &[])?;
+        let point = list(point, "'point'")?.iter().map(|x| number(x, "'point'")).collect::<Result<Vec<_>, _>>()?;
+        let mut numbers = [0; 5];
+        for (target, json) in numbers.iter_mut().zip(counts) {
+            *target = count(json, "a count")?;
+        }
+        Ok(Beyond { factor: number(factor, "'factor'")?, point, counts: numbers })
+    }
+}
+
 struct Statement {
     discrete: bool,
     set: Vec<(String, Q)>,
@@ -45,13 +58,15 @@ struct Statement {
     names: Vec<String>,
     sides: Vec<Tolerance>,
     factor: Q,
-    beyond: Option<Beyond>,
+    /// Beyond the range of this one alone the points are, in the tolerances of the others.
+    limit: Option<usize>,
+    beyond: Vec<Beyond>,
 }
 
 impl Statement {
     fn read(json: &Json) -> Result<Self, String> {
-        let keys = ["kind", "time", "set", "region", "tolerances", "factor", "beyond"];
-        let [_, time, set, region, tolerances, factor, beyond] = object(json, "the statement", keys, &[])?;
+        let keys = ["kind", "time", "set", "region", "tolerances", "factor", "limit", "beyond"];
+        let [_, time, set, region, tolerances, factor, limit, beyond] = object(json, "the statement", keys, &[])?;
         let discrete = is_discrete(time)?;
         let extent = extent(region, discrete)?;
         if extent == Extent::Parameter {
@@ -73,26 +88,26 @@ impl Statement {
         if names.is_empty() || factor.is_negative() {
             return Err("there is no box, or its factor is negative".into());
         }
-        let beyond = match beyond {
+        let limit = match limit {
             Json::Null => None,
-            beyond => {
-                let keys = ["factor", "point", "degree", "inside", "on", "outside", "infinite"];
-                let [factor, point, counts @ ..] = object(beyond, "'beyond'", keys, &[])?;
-                let point =
-                    list(point, "'point'")?.iter().map(|x| number(x, "'point'")).collect::<Result<Vec<_>, _>>()?;
-                let mut numbers = [0; 5];
-                for (target, json) in numbers.iter_mut().zip(counts) {
-                    *target = count(json, "a count")?;
-                }
-                Some(Beyond { factor: number(factor, "'factor'")?, point, counts: numbers })
+            name => {
+                let name = text(name, "'limit'")?;
+                Some(names.iter().position(|n| n == name).ok_or("the limit is that of no tolerance")?)
             }
         };
-        Ok(Statement { discrete, set: values(set)?, extent, names, sides, factor, beyond })
+        let beyond = list(beyond, "'beyond'")?.iter().map(Beyond::read).collect::<Result<_, _>>()?;
+        Ok(Statement { discrete, set: values(set)?, extent, names, sides, factor, limit, beyond })
     }
 
     /// The box of a factor.
     fn at(&self, factor: &Q) -> Vec<[Q; 2]> {
         self.sides.iter().map(|side| side.times(factor)).collect()
+    }
+
+    /// The box in which a point beyond is: of its factor, in the limit's range alone where there is one.
+    fn around(&self, beyond: &Beyond) -> Vec<[Q; 2]> {
+        let own = |i: usize| if self.limit.is_none_or(|at| at == i) { &beyond.factor } else { &self.factor };
+        self.sides.iter().enumerate().map(|(i, side)| side.times(own(i))).collect()
     }
 
     fn in_words(&self) -> String {
@@ -105,9 +120,15 @@ impl Statement {
         }
         let within = verdict::within(&self.extent, self.discrete);
         let _ = write!(out, ", the loop is stable{within}; these are the tolerances times {}.", self.factor);
-        if let Some(Beyond { factor, point, counts: [degree, inside, on, outside, infinite] }) = &self.beyond {
+        for Beyond { factor, point, counts: [degree, inside, on, outside, infinite] } in &self.beyond {
             let point: Vec<String> = self.names.iter().zip(point).map(|(n, x)| format!("{n} = {x}")).collect();
-            let _ = write!(out, " At {}, within the tolerances times {factor}, it is not: ", point.join(", "));
+            let _ = match self.limit {
+                None => write!(out, " At {}, within the tolerances times {factor}, it is not: ", point.join(", ")),
+                Some(at) => {
+                    let name = &self.names[at];
+                    write!(out, " At {}, the range of {name} alone times {factor}, it is not: ", point.join(", "))
+                }
+            };
             let _ = match inside + on + outside + infinite < *degree {
                 true => write!(out, "it is undefined there."),
                 false => write!(
@@ -176,7 +197,7 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
         if at.0.len() != given.len() || !is_stable {
             return Err("the nominal point is not stable".to_owned());
         }
-        s.beyond.as_ref().map_or(Ok(()), |beyond| s.is_beyond(beyond, &own, &in_this_region, clock))
+        s.beyond.iter().try_for_each(|beyond| s.is_beyond(beyond, &own, &in_this_region, clock))
     })())?;
     Ok(Proved { statement: s.in_words(), kind: "tolerance" })
 }
@@ -184,7 +205,7 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
 impl Statement {
     /// Whether the point is in its box, has these counts, and is not stable.
     fn is_beyond(&self, beyond: &Beyond, own: &OverBox, d: &[Multi], clock: &Clock) -> Result<(), String> {
-        let sides = self.at(&beyond.factor);
+        let sides = self.around(beyond);
         let is_inside = |(x, [low, high]): (&Q, &[Q; 2])| low <= x && x <= high;
         if beyond.factor.is_negative()
             || beyond.point.len() != sides.len()

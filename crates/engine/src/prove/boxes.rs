@@ -4,10 +4,10 @@ use super::held::{is_held, polynomials, terms};
 use super::statement::{about, number, object, region, set};
 use super::text::to_text;
 use super::{no_certificate, refuse_requirements};
-use crate::answer::{Answer, ToleranceAnswer};
+use crate::answer::{Answer, ToleranceAnswer, ToleranceLimit};
 use crate::error::Error;
 use crate::problem::Problem;
-use crate::stability::boxes::{BoxDecision, BoxPolynomial, BoxProof, Side, Witness};
+use crate::stability::boxes::{BoxDecision, BoxPolynomial, BoxProof, Side, ToleranceProblem, Witness};
 use crate::stability::{AtPoint, RootCount};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
@@ -19,10 +19,11 @@ use std::sync::Arc;
 const SCHEMA: &str = "jurist/certificate/4";
 
 impl Answer<ToleranceAnswer> {
-    /// A certificate of the largest box that was proved, with the point beyond it that was found; where no box was, of the
-    /// verdict at a point that is not stable.
+    /// A certificate of the largest box that was proved, with the point beyond it that was found: both together prove the bracket
+    /// of the largest factor, exact factors included. Where the range of one parameter was asked for, of the box of the others with that whole range, with a
+    /// point beyond either end. Where no box was proved, of the verdict at a point that is not stable.
     ///
-    /// Cost: that of writing the polynomials and trees of the proof. Nothing is proved again.
+    /// Cost: that of writing the polynomials and trees of the proof; the box with the range of one parameter is proved as one.
     ///
     /// ```
     /// use jurist_algebra::limits::Budget;
@@ -51,16 +52,24 @@ impl Answer<ToleranceAnswer> {
             BoxDecision::NotStable { witness } => witness.as_ref(),
             _ => None,
         });
-        match (proved(value), witness) {
-            (Some((factor, proof)), witness) => {
-                let Some(d) = problem.algebra(budget)?.polynomial() else {
-                    return Err(no_certificate("no certificate: the loop is undefined everywhere"));
-                };
-                let p = budget.enter(|| BoxPolynomial::new(d, problem.shape()))?;
-                of_box(problem, &p, &value.sides, (factor, proof), witness)
+        if value.limit.is_none() && proved(value).is_none() {
+            return match witness {
+                Some(witness) => of_point(problem, &witness.point, budget),
+                None => Err(no_certificate("no certificate: the box was not decided")),
+            };
+        }
+        let Some(d) = problem.algebra(budget)?.polynomial() else {
+            return Err(no_certificate("no certificate: the loop is undefined everywhere"));
+        };
+        let p = budget.enter(|| BoxPolynomial::new(d, problem.shape()))?;
+        match (&value.limit, proved(value)) {
+            (Some(limit), _) => of_limit(problem, &p, &value.sides, limit, budget),
+            (None, Some((factor, proof))) => {
+                let sides = &value.sides;
+                let beyond = witness.map(|witness| beyond(witness, sides, p.formal_degree()));
+                of_box(problem, &p, sides, (factor, proof), None, beyond.into_iter().collect())
             }
-            (None, Some(witness)) => of_point(problem, &witness.point, budget),
-            (None, None) => Err(no_certificate("no certificate: the box was not decided")),
+            (None, None) => unreachable!("something was proved"),
         }
     }
 }
@@ -81,7 +90,8 @@ fn of_box(
     p: &BoxPolynomial,
     sides: &[Side],
     (factor, proof): (Rational, &BoxProof),
-    witness: Option<&Witness>,
+    limit: Option<&str>,
+    beyond: Vec<Value>,
 ) -> Result<String, Error> {
     let tolerances = problem.free().iter().zip(sides).map(|(free, side)| {
         object([
@@ -97,7 +107,8 @@ fn of_box(
         ("region", region(problem.region())),
         ("tolerances", tolerances.collect()),
         ("factor", number(&factor)),
-        ("beyond", witness.map_or(Value::Null, |witness| beyond(witness, sides, p.formal_degree()))),
+        ("limit", limit.map_or(Value::Null, Value::from)),
+        ("beyond", Value::Array(beyond)),
     ]);
     let certain = p.certain().iter().zip(&proof.certain).filter(|((_, f), _)| !f.is_constant());
     let factors = certain.map(|((_, f), tree)| object([("polynomial", terms(f)), ("tree", tree.to_string().into())]));
@@ -118,6 +129,37 @@ fn of_box(
     Ok(to_text(&certificate))
 }
 
+/// The box of the others' tolerances and the whole range of one parameter, proved as one, and what was found beyond its ends.
+fn of_limit(
+    problem: &Arc<Problem>,
+    p: &BoxPolynomial,
+    sides: &[Side],
+    limit: &ToleranceLimit,
+    budget: &Budget,
+) -> Result<String, Error> {
+    let [Some(lower), Some(upper)] = &limit.sides else {
+        return Err(no_certificate("no certificate: the box of the others is not stable"));
+    };
+    let at = problem.free().iter().position(|free| free.name == limit.parameter).expect("the limit's parameter is free");
+    let mut own = sides.to_vec();
+    own[at] = Side::scaled(limit.nominal.clone(), [&limit.nominal - &lower.safe, &upper.safe - &limit.nominal]);
+    let boxes = ToleranceProblem::new(p, own.clone()).expect("stable at the nominal point");
+    let BoxDecision::Stable(proof) = boxes.decide(&Rational::ONE, budget)? else {
+        return Err(no_certificate("no certificate: the proof of the whole range at once takes too many cells"));
+    };
+    // Only the limit's own side grows with the factor of a point beyond.
+    let alone: Vec<Side> = own.iter().enumerate().map(|(i, side)| if i == at { side.clone() } else { still(side) }).collect();
+    let found = [lower, upper].into_iter().filter_map(|side| side.factor.witness.as_ref());
+    let found = found.filter(|witness| !alone[at].widths()[usize::from(witness.point[at] > limit.nominal)].is_zero());
+    let points = found.map(|witness| beyond(witness, &alone, p.formal_degree())).collect();
+    of_box(problem, p, &own, (Rational::ONE, &proof), Some(&limit.parameter), points)
+}
+
+/// The side as a place that does not grow.
+fn still(side: &Side) -> Side {
+    Side::fixed(side.nominal().clone(), side.widths().clone())
+}
+
 /// A point that is not stable, and the least factor whose box holds it.
 fn beyond(witness: &Witness, sides: &[Side], degree: usize) -> Value {
     let (count, infinite) = match &witness.at {
@@ -125,7 +167,8 @@ fn beyond(witness: &Witness, sides: &[Side], degree: usize) -> Value {
         AtPoint::Zero => (RootCount::default(), degree),
         AtPoint::Defined { count, infinite } => (*count, *infinite),
     };
-    let shares = sides.iter().zip(&witness.point).filter_map(|(side, x)| {
+    let growing = sides.iter().zip(&witness.point).filter(|(side, _)| side.grows());
+    let shares = growing.filter_map(|(side, x)| {
         let offset = x - side.nominal();
         offset.abs().checked_div(&side.widths()[usize::from(offset.sign().is_gt())])
     });

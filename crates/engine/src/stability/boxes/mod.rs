@@ -14,6 +14,7 @@ mod multiplier;
 mod polynomial;
 mod prove;
 mod rough;
+mod scores;
 mod search;
 mod separate;
 mod sides;

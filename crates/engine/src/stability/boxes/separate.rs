@@ -41,15 +41,17 @@ fn holds((a, b): (i128, i128), x: &[i128], y: &[i128], error: i128) -> bool {
 /// The extreme rays of the cone that points span, the second counterclockwise of the first; `None` unless they lie in an
 /// open half plane.
 fn cone(x: &[i128], y: &[i128]) -> Option<[(i128, i128); 2]> {
-    let cross = |v: (i128, i128), w: (i128, i128)| v.0 * w.1 - v.1 * w.0;
-    let mut rays: Option<[(i128, i128); 2]> = None;
+    // Words and not double words: one multiplication each.
+    let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
+    let cross = |v: (i64, i64), w: (i64, i64)| product(v.0, w.1) - product(v.1, w.0);
+    let mut rays: Option<[(i64, i64); 2]> = None;
     for (&x, &y) in x.iter().zip(y) {
         let bits = i128::BITS - x.unsigned_abs().max(y.unsigned_abs()).leading_zeros();
         if bits == 0 {
             return None;
         }
         let shift = bits.saturating_sub(DIRECTION_BITS);
-        let p = (x >> shift, y >> shift);
+        let p = ((x >> shift) as i64, (y >> shift) as i64);
         let Some([first, last]) = &mut rays else {
             rays = Some([p, p]);
             continue;
@@ -57,7 +59,7 @@ fn cone(x: &[i128], y: &[i128]) -> Option<[(i128, i128); 2]> {
         let (after, before) = (cross(*first, p), cross(p, *last));
         if after >= 0 && before >= 0 {
             // Within, or on the line of both rays: then it must not point the other way.
-            if after == 0 && before == 0 && first.0 * p.0 + first.1 * p.1 < 0 {
+            if after == 0 && before == 0 && product(first.0, p.0) + product(first.1, p.1) < 0 {
                 return None;
             }
         } else if after < 0 && before > 0 {
@@ -68,7 +70,7 @@ fn cone(x: &[i128], y: &[i128]) -> Option<[(i128, i128); 2]> {
             return None;
         }
     }
-    rays
+    rays.map(|both| both.map(|(x, y)| (i128::from(x), i128::from(y))))
 }
 
 /// The direction of a vector, of length about `2^40`.

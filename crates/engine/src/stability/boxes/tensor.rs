@@ -1,6 +1,7 @@
 //! Bernstein coefficients over a box in fixed point, each with a proved error.
 
 use super::polynomial::Bundle;
+use super::scores::Scores;
 use jurist_algebra::limits::checkpoint;
 use jurist_algebra::number::{Integer, Rational};
 
@@ -90,7 +91,8 @@ impl Tensor {
         }
     }
 
-    fn stride(&self, axis: usize) -> usize {
+    /// How far neighbours along an axis are apart in the list of coefficients.
+    pub fn stride(&self, axis: usize) -> usize {
         self.counts[axis + 1..].iter().product()
     }
 
@@ -126,15 +128,7 @@ impl Tensor {
 
     /// [`Tensor::best_axis`] of some axes.
     pub fn best_axis_of(&self, axes: &[usize]) -> Option<usize> {
-        let last = self.axes() - 1;
-        let mut best = (0, None);
-        for &axis in axes {
-            let score = if axis == last { self.variation() } else { self.curvature(axis) };
-            if score > best.0 {
-                best = (score, Some(axis));
-            }
-        }
-        best.1
+        Scores::of(self).best_of(axes)
     }
 
     /// The parameter along which the values change most.
@@ -145,46 +139,6 @@ impl Tensor {
             blocks.map(|b| (stride..b.len()).map(|at| (b[at] - b[at - stride]).abs()).max().unwrap_or(0)).max()
         };
         (0..self.axes() - 1).max_by_key(|&axis| (steepness(axis), std::cmp::Reverse(axis))).unwrap_or(0)
-    }
-
-    /// The sum over neighbouring frequencies of the greatest difference.
-    fn variation(&self) -> i128 {
-        let count = self.counts[self.axes() - 1];
-        let mut greatest = vec![0i128; count.saturating_sub(1)];
-        for plane in &self.planes {
-            for lane in plane.chunks(count) {
-                for (g, pair) in greatest.iter_mut().zip(lane.windows(2)) {
-                    *g = (*g).max((pair[1] - pair[0]).abs());
-                }
-            }
-        }
-        greatest.iter().sum()
-    }
-
-    /// The greatest range, over the frequencies, of the derivative by a parameter.
-    fn curvature(&self, axis: usize) -> i128 {
-        let (stride, count) = (self.stride(axis), self.counts[axis]);
-        if count == 1 {
-            return 0;
-        }
-        let frequencies = self.counts[self.axes() - 1];
-        let mut sum = vec![0i128; frequencies];
-        for plane in &self.planes {
-            let mut range = vec![(i128::MAX, i128::MIN); frequencies];
-            for block in plane.chunks(stride * count) {
-                for at in 0..(count - 1) * stride {
-                    let difference = block[at + stride] - block[at];
-                    let (low, high) = &mut range[at % frequencies];
-                    *low = (*low).min(difference);
-                    *high = (*high).max(difference);
-                }
-            }
-            for (s, (low, high)) in sum.iter_mut().zip(range) {
-                // The differences carry the error of two coefficients each.
-                *s += (high - low - 4 * self.error).max(0);
-            }
-        }
-        sum.into_iter().max().unwrap_or(0) * (count as i128 - 1)
     }
 
     /// The least and the greatest coefficient of a polynomial.
