@@ -154,7 +154,7 @@ def lift(x):
     return x if isinstance(x, Powers) else Powers([x])
 
 
-def second_way(loop, sides, lower, signs):
+def second_way(loop, sides, lower, signs, still):
     """The least loss over all corners (floats), and the loss at the worst one (60 digits)."""
     names = list(sides)
     corners = list(itertools.product(*(sorted(set(sides[n])) for n in names)))
@@ -178,11 +178,11 @@ def second_way(loop, sides, lower, signs):
             bad = excess(middle, chosen) >= 0
             lo, hi = np.where(bad, lo, middle), np.where(bad, middle, hi)
         least = float(hi.min())
-    if "inside" in signs.values():
+    if any(sign == "inside" and name not in still for name, sign in signs.items()):
         return least, None
     lo = to_mp(lower)
     hi = lo * mp.mpf("1.00001")
-    end = {n: sides[n][signs[n] == "+"] - loop.nominal[n] for n in names}
+    end = {n: 0 if n in still else sides[n][signs[n] == "+"] - loop.nominal[n] for n in names}
     for _ in range(DIGITS * 4):
         middle = (lo + hi) / 2
         bad = loop.excess({n: to_mp(loop.nominal[n]) + middle * to_mp(end[n]) for n in names}, to_mp) >= 0
@@ -223,7 +223,11 @@ def row(program, checker, problem):
     expected = Fraction(digits) if "/" in digits else None
     shown = str(expected) if expected is not None else digits
     problems = []
-    least, refined = second_way(loop, sides, lower, document["worst"]["signs"])
+    signs = document["worst"]["signs"]
+    point = document["worst"]["point"]
+    # At its nominal value where the box has no room on that side.
+    still = {n for n in sides if Fraction(point[n]) == loop.nominal[n]}
+    least, refined = second_way(loop, sides, lower, signs, still)
     if expected is not None:
         if not (exact_value and Fraction(exact_value["exact"]) == expected):
             problems.append("exact value")

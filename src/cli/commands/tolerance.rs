@@ -5,6 +5,7 @@ use crate::cli::arguments::DecisionOptions;
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_name, known_names, load, question};
 use crate::cli::output::{ending, write_answer};
+use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::picture::{Kind, Picture, WRITES, deliver};
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::check_certificate;
@@ -47,6 +48,8 @@ pub(in crate::cli) struct Options {
     pub certificate: Option<OsString>,
     #[command(flatten)]
     pub decision: DecisionOptions,
+    #[command(flatten)]
+    pub require: RequirementOptions,
 }
 
 /// Digits of the bracket of the largest factor where `--digits` is not given.
@@ -64,7 +67,9 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     }
     let model = load(options.decision.model.model.as_ref(), context)?;
     let question = question(context, &model, &options.decision.model, &options.decision.region)?;
-    let request = request(options, &model, context)?;
+    let (asked, question) = options.require.asked(&model, question, &options.decision.region, context)?;
+    refuse_proofs(&model, &asked, options.certificate.is_some())?;
+    let request = request(options, &model, context)?.require(asked.list, asked.at);
     let digits = output.digits() as usize;
     let answer = match decided(question.clone().tolerance(&request, &context.budget))? {
         Ok(answer) => answer,

@@ -22,7 +22,7 @@ pub use map_boxes::{BoxRequest, MapBoxes, MapMethod, MapOrBoxes};
 pub use map_limits::{MapLimit, RegionExtent};
 pub use sensitivity::{Sensitivities, Sensitivity};
 pub use table::{ParametricTable, PointTable};
-pub use tolerance::{LimitSide, ToleranceAnswer, ToleranceLimit, ToleranceRequest, WorstEnd};
+pub use tolerance::{LimitSide, RequiredBox, ToleranceAnswer, ToleranceLimit, ToleranceRequest, WorstEnd};
 pub use verdict::{DelayedRoots, PointVerdict, Verdict};
 
 use crate::problem::Problem;

@@ -3,11 +3,13 @@
 mod decide;
 mod held;
 mod limit;
+mod required;
 
 use super::Answer;
 use crate::error::{Diagnostic, Error};
 use crate::model::{Model, Tolerance};
 use crate::problem::{Problem, Question};
+use crate::response::Requirement;
 use crate::stability::boxes::{BoxDecision, BoxVolume, ExactProof, LargestFactor, Side};
 use crate::stability::{AtPoint, End};
 use jurist_algebra::limits::Budget;
@@ -36,6 +38,10 @@ pub struct ToleranceRequest {
     pub exact: bool,
     /// The share of the box's volume that may stay undecided, where its stable share is asked for.
     pub volume: Option<Rational>,
+    /// What has to be met at every point beside stability.
+    pub requirements: Vec<Requirement>,
+    /// Where margins are taken.
+    pub at: Option<String>,
 }
 
 impl ToleranceRequest {
@@ -47,6 +53,8 @@ impl ToleranceRequest {
             limit: None,
             exact: false,
             volume: None,
+            requirements: Vec::new(),
+            at: None,
         }
     }
 
@@ -72,6 +80,13 @@ impl ToleranceRequest {
     /// The same, asking also which share of the box is stable, up to an undecided share.
     pub fn volume(mut self, undecided: Rational) -> Self {
         self.volume = Some(undecided);
+        self
+    }
+
+    /// The same, with requirements to be met at every point, margins being taken at a cut.
+    pub fn require(mut self, requirements: impl IntoIterator<Item = Requirement>, at: Option<String>) -> Self {
+        self.requirements.extend(requirements);
+        self.at = at;
         self
     }
 
@@ -118,6 +133,24 @@ pub struct ToleranceAnswer {
     pub limit: Option<ToleranceLimit>,
     /// Which share of the box is stable, where that was asked for.
     pub volume: Option<BoxVolume>,
+    /// The requirements, each over the box; with them the decision and the factor are those of stability and all of them.
+    pub required: Vec<RequiredBox>,
+    /// The requirement that bounds the factor, if one does so before stability is lost.
+    pub binding: Option<usize>,
+}
+
+/// What is known of a requirement over a box.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct RequiredBox {
+    /// What is required.
+    pub requirement: Requirement,
+    /// Whether it is met at every point (`Stable`), or a point at which it is not.
+    pub decision: BoxDecision,
+    /// By how much the box can grow while it is met; `None` where it is not met at the nominal point.
+    pub factor: Option<LargestFactor>,
+    /// The number of cells of the proof.
+    pub cells: usize,
 }
 
 /// The end of stability on the line to the worst point.

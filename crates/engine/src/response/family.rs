@@ -130,6 +130,11 @@ impl<R: Parameters> Family<R> {
         Ok(Family { quotient, sample_time, cut, free: kept.len(), undefined })
     }
 
+    /// `D0` and `N` with the open loop `N/D0`, in the variable of the closed loop.
+    pub fn parts(&self) -> [&Poly<R>; 2] {
+        [&self.quotient.denominator, &self.quotient.numerator]
+    }
+
     /// The open loop at a point.
     pub fn at(&self, point: &[Rational]) -> OpenLoop {
         let part = |p: &Poly<R>| p.coeffs().iter().map(|c| c.value(point)).collect::<Vec<_>>();

@@ -94,9 +94,13 @@ fn has_gain_margin(gain: &GainMargin, factor: &RealAlgebraic, budget: &Budget) -
 /// Whether the angle is at least that of twice a cosine.
 fn has_phase_margin(phase: &PhaseMargin, twice_cosine: &RealAlgebraic, budget: &Budget) -> Result<bool, Exhausted> {
     let PhaseMargin::Angle { tangent: Some(tangent), .. } = phase else { return Ok(true) };
-    let least = Value::quotient(&UniPoly::from_i64(&[2, -1]), &UniPoly::from_i64(&[2, 1]), twice_cosine);
-    let least = square_root(&least.number(budget)?, budget)?;
-    Ok(tangent.compare(&least, budget)?.is_ge())
+    Ok(tangent.compare(&half_tangent(twice_cosine, budget)?, budget)?.is_ge())
+}
+
+/// The tangent of half the angle whose cosine is half of this.
+pub(crate) fn half_tangent(twice_cosine: &RealAlgebraic, budget: &Budget) -> Result<Real, Exhausted> {
+    let square = Value::quotient(&UniPoly::from_i64(&[2, -1]), &UniPoly::from_i64(&[2, 1]), twice_cosine);
+    square_root(&square.number(budget)?, budget)
 }
 
 impl Requirement {

@@ -216,6 +216,14 @@ pub(crate) fn scaled_by_exponential(
     (Arc::new(symbols), Poly::new(scaled))
 }
 
+/// A rational number of few digits just below `exp(exponent)`, by at most so many binary digits.
+pub(crate) fn radius_below(exponent: &Rational, bits: u64) -> Rational {
+    let mut symbols = Symbols::new();
+    let radius = symbols.insert("X", Definition::exponential(exponent.clone()));
+    let low = symbols.values(bits + 8)[radius].lower();
+    Rational::dyadic(&(low * Rational::from(Integer::ONE << bits)).floor(), bits)
+}
+
 fn refused(message: &str) -> Error {
     Diagnostic::error("E-require", message).into()
 }

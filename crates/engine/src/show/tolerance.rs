@@ -5,7 +5,7 @@ use super::intervals::{heading, undecided_text};
 use super::layout::short;
 use super::real;
 use super::verdict::verdict_line;
-use crate::answer::{Answer, PointVerdict, ToleranceAnswer, ToleranceLimit, WorstEnd};
+use crate::answer::{Answer, PointVerdict, ToleranceAnswer, ToleranceLimit, Verdict, WorstEnd};
 use crate::problem::Problem;
 use crate::stability::AtPoint;
 use crate::stability::boxes::{BoxDecision, LargestFactor, Side, Witness};
@@ -43,6 +43,15 @@ struct Shown<'a> {
 impl Shown<'_> {
     fn text(&self) -> String {
         let mut out = self.decision();
+        for found in &self.answer.required {
+            let what = match &found.decision {
+                BoxDecision::Stable(_) if found.cells == 1 => "met for all values (proof: 1 cell)".to_owned(),
+                BoxDecision::Stable(_) => format!("met for all values (proof: {} cells)", found.cells),
+                BoxDecision::NotStable { .. } => "not met for all values".to_owned(),
+                BoxDecision::Undecided { why, .. } => format!("undecided ({why})"),
+            };
+            let _ = writeln!(out, "    {}: {what}", found.requirement.text());
+        }
         if let Some(factor) = &self.answer.factor {
             out.push_str(&self.factor(factor));
         }
@@ -88,17 +97,23 @@ impl Shown<'_> {
             BoxDecision::Stable(proof) => {
                 let cells = proof.cells();
                 let noun = if cells == 1 { "cell" } else { "cells" };
-                format!("{asked}: stable for all values (proof: {cells} {noun})\n")
+                let with = if self.answer.required.is_empty() { "" } else { ", and meets all requirements," };
+                format!("{asked}: stable{with} for all values (proof: {cells} {noun})\n")
             }
             BoxDecision::NotStable { witness } => {
-                let mut out = format!("{asked}: not stable for all values\n");
+                let what = if self.answer.required.is_empty() { "not stable" } else { "not stable with all requirements met" };
+                let mut out = format!("{asked}: {what} for all values\n");
                 if let Some(witness) = witness {
                     let point: Vec<String> = self
                         .names()
                         .zip(&witness.point)
                         .map(|(name, value)| format!("{name} = {}", short(value)))
                         .collect();
-                    let line = verdict_line(self.problem, &verdict_of(witness, self.problem));
+                    let found = verdict_of(witness, self.problem);
+                    let line = match found.verdict {
+                        Verdict::Stable => "stable, but not all requirements are met".to_owned(),
+                        _ => verdict_line(self.problem, &found),
+                    };
                     let _ = writeln!(out, "    not at {}: {line}", point.join(", "));
                 }
                 out
@@ -153,7 +168,10 @@ impl Shown<'_> {
         if let Some(direction) = &factor.direction {
             let beyond = factor.witness.as_ref().map(|w| self.beyond(w)).unwrap_or_default();
             let signs = self.signs(direction, factor.shares.as_deref());
-            let what = self.answer.worst.as_ref().map(end_words).unwrap_or_default();
+            let end = self.answer.worst.as_ref().map(end_words).unwrap_or_default();
+            let binding = self.answer.binding.map(|k| &self.answer.required[k].requirement);
+            let what = binding.map_or(end, |requirement| format!("    {}", requirement.text()));
+            let beyond = if binding.is_some() { ", not met just beyond" } else { beyond.as_str() };
             let _ = writeln!(out, "worst point      {signs}{what}{beyond}");
         }
         if let Some(shares) = &factor.shares {

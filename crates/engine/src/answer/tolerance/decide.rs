@@ -1,6 +1,7 @@
 //! The answer about a box, step by step: a point that is not stable, a proof, the largest factor.
 
 use super::held::Truth;
+use super::required::{nearer, worse};
 use super::{ToleranceAnswer, ToleranceRequest, WorstEnd};
 use crate::answer::Answer;
 use crate::error::{Diagnostic, Error};
@@ -24,6 +25,7 @@ impl Problem {
         request: &ToleranceRequest,
         budget: &Budget,
     ) -> Result<Answer<ToleranceAnswer>, Error> {
+        refuse_beside_requirements(request)?;
         let truth = Truth::of(self, budget)?;
         let Some(d) = self.algebra_over_symbols(budget)?.polynomial() else {
             let decision = BoxDecision::NotStable { witness: None };
@@ -54,7 +56,29 @@ impl Problem {
         };
         let factor = boxes.bracket(search, &|_| request.gap.clone(), domain_factor.as_ref(), budget)?;
         let factor = truth.factor(&p, factor, budget)?;
-        let (worst, cells) = match truth.is_exact() {
+        let decision = agreed(decision, &factor, None);
+        let (mut decision, mut factor) = (decision, Some(factor));
+        let (mut required, mut binding) = (Vec::new(), None);
+        for (k, requirement) in request.requirements.iter().enumerate() {
+            let nearest = factor.as_ref().and_then(|factor| factor.upper.as_ref());
+            let most = nearest.into_iter().chain(&domain_factor).min().cloned();
+            let found = self.required_box(requirement, &sides, request, most.as_ref(), &p, budget)?;
+            decision = worse(decision, found.decision.clone());
+            factor = match (factor, found.factor.clone()) {
+                (Some(known), Some(own)) => {
+                    let (nearest, is_own) = nearer(known, own);
+                    binding = if is_own { Some(k) } else { binding };
+                    Some(nearest)
+                }
+                _ => None,
+            };
+            required.push(found);
+        }
+        let Some(factor) = factor else {
+            let value = ToleranceAnswer { required, ..self.bare(sides, at, decision) };
+            return Ok(Answer::new(Arc::clone(self), value));
+        };
+        let (worst, cells) = match truth.is_exact() && binding.is_none() {
             true => self.worst_end(&sides, &factor, budget)?.unzip(),
             false => (None, None),
         };
@@ -78,6 +102,8 @@ impl Problem {
             domain_factor,
             limit,
             volume,
+            required,
+            binding,
         };
         Ok(Answer::new(Arc::clone(self), value))
     }
@@ -105,7 +131,12 @@ impl Problem {
         nominal: AtPoint,
         decision: BoxDecision,
     ) -> Answer<ToleranceAnswer> {
-        let value = ToleranceAnswer {
+        let value = self.bare(sides, nominal, decision);
+        Answer::new(Arc::clone(self), value)
+    }
+
+    fn bare(&self, sides: Vec<Side>, nominal: AtPoint, decision: BoxDecision) -> ToleranceAnswer {
+        ToleranceAnswer {
             sides,
             nominal,
             decision,
@@ -115,8 +146,9 @@ impl Problem {
             domain_factor: None,
             limit: None,
             volume: None,
-        };
-        Answer::new(Arc::clone(self), value)
+            required: Vec::new(),
+            binding: None,
+        }
     }
 
     /// The factor at which the first parameter reaches the end of its open domain.
@@ -180,7 +212,19 @@ fn agreed(decision: BoxDecision, factor: &LargestFactor, exact: Option<&ExactPro
     }
 }
 
-fn too_many(boxes: &ToleranceProblem) -> Error {
+/// Requirements are not looked at by these questions.
+fn refuse_beside_requirements(request: &ToleranceRequest) -> Result<(), Error> {
+    let what = match (&request.limit, &request.volume, request.exact) {
+        _ if request.requirements.is_empty() => return Ok(()),
+        (Some(_), ..) => "the range of one parameter",
+        (_, Some(_), _) => "the volume of a box",
+        _ => return Ok(()),
+    };
+    let message = format!("{what} is not decided with requirements on margins, damping or settling");
+    Err(Diagnostic::error("E-require", message).help("ask for the box alone, or leave out the requirements").into())
+}
+
+pub(super) fn too_many(boxes: &ToleranceProblem) -> Error {
     let message = format!("{} tolerances have too many Bernstein coefficients", boxes.parameters());
     Diagnostic::error("E-tolerance", message)
         .help("leave some out with --fix, or give a product of parameters that only occur together one tolerance")

@@ -66,7 +66,7 @@ pub use question::{ParameterQuestion, PointQuestion, RegionBound};
 pub use required_map::{RequiredCell, RequiredInPlane, RequiredRegion, RequiredSetOfRegions, RequiredStrip};
 pub use requirements::{RequirementAsked, RequirementFound};
 pub use tolerance::{
-    Factor, LimitRange, Tolerance, ToleranceFound, ToleranceName, ToleranceOpen, ToleranceVerdict, VolumeShares,
+    Factor, LimitRange, RequirementOverBox, Tolerance, ToleranceFound, ToleranceName, ToleranceOpen, ToleranceVerdict, VolumeShares,
     WitnessPoint, WorstPoint,
 };
 pub use undecided::{Answered, Open, Undecided};

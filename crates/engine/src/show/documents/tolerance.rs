@@ -2,8 +2,9 @@
 
 use super::number::{Exact, Named};
 use super::question::{RegionBound, title};
+use super::requirements::RequirementAsked;
 use super::{Answered, End, FrequencyOfPair, RootsByPlace, Undecided, schema_name};
-use crate::answer::{Answer, LimitSide, ToleranceAnswer, ToleranceLimit, WorstEnd};
+use crate::answer::{Answer, LimitSide, RequiredBox, ToleranceAnswer, ToleranceLimit, WorstEnd};
 use crate::model::Time;
 use crate::problem::Problem;
 use crate::show::bounded::at_most;
@@ -58,6 +59,10 @@ pub struct ToleranceFound {
     /// Shares of the box's volume, where they were asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub volume: Option<VolumeShares>,
+    /// The requirements to be met at every point beside stability, where there are any: `verdict`, `factor` and `worst` are those
+    /// of stability and all of them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub requirements: Vec<RequirementOverBox>,
     /// The number of cells of frequency and parameters in the proof; `null` without one.
     pub cells: Option<usize>,
     /// What stopped the proof, where the verdict is `null`.
@@ -128,6 +133,23 @@ pub struct WitnessPoint {
     /// Where the roots are.
     #[serde(flatten)]
     pub roots: RootsByPlace,
+}
+
+/// A requirement over the box.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RequirementOverBox {
+    /// What is required.
+    #[serde(flatten)]
+    pub asked: RequirementAsked,
+    /// Whether it is met at every point; `null` where that was not decided.
+    pub met: Option<bool>,
+    /// The box of this factor meets it; `null` where the nominal point does not.
+    pub lower: Option<Exact>,
+    /// The box of this factor does not; `null` where no such factor was found, which is not looked for beyond that of the others.
+    pub upper: Option<Exact>,
+    /// Whether it is what bounds the factor of the box.
+    pub binds: bool,
 }
 
 /// Exact shares of the volume of the box; they add up to 1.
@@ -216,6 +238,7 @@ fn found(problem: &Problem, answer: &ToleranceAnswer, digits: usize) -> Toleranc
             named(problem, shares, |s| real::json_number(&to_decimal(s, 17)).unwrap_or_else(|| 0.into()))
         }),
         limit: answer.limit.as_ref().map(|limit| limit_range(problem, limit)),
+        requirements: answer.required.iter().enumerate().map(|(k, r)| required(answer, k, r)).collect(),
         volume: answer.volume.as_ref().map(|v| VolumeShares {
             stable: (&v.stable).into(),
             unstable: (&v.unstable).into(),
@@ -224,6 +247,20 @@ fn found(problem: &Problem, answer: &ToleranceAnswer, digits: usize) -> Toleranc
         }),
         cells,
         undecided,
+    }
+}
+
+fn required(answer: &ToleranceAnswer, number: usize, found: &RequiredBox) -> RequirementOverBox {
+    RequirementOverBox {
+        asked: (&found.requirement).into(),
+        met: match &found.decision {
+            BoxDecision::Stable(_) => Some(true),
+            BoxDecision::NotStable { .. } => Some(false),
+            BoxDecision::Undecided { .. } => None,
+        },
+        lower: found.factor.as_ref().map(|f| Exact::from(&f.lower)),
+        upper: found.factor.as_ref().and_then(|f| f.upper.as_ref()).map(Exact::from),
+        binds: answer.binding == Some(number),
     }
 }
 

@@ -287,7 +287,7 @@ impl ToleranceProblem<'_> {
         bends: bool,
         budget: &Budget,
     ) -> Result<Option<Tree>, Exhausted> {
-        let (tensor, _) = Tensor::of_pair(&self.p.pair(), sides, FrequencyScale(self.scale));
+        let (tensor, _) = Tensor::of_pair(&self.p.pair(), sides, FrequencyScale(2 * self.scale));
         if let Some(tree) = cover(tensor.clone(), critical, &closed_by_constant, budget)? {
             return Ok(Some(tree));
         }

@@ -144,7 +144,7 @@ impl<'a> ToleranceProblem<'a> {
 
     /// The number of Bernstein coefficients of the pair; `None` where there are more than are worked with.
     pub fn coefficients(&self) -> Option<usize> {
-        let pair = self.p.pair();
+        let pair = self.p.excluded().pair;
         let counts = pair.degrees.iter().map(|l| l + 1).chain([pair.width / 2]);
         let product = counts.into_iter().try_fold(1usize, |product, count| product.checked_mul(count));
         product.filter(|&n| n <= MOST_COEFFICIENTS)

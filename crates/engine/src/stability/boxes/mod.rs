@@ -9,6 +9,7 @@
 mod determinants;
 mod exact;
 mod factor;
+mod families;
 mod line;
 mod multiplier;
 mod polynomial;

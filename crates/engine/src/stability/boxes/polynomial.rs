@@ -92,6 +92,15 @@ impl Bundle {
     }
 }
 
+/// A pair of polynomials in the frequency, or its square, that has no common zero where no root is on the boundary.
+#[derive(Clone, Debug)]
+pub(super) struct Excluded {
+    /// The coefficients of the first, then those of the second.
+    pub pair: Bundle,
+    /// Of the frequency: 2 where the polynomials are in its square.
+    pub power: i64,
+}
+
 /// A characteristic polynomial with any number of parameters, brought to the left half plane.
 ///
 /// In discrete time `(1 - s)^n D((1 + s)/(1 - s))` takes the place of `D`: its roots are left of the imaginary axis where those
@@ -109,6 +118,8 @@ pub struct BoxPolynomial {
     parameters: usize,
     formal_degree: usize,
     shape: Shape,
+    /// What to exclude instead of the pair of the polynomial itself.
+    pub(super) instead: Option<Excluded>,
 }
 
 impl BoxPolynomial {
@@ -124,18 +135,26 @@ impl BoxPolynomial {
     /// Cost: that of [`BoxPolynomial::new`].
     pub fn over(d: &CharacteristicPolynomial, parameters: usize, shape: Shape) -> Self {
         let (original, denominator) = d.cleared();
-        let n = d.formal_degree;
+        let divisors = d.poles.iter().chain([&denominator]);
+        BoxPolynomial::of_parts(original, d.formal_degree, divisors, parameters, shape)
+    }
+
+    /// Of a polynomial of this degree in `z` or `s`, and of what must not vanish.
+    pub(crate) fn of_parts<'d>(
+        original: Poly<MultiPoly>,
+        n: usize,
+        undefined: impl IntoIterator<Item = &'d MultiPoly>,
+        parameters: usize,
+        shape: Shape,
+    ) -> Self {
         let mut divisors: Vec<MultiPoly> = Vec::new();
-        for p in d.poles.iter().chain([&denominator]) {
+        for p in undefined {
             let p = without_squares(p);
             if !p.is_constant() && !divisors.contains(&p) {
                 divisors.push(p);
             }
         }
-        let in_half_plane = match shape {
-            Shape::LeftHalfPlane => (0..=n).map(|i| original.coeff(i)).collect(),
-            Shape::UnitDisc => to_half_plane(&original, n),
-        };
+        let in_half_plane = in_half_plane(&original, n, shape);
         let [at_zero, at_infinity] = match shape {
             Shape::LeftHalfPlane => [Cause::RootAtZero, Cause::DegreeLost],
             Shape::UnitDisc => [Cause::RootAtOne, Cause::RootAtMinusOne],
@@ -145,7 +164,13 @@ impl BoxPolynomial {
         certain.push((at_zero, without_squares(&in_half_plane[0])));
         certain.push((at_infinity, without_squares(&in_half_plane[n])));
         let coefficients = Bundle::new(&in_half_plane.iter().collect::<Vec<_>>(), parameters);
-        BoxPolynomial { original, certain, coefficients, divisors: count, parameters, formal_degree: n, shape }
+        let (formal_degree, divisors) = (n, count);
+        BoxPolynomial { original, certain, coefficients, divisors, parameters, formal_degree, shape, instead: None }
+    }
+
+    /// What a proof excludes.
+    pub(super) fn excluded(&self) -> Excluded {
+        self.instead.clone().unwrap_or_else(|| Excluded { pair: self.pair(), power: 2 })
     }
 
     /// The number of parameters.
@@ -213,9 +238,17 @@ impl BoxPolynomial {
     }
 }
 
+/// The coefficients of a polynomial of this degree, brought to the half plane.
+pub(super) fn in_half_plane(p: &Poly<MultiPoly>, n: usize, shape: Shape) -> Vec<MultiPoly> {
+    match shape {
+        Shape::LeftHalfPlane => (0..=n).map(|i| p.coeff(i)).collect(),
+        Shape::UnitDisc => to_half_plane(p, n),
+    }
+}
+
 /// A polynomial with the same zeros that, where it has only simple factors, changes its sign there; of many terms only where
 /// these have a common factor.
-fn without_squares(p: &MultiPoly) -> MultiPoly {
+pub(super) fn without_squares(p: &MultiPoly) -> MultiPoly {
     let p = p.primitive_over_integers();
     let is_linear = p.degrees().iter().all(|&degree| degree <= 1);
     if is_linear || p.is_zero() {

@@ -1,7 +1,7 @@
 //! The proof that a whole box is stable.
 
 use super::multiplier::{Sought, affine_multiplier};
-use super::polynomial::{BoxPolynomial, Bundle};
+use super::polynomial::{BoxPolynomial, Bundle, Excluded};
 use super::separate::separating_vector;
 use super::tensor::{FrequencyScale, Tensor};
 use super::tree::{Axis, Node, Tree};
@@ -33,7 +33,8 @@ const MOST_HALVINGS: u32 = 160;
 pub struct BoxProof {
     /// For each divisor, the constant and the leading coefficient: a tree whose cells have one sign.
     pub certain: Vec<Tree>,
-    /// Frequencies are cut on `v = 4^scale t / (1 - t)`, `t` from 0 to 1, `v` the square of the frequency.
+    /// Frequencies are cut on `v = 4^scale t / (1 - t)`, `t` from 0 to 1, `v` the square of the frequency; of a requirement the frequency
+    /// itself on `2^scale t / (1 - t)`.
     pub scale: i64,
     /// The second polynomial of the pair counts times two to this.
     pub weight: i64,
@@ -145,7 +146,8 @@ pub(super) fn prove(
             Err(outcome) => return Ok(outcome),
         }
     }
-    let (tensor, weight) = Tensor::of_pair(&p.pair(), sides, FrequencyScale(scale));
+    let Excluded { pair, power } = p.excluded();
+    let (tensor, weight) = Tensor::of_pair(&pair, sides, FrequencyScale(power * scale));
     let mut stack = vec![Cell::whole(tensor)];
     let mut nodes = Vec::new();
     let mut tested = 0;

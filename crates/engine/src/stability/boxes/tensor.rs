@@ -22,7 +22,7 @@ pub(super) struct Tensor {
     pub error: i128,
 }
 
-/// Where the frequency axis is cut and how it is scaled: `v = 4^scale t / (1 - t)`.
+/// How the frequency axis is scaled: `v = 2^scale t / (1 - t)`, `v` the frequency or its square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct FrequencyScale(pub i64);
 
@@ -40,7 +40,7 @@ impl Tensor {
         let common = binomials.iter().fold(Integer::ONE, |l, b| l.lcm(b));
         let factor = |j: usize| {
             let power = if scale >= 0 { j } else { k - j } as u64;
-            &common.div_exact(&binomials[j]) << (2 * scale.unsigned_abs() * power)
+            &common.div_exact(&binomials[j]) << (scale.unsigned_abs() * power)
         };
         let factors: Vec<Integer> = (0..count).map(factor).collect();
         let scaled = pair.combined(pair.width, |c| c.iter().zip(factors.iter().cycle()).map(|(c, f)| c * f).collect());

@@ -79,7 +79,7 @@ impl ToleranceProblem<'_> {
 
     /// Whether a box is stable everywhere or nowhere, or along which axis to halve it.
     fn verdict_of(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<bool, Undecided> {
-        let (tensor, _) = Tensor::of_pair(&self.p.pair(), sides, FrequencyScale(self.scale));
+        let (tensor, _) = Tensor::of_pair(&self.p.pair(), sides, FrequencyScale(2 * self.scale));
         let undecided = Undecided { axis: tensor.steepest_parameter() };
         let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
         let Some((signs, _)) = signs_at(self.p, &middle) else { return Err(undecided) };

@@ -1,0 +1,236 @@
+//! Requirements over a box: each is the stability of a family of polynomials over the box with one side more.
+
+use super::{RequiredBox, ToleranceRequest};
+use crate::error::{Diagnostic, Error};
+use crate::problem::Problem;
+use crate::response::{Family, Requirement, half_tangent, radius_below};
+use crate::stability::Shape;
+use crate::stability::boxes::{BoxDecision, BoxPolynomial, LargestFactor, Side, ToleranceProblem, Witness};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly};
+use jurist_algebra::real::Real;
+use std::sync::Arc;
+
+/// Required numbers that are not rational are replaced by ones that ask for more, by a part in ten to this.
+const DIGITS: usize = 30;
+
+/// The same of exponentials, in binary digits.
+const BITS: u64 = 100;
+
+/// A family and the side of its own parameter, the last one, if it has any.
+type FamilyOfLoops = (BoxPolynomial, Option<Side>);
+
+impl Problem {
+    /// Whether a requirement is met at every point of a box, and by how much the box can grow, up to `most`.
+    ///
+    /// What is proved is proved of a number that asks for a little more where the required one is irrational; a point that does not
+    /// meet the requirement is confirmed with the required number itself.
+    pub(super) fn required_box(
+        self: &Arc<Self>,
+        requirement: &Requirement,
+        sides: &[Side],
+        request: &ToleranceRequest,
+        most: Option<&Rational>,
+        base: &BoxPolynomial,
+        budget: &Budget,
+    ) -> Result<RequiredBox, Error> {
+        let of = |point: &[Rational]| self.breaks(requirement, &point[..sides.len()], request, base, budget);
+        let mut found = RequiredBox {
+            requirement: requirement.clone(),
+            decision: BoxDecision::Undecided { why: "nothing was tried", cell: Vec::new() },
+            factor: None,
+            cells: 0,
+        };
+        for (index, (p, own)) in self.families(requirement, request.at.as_deref(), sides.len(), budget)?.iter().enumerate() {
+            let all: Vec<Side> = sides.iter().chain(own).cloned().collect();
+            let Some(boxes) = budget.enter(|| ToleranceProblem::new(p, all.clone()))? else {
+                let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
+                found.decision = match of(&nominal)? {
+                    Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
+                    None => BoxDecision::Undecided { why: "no room at the nominal point", cell: Vec::new() },
+                };
+                found.factor = None;
+                return Ok(found);
+            };
+            if boxes.coefficients().is_none() {
+                return Err(super::decide::too_many(&boxes));
+            }
+            let search = boxes.searched(budget)?;
+            let refuted = match boxes.refuted(&search, &Rational::ONE) {
+                Some(witness) => of(&witness.point)?,
+                None => None,
+            };
+            let decision = match refuted {
+                Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
+                None => match boxes.decide(&Rational::ONE, budget)? {
+                    BoxDecision::NotStable { witness: Some(witness) } => match of(&witness.point)? {
+                        Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
+                        None => BoxDecision::Undecided { why: "a point at the edge of the requirement", cell: Vec::new() },
+                    },
+                    BoxDecision::NotStable { witness: None } => {
+                        BoxDecision::Undecided { why: "a point at the edge of the requirement", cell: Vec::new() }
+                    }
+                    BoxDecision::Undecided { why, mut cell } => {
+                        cell.truncate(sides.len());
+                        BoxDecision::Undecided { why, cell }
+                    }
+                    stable => stable,
+                },
+            };
+            if let BoxDecision::Stable(proof) = &decision {
+                found.cells += proof.cells();
+            }
+            let nearest = found.factor.as_ref().and_then(|factor| factor.upper.as_ref());
+            let most = most.into_iter().chain(nearest).min().cloned();
+            let bracket = boxes.bracket(search, &|_| request.gap.clone(), most.as_ref(), budget)?;
+            let bracket = of_parameters(bracket, sides.len(), of)?;
+            found.factor = Some(match found.factor.take() {
+                None => bracket,
+                Some(known) => nearer(known, bracket).0,
+            });
+            found.decision = if index == 0 { decision } else { worse(found.decision, decision) };
+        }
+        Ok(found)
+    }
+
+    /// The point as a witness, if a requirement is not met there.
+    fn breaks(
+        self: &Arc<Self>,
+        requirement: &Requirement,
+        point: &[Rational],
+        request: &ToleranceRequest,
+        base: &BoxPolynomial,
+        budget: &Budget,
+    ) -> Result<Option<Witness>, Error> {
+        let names = self.free().iter().map(|free| free.name.clone());
+        let question = self.model().ask().set_all(self.set().to_vec()).set_all(names.zip(point.iter().cloned()));
+        let one = std::slice::from_ref(requirement);
+        let met = question.problem()?.requirements_met(one, request.at.as_deref(), budget)?;
+        let is_met = met.iter().all(|found| found.met);
+        Ok((!is_met).then(|| Witness::new(point.to_vec(), base.at(point))))
+    }
+
+    /// The families whose stability over the box is what is required.
+    fn families(
+        self: &Arc<Self>,
+        requirement: &Requirement,
+        at: Option<&str>,
+        parameters: usize,
+        budget: &Budget,
+    ) -> Result<Vec<FamilyOfLoops>, Error> {
+        let (whole, shape) = (self.without_region(), self.shape());
+        match requirement {
+            Requirement::DelayMargin(_) => {
+                let help = "dead time makes no polynomial: ask for a phase margin over the box, or 'verdict' at a point";
+                return Err(not_over_a_box(requirement, help));
+            }
+            Requirement::Damping(_) if shape == Shape::UnitDisc => {
+                return Err(not_over_a_box(requirement, "the curve of a discrete loop is not algebraic: ask for a radius"));
+            }
+            Requirement::Damping(_) | Requirement::SettlingTime { .. } => {
+                let Some(d) = whole.algebra(budget)?.polynomial() else { return Ok(Vec::new()) };
+                let (p, denominator) = budget.enter(|| d.cleared())?;
+                let undefined: Vec<&MultiPoly> = d.poles.iter().chain([&denominator]).collect();
+                let n = d.formal_degree;
+                return Ok(vec![budget.enter(|| match requirement {
+                    Requirement::Damping(least) => (BoxPolynomial::in_sector(&p, n, &undefined, parameters, least), None),
+                    Requirement::SettlingTime { exponent, .. } => {
+                        let radius = radius_below(exponent, BITS);
+                        let (top, bottom) = (radius.numerator(), radius.denominator());
+                        let scale = |k: usize| &top.pow(k as u64) * &bottom.pow((n - k) as u64);
+                        let scaled = Poly::new((0..=n).map(|k| p.coeff(k).scaled_by(&scale(k))).collect());
+                        (BoxPolynomial::of_parts(scaled, n, undefined, parameters, shape), None)
+                    }
+                    _ => unreachable!("about roots"),
+                })?]);
+            }
+            _ => {}
+        }
+        let family: Family<MultiPoly> = Family::of(&whole, at, budget)?;
+        let [open, back] = family.parts();
+        let undefined = [&family.undefined];
+        let closed = open.plus(back);
+        let above = |x: &Real| x.exact().unwrap_or_else(|| x.refined_to_digits(DIGITS).enclosure().1);
+        let symmetric = |t: Rational| Side::fixed(t.clone(), [&t + &t, Rational::ZERO]);
+        let (list, side) = match requirement {
+            Requirement::GainMargin { factor, .. } => {
+                let g = above(&Real::from(factor.clone()));
+                let below = &Rational::ONE - &g.recip().expect("a factor above 1");
+                let with_factor = open.plus(&back.scaled(&MultiPoly::variable(parameters)));
+                let n = open.degree().max(back.degree()).unwrap_or(0);
+                let p = budget.enter(|| BoxPolynomial::of_parts(with_factor, n, undefined, parameters + 1, shape))?;
+                (vec![p], Side::fixed(Rational::ONE, [below, &g - &Rational::ONE]))
+            }
+            Requirement::PhaseMargin { twice_cosine, .. } => {
+                let t = above(&half_tangent(twice_cosine, budget)?);
+                let turned = [&closed, &back.minus(open)];
+                (vec![budget.enter(|| BoxPolynomial::turned(turned, &undefined, parameters, shape))?], symmetric(t))
+            }
+            Requirement::ModulusMargin(least) => {
+                let scaled = |p: &Poly<MultiPoly>, by: &Integer| p.scaled(&MultiPoly::constant(by.clone()));
+                let (m, whole) = (scaled(open, &least.numerator()), scaled(&closed, &least.denominator()));
+                let both = [[whole.plus(&m), m.minus(&whole)], [whole.minus(&m), m.plus(&whole).negated()]];
+                let turned = |[a, b]: &[Poly<MultiPoly>; 2]| BoxPolynomial::turned([a, b], &undefined, parameters, shape);
+                (budget.enter(|| both.iter().map(turned).collect())?, symmetric(Rational::ONE))
+            }
+            _ => unreachable!("about the open loop"),
+        };
+        Ok(list.into_iter().map(|p| (p, Some(side.clone()))).collect())
+    }
+}
+
+fn not_over_a_box(requirement: &Requirement, help: &str) -> Error {
+    let message = format!("the requirement {} is not decided over a box of tolerances", requirement.name());
+    Diagnostic::error("E-require", message).help(help).into()
+}
+
+/// The worse of two decisions that both have to be right.
+pub(super) fn worse(a: BoxDecision, b: BoxDecision) -> BoxDecision {
+    match (&a, &b) {
+        (BoxDecision::NotStable { .. }, _) => a,
+        (_, BoxDecision::NotStable { .. }) => b,
+        (BoxDecision::Undecided { .. }, _) => a,
+        _ if b.is_stable() => a,
+        _ => b,
+    }
+}
+
+/// The bracket of two that both bound the box, and whether the second one does so.
+pub(super) fn nearer(a: LargestFactor, b: LargestFactor) -> (LargestFactor, bool) {
+    let second = match (&a.upper, &b.upper) {
+        (Some(a), Some(b)) => b < a,
+        (None, Some(_)) => true,
+        (_, None) => false,
+    };
+    let (mut near, far) = if second { (b, a) } else { (a, b) };
+    if far.lower < near.lower {
+        (near.lower, near.proof) = (far.lower, far.proof);
+        near.open = near.open.or(far.open);
+    }
+    (near, second)
+}
+
+/// The bracket without the family's own parameter; its upper end only where the point there is confirmed.
+fn of_parameters(
+    mut bracket: LargestFactor,
+    parameters: usize,
+    confirmed: impl Fn(&[Rational]) -> Result<Option<Witness>, Error>,
+) -> Result<LargestFactor, Error> {
+    bracket.witness = match bracket.witness.take() {
+        None => None,
+        Some(witness) => confirmed(&witness.point)?,
+    };
+    if bracket.witness.is_none() {
+        (bracket.upper, bracket.direction, bracket.shares) = (None, None, None);
+    }
+    bracket.direction.iter_mut().chain(&mut bracket.shares).for_each(|values| values.truncate(parameters));
+    if let Some(shares) = &mut bracket.shares {
+        let sum = shares.iter().fold(Rational::ZERO, |sum, share| sum + share);
+        shares.iter_mut().for_each(|share| *share = share.checked_div(&sum).unwrap_or(Rational::ZERO));
+    }
+    if let Some((_, cell)) = &mut bracket.open {
+        cell.truncate(parameters);
+    }
+    Ok(bracket)
+}
