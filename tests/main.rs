@@ -73,6 +73,7 @@ mod tolerances {
     mod laws;
     mod program;
     mod published;
+    mod required;
 }
 
 /// Certificates: true ones are accepted by both checkers, wrong ones by none.

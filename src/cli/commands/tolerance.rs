@@ -5,8 +5,8 @@ use crate::cli::arguments::DecisionOptions;
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_name, known_names, load, question};
 use crate::cli::output::{ending, write_answer};
-use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::picture::{Kind, Picture, WRITES, deliver};
+use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::check_certificate;
 use clap::Args;
@@ -34,6 +34,9 @@ pub(in crate::cli) struct Options {
     /// Leaves a name without a tolerance; several with commas [repeatable]
     #[arg(long, value_name = "NAME")]
     pub fix: Vec<String>,
+    /// Asks for the box alone and not for the largest factor: the fastest answer where the box is stable
+    #[arg(long, conflicts_with_all = ["limit", "exact", "volume"])]
+    pub only: bool,
     /// Also asks how far this parameter may go while all others have their tolerances
     #[arg(long, value_name = "NAME")]
     pub limit: Option<String>,
@@ -203,6 +206,9 @@ fn request(options: &Options, model: &Model, context: &Context) -> Result<Tolera
     }
     if options.exact {
         request = request.exact();
+    }
+    if options.only {
+        request = request.box_alone();
     }
     let digits = options.decision.output.digits.unwrap_or(BRACKET_DIGITS).min(MOST_DIGITS);
     Ok(request.gap(Rational::from(10).pow(-i64::from(digits)).expect("ten is not zero")))

@@ -38,6 +38,8 @@ pub struct ToleranceRequest {
     pub exact: bool,
     /// The share of the box's volume that may stay undecided, where its stable share is asked for.
     pub volume: Option<Rational>,
+    /// Whether the largest factor is asked for, or the box alone.
+    pub factor: bool,
     /// What has to be met at every point beside stability.
     pub requirements: Vec<Requirement>,
     /// Where margins are taken.
@@ -53,6 +55,7 @@ impl ToleranceRequest {
             limit: None,
             exact: false,
             volume: None,
+            factor: true,
             requirements: Vec::new(),
             at: None,
         }
@@ -80,6 +83,12 @@ impl ToleranceRequest {
     /// The same, asking also which share of the box is stable, up to an undecided share.
     pub fn volume(mut self, undecided: Rational) -> Self {
         self.volume = Some(undecided);
+        self
+    }
+
+    /// The same, asking for the box alone and not for the largest factor: the fastest answer.
+    pub fn box_alone(mut self) -> Self {
+        self.factor = false;
         self
     }
 
@@ -121,7 +130,7 @@ pub struct ToleranceAnswer {
     pub nominal: AtPoint,
     /// Whether every point of the box is stable.
     pub decision: BoxDecision,
-    /// By how much all tolerances can be scaled; `None` where the nominal point is not stable.
+    /// By how much all tolerances can be scaled; `None` where the nominal point is not stable, and where it was not asked for.
     pub factor: Option<LargestFactor>,
     /// Where stability is lost on the line to the worst point; `None` where none was found.
     pub worst: Option<WorstEnd>,

@@ -140,7 +140,8 @@ fn of_limit(
     let [Some(lower), Some(upper)] = &limit.sides else {
         return Err(no_certificate("no certificate: the box of the others is not stable"));
     };
-    let at = problem.free().iter().position(|free| free.name == limit.parameter).expect("the limit's parameter is free");
+    let at =
+        problem.free().iter().position(|free| free.name == limit.parameter).expect("the limit's parameter is free");
     let mut own = sides.to_vec();
     own[at] = Side::scaled(limit.nominal.clone(), [&limit.nominal - &lower.safe, &upper.safe - &limit.nominal]);
     let boxes = ToleranceProblem::new(p, own.clone()).expect("stable at the nominal point");
@@ -148,7 +149,8 @@ fn of_limit(
         return Err(no_certificate("no certificate: the proof of the whole range at once takes too many cells"));
     };
     // Only the limit's own side grows with the factor of a point beyond.
-    let alone: Vec<Side> = own.iter().enumerate().map(|(i, side)| if i == at { side.clone() } else { still(side) }).collect();
+    let alone: Vec<Side> =
+        own.iter().enumerate().map(|(i, side)| if i == at { side.clone() } else { still(side) }).collect();
     let found = [lower, upper].into_iter().filter_map(|side| side.factor.witness.as_ref());
     let found = found.filter(|witness| !alone[at].widths()[usize::from(witness.point[at] > limit.nominal)].is_zero());
     let points = found.map(|witness| beyond(witness, &alone, p.formal_degree())).collect();

@@ -101,7 +101,8 @@ impl Shown<'_> {
                 format!("{asked}: stable{with} for all values (proof: {cells} {noun})\n")
             }
             BoxDecision::NotStable { witness } => {
-                let what = if self.answer.required.is_empty() { "not stable" } else { "not stable with all requirements met" };
+                let what =
+                    if self.answer.required.is_empty() { "not stable" } else { "not stable with all requirements met" };
                 let mut out = format!("{asked}: {what} for all values\n");
                 if let Some(witness) = witness {
                     let point: Vec<String> = self

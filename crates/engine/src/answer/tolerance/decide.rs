@@ -47,6 +47,12 @@ impl Problem {
         if boxes.coefficients().is_none() {
             return Err(too_many(&boxes));
         }
+        if !request.factor {
+            let decision = truth.decision(&p, boxes.decide(&Rational::ONE, budget)?, budget)?;
+            if decision.is_stable() {
+                return Ok(self.answered(sides, at, decision));
+            }
+        }
         let domain_factor = self.domain_factor(&sides);
         let search = boxes.searched(budget)?;
         let refuted = boxes.refuted(&search, &Rational::ONE).map(|witness| truth.confirmed(&p, witness, budget));
@@ -192,7 +198,7 @@ impl Problem {
 }
 
 /// The decision about the box itself, where the bracket says more.
-fn agreed(decision: BoxDecision, factor: &LargestFactor, exact: Option<&ExactProof>) -> BoxDecision {
+pub(super) fn agreed(decision: BoxDecision, factor: &LargestFactor, exact: Option<&ExactProof>) -> BoxDecision {
     match decision {
         BoxDecision::Stable(_) => decision,
         // The exact factor is in the bracket around 1, and not above 1.
@@ -214,10 +220,11 @@ fn agreed(decision: BoxDecision, factor: &LargestFactor, exact: Option<&ExactPro
 
 /// Requirements are not looked at by these questions.
 fn refuse_beside_requirements(request: &ToleranceRequest) -> Result<(), Error> {
-    let what = match (&request.limit, &request.volume, request.exact) {
+    let what = match (&request.limit, &request.volume) {
         _ if request.requirements.is_empty() => return Ok(()),
-        (Some(_), ..) => "the range of one parameter",
-        (_, Some(_), _) => "the volume of a box",
+        (Some(_), _) => "the range of one parameter",
+        (_, Some(_)) => "the volume of a box",
+        _ if !request.factor => "a box alone, without its factor,",
         _ => return Ok(()),
     };
     let message = format!("{what} is not decided with requirements on margins, damping or settling");

@@ -1,5 +1,6 @@
 //! Requirements over a box: each is the stability of a family of polynomials over the box with one side more.
 
+use super::decide::{agreed, too_many};
 use super::{RequiredBox, ToleranceRequest};
 use crate::error::{Diagnostic, Error};
 use crate::problem::Problem;
@@ -42,7 +43,9 @@ impl Problem {
             factor: None,
             cells: 0,
         };
-        for (index, (p, own)) in self.families(requirement, request.at.as_deref(), sides.len(), budget)?.iter().enumerate() {
+        for (index, (p, own)) in
+            self.families(requirement, request.at.as_deref(), sides.len(), budget)?.iter().enumerate()
+        {
             let all: Vec<Side> = sides.iter().chain(own).cloned().collect();
             let Some(boxes) = budget.enter(|| ToleranceProblem::new(p, all.clone()))? else {
                 let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
@@ -54,23 +57,22 @@ impl Problem {
                 return Ok(found);
             };
             if boxes.coefficients().is_none() {
-                return Err(super::decide::too_many(&boxes));
+                return Err(too_many(&boxes));
             }
             let search = boxes.searched(budget)?;
             let refuted = match boxes.refuted(&search, &Rational::ONE) {
                 Some(witness) => of(&witness.point)?,
                 None => None,
             };
+            let at_edge = || BoxDecision::Undecided { why: "a point at the edge of the requirement", cell: Vec::new() };
             let decision = match refuted {
                 Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
                 None => match boxes.decide(&Rational::ONE, budget)? {
                     BoxDecision::NotStable { witness: Some(witness) } => match of(&witness.point)? {
                         Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
-                        None => BoxDecision::Undecided { why: "a point at the edge of the requirement", cell: Vec::new() },
+                        None => at_edge(),
                     },
-                    BoxDecision::NotStable { witness: None } => {
-                        BoxDecision::Undecided { why: "a point at the edge of the requirement", cell: Vec::new() }
-                    }
+                    BoxDecision::NotStable { witness: None } => at_edge(),
                     BoxDecision::Undecided { why, mut cell } => {
                         cell.truncate(sides.len());
                         BoxDecision::Undecided { why, cell }
@@ -84,7 +86,8 @@ impl Problem {
             let nearest = found.factor.as_ref().and_then(|factor| factor.upper.as_ref());
             let most = most.into_iter().chain(nearest).min().cloned();
             let bracket = boxes.bracket(search, &|_| request.gap.clone(), most.as_ref(), budget)?;
-            let bracket = of_parameters(bracket, sides.len(), of)?;
+            let bracket = of_parameters(&boxes, bracket, sides.len(), of)?;
+            let decision = agreed(decision, &bracket, None);
             found.factor = Some(match found.factor.take() {
                 None => bracket,
                 Some(known) => nearer(known, bracket).0,
@@ -106,8 +109,10 @@ impl Problem {
         let names = self.free().iter().map(|free| free.name.clone());
         let question = self.model().ask().set_all(self.set().to_vec()).set_all(names.zip(point.iter().cloned()));
         let one = std::slice::from_ref(requirement);
-        let met = question.problem()?.requirements_met(one, request.at.as_deref(), budget)?;
-        let is_met = met.iter().all(|found| found.met);
+        let is_met = match question.problem()?.requirements_met(one, request.at.as_deref(), budget) {
+            Err(Error::Undefined(_)) => false,
+            met => met?.iter().all(|found| found.met),
+        };
         Ok((!is_met).then(|| Witness::new(point.to_vec(), base.at(point))))
     }
 
@@ -122,11 +127,15 @@ impl Problem {
         let (whole, shape) = (self.without_region(), self.shape());
         match requirement {
             Requirement::DelayMargin(_) => {
-                let help = "dead time makes no polynomial: ask for a phase margin over the box, or 'verdict' at a point";
+                let help =
+                    "dead time makes no polynomial: ask for a phase margin over the box, or 'verdict' at a point";
                 return Err(not_over_a_box(requirement, help));
             }
             Requirement::Damping(_) if shape == Shape::UnitDisc => {
-                return Err(not_over_a_box(requirement, "the curve of a discrete loop is not algebraic: ask for a radius"));
+                return Err(not_over_a_box(
+                    requirement,
+                    "the curve of a discrete loop is not algebraic: ask for a radius",
+                ));
             }
             Requirement::Damping(_) | Requirement::SettlingTime { .. } => {
                 let Some(d) = whole.algebra(budget)?.polynomial() else { return Ok(Vec::new()) };
@@ -134,7 +143,9 @@ impl Problem {
                 let undefined: Vec<&MultiPoly> = d.poles.iter().chain([&denominator]).collect();
                 let n = d.formal_degree;
                 return Ok(vec![budget.enter(|| match requirement {
-                    Requirement::Damping(least) => (BoxPolynomial::in_sector(&p, n, &undefined, parameters, least), None),
+                    Requirement::Damping(least) => {
+                        (BoxPolynomial::in_sector(&p, n, &undefined, parameters, least), None)
+                    }
                     Requirement::SettlingTime { exponent, .. } => {
                         let radius = radius_below(exponent, BITS);
                         let (top, bottom) = (radius.numerator(), radius.denominator());
@@ -171,7 +182,8 @@ impl Problem {
                 let scaled = |p: &Poly<MultiPoly>, by: &Integer| p.scaled(&MultiPoly::constant(by.clone()));
                 let (m, whole) = (scaled(open, &least.numerator()), scaled(&closed, &least.denominator()));
                 let both = [[whole.plus(&m), m.minus(&whole)], [whole.minus(&m), m.plus(&whole).negated()]];
-                let turned = |[a, b]: &[Poly<MultiPoly>; 2]| BoxPolynomial::turned([a, b], &undefined, parameters, shape);
+                let turned =
+                    |[a, b]: &[Poly<MultiPoly>; 2]| BoxPolynomial::turned([a, b], &undefined, parameters, shape);
                 (budget.enter(|| both.iter().map(turned).collect())?, symmetric(Rational::ONE))
             }
             _ => unreachable!("about the open loop"),
@@ -211,16 +223,25 @@ pub(super) fn nearer(a: LargestFactor, b: LargestFactor) -> (LargestFactor, bool
     (near, second)
 }
 
-/// The bracket without the family's own parameter; its upper end only where the point there is confirmed.
+/// The bracket without the family's own parameter; its upper end only where the point there, or one just beyond, is confirmed: at the
+/// edge itself a requirement may be met.
 fn of_parameters(
+    boxes: &ToleranceProblem,
     mut bracket: LargestFactor,
     parameters: usize,
     confirmed: impl Fn(&[Rational]) -> Result<Option<Witness>, Error>,
 ) -> Result<LargestFactor, Error> {
+    let beyond = boxes.just_beyond(&bracket);
     bracket.witness = match bracket.witness.take() {
         None => None,
         Some(witness) => confirmed(&witness.point)?,
     };
+    if bracket.witness.is_none()
+        && let Some((factor, point)) = beyond
+    {
+        bracket.witness = confirmed(&point)?;
+        bracket.upper = Some(factor);
+    }
     if bracket.witness.is_none() {
         (bracket.upper, bracket.direction, bracket.shares) = (None, None, None);
     }

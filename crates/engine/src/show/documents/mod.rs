@@ -66,8 +66,8 @@ pub use question::{ParameterQuestion, PointQuestion, RegionBound};
 pub use required_map::{RequiredCell, RequiredInPlane, RequiredRegion, RequiredSetOfRegions, RequiredStrip};
 pub use requirements::{RequirementAsked, RequirementFound};
 pub use tolerance::{
-    Factor, LimitRange, RequirementOverBox, Tolerance, ToleranceFound, ToleranceName, ToleranceOpen, ToleranceVerdict, VolumeShares,
-    WitnessPoint, WorstPoint,
+    Factor, LimitRange, RequirementOverBox, Tolerance, ToleranceFound, ToleranceName, ToleranceOpen, ToleranceVerdict,
+    VolumeShares, WitnessPoint, WorstPoint,
 };
 pub use undecided::{Answered, Open, Undecided};
 pub use verdict::{RootsByPlace, Verdict, VerdictName, VerdictOpen};

@@ -28,6 +28,9 @@ const REFUTATIONS: u32 = 64;
 /// Without any crossing the largest factor that is proved.
 const FAR: i64 = 1 << 10;
 
+/// A point just beyond the worst one is so many binary digits away.
+const BEYOND: u64 = 40;
+
 /// A loop whose parameters have tolerances, ready to be decided.
 ///
 /// ```
@@ -304,6 +307,14 @@ impl<'a> ToleranceProblem<'a> {
             }
         }
         Ok(self.bracketed(search, proved, open))
+    }
+
+    /// A factor a little larger than that of the worst point, and the point of the same line there.
+    pub(crate) fn just_beyond(&self, found: &LargestFactor) -> Option<(Rational, Vec<Rational>)> {
+        let crossing = found.crossing.as_ref()?;
+        let factor = &crossing.hi * &(&Rational::ONE + &Rational::dyadic(&Integer::ONE, BEYOND));
+        let point = self.search().line(&crossing.direction).point(&factor);
+        Some((factor, point))
     }
 
     /// A point that is not stable bounds the factor, however the line to it runs.

@@ -46,8 +46,10 @@ impl BoxPolynomial {
         let minus_t = t.negated();
         let real = |k: usize| if k % 2 == 0 { a[k].clone() } else { b[k].times(&minus_t) };
         let imaginary = |k: usize| if k % 2 == 0 { b[k].times(&t) } else { a[k].clone() };
-        let all: Vec<MultiPoly> =
-            (0..=n).map(|k| real(k).scaled_by(&sign(k))).chain((0..=n).map(|k| imaginary(k).scaled_by(&sign(k)))).collect();
+        let all: Vec<MultiPoly> = (0..=n)
+            .map(|k| real(k).scaled_by(&sign(k)))
+            .chain((0..=n).map(|k| imaginary(k).scaled_by(&sign(k))))
+            .collect();
         out.instead = Some(Excluded { pair: Bundle::new(&all.iter().collect::<Vec<_>>(), parameters + 1), power: 1 });
         out
     }
@@ -77,10 +79,8 @@ impl BoxPolynomial {
         }
         let clear = Rational::from(sines.iter().fold(Integer::ONE, |l, u| l.lcm(&u.denominator())));
         let weighted = |k: usize, u: &Rational| p.coeff(k).scaled_by(&(u * &clear).numerator());
-        let all: Vec<MultiPoly> = (0..=n)
-            .map(|k| weighted(k, &sines[k + 1]))
-            .chain((0..=n).map(|k| weighted(k, &sines[k])))
-            .collect();
+        let all: Vec<MultiPoly> =
+            (0..=n).map(|k| weighted(k, &sines[k + 1])).chain((0..=n).map(|k| weighted(k, &sines[k]))).collect();
         out.instead = Some(Excluded { pair: Bundle::new(&all.iter().collect::<Vec<_>>(), parameters), power: 1 });
         out
     }
@@ -106,7 +106,8 @@ mod tests {
         let b = Poly::new(vec![one(), MultiPoly::zero(), MultiPoly::zero()]);
         let family = BoxPolynomial::turned([&a, &b], &[], 1, Shape::LeftHalfPlane);
         // s = j w: p - w^2 = 0 and w + t = 0: a root on the axis just where t^2 = p.
-        for (value, t, is_stable) in [("4", "1", true), ("4", "2", false), ("1/4", "-1/2", false), ("1/4", "1/3", true)] {
+        for (value, t, is_stable) in [("4", "1", true), ("4", "2", false), ("1/4", "-1/2", false), ("1/4", "1/3", true)]
+        {
             assert_eq!(family.is_stable_at(&[q(value), q(t)]), is_stable, "{value} {t}");
         }
         let decided = |room: &str| {

@@ -5,10 +5,11 @@ use super::tensor::Tensor;
 /// Bits of a rounded coefficient: differences of two differences still fit.
 const BITS: u32 = 58;
 
-/// The coefficients of a tensor, rounded.
+/// The coefficients of a tensor, rounded, those of each polynomial and frequency side by side.
 pub(super) struct Scores<'a> {
     tensor: &'a Tensor,
-    planes: Vec<Vec<i64>>,
+    /// For each polynomial, for each frequency.
+    lanes: Vec<Vec<Vec<i64>>>,
     /// How far a rounded coefficient may be from the true one, in its own unit.
     error: i64,
 }
@@ -18,9 +19,12 @@ impl<'a> Scores<'a> {
         let all = tensor.planes.iter().flatten();
         let bits = i128::BITS - all.fold(0, |bits, v| bits | v.unsigned_abs()).leading_zeros();
         let shift = bits.saturating_sub(BITS);
-        let rounded = |plane: &Vec<i128>| plane.iter().map(|v| (v >> shift) as i64).collect();
+        let frequencies = tensor.count(tensor.axes() - 1);
+        let lane =
+            |plane: &[i128], f: usize| plane[f..].iter().step_by(frequencies).map(|v| (v >> shift) as i64).collect();
+        let lanes = tensor.planes.iter().map(|plane| (0..frequencies).map(|f| lane(plane, f)).collect()).collect();
         let error = (tensor.error >> shift).min(1 << BITS) as i64 + i64::from(shift > 0);
-        Scores { tensor, planes: tensor.planes.iter().map(rounded).collect(), error }
+        Scores { tensor, lanes, error }
     }
 
     /// The axis with the greatest score; `None` where none has any.
@@ -38,46 +42,51 @@ impl<'a> Scores<'a> {
 
     /// The sum over neighbouring frequencies of the greatest difference.
     fn variation(&self) -> i128 {
-        let count = self.tensor.count(self.tensor.axes() - 1);
-        let mut greatest = vec![0i64; count.saturating_sub(1)];
-        for plane in &self.planes {
-            for lane in plane.chunks_exact(count) {
-                for (g, pair) in greatest.iter_mut().zip(lane.windows(2)) {
-                    *g = (*g).max((pair[1] - pair[0]).abs());
-                }
-            }
-        }
-        greatest.iter().map(|g| i128::from(*g)).sum()
+        let between = |pair: usize| {
+            let greatest = |lanes: &Vec<Vec<i64>>| {
+                let (here, next) = (&lanes[pair], &lanes[pair + 1]);
+                here.iter().zip(next).fold(0, |g, (a, b)| (b - a).abs().max(g))
+            };
+            i128::from(self.lanes.iter().map(greatest).max().unwrap_or(0))
+        };
+        (0..self.lanes[0].len().saturating_sub(1)).map(between).sum()
     }
 
     /// The greatest range, over the frequencies, of the derivative by a parameter.
     fn curvature(&self, axis: usize) -> i128 {
-        let (stride, count) = (self.tensor.stride(axis), self.tensor.count(axis));
+        let count = self.tensor.count(axis);
         if count == 1 {
             return 0;
         }
-        let frequencies = self.tensor.count(self.tensor.axes() - 1);
-        let mut sum = vec![0i128; frequencies];
-        for plane in &self.planes {
-            let (mut low, mut high) = (vec![i64::MAX; frequencies], vec![i64::MIN; frequencies]);
-            for block in plane.chunks_exact(stride * count) {
-                // Neighbours along the axis are one stride apart; a stride has whole lanes of frequencies.
-                let lanes = block.chunks_exact(frequencies).zip(block[stride..].chunks_exact(frequencies));
-                for (here, next) in lanes {
-                    for ((low, high), (a, b)) in low.iter_mut().zip(&mut high).zip(here.iter().zip(next)) {
-                        let difference = b - a;
-                        *low = (*low).min(difference);
-                        *high = (*high).max(difference);
-                    }
-                }
-            }
-            for (s, (low, high)) in sum.iter_mut().zip(low.into_iter().zip(high)) {
+        let frequencies = self.lanes[0].len();
+        let stride = self.tensor.stride(axis) / frequencies;
+        let of = |f: usize| -> i128 {
+            let range = |lanes: &Vec<Vec<i64>>| {
+                let (low, high) = range_of_differences(&lanes[f], stride, count);
                 // The differences carry the error of two coefficients each.
-                *s += (i128::from(high) - i128::from(low) - 4 * i128::from(self.error)).max(0);
-            }
-        }
-        sum.into_iter().max().unwrap_or(0) * (count as i128 - 1)
+                (i128::from(high) - i128::from(low) - 4 * i128::from(self.error)).max(0)
+            };
+            self.lanes.iter().map(range).sum()
+        };
+        (0..frequencies).map(of).max().unwrap_or(0) * (count as i128 - 1)
     }
+}
+
+/// The least and the greatest difference of neighbours along an axis.
+fn range_of_differences(lane: &[i64], stride: usize, count: usize) -> (i64, i64) {
+    let (mut low, mut high) = (i64::MAX, i64::MIN);
+    let mut start = 0;
+    while start < lane.len() {
+        let end = start + stride * count;
+        // Plain indices: the stretches are often two long.
+        for at in start..end - stride {
+            let difference = lane[at + stride] - lane[at];
+            low = low.min(difference);
+            high = high.max(difference);
+        }
+        start = end;
+    }
+    (low, high)
 }
 
 #[cfg(test)]
@@ -97,6 +106,8 @@ mod tests {
         let scores = Scores::of(&tensor);
         assert_eq!(scores.best_of(&[2]), None);
         assert!(scores.best_of(&[0, 1, 2]).is_some_and(|axis| axis < 2));
+        // In x it is affine for every y, but its slope varies with y: both axes are curved.
+        assert_eq!([scores.best_of(&[0]), scores.best_of(&[1])], [Some(0), Some(1)]);
         let affine = Tensor::of_one(&Bundle::new(&[&z.plus(&x)], 3), &sides);
         assert_eq!(affine.best_axis(), None);
     }

@@ -1,0 +1,193 @@
+//! Requirements to be met at every point of a box: against the sets of one parameter, and against single points.
+
+use crate::helpers::model::{example, load};
+use crate::helpers::number::number;
+use crate::helpers::program::{jurist_with_input, refused};
+use crate::helpers::random::Random;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
+use jurist_engine::model::Model;
+use jurist_engine::response::Requirement;
+use jurist_engine::stability::boxes::BoxDecision;
+
+/// `K/(s (a s + 1)(s + 1))` in a loop.
+const SERVO: &str = "time = 'continuous'\n[parameters]\nK = { nominal = '1/2', tolerance = '20%' }\n\
+    a = { nominal = '1/5', tolerance = '30%' }\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+    [[block]]\nname = 'all'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/(s*(a*s + 1)*(s + 1))'\n";
+
+fn requirement(model: &Model, name: &str, text: &str) -> Requirement {
+    let asked = model.requirements(&[(name, text)], &[], &Budget::unlimited()).unwrap();
+    asked.list.into_iter().next().expect("one that is no region")
+}
+
+fn request(model: &Model, names: &[&str], requirement: Requirement) -> ToleranceRequest {
+    let own = ToleranceRequest::of_model(model).tolerances.into_iter();
+    let chosen: Vec<_> = own.filter(|(name, _)| names.contains(&name.as_str())).collect();
+    ToleranceRequest::new(chosen).require([requirement], None)
+}
+
+fn asked(model: &Model, request: &ToleranceRequest) -> Answer<ToleranceAnswer> {
+    model.ask().tolerance(request, &Budget::unlimited()).unwrap()
+}
+
+fn is_met(answer: &Answer<ToleranceAnswer>, requirement: &Requirement, point: &[Rational], at: Option<&str>) -> bool {
+    let problem = answer.problem();
+    let names = problem.free().iter().map(|free| free.name.clone());
+    let question = problem.model().ask().set_all(problem.set().to_vec()).set_all(names.zip(point.iter().cloned()));
+    let one = std::slice::from_ref(requirement);
+    question.problem().unwrap().requirements_met(one, at, &Budget::unlimited()).unwrap()[0].met
+}
+
+const MARGINS: [(&str, &str); 6] = [
+    ("phase_margin", "45 deg"),
+    ("phase_margin", "60"),
+    ("gain_margin", "6 dB"),
+    ("gain_margin", "5"),
+    ("modulus_margin", "0.6"),
+    ("damping", "0.5"),
+];
+
+/// Of one parameter the box grows to the end of the set in which the requirement is met.
+#[test]
+fn the_box_of_one_gain_grows_to_the_end_of_its_required_set() {
+    let model = load(SERVO);
+    for (name, text) in MARGINS {
+        let requirement = requirement(&model, name, text);
+        let upwards = ToleranceRequest::new([("K", "-0%..+20%".parse().unwrap())]);
+        let answer = asked(&model, &upwards.require([requirement.clone()], None));
+        let problem = model.ask().free("K").problem().unwrap();
+        let set = problem.required_set(&[requirement], None, &Budget::unlimited()).unwrap();
+        let nominal = number("1/2");
+        let around = set.value().intervals.iter().find(|interval| {
+            let below = interval.lower.as_ref().is_none_or(|end| end.value().compare_rational(&nominal).is_lt());
+            below && interval.upper.as_ref().is_none_or(|end| end.value().compare_rational(&nominal).is_gt())
+        });
+        let upper = around.expect("met at the nominal value").upper.as_ref().expect("a largest gain").value();
+        let factor = answer.value().factor.as_ref().unwrap();
+        let side = &answer.value().sides[0];
+        let (proved, refuted) = (&side.at(&factor.lower)[1], &side.at(factor.upper.as_ref().unwrap())[1]);
+        assert!(upper.compare_rational(proved).is_gt(), "{name} {text}: {proved}");
+        assert!(upper.compare_rational(refuted).is_le(), "{name} {text}: {refuted}");
+        let end = upper.refined_to_digits(20).enclosure().0;
+        assert!(refuted - proved <= &end * &number("1e-5"), "{name} {text}: {proved} {refuted}");
+        assert_eq!(answer.value().binding, Some(0), "{name} {text}");
+    }
+}
+
+/// Corners and random points of the proved box meet the requirement; the point beyond does not.
+#[test]
+fn points_of_a_proved_box_meet_the_requirement_and_the_point_beyond_does_not() {
+    let model = load(SERVO);
+    let mut random = Random::new(14);
+    for (name, text) in MARGINS {
+        let requirement = requirement(&model, name, text);
+        let answer = asked(&model, &request(&model, &["K", "a"], requirement.clone()));
+        let factor = answer.value().factor.as_ref().unwrap();
+        let sides: Vec<[Rational; 2]> = answer.value().sides.iter().map(|side| side.at(&factor.lower)).collect();
+        for k in 0..10 {
+            let share = |i: usize, random: &mut Random| match k {
+                0..4 => Rational::from(i64::from(k >> i & 1 == 1)),
+                _ => Rational::new((random.below(1 << 16) as i64).into(), (1i64 << 16).into()),
+            };
+            let point: Vec<Rational> =
+                (0..2).map(|i| &sides[i][0] + &(&(&sides[i][1] - &sides[i][0]) * &share(i, &mut random))).collect();
+            assert!(is_met(&answer, &requirement, &point, None), "{name} {text}: {point:?}");
+        }
+        let witness = factor.witness.as_ref().expect("a point beyond");
+        assert!(!is_met(&answer, &requirement, &witness.point, None), "{name} {text}");
+        let upper = factor.upper.as_ref().unwrap();
+        assert!(upper - &factor.lower <= upper * &number("1e-6"), "{name} {text}: {} {upper}", factor.lower);
+        match &answer.value().decision {
+            BoxDecision::Stable(_) => assert!(*upper > Rational::ONE, "{name} {text}"),
+            BoxDecision::NotStable { witness } => {
+                let point = &witness.as_ref().expect("a point").point;
+                assert!(*upper <= Rational::ONE && !is_met(&answer, &requirement, point, None), "{name} {text}");
+            }
+            other => panic!("{name} {text}: {other:?}"),
+        }
+    }
+}
+
+/// The drive's current loop in discrete time: its phase margin over the tolerances of three components.
+#[test]
+fn a_phase_margin_of_the_drive_over_its_components() {
+    let model = example("drive-blocks");
+    let requirement = requirement(&model, "phase_margin", "25 deg");
+    let at = Some("e_c".to_owned());
+    let names = ["R_a", "L_a", "E_sw"].map(|name| (name, "10%".parse().unwrap()));
+    let gap = number("1/1000");
+    let answer =
+        asked(&model, &ToleranceRequest::new(names).gap(gap.clone()).require([requirement.clone()], at.clone()));
+    let factor = answer.value().factor.as_ref().expect("met at the nominal point");
+    let sides: Vec<[Rational; 2]> = answer.value().sides.iter().map(|side| side.at(&factor.lower)).collect();
+    for mask in 0..8 {
+        let corner: Vec<Rational> = (0..3).map(|i| sides[i][mask >> i & 1].clone()).collect();
+        assert!(is_met(&answer, &requirement, &corner, at.as_deref()), "{mask}");
+    }
+    let (upper, witness) = (factor.upper.as_ref().unwrap(), factor.witness.as_ref().unwrap());
+    assert!(upper - &factor.lower <= upper * &gap);
+    assert!(!is_met(&answer, &requirement, &witness.point, at.as_deref()));
+}
+
+#[test]
+fn a_settling_time_in_discrete_time_is_a_smaller_circle() {
+    let model = load(
+        "time = 'discrete'\nsample_time = 1\n[parameters]\nk = { nominal = '1/2', tolerance = '20%' }\n\
+         [loop]\ncharacteristic = 'z - k'\n",
+    );
+    // |k| <= exp(-4/8) = 0.60653065971...
+    let requirement = requirement(&model, "settling_time", "8");
+    let answer = asked(&model, &ToleranceRequest::of_model(&model).require([requirement], None));
+    let factor = answer.value().factor.as_ref().unwrap();
+    let [_, proved] = answer.value().sides[0].at(&factor.lower);
+    assert!(answer.value().decision.is_stable());
+    assert!(proved < number("0.6065306598") && proved > number("0.60652"), "{proved}");
+    assert!(answer.value().sides[0].at(factor.upper.as_ref().unwrap())[1] > number("0.6065306597"));
+}
+
+#[test]
+fn a_nominal_point_that_does_not_meet_a_requirement_has_no_factor() {
+    let model = load(&SERVO.replace("'1/2'", "5"));
+    let requirement = requirement(&model, "phase_margin", "60 deg");
+    let answer = asked(&model, &request(&model, &["K", "a"], requirement));
+    assert!(answer.value().factor.is_none());
+    let BoxDecision::NotStable { witness: Some(witness) } = &answer.value().decision else { panic!("a witness") };
+    assert_eq!(witness.point, [number("5"), number("1/5")]);
+}
+
+#[test]
+fn requirements_that_are_no_polynomials_are_refused_with_the_reason() {
+    let model = load(SERVO);
+    let delay = requirement(&model, "delay_margin", "1/10");
+    let refused_for =
+        |request: &ToleranceRequest| model.ask().tolerance(request, &Budget::unlimited()).unwrap_err().to_string();
+    let why = refused_for(&request(&model, &["K"], delay));
+    assert!(why.contains("E-require") && why.contains("delay_margin"), "{why}");
+    let phase = || requirement(&model, "phase_margin", "30");
+    assert!(refused_for(&request(&model, &["K"], phase()).limit("a")).contains("E-require"));
+    refused(&["tolerance", "--tol", "R_a=1%", "--damping", "0.1"], "E-require");
+}
+
+#[test]
+fn the_program_says_which_requirement_binds() {
+    let run =
+        jurist_with_input(&["tolerance", "-", "--phase-margin", "45 deg", "--gain-margin", "6 dB"], SERVO.as_bytes());
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    for part in [
+        "and meets all requirements, for all values",
+        "phase_margin >= 45 deg: met",
+        "gain_margin >= 6 dB: met",
+        "not met just beyond",
+    ] {
+        assert!(run.stdout.contains(part), "{part}: {}", run.stdout);
+    }
+    let json = jurist_with_input(&["tolerance", "-", "--phase-margin", "60 deg", "--json"], SERVO.as_bytes());
+    assert_eq!(json.status, 1, "{}", json.stderr);
+    let document: serde_json::Value = serde_json::from_str(&json.stdout).unwrap();
+    crate::helpers::schema::fits(&document).unwrap();
+    assert_eq!(
+        (&document["requirements"][0]["met"], &document["requirements"][0]["binds"]),
+        (&false.into(), &true.into())
+    );
+}
