@@ -1,6 +1,6 @@
 """The questions of `tolerances --questions` asked of codac: `pip install codac`, then
 
-    cargo run --release --example tolerances -- --questions | python benches/peers/codac_tolerances.py
+    cargo run --release --example tolerances -- --questions | python benches/peers/codac_tolerances.py [SECONDS]
 
 Whether the pair (E, O) has a common zero over a box of frequency and parameters: contraction and bisection, in floating
 point and without a certificate, against the proof by Bernstein coefficients. Both are library calls; both get polynomials.
@@ -78,10 +78,12 @@ def excluded(function, box, seconds=SECONDS):
 
 
 def main():
+    limit = float(sys.argv[1]) if len(sys.argv) > 1 else SECONDS
+    slower = 0
     print(f"{'question':22} {'jurist ms':>10} {'cells':>6} {'codac ms':>10} {'boxes':>8} {'ratio':>9}")
     for line in sys.stdin:
         question = json.loads(line)
-        answer, seconds, count = excluded(*functions(question))
+        answer, seconds, count = excluded(*functions(question), limit)
         own = question["seconds"]
         bound = "" if answer else "> "
         print(
@@ -89,6 +91,9 @@ def main():
             f"{bound + format(seconds * 1e3, '.1f'):>10} {count:8} {bound + format(seconds / own, '.1f'):>9}",
             flush=True,
         )
+        slower += seconds < own
+    print(f"slower than codac: {slower}")
+    sys.exit(1 if slower else 0)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 """The largest factors of published boxes of tolerances: jurist's answers, both checkers on their certificates, and a second way.
 
     python3 -m venv v && v/bin/pip install numpy mpmath
-    v/bin/python tests/outside/published_tolerances.py target/release/jurist
+    v/bin/python tests/outside/published_tolerances.py target/release/jurist [MODEL [COUNT]]
 
 The second way reads the model files itself and knows nothing of Bernstein coefficients. On the ray to each corner of a box (up to
 4096) the first loss of stability is bracketed by the eigenvalues that numpy computes, first on a grid and then by halving: no
@@ -267,7 +267,8 @@ def main():
     checker = program.with_name("jurist-check")
     print("| problem | m | largest factor | here | box | cells | certificate: size, jurist-check, check.py | second way | |")
     print("|---|---|---|---|---|---|---|---|---|")
-    sys.exit(0 if all([row(program, checker, p) for p in PROBLEMS]) else 1)
+    wanted = [p for p in PROBLEMS if not sys.argv[2:] or [p[1], str(p[2])][: len(sys.argv) - 2] == sys.argv[2:]]
+    sys.exit(0 if all([row(program, checker, p) for p in wanted]) else 1)
 
 
 if __name__ == "__main__":

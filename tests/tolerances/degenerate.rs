@@ -137,6 +137,30 @@ fn a_lost_degree_is_the_end_of_stability() {
     assert_eq!(lost.worst.as_ref().unwrap().end.causes.to_string(), "infinity");
 }
 
+/// In discrete time a root that goes to infinity has left the circle before.
+#[test]
+fn a_degree_that_is_lost_in_discrete_time_is_within_a_box_that_is_not_stable() {
+    let text = "time = 'discrete'\n[parameters]\na = { nominal = 2, tolerance = '100%' }\n[loop]\ncharacteristic = 'a*z - 1/2'\n";
+    let model = load(text);
+    let answer = model.ask().tolerance(&ToleranceRequest::of_model(&model).exact(), &Budget::unlimited()).unwrap();
+    assert!(matches!(&answer.value().decision, BoxDecision::NotStable { witness: Some(_) }));
+    bracket_holds(answer.value(), "3/4");
+    assert_eq!(answer.value().worst.as_ref().unwrap().end.causes.to_string(), "z=1");
+    let lost = model.ask().set("a", Rational::ZERO).verdict(&Budget::unlimited()).unwrap();
+    assert_eq!(lost.value().infinite, 1);
+}
+
+#[test]
+fn a_share_that_does_not_matter_is_a_number_all_the_same() {
+    let small = answer(
+        "a = { nominal = 1, tolerance = '50%' }\nb = { nominal = 1, tolerance = '50%' }",
+        "s^2 + (a + b/1000000000)*s + 1",
+    );
+    bracket_holds(&small, "2");
+    let shares = small.factor.as_ref().unwrap().shares.as_ref().unwrap();
+    assert!((&shares[1] - number("1/1000000001")).abs() < number("1e-15"), "{}", shares[1]);
+}
+
 #[test]
 fn roots_that_leave_through_zero_and_infinity_at_once() {
     let both = answer("q = { nominal = 1, tolerance = '50%' }", "q*s^2 + s + q");

@@ -39,6 +39,12 @@ fn kharitonov(low: &[Rational], high: &[Rational]) -> bool {
     })
 }
 
+/// Within a part in `2^50` of an end: the upper end of a bracket is on its far side.
+fn near(end: &jurist_engine::stability::End, x: &Rational) -> bool {
+    let room = x * &Rational::dyadic(&jurist_algebra::number::Integer::ONE, 50);
+    end.value.compare_rational(&(x - &room)).is_ge()
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
 
@@ -88,6 +94,34 @@ proptest! {
             }
             // Undecided, or a kind of answer that is new.
             _ => {}
+        }
+    }
+
+    /// On the ray to each corner the exact end of stability is one of a set of one parameter, which knows nothing of boxes.
+    #[test]
+    fn the_factor_of_a_multi_affine_box_is_not_above_that_of_any_corner(
+        nominal in prop::collection::vec(5i64..30, 3),
+        percent in prop::collection::vec(5i64..90, 3),
+    ) {
+        let characteristic = "s^3 + (1 + p0*p1)*s^2 + (p0 + p1*p2)*s + p0*p2 + p1";
+        let parameters: Vec<(i64, i64)> = nominal.iter().copied().zip(percent.iter().copied()).collect();
+        let answer = asked(&continuous(&parameters, characteristic));
+        let Some(factor) = &answer.value().factor else { return Ok(()) };
+        for mask in 0..8 {
+            let lines: String = parameters.iter().enumerate().map(|(i, (nominal, percent))| {
+                let sign = if mask >> i & 1 == 1 { '+' } else { '-' };
+                format!("p{i} = '{nominal}/10*(1 {sign} r*{percent}/100)'\n")
+            }).collect();
+            let model = load(&format!(
+                "time = 'continuous'\n[constants]\n{lines}[parameters]\nr = {{ nominal = 0 }}\n[loop]\ncharacteristic = '{characteristic}'\n"
+            ));
+            let set = model.ask().free("r").stable_set(&Budget::unlimited()).unwrap();
+            let around = set.value().intervals().iter().find(|i| {
+                i.lower.as_ref().is_none_or(|e| e.value.sign().is_lt()) && i.upper.as_ref().is_none_or(|e| e.value.sign().is_gt())
+            });
+            let Some(end) = &around.expect("stable at the nominal point").upper else { continue };
+            prop_assert!(end.value.compare_rational(&factor.lower).is_gt(), "{}", mask);
+            prop_assert!(factor.upper.as_ref().is_some_and(|upper| end.value.compare_rational(upper).is_ge() || near(end, upper)));
         }
     }
 

@@ -7,6 +7,7 @@ use crate::helpers::random::Random;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
+use jurist_engine::error::Error;
 use jurist_engine::model::Model;
 use jurist_engine::response::Requirement;
 use jurist_engine::stability::boxes::BoxDecision;
@@ -36,7 +37,10 @@ fn is_met(answer: &Answer<ToleranceAnswer>, requirement: &Requirement, point: &[
     let names = problem.free().iter().map(|free| free.name.clone());
     let question = problem.model().ask().set_all(problem.set().to_vec()).set_all(names.zip(point.iter().cloned()));
     let one = std::slice::from_ref(requirement);
-    question.problem().unwrap().requirements_met(one, at, &Budget::unlimited()).unwrap()[0].met
+    match question.problem().unwrap().requirements_met(one, at, &Budget::unlimited()) {
+        Err(Error::Undefined(_)) => false,
+        met => met.unwrap()[0].met,
+    }
 }
 
 const MARGINS: [(&str, &str); 6] = [
@@ -148,12 +152,12 @@ fn a_settling_time_in_discrete_time_is_a_smaller_circle() {
 
 #[test]
 fn a_nominal_point_that_does_not_meet_a_requirement_has_no_factor() {
-    let model = load(&SERVO.replace("'1/2'", "5"));
+    let model = load(&SERVO.replace("'1/2'", "3"));
     let requirement = requirement(&model, "phase_margin", "60 deg");
     let answer = asked(&model, &request(&model, &["K", "a"], requirement));
     assert!(answer.value().factor.is_none());
     let BoxDecision::NotStable { witness: Some(witness) } = &answer.value().decision else { panic!("a witness") };
-    assert_eq!(witness.point, [number("5"), number("1/5")]);
+    assert_eq!(witness.point, [number("3"), number("1/5")]);
 }
 
 #[test]

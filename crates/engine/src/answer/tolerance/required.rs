@@ -163,7 +163,7 @@ impl Problem {
         let undefined = [&family.undefined];
         let closed = open.plus(back);
         let above = |x: &Real| x.exact().unwrap_or_else(|| x.refined_to_digits(DIGITS).enclosure().1);
-        let symmetric = |t: Rational| Side::fixed(t.clone(), [&t + &t, Rational::ZERO]);
+        let up_to = |t: Rational| Side::fixed(t.clone(), [t, Rational::ZERO]);
         let (list, side) = match requirement {
             Requirement::GainMargin { factor, .. } => {
                 let g = above(&Real::from(factor.clone()));
@@ -176,7 +176,7 @@ impl Problem {
             Requirement::PhaseMargin { twice_cosine, .. } => {
                 let t = above(&half_tangent(twice_cosine, budget)?);
                 let turned = [&closed, &back.minus(open)];
-                (vec![budget.enter(|| BoxPolynomial::turned(turned, &undefined, parameters, shape))?], symmetric(t))
+                (vec![budget.enter(|| BoxPolynomial::turned(turned, &undefined, parameters, shape))?], up_to(t))
             }
             Requirement::ModulusMargin(least) => {
                 let scaled = |p: &Poly<MultiPoly>, by: &Integer| p.scaled(&MultiPoly::constant(by.clone()));
@@ -184,7 +184,7 @@ impl Problem {
                 let both = [[whole.plus(&m), m.minus(&whole)], [whole.minus(&m), m.plus(&whole).negated()]];
                 let turned =
                     |[a, b]: &[Poly<MultiPoly>; 2]| BoxPolynomial::turned([a, b], &undefined, parameters, shape);
-                (budget.enter(|| both.iter().map(turned).collect())?, symmetric(Rational::ONE))
+                (budget.enter(|| both.iter().map(turned).collect())?, up_to(Rational::ONE))
             }
             _ => unreachable!("about the open loop"),
         };

@@ -18,7 +18,7 @@ use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 
 impl BoxPolynomial {
-    /// `A + j t B` with `t` as one parameter more, the last; both in `z` or `s`.
+    /// `A + j t B` with `t` as one parameter more, the last, whose side begins at 0; both in `z` or `s`.
     ///
     /// Cost: two squares of polynomials in the parameters.
     pub(crate) fn turned(
@@ -50,7 +50,11 @@ impl BoxPolynomial {
             .map(|k| real(k).scaled_by(&sign(k)))
             .chain((0..=n).map(|k| imaginary(k).scaled_by(&sign(k))))
             .collect();
-        out.instead = Some(Excluded { pair: Bundle::new(&all.iter().collect::<Vec<_>>(), parameters + 1), power: 1 });
+        out.instead = Some(Excluded {
+            pair: Bundle::new(&all.iter().collect::<Vec<_>>(), parameters + 1),
+            power: 1,
+            mirrored: true,
+        });
         out
     }
 
@@ -81,7 +85,11 @@ impl BoxPolynomial {
         let weighted = |k: usize, u: &Rational| p.coeff(k).scaled_by(&(u * &clear).numerator());
         let all: Vec<MultiPoly> =
             (0..=n).map(|k| weighted(k, &sines[k + 1])).chain((0..=n).map(|k| weighted(k, &sines[k]))).collect();
-        out.instead = Some(Excluded { pair: Bundle::new(&all.iter().collect::<Vec<_>>(), parameters), power: 1 });
+        out.instead = Some(Excluded {
+            pair: Bundle::new(&all.iter().collect::<Vec<_>>(), parameters),
+            power: 1,
+            mirrored: false,
+        });
         out
     }
 }
@@ -111,7 +119,7 @@ mod tests {
             assert_eq!(family.is_stable_at(&[q(value), q(t)]), is_stable, "{value} {t}");
         }
         let decided = |room: &str| {
-            let sides = vec![Side::scaled(q("4"), [q("1"), q("1")]), Side::fixed(q(room), [q(room) + q(room), q("0")])];
+            let sides = vec![Side::scaled(q("4"), [q("1"), q("1")]), Side::fixed(q(room), [q(room), q("0")])];
             let boxes = ToleranceProblem::new(&family, sides).unwrap();
             let decision = boxes.decide(&Rational::ONE, &Budget::unlimited()).unwrap();
             let factor = boxes.largest_factor(&q("1e-9"), None, &Budget::unlimited()).unwrap();

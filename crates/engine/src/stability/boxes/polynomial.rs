@@ -99,6 +99,8 @@ pub(super) struct Excluded {
     pub pair: Bundle,
     /// Of the frequency: 2 where the polynomials are in its square.
     pub power: i64,
+    /// The last side is that of a number whose sign does not matter to the roots: the pair is excluded for both signs.
+    pub mirrored: bool,
 }
 
 /// A characteristic polynomial with any number of parameters, brought to the left half plane.
@@ -170,7 +172,7 @@ impl BoxPolynomial {
 
     /// What a proof excludes.
     pub(super) fn excluded(&self) -> Excluded {
-        self.instead.clone().unwrap_or_else(|| Excluded { pair: self.pair(), power: 2 })
+        self.instead.clone().unwrap_or_else(|| Excluded { pair: self.pair(), power: 2, mirrored: false })
     }
 
     /// The number of parameters.

@@ -146,8 +146,15 @@ pub(super) fn prove(
             Err(outcome) => return Ok(outcome),
         }
     }
-    let Excluded { pair, power } = p.excluded();
-    let (tensor, weight) = Tensor::of_pair(&pair, sides, FrequencyScale(power * scale));
+    let Excluded { pair, power, mirrored } = p.excluded();
+    let whole = if mirrored { with_both_signs(sides) } else { sides.to_vec() };
+    let refuted = |mut point: Vec<Rational>| {
+        if let Some(last) = point.last_mut().filter(|_| mirrored) {
+            *last = last.abs();
+        }
+        Ok(Outcome::Refuted(point))
+    };
+    let (tensor, weight) = Tensor::of_pair(&pair, &whole, FrequencyScale(power * scale));
     let mut stack = vec![Cell::whole(tensor)];
     let mut nodes = Vec::new();
     let mut tested = 0;
@@ -161,12 +168,12 @@ pub(super) fn prove(
             }
             Err(hint) => hint,
         };
-        let inner = || cell.sides(sides);
+        let inner = || cell.sides(&whole);
         tested += 1;
         if tested % (if nodes.len() < AFFINE_AFTER.0 { TESTED_EVERY } else { TESTED_EVERY / 4 }) == 0 {
             let point = simplest_point(&inner());
             if !p.is_stable_at(&point) {
-                return Ok(Outcome::Refuted(point));
+                return refuted(point);
             }
         }
         let waiting = stack.len() * cell.tensor.len() * 32;
@@ -183,7 +190,7 @@ pub(super) fn prove(
         let Some(axis) = axis else {
             let cell = inner();
             if let Some(point) = not_stable_in(p, &cell) {
-                return Ok(Outcome::Refuted(point));
+                return refuted(point);
             }
             return Ok(Outcome::Open { why: why.unwrap_or("a cell too small"), cell });
         };
@@ -192,6 +199,15 @@ pub(super) fn prove(
         stack.extend([high, low]);
     }
     Ok(Outcome::Stable(BoxProof { certain, scale, weight, pair: Tree(nodes) }))
+}
+
+/// The last side, from 0, with its mirror image.
+fn with_both_signs(sides: &[[Rational; 2]]) -> Vec<[Rational; 2]> {
+    let mut both = sides.to_vec();
+    if let Some([low, high]) = both.last_mut() {
+        *low = -&*high;
+    }
+    both
 }
 
 /// The leaf of a cell without a zero of the pair, in a tree of so many nodes so far; where no vector shows it, the axis along

@@ -28,6 +28,9 @@ const SETTLINGS: usize = 4;
 /// Frequencies that give directions to begin with: `4^scale` times powers of two up to this one.
 const OCTAVES: i64 = 5;
 
+/// Parts of the range of an angle that are tried to begin with.
+const ANGLES: i64 = 4;
+
 /// A direction from the nominal point and where stability is lost along it.
 #[derive(Clone, Debug)]
 pub(super) struct Crossing {
@@ -127,6 +130,17 @@ impl<'a> Search<'a> {
                 && !starts.contains(&direction)
             {
                 starts.push(direction);
+            }
+        }
+        if self.p.excluded().mirrored {
+            // The worst angle may be any.
+            let last = self.sides.len() - 1;
+            for direction in starts.clone() {
+                starts.extend((1..ANGLES).map(|part| {
+                    let mut direction = direction.clone();
+                    direction[last] = Rational::new((-part).into(), ANGLES.into());
+                    direction
+                }));
             }
         }
         starts
