@@ -42,10 +42,10 @@ impl BoxPolynomial {
         out.certain[count - 2].1 = without_squares(&a[0]);
         out.certain[count - 1].1 = without_squares(&a[n]);
         // (j w)^k = sign j^(k odd) w^k: real and imaginary part of A + j t B.
-        let sign = |k: usize| Integer::from(if k / 2 % 2 == 0 { 1 } else { -1 });
+        let sign = |k: usize| Integer::from(if (k / 2).is_multiple_of(2) { 1 } else { -1 });
         let minus_t = t.negated();
-        let real = |k: usize| if k % 2 == 0 { a[k].clone() } else { b[k].times(&minus_t) };
-        let imaginary = |k: usize| if k % 2 == 0 { b[k].times(&t) } else { a[k].clone() };
+        let real = |k: usize| if k.is_multiple_of(2) { a[k].clone() } else { b[k].times(&minus_t) };
+        let imaginary = |k: usize| if k.is_multiple_of(2) { b[k].times(&t) } else { a[k].clone() };
         let all: Vec<MultiPoly> = (0..=n)
             .map(|k| real(k).scaled_by(&sign(k)))
             .chain((0..=n).map(|k| imaginary(k).scaled_by(&sign(k))))
