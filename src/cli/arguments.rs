@@ -77,6 +77,9 @@ pub(super) enum Command {
     #[cfg(feature = "cli")]
     /// The built-in drive's paper once more, as one HTML report with figures
     Paper(commands::paper::Options),
+    #[cfg(feature = "cli")]
+    /// The page for the browser, with everything it computes with, as a folder of files
+    Page(commands::page::Options),
     /// Re-checks a certificate against a model, with code that shares nothing with the engine
     #[command(mut_arg("timeout", |timeout| timeout.help("Rejects the certificate after this time, with exit status 4")))]
     Verify(commands::verify::Options),
@@ -118,7 +121,7 @@ pub(super) struct RegionOptions {
 }
 
 /// What every command is given that decides: a model, a region, and the form of the answer.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub(super) struct DecisionOptions {
     #[command(flatten)]
     pub model: ModelOptions,
@@ -129,7 +132,7 @@ pub(super) struct DecisionOptions {
 }
 
 /// How the answer is written.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub(super) struct OutputOptions {
     /// Significant digits of decimal numbers [default: 12]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]

@@ -4,6 +4,7 @@ use super::arguments::Arguments;
 use super::command_line::CommandLine;
 use super::commands::{self, Context};
 use super::destinations;
+use super::plain::plain;
 use clap::Parser;
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::{Diagnostic, Diagnostics, Error, Source};
@@ -70,7 +71,8 @@ pub fn captured<S: Into<OsString>>(
 ) -> Result<Captured, Error> {
     let arguments = arguments.into_iter().map(Into::into);
     let line = CommandLine::new(std::iter::once(OsString::from("jurist")).chain(arguments));
-    let parsed = match Arguments::try_parse_from(line.arguments()) {
+    let arguments = line.arguments();
+    let parsed = match plain(&arguments).map_or_else(|| Arguments::try_parse_from(arguments), Ok) {
         Ok(parsed) => parsed,
         Err(answer) if !answer.use_stderr() => {
             return Ok(Captured { output: answer.to_string(), ..Captured::default() });

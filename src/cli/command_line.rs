@@ -68,8 +68,7 @@ impl CommandLine {
     /// The arguments, the program's name first, with the command 'analyze' where there is only a model: `jurist loop.toml`.
     pub fn arguments(&self) -> Vec<OsString> {
         let mut arguments = self.arguments.clone();
-        let definition = Arguments::command();
-        let is_command = |a: &OsString| definition.get_subcommands().any(|c| a == c.get_name());
+        let is_command = |a: &OsString| Arguments::command().get_subcommands().any(|c| a == c.get_name());
         if arguments.get(1).is_some_and(|first| is_model_file(first) && !is_command(first)) {
             arguments.insert(1, "analyze".into());
         }

@@ -112,6 +112,8 @@ impl<'a> Names<'a> {
             #[cfg(not(feature = "cli"))]
             None => {}
             Some(Command::New(_)) => {}
+            #[cfg(feature = "cli")]
+            Some(Command::Page(_)) => {}
         }
         Ok(names)
     }

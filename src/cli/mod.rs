@@ -12,6 +12,7 @@ mod destinations;
 mod input;
 mod output;
 mod picture;
+mod plain;
 #[cfg(all(feature = "cli", not(target_family = "wasm")))]
 mod progress;
 #[cfg(not(all(feature = "cli", not(target_family = "wasm"))))]

@@ -41,6 +41,16 @@ fn templates_replace_nothing() {
     std::fs::remove_dir_all(folder).unwrap();
 }
 
+#[test]
+#[cfg(not(feature = "page"))]
+fn a_program_without_the_page_says_what_makes_it() {
+    let folder = tempfile();
+    let run = refused(&["page", "-o", folder.join("page").to_str().unwrap()], "E-no-page");
+    assert!(run.stderr.contains("web/build"), "{}", run.stderr);
+    assert!(!folder.join("page").exists());
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
 /// A new folder of this process.
 fn tempfile() -> std::path::PathBuf {
     let folder = std::env::temp_dir().join(format!("jurist-beginning-{}", std::process::id()));

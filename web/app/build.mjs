@@ -8,7 +8,7 @@ import { createHash } from "node:crypto";
 import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { gzipSync } from "node:zlib";
+import { deflateSync, gzipSync } from "node:zlib";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "../..");
@@ -54,8 +54,11 @@ const css = async (...names) => {
 /** A part of the engine, and the script that holds its bytes. */
 function module(name, file) {
   const wasm = readFileSync(file);
-  const packed = gzipSync(wasm, { level: 9 }).toString("base64");
-  return [put(name, "wasm", wasm), put(name, "js", `globalThis.juristEngine="${packed}";`)];
+  const packed = deflateSync(wasm, { level: 9 }).toString("base64");
+  const named = put(name, "wasm", wasm);
+  const script = named.replace(".wasm", ".js");
+  writeFileSync(join(output, script), `globalThis.juristEngine="${packed}";`);
+  return [named, script];
 }
 const [engine, engineScript] = module("engine", parts[0]);
 const [rest, restScript] = parts[1] ? module("rest", parts[1]) : ["", ""];
@@ -81,11 +84,14 @@ const script = put(
 );
 const style = put("page", "css", await css("style.css", "picture.css"));
 
+// What is fetched before the script is there; from a file nothing can be.
+const early = `if(location.protocol!=="file:")globalThis.juristFirst=fetch("${engine}")`;
+
 // Nothing runs and nothing is loaded but the files of this folder; workers are made of the page's own text. The editor writes its
 // rules into the page.
 const policy = [
   "default-src 'none'",
-  "script-src 'self' 'wasm-unsafe-eval'",
+  `script-src 'self' 'wasm-unsafe-eval' 'sha256-${createHash("sha256").update(early).digest("base64")}'`,
   "style-src 'self' 'unsafe-inline'",
   "img-src data: blob:",
   "connect-src 'self'",
@@ -94,7 +100,7 @@ const policy = [
   "form-action 'none'",
 ].join("; ");
 const version = /^version = "(.*)"/m.exec(readFileSync(join(root, "Cargo.toml"), "utf8"))[1];
-const filled = { POLICY: policy, STYLE: style, SCRIPT: script, VERSION: version };
+const filled = { POLICY: policy, EARLY: early, STYLE: style, SCRIPT: script, VERSION: version };
 const page = readFileSync(join(here, "index.html"), "utf8").replace(/%([A-Z]+)%/g, (_, name) => filled[name]);
 writeFileSync(join(output, "index.html"), page);
 

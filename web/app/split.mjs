@@ -8,6 +8,7 @@ import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "n
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { withoutPlaceholders } from "./placeholders.mjs";
 import { randomModels } from "./test/models.mjs";
 import { moduleOf } from "./test/instance.mjs";
 
@@ -29,6 +30,7 @@ try {
   firstScreens(instance.ask);
   writeFileSync(profile, account(instance.exports));
   split(engine, `--profile=${profile}`, "-o1", first, "-o2", rest);
+  writeFileSync(first, withoutPlaceholders(readFileSync(first)));
 } finally {
   rmSync(scratch, { recursive: true });
 }

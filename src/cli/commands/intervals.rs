@@ -16,7 +16,7 @@ use std::ffi::OsString;
 use std::slice::from_ref;
 
 /// Options of `jurist intervals`.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub(in crate::cli) struct Options {
     /// The parameter in question: a parameter, a constant given as a number, 'radius' or 'decay'; left out: the model's only one
     #[arg(long, value_name = "NAME")]

@@ -8,7 +8,7 @@ use jurist_drive::{main_job, main_job_json, main_job_text, main_job_undecided};
 use jurist_engine::model::Model;
 
 /// Options of `jurist` without a command.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub(in crate::cli) struct Options {
     #[command(flatten)]
     pub output: OutputOptions,

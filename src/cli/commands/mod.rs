@@ -19,6 +19,8 @@ pub(super) mod margins;
 pub(super) mod new;
 pub(super) mod norm;
 #[cfg(feature = "cli")]
+pub(super) mod page;
+#[cfg(feature = "cli")]
 pub(super) mod paper;
 #[cfg(feature = "cli")]
 pub(super) mod report;
@@ -166,6 +168,8 @@ impl Arguments {
             #[cfg(not(feature = "cli"))]
             None => NONE,
             Some(Command::New(_)) => NONE,
+            #[cfg(feature = "cli")]
+            Some(Command::Page(_)) => NONE,
         }
     }
 }
@@ -200,6 +204,8 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         Some(Command::Verify(options)) => verify::run(options, context),
         Some(Command::Check(options)) => check::run(options, context),
         Some(Command::New(options)) => new::run(options),
+        #[cfg(feature = "cli")]
+        Some(Command::Page(options)) => page::run(options, context),
         #[cfg(feature = "cli")]
         Some(Command::Explain(options)) => explain::run(options),
         #[cfg(feature = "cli")]

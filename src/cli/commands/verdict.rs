@@ -14,7 +14,7 @@ use jurist_engine::show::documents;
 use std::ffi::OsString;
 
 /// Options of `jurist verdict`.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub(in crate::cli) struct Options {
     #[command(flatten)]
     pub decision: DecisionOptions,

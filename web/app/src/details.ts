@@ -2,6 +2,8 @@
 
 import { coefficients } from "./formula.js";
 import { by, download, h, table } from "./dom.js";
+import { label } from "./numbers.js";
+import { causes } from "./parameters.js";
 import { no } from "./plots.js";
 
 type Ask = (lane: string, request: unknown) => Promise<any>;
@@ -78,11 +80,11 @@ export class Details {
   private end(end: any, title: string): Node {
     if (!end) return h("p", {}, `${title}: none, unbounded`);
     const code = (text: string) => h("span", { class: "digits" }, text);
-    const rows: (Node | string)[][] = [["value", code(end.decimal)], ["cause", end.cause]];
+    const rows: (Node | string)[][] = [["value", code(end.decimal)], ["cause", causes(end.cause)]];
     if (end.exact) rows.push(["exactly", code(end.exact)]);
     else if (end.enclosure) rows.push(["between", code(end.enclosure.join(" and "))]);
-    if (end.frequency_hz != null) rows.push(["frequency", `${end.frequency_hz} Hz`]);
-    else if (end.angle != null) rows.push(["angle", `${end.angle} rad per sample`]);
+    if (end.frequency_hz != null) rows.push(["frequency", `${label(String(end.frequency_hz), 8)} Hz`]);
+    else if (end.angle != null) rows.push(["angle", `${label(String(end.angle), 8)} rad per sample`]);
     if (end.polynomial) rows.push(["root of, from the constant term up", code(`[${end.polynomial.join(", ")}]`)]);
     if (end.over) rows.push(["zero of", code(JSON.stringify(end.over))]);
     return h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": title }, table(title, ["what", "is"], rows));

@@ -1,6 +1,6 @@
 // The engine as the page sees it: three workers behind lanes. In a lane the last request counts; what was overtaken is dropped, or,
 // once it runs, its worker is replaced by a new one made of the kept module. What needs the engine's second part before that is there
-// waits for it.
+// waits for it. The first worker begins before its module has arrived.
 
 export type Reply = any;
 
@@ -20,12 +20,16 @@ const FIRST = new Set(["verdict", "describe"]);
 /** What runs longer than this, in milliseconds, makes room for what somebody waits for. */
 const PATIENCE = 400;
 
+/** Requests that a worker holds, the one that it works at among them: the next begins while the page still draws the last answer. */
+const HELD: Record<Speed, number> = { quick: 2, slow: 1, long: 1 };
+
 let nextId = 1;
 
 class Seat {
   private worker: Worker | undefined;
   private ready = false;
-  private running: Asked | undefined;
+  /** What the worker holds; it works at the first. */
+  private held: Asked[] = [];
   private since = 0;
   private waiting: Asked[] = [];
   private timer = 0;
@@ -45,11 +49,12 @@ class Seat {
       this.waiting = this.waiting.filter((asked) => asked.lane !== lane);
       for (const asked of overtaken) asked.resolve(undefined);
       const asked = { id: nextId++, lane, request, resolve };
-      if (FIRST.has(lane)) this.waiting.unshift(asked);
-      else this.waiting.push(asked);
-      if (this.running?.lane === lane && this.speed !== "quick") this.giveUp();
+      const before = this.waiting.findIndex((other) => !FIRST.has(other.lane));
+      this.waiting.splice(FIRST.has(lane) && before >= 0 ? before : this.waiting.length, 0, asked);
+      const again = this.held.some((other) => other.lane === lane);
+      if (again && this.speed !== "quick") this.giveUp();
       // Somebody moves something: what runs has to make room before long.
-      else if (this.running && (this.running.lane === lane || FIRST.has(lane))) this.hurry();
+      else if (again || (this.running && FIRST.has(lane))) this.hurry();
       if (!this.worker) this.begin();
       this.next();
     });
@@ -57,15 +62,15 @@ class Seat {
 
   /** Drops what waits and ends what runs; `reply` is what they get for an answer. */
   cancel(reply: Reply | undefined): void {
-    const dropped = this.waiting;
+    const dropped = [...this.held, ...this.waiting];
     this.waiting = [];
-    const running = this.running;
-    if (running) {
-      dropped.push(running);
-      this.replace();
-    }
+    if (this.running) this.replace();
     for (const asked of dropped) asked.resolve(reply);
     this.next();
+  }
+
+  get running(): Asked | undefined {
+    return this.held[0];
   }
 
   get busy(): string | undefined {
@@ -94,12 +99,13 @@ class Seat {
   private told(data: any): void {
     if (data.ready) {
       this.ready = true;
+      performance.mark("ready");
       this.next();
     } else if (data.incomplete) {
       this.worker?.terminate();
       clearTimeout(this.timer);
-      if (this.running) this.waiting.unshift(this.running);
-      this.running = undefined;
+      this.waiting.unshift(...this.held);
+      this.held = [];
       this.ready = false;
       void this.owner.whole().then(() => this.begin());
     } else if (data.failed) {
@@ -107,49 +113,57 @@ class Seat {
     } else if (data.progress !== undefined) {
       if (data.id === this.running?.id) this.owner.progress(this.running!.lane, data.progress);
     } else if (data.id === this.running?.id) {
-      const done = this.running!;
-      this.running = undefined;
+      const done = this.held.shift()!;
+      this.since = performance.now();
       this.owner.took(done.lane, data.took);
       clearTimeout(this.timer);
-      if (data.broken) this.replace();
+      if (data.broken) this.anew();
       done.resolve(data.reply);
       this.next();
     }
   }
 
   private broken(message: string): void {
-    const done = this.running;
-    this.running = undefined;
+    const done = this.held.shift();
     if (!done) return this.owner.failed(message);
-    this.replace();
+    this.anew();
     done.resolve({ defect: message });
     this.next();
   }
 
   /** Ends what runs: it is overtaken, or waits once more behind the others. */
   private giveUp(): void {
-    const given = this.running!;
-    if (this.waiting.some((asked) => asked.lane === given.lane)) given.resolve(undefined);
-    else this.waiting.push(given);
+    const [given, ...others] = this.held;
+    this.held = others;
+    if (this.waiting.some((asked) => asked.lane === given!.lane)) given!.resolve(undefined);
+    else this.waiting.push(given!);
+    this.anew();
+  }
+
+  /** A new worker, for what the old one held. */
+  private anew(): void {
+    this.waiting.unshift(...this.held);
     this.replace();
   }
 
   private replace(): void {
     clearTimeout(this.timer);
     this.worker?.terminate();
-    this.running = undefined;
+    this.held = [];
     this.owner.replaced++;
     this.begin();
   }
 
   private next(): void {
-    if (!this.ready || this.running) return;
-    const asked = this.waiting.shift();
-    if (!asked) return this.owner.idle();
-    this.running = asked;
-    this.since = performance.now();
-    this.owner.working(asked.lane);
-    this.worker!.postMessage({ id: asked.id, request: asked.request });
+    while (this.ready && this.held.length < HELD[this.speed]) {
+      const asked = this.waiting.shift();
+      if (!asked) break;
+      if (this.held.length === 0) this.since = performance.now();
+      this.held.push(asked);
+      this.worker!.postMessage({ id: asked.id, request: asked.request });
+      this.owner.working(this.busy!);
+    }
+    if (this.ready && !this.running) this.owner.idle();
   }
 }
 
@@ -169,16 +183,17 @@ export class Engine {
 
   constructor(
     script: string,
-    private readonly module: WebAssembly.Module,
+    private readonly module: Promise<WebAssembly.Module>,
     private readonly loadRest: () => Promise<WebAssembly.Module | undefined>,
   ) {
     this.source = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
     this.seats = { quick: new Seat(this, "quick"), slow: new Seat(this, "slow"), long: new Seat(this, "long") };
   }
 
+  /** A worker, which says so when it has the module and is ready. */
   worker(): Worker {
     const worker = new Worker(this.source);
-    worker.postMessage({ module: this.module, rest: this.rest });
+    void this.module.then((module) => worker.postMessage({ module, rest: this.rest }));
     return worker;
   }
 

@@ -2,17 +2,19 @@
 
 declare global {
   var juristEngine: string | undefined;
+  /** What the page asked for before its script was there. */
+  var juristFirst: Promise<Response> | undefined;
 }
 
 /** What the first screens need. */
-export const loadFirst = () => load(ENGINE_FILE, ENGINE_SCRIPT);
+export const loadFirst = () => load(ENGINE_FILE, ENGINE_SCRIPT, globalThis.juristFirst);
 
 /** All else; nothing where the engine is in one part. */
 export const loadRest = () => (REST_FILE ? load(REST_FILE, REST_SCRIPT) : Promise.resolve(undefined));
 
-async function load(file: string, packedFile: string): Promise<WebAssembly.Module> {
+async function load(file: string, packedFile: string, asked?: Promise<Response>): Promise<WebAssembly.Module> {
   if (location.protocol !== "file:") {
-    const response = await fetch(file);
+    const response = await (asked ?? fetch(file));
     if (!response.ok) throw new Error(`${file}: ${response.status}`);
     // A server may not know the type of the file.
     if (!response.headers.get("content-type")?.startsWith("application/wasm")) {
@@ -23,7 +25,7 @@ async function load(file: string, packedFile: string): Promise<WebAssembly.Modul
   await script(packedFile);
   const packed = Uint8Array.from(atob(globalThis.juristEngine!), (c) => c.charCodeAt(0));
   globalThis.juristEngine = undefined;
-  const bytes = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const bytes = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   return WebAssembly.compile(await new Response(bytes).arrayBuffer());
 }
 

@@ -16,18 +16,19 @@ function fail(why: unknown): void {
 }
 
 async function begin(): Promise<void> {
-  by<HTMLTextAreaElement>("text").value = DRIVE;
-  const arrived = performance.now();
-  const module = await loadFirst();
-  performance.measure("module", { start: arrived, end: performance.now() });
+  const asked = performance.now();
+  const module = loadFirst();
+  // The worker begins while the module is on its way.
   const engine = new Engine(WORKER, module, loadRest);
   engine.failed = fail;
+  module.then(() => performance.measure("module", { start: asked, end: performance.now() }), fail);
   const page = new Page(engine);
   // For those who look into the page, and for its tests.
   Object.assign(globalThis, { jurist: { page, engine } });
   wire(page);
   await page.follow();
   if (!location.hash) await page.open(DRIVE, { m: DRIVE });
+  await page.answered();
   await Promise.all([page.improve(), engine.whole()]).catch(() => {});
   if ("serviceWorker" in navigator && location.protocol.startsWith("http")) {
     await navigator.serviceWorker.register("service.js").catch(() => {});

@@ -11,7 +11,6 @@ export class OpenLoopPlot {
   readonly cut: HTMLSelectElement;
   data: any;
   margins: any;
-  message = "";
   private nyquist = false;
   private readonly toggles: HTMLButtonElement[];
 
@@ -20,13 +19,13 @@ export class OpenLoopPlot {
     this.zoom = new Zoom(() => this.figure.draw());
     this.cut = h("select", { "aria-label": "where the loop is cut", title: "where the loop is cut", change: chosen });
     this.toggles = [false, true].map((nyquist) =>
-      h("button", { type: "button", class: "small", "aria-pressed": String(!nyquist), click: () => this.show(nyquist) }, nyquist ? "Nyquist" : "Bode"),
+      h("button", { type: "button", class: "small", "aria-pressed": String(!nyquist), click: () => this.choose(nyquist) }, nyquist ? "Nyquist" : "Bode"),
     );
     this.figure.controls.append(this.cut, ...this.toggles, ...this.zoom.buttons);
-    this.show(false);
+    this.choose(false);
   }
 
-  private show(nyquist: boolean): void {
+  private choose(nyquist: boolean): void {
     this.nyquist = nyquist;
     for (const [k, button] of this.toggles.entries()) button.setAttribute("aria-pressed", String((k === 1) === nyquist));
     for (const button of this.zoom.buttons) button.hidden = !nyquist;
@@ -35,7 +34,7 @@ export class OpenLoopPlot {
 
   private paint(svg: SVGSVGElement, width: number, height: number): void {
     const data = this.data;
-    if (!data?.frequency) return waiting(svg, width, height, this.message || no(data) || "…");
+    if (!data?.frequency) return waiting(svg, width, height, no(data) || "…");
     if (this.nyquist) this.paintNyquist(svg, width, height, data);
     else this.paintBode(svg, width, height, data);
   }
@@ -87,22 +86,22 @@ export class OpenLoopPlot {
     inside.append(s("text", { class: "words", x: x(-1) + 6, y: y(0) - 6 }, "−1"));
   }
 
-  say(): void {
-    const message = this.message || no(this.data) || no(this.margins);
+  show(): void {
+    const message = no(this.data) || no(this.margins);
     const found = this.margins;
     if (message || !found?.at) {
       this.figure.say(message ?? "");
-      this.figure.tabulate("");
+      this.figure.tabulate(() => []);
     } else if (!found.stable) {
       this.figure.say(`Cut at ${found.at}. The loop is ${found.verdict}: it has no margins.`);
-      this.figure.tabulate(this.table());
+      this.figure.tabulate(() => [this.table()]);
     } else {
       const db = (value: number | null) => (value === null ? "unlimited" : `${short(value, 4)} dB`);
       const upper = found.gain?.upper ? `gain margin ${db(found.gain.upper_db)}` : "any larger gain";
       const lower = found.gain?.lower ? `, lower ${db(found.gain.lower_db)}` : "";
       const phase = found.phase ? `, phase margin ${label(found.phase.degrees, 4)}°` : "";
       this.figure.say(`Cut at ${found.at}: ${upper}${lower}${phase}. The margins are exact, the curve is drawn in floating point.`);
-      this.figure.tabulate(this.table());
+      this.figure.tabulate(() => [this.table()]);
     }
     this.figure.draw();
   }

@@ -1,34 +1,38 @@
 // The page: one state, and what is asked when it changes.
 
+import { Address } from "./address.js";
 import { sets } from "./copy.js";
+import { blocks, counted, remarks } from "./about.js";
 import { Details } from "./details.js";
-import { by, h, table } from "./dom.js";
-import type { Engine, Reply, Speed } from "./engine.js";
-import { type Shared, pack, unpack } from "./link.js";
+import { by, h } from "./dom.js";
+import type { Engine, Reply } from "./engine.js";
+import type { Shared } from "./link.js";
 import { script } from "./load.js";
-import { float, isNumber, label, short } from "./numbers.js";
-import { type Interval, Row } from "./parameters.js";
+import { isNumber } from "./numbers.js";
+import { type Interval, Row, nearest } from "./parameters.js";
 import type { Model } from "./model.js";
 import { OpenLoopPlot } from "./openloop.js";
 import { LocusPlot, MapPlot, ResponsePlot, type Verdict, no } from "./plots.js";
 import type { Figure } from "./plot.js";
+import { Questions } from "./questions.js";
 import { type TextBox, textArea } from "./textbox.js";
 
 declare const DRIVE: string;
 declare const EDITOR_SCRIPT: string;
 
 export class Page {
+  /** What stands in the editor. */
+  private written = "";
+  /** The last of it that was a model, which is what is asked about. */
   text = "";
   model: Model | undefined;
   private values = new Map<string, string>();
   private rows = new Map<string, Row>();
   private sets = new Map<string, Interval[]>();
-  /** What is known already: the key of the last answer in each lane. */
-  private readonly known = new Map<string, string>();
+  private readonly questions: Questions;
   focus = "";
   private cut = "";
   private mapAxes: [string, string] | undefined;
-  private counts: any;
   private timer = 0;
   private quiet = 0;
   private said = 0;
@@ -41,9 +45,10 @@ export class Page {
   readonly loop: OpenLoopPlot;
 
   constructor(readonly engine: Engine) {
+    this.questions = new Questions(engine, (text) => this.defect(text));
     this.box = textArea(by<HTMLTextAreaElement>("text"), (text) => this.typed(text));
     this.editor = this.box;
-    this.map = new MapPlot((x, y, done) => this.moved(x, y, done), () => {});
+    this.map = new MapPlot((x, y, done) => this.moved(x, y, done));
     this.loop = new OpenLoopPlot(() => {
       this.cut = this.loop.cut.value;
       this.later();
@@ -93,41 +98,53 @@ export class Page {
   }
 
   private typed(text: string): void {
-    if (text === this.text) return;
+    if (text === this.written) return;
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => void this.read(text).then(() => this.remember(true)), 250);
   }
 
   private async read(text: string, shared?: Shared): Promise<void> {
-    this.text = text;
-    const reply = await this.engine.ask("quick", "describe", { ask: "describe", model: text });
-    if (!reply || text !== this.text) return;
+    this.written = text;
+    // Nobody needs the answers about what is put aside; while somebody types, only when there is a new model.
+    if (shared) this.engine.cancel();
+    // The drive is a model: before anything else there is its verdict.
+    const known = shared && !this.model && text === DRIVE;
+    if (known) {
+      this.text = text;
+      this.guess(text, shared);
+    }
+    const described = this.engine.ask("quick", "describe", { ask: "describe", model: text });
+    if (shared && !known) this.guess(text, shared);
+    const reply = await described;
+    if (!this.model) performance.mark("described");
+    if (!reply || text !== this.written) return;
     if (reply.defect) return this.defect(reply.defect);
     this.editor.mark(reply.check.diagnostics);
-    this.remarks(reply);
+    remarks(reply, this.editor);
     by("stale").hidden = reply.model !== null;
     if (!reply.model) return;
-    this.engine.cancel();
+    if (!shared) this.engine.cancel();
+    this.text = text;
     this.take(reply.model, shared);
   }
 
-  private remarks(reply: Reply): void {
-    const place = by("remarks");
-    if (!reply.text) return place.replaceChildren();
-    const wrong = reply.check.diagnostics.some((d: any) => d.severity === "error");
-    const goto = reply.check.diagnostics
-      .filter((d: any) => d.place)
-      .slice(0, 8)
-      .map((d: any) => h("button", { type: "button", class: "small", click: () => this.editor.focus(d.place.line, d.place.column) }, `line ${d.place.line}`));
-    place.replaceChildren(h("pre", { class: wrong ? "error" : "", tabindex: 0, role: "region", "aria-label": wrong ? "errors" : "warnings" }, reply.text), ...goto);
+  /** Asks for the verdict before the model is known: what differs from nominal is. */
+  private guess(text: string, { v = {} }: Shared): void {
+    this.questions.renew();
+    const given = sets(Object.entries(v).filter(([, value]) => isNumber(value)));
+    void this.questions.once("quick", "verdict", this.program(text, "verdict", "-", "--json", ...given), (reply) => {
+      if (text === this.text) this.verdict(reply);
+    });
   }
 
   /** A model that is one. */
   private take(model: Model, shared?: Shared): void {
     const before = this.model;
     this.model = model;
-    this.known.clear();
     this.sets.clear();
+    if (!shared) {
+      this.questions.renew();
+    }
     const values = new Map<string, string>();
     for (const { name, nominal } of model.parameters) {
       // What was dragged stays where it is while the text is edited; a new nominal value wins.
@@ -158,15 +175,12 @@ export class Page {
         this.later();
         void this.remember(true);
       });
+      row.say(this.map.verdict ?? "");
       this.rows.set(name, row);
       list.append(row.element);
     }
     if (names.length === 0) list.append(h("p", { class: "sentence" }, "The model has no parameters: only its verdict can be asked for."));
-    const blocks = by("panel-blocks");
-    blocks.replaceChildren(
-      h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "blocks" }, table(model.rules || "Blocks", ["name", "input", "output", "does"], model.blocks)),
-      h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "constants" }, table("Constants", ["name", "value"], model.constants.map((c) => [c.name, c.value]))),
-    );
+    blocks(model);
     const option = (value: string, text: string) => h("option", { value, selected: value === this.cut }, text);
     const signals = [...new Set([...model.blocks.flatMap((b) => b[2].split(", ")), ...names])].filter((n) => n !== "" && n !== "u" && n !== "y" || names.includes(n));
     if (!signals.includes(this.cut)) this.cut = "";
@@ -186,7 +200,7 @@ export class Page {
         const axes = this.mapAxes!;
         if (axes[1 - k] === name) axes[1 - k] = axes[k];
         axes[k] = name;
-        this.known.delete("map");
+        this.questions.forget("map");
         this.mapControls(names);
         this.later();
         void this.remember(true);
@@ -200,7 +214,7 @@ export class Page {
 
   private entered(name: string, text: string, done: boolean): void {
     this.values.set(name, text);
-    this.ask();
+    this.ask(!done);
     void this.remember(done);
   }
 
@@ -210,7 +224,7 @@ export class Page {
       this.values.set(name, text);
       this.rows.get(name)?.set(text);
     }
-    this.ask();
+    this.ask(!done);
     void this.remember(done);
   }
 
@@ -219,50 +233,48 @@ export class Page {
     return [...this.values].filter(([name]) => !without.includes(name));
   }
 
-  private program(...args: string[]): unknown {
-    return { ask: "program", model: this.text, arguments: args };
+  /** Those of them that differ from nominal. */
+  differing(): [string, string][] {
+    return this.given().filter(([name, value]) => this.model?.parameters.find((p) => p.name === name)?.nominal !== value);
   }
 
-  /** Asks once for each key; what is overtaken leaves no trace. */
-  private async once(speed: Speed, lane: string, request: unknown, use: (reply: Reply) => void): Promise<void> {
-    const key = JSON.stringify(request);
-    if (this.known.get(lane) === key) return;
-    this.known.set(lane, key);
-    const reply = await this.engine.ask(speed, lane, request);
-    if (this.known.get(lane) !== key) return;
-    if (reply === undefined) {
-      this.known.delete(lane);
-      return;
-    }
-    if (reply.defect) this.defect(reply.defect);
-    use(reply);
+  private program(model: string, ...args: string[]): unknown {
+    return { ask: "program", model, arguments: args };
   }
 
   /** Everything that a point needs: the verdict and the pictures that move at once, the rest when there is time. */
-  private ask(): void {
-    const given = sets(this.given());
-    this.told = this.once("quick", "verdict", this.program("verdict", "-", "--json", ...given), (reply) => this.verdict(reply));
+  private ask(moves = false): void {
+    this.moves = moves;
+    const verdict = this.program(this.text, "verdict", "-", "--json", ...sets(this.differing()));
+    this.told = this.questions.once("quick", "verdict", verdict, (reply) => this.verdict(reply));
     const point = { ask: "point", model: this.text, set: this.given(), response: true };
-    void this.once("quick", "point", point, (reply) => {
+    void this.questions.once("quick", "point", point, (reply) => {
       this.locus.roots = no(reply) ? reply : reply.roots;
-      this.response.data = no(reply) ? reply : reply.response;
-      this.locus.say(this.counts);
-      this.response.say();
+      this.response.take(no(reply) ? reply : reply.response);
+      this.locus.show(this.moves);
+      this.response.show(this.moves);
     });
     for (const [name, row] of this.rows) {
-      const request = this.program("intervals", "-", "--param", name, "--json", ...sets(this.given([name])));
-      void this.once("quick", `intervals ${name}`, request, (reply) => this.interval(name, row, reply));
+      const request = this.program(this.text, "intervals", "-", "--param", name, "--json", ...sets(this.given([name])));
+      void this.questions.once("quick", `intervals ${name}`, request, (reply) => this.interval(name, row, reply));
     }
     if (this.mapAxes) {
       this.map.point = [this.values.get(this.mapAxes[0])!, this.values.get(this.mapAxes[1])!];
-      this.map.say();
+      this.map.show(moves);
     }
     this.later();
   }
 
+  /** Whether a value moves: then pictures follow it, and sentences and tables wait until it rests. */
+  private moves = false;
   private laterTimer = 0;
   /** Until the verdict is there. */
   private told = Promise.resolve();
+
+  /** Until there is a verdict. */
+  answered(): Promise<void> {
+    return this.told;
+  }
 
   private later(): void {
     clearTimeout(this.laterTimer);
@@ -271,43 +283,44 @@ export class Page {
 
   private slow(): void {
     if (!this.model) return;
+    if (this.moves) {
+      this.moves = false;
+      for (const row of this.rows.values()) row.rest();
+      for (const plot of [this.map, this.locus, this.response]) plot.show();
+    }
     const names = this.model.parameters.map((p) => p.name);
     if (this.focus) {
-      const request = this.program("locus", "-", "--param", this.focus, "--json", "--quiet", ...sets(this.given([this.focus])));
-      void this.once("slow", "locus", request, (reply) => {
+      const request = this.program(this.text, "locus", "-", "--param", this.focus, "--json", "--quiet", ...sets(this.given([this.focus])));
+      void this.questions.once("slow", "locus", request, (reply) => {
         this.locus.data = this.document(reply);
-        this.locus.message = "";
-        this.locus.say(this.counts);
+        this.locus.show();
       });
     } else {
       this.locus.data = undefined;
-      this.locus.say(this.counts);
+      this.locus.show();
     }
     const at = this.cut ? ["--at", this.cut] : [];
     const given = sets(this.given());
-    void this.once("slow", "margins", this.program("margins", "-", "--json", ...at, ...given), (reply) => {
+    void this.questions.once("slow", "margins", this.program(this.text, "margins", "-", "--json", ...at, ...given), (reply) => {
       this.loop.margins = this.document(reply) ?? reply;
-      this.loop.say();
+      this.loop.show();
     });
-    void this.once("slow", "frequency response", this.program("bode", "-", "--json", ...at, ...given), (reply) => {
+    void this.questions.once("slow", "frequency response", this.program(this.text, "bode", "-", "--json", ...at, ...given), (reply) => {
       this.loop.data = this.document(reply) ?? reply;
-      this.loop.say();
+      this.loop.show();
     });
     if (this.mapAxes) {
       const [x, y] = this.mapAxes;
       const request = { ask: "map", model: this.text, set: this.given(this.mapAxes), x, y };
-      if (this.known.get("map") !== JSON.stringify(request)) {
-        void this.once("long", "map", request, (reply) => {
-          this.map.data = reply;
-          this.map.message = "";
-          this.map.tabulate();
-          this.map.say();
-        });
-      }
+      void this.questions.once("long", "map", request, (reply) => {
+        this.map.data = reply;
+        this.map.message = "";
+        this.map.show();
+      });
     } else {
       this.map.data = undefined;
       this.map.message = names.length < 2 ? "A map needs two parameters." : "";
-      this.map.say();
+      this.map.show();
     }
     void this.details.about({ text: this.text, values: this.given(), names });
   }
@@ -320,35 +333,30 @@ export class Page {
     const document = this.document(reply);
     if (!document?.stable) {
       this.sets.delete(name);
-      row.answer(undefined, no(reply) ?? (reply.notes?.join(" ") || "undecided"));
+      row.answer(undefined, no(reply) ?? (reply.notes?.join(" ") || "undecided"), this.moves);
     } else {
       this.sets.set(name, document.stable);
-      row.answer(document.stable);
+      row.answer(document.stable, "", this.moves);
     }
     this.limit();
   }
 
   private verdict(reply: Reply): void {
-    performance.mark("verdict");
     const document = this.document(reply);
     const message = no(reply);
     const verdict: Verdict = document?.verdict ?? undefined;
-    this.counts = document?.degree !== undefined ? document : undefined;
+    this.locus.counts = document?.degree !== undefined ? document : undefined;
     by("verdict").className = `verdict ${verdict ?? ""}`;
-    by("verdict-word").textContent = verdict ?? (message ? "no answer" : "undecided");
-    let roots = message ?? reply.notes?.join(" ") ?? "";
-    if (document?.degree !== undefined && document.inside !== undefined && document.inside !== null) {
-      const { degree, inside, on, outside, infinite } = document;
-      const where = this.model?.time === "continuous" ? "in the left half plane" : "inside the unit circle";
-      const rest = [on ? `${on} on the boundary` : "", outside ? `${outside} outside` : "", infinite ? `${infinite} at infinity` : ""].filter((t) => t);
-      roots = `${inside} of ${degree} roots ${where}${rest.length > 0 ? `, ${rest.join(", ")}` : ""}`;
-    }
-    by("verdict-roots").textContent = roots;
+    const word = verdict ?? (message ? "no answer" : "undecided");
+    if (by("verdict-word").textContent !== word) by("verdict-word").textContent = word;
+    const roots = counted(document) ?? message ?? reply.notes?.join(" ") ?? "";
+    if (by("verdict-roots").textContent !== roots) by("verdict-roots").textContent = roots;
     for (const row of this.rows.values()) row.say(verdict ?? "");
     this.map.verdict = verdict;
-    this.map.say();
-    this.locus.say(this.counts);
+    this.map.show(this.moves);
+    this.locus.show(this.moves);
     this.limit();
+    this.mark();
     // A reader is told once the value rests.
     clearTimeout(this.said);
     this.said = window.setTimeout(() => {
@@ -357,20 +365,18 @@ export class Page {
     }, 700);
   }
 
-  /** The limit that is nearest by ratio, in words. */
+  private marked = false;
+
+  /** When the first verdict was there, and drawn: for those who measure. */
+  private mark(): void {
+    if (this.marked) return;
+    this.marked = true;
+    performance.mark("verdict");
+    requestAnimationFrame(() => setTimeout(() => performance.mark("drawn")));
+  }
+
   private limit(): void {
-    let best: { far: number; words: string } | undefined;
-    for (const [name, stable] of this.sets) {
-      const now = float(this.values.get(name));
-      const inside = stable.find((i) => !(i.lower && Number(i.lower.decimal) >= now) && !(i.upper && Number(i.upper.decimal) <= now));
-      for (const end of inside ? [inside.lower, inside.upper] : []) {
-        if (!end || end.cause === "domain") continue;
-        const at = Number(end.decimal);
-        const far = at === 0 || now === 0 ? Infinity : Math.abs(Math.log(Math.abs(at / now)));
-        if (far < (best?.far ?? Infinity)) best = { far, words: `nearest limit: ${name} = ${label(end.decimal)}, ×${short(at / now, 3)}, ${end.cause}` };
-      }
-    }
-    by("verdict-limit").textContent = best?.words ?? "";
+    by("verdict-limit").textContent = nearest(this.sets, this.values);
   }
 
   private defect(text: string): void {
@@ -383,46 +389,30 @@ export class Page {
 
   /** What a link holds. */
   shared(): Shared {
-    const shared: Shared = { m: this.text };
-    const changed = this.model?.parameters.filter((p) => this.values.get(p.name) !== p.nominal) ?? [];
-    if (changed.length > 0) shared.v = Object.fromEntries(changed.map((p) => [p.name, this.values.get(p.name)!]));
+    const shared: Shared = { m: this.written };
+    const differing = this.differing();
+    if (differing.length > 0) shared.v = Object.fromEntries(differing);
     if (this.focus && this.focus !== this.model?.parameters[0]?.name) shared.p = this.focus;
     if (this.mapAxes && (this.model?.parameters.length ?? 0) > 2) shared.a = this.mapAxes;
     if (this.cut) shared.c = this.cut;
     return shared;
   }
 
-  private remembered = "";
-  private remembering = 0;
+  private readonly address = new Address(() => this.shared());
 
-  /** The address follows the state: a new entry in the history when something is done, the same while it moves. */
-  async remember(done: boolean): Promise<void> {
-    const turn = ++this.remembering;
-    if (!done) await new Promise((resolve) => setTimeout(resolve, 200));
-    if (turn !== this.remembering || typeof CompressionStream === "undefined") return;
-    const shared = this.shared();
-    const plain = shared.m === DRIVE && Object.keys(shared).length === 1;
-    const fragment = plain ? "" : await pack(shared);
-    if (turn !== this.remembering || fragment === this.remembered) return;
-    this.remembered = fragment;
-    const url = fragment || location.pathname + location.search;
-    try {
-      if (done) history.pushState(null, "", url);
-      else history.replaceState(null, "", url);
-    } catch {
-      // Some hosts of files allow no history.
-    }
+  remember(done: boolean): Promise<void> {
+    return this.address.remember(done);
   }
 
+  /** Opens what the address holds, where that is new. */
   async follow(): Promise<void> {
-    if (location.hash === this.remembered) return;
-    this.remembered = location.hash;
+    if (!this.address.isNew) return;
     try {
-      const shared = await unpack(location.hash);
-      await this.open(shared?.m ?? DRIVE, shared ?? { m: DRIVE });
+      const shared = await this.address.held();
+      await this.open(shared.m, shared);
     } catch (error) {
       this.say(error instanceof Error ? error.message : "this link is broken");
-      if (!this.model) await this.open(DRIVE);
+      if (!this.model) await this.open(DRIVE, { m: DRIVE });
     }
   }
 

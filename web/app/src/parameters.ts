@@ -2,7 +2,7 @@
 
 import { h, s } from "./dom.js";
 import { cut } from "./plot.js";
-import { type Scale, beside, decimalAt, float, isNumber, label, place, value } from "./numbers.js";
+import { type Scale, beside, decimalAt, float, isNumber, label, place, short, value } from "./numbers.js";
 
 export interface Parameter {
   name: string;
@@ -48,16 +48,41 @@ export function track(parameter: Parameter, stable: Interval[], now: string): Sc
   return { lower, upper: upper > lower ? upper : lower + 1, log: false };
 }
 
+/** A cause of the documents in words. */
+export function causes(text: string): string {
+  const words: Record<string, string> = { "z=1": "root at z = 1", "z=-1": "root at z = −1", "s=0": "root at s = 0", domain: "end of the domain", infinity: "degree lost", neutral: "difference operator not stable", pole: "loop undefined", undecided: "undecided beyond" };
+  return text.split("+").map((one) => words[one] ?? one).join(", ");
+}
+
 function cause(end: End): string {
-  return end.frequency_hz === null ? end.cause : `${end.cause}, ${label(String(end.frequency_hz), 4)} Hz`;
+  return end.frequency_hz === null ? causes(end.cause) : `${causes(end.cause)}, ${label(String(end.frequency_hz), 4)} Hz`;
+}
+
+/** The limit that is nearest to its value by ratio, in words. */
+export function nearest(sets: Map<string, Interval[]>, values: Map<string, string>): string {
+  let best: { far: number; words: string } | undefined;
+  for (const [name, stable] of sets) {
+    const now = float(values.get(name));
+    const inside = stable.find((i) => !(i.lower && Number(i.lower.decimal) >= now) && !(i.upper && Number(i.upper.decimal) <= now));
+    for (const end of inside ? [inside.lower, inside.upper] : []) {
+      if (!end || end.cause === "domain") continue;
+      const at = Number(end.decimal);
+      const far = at === 0 || now === 0 ? Infinity : Math.abs(Math.log(Math.abs(at / now)));
+      if (far < (best?.far ?? Infinity)) best = { far, words: `nearest limit: ${name} = ${label(end.decimal)}, ×${short(at / now, 3)}, ${causes(end.cause)}` };
+    }
+  }
+  return best?.words ?? "";
 }
 
 export class Row {
   readonly element: HTMLElement;
   readonly box: HTMLInputElement;
   private readonly slider: HTMLElement;
-  private readonly picture: SVGSVGElement;
+  private readonly region = s("path", { class: "stable" });
+  private readonly bounds = s("path", { class: "end" });
   private readonly ends: HTMLElement;
+  /** The ends that have a label, with the values just inside. */
+  private labelled: { end: End; just: string }[] = [];
   private readonly words: HTMLElement;
   private stable: Interval[] | undefined;
   private scale: Scale;
@@ -78,14 +103,16 @@ export class Row {
     const id = `value-${Math.random().toString(36).slice(2, 8)}`;
     this.box = h("input", { id, value: now, autocomplete: "off", spellcheck: "false", "aria-describedby": `${id}-wrong` });
     this.wrong = h("span", { id: `${id}-wrong`, class: "wrong" });
-    this.picture = s("svg", { preserveAspectRatio: "none", viewBox: "0 0 1000 20", "aria-hidden": "true" });
+    const picture = s("svg", { preserveAspectRatio: "none", viewBox: "0 0 1000 20", "aria-hidden": "true" }, this.region, this.bounds);
     this.slider = h("div", {
       class: "slider",
       role: "slider",
       tabindex: 0,
       "aria-label": `${name}, slider over its stable set`,
       "aria-orientation": "horizontal",
-    }, this.picture, h("div", { class: "thumb" }));
+      "aria-valuemin": 0,
+      "aria-valuemax": 1000,
+    }, picture, h("div", { class: "thumb" }));
     this.ends = h("div", { class: "ends" });
     this.words = h("p", { class: "sentence" });
     const reset = h("button", { type: "button", class: "small", title: `back to nominal, ${nominal ?? "none"}`, "aria-label": `${name} back to nominal`, click: () => nominal !== null && this.enter(nominal, true) }, "↺");
@@ -131,7 +158,7 @@ export class Row {
       if (!this.dragging) return;
       this.dragging = false;
       drag(event, true);
-      this.rescale();
+      this.rest();
     };
     this.slider.addEventListener("pointerup", end);
     this.slider.addEventListener("pointercancel", () => (this.dragging = false));
@@ -188,14 +215,23 @@ export class Row {
       this.box.setAttribute("aria-invalid", "false");
       this.wrong.textContent = "";
     }
+    const before = this.scale;
     if (!this.dragging) this.rescale();
-    this.thumb();
+    if (this.scale !== before) this.draw();
+    else this.thumb();
   }
 
-  /** The stable set, or why it is not known. */
-  answer(stable: Interval[] | undefined, message = ""): void {
+  /** The stable set, or why it is not known; while another value moves the track stays as long as it has room. */
+  answer(stable: Interval[] | undefined, message = "", moves = false): void {
     this.stable = stable;
     this.message = message;
+    const room = (end: End | null) => end === null || Math.abs(place(this.scale, Number(end.decimal)) - 0.5) <= 0.5;
+    if (!this.dragging && !(moves && stable?.every((i) => room(i.lower) && room(i.upper)))) this.rescale();
+    this.draw(moves);
+  }
+
+  /** Nothing moves any more. */
+  rest(): void {
     if (!this.dragging) this.rescale();
     this.draw();
   }
@@ -206,56 +242,65 @@ export class Row {
   }
 
   private rescale(): void {
-    const wanted = track(this.parameter, this.stable ?? [], this.now);
     const at = place(this.scale, float(this.now));
     // The track stays under the thumb while the value is on it and what it shows has not changed.
-    const same = wanted.lower === this.scale.lower && wanted.upper === this.scale.upper;
-    if (same || (at >= 0 && at <= 1 && this.drawn === this.key())) return;
-    this.scale = wanted;
-    this.draw();
+    if (at >= 0 && at <= 1 && this.scaled === this.key()) return;
+    this.scale = track(this.parameter, this.stable ?? [], this.now);
+    this.scaled = this.key();
   }
 
-  private drawn = "";
+  /** The ends that the track was made for. */
+  private scaled = "";
 
   private key(): string {
     return (this.stable ?? []).map((i) => `${i.lower?.decimal}..${i.upper?.decimal}`).join();
   }
 
-  private draw(): void {
-    this.drawn = this.key();
-    this.picture.replaceChildren();
-    this.ends.replaceChildren();
+  private draw(moves = false): void {
     const labels: { at: number; end: End; up: boolean }[] = [];
+    let [inside, bounds] = ["", ""];
     for (const { lower, upper } of this.stable ?? []) {
       const from = lower ? place(this.scale, Number(lower.decimal)) : 0;
       const to = upper ? place(this.scale, Number(upper.decimal)) : 1;
-      const [a, b] = [Math.max(0, Math.min(1, from)), Math.max(0, Math.min(1, to))];
-      if (b > a) this.picture.append(s("rect", { class: "stable", x: a * 1000, y: 0, width: Math.max(1.5, (b - a) * 1000), height: 20 }));
+      const [a, b] = [Math.max(0, Math.min(1, from)) * 1000, Math.max(0, Math.min(1, to)) * 1000];
+      if (b > a) inside += `M${a.toFixed(2)} 0h${Math.max(1.5, b - a).toFixed(2)}v20H${a.toFixed(2)}z`;
       if (lower) labels.push({ at: from, end: lower, up: true });
       if (upper) labels.push({ at: to, end: upper, up: false });
     }
     const room: number[] = [];
+    this.labelled = [];
     for (const { at, end, up } of labels) {
       if (at < -0.001 || at > 1.001) continue;
-      this.picture.append(s("line", { class: "end", x1: at * 1000, x2: at * 1000, y1: 0, y2: 20 }));
+      bounds += `M${(at * 1000).toFixed(2)} 0v20`;
       if (room.some((other) => Math.abs(other - at) < 0.12)) continue;
-      room.push(at);
-      const text = label(end.decimal);
+      const k = room.push(at) - 1;
       const just = beside(end.decimal, up);
-      const button = h("button", {
-          type: "button",
-          class: at < 0.12 ? "first" : at > 0.88 ? "last" : "",
-          title: `${end.decimal}: ${cause(end)}. Takes ${just}, just inside.`,
-          "aria-label": `${this.parameter.name} to ${just}, just inside its limit ${text}: ${cause(end)}`,
-          click: () => float(just) !== 0 && this.enter(just, true),
-        }, text);
+      this.labelled.push({ end, just });
+      const button = (this.ends.children[k] ?? this.ends.appendChild(this.label(k))) as HTMLElement;
+      const text = label(end.decimal);
+      button.className = at < 0.12 ? "first" : at > 0.88 ? "last" : "";
       button.style.left = `${(at * 100).toFixed(2)}%`;
-      this.ends.append(button);
+      if (button.textContent !== text) button.textContent = text;
+      if (moves) continue;
+      button.title = `${end.decimal}: ${cause(end)}. Takes ${just}, just inside.`;
+      button.setAttribute("aria-label", `${this.parameter.name} to ${just}, just inside its limit ${text}: ${cause(end)}`);
     }
-    const words = this.message || this.sentence();
-    if (this.words.textContent !== words) this.words.textContent = words;
+    while (this.ends.children.length > room.length) this.ends.lastElementChild!.remove();
+    this.region.setAttribute("d", inside);
+    this.bounds.setAttribute("d", bounds);
     this.element.classList.toggle("unknown", this.stable === undefined);
     this.thumb();
+    if (moves) return;
+    const words = this.message || this.sentence();
+    if (this.words.textContent !== words) this.words.textContent = words;
+  }
+
+  private label(k: number): HTMLElement {
+    const take = () => {
+      const just = this.labelled[k]?.just;
+      if (just !== undefined && float(just) !== 0) this.enter(just, true);
+    };
+    return h("button", { type: "button", click: take });
   }
 
   private sentence(): string {
@@ -272,8 +317,6 @@ export class Row {
     const thumb = this.slider.lastElementChild as HTMLElement;
     thumb.style.left = `${(at * 100).toFixed(3)}%`;
     thumb.className = `thumb ${this.verdict}`;
-    this.slider.setAttribute("aria-valuemin", "0");
-    this.slider.setAttribute("aria-valuemax", "1000");
     this.slider.setAttribute("aria-valuenow", String(Math.round(at * 1000)));
     this.slider.setAttribute("aria-valuetext", `${this.now}${this.parameter.unit ? ` ${this.parameter.unit}` : ""}${this.verdict ? `, ${this.verdict}` : ""}`);
   }

@@ -29,7 +29,7 @@ export function axes(svg: SVGSVGElement, box: Box, xs: Scale, ys: Scale, words: 
   svg.append(s("clipPath", { id }, s("rect", { x: box.left, y: box.top, width: box.width, height: box.height })));
   svg.append(s("rect", { class: "ground", x: box.left, y: box.top, width: box.width, height: box.height }));
   let free = -Infinity;
-  for (const t of ticks(xs, Math.max(2, box.width / 90))) {
+  for (const t of ticks(xs, Math.max(3.5, box.width / 90))) {
     const at = x(t);
     svg.append(s("line", { class: "grid", x1: at, x2: at, y1: box.top, y2: bottom }));
     const text = short(t);
@@ -90,7 +90,7 @@ export function equal(box: Box, centre: [number, number], half: number): [Scale,
   return [scale(centre[0], box.width), scale(centre[1], box.height)];
 }
 
-/** A picture with its sentence and its table. It is drawn anew when its place changes its size. */
+/** A picture with its sentence and its table. It is drawn anew when its place changes its size; what moves can be drawn alone. */
 export class Figure {
   readonly element: HTMLElement;
   readonly svg: SVGSVGElement;
@@ -99,19 +99,23 @@ export class Figure {
   readonly controls: HTMLElement;
   private readonly table: HTMLDetailsElement;
   private size = { width: 0, height: 0 };
-  private pending = false;
+  private pending: "" | "some" | "all" = "";
+  private seen = true;
+  private rows: (() => (Node | string)[]) | undefined;
 
+  /** `shift` draws what moves, where the rest of the picture can stay; else it says no. */
   constructor(
     readonly id: string,
     title: string,
     tableTitle: string,
     private readonly paint: (svg: SVGSVGElement, width: number, height: number) => void,
+    private readonly shift: () => boolean = () => false,
   ) {
     this.svg = s("svg", { role: "img", "aria-labelledby": `${id}-title ${id}-sentence` });
     this.sentence = h("p", { id: `${id}-sentence`, class: "sentence" });
     this.extra = h("div", { class: "table", tabindex: 0, role: "region", "aria-label": `${tableTitle} (${title})` });
     this.controls = h("div", { class: "controls" });
-    this.table = h("details", {}, h("summary", {}, tableTitle), this.extra);
+    this.table = h("details", { toggle: () => this.fill() }, h("summary", {}, tableTitle), this.extra);
     this.element = h(
       "section",
       { class: "figure", id, "aria-labelledby": `${id}-title` },
@@ -120,32 +124,55 @@ export class Figure {
       this.sentence,
       this.table,
     );
-    new ResizeObserver(() => this.draw()).observe(this.svg.parentElement!);
+    const canvas = this.svg.parentElement!;
+    new ResizeObserver((entries) => {
+      const { width, height } = entries.at(-1)!.contentRect;
+      if (width === this.size.width && height === this.size.height) return;
+      this.size = { width, height };
+      this.draw();
+    }).observe(canvas);
+    new IntersectionObserver((entries) => (this.seen = entries.at(-1)!.isIntersecting)).observe(canvas);
   }
 
   /** Draws before the next frame, once. */
   draw(): void {
-    if (this.pending) return;
-    this.pending = true;
-    requestAnimationFrame(() => {
-      this.pending = false;
-      const { width, height } = this.svg.parentElement!.getBoundingClientRect();
-      if (width < 60 || height < 60) return;
-      this.size = { width, height };
-      this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-      const focus = document.activeElement === this.svg;
-      this.svg.replaceChildren();
-      this.paint(this.svg, width, height);
-      if (focus) this.svg.focus();
-    });
+    this.soon("all");
+  }
+
+  /** The same for what moves, at once only where somebody sees it. */
+  move(rests = false): void {
+    if (rests || this.seen) this.soon("some");
+  }
+
+  private soon(what: "some" | "all"): void {
+    if (this.pending === "") requestAnimationFrame(() => this.now());
+    if (this.pending !== "all") this.pending = what;
+  }
+
+  private now(): void {
+    const what = this.pending;
+    this.pending = "";
+    const { width, height } = this.size;
+    if (width < 60 || height < 60 || (what === "some" && this.shift())) return;
+    this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    const focus = document.activeElement === this.svg;
+    this.svg.replaceChildren();
+    this.paint(this.svg, width, height);
+    if (focus) this.svg.focus();
   }
 
   say(text: string): void {
     if (this.sentence.textContent !== text) this.sentence.textContent = text;
   }
 
-  tabulate(...content: (Node | string)[]): void {
-    this.extra.replaceChildren(...content);
+  /** What the table holds, made once somebody opens it. */
+  tabulate(rows: () => (Node | string)[]): void {
+    this.rows = rows;
+    this.fill();
+  }
+
+  private fill(): void {
+    if (this.table.open && this.rows) this.extra.replaceChildren(...this.rows());
   }
 
   /** The picture as a file of its own, with the colours of the page. */

@@ -46,12 +46,10 @@ export class MapPlot {
   verdict: Verdict;
   message = "";
   private view: Axes | undefined;
+  private readonly cross = { x: s("line", { class: "cross" }), y: s("line", { class: "cross" }), point: s("circle", { r: 9 }) };
 
-  constructor(
-    private readonly moved: (x: string, y: string, done: boolean) => void,
-    pause: () => void,
-  ) {
-    this.figure = new Figure("map", "Map of two parameters", "What limits the region", (svg, w, hgt) => this.paint(svg, w, hgt));
+  constructor(private readonly moved: (x: string, y: string, done: boolean) => void) {
+    this.figure = new Figure("map", "Map of two parameters", "What limits the region", (svg, w, hgt) => this.paint(svg, w, hgt), () => this.shift());
     const svg = this.figure.svg;
     svg.setAttribute("tabindex", "0");
     svg.setAttribute("role", "application");
@@ -67,7 +65,6 @@ export class MapPlot {
     svg.addEventListener("pointerdown", (event) => {
       if (event.button !== 0 || !this.data?.x) return;
       svg.setPointerCapture(event.pointerId);
-      pause();
       at(event, false);
     });
     svg.addEventListener("pointermove", (event) => svg.hasPointerCapture(event.pointerId) && at(event, false));
@@ -87,6 +84,7 @@ export class MapPlot {
   private paint(svg: SVGSVGElement, width: number, height: number): void {
     this.view = undefined;
     const data = this.data;
+    this.drawn = data;
     if (!data?.x) return waiting(svg, width, height, this.message || no(data) || "…");
     const box = whole(width, height, 64);
     const view = axes(svg, box, data.x, data.y, { x: named(data.x.name, data.x.unit), y: named(data.y.name, data.y.unit) });
@@ -114,31 +112,44 @@ export class MapPlot {
       said.add(wall.words);
       inside.append(s("text", { class: "words", x, y, "text-anchor": "middle" }, wall.words));
     }
-    const [x, y] = [view.x(float(this.point[0])), view.y(float(this.point[1]))];
-    if (!Number.isFinite(x) || !Number.isFinite(y)) return;
-    inside.append(s("line", { class: "cross", x1: x, x2: x, y1: box.top, y2: box.top + box.height }));
-    inside.append(s("line", { class: "cross", x1: box.left, x2: box.left + box.width, y1: y, y2: y }));
-    inside.append(s("circle", { class: `point ${this.verdict ?? ""}`, cx: x, cy: y, r: 9 }));
+    inside.append(this.cross.x, this.cross.y, this.cross.point);
+    this.shift();
   }
 
-  say(): void {
+  /** The point alone. */
+  private shift(): boolean {
+    if (!this.view) return false;
+    const { box } = this.view;
+    const [x, y] = [this.view.x(float(this.point[0])), this.view.y(float(this.point[1]))];
+    const put = (element: Element, places: Record<string, number>) => {
+      for (const [name, at] of Object.entries(places)) element.setAttribute(name, Number.isFinite(at) ? at.toFixed(1) : "-99");
+    };
+    put(this.cross.x, { x1: x, x2: x, y1: box.top, y2: box.top + box.height });
+    put(this.cross.y, { x1: box.left, x2: box.left + box.width, y1: y, y2: y });
+    put(this.cross.point, { cx: x, cy: y });
+    this.cross.point.setAttribute("class", `point ${this.verdict ?? ""}`);
+    return true;
+  }
+
+  show(moves = false): void {
+    if (moves) return this.figure.move();
     const { data, point } = this;
     if (!data?.x) {
       this.figure.say(this.message || no(data) || "");
-      this.figure.tabulate("");
+      this.figure.tabulate(() => []);
     } else {
       const regions = data.never ? "stable at no point of the plane" : data.regions === 1 ? "one stable region, drawn green" : `${data.regions} stable regions, drawn green`;
       const at = this.verdict ? `, ${this.verdict}` : "";
       this.figure.say(`${data.x.name} and ${data.y.name}: ${regions}. The point is at ${data.x.name} = ${point[0]}, ${data.y.name} = ${point[1]}${at}.`);
     }
     this.figure.svg.setAttribute("aria-label", this.figure.sentence.textContent ?? "");
+    if (data?.x && data === this.drawn) return this.figure.move(true);
     this.figure.draw();
+    if (data?.x) this.figure.tabulate(() => [h("pre", {}, String(data.text ?? ""))]);
   }
 
-  /** The exact text, once for each map. */
-  tabulate(): void {
-    this.figure.tabulate(h("pre", {}, String(this.data?.text ?? "")));
-  }
+  /** What was drawn last. */
+  private drawn: any;
 }
 
 // -------------------------------------------------------------------------------------------- locus
@@ -170,11 +181,15 @@ export class LocusPlot {
   readonly zoom: Zoom;
   data: any;
   roots: any;
+  /** How many roots are where: exact. */
+  counts: { inside: number; degree: number; infinite: number } | undefined;
   time: "discrete" | "continuous" = "discrete";
-  message = "";
+  private view: Axes | undefined;
+  private window = { centre: [0, 0] as [number, number], half: 1 };
+  private marks: SVGGElement = s("g", {});
 
   constructor() {
-    this.figure = new Figure("locus", "Roots and root locus", "Roots", (svg, w, hgt) => this.paint(svg, w, hgt));
+    this.figure = new Figure("locus", "Roots and root locus", "Roots", (svg, w, hgt) => this.paint(svg, w, hgt), () => this.shift());
     this.zoom = new Zoom(() => this.figure.draw());
     this.figure.controls.append(...this.zoom.buttons);
   }
@@ -183,23 +198,26 @@ export class LocusPlot {
     return this.roots?.at ?? [];
   }
 
+  /** What is looked at: all roots and crossings, or nearer. */
+  private wanted(): { centre: [number, number]; half: number } {
+    if (this.time === "discrete") return this.zoom.window([0, 0], 1.35, this.dominant());
+    const near = [...this.at.map(([x, y]) => Math.hypot(x, y)), ...(this.data?.crossings ?? []).flatMap((c: any) => c.at.map(([x, y]: number[]) => Math.hypot(x!, y!)))];
+    const half = Math.max(...near.filter(Number.isFinite), 1e-9) * 1.15;
+    return this.zoom.window([-half * 0.35, 0], half, this.dominant());
+  }
+
   private paint(svg: SVGSVGElement, width: number, height: number): void {
+    this.view = undefined;
     const branches: any[] = this.data?.branches ?? [];
     const message = no(this.roots);
-    if (!this.at.length && !branches.length) return waiting(svg, width, height, this.message || message || "…");
+    if (!this.at.length && !branches.length) return waiting(svg, width, height, message || "…");
     const box = whole(width, height);
     const discrete = this.time === "discrete";
-    const focus = this.dominant();
-    let [centre, half]: [[number, number], number] = [[0, 0], 1.35];
-    if (!discrete) {
-      const near = [...this.at.map(([x, y]) => Math.hypot(x, y)), ...(this.data?.crossings ?? []).flatMap((c: any) => c.at.map(([x, y]: number[]) => Math.hypot(x!, y!)))];
-      half = Math.max(...near.filter(Number.isFinite), 1e-9) * 1.15;
-      centre = [-half * 0.35, 0];
-    }
-    ({ centre, half } = this.zoom.window(centre, half, focus));
-    const [xs, ys] = equal(box, centre, half);
+    this.window = this.wanted();
+    const [xs, ys] = equal(box, this.window.centre, this.window.half);
     const variable = discrete ? "z" : "s";
     const view = axes(svg, box, xs, ys, { x: `Re ${variable}`, y: `Im ${variable}` });
+    this.view = view;
     const { inside, x, y } = view;
     if (discrete) {
       const radius = box.width / (xs.upper - xs.lower);
@@ -217,9 +235,33 @@ export class LocusPlot {
         for (const side of im === 0 ? [0] : [im, -im]) inside.append(s("circle", { class: "crossing", cx: x(re), cy: y(side), r: 5 }));
       }
     }
+    this.marks = s("g", {});
+    inside.append(this.marks);
+    this.mark(view);
+  }
+
+  /** The roots alone, as long as the window is about the right one. */
+  private shift(): boolean {
+    if (!this.view || !this.at.length) return false;
+    const [{ centre, half }, wanted] = [this.window, this.wanted()];
+    const off = Math.hypot(wanted.centre[0] - centre[0], wanted.centre[1] - centre[1]);
+    if (off > half / 4 || wanted.half > half * 1.01 || wanted.half < half / 2) return false;
+    this.mark(this.view);
+    return true;
+  }
+
+  private mark({ x, y }: Axes): void {
+    const once = this.at.every(([, , count]) => count === 1);
+    const cross = (re: number, im: number) => `M${(x(re) - 5).toFixed(1)} ${(y(im) - 5).toFixed(1)}l10 10m0-10l-10 10`;
+    const drawn = [...this.marks.children];
+    if (once && drawn.length === this.at.length && drawn.every((e) => e.tagName === "path")) {
+      for (const [k, [re, im]] of this.at.entries()) drawn[k]!.setAttribute("d", cross(re, im));
+      return;
+    }
+    this.marks.replaceChildren();
     for (const [re, im, count] of this.at) {
-      inside.append(s("path", { class: "root", d: `M${x(re) - 5} ${y(im) - 5}l10 10m0-10l-10 10` }));
-      if (count > 1) inside.append(s("text", { class: "words", x: x(re) + 8, y: y(im) - 6 }, `×${count}`));
+      this.marks.append(s("path", { class: "root", d: cross(re, im) }));
+      if (count > 1) this.marks.append(s("text", { class: "words", x: x(re) + 8, y: y(im) - 6 }, `×${count}`));
     }
   }
 
@@ -230,12 +272,14 @@ export class LocusPlot {
     return best ? [best[0], best[1]] : [0, 0];
   }
 
-  say(counts: { inside: number; degree: number; infinite: number } | undefined): void {
+  show(moves = false): void {
+    if (moves) return this.figure.move();
+    const { counts } = this;
     const message = no(this.roots);
     const discrete = this.time === "discrete";
     if (message) {
       this.figure.say(message);
-      this.figure.tabulate("");
+      this.figure.tabulate(() => []);
     } else if (this.at.length) {
       const where = discrete ? "inside the unit circle" : "left of the axis";
       const count = counts ? `${counts.inside} of ${counts.degree} roots ${where}. ` : "";
@@ -243,8 +287,8 @@ export class LocusPlot {
       const name = this.data?.parameter ? `Lines: as ${this.data.parameter} moves. ` : "";
       this.figure.say(`${count}${name}The root ${discrete ? "of greatest modulus" : "farthest right"} is ${complex(re, im)}.`);
       const size = discrete ? "modulus" : "damping";
-      const rows = this.at.map(([a, b, k]) => [`${complex(a, b)}${k > 1 ? ` (${k} times)` : ""}`, short(discrete ? Math.hypot(a, b) : -a / Math.hypot(a, b), 6)]);
-      this.figure.tabulate(h("p", { class: "note" }, "Floating point; the counts above are exact."), table("Roots", ["root", size], rows));
+      const rows = () => this.at.map(([a, b, k]) => [`${complex(a, b)}${k > 1 ? ` (${k} times)` : ""}`, short(discrete ? Math.hypot(a, b) : -a / Math.hypot(a, b), 6)]);
+      this.figure.tabulate(() => [h("p", { class: "note" }, "Floating point; the counts above are exact."), table("Roots", ["root", size], rows())]);
     }
     this.figure.draw();
   }
@@ -271,40 +315,70 @@ function complex(re: number, im: number): string {
 
 export class ResponsePlot {
   readonly figure: Figure;
-  data: any;
-  message = "";
+  private data: any;
   private readonly select: HTMLSelectElement;
   private names = "";
+  private view: Axes | undefined;
+  private scales: { xs: Scale; ys: Scale } | undefined;
+  private readonly line = s("path", { class: "line c0" });
+  private readonly final = s("line", { class: "final" });
 
   constructor() {
-    this.figure = new Figure("response", "Time response", "Values", (svg, w, hgt) => this.paint(svg, w, hgt));
-    this.select = h("select", { "aria-label": "signal shown", change: () => this.say() });
+    this.figure = new Figure("response", "Time response", "Values", (svg, w, hgt) => this.paint(svg, w, hgt), () => this.shift());
+    this.select = h("select", { "aria-label": "signal shown", change: () => this.show() });
     this.figure.controls.append(this.select);
+  }
+
+  /** An answer, in which points are one list of numbers. */
+  take(data: any): void {
+    const pairs = (flat: number[]) => Array.from({ length: flat.length / 2 }, (_, k) => [flat[2 * k], flat[2 * k + 1]]);
+    this.data = data?.signals ? { ...data, signals: data.signals.map((x: any) => ({ ...x, points: pairs(x.points) })) } : data;
   }
 
   private get signal(): any {
     return this.data?.signals?.[this.select.selectedIndex] ?? this.data?.signals?.[0];
   }
 
-  private paint(svg: SVGSVGElement, width: number, height: number): void {
-    const signal = this.signal;
-    if (!signal?.points.length) return waiting(svg, width, height, this.message || no(this.data) || "…");
-    const points: [number, number][] = signal.points;
-    const box = whole(width, height);
-    const xs: Scale = { lower: 0, upper: points.at(-1)![0] || 1, log: false };
-    const ys = around([...points.map((p) => p[1]), ...(signal.final === null ? [] : [signal.final]), 0]);
-    const view = axes(svg, box, xs, ys, { x: `time (${this.data.unit})`, y: named(signal.name, signal.unit) });
-    if (signal.final !== null) {
-      const at = view.y(signal.final);
-      view.inside.append(s("line", { class: "final", x1: box.left, x2: box.left + box.width, y1: at, y2: at }));
-    }
-    const few = this.data.held && points.length < 120;
-    const drawn: [number, number][] = few ? points.flatMap((p, k) => (k === 0 ? [p] : [[p[0], points[k - 1]![1]], p]) as [number, number][]) : points;
-    view.inside.append(s("path", { class: "line c0", d: path(drawn, view) }));
+  /** Axes around what there is to draw. */
+  private wanted({ points, final }: { points: [number, number][]; final: number | null }): { xs: Scale; ys: Scale } {
+    const ys = around([...points.map((p) => p[1]), ...(final === null ? [] : [final]), 0]);
+    return { xs: { lower: 0, upper: points.at(-1)![0] || 1, log: false }, ys };
   }
 
-  say(): void {
-    const message = this.message || no(this.data);
+  private paint(svg: SVGSVGElement, width: number, height: number): void {
+    this.view = undefined;
+    const signal = this.signal;
+    if (!signal?.points.length) return waiting(svg, width, height, no(this.data) || "…");
+    this.scales = this.wanted(signal);
+    const { xs, ys } = this.scales;
+    this.view = axes(svg, whole(width, height), xs, ys, { x: `time (${this.data.unit})`, y: named(signal.name, signal.unit) });
+    this.view.inside.append(this.final, this.line);
+    this.curve(this.view, signal);
+  }
+
+  /** The curve alone, as long as it fits its axes. */
+  private shift(): boolean {
+    const signal = this.signal;
+    if (!this.view || !this.scales || !signal?.points.length) return false;
+    const [now, { xs, ys }] = [this.scales, this.wanted(signal)];
+    const fits = xs.upper === now.xs.upper && ys.upper <= now.ys.upper && ys.lower >= now.ys.lower;
+    if (!fits || 2 * (ys.upper - ys.lower) < now.ys.upper - now.ys.lower) return false;
+    this.curve(this.view, signal);
+    return true;
+  }
+
+  private curve(view: Axes, { points, final }: { points: [number, number][]; final: number | null }): void {
+    const { box } = view;
+    const at = final === null ? -99 : view.y(final);
+    for (const [name, value] of Object.entries({ x1: box.left, x2: box.left + box.width, y1: at, y2: at })) this.final.setAttribute(name, value.toFixed(1));
+    const few = this.data.held && points.length < 120;
+    const drawn = few ? points.flatMap((p, k) => (k === 0 ? [p] : [[p[0], points[k - 1]![1]], p]) as [number, number][]) : thin(points, view);
+    this.line.setAttribute("d", path(drawn, view));
+  }
+
+  show(moves = false): void {
+    if (moves) return this.figure.move();
+    const message = no(this.data);
     const names = JSON.stringify(this.data?.signals?.map((x: any) => x.name) ?? []);
     if (names !== this.names) {
       this.names = names;
@@ -314,7 +388,7 @@ export class ResponsePlot {
     const signal = this.signal;
     if (message || !signal?.points.length) {
       this.figure.say(message ?? "");
-      this.figure.tabulate("");
+      this.figure.tabulate(() => []);
     } else {
       const values: number[] = signal.points.map((p: number[]) => p[1]);
       const last = signal.points.at(-1);
@@ -324,8 +398,8 @@ export class ResponsePlot {
       const note = this.data.note ? ` (${this.data.note})` : "";
       this.figure.say(`${signal.name}${note}: largest ${short(peak)}${unit}, ${short(last[1])}${unit} after ${short(last[0])} ${this.data.unit}${goes}. Floating point.`);
       const every = Math.max(1, Math.floor(signal.points.length / 20));
-      const rows = signal.points.filter((_: unknown, k: number) => k % every === 0).map(([t, v]: number[]) => [short(t!), short(v!, 6)]);
-      this.figure.tabulate(table(signal.name, [`time (${this.data.unit})`, named(signal.name, signal.unit)], rows));
+      const rows = () => signal.points.filter((_: unknown, k: number) => k % every === 0).map(([t, v]: number[]) => [short(t!), short(v!, 6)]);
+      this.figure.tabulate(() => [table(signal.name, [`time (${this.data.unit})`, named(signal.name, signal.unit)], rows())]);
     }
     this.figure.draw();
   }

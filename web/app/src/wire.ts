@@ -10,12 +10,11 @@ import type { Figure } from "./plot.js";
 
 export function wire(page: Page): void {
   const click = (id: string, does: () => void) => by(id).addEventListener("click", does);
-  const named = () => page.given().filter(([n, v]) => page.model?.parameters.find((p) => p.name === n)?.nominal !== v);
-  const toml = () => withNominals(page.text, named());
+  const toml = () => withNominals(page.text, page.differing());
   click("share", () => void pack(page.shared()).then((fragment) => copy(page, location.href.split("#")[0] + fragment, "link")));
   click("copy-toml", () => void copy(page, toml(), "model file"));
-  click("copy-python", () => void copy(page, python(page.text, page.focus || undefined, named()), "Python"));
-  click("copy-command", () => void copy(page, commandLine(page.focus || undefined, named()), "command line"));
+  click("copy-python", () => void copy(page, python(page.text, page.focus || undefined, page.differing()), "Python"));
+  click("copy-command", () => void copy(page, commandLine(page.focus || undefined, page.differing()), "command line"));
   click("save-toml", () => download("model.toml", "application/toml", toml()));
   click("save-svg", () => {
     for (const figure of page.figures()) download(`${figure.id}.svg`, "image/svg+xml", figure.standalone());

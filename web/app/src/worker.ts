@@ -1,6 +1,6 @@
 // The worker: one instance of the engine, one request after the other.
 
-import { Incomplete, type Instance, instantiate } from "./instance.js";
+import { type Instance, instantiate } from "./instance.js";
 
 /** The engine, its first part to begin with and the rest with it or later. */
 interface Parts {
@@ -19,8 +19,14 @@ let current = 0;
 
 async function begin(module: WebAssembly.Module): Promise<void> {
   const progress = (text: string) => postMessage({ id: current, progress: text });
-  instance = await instantiate(module, progress, () => rest);
+  instance = await instantiate(module, progress);
+  complete();
   postMessage({ ready: true });
+}
+
+/** The second part may come before the instance is there. */
+function complete(): void {
+  if (rest) instance?.complete(rest);
 }
 
 function answer({ id, request }: Ask): void {
@@ -31,7 +37,7 @@ function answer({ id, request }: Ask): void {
     postMessage({ id, reply, took: performance.now() - begun });
   } catch (error) {
     // After a trap nothing in the instance can be relied upon: the page throws this worker away.
-    if (error instanceof Incomplete) return postMessage({ id, incomplete: true });
+    if (!instance!.isWhole()) return postMessage({ id, incomplete: true });
     postMessage({ id, reply: { defect: instance!.lastWords() || String(error) }, took: performance.now() - begun, broken: true });
   }
 }
@@ -39,5 +45,6 @@ function answer({ id, request }: Ask): void {
 onmessage = ({ data }: MessageEvent<Parts | Ask>) => {
   if ("request" in data) return answer(data);
   rest = data.rest ?? rest;
+  complete();
   if (data.module) begin(data.module).catch((error: unknown) => postMessage({ failed: String(error) }));
 };

@@ -1,14 +1,23 @@
-// What the page takes, in figures: PAGE=target/page node web/app/test/budgets.mjs
+// What the page takes, in figures: PAGE=target/page node web/app/test/budgets.mjs [starts]
 //
-// Beside the time that passes, in which the machine may do other things, stands the processor's time on the thread of the page.
+// Nothing is asserted: figures depend on the machine and on what else it does, which stands in the first line. Of everything that is
+// repeated the least, the middle and the most are told. Beside the time that passes stands the processor's time on the thread of the page.
 
-import { fromFile, opened, serve } from "./browser.mjs";
+import { readFileSync } from "node:fs";
+import { cpus, loadavg } from "node:os";
+import { join } from "node:path";
+import { fromFile, opened, root, serve } from "./browser.mjs";
 
-const server = await serve();
-const page = await opened(fromFile, { online: true });
+const starts = Number(process.argv[2] ?? 15);
+const spread = (list, digits = 0) => {
+  const sorted = [...list].sort((a, b) => a - b);
+  return [0, (sorted.length - 1) >> 1, sorted.length - 1].map((k) => (sorted[k] ?? NaN).toFixed(digits)).join(" / ");
+};
+const most = (list) => Math.max(0, ...list).toFixed(1);
+const sum = (list) => list.reduce((a, b) => a + b, 0);
 
 /** Tasks of the page's thread while something is done: milliseconds that passed and that it worked. */
-async function traced(work) {
+async function traced(page, work) {
   const begun = page.browser.events.length;
   await page.browser.send("Tracing.start", { traceConfig: { includedCategories: ["toplevel", "devtools.timeline", "disabled-by-default-devtools.timeline"] } });
   const value = await work();
@@ -17,48 +26,93 @@ async function traced(work) {
   while (!since().some((e) => e.method === "Tracing.tracingComplete")) await new Promise((r) => setTimeout(r, 20));
   const events = since().flatMap((e) => (e.method === "Tracing.dataCollected" ? e.params.value : []));
   const main = events.find((e) => e.name === "thread_name" && e.args.name === "CrRendererMain");
-  const tasks = events.filter((e) => e.name === "ThreadControllerImpl::RunTask");
-  const own = tasks.filter((e) => e.pid === main.pid && e.tid === main.tid && e.dur);
+  const own = events.filter((e) => e.pid === main.pid && e.tid === main.tid);
+  const tasks = own.filter((e) => e.name === "ThreadControllerImpl::RunTask" && e.dur);
   const parts = new Map();
-  for (const e of events) if (e.pid === main.pid && e.tid === main.tid && e.tdur && e.ph === "X") parts.set(e.name, (parts.get(e.name) ?? 0) + e.tdur / 1e3);
-  return { value, passed: own.map((e) => e.dur / 1e3), worked: own.map((e) => (e.tdur ?? 0) / 1e3), parts };
+  for (const e of own) if (e.tdur && e.ph === "X") parts.set(e.name, (parts.get(e.name) ?? 0) + e.tdur / 1e3);
+  return { value, passed: tasks.map((e) => e.dur / 1e3), worked: tasks.map((e) => (e.tdur ?? 0) / 1e3), parts };
 }
-const most = (list) => Math.max(0, ...list).toFixed(1);
-const sum = (list) => list.reduce((a, b) => a + b, 0);
 
+/** What happened when, counted from the moment at which the engine's bytes were there. */
+const MOMENTS = `(() => {
+  const bytes = performance.getEntriesByType("resource").find((e) => e.name.includes("/engine-")).responseEnd;
+  const measure = performance.getEntriesByName("module")[0];
+  const mark = (name) => performance.getEntriesByName(name)[0].startTime - bytes;
+  return { module: measure.startTime + measure.duration - bytes, ready: mark("ready"), described: mark("described"), verdict: mark("verdict"), drawn: mark("drawn") };
+})()`;
+
+/** Frames a second while something is done in each. */
+const frames = (page, seconds, each) => page.value(`(async () => {
+  let frames = 0;
+  const begun = performance.now();
+  while (performance.now() - begun < ${seconds * 1000}) {
+    await new Promise(requestAnimationFrame);
+    (${each})(frames++);
+  }
+  return frames;
+})()`);
+const DRAG = '(k) => jurist.page.rows.get("K_pwm").enter(String(100 + (k % 300)), false)';
+
+console.log(`${cpus().length} processors, load ${loadavg().map((l) => l.toFixed(1)).join(" ")}; least / middle / most`);
+const page = await opened(fromFile, { online: true });
+const server = await serve();
 try {
-  const begin = await traced(async () => {
+  const found = [];
+  for (let k = 0; k < starts; k++) {
+    // Each visit is a first one: another port is another origin, of which nothing is kept.
+    const other = await serve();
+    await page.open(other.url);
+    found.push(await page.value(MOMENTS));
+    await other.close();
+  }
+  const of = (name) => spread(found.map((f) => f[name]));
+  console.log(`${starts} first visits, ms after the engine's bytes are there: module compiled ${of("module")}, worker ready ${of("ready")}, model described ${of("described")}, verdict ${of("verdict")}, drawn ${of("drawn")}`);
+
+  const begin = await traced(page, async () => {
     await page.open(server.url);
     await page.settled();
   });
-  const { bytes, module, verdict } = await page.value(`({
-    bytes: performance.getEntriesByType("resource").find((e) => e.name.includes("/engine-")).responseEnd,
-    module: performance.getEntriesByName("module")[0].startTime + performance.getEntriesByName("module")[0].duration,
-    verdict: performance.getEntriesByName("verdict")[0].startTime,
-  })`);
-  console.log(`after the bytes are there: module ready ${(module - bytes).toFixed(0)} ms, first verdict ${(verdict - bytes).toFixed(0)} ms`);
   console.log(`longest task while it begins: ${most(begin.passed)} ms, of which ${most(begin.worked)} ms of work; over 50 ms of work: ${begin.worked.filter((t) => t > 50).length}`);
   const warm = await page.value(`(async () => {
     const request = { ask: "program", model: jurist.page.text, arguments: ["verdict", "-", "--json"] };
     const times = [];
     for (let k = 0; k < 40; k++) { await jurist.engine.ask("quick", "warm", request); times.push(jurist.engine.times.warm); }
-    return times.sort((a, b) => a - b);
+    return times;
   })()`);
-  console.log(`warm verdict: ${warm[0].toFixed(1)} ms at best, ${warm[20].toFixed(1)} ms in the middle`);
-  const seconds = 4;
-  const drag = await traced(() => page.value(`(async () => {
-    let frames = 0;
-    const begun = performance.now();
-    while (performance.now() - begun < ${seconds * 1000}) {
-      await new Promise(requestAnimationFrame);
-      jurist.page.entered("K_pwm", String(100 + (frames++ % 300)), false);
-    }
-    return frames;
-  })()`));
+  console.log(`warm verdict: ${spread(warm, 1)} ms`);
+
+  const rates = [];
+  const empty = [];
+  for (let k = 0; k < 3; k++) {
+    rates.push((await frames(page, 3, DRAG)) / 3);
+    await page.settled();
+    empty.push((await frames(page, 3, "() => {}")) / 3);
+  }
+  console.log(`frames a second while the drive is dragged: ${spread(rates)}; where nothing is done: ${spread(empty)}`);
+  const drag = await traced(page, () => frames(page, 4, DRAG));
   const work = sum(drag.worked) / drag.value;
-  console.log(`dragging: ${(drag.value / seconds).toFixed(0)} frames a second, ${work.toFixed(1)} ms of work each (${(1000 / work).toFixed(0)} a second where nothing else is done)`);
-  console.log(`longest task while dragging: ${most(drag.passed)} ms, of which ${most(drag.worked)} ms of work; over 50 ms of work: ${drag.worked.filter((t) => t > 50).length}`);
-  console.log([...drag.parts].sort((a, b) => b[1] - a[1]).slice(0, 12).map(([name, t]) => `${name} ${(t / drag.value).toFixed(2)}`).join(", "));
+  console.log(`work in a frame: ${work.toFixed(1)} ms (traced, which costs by itself); longest task ${most(drag.passed)} ms, of which ${most(drag.worked)} ms of work; over 50 ms of work: ${drag.worked.filter((t) => t > 50).length}`);
+  console.log(`of it ${[...drag.parts].sort((a, b) => b[1] - a[1]).slice(0, 14).map(([name, t]) => `${name} ${(t / drag.value).toFixed(2)}`).join(", ")}`);
+  console.log(`milliseconds of the engine: ${Object.entries(await page.value("jurist.engine.times")).map(([lane, took]) => `${lane} ${took.toFixed(1)}`).join(", ")}`);
+
+  const heavy = readFileSync(join(root, "examples/drive-filters-6.toml"), "utf8");
+  await page.take(heavy, { map: false });
+  const cancels = [];
+  for (let k = 0; k < 9; k++) {
+    cancels.push(await page.value(`(async () => {
+      const { engine, page } = jurist;
+      const [x, y] = page.mapAxes;
+      engine.cancel();
+      void engine.ask("long", "map", { ask: "map", model: page.text, set: [], x, y });
+      while (engine.seats.long.busy !== "map") await new Promise((r) => setTimeout(r, 1));
+      await new Promise((r) => setTimeout(r, 300));
+      const begun = performance.now();
+      engine.cancel();
+      await engine.ask("long", "verdict", { ask: "program", model: page.text, arguments: ["verdict", "-", "--json"] });
+      return performance.now() - begun;
+    })()`));
+  }
+  console.log(`an answer after a map is cancelled in its middle: ${spread(cancels)} ms`);
 } finally {
   await page.close();
   await server.close();

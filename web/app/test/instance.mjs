@@ -21,6 +21,8 @@ export async function instance() {
   const compiled = (name) => WebAssembly.compile(readFileSync(name));
   const rest = process.env.REST && (await compiled(process.env.REST));
   const { instantiate } = await moduleOf("instance.ts");
-  return instantiate(await compiled(file), () => {}, () => rest);
+  const made = await instantiate(await compiled(file));
+  if (rest) made.complete(rest);
+  return made;
 }
 

@@ -327,7 +327,7 @@ test("the first screens, and dragging, need nothing of the second part of the en
     engine.rest = undefined;
     engine.arriving = new Promise(() => {});
     for (const seat of Object.values(engine.seats)) seat.replace();
-    page.known.clear();
+    page.questions.renew();
     page.ask();
   })()`);
   await page.settled();

@@ -4,7 +4,7 @@ use crate::model::problem;
 use crate::reply::Reply;
 use crate::told::budget;
 use jurist::{Budget, Error, Integer, Problem, Rational, Time, UniPoly};
-use jurist_draw::figures::thinned;
+use jurist_draw::figures::thinned_to;
 use jurist_draw::simulate::{SampledModel, excitation, natural_duration, roots, signal_unit};
 use jurist_engine::model::value_approximate;
 use serde::Deserialize;
@@ -14,6 +14,8 @@ use serde_json::{Value, json};
 const CONTINUOUS_SAMPLES: f64 = 600.0;
 /// Samples at least and at most: a picture is not wider, and it moves while a parameter is dragged.
 const SAMPLES: (f64, f64) = (50.0, 40_000.0);
+/// Points of a response that are shown, about.
+const SHOWN: usize = 800;
 
 /// A point, and what is wanted of it.
 #[derive(Deserialize)]
@@ -107,7 +109,8 @@ fn response(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
     let signal = |name: &String| {
         let points: Vec<(f64, f64)> = trace.points(name).into_iter().filter(|(_, v)| v.is_finite()).collect();
         let last = finals.iter().find(|(n, _)| n == name).map(|(_, value)| *value).filter(|v| v.is_finite());
-        json!({ "name": name, "unit": signal_unit(model, name), "points": thinned(&points), "final": last })
+        let shown: Vec<f64> = thinned_to(&points, SHOWN).into_iter().flat_map(|(t, v)| [short(t), short(v)]).collect();
+        json!({ "name": name, "unit": signal_unit(model, name), "points": shown, "final": last })
     };
     let sampled = problem.algebra_over_symbols(budget)?.sample_time().is_some();
     let unit = if sampled || model.time() == Time::Continuous { "s" } else { "samples" };
@@ -118,4 +121,14 @@ fn response(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
         "signals": shown.iter().map(signal).collect::<Vec<_>>(), "unit": unit,
         "held": model.time() == Time::Discrete, "note": note.trim_start_matches("; "),
     }))
+}
+
+/// To seven digits, more than a picture shows.
+fn short(value: f64) -> f64 {
+    let size = value.abs().log10().floor();
+    if !(-290.0..290.0).contains(&size) {
+        return value;
+    }
+    let unit = 10f64.powi((size as i32 - 6).abs());
+    if size < 6.0 { (value * unit).round() / unit } else { (value / unit).round() * unit }
 }

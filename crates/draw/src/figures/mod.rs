@@ -24,7 +24,7 @@ pub use locus::{DrawnLocus, LocusFigure, locus_of, locus_panels, locus_range};
 pub use panel::{Corner, Curve, Mark, Panel, Shape, Text, side_by_side, stacked};
 pub use response::{FrequencyResponse, ResponsePoint, bode, frequency_response, nyquist};
 pub use response_figure::response_figure;
-pub use responses::{ResponseCurve, axis_label, response_panel, response_panels, stairs, thinned};
+pub use responses::{ResponseCurve, axis_label, response_panel, response_panels, stairs, thinned, thinned_to};
 pub use sketch::Sketch;
 pub use tolerances::tolerance_figure;
 

@@ -141,11 +141,16 @@ fn extent(values: impl Iterator<Item = f64>, margin: f64) -> (f64, f64) {
 /// A long list of points cut to what a picture can show: of each short stretch its first, lowest,
 /// highest and last point, so that no peak is lost.
 pub fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    if points.len() <= MOST_POINTS {
+    thinned_to(points, MOST_POINTS)
+}
+
+/// [`thinned`] to about so many points, at least 4.
+pub fn thinned_to(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
+    if points.len() <= most {
         return points.to_vec();
     }
-    let stretch = points.len().div_ceil(MOST_POINTS / 4);
-    let mut kept = Vec::with_capacity(MOST_POINTS + 4);
+    let stretch = points.len().div_ceil((most / 4).max(1));
+    let mut kept = Vec::with_capacity(most + 4);
     for part in points.chunks(stretch) {
         let by_value = |a: &usize, b: &usize| part[*a].1.total_cmp(&part[*b].1);
         let lowest = (0..part.len()).min_by(by_value).unwrap_or(0);

@@ -51,6 +51,25 @@ pub struct Excitation {
     pub steps: Vec<Step>,
 }
 
+/// Two matrices side by side, row by row.
+struct Rows {
+    entries: Vec<f64>,
+    width: usize,
+}
+
+impl Rows {
+    fn new(left: &DMatrix<f64>, right: &DMatrix<f64>) -> Self {
+        let row = |k: usize| left.row(k).iter().chain(right.row(k).iter()).copied().collect::<Vec<_>>();
+        Rows { entries: (0..left.nrows()).flat_map(row).collect(), width: left.ncols() + right.ncols() }
+    }
+
+    /// One entry of the product with a vector, summed from the left.
+    fn times(&self, row: usize, vector: &[f64]) -> f64 {
+        let entries = &self.entries[row * self.width..(row + 1) * self.width];
+        entries.iter().zip(vector).map(|(a, x)| a * x).sum()
+    }
+}
+
 impl Excitation {
     /// The inputs at `sample`.
     pub fn inputs_at(&self, sample: usize, count: usize) -> DVector<f64> {
@@ -142,28 +161,31 @@ impl SampledModel {
         let new_outputs: Vec<usize> =
             (0..self.outputs.len()).filter(|&k| !self.states.contains(&self.outputs[k])).collect();
         let mut trace = Trace::with_names(&names);
-        let mut x = self.initial_state(excitation);
-        // Products into vectors that exist: a run has millions of steps.
-        let (mut next, mut y) = (x.clone(), DVector::zeros(self.outputs.len()));
+        // Products by rows that lie one behind the other: a run has millions of steps.
+        let next = Rows::new(&self.transition, &self.input);
+        let shown = Rows::new(&self.output, &self.feedthrough);
+        let (n_states, n_inputs) = (self.states.len(), self.inputs.len());
         let changes = excitation.changes();
-        let mut r = excitation.inputs_at(0, self.inputs.len());
+        let mut at = self.initial_state(excitation).as_slice().to_vec();
+        at.extend_from_slice(excitation.inputs_at(0, n_inputs).as_slice());
+        let mut moved = vec![0.0; n_states];
         for n in 0..=samples {
             if n % SAMPLES_BETWEEN_CHECKS == 0 {
                 budget.check()?;
                 budget.advance(n as u64, samples as u64);
             }
             if changes.binary_search(&n).is_ok() {
-                r = excitation.inputs_at(n, self.inputs.len());
+                at[n_states..].copy_from_slice(excitation.inputs_at(n, n_inputs).as_slice());
             }
-            if x.iter().any(|v| !v.is_finite()) {
+            if at[..n_states].iter().any(|v| !v.is_finite()) {
                 break;
             }
-            y.gemv(1.0, &self.output, &x, 0.0);
-            y.gemv(1.0, &self.feedthrough, &r, 1.0);
-            trace.push(n as f64 * self.sample_time, x.iter().copied().chain(new_outputs.iter().map(|&k| y[k])));
-            next.gemv(1.0, &self.transition, &x, 0.0);
-            next.gemv(1.0, &self.input, &r, 1.0);
-            std::mem::swap(&mut x, &mut next);
+            let outputs = new_outputs.iter().map(|&k| shown.times(k, &at));
+            trace.push(n as f64 * self.sample_time, at[..n_states].iter().copied().chain(outputs));
+            for (k, value) in moved.iter_mut().enumerate() {
+                *value = next.times(k, &at);
+            }
+            at[..n_states].copy_from_slice(&moved);
         }
         Ok(trace)
     }
