@@ -169,7 +169,7 @@ impl Arguments {
             None => NONE,
             Some(Command::New(_)) => NONE,
             #[cfg(feature = "cli")]
-            Some(Command::Page(_)) => NONE,
+            Some(Command::Page(options)) => &options.run,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! `jurist page`: the page for the browser, which computes there, as a folder of files.
 
 use super::Context;
+use crate::cli::arguments::RunOptions;
 use crate::cli::output::{note, plain};
 use crate::cli::picture::write;
 use crate::cli::status::{Outcome, Status};
@@ -15,6 +16,8 @@ pub(in crate::cli) struct Options {
     /// The folder to write into; it is made if it does not exist
     #[arg(short, long, value_name = "DIR", default_value = "jurist-page")]
     pub output: OsString,
+    #[command(flatten)]
+    pub run: RunOptions,
 }
 
 /// Writes the files.

@@ -31,6 +31,6 @@ export function counted(document: any): string | undefined {
   const { degree, inside, on, outside, infinite } = document;
   const where = document.time === "continuous" ? "in the left half plane" : "inside the unit circle";
   const rest = [on ? `${on} on the boundary` : "", outside ? `${outside} outside` : "", infinite ? `${infinite} at infinity` : ""].filter((t) => t);
-  return `${inside} of ${degree} roots ${where}${rest.length > 0 ? `, ${rest.join(", ")}` : ""}`;
+  return `${inside} of ${degree} ${degree === 1 ? "root" : "roots"} ${where}${rest.length > 0 ? `, ${rest.join(", ")}` : ""}`;
 }
 declare const EDITOR_SCRIPT: string;

@@ -67,6 +67,8 @@ export interface Scale {
   lower: number;
   upper: number;
   log: boolean;
+  /** Degrees: round values are parts of a turn. */
+  degrees?: boolean;
 }
 
 export function place(scale: Scale, value: number): number {
@@ -89,7 +91,7 @@ export function decimalAt(scale: Scale, at: number): string {
 }
 
 /** Round values on an axis: at most about `count`. */
-export function ticks({ lower, upper, log }: Scale, count: number): number[] {
+export function ticks({ lower, upper, log, degrees }: Scale, count: number): number[] {
   if (!(upper > lower)) return [];
   if (log) {
     const [from, to] = [Math.ceil(Math.log10(lower) - 1e-9), Math.floor(Math.log10(upper) + 1e-9)];
@@ -105,7 +107,8 @@ export function ticks({ lower, upper, log }: Scale, count: number): number[] {
   }
   const raw = (upper - lower) / count;
   const power = 10 ** Math.floor(Math.log10(raw));
-  const step = ([1, 2, 5, 10].find((f) => f * power >= raw) ?? 10) * power;
+  const turn = degrees ? [15, 30, 45, 90, 180, 360, 720, 1440].find((f) => f >= raw) : undefined;
+  const step = turn ?? ([1, 2, 5, 10].find((f) => f * power >= raw) ?? 10) * power;
   const first = Math.ceil(lower / step - 1e-9);
   const list: number[] = [];
   for (let k = first; k * step <= upper + step * 1e-9; k++) list.push(Number((k * step).toPrecision(12)));

@@ -54,7 +54,8 @@ export class OpenLoopPlot {
       [bottom, phase, "phase (degrees)", words, [-180, 180]],
     ];
     for (const [box, points, name, below, levels] of panels) {
-      const view = axes(svg, box, xs, around([...points.map((p) => p[1]), levels[0]!]), { x: below, y: name });
+      const ys: Scale = { ...around([...points.map((p) => p[1]), levels[0]!]), degrees: levels.length > 1 };
+      const view = axes(svg, box, xs, ys, { x: below, y: name });
       if (box === top) for (const t of svg.querySelectorAll(".tick[text-anchor=middle]")) t.remove();
       for (const level of levels) {
         view.inside.append(s("line", { class: "boundary", x1: box.left, x2: box.left + box.width, y1: view.y(level), y2: view.y(level) }));

@@ -68,7 +68,7 @@ export function nearest(sets: Map<string, Interval[]>, values: Map<string, strin
       if (!end || end.cause === "domain") continue;
       const at = Number(end.decimal);
       const far = at === 0 || now === 0 ? Infinity : Math.abs(Math.log(Math.abs(at / now)));
-      if (far < (best?.far ?? Infinity)) best = { far, words: `nearest limit: ${name} = ${label(end.decimal)}, ×${short(at / now, 3)}, ${causes(end.cause)}` };
+      if (far < (best?.far ?? Infinity)) best = { far, words: `nearest limit: ${name} = ${label(end.decimal)},${at / now > 0 ? ` ×${short(at / now, 3)},` : ""} ${causes(end.cause)}` };
     }
   }
   return best?.words ?? "";

@@ -38,7 +38,7 @@ export function axes(svg: SVGSVGElement, box: Box, xs: Scale, ys: Scale, words: 
     free = at + half + 6;
     svg.append(s("text", { class: "tick", x: at, y: bottom + 15, "text-anchor": "middle" }, text));
   }
-  for (const t of ticks(ys, Math.max(2, box.height / 50))) {
+  for (const t of ticks(ys, Math.max(2.5, box.height / 50))) {
     const at = y(t);
     svg.append(s("line", { class: "grid", x1: box.left, x2: right, y1: at, y2: at }));
     svg.append(s("text", { class: "tick", x: box.left - 6, y: at + 4, "text-anchor": "end" }, short(t)));

@@ -91,25 +91,23 @@ export class MapPlot {
     this.view = view;
     const unit = { x: (u: number) => box.left + u * box.width, y: (v: number) => box.top + (1 - v) * box.height };
     const { inside } = view;
-    for (const outline of data.areas) inside.append(s("path", { class: "region", d: `${path(outline, unit)}Z` }));
+    // As one shape: neighbours with an edge of their own each show a seam.
+    if (data.areas.length > 0) inside.append(s("path", { class: "region", d: data.areas.map((outline: [number, number][]) => `${path(outline, unit)}Z`).join("") }));
     for (const wall of data.walls) {
       const kind = wall.causes.includes("pair") && !wall.causes.includes("z=") && !wall.causes.includes("s=0") ? "pair" : wall.causes.includes("=-1") ? "minus" : wall.causes.includes("=") ? "real" : "other";
       inside.append(s("path", { class: `wall ${wall.limits ? "limits" : ""} ${kind}`, d: path(wall.points, unit) }));
     }
-    // The words of each mechanism once, where its longest line is.
+    // The words of each mechanism once, beside its longest line, where they cover least.
     const said = new Set<string>();
-    const taken: [number, number][] = [];
+    const drawn = data.walls.flatMap((wall: any) => wall.points).map(([u, v]: number[]) => [unit.x(u!), unit.y(v!)] as [number, number]);
     for (const wall of [...data.walls].filter((w: any) => w.limits).sort((a: any, b: any) => b.points.length - a.points.length)) {
       if (said.has(wall.words)) continue;
-      const inner = wall.points.filter(([u, v]: number[]) => u! > 0.02 && u! < 0.98 && v! > 0.02 && v! < 0.98);
-      const middle = inner[Math.floor(inner.length / 2)];
-      if (!middle) continue;
-      const half = wall.words.length * 3.2;
-      const x = Math.max(box.left + half + 4, Math.min(box.left + box.width - half - 4, unit.x(middle[0])));
-      const y = Math.max(box.top + 16, unit.y(middle[1]) - 8);
-      if (half * 2 > box.width - 10 || taken.some(([a, b]) => Math.abs(a - x) < 2 * half && Math.abs(b - y) < 16)) continue;
-      taken.push([x, y]);
+      const at = placed(wall, box, unit, drawn);
+      if (!at) continue;
       said.add(wall.words);
+      const [x, y] = at;
+      // What comes later keeps away from it.
+      for (let k = -4; k <= 4; k++) drawn.push([x + (k / 4) * wall.words.length * 3.2, y - 4]);
       inside.append(s("text", { class: "words", x, y, "text-anchor": "middle" }, wall.words));
     }
     inside.append(this.cross.x, this.cross.y, this.cross.point);
@@ -150,6 +148,26 @@ export class MapPlot {
 
   /** What was drawn last. */
   private drawn: any;
+}
+
+type Unit = { x(u: number): number; y(v: number): number };
+
+/** Where the words of a line go: the middle of their foot. */
+function placed(wall: any, box: Box, unit: Unit, drawn: [number, number][]): [number, number] | undefined {
+  const half = wall.words.length * 3.2;
+  const inner = wall.points.filter(([u, v]: number[]) => u! > 0.02 && u! < 0.98 && v! > 0.02 && v! < 0.98);
+  let best: { at: [number, number]; covers: number } | undefined;
+  for (const share of [0.5, 0.35, 0.65, 0.2, 0.8]) {
+    const point = inner[Math.floor(inner.length * share)];
+    if (!point) continue;
+    const [x, y] = [unit.x(point[0]), unit.y(point[1])];
+    for (const at of [[x, y - 8], [x + half + 8, y + 4], [x - half - 8, y + 4], [x, y + 18]] as [number, number][]) {
+      if (at[0] - half < box.left + 4 || at[0] + half > box.left + box.width - 4 || at[1] < box.top + 14 || at[1] > box.top + box.height - 4) continue;
+      const covers = drawn.filter(([a, b]) => Math.abs(a - at[0]) < half + 2 && b > at[1] - 13 && b < at[1] + 5).length;
+      if (covers < (best?.covers ?? Infinity)) best = { at, covers };
+    }
+  }
+  return best?.at;
 }
 
 // -------------------------------------------------------------------------------------------- locus

@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { moduleOf } from "./instance.mjs";
+import { withoutPlaceholders } from "../placeholders.mjs";
 import { random } from "./models.mjs";
 
 const numbers = await moduleOf("numbers.ts");
@@ -55,6 +56,12 @@ test("a place on a track and its value are inverse to each other", () => {
   }
 });
 
+test("ticks are round, inside of their axis, and parts of a turn where it is in degrees", () => {
+  assert.deepEqual(numbers.ticks({ lower: -1.6, upper: 1.6, log: false }, 3.5), [-1, 0, 1]);
+  assert.deepEqual(numbers.ticks({ lower: -200, upper: 210, log: false, degrees: true }, 2.5), [-180, 0, 180]);
+  assert.deepEqual(numbers.ticks({ lower: 0.02, upper: 5000, log: true }, 3), [0.1, 10, 1000]);
+});
+
 test("nominal values are replaced in the section of the parameters and nowhere else", () => {
   const text = '[constants]\nK = 1\n[parameters]\nK = { nominal = 2, min = 0 } # K = 3\n"T" = 1e-4 # s\na = { min = 0, nominal = "1/3" }\n[loop]\nK = 1\n';
   const expected = '[constants]\nK = 1\n[parameters]\nK = { nominal = "5/7", min = 0 } # K = 3\n"T" = "2e-4" # s\na = { min = 0, nominal = "1/2" }\n[loop]\nK = 1\n';
@@ -95,4 +102,39 @@ test("links hold what was put into them, and broken ones are refused", async () 
   const bomb = await link.pack({ m: "a".repeat(3 << 20) });
   await assert.rejects(link.unpack(bomb), /more than a megabyte/);
   await assert.rejects(link.unpack(await link.pack({ m: 1 })), /no model/);
+});
+
+test("what stands for a function of the second part traps, until that part puts the function into its place", async () => {
+  const [i32, func] = [0x7f, 0x60];
+  const bytes = (...parts) => Buffer.from(parts.flat());
+  const text = (t) => [t.length, ...Buffer.from(t)];
+  const section = (id, ...content) => [id, content.flat().length, ...content.flat()];
+  const head = [0, 0x61, 0x73, 0x6d, 1, 0, 0, 0];
+  // Imports `page.progress` and two placeholders; `call` calls the first function of a table, which is a placeholder, `own` gives 7.
+  const first = bytes(
+    head,
+    section(1, 2, [func, 0, 1, i32], [func, 2, i32, i32, 0]),
+    section(2, 3, [...text("page"), ...text("progress"), 0, 1], [...text("placeholder"), ...text("0"), 0, 0], [...text("placeholder"), ...text("1"), 0, 1]),
+    section(3, 2, 0, 0),
+    section(4, 1, 0x70, 0, 1),
+    section(7, 3, [...text("call"), 0, 3], [...text("own"), 0, 4], [...text("table"), 1, 0]),
+    section(9, 1, 0, 0x41, 0, 0x0b, 1, 1),
+    section(10, 2, [7, 0, 0x41, 0, 0x11, 0, 0, 0x0b], [4, 0, 0x41, 7, 0x0b]),
+  );
+  // Puts a function that gives 40 more than `own` there.
+  const second = bytes(
+    head,
+    section(1, 1, func, 0, 1, i32),
+    section(2, 2, [...text("primary"), ...text("own"), 0, 0], [...text("primary"), ...text("table"), 1, 0x70, 0, 1]),
+    section(3, 1, 0),
+    section(9, 1, 0, 0x41, 0, 0x0b, 1, 1),
+    section(10, 1, [7, 0, 0x10, 0, 0x41, 40, 0x6a, 0x0b]),
+  );
+  const made = await WebAssembly.compile(withoutPlaceholders(first));
+  assert.deepEqual(WebAssembly.Module.imports(made).map((i) => i.name), ["progress"]);
+  const { exports } = await WebAssembly.instantiate(made, { page: { progress: () => {} } });
+  assert.equal(exports.own(), 7);
+  assert.throws(() => exports.call(), WebAssembly.RuntimeError);
+  await WebAssembly.instantiate(await WebAssembly.compile(second), { primary: exports });
+  assert.equal(exports.call(), 47);
 });
