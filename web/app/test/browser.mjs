@@ -56,8 +56,8 @@ async function until(browser, expression, what) {
   throw new Error(`ten minutes without: ${what ?? expression}; ${await browser.value("document.body.innerText").catch(() => "")}`);
 }
 
-/** A browser with the page open and answered. */
-export async function opened(url, { width = 1200, height = 900, mobile = false, online = false } = {}) {
+/** A browser with the page open and answered; `rest` is how long it has been there before, in milliseconds. */
+export async function opened(url, { width = 1200, height = 900, mobile = false, online = false, rest = 0 } = {}) {
   const browser = new Browser(program());
   await browser.attach();
   if (online) await browser.send("Network.emulateNetworkConditions", { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput: -1 });
@@ -108,6 +108,7 @@ export async function opened(url, { width = 1200, height = 900, mobile = false, 
     },
     close: () => browser.close(),
   };
+  await new Promise((done) => setTimeout(done, rest));
   await page.open(url);
   return page;
 }

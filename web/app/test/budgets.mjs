@@ -8,7 +8,7 @@ import { cpus, loadavg } from "node:os";
 import { join } from "node:path";
 import { fromFile, opened, root, serve } from "./browser.mjs";
 
-const starts = Number(process.argv[2] ?? 15);
+const starts = Number(process.argv[2] ?? 9);
 const spread = (list, digits = 0) => {
   const sorted = [...list].sort((a, b) => a - b);
   return [0, (sorted.length - 1) >> 1, sorted.length - 1].map((k) => (sorted[k] ?? NaN).toFixed(digits)).join(" / ");
@@ -54,20 +54,20 @@ const frames = (page, seconds, each) => page.value(`(async () => {
 const DRAG = '(k) => jurist.page.rows.get("K_pwm").enter(String(100 + (k % 300)), false)';
 
 console.log(`${cpus().length} processors, load ${loadavg().map((l) => l.toFixed(1)).join(" ")}; least / middle / most`);
-const page = await opened(fromFile, { online: true });
 const server = await serve();
+let page;
 try {
   const found = [];
   for (let k = 0; k < starts; k++) {
-    // Each visit is a first one: another port is another origin, of which nothing is kept.
-    const other = await serve();
-    await page.open(other.url);
-    found.push(await page.value(MOMENTS));
-    await other.close();
+    // Each visit is a first one: in a browser that keeps nothing, and has come to rest.
+    const visit = await opened(server.url, { online: true, rest: 700 });
+    found.push(await visit.value(MOMENTS));
+    await visit.close();
   }
   const of = (name) => spread(found.map((f) => f[name]));
   console.log(`${starts} first visits, ms after the engine's bytes are there: module compiled ${of("module")}, worker ready ${of("ready")}, model described ${of("described")}, verdict ${of("verdict")}, drawn ${of("drawn")}`);
 
+  page = await opened(fromFile, { online: true });
   const begin = await traced(page, async () => {
     await page.open(server.url);
     await page.settled();
@@ -114,6 +114,6 @@ try {
   }
   console.log(`an answer after a map is cancelled in its middle: ${spread(cancels)} ms`);
 } finally {
-  await page.close();
+  await page?.close();
   await server.close();
 }
