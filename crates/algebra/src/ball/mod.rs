@@ -5,16 +5,22 @@
 //! more bits.
 
 mod bezout;
+mod elementary;
 mod exponential;
 mod functions;
 mod series;
+mod solutions;
+mod taylor_model;
 
 pub use bezout::{
     Enclosed, common_root, determinant_enclosed, enclosed_resultant, enclosed_resultant_by_minors, hybrid_bezout,
 };
+pub use elementary::Elementary;
 pub use exponential::{BallMatrix, exponential, exponential_of_rationals};
 pub use functions::{cos_sin, exp, tan};
-pub use series::{Series, fundamental_solutions};
+pub use series::Series;
+pub use solutions::fundamental_solutions;
+pub use taylor_model::TaylorModel;
 
 use crate::limits::checkpoint;
 use crate::number::{Enclosure, Integer, Rational, Sign};

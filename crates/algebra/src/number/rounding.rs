@@ -117,7 +117,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn rational() -> impl Strategy<Value = Rational> {
-        let part = any::<i128>().prop_map(|n| Integer::from(n));
+        let part = any::<i128>().prop_map(Integer::from);
         let small = (-9i64..10).prop_map(Integer::from);
         let numerator = prop_oneof![part, small];
         let dyadic = (numerator.clone(), 0u64..200).prop_map(|(n, k)| Rational::dyadic(&n, k));

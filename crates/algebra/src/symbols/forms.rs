@@ -10,7 +10,7 @@
 
 use super::function::polynomial_at;
 use super::{Definition, Function, MovingSymbols};
-use crate::ball::{Ball, Series};
+use crate::ball::{Ball, Elementary, Series};
 use crate::number::{Integer, Rational};
 use crate::poly::{Domain, MultiPoly, RationalFunction};
 
@@ -52,13 +52,13 @@ pub(super) struct Forms(Vec<Form>);
 impl Form {
     /// The function at series of the parameter and the symbols, up to a factor that is not zero in an interval in which the parameter
     /// keeps its sign.
-    pub fn at_series(&self, values: &[Series]) -> Series {
+    pub fn at_series<S: Elementary>(&self, values: &[S]) -> S {
         if self.starts.iter().all(Option::is_none) {
             return self.function.at_series(values);
         }
-        let of_symbol = |(start, value): (&Option<Start>, &Series)| match start {
+        let of_symbol = |(start, value): (&Option<Start>, &S)| match start {
             None => value.clone(),
-            Some(start) => value.mul(&polynomial_at(&start.q, values)).sub(&polynomial_at(&start.p, values)),
+            Some(start) => value.times(&polynomial_at(&start.q, values)).minus(&polynomial_at(&start.p, values)),
         };
         let rest = self.starts.iter().zip(&values[1..]).map(of_symbol);
         self.function.at_series(&std::iter::once(values[0].clone()).chain(rest).collect::<Vec<_>>())

@@ -3,7 +3,7 @@
 use super::rational_series;
 use super::specialise::resultant_on_line;
 use super::{MovingSymbols, Symbols};
-use crate::ball::{Ball, Enclosed, Series, enclosed_resultant, enclosed_resultant_by_minors};
+use crate::ball::{Ball, Elementary, Enclosed, enclosed_resultant, enclosed_resultant_by_minors};
 use crate::limits::{Budget, Exhausted, checkpoint};
 use crate::number::{Integer, Rational};
 use crate::poly::multivariate::Line;
@@ -157,11 +157,11 @@ impl Function {
     }
 
     /// The function at series of the parameter and the symbols.
-    pub(super) fn at_series(&self, values: &[Series]) -> Series {
+    pub(super) fn at_series<S: Elementary>(&self, values: &[S]) -> S {
         match self {
             Function::Polynomial(p) => polynomial_at(p, values),
             Function::Resultant { a, b } => {
-                let at = |list: &[MultiPoly]| list.iter().map(|p| polynomial_at(p, values)).collect::<Vec<Series>>();
+                let at = |list: &[MultiPoly]| list.iter().map(|p| polynomial_at(p, values)).collect::<Vec<S>>();
                 let (a, b) = (at(a), at(b));
                 if a.len() <= MOST_BY_MINORS {
                     enclosed_resultant_by_minors(&a, &b)
@@ -266,30 +266,27 @@ impl Enclosed for Exact {
 }
 
 /// A polynomial at series.
-pub(super) fn polynomial_at(p: &MultiPoly, values: &[Series]) -> Series {
-    let first = &values[0];
-    let (terms, bits) = (first.terms(), first.coefficients()[0].bits());
+pub(super) fn polynomial_at<S: Elementary>(p: &MultiPoly, values: &[S]) -> S {
     // Horner's scheme in the variables, the last one outermost: as few products as the shape of the polynomial allows.
-    fn horner(p: &MultiPoly, values: &[Series], zero: &Series) -> Series {
+    fn horner<S: Elementary>(p: &MultiPoly, values: &[S]) -> S {
         checkpoint(16);
         if let Some(c) = p.as_constant() {
-            let one = Ball::from_integer(&c, zero.coefficients()[0].bits());
-            return Series::constant(&one, zero.terms());
+            return values[0].integer(&c);
         }
         let last = *p.variables().last().expect("not constant");
         let parts = p.as_poly_in(last);
-        let mut sum: Option<Series> = None;
+        let mut sum: Option<S> = None;
         for part in parts.coeffs().iter().rev() {
-            let shifted = sum.map(|s| s.mul(&values[last]));
+            let shifted = sum.map(|s| s.times(&values[last]));
             sum = Some(match (shifted, part.terms().is_empty()) {
                 (Some(s), true) => s,
-                (Some(s), false) => s.add(&horner(part, values, zero)),
-                (None, _) => horner(part, values, zero),
+                (Some(s), false) => s.plus(&horner(part, values)),
+                (None, _) => horner(part, values),
             });
         }
-        sum.unwrap_or_else(|| zero.clone())
+        sum.unwrap_or_else(|| values[0].nothing())
     }
-    horner(p, values, &Series::constant(&Ball::zero(bits), terms))
+    horner(p, values)
 }
 
 impl MovingSymbols {

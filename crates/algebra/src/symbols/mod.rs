@@ -16,6 +16,7 @@ mod function;
 mod moving;
 mod moving_root;
 mod normal_form;
+mod pieces;
 mod rational_series;
 mod root;
 mod roots;

@@ -3,9 +3,10 @@
 use super::forms::{Form, Forms};
 use super::function::polynomial_at;
 use super::moving_root::MovingRoot;
+use super::pieces::{self, Look, Piece};
 use super::scales::{between_scales, exponent, joined, octaves};
 use super::{Definition, Function, Symbols};
-use crate::ball::{Ball, Series, fundamental_solutions};
+use crate::ball::{Ball, Elementary, Series, TaylorModel};
 use crate::limits::{Budget, Exhausted, parallel_map};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::algebraic::simplest_between;
@@ -64,7 +65,7 @@ const BATCH: usize = 4;
 const MOST_LOOKS: usize = 4000;
 
 /// After so much work, in the units of [`checkpoint`](crate::limits::checkpoint), what is left stays undecided: some seconds.
-const MOST_WORK: u64 = 250_000_000;
+const MOST_WORK: u64 = 100_000_000;
 
 /// Where the range begins at 0 and the function is not known there, values smaller than the usual one by so many octaves are decided where that is seen at once.
 const MOST_OCTAVES: i64 = 12;
@@ -149,33 +150,31 @@ impl MovingSymbols {
         arguments.flatten().map(|p| odd(&p)).filter(|p| !p.is_constant()).collect()
     }
 
-    /// The parameter and all symbols as series, from the parameter's; `None` where a divisor may vanish.
-    pub fn series(&self, parameter: &Series) -> Option<Vec<Series>> {
-        let terms = parameter.terms();
-        let bits = parameter.coefficients()[0].bits();
+    /// The parameter and all symbols as series or models, from the parameter's; `None` where a divisor may vanish.
+    pub fn series<S: Elementary>(&self, parameter: &S) -> Option<Vec<S>> {
+        let bits = parameter.bits();
         let mut values = vec![parameter.clone()];
         // All solutions of an equation at once.
-        let mut rows: Vec<(&Vec<RationalFunction>, &RationalFunction, Vec<Series>)> = Vec::new();
+        let mut rows: Vec<(&Vec<RationalFunction>, &RationalFunction, Vec<S>)> = Vec::new();
         for (_, definition) in &self.table {
-            let at = |f: &RationalFunction| -> Option<Series> {
-                polynomial_at(f.numerator(), &values).div(&polynomial_at(f.denominator(), &values))
+            let at = |f: &RationalFunction| -> Option<S> {
+                polynomial_at(f.numerator(), &values).over(&polynomial_at(f.denominator(), &values))
             };
-            let zero = Series::constant(&Ball::zero(bits), terms);
             let value = match definition {
-                Definition::Pi => Series::constant(&Ball::from_enclosure(&Enclosure::pi(bits + 8), bits), terms),
-                Definition::Algebraic(x) => Series::constant(&Definition::enclosed(x, bits), terms),
-                Definition::Root(x) => at(x)?.sqrt()?,
+                Definition::Pi => parameter.constant(&Ball::from_enclosure(&Enclosure::pi(bits + 8), bits)),
+                Definition::Algebraic(x) => parameter.constant(&Definition::enclosed(x, bits)),
+                Definition::Root(x) => at(x)?.square_root()?,
                 Definition::Exponential(x) => {
                     let x = at(x)?;
-                    if x.coefficients()[0].upper() > Rational::from(LARGEST) {
+                    if x.range().upper() > Rational::from(LARGEST) {
                         return None;
                     }
-                    x.exp()
+                    x.exponential()
                 }
                 Definition::Tangent { square, time } => {
                     let (w, t) = (at(square)?, at(time)?);
-                    let row = fundamental_solutions(&[w, zero], &t);
-                    row[1].div(&row[0])?
+                    let row = t.solutions(&[w, parameter.nothing()]);
+                    row[1].over(&row[0])?
                 }
                 Definition::Fundamental { polynomial, index, time } => {
                     let known = rows.iter().find(|(of, at, _)| *of == polynomial && *at == time);
@@ -183,12 +182,12 @@ impl MovingSymbols {
                         Some((_, _, row)) => row[*index].clone(),
                         None => {
                             let n = polynomial.len() - 1;
-                            let coefficients = polynomial[..n].iter().map(at).collect::<Option<Vec<Series>>>()?;
+                            let coefficients = polynomial[..n].iter().map(at).collect::<Option<Vec<S>>>()?;
                             let time_there = at(time)?;
                             if is_too_large(&coefficients, &time_there) {
                                 return None;
                             }
-                            let row = fundamental_solutions(&coefficients, &time_there);
+                            let row = time_there.solutions(&coefficients);
                             let value = row[*index].clone();
                             rows.push((polynomial, time, row));
                             value
@@ -214,19 +213,11 @@ impl MovingSymbols {
         Some(f.at_series(&values).coefficients()[0].clone())
     }
 
-    /// The Taylor polynomial of `f(m + r x)` for `|x| <= 1` around the middle of an interval, the last coefficient a bound
-    /// of the rest: that of the power `terms`.
-    fn taylor(&self, f: &Form, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> Option<Vec<Ball>> {
-        let half = Rational::dyadic(&Integer::ONE, 1);
-        let radius = Ball::from_rational(&(&(hi - lo) * &half), bits);
-        let middle = Ball::from_rational(&lo.midpoint(hi), bits);
-        let whole = Ball::between(lo, hi, bits);
-        let series = |at: &Ball, terms| {
-            Some(f.at_series(&self.series(&Series::linear(at, &radius, terms))?).coefficients().to_vec())
-        };
-        let mut out = series(&middle, terms)?;
-        out.push(series(&whole, terms + 1)?.pop()?);
-        Some(out)
+    /// The function on a disc of the parameter somewhat larger than one around the interval.
+    fn model(&self, f: &Form, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> Option<TaylorModel> {
+        let radius = Ball::from_rational(&(&(hi - lo) * &pieces::disc_radius()), bits);
+        let parameter = TaylorModel::linear(&Ball::from_rational(&lo.midpoint(hi), bits), &radius, terms);
+        Some(f.at_series(&self.series(&parameter)?))
     }
 
     /// The zeros of a polynomial in the parameter and symbols strictly between two numbers, looked for first on the scale of the
@@ -288,24 +279,38 @@ impl MovingSymbols {
             let one = |(lo, hi, halvings): (Rational, Rational, i64)| {
                 // Towards 0 there is no end of octaves.
                 let is_far = || is_open && hi < *near && octaves(&lo, &hi, near) > MOST_OCTAVES;
-                let look = self.look(f, &forms, &lo, &hi);
-                let goes_on = matches!(look, Look::Unknown) && !is_last && halvings < MOST_HALVINGS && !is_far();
-                let middle = goes_on.then(|| self.split_point(f, &lo, &hi, near));
-                (look, middle)
+                let looks = self.look(f, &forms, &lo, &hi);
+                let goes_on = !is_last && halvings < MOST_HALVINGS && !is_far();
+                // What is left of an interval is looked at as it is, most of one in two parts.
+                let is_most = |a: &Rational, b: &Rational| (b - a) * Rational::from(2) > &hi - &lo;
+                let part = |(a, b, look): (Rational, Rational, Look)| {
+                    let middle = goes_on && look == Look::Unknown && is_most(&a, &b);
+                    let middle = middle.then(|| self.split_point(f, &a, &b, near));
+                    (a, b, look, middle)
+                };
+                (looks.into_iter().map(part).collect::<Vec<_>>(), goes_on)
             };
-            let nothing = || batch.iter().map(|_| (Look::Unknown, None)).collect();
+            let nothing = || {
+                let unknown = |(lo, hi, _): &(Rational, Rational, i64)| (lo.clone(), hi.clone(), Look::Unknown, None);
+                batch.iter().map(|interval| (vec![unknown(interval)], false)).collect()
+            };
             let seen: Vec<_> =
                 budget.enter(|| work.enter(|| parallel_map(batch.clone(), one)))?.unwrap_or_else(|_| nothing());
-            for ((lo, hi, halvings), (look, middle)) in batch.into_iter().zip(seen) {
-                match (look, middle) {
-                    (Look::None, _) => {}
-                    (Look::One, _) => brackets.push((lo, hi)),
-                    (Look::Unknown, Some(middle)) => {
-                        for (lo, hi) in [(lo, middle.clone()), (middle, hi)] {
-                            todo.push(Reverse((2 * octaves(&lo, &hi, near) + halvings, lo, hi, halvings + 1)));
+            for ((_, _, halvings), (looks, goes_on)) in batch.into_iter().zip(seen) {
+                let mut again = |lo: Rational, hi: Rational| {
+                    todo.push(Reverse((2 * octaves(&lo, &hi, near) + halvings, lo, hi, halvings + 1)));
+                };
+                for (lo, hi, look, middle) in looks {
+                    match (look, middle) {
+                        (Look::None, _) => {}
+                        (Look::One, _) => brackets.push((lo, hi)),
+                        (Look::Unknown, Some(middle)) => {
+                            again(lo, middle.clone());
+                            again(middle.clone(), hi);
                         }
+                        (Look::Unknown, None) if goes_on => again(lo, hi),
+                        _ => found.undecided.push((lo, hi)),
                     }
-                    _ => found.undecided.push((lo, hi)),
                 }
             }
         }
@@ -366,56 +371,43 @@ impl MovingSymbols {
         [32, 31, 33, 29, 35].into_iter().map(at).find(|x| self.sign_at(f, x, FIRST_BITS).is_some()).unwrap_or(at(32))
     }
 
-    fn look(&self, f: &Function, forms: &Forms, lo: &Rational, hi: &Rational) -> Look {
+    /// What the function's Taylor polynomial says of pieces of an interval.
+    fn look(&self, f: &Function, forms: &Forms, lo: &Rational, hi: &Rational) -> Vec<(Rational, Rational, Look)> {
         // Twice the bits that the interval's width takes away.
         let width = hi - lo;
         let small = width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
         let mut bits = FIRST_BITS + small * 4;
         let form = forms.best(self, lo, hi, TERMS, bits);
         for _ in 0..MOST_DOUBLINGS {
-            let Some(taylor) = self.taylor(form, lo, hi, TERMS, bits) else {
+            let Some(model) = self.model(form, lo, hi, TERMS, bits) else {
                 // Without a value in the middle and at both ends there is little hope for what is between: it stays undecided.
                 let has_none =
                     |x: &Rational| self.series(&Series::constant(&Ball::from_rational(x, bits), 1)).is_none();
                 let is_lost = [lo.clone(), lo.midpoint(hi), hi.clone()].iter().all(has_none);
-                return if is_lost { Look::Hopeless } else { Look::Unknown };
+                return vec![(lo.clone(), hi.clone(), if is_lost { Look::Hopeless } else { Look::Unknown })];
             };
-            let found = self.judged(f, lo, hi, &taylor, bits);
+            let piece = Piece::new(&model, lo, hi);
+            let sign_at = |x: &Rational| self.sign_at(f, x, bits);
+            let found = piece.judged(&sign_at);
+            if found.iter().any(|(_, _, look)| !matches!(look, Look::Unknown)) {
+                return found;
+            }
+            let taylor = piece.coefficients();
             // Where the function varies by more than is noise, a shorter interval tells more than more bits do.
             let noise = taylor[..2].iter().map(Ball::width_units).max().unwrap_or(Integer::ZERO);
             let variation = taylor[1..].iter().map(Ball::magnitude_units).max().unwrap_or(Integer::ZERO);
-            if !matches!(found, Look::Unknown) || noise < (variation >> 8) {
+            if noise < (variation >> 8) {
                 return found;
             }
             bits *= 2;
         }
-        Look::Hopeless
-    }
-
-    /// What a Taylor polynomial with a bound of its rest says.
-    fn judged(&self, f: &Function, lo: &Rational, hi: &Rational, taylor: &[Ball], bits: u64) -> Look {
-        let tail = |from: usize, weight: fn(usize) -> u64| {
-            let terms = taylor.iter().enumerate().skip(from);
-            terms.fold(Integer::ZERO, |sum, (k, c)| sum + c.magnitude_units() * Integer::from(weight(k)))
-        };
-        if taylor[0].least_magnitude_units() > tail(1, |_| 1) {
-            return Look::None;
-        }
-        if taylor[1].least_magnitude_units() > tail(2, |k| k as u64) {
-            let signs = [lo, hi].map(|x| self.sign_at(f, x, bits));
-            return match signs {
-                [Some(a), Some(b)] if a != b => Look::One,
-                [Some(_), Some(_)] => Look::None,
-                _ => Look::Unknown,
-            };
-        }
-        Look::Unknown
+        vec![(lo.clone(), hi.clone(), Look::Hopeless)]
     }
 }
 
 /// Whether exponentials of a companion matrix anywhere in these balls may have too many bits to be of use.
-fn is_too_large(coefficients: &[Series], time: &Series) -> bool {
-    let size = |s: &Series| s.coefficients()[0].upper().abs().max(s.coefficients()[0].lower().abs());
+fn is_too_large<S: Elementary>(coefficients: &[S], time: &S) -> bool {
+    let size = |s: &S| Rational::dyadic(&s.range().magnitude_units(), s.bits());
     let n = coefficients.len() as i64;
     // No root is larger than twice the greatest of the roots |c_k|^(1/(n - k)).
     let octaves = coefficients.iter().enumerate().map(|(k, c)| {
@@ -424,14 +416,4 @@ fn is_too_large(coefficients: &[Series], time: &Series) -> bool {
     });
     let rate = Rational::from(2).pow(octaves.max().unwrap_or(0).max(0)).expect("two is not zero");
     size(time) * rate > Rational::from(LARGEST)
-}
-
-/// What a Taylor polynomial says of a function on an interval.
-enum Look {
-    None,
-    /// One zero, with a derivative that is not zero on the interval.
-    One,
-    Unknown,
-    /// Nothing, and no more of a shorter interval: the numbers would have too many bits.
-    Hopeless,
 }
