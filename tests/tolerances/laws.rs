@@ -39,9 +39,9 @@ fn kharitonov(low: &[Rational], high: &[Rational]) -> bool {
     })
 }
 
-/// Within a part in `2^50` of an end: the upper end of a bracket is on its far side.
+/// Within a part in `2^19` of an end, about the width that brackets have: where the worst point is inside of a side, a corner next to it may be in the bracket.
 fn near(end: &jurist_engine::stability::End, x: &Rational) -> bool {
-    let room = x * &Rational::dyadic(&jurist_algebra::number::Integer::ONE, 50);
+    let room = x * &Rational::dyadic(&jurist_algebra::number::Integer::ONE, 19);
     end.value.compare_rational(&(x - &room)).is_ge()
 }
 
