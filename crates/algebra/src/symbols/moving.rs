@@ -296,9 +296,12 @@ impl MovingSymbols {
             };
             let seen: Vec<_> =
                 budget.enter(|| work.enter(|| parallel_map(batch.clone(), one)))?.unwrap_or_else(|_| nothing());
-            for ((_, _, halvings), (looks, goes_on)) in batch.into_iter().zip(seen) {
+            for ((lo, hi, halvings), (looks, goes_on)) in batch.into_iter().zip(seen) {
+                let width = hi - lo;
                 let mut again = |lo: Rational, hi: Rational| {
-                    todo.push(Reverse((2 * octaves(&lo, &hi, near) + halvings, lo, hi, halvings + 1)));
+                    let shorter = width.checked_div(&(&hi - &lo)).map_or(1, |ratio| exponent(&ratio).max(1));
+                    let priority = 2 * octaves(&lo, &hi, near) + halvings + shorter - 1;
+                    todo.push(Reverse((priority, lo, hi, halvings + shorter)));
                 };
                 for (lo, hi, look, middle) in looks {
                     match (look, middle) {
