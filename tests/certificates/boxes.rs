@@ -171,7 +171,7 @@ fn boxes_of_generated_loops_are_certified() {
 fn the_safe_range_of_one_parameter_is_certified_with_both_ends() {
     let (drive, small) = (example_text("drive"), small());
     let asked = [
-        (&drive, twenty_percent("R_a L_a J B_v K_a k_1 k_2 E_sw").limit("K_pwm")),
+        (&drive, twenty_percent("L_a k_1 E_sw").limit("K_pwm")),
         (&small, ToleranceRequest::new([("b", "1".parse().unwrap()), ("c", "10%".parse().unwrap())]).limit("a")),
     ];
     for (text, request) in asked {

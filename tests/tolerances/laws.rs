@@ -102,12 +102,12 @@ proptest! {
     fn the_factor_of_a_multi_affine_box_is_not_above_that_of_any_corner(
         nominal in prop::collection::vec(5i64..30, 3),
         percent in prop::collection::vec(5i64..90, 3),
+        mask in 0..8usize,
     ) {
         let characteristic = "s^3 + (1 + p0*p1)*s^2 + (p0 + p1*p2)*s + p0*p2 + p1";
         let parameters: Vec<(i64, i64)> = nominal.iter().copied().zip(percent.iter().copied()).collect();
         let answer = asked(&continuous(&parameters, characteristic));
         let Some(factor) = &answer.value().factor else { return Ok(()) };
-        for mask in 0..8 {
             let lines: String = parameters.iter().enumerate().map(|(i, (nominal, percent))| {
                 let sign = if mask >> i & 1 == 1 { '+' } else { '-' };
                 format!("p{i} = '{nominal}/10*(1 {sign} r*{percent}/100)'\n")
@@ -119,10 +119,9 @@ proptest! {
             let around = set.value().intervals().iter().find(|i| {
                 i.lower.as_ref().is_none_or(|e| e.value.sign().is_lt()) && i.upper.as_ref().is_none_or(|e| e.value.sign().is_gt())
             });
-            let Some(end) = &around.expect("stable at the nominal point").upper else { continue };
+            let Some(end) = &around.expect("stable at the nominal point").upper else { return Ok(()) };
             prop_assert!(end.value.compare_rational(&factor.lower).is_gt(), "{}", mask);
             prop_assert!(factor.upper.as_ref().is_some_and(|upper| end.value.compare_rational(upper).is_ge() || near(end, upper)));
-        }
     }
 
     #[test]
