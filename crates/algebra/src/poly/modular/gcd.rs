@@ -85,7 +85,7 @@ fn divides(candidate: &UniPoly, p: &UniPoly) -> bool {
 }
 
 /// The monic greatest common divisor of two polynomials modulo a prime, not both zero.
-fn monic_gcd(f: &PrimeField, a: Vec<u64>, b: Vec<u64>) -> Vec<u64> {
+pub(super) fn monic_gcd(f: &PrimeField, a: Vec<u64>, b: Vec<u64>) -> Vec<u64> {
     let trim = |p: &mut Vec<u64>| p.truncate(p.iter().rposition(|&c| c != 0).map_or(0, |last| last + 1));
     let (mut a, mut b) = (a, b);
     trim(&mut a);
@@ -127,6 +127,20 @@ fn monic_gcd(f: &PrimeField, a: Vec<u64>, b: Vec<u64>) -> Vec<u64> {
     }
     let inverse = f.inverse(a[a.len() - 1]);
     a.iter().map(|&c| f.mul(c, inverse)).collect()
+}
+
+/// The quotient of a polynomial by a monic one that divides it, modulo a prime.
+pub(super) fn divided_by_monic(f: &PrimeField, mut a: Vec<u64>, divisor: &[u64]) -> Vec<u64> {
+    let m = divisor.len() - 1;
+    for k in (m..a.len()).rev() {
+        checkpoint(m as u64 / 4);
+        let top = f.negated(a[k]);
+        for (x, &y) in a[k - m..k].iter_mut().zip(divisor) {
+            *x = f.add(*x, f.mul(top, y));
+        }
+    }
+    a.drain(..m.min(a.len()));
+    a
 }
 
 /// [`primitive_gcd_modular`]; `None` where the subresultant sequence is expected to be faster.

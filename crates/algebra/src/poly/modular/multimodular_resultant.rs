@@ -65,6 +65,11 @@ pub fn resultant_multimodular_integers(a: &UniPoly, n: usize, b: &UniPoly, m: us
 /// # Panics
 /// When a formal degree is below the degree.
 pub fn resultant_multimodular(a: &Poly<UniPoly>, n: usize, b: &Poly<UniPoly>, m: usize) -> UniPoly {
+    Poly::new(dense(a, n, b, m).resultant())
+}
+
+/// Two polynomials whose coefficients are polynomials in one variable.
+pub(super) fn dense<'a>(a: &'a Poly<UniPoly>, n: usize, b: &'a Poly<UniPoly>, m: usize) -> DensePair<'a> {
     let terms = a.coeffs().iter().chain(b.coeffs()).map(|c| c.coeffs().len()).max().unwrap_or(0).max(1);
     let (mut coefficients, at_b) = room(a.coeffs().len(), n, b.coeffs().len(), m, terms);
     let rows = n + m + 2;
@@ -75,8 +80,7 @@ pub fn resultant_multimodular(a: &Poly<UniPoly>, n: usize, b: &Poly<UniPoly>, m:
             }
         }
     }
-    let pair = DensePair { degrees: (n, m), terms: vec![terms], coefficients };
-    Poly::new(pair.resultant())
+    DensePair { degrees: (n, m), terms: vec![terms], coefficients }
 }
 
 /// The resultant over `Z[x_0, x_1, ...]` for formal degrees on a grid of as many dimensions as

@@ -77,15 +77,26 @@ impl DensePair<'_> {
         let limbs = Limbs::new(self.coefficients.iter().copied());
         let size: usize = lengths.iter().product();
         let image = |f: &PrimeField| self.image(f, limbs.residues(f), &lengths);
-        let products = size * chinese.fields().len() * (self.degrees.0 * self.degrees.1).max(1);
-        let images: Vec<Vec<u64>> = chinese.images(products >= PARALLEL_MIN_PRODUCTS, image);
+        let images: Vec<Vec<u64>> = chinese.images(self.is_worth_threads(size, chinese.fields().len()), image);
         (0..size).map(|k| chinese.integer(images.iter().map(|image| image[k]))).collect()
     }
 
-    /// The resultant modulo one prime.
+    /// The resultant modulo one prime: the values on the grid, interpolated.
     fn image(&self, f: &PrimeField, residues: Vec<u64>, lengths: &[usize]) -> Vec<u64> {
-        let rows = self.degrees.0 + self.degrees.1 + 2;
         let mut grid = Grid::new(f, lengths.iter().copied().max().unwrap_or(1));
+        let mut values = self.values(f, residues, lengths, &grid);
+        grid.prepare_interpolation(f.inverse(grid.factorial()));
+        let mut inner = 1;
+        for &length in lengths.iter().rev() {
+            grid.interpolate(&mut values, length, inner);
+            inner *= length;
+        }
+        values
+    }
+
+    /// The values of the resultant on a grid modulo one prime.
+    pub(super) fn values(&self, f: &PrimeField, residues: Vec<u64>, lengths: &[usize], grid: &Grid<'_>) -> Vec<u64> {
+        let rows = self.degrees.0 + self.degrees.1 + 2;
         let mut data = residues;
         let mut inner = rows;
         for (&terms, &length) in self.terms.iter().zip(lengths).rev() {
@@ -93,7 +104,7 @@ impl DensePair<'_> {
             inner *= length;
         }
         let mut values = Vec::with_capacity(data.len() / rows);
-        let mut divisors = Vec::with_capacity(data.len() / rows + 1);
+        let mut divisors = Vec::with_capacity(data.len() / rows);
         let mut scratch = Scratch::default();
         for pair in data.chunks_exact(rows) {
             let (a, b) = pair.split_at(self.degrees.0 + 1);
@@ -101,18 +112,16 @@ impl DensePair<'_> {
             values.push(value);
             divisors.push(divisor);
         }
-        divisors.push(grid.factorial());
         f.invert_all(&mut divisors);
-        grid.prepare_interpolation(divisors[values.len()]);
         for (v, &d) in values.iter_mut().zip(&divisors) {
             *v = f.mul(*v, d);
         }
-        let mut inner = 1;
-        for &length in lengths.iter().rev() {
-            grid.interpolate(&mut values, length, inner);
-            inner *= length;
-        }
         values
+    }
+
+    /// Whether the values on so many points modulo so many primes are worth the other threads.
+    pub(super) fn is_worth_threads(&self, points: usize, primes: usize) -> bool {
+        points * primes * (self.degrees.0 * self.degrees.1).max(1) >= PARALLEL_MIN_PRODUCTS
     }
 }
 
