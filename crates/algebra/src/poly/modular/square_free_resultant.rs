@@ -10,7 +10,7 @@ use super::grid::Grid;
 use super::multimodular_resultant::dense;
 use super::prime_field::PrimeField;
 use super::resultant::DensePair;
-use super::sylvester_bounds::{exponents, height_bits};
+use super::sylvester_bounds::{exponents, height_bits, known_divisor};
 use crate::limits::{checkpoint, parallel_map};
 use crate::number::Integer;
 use crate::poly::{Poly, UniPoly};
@@ -56,6 +56,8 @@ struct Determinant<'a> {
     limbs: Limbs,
     /// The power of `x` that divides it for certain, and is left out of its values.
     order: usize,
+    /// A number that divides it for certain, and is left out, too.
+    divisor: Limbs,
     /// So many points determine what is left.
     points: usize,
     bits: u64,
@@ -70,12 +72,12 @@ impl Determinant<'_> {
     /// The values there, without the power of `x`.
     fn values(&self, f: &PrimeField, grid: &Grid<'_>) -> Vec<u64> {
         let mut values = self.pair.values(f, self.limbs.residues(f), &[self.points], grid);
-        if self.order > 0 {
-            let mut powers: Vec<u64> = grid.points().iter().map(|&x| f.power(x, self.order as u64)).collect();
-            f.invert_all(&mut powers);
-            for (v, power) in values.iter_mut().zip(powers) {
-                *v = f.mul(*v, power);
-            }
+        let divisor = self.divisor.residues(f)[0];
+        let power = |&x: &u64| f.mul(divisor, f.power(x, self.order as u64));
+        let mut powers: Vec<u64> = grid.points().iter().map(power).collect();
+        f.invert_all(&mut powers);
+        for (v, power) in values.iter_mut().zip(powers) {
+            *v = f.mul(*v, power);
         }
         values
     }
@@ -91,8 +93,10 @@ pub fn square_free_decomposition(a: &Poly<UniPoly>, b: &Poly<UniPoly>) -> Option
     let (order, degree) = exponents(a.coeffs(), b.coeffs())?;
     let pair = dense(a, n, b, m);
     let limbs = Limbs::new(pair.coefficients.iter().copied());
-    let bits = height_bits(a.coeffs(), b.coeffs()) + SPARE_BITS;
-    let determinant = Determinant { pair, limbs, order, points: degree - order + 1, bits };
+    let divisor = known_divisor(a.coeffs(), b.coeffs());
+    let bits = (height_bits(a.coeffs(), b.coeffs()) + 1).saturating_sub(divisor.bit_length()) + SPARE_BITS;
+    let divisor = Limbs::new([&divisor]);
+    let determinant = Determinant { pair, limbs, order, divisor, points: degree - order + 1, bits };
     let mut factors = determinant.factors()?;
     if order > 0 {
         match factors.iter_mut().find(|(f, _)| *f == Poly::x()) {

@@ -91,6 +91,38 @@ pub(super) fn exponents(a: &[UniPoly], b: &[UniPoly]) -> Option<(usize, usize)> 
     (least <= greatest).then(|| (least.max(0) as usize, greatest as usize))
 }
 
+/// A number that divides every coefficient of the resultant: its prime factors are small, its exponents those that the
+/// valuations of the entries leave no choice about.
+pub(super) fn known_divisor(a: &[UniPoly], b: &[UniPoly]) -> Integer {
+    let mut divisor = Integer::ONE;
+    for prime in DIVIDING_PRIMES {
+        let valuation = |c: &[Integer]| c.iter().filter_map(|x| valuation(x, prime)).min().map(|v| -v);
+        if let Some(bound) = (Entries { a: &weights(a, valuation), b: &weights(b, valuation) }).bound() {
+            divisor *= Integer::from(prime).pow((-bound.div_euclid(SCALE)).max(0) as u64);
+        }
+    }
+    divisor
+}
+
+/// Numbers of three digits, written with a decimal point, have such denominators.
+const DIVIDING_PRIMES: [u64; 11] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31];
+
+/// How often a prime divides; `None` for zero.
+fn valuation(x: &Integer, prime: u64) -> Option<i64> {
+    if prime == 2 {
+        return x.trailing_zeros().map(|v| v as i64);
+    }
+    if x.is_zero() {
+        return None;
+    }
+    let (mut rest, mut count) = (x.clone(), 0);
+    while rest.mod_u64(prime) == 0 {
+        rest = rest.div_exact(&Integer::from(prime));
+        count += 1;
+    }
+    Some(count)
+}
+
 /// `e` such that every coefficient of the resultant is below `2^e` in magnitude: Hadamard's bound
 /// ([Hadamard1893](crate::bibliography#hadamard1893)) on the circle `|x| = 1`, columns first multiplied by powers of two.
 pub(super) fn height_bits(a: &[UniPoly], b: &[UniPoly]) -> u64 {
