@@ -130,17 +130,19 @@ pub(super) fn monic_gcd(f: &PrimeField, a: Vec<u64>, b: Vec<u64>) -> Vec<u64> {
 }
 
 /// The quotient of a polynomial by a monic one that divides it, modulo a prime.
-pub(super) fn divided_by_monic(f: &PrimeField, mut a: Vec<u64>, divisor: &[u64]) -> Vec<u64> {
+pub(super) fn divided_by_monic(f: &PrimeField, a: &[u64], divisor: &[u64]) -> Vec<u64> {
     let m = divisor.len() - 1;
-    for k in (m..a.len()).rev() {
-        checkpoint(m as u64 / 4);
-        let top = f.negated(a[k]);
-        for (x, &y) in a[k - m..k].iter_mut().zip(divisor) {
-            *x = f.add(*x, f.mul(top, y));
-        }
+    checkpoint((a.len().saturating_sub(m) * m / 8) as u64);
+    let backwards: Vec<u64> = divisor[..m].iter().rev().copied().collect();
+    // The coefficients from the top: each is one of the dividend less a sum over those before.
+    let mut quotient: Vec<u64> = Vec::with_capacity(a.len().saturating_sub(m));
+    for &c in a.iter().skip(m).rev() {
+        let known = quotient.len().min(m);
+        let sum: u64 = f.dot_backwards(&quotient[quotient.len() - known..], &backwards[..known]);
+        quotient.push(f.sub(c, sum));
     }
-    a.drain(..m.min(a.len()));
-    a
+    quotient.reverse();
+    quotient
 }
 
 /// [`primitive_gcd_modular`]; `None` where the subresultant sequence is expected to be faster.

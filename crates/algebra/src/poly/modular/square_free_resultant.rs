@@ -30,6 +30,7 @@ type Factor = (Vec<u64>, usize);
 /// What is known modulo one prime: the multiplicity of the zero 0, and all other factors.
 struct Image {
     field: PrimeField,
+    leading: u64,
     at_zero: usize,
     factors: Vec<Factor>,
 }
@@ -47,6 +48,28 @@ impl Image {
     fn is_promising(&self) -> bool {
         let all: usize = self.factors.iter().map(|(f, e)| (f.len() - 1) * e).sum();
         self.factors.iter().all(|(f, _)| 2 * (f.len() - 1) <= all)
+    }
+}
+
+impl Image {
+    /// This polynomial divided by the product of the powers of some others, which may have the factor `x` first; `None` where
+    /// they are not multiples of its own factors.
+    fn quotient(&self, factors: &[(Vec<u64>, u64)]) -> Option<u64> {
+        let f = &self.field;
+        let others = &factors[usize::from(self.at_zero > 0)..];
+        if others.len() != self.factors.len() {
+            return None;
+        }
+        let mut product = f.one();
+        for ((own, multiplicity), (other, power)) in self.factors.iter().zip(others) {
+            let leading = *other.last()?;
+            let is_multiple = own.len() == other.len() && own.iter().zip(other).all(|(&c, &d)| f.mul(leading, c) == d);
+            if leading == 0 || !is_multiple || *multiplicity as u64 != *power {
+                return None;
+            }
+            product = f.mul(product, f.power(leading, *power));
+        }
+        Some(f.mul(self.leading, f.inverse(product)))
     }
 }
 
@@ -117,46 +140,53 @@ impl Determinant<'_> {
         if chinese.fields().len() < MIN_PRIMES {
             return None;
         }
-        let (candidate, mut kept) = self.candidate(chinese.fields())?;
+        let (candidate, images) = self.candidate(chinese.fields())?;
         let degree: usize = candidate.iter().map(|(f, e)| (f.coeffs().len() - 1) * e).sum();
         if degree >= self.points {
             return None;
         }
-        let residues: Vec<(Limbs, usize, u64)> =
-            candidate.iter().map(|(f, e)| (Limbs::new(f.coeffs()), f.coeffs().len(), *e as u64)).collect();
-        let quotient = |(f, kept): (&PrimeField, Vec<u64>)| {
-            let grid = self.grid(f);
-            let values = if kept.is_empty() { self.values(f, &grid) } else { kept };
-            let mut product = vec![f.one(); self.points];
-            for (limbs, terms, multiplicity) in &residues {
-                let at = grid.evaluate(&limbs.residues(f), *terms, 1, self.points);
-                for (p, v) in product.iter_mut().zip(at) {
-                    *p = f.mul(*p, f.power(v, *multiplicity));
-                }
+        let limbs: Vec<(Limbs, u64)> = candidate.iter().map(|(f, e)| (Limbs::new(f.coeffs()), *e as u64)).collect();
+        let quotient = |f: &PrimeField| {
+            let factors: Vec<(Vec<u64>, u64)> = limbs.iter().map(|(limbs, e)| (limbs.residues(f), *e)).collect();
+            match images.iter().find(|image| image.field == *f) {
+                Some(image) => image.quotient(&factors),
+                None => self.quotient(f, &factors),
             }
-            let known = product.iter().position(|&p| p != 0)?;
-            let quotient = f.mul(values[known], f.inverse(product[known]));
-            values.iter().zip(&product).all(|(&v, &p)| v == f.mul(quotient, p)).then_some(quotient)
         };
-        kept.resize(chinese.fields().len(), Vec::new());
-        let items: Vec<(&PrimeField, Vec<u64>)> = chinese.fields().iter().zip(kept).collect();
-        let quotients: Option<Vec<u64>> = self.images(items, quotient).into_iter().collect();
+        let quotients: Option<Vec<u64>> = self.images(chinese.fields(), quotient).into_iter().collect();
         let quotient = chinese.integer(quotients?);
         let norm = |f: &UniPoly| f.coeffs().iter().fold(Integer::ZERO, |sum, c| sum + c.abs());
         let bits: u64 = candidate.iter().map(|(f, e)| norm(f).bit_length() * *e as u64).sum();
         (bits + quotient.bit_length() <= self.bits).then_some(candidate)
     }
 
-    /// Integer polynomials with the images that the decomposition has modulo the first primes, and the values modulo these.
-    fn candidate(&self, primes: &[PrimeField]) -> Option<(Vec<(UniPoly, usize)>, Vec<Vec<u64>>)> {
+    /// What the determinant is modulo a prime, divided by the product of the powers of some polynomials; `None` where it is no
+    /// multiple of that.
+    fn quotient(&self, f: &PrimeField, factors: &[(Vec<u64>, u64)]) -> Option<u64> {
+        let grid = self.grid(f);
+        let values = self.values(f, &grid);
+        let mut product = vec![f.one(); self.points];
+        for (factor, multiplicity) in factors {
+            let at = grid.evaluate(factor, factor.len(), 1, self.points);
+            for (p, v) in product.iter_mut().zip(at) {
+                *p = f.mul(*p, f.power(v, *multiplicity));
+            }
+        }
+        let known = product.iter().position(|&p| p != 0)?;
+        let quotient = f.mul(values[known], f.inverse(product[known]));
+        values.iter().zip(&product).all(|(&v, &p)| v == f.mul(quotient, p)).then_some(quotient)
+    }
+
+    /// Integer polynomials with the images that the decomposition has modulo the first primes, and these images.
+    fn candidate(&self, primes: &[PrimeField]) -> Option<(Vec<(UniPoly, usize)>, Vec<Image>)> {
         let mut images: Vec<Image> = Vec::new();
-        let mut kept = Vec::new();
-        while kept.len() < primes.len() {
+        let mut tried = 0;
+        while tried < primes.len() {
             // The first prime tells whether there is a chance; later some are taken before each attempt.
-            let batch = if kept.is_empty() { 1 } else { (kept.len() / PRIMES_PER_ATTEMPT).max(2) };
-            let batch: Vec<&PrimeField> = primes[kept.len()..].iter().take(batch).collect();
-            for (values, image) in self.images(batch, |f| self.decomposed(f)) {
-                kept.push(values);
+            let more = if tried == 0 { 1 } else { (tried / PRIMES_PER_ATTEMPT).max(2) };
+            let batch = &primes[tried..(tried + more).min(primes.len())];
+            tried += batch.len();
+            for image in self.images(batch, |f| self.decomposed(f)) {
                 let image = image?;
                 match images.first().map(|first| (first.shape(), image.shape())) {
                     None if !image.is_promising() => return None,
@@ -169,29 +199,27 @@ impl Determinant<'_> {
                 images.push(image);
             }
             if let Some(candidate) = lifted(&images) {
-                return Some((candidate, kept));
+                return Some((candidate, images));
             }
         }
         None
     }
 
-    /// The images of items of which each takes the work of a prime.
-    fn images<I: Send, T: Send>(&self, items: Vec<I>, image: impl Fn(I) -> T + Send + Sync) -> Vec<T> {
-        if self.pair.is_worth_threads(self.points, items.len()) {
-            parallel_map(items, image)
+    fn images<T: Send>(&self, primes: &[PrimeField], image: impl Fn(&PrimeField) -> T + Send + Sync) -> Vec<T> {
+        if self.pair.is_worth_threads(self.points, primes.len()) {
+            parallel_map(primes, image)
         } else {
-            items.into_iter().map(image).collect()
+            primes.iter().map(image).collect()
         }
     }
 
-    /// The values modulo a prime, and the square-free decomposition of the polynomial that has them; that is `None` for zero.
-    fn decomposed(&self, f: &PrimeField) -> (Vec<u64>, Option<Image>) {
+    /// The square-free decomposition modulo a prime; `None` for zero.
+    fn decomposed(&self, f: &PrimeField) -> Option<Image> {
         let mut grid = self.grid(f);
-        let values = self.values(f, &grid);
+        let mut coefficients = self.values(f, &grid);
         grid.prepare_interpolation(f.inverse(grid.factorial()));
-        let mut coefficients = values.clone();
         grid.interpolate(&mut coefficients, self.points, 1);
-        (values, Image::of(f, coefficients))
+        Image::of(f, coefficients)
     }
 }
 
@@ -202,24 +230,25 @@ impl Image {
         p.truncate(p.iter().rposition(|&c| c != 0)? + 1);
         let at_zero = p.iter().position(|&c| c != 0)?;
         p.drain(..at_zero);
+        let leading = *p.last()?;
         let mut factors = Vec::new();
         if p.len() > 1 {
             let derivative = derivative(f, &p);
             let common = monic_gcd(f, p.clone(), derivative.clone());
-            let mut rest = divided_by_monic(f, p, &common);
-            let mut d = minus_derivative(f, divided_by_monic(f, derivative, &common), &rest);
+            let mut rest = divided_by_monic(f, &p, &common);
+            let mut d = minus_derivative(f, divided_by_monic(f, &derivative, &common), &rest);
             let mut multiplicity = 1;
             while rest.len() > 1 {
                 let factor = monic_gcd(f, rest.clone(), d.clone());
-                rest = divided_by_monic(f, rest, &factor);
-                d = minus_derivative(f, divided_by_monic(f, d, &factor), &rest);
+                rest = divided_by_monic(f, &rest, &factor);
+                d = minus_derivative(f, divided_by_monic(f, &d, &factor), &rest);
                 if factor.len() > 1 {
                     factors.push((factor, multiplicity));
                 }
                 multiplicity += 1;
             }
         }
-        Some(Image { field: *f, at_zero, factors })
+        Some(Image { field: *f, leading, at_zero, factors })
     }
 }
 
