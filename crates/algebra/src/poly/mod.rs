@@ -18,6 +18,7 @@ pub mod multivariate;
 mod rational_function;
 pub mod real_roots;
 mod remainder_sequence;
+mod rounded_sign;
 #[cfg(feature = "strategies")]
 pub mod strategies;
 mod subresultant;

@@ -96,31 +96,32 @@ pub(super) fn monic_gcd(f: &PrimeField, a: Vec<u64>, b: Vec<u64>) -> Vec<u64> {
     while !b.is_empty() {
         let m = b.len() - 1;
         checkpoint((a.len() - m) as u64 * m as u64 / 8 + 8);
-        let inverse = f.inverse(b[m]);
-        for c in &mut b {
-            *c = f.mul(*c, inverse);
-        }
         if m == 0 {
-            return b;
+            return vec![f.one()];
         }
-        // Two quotient terms at a time: one reduction for two products.
-        while a.len() >= m + 2 {
-            let n = a.len() - 1;
-            let at = n - m - 1;
-            let first = f.negated(a[n]);
-            let second = f.negated(f.add(a[n - 1], f.mul(first, b[m - 1])));
-            a[at] = f.add(a[at], f.mul(second, b[0]));
-            for ((x, &y), &z) in a[at + 1..at + m].iter_mut().zip(&b[1..m]).zip(&b[..m - 1]) {
-                *x = f.add(*x, f.mul_add_mul(second, y, first, z));
-            }
-            a.truncate(n - 1);
-        }
-        if a.len() == m + 1 {
-            let top = f.negated(a[m]);
-            for (x, &y) in a[..m].iter_mut().zip(&b) {
-                *x = f.add(*x, f.mul(top, y));
-            }
+        if a.len() == m + 2 {
+            // Two quotient terms without a division: l^2 a - q b, l the leading coefficient of b.
+            let (l, top) = (b[m], a[m + 1]);
+            let (square, first) = (f.mul(l, l), f.negated(f.mul(top, l)));
+            let second = f.mul_add_mul(top, b[m - 1], f.negated(l), a[m]);
             a.truncate(m);
+            a[0] = f.mul_add_mul(square, a[0], second, b[0]);
+            for ((x, &y), &z) in a[1..].iter_mut().zip(&b[1..m]).zip(&b[..m - 1]) {
+                let sum = u128::from(square) * u128::from(*x)
+                    + u128::from(second) * u128::from(y)
+                    + u128::from(first) * u128::from(z);
+                *x = f.reduce(sum);
+            }
+        } else {
+            let inverse = f.inverse(b[m]);
+            while a.len() > m {
+                let top = f.negated(f.mul(a[a.len() - 1], inverse));
+                let at = a.len() - 1 - m;
+                for (x, &y) in a[at..at + m].iter_mut().zip(&b) {
+                    *x = f.add(*x, f.mul(top, y));
+                }
+                a.pop();
+            }
         }
         trim(&mut a);
         std::mem::swap(&mut a, &mut b);
