@@ -218,9 +218,12 @@ mod tests {
     #[test]
     fn values_and_coefficients() {
         let f = largest_primes(1)[0];
-        let mut grid = Grid::new(&f, 12);
-        grid.prepare_interpolation(f.inverse(grid.factorial()));
-        for (outer, terms, inner) in [(1, 1, 1), (1, 5, 1), (2, 2, 3), (3, 4, 2), (1, 12, 1), (2, 7, 1)] {
+        let shapes = [(1, 1, 1), (1, 5, 1), (2, 2, 3), (3, 4, 2), (1, 12, 1), (2, 7, 1)];
+        for (first, (outer, terms, inner)) in [0, 1, 7].into_iter().flat_map(|first| shapes.map(|shape| (first, shape)))
+        {
+            let mut grid = Grid::starting_at(&f, first, 12);
+            grid.prepare_interpolation(f.inverse(grid.factorial()));
+            assert_eq!(grid.points()[2], f.residue(first + 2));
             let data: Vec<u64> =
                 (0..outer * terms * inner).map(|k| f.residue((k * k * 977 + 31 * k + 5) as u64)).collect();
             for count in [1, 2, terms, 12] {

@@ -150,3 +150,60 @@ pub(super) fn height_bits(a: &[UniPoly], b: &[UniPoly]) -> u64 {
     let added = shifts.iter().map(|s| s - lowest).sum::<i64>() as u64;
     square.bit_length().div_ceil(2).saturating_sub(added)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::limits::Budget;
+    use crate::poly::{Poly, resultant_subresultant};
+
+    /// Random polynomials, thin at their ends as those of sampled plants are: the bounds hold, and most often they are reached.
+    #[test]
+    fn exponents_divisor_and_height_bound_the_resultant() {
+        let mut state = 5u64;
+        let mut next = |below: u64| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) % below
+        };
+        let (mut all, mut tight) = (0, 0);
+        for _ in 0..300 {
+            let (slope, units, degree_a, degree_b) = (next(3), next(4), 1 + next(4), 1 + next(4));
+            let mut side = |degree: u64| -> Vec<UniPoly> {
+                let mut coefficients: Vec<UniPoly> = (0..=degree)
+                    .map(|k| {
+                        let order = slope * (degree - k);
+                        let length = order + 1 + next(3);
+                        let terms = (0..length).map(|e| {
+                            let c = Integer::from(next(19) as i64 - 9) * Integer::from(6).pow(units * k);
+                            if e < order { Integer::ZERO } else { c }
+                        });
+                        UniPoly::new(terms.collect())
+                    })
+                    .collect();
+                while coefficients.last().is_some_and(|c| c.coeffs().is_empty()) {
+                    coefficients.pop();
+                }
+                coefficients
+            };
+            let (a, b) = (side(degree_a), side(degree_b));
+            if a.is_empty() || b.is_empty() {
+                continue;
+            }
+            let exact =
+                resultant_subresultant(&Poly::new(a.clone()), &Poly::new(b.clone()), &Budget::unlimited()).unwrap();
+            let Some((least, greatest)) = exponents(&a, &b) else {
+                assert!(exact.coeffs().is_empty());
+                continue;
+            };
+            let Some(order) = exact.coeffs().iter().position(|c| !c.is_zero()) else { continue };
+            let degree = exact.coeffs().len() - 1;
+            let (divisor, bits) = (known_divisor(&a, &b), height_bits(&a, &b));
+            assert!(least <= order && degree <= greatest, "{least} {order} {degree} {greatest}");
+            assert!(exact.coeffs().iter().all(|c| c.divisible_by(&divisor) && c.bit_length() <= bits));
+            all += 1;
+            let few = exact.coeffs().iter().map(|c| c.bit_length()).max() >= bits.checked_sub(12);
+            tight += usize::from(least == order && degree == greatest && few);
+        }
+        assert!(all > 200 && 2 * tight > all, "{tight} of {all}");
+    }
+}
