@@ -98,12 +98,12 @@ mod tests {
             let size = 1 + next() % 900;
             let coefficient = |k: u64, bits: u64| {
                 let value = (Integer::from(k | 1).pow(3)) << (bits % size);
-                if k % 2 == 0 { value } else { -value }
+                if k.is_multiple_of(2) { value } else { -value }
             };
             let mut p = UniPoly::new((0..=degree).map(|_| coefficient(next(), next())).collect());
             let q = Integer::from(next() | 1).pow(4 + round % 5);
             let a = Integer::from(next()).pow(4 + round % 5) - Integer::from(next());
-            if round % 3 == 0 {
+            if round.is_multiple_of(3) {
                 // A root within 1/q^2 of a/q, or at it.
                 let near = UniPoly::new(vec![-(&a * &q) + Integer::from((round % 2) as i64), &q * &q]);
                 p = crate::poly::Domain::times(&p, &near);

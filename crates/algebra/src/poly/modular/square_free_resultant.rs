@@ -24,6 +24,9 @@ const MIN_PRIMES: usize = 16;
 /// An attempt to lift the factors is made whenever there are one more prime for so many.
 const PRIMES_PER_ATTEMPT: usize = 8;
 
+/// Polynomials and their multiplicities.
+type Factors = Vec<(UniPoly, usize)>;
+
 /// A monic factor modulo a prime and its multiplicity.
 type Factor = (Vec<u64>, usize);
 
@@ -135,7 +138,7 @@ impl Determinant<'_> {
     ///
     /// The determinant is a multiple of the product modulo each prime, hence by a number modulo all of them; and then equal to
     /// that, since both are below half the product of the primes.
-    fn factors(&self) -> Option<Vec<(UniPoly, usize)>> {
+    fn factors(&self) -> Option<Factors> {
         let chinese = Chinese::for_bits(self.bits);
         if chinese.fields().len() < MIN_PRIMES {
             return None;
@@ -178,7 +181,7 @@ impl Determinant<'_> {
     }
 
     /// Integer polynomials with the images that the decomposition has modulo the first primes, and these images.
-    fn candidate(&self, primes: &[PrimeField]) -> Option<(Vec<(UniPoly, usize)>, Vec<Image>)> {
+    fn candidate(&self, primes: &[PrimeField]) -> Option<(Factors, Vec<Image>)> {
         let mut images: Vec<Image> = Vec::new();
         let mut tried = 0;
         while tried < primes.len() {
@@ -268,7 +271,7 @@ fn minus_derivative(f: &PrimeField, mut p: Vec<u64>, q: &[u64]) -> Vec<u64> {
 }
 
 /// Primitive integer polynomials with these monic images; `None` where more primes are needed.
-fn lifted(images: &[Image]) -> Option<Vec<(UniPoly, usize)>> {
+fn lifted(images: &[Image]) -> Option<Factors> {
     let first = images.first()?;
     let chinese = Chinese::new(images.iter().map(|image| image.field).collect());
     let product = images.iter().fold(Integer::ONE, |product, image| product * Integer::from(image.field.prime()));
