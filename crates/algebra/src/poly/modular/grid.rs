@@ -71,6 +71,11 @@ impl<'a> Grid<'a> {
         }
     }
 
+    /// The integers modulo the prime.
+    pub fn field(&self) -> &'a PrimeField {
+        self.field
+    }
+
     /// The points in the form of the field.
     pub fn points(&self) -> &[u64] {
         &self.points

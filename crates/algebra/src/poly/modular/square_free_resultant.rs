@@ -6,11 +6,10 @@
 
 use super::chinese::{Chinese, Limbs};
 use super::gcd::{divided_by_monic, monic_gcd};
-use super::grid::Grid;
 use super::multimodular_resultant::dense;
 use super::prime_field::PrimeField;
 use super::resultant::DensePair;
-use super::sylvester_bounds::{exponents, height_bits, known_divisor};
+use super::sylvester_bounds::Frame;
 use crate::limits::{checkpoint, parallel_map};
 use crate::number::Integer;
 use crate::poly::{Poly, UniPoly};
@@ -80,32 +79,17 @@ impl Image {
 struct Determinant<'a> {
     pair: DensePair<'a>,
     limbs: Limbs,
-    /// The power of `x` that divides it for certain, and is left out of its values.
-    order: usize,
-    /// A number that divides it for certain, and is left out, too.
-    divisor: Limbs,
-    /// So many points determine what is left.
-    points: usize,
-    bits: u64,
+    /// The power of `x` and the number that divide it for certain are left out of its values.
+    frame: Frame,
 }
 
 impl Determinant<'_> {
-    /// The points 1, 2, 3, ...
-    fn grid<'f>(&self, f: &'f PrimeField) -> Grid<'f> {
-        Grid::starting_at(f, 1, self.points)
+    fn points(&self) -> usize {
+        self.frame.points()
     }
 
-    /// The values there, without the power of `x`.
-    fn values(&self, f: &PrimeField, grid: &Grid<'_>) -> Vec<u64> {
-        let mut values = self.pair.values(f, self.limbs.residues(f), &[self.points], grid);
-        let divisor = self.divisor.residues(f)[0];
-        let power = |&x: &u64| f.mul(divisor, f.power(x, self.order as u64));
-        let mut powers: Vec<u64> = grid.points().iter().map(power).collect();
-        f.invert_all(&mut powers);
-        for (v, power) in values.iter_mut().zip(powers) {
-            *v = f.mul(*v, power);
-        }
-        values
+    fn bits(&self) -> u64 {
+        self.frame.bits + SPARE_BITS
     }
 }
 
@@ -116,13 +100,10 @@ impl Determinant<'_> {
 /// Only squares, cubes and so on are told apart: the factors need not be irreducible.
 pub fn square_free_decomposition(a: &Poly<UniPoly>, b: &Poly<UniPoly>) -> Option<Vec<(UniPoly, usize)>> {
     let (n, m) = (a.degree()?, b.degree()?);
-    let (order, degree) = exponents(a.coeffs(), b.coeffs())?;
     let pair = dense(a, n, b, m);
-    let limbs = Limbs::new(pair.coefficients.iter().copied());
-    let divisor = known_divisor(a.coeffs(), b.coeffs());
-    let bits = (height_bits(a.coeffs(), b.coeffs()) + 1).saturating_sub(divisor.bit_length()) + SPARE_BITS;
-    let divisor = Limbs::new([&divisor]);
-    let determinant = Determinant { pair, limbs, order, divisor, points: degree - order + 1, bits };
+    let frame = Frame::new(&pair)?;
+    let order = frame.ranges[0].0;
+    let determinant = Determinant { limbs: pair.limbs(&frame), pair, frame };
     let mut factors = determinant.factors()?;
     if order > 0 {
         match factors.iter_mut().find(|(f, _)| *f == Poly::x()) {
@@ -139,13 +120,13 @@ impl Determinant<'_> {
     /// The determinant is a multiple of the product modulo each prime, hence by a number modulo all of them; and then equal to
     /// that, since both are below half the product of the primes.
     fn factors(&self) -> Option<Factors> {
-        let chinese = Chinese::for_bits(self.bits);
+        let chinese = Chinese::for_bits(self.bits());
         if chinese.fields().len() < MIN_PRIMES {
             return None;
         }
         let (candidate, images) = self.candidate(chinese.fields())?;
         let degree: usize = candidate.iter().map(|(f, e)| (f.coeffs().len() - 1) * e).sum();
-        if degree >= self.points {
+        if degree >= self.points() {
             return None;
         }
         let limbs: Vec<(Limbs, u64)> = candidate.iter().map(|(f, e)| (Limbs::new(f.coeffs()), *e as u64)).collect();
@@ -160,17 +141,17 @@ impl Determinant<'_> {
         let quotient = chinese.integer(quotients?);
         let norm = |f: &UniPoly| f.coeffs().iter().fold(Integer::ZERO, |sum, c| sum + c.abs());
         let bits: u64 = candidate.iter().map(|(f, e)| norm(f).bit_length() * *e as u64).sum();
-        (bits + quotient.bit_length() <= self.bits).then_some(candidate)
+        (bits + quotient.bit_length() <= self.bits()).then_some(candidate)
     }
 
     /// What the determinant is modulo a prime, divided by the product of the powers of some polynomials; `None` where it is no
     /// multiple of that.
     fn quotient(&self, f: &PrimeField, factors: &[(Vec<u64>, u64)]) -> Option<u64> {
-        let grid = self.grid(f);
-        let values = self.values(f, &grid);
-        let mut product = vec![f.one(); self.points];
+        let grid = self.pair.grid(f, &self.frame);
+        let values = self.pair.values(&self.limbs, &self.frame, &grid);
+        let mut product = vec![f.one(); self.points()];
         for (factor, multiplicity) in factors {
-            let at = grid.evaluate(factor, factor.len(), 1, self.points);
+            let at = grid.evaluate(factor, factor.len(), 1, self.points());
             for (p, v) in product.iter_mut().zip(at) {
                 *p = f.mul(*p, f.power(v, *multiplicity));
             }
@@ -209,7 +190,7 @@ impl Determinant<'_> {
     }
 
     fn images<T: Send>(&self, primes: &[PrimeField], image: impl Fn(&PrimeField) -> T + Send + Sync) -> Vec<T> {
-        if self.pair.is_worth_threads(self.points, primes.len()) {
+        if self.pair.is_worth_threads(self.points(), primes.len()) {
             parallel_map(primes, image)
         } else {
             primes.iter().map(image).collect()
@@ -218,10 +199,10 @@ impl Determinant<'_> {
 
     /// The square-free decomposition modulo a prime; `None` for zero.
     fn decomposed(&self, f: &PrimeField) -> Option<Image> {
-        let mut grid = self.grid(f);
-        let mut coefficients = self.values(f, &grid);
+        let mut grid = self.pair.grid(f, &self.frame);
+        let mut coefficients = self.pair.values(&self.limbs, &self.frame, &grid);
         grid.prepare_interpolation(f.inverse(grid.factorial()));
-        grid.interpolate(&mut coefficients, self.points, 1);
+        grid.interpolate(&mut coefficients, self.points(), 1);
         Image::of(f, coefficients)
     }
 }

@@ -1,12 +1,13 @@
-//! Bounds of a resultant over `Z[x]` that see which entries of Sylvester's matrix are small: degree, order at zero, and
+//! Bounds of a resultant that see which entries of Sylvester's matrix are small: degree, order at zero, and
 //! height.
 //!
 //! A determinant's terms take one entry of each row and each column, so with any number added to each column the sum of the
 //! rows' greatest entries, less what was added, bounds every term. Good numbers come from the Newton polygons: with the
 //! concave envelopes `A`, `B` of the entries of both polynomials, `-max (A(i) + B(j))` over `i + j = k` for column `k`.
 
+use super::prime_field::primes_for_bits;
+use super::resultant::DensePair;
 use crate::number::Integer;
-use crate::poly::UniPoly;
 
 /// Weights are multiplied by this, so that the values of the envelopes lose little in integers.
 const SCALE: i64 = 64;
@@ -77,28 +78,75 @@ fn envelope(values: &[Option<i64>]) -> Vec<Option<i64>> {
     out
 }
 
-fn weights(side: &[UniPoly], weight: impl Fn(&[Integer]) -> Option<i64>) -> Vec<Option<i64>> {
-    side.iter().map(|c| weight(c.coeffs()).map(|w| w * SCALE)).collect()
+/// What is known of a resultant before it is computed.
+pub(super) struct Frame {
+    /// For each variable the least exponent, and how many there are from that on.
+    pub ranges: Vec<(usize, usize)>,
+    /// A number that divides all coefficients.
+    pub divisor: Integer,
+    /// All coefficients, divided by that, are below `2^bits` in magnitude.
+    pub bits: u64,
 }
 
-/// The least exponent and the greatest that the resultant can have, given the coefficients of both polynomials from the constant
-/// term up; `None` where it is zero.
-pub(super) fn exponents(a: &[UniPoly], b: &[UniPoly]) -> Option<(usize, usize)> {
-    let degree = |c: &[Integer]| c.iter().rposition(|x| !x.is_zero()).map(|k| k as i64);
-    let order = |c: &[Integer]| c.iter().position(|x| !x.is_zero()).map(|k| -(k as i64));
-    let greatest = Entries { a: &weights(a, degree), b: &weights(b, degree) }.bound()?.div_euclid(SCALE);
-    let least = -Entries { a: &weights(a, order), b: &weights(b, order) }.bound()?.div_euclid(SCALE);
-    (least <= greatest).then(|| (least.max(0) as usize, greatest as usize))
+/// The bounds are looked for where at least so many products of residues would be computed without them: about 30 us.
+const MIN_PRODUCTS: usize = 1 << 13;
+
+impl Frame {
+    /// `None` where the resultant is zero for certain.
+    pub fn new(pair: &DensePair<'_>) -> Option<Frame> {
+        let plain = Frame {
+            ranges: pair.lengths().into_iter().map(|length| (0, length)).collect(),
+            divisor: Integer::ONE,
+            bits: pair.height_bits(),
+        };
+        let products = plain.points() * primes_for_bits(plain.bits) * pair.degrees.0 * pair.degrees.1;
+        if products < MIN_PRODUCTS {
+            return Some(plain);
+        }
+        let ranges: Option<Vec<_>> = (0..pair.terms.len()).map(|axis| exponents(pair, axis)).collect();
+        let divisor = known_divisor(pair);
+        let bits = (height_bits(pair).min(plain.bits) + 1).saturating_sub(divisor.bit_length());
+        Some(Frame { ranges: ranges?, divisor, bits })
+    }
+
+    /// The number of points of the grid.
+    pub fn points(&self) -> usize {
+        self.ranges.iter().map(|range| range.1).product()
+    }
+}
+
+/// The greatest of the weights of the monomials of each coefficient; a weight gets the place of the monomial.
+fn weights(pair: &DensePair<'_>, weight: impl Fn(usize, &Integer) -> i64) -> [Vec<Option<i64>>; 2] {
+    let rows = pair.degrees.0 + pair.degrees.1 + 2;
+    let mut out = vec![None; rows];
+    for (k, c) in pair.coefficients.iter().enumerate().filter(|(_, c)| !c.is_zero()) {
+        let place = &mut out[k % rows];
+        *place = (*place).max(Some(weight(k / rows, c) * SCALE));
+    }
+    let b = out.split_off(pair.degrees.0 + 1);
+    [out, b]
+}
+
+fn bound(weights: &[Vec<Option<i64>>; 2]) -> Option<i64> {
+    Entries { a: &weights[0], b: &weights[1] }.bound().map(|bound| bound.div_euclid(SCALE))
+}
+
+/// The least exponent of a variable and the number of exponents from that on; `None` where the resultant is zero.
+fn exponents(pair: &DensePair<'_>, axis: usize) -> Option<(usize, usize)> {
+    let inner: usize = pair.terms[axis + 1..].iter().product();
+    let exponent = |place: usize| (place / inner % pair.terms[axis]) as i64;
+    let greatest = bound(&weights(pair, |place, _| exponent(place)))?;
+    let least = -bound(&weights(pair, |place, _| -exponent(place)))?;
+    (least <= greatest).then(|| (least.max(0) as usize, (greatest - least.max(0)) as usize + 1))
 }
 
 /// A number that divides every coefficient of the resultant: its prime factors are small, its exponents those that the
 /// valuations of the entries leave no choice about.
-pub(super) fn known_divisor(a: &[UniPoly], b: &[UniPoly]) -> Integer {
+fn known_divisor(pair: &DensePair<'_>) -> Integer {
     let mut divisor = Integer::ONE;
     for prime in DIVIDING_PRIMES {
-        let valuation = |c: &[Integer]| c.iter().filter_map(|x| valuation(x, prime)).min().map(|v| -v);
-        if let Some(bound) = (Entries { a: &weights(a, valuation), b: &weights(b, valuation) }).bound() {
-            divisor *= Integer::from(prime).pow((-bound.div_euclid(SCALE)).max(0) as u64);
+        if let Some(bound) = bound(&weights(pair, |_, c| -valuation(c, prime))) {
+            divisor *= Integer::from(prime).pow((-bound).max(0) as u64);
         }
     }
     divisor
@@ -107,29 +155,25 @@ pub(super) fn known_divisor(a: &[UniPoly], b: &[UniPoly]) -> Integer {
 /// Numbers of three digits, written with a decimal point, have such denominators.
 const DIVIDING_PRIMES: [u64; 11] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31];
 
-/// How often a prime divides; `None` for zero.
-fn valuation(x: &Integer, prime: u64) -> Option<i64> {
+/// How often a prime divides a number that is not zero.
+fn valuation(x: &Integer, prime: u64) -> i64 {
     if prime == 2 {
-        return x.trailing_zeros().map(|v| v as i64);
-    }
-    if x.is_zero() {
-        return None;
+        return x.trailing_zeros().unwrap_or(0) as i64;
     }
     let (mut rest, mut count) = (x.clone(), 0);
     while rest.mod_u64(prime) == 0 {
         rest = rest.div_exact(&Integer::from(prime));
         count += 1;
     }
-    Some(count)
+    count
 }
 
 /// `e` such that every coefficient of the resultant is below `2^e` in magnitude: Hadamard's bound
-/// ([Hadamard1893](crate::bibliography#hadamard1893)) on the circle `|x| = 1`, columns first multiplied by powers of two.
-pub(super) fn height_bits(a: &[UniPoly], b: &[UniPoly]) -> u64 {
-    let norms = |side: &[UniPoly]| -> Vec<Integer> {
-        side.iter().map(|c| c.coeffs().iter().fold(Integer::ZERO, |sum, x| sum + x.abs())).collect()
-    };
-    let (norms_a, norms_b) = (norms(a), norms(b));
+/// ([Hadamard1893](crate::bibliography#hadamard1893)) where all variables have modulus 1, columns first multiplied by powers of
+/// two.
+fn height_bits(pair: &DensePair<'_>) -> u64 {
+    let mut norms_a = pair.norms();
+    let norms_b = norms_a.split_off(pair.degrees.0 + 1);
     let bits = |norms: &[Integer]| -> Vec<Option<i64>> {
         norms.iter().map(|c| (!c.is_zero()).then_some(c.bit_length() as i64 * SCALE)).collect()
     };
@@ -155,7 +199,8 @@ pub(super) fn height_bits(a: &[UniPoly], b: &[UniPoly]) -> u64 {
 mod tests {
     use super::*;
     use crate::limits::Budget;
-    use crate::poly::{Poly, resultant_subresultant};
+    use crate::poly::modular::multimodular_resultant::dense;
+    use crate::poly::{Poly, UniPoly, resultant_subresultant};
 
     /// Random polynomials, thin at their ends as those of sampled plants are: the bounds hold, and most often they are reached.
     #[test]
@@ -185,19 +230,18 @@ mod tests {
                 }
                 coefficients
             };
-            let (a, b) = (side(degree_a), side(degree_b));
-            if a.is_empty() || b.is_empty() {
-                continue;
-            }
-            let exact =
-                resultant_subresultant(&Poly::new(a.clone()), &Poly::new(b.clone()), &Budget::unlimited()).unwrap();
-            let Some((least, greatest)) = exponents(&a, &b) else {
+            let (a, b) = (Poly::new(side(degree_a)), Poly::new(side(degree_b)));
+            let (Some(n), Some(m)) = (a.degree(), b.degree()) else { continue };
+            let pair = dense(&a, n, &b, m);
+            let exact = resultant_subresultant(&a, &b, &Budget::unlimited()).unwrap();
+            let Some((least, count)) = exponents(&pair, 0) else {
                 assert!(exact.coeffs().is_empty());
                 continue;
             };
+            let greatest = least + count - 1;
             let Some(order) = exact.coeffs().iter().position(|c| !c.is_zero()) else { continue };
             let degree = exact.coeffs().len() - 1;
-            let (divisor, bits) = (known_divisor(&a, &b), height_bits(&a, &b));
+            let (divisor, bits) = (known_divisor(&pair), height_bits(&pair));
             assert!(least <= order && degree <= greatest, "{least} {order} {degree} {greatest}");
             assert!(exact.coeffs().iter().all(|c| c.divisible_by(&divisor) && c.bit_length() <= bits));
             all += 1;
