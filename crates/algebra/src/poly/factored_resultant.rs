@@ -14,7 +14,7 @@ use crate::limits::{Budget, Exhausted};
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
-/// use jurist_algebra::poly::{Poly, UniPoly, resultant_square_free_decomposition};
+/// use jurist_algebra::poly::{Domain, Poly, UniPoly, resultant_square_free_decomposition};
 /// // y^2 - x^2 and y: x^2 (up to sign) is where they have a common zero.
 /// let a = Poly::new(vec![UniPoly::from_i64(&[0, 0, -1]), UniPoly::zero(), UniPoly::one()]);
 /// let b = Poly::new(vec![UniPoly::zero(), UniPoly::one()]);
