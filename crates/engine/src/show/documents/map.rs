@@ -255,7 +255,8 @@ impl Place {
 
 impl MapQuestion {
     pub(super) fn new(problem: &Problem) -> Self {
-        let [x, y] = problem.axes();
+        // A third free parameter is that of slices.
+        let [x, y, ..] = problem.free() else { panic!("two parameters are free") };
         MapQuestion {
             title: title(problem),
             time: problem.time(),
@@ -315,7 +316,7 @@ impl PlaneRegion {
 }
 
 impl RegionLimit {
-    fn new(limit: &MapLimit, parameter: usize, problem: &Problem, digits: usize) -> Self {
+    pub(super) fn new(limit: &MapLimit, parameter: usize, problem: &Problem, digits: usize) -> Self {
         let place = |at: &[number::Enclosure; 2]| Place::new(&at[1 - parameter], digits);
         RegionLimit {
             number: Number::new(&limit.limit.value.clone().into(), digits),
@@ -328,21 +329,26 @@ impl RegionLimit {
     }
 }
 
+impl Regions {
+    /// Of a map that is known.
+    pub(super) fn new(answer: &answer::Map, problem: &Problem, digits: usize) -> Self {
+        let (map, limits) = (&answer.decomposition, answer.limits());
+        let region = |(k, r)| PlaneRegion::new(r, limits.get(k), problem, digits);
+        Regions {
+            never_stable: map.never_stable,
+            never_stable_cause: map.never_stable.then(|| answer.never_stable_cause.map(str::to_owned)),
+            curves: map.curves.iter().map(Curve::from).collect(),
+            strips: map.strips.iter().map(|s| Strip::new(s, map, problem.axes()[0], digits)).collect(),
+            regions: map.regions.iter().enumerate().map(region).collect(),
+            required: answer.required.as_ref().map(|found| RequiredInPlane::new(found, digits)),
+        }
+    }
+}
+
 impl Map {
     /// The document, also of a map that the budget did not allow; decimals to so many significant digits.
     pub fn new(problem: &Problem, answer: Result<&answer::Map, &Exhausted>, digits: usize) -> Self {
-        let known = |answer: &answer::Map| {
-            let (map, limits) = (&answer.decomposition, answer.limits());
-            let region = |(k, r)| PlaneRegion::new(r, limits.get(k), problem, digits);
-            Regions {
-                never_stable: map.never_stable,
-                never_stable_cause: map.never_stable.then(|| answer.never_stable_cause.map(str::to_owned)),
-                curves: map.curves.iter().map(Curve::from).collect(),
-                strips: map.strips.iter().map(|s| Strip::new(s, map, problem.axes()[0], digits)).collect(),
-                regions: map.regions.iter().enumerate().map(region).collect(),
-                required: answer.required.as_ref().map(|found| RequiredInPlane::new(found, digits)),
-            }
-        };
+        let known = |answer: &answer::Map| Regions::new(answer, problem, digits);
         Map { schema: MapName::V1, question: MapQuestion::new(problem), answer: Answered::of(answer, known) }
     }
 }

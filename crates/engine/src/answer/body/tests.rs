@@ -1,0 +1,2 @@
+//! Bodies whose slices are known.
+
