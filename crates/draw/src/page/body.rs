@@ -4,10 +4,10 @@ use super::map::{CERTAIN, SCRIPT, data, fields, style};
 use super::{document, escaped};
 use crate::figures::map::{MapContents, MapFigure, slice_name};
 use jurist_algebra::limits::Budget;
-use jurist_engine::answer::{Answer, Body, BodySlice};
+use jurist_engine::answer::{Answer, Body, Map};
 use jurist_engine::error::Error;
 use jurist_engine::show::documents::Exact;
-use jurist_engine::show::layout::{named_values, short};
+use jurist_engine::show::layout::named_values;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -128,7 +128,7 @@ fn first_shown(answer: &Answer<Body>) -> usize {
 /// What the script needs of a slice.
 fn slice_data(
     name: &str,
-    map: &Answer<jurist_engine::answer::Map>,
+    map: &Answer<Map>,
     contents: &MapContents<'_>,
     figures: &[MapFigure; 2],
     budget: &Budget,
