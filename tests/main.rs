@@ -57,6 +57,7 @@ mod corpus {
 
 /// Two parameters: the exact decomposition and boxes.
 mod maps {
+    mod body;
     mod boxes;
     mod cases;
     mod laws;

@@ -1,8 +1,8 @@
 //! `jurist map -z`: the stable region in three parameters, by exact maps at values of the third.
 
+use super::Context;
 use super::map::{LIMIT_DIGITS, NARROW, Options, Picture, WIDE, windows};
 use super::map_boxes::MethodName;
-use super::Context;
 use crate::cli::assignments::{AxisRequest, SlicesRequest, in_line, slices};
 use crate::cli::input::known_name;
 use crate::cli::output::note;
@@ -75,7 +75,8 @@ fn fits(options: &Options) -> Result<(), Error> {
         return Err(error.help(help).into());
     }
     if let Some(option) = options.require.first() {
-        let error = Diagnostic::error("E-require", format!("the slices of '-z' are of stability alone, without '{option}'"));
+        let error =
+            Diagnostic::error("E-require", format!("the slices of '-z' are of stability alone, without '{option}'"));
         return Err(error.help("leave out '-z' and give its parameter one value with '--set'").into());
     }
     Ok(())
@@ -84,9 +85,8 @@ fn fits(options: &Options) -> Result<(), Error> {
 /// What is wrong with the slices, with its place in the command line.
 fn pointed(error: Error, request: &SlicesRequest, context: &Context) -> Error {
     let Error::Refused(refused) = &error else { return error };
-    let at = |span: Span, label: &str| {
-        in_line(context.line, vec![refused.diagnostics()[0].clone().at(span, label)]).into()
-    };
+    let at =
+        |span: Span, label: &str| in_line(context.line, vec![refused.diagnostics()[0].clone().at(span, label)]).into();
     match refused.code() {
         "E-usage" => at(request.name_span, "asked for a second time"),
         "E-value" => at(request.range_span, "not inside the domain"),

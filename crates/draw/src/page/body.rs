@@ -2,7 +2,7 @@
 
 use super::map::{CERTAIN, SCRIPT, data, fields, style};
 use super::{document, escaped};
-use crate::figures::map::{MapContents, MapFigure, slice_name};
+use crate::figures::map::{MapContents, MapFigure, common_legend, slice_name};
 use jurist_algebra::limits::Budget;
 use jurist_engine::answer::{Answer, Body, Map};
 use jurist_engine::error::Error;
@@ -49,7 +49,7 @@ pub fn body_page(
         [] => "Every other quantity has its value in the model.".to_owned(),
         set => format!("With {}.", named_values(set)),
     };
-    let first = first_shown(answer);
+    let (first, legend) = (first_shown(answer), common_legend(contents));
     let (mut pictures, mut known) = (String::new(), Vec::new());
     for (k, (slice, contents)) in slices.iter().zip(contents).enumerate() {
         let name = slice_name(answer, &slice.value);
@@ -57,7 +57,7 @@ pub fn body_page(
         write!(pictures, "<div class=\"slice\"{hidden}>").expect("a text takes everything");
         match (contents, &slice.map) {
             (Some(contents), Ok(map)) => {
-                let figures = sizes.map(|(width, height)| contents.draw(width, height, false));
+                let figures = sizes.map(|(width, height)| contents.draw_under(width, height, &legend));
                 for (figure, class) in figures.iter().zip(["wide", "narrow"]) {
                     let svg = figure.figure.svg_named(&format!("{class}-{k}"));
                     write!(pictures, "<div class=\"figure {class}\">{svg}</div>\n").expect("a text takes everything");
@@ -119,8 +119,7 @@ fn first_shown(answer: &Answer<Body>) -> usize {
     let decided: Vec<usize> = (0..slices.len()).filter(|&k| slices[k].map.is_ok()).collect();
     let nominal = answer.problem().free()[2].nominal.as_ref();
     let nearest = nominal.and_then(|at| decided.iter().copied().min_by_key(|&k| (&slices[k].value - at).abs()));
-    let stable: Vec<usize> =
-        decided.iter().copied().filter(|&k| slices[k].has_stable_points() == Some(true)).collect();
+    let stable: Vec<usize> = decided.iter().copied().filter(|&k| slices[k].has_stable_points() == Some(true)).collect();
     let middle = |list: &[usize]| list.get(list.len() / 2).copied();
     nearest.or_else(|| middle(&stable)).or_else(|| middle(&decided)).unwrap_or(0)
 }
@@ -142,13 +141,14 @@ fn slice_data(
 fn table(answer: &Answer<Body>, shown: usize) -> String {
     let cells = |row: &[String], tag: &str| -> String {
         let missing = 4usize.saturating_sub(row.len());
-        let span = |k: usize| if k + 1 == row.len() && missing > 0 { format!(" colspan=\"{}\"", missing + 1) } else { String::new() };
+        let span = |k: usize| {
+            if k + 1 == row.len() && missing > 0 { format!(" colspan=\"{}\"", missing + 1) } else { String::new() }
+        };
         row.iter().enumerate().map(|(k, cell)| format!("<{tag}{}>{}</{tag}>", span(k), escaped(cell))).collect()
     };
     let rows = answer.rows();
-    let row = |(k, row): (usize, &Vec<String>)| {
-        format!("<tr aria-current=\"{}\">{}</tr>\n", k == shown, cells(row, "td"))
-    };
+    let row =
+        |(k, row): (usize, &Vec<String>)| format!("<tr aria-current=\"{}\">{}</tr>\n", k == shown, cells(row, "td"));
     let body: String = rows[1..].iter().enumerate().map(row).collect();
     format!(
         "<div class=\"table\"><table id=\"slices\"><caption>Stable regions of each slice</caption>\n\

@@ -2,9 +2,7 @@
 
 use super::{document, escaped};
 use crate::figures::dark_style;
-use crate::figures::map::{
-    FrequencyPoint, MapContents, MapFigure, Role, Wall, frequency_unit, mechanism_words,
-};
+use crate::figures::map::{FrequencyPoint, MapContents, MapFigure, Role, Wall, frequency_unit, mechanism_words};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Integer;
 use jurist_algebra::poly::{Monomial, RealAlgebraic};

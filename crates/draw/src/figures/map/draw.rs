@@ -88,19 +88,36 @@ impl<'a> MapContents<'a> {
 
     /// The picture at a size, with or without its title.
     pub fn draw(&self, width: f64, height: f64, titled: bool) -> MapFigure {
-        Drawing::new(self, width, height, if titled { &Head::Title } else { &Head::Legend }).finish()
+        let entries = self.legend().0;
+        let head = if titled { Head::Title(&entries) } else { Head::Legend(&entries) };
+        Drawing::new(self, width, height, &head).finish()
+    }
+
+    /// The picture under a legend that several have, so that their axes are in the same place.
+    pub fn draw_under(&self, width: f64, height: f64, legend: &Legend) -> MapFigure {
+        Drawing::new(self, width, height, &Head::Legend(&legend.0)).finish()
     }
 
     /// The picture as one of several on common axes: a caption above it, no legend, no words beside walls.
     pub(super) fn draw_among(&self, width: f64, height: f64, caption: &str) -> Scene {
-        let mut drawing = Drawing::new(self, width, height, &Head::Caption(caption.to_owned()));
+        let mut drawing = Drawing::new(self, width, height, &Head::Caption(caption));
         drawing.shapes();
         drawing.scene
     }
 
     /// The legend of the picture.
-    pub(super) fn legend(&self) -> Vec<legend::Entry> {
-        Drawing::new(self, 1.0, 1.0, &Head::Title).entries()
+    pub(super) fn legend(&self) -> Legend {
+        Legend(self.entries())
+    }
+
+    /// Where the nominal point is, if the window shows it.
+    pub(super) fn nominal(&self) -> Option<Point> {
+        let [Some(x), Some(y)] = [0, 1].map(|k| self.answer.problem().free()[k].nominal.as_ref()) else {
+            return None;
+        };
+        let windows = &self.trace.windows;
+        let at = (windows[0].place(x.to_f64_approximate()), windows[1].place(y.to_f64_approximate()));
+        inside(at).then_some(at)
     }
 
     /// The domain in places of the window: left, lower, right, upper, each from 0 to 1.
@@ -124,14 +141,18 @@ pub(super) fn what(problem: &Problem) -> String {
     if asked == "stable" { "Stable region".to_owned() } else { format!("Region of {asked}") }
 }
 
+/// Samples of what is drawn with their names.
+#[derive(Debug)]
+pub struct Legend(pub(super) Vec<legend::Entry>);
+
 /// What stands above the axes.
-enum Head {
+enum Head<'a> {
     /// Title, values, legend.
-    Title,
+    Title(&'a [legend::Entry]),
     /// The legend.
-    Legend,
+    Legend(&'a [legend::Entry]),
     /// A line of words.
-    Caption(String),
+    Caption(&'a str),
 }
 
 /// A picture in the making.
@@ -150,14 +171,14 @@ pub(super) struct Drawing<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(contents: &'a MapContents<'a>, width: f64, height: f64, head: &Head) -> Self {
+    fn new(contents: &'a MapContents<'a>, width: f64, height: f64, head: &Head<'_>) -> Self {
         let problem = contents.answer.problem();
         let [x, y] = [0, 1].map(|k| contents.trace.windows[k].axis(&problem.free()[k]));
         let mut scene = Scene::new(width, height);
         let mut top = match head {
-            Head::Title => heading(&what(problem), problem).draw(&mut scene),
-            Head::Legend => 4.0,
-            Head::Caption(text) => Heading { title: text.clone(), notes: Vec::new() }.draw(&mut scene),
+            Head::Title(_) => heading(&what(problem), problem).draw(&mut scene),
+            Head::Legend(_) => 4.0,
+            Head::Caption(text) => Heading { title: (*text).to_owned(), notes: Vec::new() }.draw(&mut scene) + 5.0,
         };
         let left = Frame::left_of(&y, height - top - BELOW);
         let plot = Rectangle { left, top: 0.0, width: width - left - RIGHT, height: 0.0 };
@@ -170,9 +191,8 @@ impl<'a> Drawing<'a> {
             dots: Vec::new(),
             said: Vec::new(),
         };
-        if !matches!(head, Head::Caption(_)) {
-            let entries = drawing.entries();
-            top = legend::in_rows(&mut drawing.scene, &entries, (14.0, top + 2.0), width - 28.0) + 6.0;
+        if let Head::Title(entries) | Head::Legend(entries) = head {
+            top = legend::in_rows(&mut drawing.scene, entries, (14.0, top + 2.0), width - 28.0) + 6.0;
         }
         drawing.frame.plot.top = top;
         drawing.frame.plot.height = (height - top - BELOW).max(20.0);
@@ -263,12 +283,7 @@ impl<'a> Drawing<'a> {
     }
 
     pub(super) fn nominal(&self) -> Option<Point> {
-        let [Some(x), Some(y)] = [0, 1].map(|k| self.contents.answer.problem().free()[k].nominal.as_ref()) else {
-            return None;
-        };
-        let windows = &self.contents.trace.windows;
-        let at = (windows[0].place(x.to_f64_approximate()), windows[1].place(y.to_f64_approximate()));
-        inside(at).then_some(at)
+        self.contents.nominal()
     }
 
     fn lines_through_nominal(&mut self) {

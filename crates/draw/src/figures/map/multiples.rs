@@ -3,7 +3,7 @@
 use super::super::facts::heading;
 use super::super::legend;
 use super::super::{FAINT_INK, Figure, engineering::quantity};
-use super::draw::{MapContents, what};
+use super::draw::{Legend, MapContents, what};
 use crate::scene::{Anchor, Scene, Words};
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, Body};
@@ -21,6 +21,20 @@ pub fn slice_name(answer: &Answer<Body>, value: &Rational) -> String {
     format!("{} = {}", third.name, quantity(&short(value), &unit))
 }
 
+/// The legend of all of several pictures.
+pub fn common_legend(contents: &[Option<MapContents<'_>>]) -> Legend {
+    // The longest legend first: it has them in the usual order.
+    let mut legends: Vec<Legend> = contents.iter().flatten().map(MapContents::legend).collect();
+    legends.sort_by_key(|legend| std::cmp::Reverse(legend.0.len()));
+    let mut common: Vec<legend::Entry> = Vec::new();
+    for entry in legends.into_iter().flat_map(|legend| legend.0) {
+        if !common.iter().any(|known| known.1 == entry.1) {
+            common.push(entry);
+        }
+    }
+    Legend(common)
+}
+
 /// All slices beside each other under one heading and one legend; one that is not decided says so in its place.
 ///
 /// # Panics
@@ -34,14 +48,8 @@ pub fn small_multiples(answer: &Answer<Body>, contents: &[Option<MapContents<'_>
     let mut scene = Scene::new(columns as f64 * PANEL.0, 0.0);
     let problem = answer.problem();
     let top = heading(&what(problem), problem).draw(&mut scene);
-    let mut entries: Vec<legend::Entry> = Vec::new();
-    for entry in contents.iter().flatten().flat_map(MapContents::legend) {
-        if !entries.iter().any(|known| known.1 == entry.1) {
-            entries.push(entry);
-        }
-    }
     let room = scene.width - 28.0;
-    let top = legend::in_rows(&mut scene, &entries, (14.0, top + 2.0), room) + 6.0;
+    let top = legend::in_rows(&mut scene, &common_legend(contents).0, (14.0, top + 2.0), room) + 6.0;
     scene.height = top + rows as f64 * PANEL.1;
     for (k, (slice, contents)) in slices.iter().zip(contents).enumerate() {
         let place = ((k % columns) as f64 * PANEL.0, top + (k / columns) as f64 * PANEL.1);

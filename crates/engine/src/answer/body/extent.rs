@@ -6,9 +6,8 @@ use crate::error::Error;
 use crate::stability::AlgebraicInterval;
 use crate::stability::plane::StableRegion;
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::RealAlgebraic;
-use jurist_algebra::poly::algebraic::simplest_between;
 use std::cmp::Ordering;
 
 /// An extreme value of a parameter over the slices.
@@ -83,10 +82,7 @@ pub(super) fn of_regions(regions: &[StableRegion]) -> Option<[AlgebraicInterval;
 }
 
 /// The least or greatest end; `None` where one is infinite.
-fn outermost<'a>(
-    ends: impl Iterator<Item = Option<&'a RealAlgebraic>>,
-    wanted: Ordering,
-) -> Option<RealAlgebraic> {
+fn outermost<'a>(ends: impl Iterator<Item = Option<&'a RealAlgebraic>>, wanted: Ordering) -> Option<RealAlgebraic> {
     let all: Vec<&RealAlgebraic> = ends.collect::<Option<_>>()?;
     let further = |a: &'a RealAlgebraic, b: &'a RealAlgebraic| if b.compare(a) == wanted { b } else { a };
     all.into_iter().reduce(further).cloned()
@@ -140,15 +136,17 @@ impl Asked<'_> {
             match stretches.last_mut().filter(|stretch| stretch.last + 1 == number) {
                 Some(stretch) => stretch.last = number,
                 None => {
-                    stretches.push(Stretch { first: number, last: number, ends: [StretchEnd::Range, StretchEnd::Range] });
+                    stretches.push(Stretch {
+                        first: number,
+                        last: number,
+                        ends: [StretchEnd::Range, StretchEnd::Range],
+                    });
                 }
             }
         }
         told.step("brackets of the ends of stability");
-        let sides: Vec<(usize, Option<usize>)> = stretches
-            .iter()
-            .flat_map(|s| [(s.first, s.first.checked_sub(1)), (s.last, Some(s.last + 1))])
-            .collect();
+        let sides: Vec<(usize, Option<usize>)> =
+            stretches.iter().flat_map(|s| [(s.first, s.first.checked_sub(1)), (s.last, Some(s.last + 1))]).collect();
         let ends: Vec<Result<StretchEnd, Error>> = parallel_map(&sides, |(stable, beside)| {
             match beside.and_then(|k| slices.get(k)).map(|slice| (slice, slice.has_stable_points())) {
                 None => Ok(StretchEnd::Range),
@@ -185,10 +183,16 @@ impl Asked<'_> {
     }
 }
 
-/// The simplest number in the middle quarter between two: maps at it are the fastest.
+/// The shortest decimal in the middle quarter between two numbers.
 fn near_the_middle(a: &Rational, b: &Rational) -> Rational {
-    let (low, high) = if a < b { (a, b) } else { (b, a) };
-    let eighth = &(high - low) * &Rational::new(1.into(), 8.into());
-    let part = |k: i64| low + &(&eighth * &Rational::from(k));
-    simplest_between(&part(3), &part(5)).expect("there are numbers between two")
+    let (middle, eighth) = (a.midpoint(b), (b - a).abs() / Rational::from(8));
+    let half = Rational::dyadic(&Integer::ONE, 1);
+    let (mut unit, tenth) = (Rational::ONE, Rational::new(1.into(), 10.into()));
+    loop {
+        let rounded = Rational::from((&middle / &unit + &half).floor()) * &unit;
+        if (&rounded - &middle).abs() < eighth {
+            return rounded;
+        }
+        unit *= &tenth;
+    }
 }

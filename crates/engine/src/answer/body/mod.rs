@@ -197,7 +197,8 @@ impl Question {
             Some(value) => {
                 let text = crate::show::intervals::domain_text(third, domain);
                 let message = format!("the slice at {third} = {value} is outside the domain, {text}");
-                let help = format!("both ends are slices: begin and end inside, or change the domain: '--domain {third}=..'");
+                let help =
+                    format!("both ends are slices: begin and end inside, or change the domain: '--domain {third}=..'");
                 Err(Diagnostic::error("E-value", message).help(help).into())
             }
         }
@@ -259,7 +260,8 @@ fn by_boxes(error: Error) -> Error {
         return error;
     }
     let message = "slices are exact maps, of rational loops only, and the loop has functions, as behind a hold";
-    let help = "ask for one slice at a time, with windows: 'map -x NAME=LO..HI -y NAME=LO..HI --set NAME=VALUE' decides boxes";
+    let help =
+        "ask for one slice at a time, with windows: 'map -x NAME=LO..HI -y NAME=LO..HI --set NAME=VALUE' decides boxes";
     Diagnostic::error("E-function", message).help(help).into()
 }
 

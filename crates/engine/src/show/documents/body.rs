@@ -3,8 +3,8 @@
 use super::end::{Bounds, PlainEnd};
 use super::map::{MapOpen, MapQuestion, Pair, RegionEnd, RegionLimit, Regions};
 use super::number::Exact;
-use super::undecided::{Answered, Undecided};
 use super::schema_name;
+use super::undecided::{Answered, Undecided};
 use crate::answer::{self, Answer};
 use crate::problem::Problem;
 use crate::stability::AlgebraicInterval;

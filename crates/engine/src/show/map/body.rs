@@ -19,7 +19,14 @@ impl Answer<Body> {
         let (problem, body) = (self.problem(), self.value());
         let [x, y, z] = self.axes();
         let [first, last] = [body.slices.first(), body.slices.last()].map(|s| s.map(|s| short(&s.value)));
-        let mut out = format!("{}\n{} against {}, at {} values of {}", heading(problem), axis_text(x), axis_text(y), body.slices.len(), z.name);
+        let mut out = format!(
+            "{}\n{} against {}, at {} values of {}",
+            heading(problem),
+            axis_text(x),
+            axis_text(y),
+            body.slices.len(),
+            z.name
+        );
         if let Some(unit) = &z.unit {
             out.push_str(&format!(" in {}", visible(unit)));
         }
@@ -46,7 +53,9 @@ impl Answer<Body> {
                 Ok(map) => {
                     cells.push(map.value().decomposition.regions.len().to_string());
                     cells.extend(match (&slice.extent, map.value().never_stable_cause) {
-                        (Some(extent), _) => [(x, &extent[0]), (y, &extent[1])].map(|(axis, i)| span(&axis.name, i)).to_vec(),
+                        (Some(extent), _) => {
+                            [(x, &extent[0]), (y, &extent[1])].map(|(axis, i)| span(&axis.name, i)).to_vec()
+                        }
                         (None, Some(cause)) => vec![format!("{goal} nowhere{}", never_stable_text(cause))],
                         (None, None) => vec![format!("{goal} nowhere")],
                     });
@@ -60,9 +69,12 @@ impl Answer<Body> {
     /// How far the slices reach and where they begin and end, as sentences.
     pub fn sentences(&self, digits: usize) -> Vec<String> {
         let extremes = self.value().extremes.as_ref().ok().and_then(Option::as_ref);
-        let mut out: Vec<String> = extremes.map(|e| self.extreme_rows(e, digits)).into_iter().flatten().map(|row| {
-            row.into_iter().filter(|cell| !cell.is_empty()).collect::<Vec<_>>().join(", ")
-        }).collect();
+        let rows = extremes.map(|extremes| self.extreme_rows(extremes, digits)).unwrap_or_default();
+        let sentence = |row: Vec<String>| {
+            let rest: Vec<String> = row[1..].iter().filter(|cell| !cell.is_empty()).cloned().collect();
+            format!("{}: {}", row[0], rest.join(", "))
+        };
+        let mut out: Vec<String> = rows.into_iter().map(sentence).collect();
         out.extend(self.stretches_text().lines().map(|line| line.trim().to_owned()));
         out
     }
@@ -92,7 +104,8 @@ impl Answer<Body> {
             let Some(value) = &extreme.value else { return vec![format!("no {word} {name}"), String::new(), at] };
             let decimal = real::rounded(&value.clone().into(), digits).decimal;
             let mut cells = vec![format!("{word} {name}"), decimal, at];
-            if let Some(limit) = &extreme.limit {
+            // On several slices the same value has several frequencies and places.
+            if let (Some(limit), [_]) = (&extreme.limit, extreme.slices.as_slice()) {
                 cells.extend([mechanism(limit, self.problem()), place(limit, parameter, [axes[0], axes[1]])]);
             }
             cells

@@ -1,0 +1,319 @@
+//! Maps at values of a third parameter: slices against maps with the value set, against verdicts, and against a polygon that is
+//! known by hand; the command.
+
+use crate::helpers::model::example;
+use crate::helpers::number::number;
+use crate::helpers::program::{command, json, jurist, jurist_with_input, refused};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::Domain;
+use jurist_engine::answer::{Answer, Body, SliceValues, StretchEnd, Verdict};
+use jurist_engine::model::Model;
+use proptest::prelude::*;
+use serde_json::Value;
+
+const PID: [&str; 8] = ["map", "examples/pid-body.toml", "-x", "K_i", "-y", "K_d", "-z", "K_p=-1..2:13"];
+
+fn body(model: &Model, [x, y]: [&str; 2], slices: (&str, &str, &str, usize)) -> Answer<Body> {
+    let (name, lower, upper, count) = slices;
+    let values = SliceValues::evenly(name, &number(lower), &number(upper), count).unwrap();
+    let narrow = values.width() / Rational::from(1000);
+    model.ask().free(x).free(y).body(&values, &narrow, 8, &Budget::unlimited()).unwrap()
+}
+
+fn ratio(p: i64, q: i64) -> Rational {
+    Rational::new(p.into(), q.into())
+}
+
+/// The stabilising gains of `examples/pid-body.toml` by hand, where `root^2 = 6 - 4 K_p`.
+///
+/// `D(z)/z` is real on the circle at the angles where `4 c^2 - 2 c - 5/4 + K_p = 0`, at 0 and at pi, and all four roots are inside
+/// exactly where it turns by three half turns: where it is positive at 0 and then changes its sign from each of these points to the
+/// next.
+fn is_stabilising(root: &Rational, [k_i, k_d]: [&Rational; 2]) -> bool {
+    let k_p = (Rational::from(6) - root * root) / Rational::from(4);
+    if k_p <= ratio(-3, 4) || k_p >= ratio(3, 2) {
+        return false;
+    }
+    let quarter = ratio(1, 4);
+    let [first, second] = [Rational::ONE + root, Rational::ONE - root].map(|c| c * &quarter);
+    let real_part = |c: &Rational| {
+        let cubic = ((ratio(4, 1) * c - ratio(2, 1)) * c - ratio(13, 4)) * c + ratio(5, 4);
+        cubic + (&k_p + Rational::from(2) * k_d) * (c - Rational::ONE) + k_i
+    };
+    let at_minus_one = ratio(3, 2) + Rational::from(2) * &k_p - k_i + Rational::from(4) * k_d;
+    k_i.sign().is_gt()
+        && at_minus_one.sign().is_gt()
+        && real_part(&first).is_negative()
+        && real_part(&second).sign().is_gt()
+}
+
+fn verdict(k_p: &Rational, k_i: &Rational, k_d: &Rational) -> Verdict {
+    let question = example("pid-body").ask().set("K_p", k_p.clone()).set("K_i", k_i.clone()).set("K_d", k_d.clone());
+    question.verdict(&Budget::unlimited()).unwrap().value().verdict
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(20))]
+
+    /// 20 cases of 15 points each.
+    #[test]
+    fn points_of_the_body_have_their_verdict_and_that_of_the_polygon(
+        roots in proptest::collection::btree_set(0i64..=14, 2), points in proptest::collection::vec((-60i64..=500, -250i64..=250), 15),
+    ) {
+        // From -7/8 to 3/2 in steps that make 6 - 4 K_p the square of a quarter.
+        let k_p = |root: i64| (Rational::from(6) - ratio(root * root, 16)) / Rational::from(4);
+        let mut ends: Vec<i64> = roots.into_iter().collect();
+        ends.reverse();
+        let model = example("pid-body");
+        let values = SliceValues::evenly("K_p", &k_p(ends[0]), &k_p(ends[1]), 2).unwrap();
+        let answer = model.ask().free("K_i").free("K_d").body(&values, &Rational::ONE, 6, &Budget::unlimited()).unwrap();
+        for (slice, root) in answer.value().slices.iter().zip(ends) {
+            let map = slice.map.as_ref().unwrap();
+            let decomposition = &map.value().decomposition;
+            for (p, q) in &points {
+                let (x, y) = (ratio(*p, 200), ratio(*q, 200));
+                let stable = is_stabilising(&ratio(root, 4), [&x, &y]);
+                prop_assert_eq!(verdict(&slice.value, &x, &y) == Verdict::Stable, stable);
+                let domain = &map.problem().axes()[1].domain;
+                let place = decomposition.locate(&x, &y, domain, &Budget::unlimited()).unwrap();
+                if let Some((strip, cell)) = place {
+                    prop_assert_eq!(decomposition.strips[strip].cells[cell].stable, stable);
+                } else {
+                    prop_assert!(!stable || decomposition.slice(&x, domain, &Budget::unlimited()).unwrap().is_none());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn ends_of_the_body_are_in_their_brackets(below in 1i64..40, above in 1i64..40, count in 2usize..6) {
+        let (lower, upper) = (ratio(-3, 4) - ratio(below, 16), ratio(3, 2) + ratio(above, 16));
+        let values = SliceValues::evenly("K_p", &lower, &upper, count).unwrap();
+        let narrow = ratio(1, 50);
+        let question = example("pid-body").ask().free("K_i").free("K_d");
+        let answer = question.body(&values, &narrow, 6, &Budget::unlimited()).unwrap();
+        let inside = |v: &Rational| *v > ratio(-3, 4) && *v < ratio(3, 2);
+        for slice in &answer.value().slices {
+            prop_assert_eq!(slice.has_stable_points(), Some(inside(&slice.value)));
+        }
+        for end in answer.value().stretches.iter().flat_map(|s| &s.ends) {
+            let StretchEnd::Between { stable, none, stopped: None } = end else { panic!("{end:?}") };
+            prop_assert!(inside(stable) && !inside(none) && (stable - none).abs() <= narrow);
+        }
+    }
+}
+
+/// The corners of the polygons, by hand from the lines of [`is_stabilising`].
+#[test]
+fn the_polygons_have_their_corners() {
+    let corners: [(&str, &str, &[(&str, &str)]); 3] = [
+        ("2", "1/2", &[("0", "-5/8"), ("1/2", "-1/2"), ("5/4", "1"), ("0", "1/2")]),
+        ("1", "5/4", &[("0", "-1"), ("2", "1"), ("0", "0")]),
+        ("5/2", "-1/16", &[("0", "-11/32"), ("3/8", "-1/4"), ("11/16", "1"), ("0", "3/4")]),
+    ];
+    for (root, k_p, corners) in corners {
+        let answer = body(&example("pid-body"), ["K_i", "K_d"], ("K_p", k_p, "2", 2));
+        let slice = &answer.value().slices[0];
+        let map = slice.map.as_ref().unwrap().value();
+        assert_eq!(map.decomposition.regions.len(), 1, "{k_p}");
+        let points: Vec<[Rational; 2]> = corners.iter().map(|(x, y)| [number(x), number(y)]).collect();
+        let count = Rational::from(points.len() as i64);
+        let sum = |k: usize| points.iter().fold(Rational::ZERO, |s, p| s + &p[k]);
+        let centre = [sum(0) / &count, sum(1) / &count];
+        for point in &points {
+            // Lines through the point: both of complex pairs are one curve.
+            let lines = map.decomposition.curves.iter().map(|curve| {
+                let mut over = curve.polynomial.substitute(0, &point[0]).0.to_univariate(1).unwrap();
+                let mut times = usize::from(over.is_zero());
+                while !over.is_zero() && over.sign_at(&point[1]).is_eq() {
+                    times += 1;
+                    over = over.derivative();
+                }
+                times
+            });
+            assert!(lines.sum::<usize>() >= 2, "{k_p}: no two lines meet at {point:?}");
+            let towards = |part: &str| [0, 1].map(|k| &point[k] + &((&centre[k] - &point[k]) * number(part)));
+            for (part, stable) in [("1e-30", true), ("-1e-30", false)] {
+                let [x, y] = towards(part);
+                assert_eq!(verdict(&slice.value, &x, &y) == Verdict::Stable, stable, "{k_p} {point:?}");
+                assert_eq!(is_stabilising(&number(root), [&x, &y]), stable, "{k_p} {point:?}");
+            }
+        }
+        let ends = |k: usize| {
+            let of = points.iter().map(|p| p[k].clone());
+            [of.clone().min().unwrap(), of.max().unwrap()]
+        };
+        for (k, extent) in slice.extent.as_ref().unwrap().iter().enumerate() {
+            let found = [&extent.lower, &extent.upper].map(|end| end.as_ref().unwrap().exact().unwrap());
+            assert_eq!(found, ends(k), "{k_p}");
+        }
+    }
+}
+
+/// What `map` says of curves, strips and regions.
+fn decomposition(document: &Value) -> [&Value; 4] {
+    ["curves", "strips", "regions", "never_stable"].map(|key| &document[key])
+}
+
+#[test]
+fn each_slice_is_the_map_with_its_value_set() {
+    let model = "time = 'discrete'\n[constants]\nc = 1\n[parameters]\na = {}\nb = { min = -1 }\n\
+        [loop]\ncharacteristic = '(c - 1/2)*z^3 + a*z^2 + b*z + c/4'\n";
+    let axes = |third: &'static str, model: &'static str, x: &'static str, y: &'static str| [model, x, y, third];
+    // A parameter, a quantity with a unit, and a constant, which counts in the degree only where it is free.
+    for [file, x, y, third] in [
+        axes("K_p=0..1:3", "examples/pid-body.toml", "K_i", "K_d"),
+        axes("K_d=-1/2..1/2:2", "examples/pid-body.toml", "K_p", "K_i"),
+        axes("T=1e-4..3e-4:2", "examples/drive.toml", "K_pi", "K_pwm"),
+        axes("c=0..1:3", "-", "a", "b"),
+    ] {
+        let ask = |more: &[&str]| -> Value {
+            let run = jurist_with_input(&[&["map", file, "-x", x, "-y", y, "--json"], more].concat(), model.as_bytes());
+            assert_eq!(run.status, 0, "{}", run.stderr);
+            serde_json::from_str(&run.stdout).unwrap()
+        };
+        let slices = ask(&["-z", third]);
+        let name = third.split('=').next().unwrap();
+        for slice in slices["slices"].as_array().unwrap() {
+            let set = format!("{name}={}", slice["at"].as_str().unwrap());
+            let map = ask(&["--set", &set]);
+            assert_eq!(decomposition(slice), decomposition(&map), "{file} {set}");
+        }
+    }
+}
+
+#[test]
+fn exchanged_axes_give_the_same_body() {
+    let of =
+        |x: &str, y: &str| json(&["map", "examples/pid-body.toml", "-x", x, "-y", y, "-z", "K_p=-1..2:5", "--json"]);
+    let (one, other) = (of("K_i", "K_d"), of("K_d", "K_i"));
+    let places = |document: &Value, axis: &str| {
+        let end = |side: &str| document["extremes"][axis][side]["end"]["exact"].clone();
+        [end("lower"), end("upper"), document["extremes"][axis]["upper"]["slices"].clone()]
+    };
+    assert_eq!(places(&one, "x"), places(&other, "y"));
+    assert_eq!(places(&one, "y"), places(&other, "x"));
+    assert_eq!(one["stretches"], other["stretches"]);
+    for (a, b) in one["slices"].as_array().unwrap().iter().zip(other["slices"].as_array().unwrap()) {
+        assert_eq!(a["regions"].as_array().unwrap().len(), b["regions"].as_array().unwrap().len());
+    }
+}
+
+#[test]
+fn slices_are_among_twice_as_many() {
+    let of = |count: &str| {
+        let third = format!("K_p=-1..2:{count}");
+        json(&["map", "examples/pid-body.toml", "-x", "K_i", "-y", "K_d", "-z", &third, "--json"])["slices"].clone()
+    };
+    let (few, many) = (of("4"), of("7"));
+    let (few, many) = (few.as_array().unwrap(), many.as_array().unwrap());
+    assert_eq!((few.len(), many.len()), (4, 7));
+    for (k, slice) in few.iter().enumerate() {
+        assert_eq!(slice, &many[2 * k]);
+    }
+}
+
+#[test]
+fn the_text_tells_slices_extremes_and_ends() {
+    let run = jurist(&PID);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    insta::assert_snapshot!(run.stdout);
+    let one = jurist(&[&PID[..], &["--threads", "1"]].concat());
+    assert_eq!(one.stdout, run.stdout);
+}
+
+#[test]
+fn wrong_slices_are_refused_where_they_stand() {
+    let ask = |z: &str, more: &[&str], code: &str| {
+        let run =
+            refused(&[&["map", "examples/pid-body.toml", "-x", "K_i", "-y", "K_d", "-z", z], more].concat(), code);
+        run.stderr
+    };
+    for (z, code, help) in [
+        ("K_i=0..1:3", "E-usage", "three different parameters"),
+        ("K_q=0..1:3", "E-unknown-parameter", "K_p"),
+        ("K_p=0..1", "E-option-value", "for 11 slices"),
+        ("K_p=0..1:1", "E-option-value", "2 to 100 slices"),
+        ("K_p=0..1:1000", "E-option-value", "2 to 100 slices"),
+        ("K_p=1..0:3", "E-option-value", "below the upper end"),
+        ("K_p=0..:3", "E-option-value", "for 11 slices"),
+        ("K_p=0..1x:3", "E-number", ""),
+    ] {
+        let said = ask(z, &[], code);
+        assert!(said.contains('^') && said.contains(help), "{z}: {said}");
+    }
+    let outside = ask("K_p=0..1:3", &["--domain", "K_p=0.."], "E-value");
+    assert!(
+        outside.contains("K_p = 0 is outside") && outside.contains('^') && outside.contains("--domain K_p=.."),
+        "{outside}"
+    );
+    ask("K_p=0..1:3", &["--set", "K_p=1"], "E-kept-and-set");
+    ask("K_p=0..1:3", &["--method", "boxes"], "E-usage");
+    ask("K_p=0..1:3", &["--phase-margin", "45 deg"], "E-require");
+    ask("K_p=0..1:3", &["-o", "body.gif"], "E-output-format");
+    // A sample time inside of exponentials.
+    let held =
+        refused(&["map", "examples/dc-servo.toml", "-x", "K", "-y", "T_m", "-z", "T=0.01..0.02:2"], "E-function");
+    assert!(held.stderr.contains("one slice at a time") && held.stderr.contains("--set"), "{}", held.stderr);
+}
+
+#[test]
+fn slices_that_were_not_reached_are_told() {
+    let run = jurist(&[&PID[..], &["--timeout", "0"]].concat());
+    assert_eq!(run.status, 3);
+    assert_eq!(run.stdout.matches("undecided, the budget ran out: time (0 s)").count(), 14, "{}", run.stdout);
+    assert!(run.stderr.contains("0 of 13 slices"), "{}", run.stderr);
+    let file = std::env::temp_dir().join(format!("jurist-body-none-{}.svg", std::process::id()));
+    let picture = command(&PID).args(["--timeout", "0", "-o"]).arg(&file).output().unwrap();
+    assert_eq!(picture.status.code(), Some(3));
+    assert!(!file.exists(), "there is nothing to draw");
+}
+
+/// Draws to a file of a fresh name and gives its text.
+fn drawn(name: &str, arguments: &[&str], model: &str) -> String {
+    let folder = std::env::temp_dir();
+    let place = |what: &str| folder.join(format!("jurist-body-{}-{what}", std::process::id()));
+    let (input, output) = (place(&format!("{name}.toml")), place(name));
+    std::fs::write(&input, model).unwrap();
+    let run = command(&["map"]).arg(&input).args(arguments).arg("-o").arg(&output).output().unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    let text = String::from_utf8(std::fs::read(&output).unwrap()).unwrap();
+    std::fs::remove_file(&input).unwrap();
+    std::fs::remove_file(&output).unwrap();
+    text
+}
+
+/// The triangle of `z^2 + a z + b` where `|c| < 1`, with a title and a unit that would be HTML.
+const HOSTILE: &str = "title = '</script><script>alert(1)</script><b>'\ntime = 'discrete'\n[parameters]\na = {}\nb = {}\n\
+    c = { nominal = 0, unit = '<i>' }\n[loop]\ncharacteristic = '(z^2 + a*z + b)*(z - c)'\n";
+
+#[test]
+fn the_page_has_every_slice_and_needs_nothing_from_outside() {
+    let page = drawn("page.html", &["-x", "a", "-y", "b", "-z", "c=-2..2:5"], HOSTILE);
+    let from = page.find("id=\"data\">").unwrap() + "id=\"data\">".len();
+    let to = from + page[from..].find("</script>").unwrap();
+    let data: Value = serde_json::from_str(&page[from..to]).unwrap();
+    assert_eq!((data["slices"].as_array().unwrap().len(), &data["first"], &data["name"]), (5, &2.into(), &"c".into()));
+    assert_eq!(data["values"][0], "-2");
+    assert!(!page.contains("alert(1)</script>") && !page.contains("<b>") && !page.contains("<i>"));
+    assert_eq!(page.matches("<div class=\"slice\"").count(), 5);
+    assert_eq!(page.matches("<div class=\"slice\" hidden>").count(), 4);
+    assert!(page.contains("type=\"range\" id=\"slice\" min=\"0\" max=\"4\"") && page.contains("<table id=\"slices\">"));
+    assert!(page.contains("stable points on the slice at c = 0") && page.contains("default-src 'none'"));
+    let other = page.replace("http://www.w3.org/2000/svg", "");
+    assert!(
+        !other.contains("http:") && !other.contains("https:") && !other.contains("src=") && !other.contains("url(")
+    );
+}
+
+#[test]
+fn small_multiples_share_their_axes() {
+    let svg = drawn("slices.svg", &["-x", "a", "-y", "b", "-z", "c=-2..2:5"], HOSTILE);
+    for k in ["2", "1", "0"] {
+        assert!(svg.contains(&format!("= {k}")), "{k}");
+    }
+    let labels = |text: &str| svg.matches(&format!(">{text}<")).count();
+    assert_eq!((labels("0"), labels("unstable"), labels("stable (certified)")), (10, 1, 1));
+    assert!(!svg.contains("NaN") && !svg.contains("<b>"));
+}
