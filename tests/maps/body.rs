@@ -263,7 +263,7 @@ fn slices_that_were_not_reached_are_told() {
     let run = jurist(&[&PID[..], &["--timeout", "0"]].concat());
     assert_eq!(run.status, 3);
     assert_eq!(run.stdout.matches("undecided, the budget ran out: time (0 s)").count(), 14, "{}", run.stdout);
-    assert!(run.stderr.contains("0 of 13 slices"), "{}", run.stderr);
+    assert!(run.stderr.contains("reached: 0 of 13 slices"), "{}", run.stderr);
     let file = std::env::temp_dir().join(format!("jurist-body-none-{}.svg", std::process::id()));
     let picture = command(&PID).args(["--timeout", "0", "-o"]).arg(&file).output().unwrap();
     assert_eq!(picture.status.code(), Some(3));

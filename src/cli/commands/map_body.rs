@@ -48,9 +48,9 @@ pub(super) fn run(
         note(&format!("the regions are decided; what limits those of {count} slices is not: {stopped}"));
     }
     let open = body.open_slices().count();
-    let stopped = body.stopped().map(|stopped| {
-        let reached = format!("{} of {} slices; {}", body.slices.len() - open, body.slices.len(), stopped.reached);
-        Exhausted::new(stopped.budget.clone(), reached)
+    let stopped = body.stopped().map(|stopped| match open {
+        0 => stopped.clone(),
+        _ => Exhausted::new(&stopped.budget, format!("{} of {} slices", body.slices.len() - open, body.slices.len())),
     });
     let output = &options.output;
     match (picture, stopped) {

@@ -225,7 +225,9 @@ impl Asked<'_> {
         let done = AtomicU64::new(0);
         let found: Vec<Result<BodySlice, Error>> = parallel_map(values, |value| {
             let slice = self.slice(value);
-            told.advance(done.fetch_add(1, Ordering::Relaxed) + 1, values.len() as u64);
+            if slice.as_ref().is_ok_and(|slice| slice.map.is_ok()) {
+                told.advance(done.fetch_add(1, Ordering::Relaxed) + 1, values.len() as u64);
+            }
             slice
         });
         found.into_iter().collect()
