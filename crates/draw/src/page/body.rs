@@ -9,7 +9,6 @@ use jurist_engine::error::Error;
 use jurist_engine::show::documents::Exact;
 use jurist_engine::show::layout::named_values;
 use serde_json::{Value, json};
-use std::fmt::Write;
 
 /// What the page has beyond that of one map.
 const SLICES_STYLE: &str = "\
@@ -30,7 +29,7 @@ tr[aria-current=true]{background:var(--card);font-weight:bold}
 /// [`Error::Stopped`] when the budget runs out.
 ///
 /// # Panics
-/// Unless each slice has its contents, or none.
+/// Unless each slice that is decided has its contents, and at least one is.
 pub fn body_page(
     answer: &Answer<Body>,
     contents: &[Option<MapContents<'_>>],
@@ -53,25 +52,19 @@ pub fn body_page(
     let (mut pictures, mut known) = (String::new(), Vec::new());
     for (k, (slice, contents)) in slices.iter().zip(contents).enumerate() {
         let name = slice_name(answer, &slice.value);
-        let hidden = if k == first { "" } else { " hidden" };
-        write!(pictures, "<div class=\"slice\"{hidden}>").expect("a text takes everything");
-        match (contents, &slice.map) {
+        let (inside, data) = match (contents, &slice.map) {
             (Some(contents), Ok(map)) => {
                 let figures = sizes.map(|(width, height)| contents.draw_under(width, height, &legend));
-                for (figure, class) in figures.iter().zip(["wide", "narrow"]) {
-                    let svg = figure.figure.svg_named(&format!("{class}-{k}"));
-                    write!(pictures, "<div class=\"figure {class}\">{svg}</div>\n").expect("a text takes everything");
-                }
-                known.push(slice_data(&name, map, contents, &figures, budget)?);
+                (drawn(&figures, k), slice_data(&name, map, contents, &figures, budget)?)
             }
-            _ => {
-                let why = slice.map.as_ref().err().map(|stopped| format!(": {stopped}")).unwrap_or_default();
-                let words = escaped(&format!("{name} is not decided{why}"));
-                write!(pictures, "<p>{words}</p>").expect("a text takes everything");
-                known.push(Value::Null);
+            (_, Err(stopped)) => {
+                (format!("<p>{}</p>", escaped(&format!("{name} is not decided: {stopped}"))), Value::Null)
             }
-        }
-        pictures.push_str("</div>\n");
+            (None, Ok(_)) => panic!("a slice that is decided has its contents"),
+        };
+        let hidden = if k == first { "" } else { " hidden" };
+        pictures.push_str(&format!("<div class=\"slice\"{hidden}>{inside}</div>\n"));
+        known.push(data);
     }
     let shown: Vec<String> = slices.iter().map(|slice| slice_name(answer, &slice.value)).collect();
     let axes = known.iter().find_map(|slice| slice.get("axes")).cloned();
@@ -111,6 +104,14 @@ pub fn body_page(
         table = table(answer, first),
     );
     Ok(document(&title, &format!("{}{SLICES_STYLE}", style()), &body, true))
+}
+
+/// The picture of a slice for wide and for narrow screens, with names of its own in the page.
+fn drawn(figures: &[MapFigure; 2], number: usize) -> String {
+    let picture = |(figure, class): (&MapFigure, &str)| {
+        format!("<div class=\"figure {class}\">{}</div>\n", figure.figure.svg_named(&format!("{class}-{number}")))
+    };
+    figures.iter().zip(["wide", "narrow"]).map(picture).collect()
 }
 
 /// The slice nearest to the nominal value, else the middle one of those with stable points.

@@ -108,7 +108,7 @@ fn what_the_budget_did_not_allow_is_told() {
         }
         let open = body.open_slices().count();
         partly += usize::from(open > 0 && open < 5);
-        assert_eq!(answer.text(12).matches("undecided, the budget ran out").count() >= open, true);
+        assert!(answer.text(12).matches("undecided, the budget ran out").count() >= open);
     }
     assert!(partly > 0, "no budget of the list ends between two slices");
 }

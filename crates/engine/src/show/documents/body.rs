@@ -1,7 +1,7 @@
 //! The document `jurist/body/1`.
 
 use super::end::{Bounds, PlainEnd};
-use super::map::{MapOpen, MapQuestion, Pair, RegionEnd, RegionLimit, Regions};
+use super::map::{MapOpen, MapQuestion, Pair, RegionEnd, Regions};
 use super::number::Exact;
 use super::schema_name;
 use super::undecided::{Answered, Undecided};
@@ -116,10 +116,7 @@ impl From<&answer::StretchEnd> for StretchEnd {
 
 impl Extreme {
     fn new(extreme: &answer::Extreme, parameter: usize, problem: &Problem, digits: usize) -> Self {
-        let end = match (&extreme.limit, &extreme.value) {
-            (Some(limit), _) => Some(RegionEnd::Limit(RegionLimit::new(limit, parameter, problem, digits))),
-            (None, value) => value.as_ref().map(|value| RegionEnd::Plain(PlainEnd::new(value, digits))),
-        };
+        let end = RegionEnd::new(extreme.limit.as_ref(), extreme.value.as_ref(), parameter, problem, digits);
         Extreme { end, slices: extreme.slices.clone() }
     }
 }

@@ -305,18 +305,31 @@ impl PlaneRegion {
         let extents = [&region.x, &region.y].map(|interval| [&interval.lower, &interval.upper]);
         let end = |parameter: usize, side: usize| {
             let limit = limits.and_then(|l| l.ends[parameter][side].as_ref());
-            match (limit, extents[parameter][side]) {
-                (Some(limit), _) => Some(RegionEnd::Limit(RegionLimit::new(limit, parameter, problem, digits))),
-                (None, value) => value.as_ref().map(|value| RegionEnd::Plain(PlainEnd::new(value, digits))),
-            }
+            RegionEnd::new(limit, extents[parameter][side].as_ref(), parameter, problem, digits)
         };
         let bounds = |parameter| Bounds { lower: end(parameter, 0), upper: end(parameter, 1) };
         PlaneRegion { cells: region.cells.clone(), x: bounds(0), y: bounds(1) }
     }
 }
 
+impl RegionEnd {
+    /// The end of a parameter with its limit where that is known; `None` where there is no end.
+    pub(super) fn new(
+        limit: Option<&MapLimit>,
+        value: Option<&RealAlgebraic>,
+        parameter: usize,
+        problem: &Problem,
+        digits: usize,
+    ) -> Option<Self> {
+        match limit {
+            Some(limit) => Some(RegionEnd::Limit(RegionLimit::new(limit, parameter, problem, digits))),
+            None => value.map(|value| RegionEnd::Plain(PlainEnd::new(value, digits))),
+        }
+    }
+}
+
 impl RegionLimit {
-    pub(super) fn new(limit: &MapLimit, parameter: usize, problem: &Problem, digits: usize) -> Self {
+    fn new(limit: &MapLimit, parameter: usize, problem: &Problem, digits: usize) -> Self {
         let place = |at: &[number::Enclosure; 2]| Place::new(&at[1 - parameter], digits);
         RegionLimit {
             number: Number::new(&limit.limit.value.clone().into(), digits),
