@@ -4,9 +4,12 @@
 use crate::helpers::model::example;
 use crate::helpers::number::number;
 use crate::helpers::program::{command, json, jurist, jurist_with_input, refused};
+use crate::helpers::schema::fits;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::Domain;
+use jurist_draw::figures::map::{MapContents, WindowRequest, common_windows, small_multiples, trace_map};
+use jurist_draw::page::body_page;
 use jurist_engine::answer::{Answer, Body, SliceValues, StretchEnd, Verdict};
 use jurist_engine::model::Model;
 use proptest::prelude::*;
@@ -268,6 +271,51 @@ fn slices_that_were_not_reached_are_told() {
     let picture = command(&PID).args(["--timeout", "0", "-o"]).arg(&file).output().unwrap();
     assert_eq!(picture.status.code(), Some(3));
     assert!(!file.exists(), "there is nothing to draw");
+}
+
+/// With more and more work on one thread, until some slices are decided, one with stable points among them, and others are not.
+fn partly_decided() -> Answer<Body> {
+    let model = example("pid-body");
+    let values = SliceValues::evenly("K_p", &number("-1"), &number("2"), 13).unwrap();
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let mut work = 100;
+    loop {
+        let question = model.ask().free("K_i").free("K_d");
+        let budget = Budget::with_work(work);
+        let answer = alone.install(|| question.body(&values, &number("1/10"), 8, &budget)).unwrap();
+        let open = answer.value().open_slices().count();
+        assert!(open > 0, "no budget ends between two slices");
+        if answer.value().slices.iter().any(|slice| slice.has_stable_points() == Some(true)) {
+            return answer;
+        }
+        work += work / 8;
+    }
+}
+
+#[test]
+fn a_slice_that_is_open_stands_in_text_page_and_picture() {
+    let answer = partly_decided();
+    let (budget, open) = (Budget::unlimited(), answer.value().open_slices().count());
+    assert_eq!(answer.text(8).matches("undecided, the budget ran out: work").count(), open, "{}", answer.text(8));
+    assert!(answer.text(8).contains("over the slices that are decided"));
+    let document = serde_json::to_value(answer.json(8)).unwrap();
+    assert!(fits(&document).is_ok() && document["undecided"]["budget"].as_str().unwrap().contains("work"));
+    let maps: Vec<_> = answer.value().slices.iter().map(|slice| slice.map.as_ref().ok()).collect();
+    let known: Vec<_> = maps.iter().copied().flatten().collect();
+    let windows = common_windows(&known, &[], &[WindowRequest::default(), WindowRequest::default()]);
+    let trace = |map| trace_map(map, windows.clone(), &budget).unwrap();
+    let traces: Vec<_> = maps.iter().map(|map| map.map(trace)).collect();
+    let of = |(map, trace)| MapContents::new(map, trace, Vec::new(), &budget).unwrap();
+    let contents: Vec<_> = maps.iter().zip(&traces).map(|(map, trace)| map.zip(trace.as_ref()).map(of)).collect();
+    let svg = small_multiples(&answer, &contents).svg();
+    assert_eq!(svg.matches("not decided").count(), open);
+    let page = body_page(&answer, &contents, [(860.0, 600.0), (400.0, 470.0)], 8, &budget).unwrap();
+    assert_eq!(page.matches("is not decided: the budget ran out").count(), open);
+    let from = page.find("id=\"data\">").unwrap() + "id=\"data\">".len();
+    let data: Value = serde_json::from_str(&page[from..from + page[from..].find("</script>").unwrap()]).unwrap();
+    let slices = data["slices"].as_array().unwrap();
+    assert_eq!(slices.iter().filter(|slice| slice.is_null()).count(), open);
+    assert!(!slices[data["first"].as_u64().unwrap() as usize].is_null());
 }
 
 /// Draws to a file of a fresh name and gives its text.

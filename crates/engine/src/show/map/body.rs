@@ -93,7 +93,8 @@ impl Answer<Body> {
     fn extremes_text(&self, extremes: &Extremes, digits: usize) -> String {
         let mut columns = Columns::new("    ");
         self.extreme_rows(extremes, digits).into_iter().for_each(|row| columns.row(row));
-        format!("over the slices, not over all {}\n{columns}", self.axes()[2].name)
+        let known = if self.value().open_slices().next().is_some() { " that are decided" } else { "" };
+        format!("over the slices{known}, not over all {}\n{columns}", self.axes()[2].name)
     }
 
     fn extreme_rows(&self, extremes: &Extremes, digits: usize) -> Vec<Vec<String>> {
