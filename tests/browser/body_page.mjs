@@ -68,6 +68,9 @@ try {
     expect(`${name}: slices seen at first`, first.seen, 1);
     expect(`${name}: the first slice is the nominal one`, first.at, "K_p = 0.5");
     expect(`${name}: verdict at first`, first.verdict, "stable");
+    await new Promise((done) => setTimeout(done, 400));
+    const near = await browser.value(`document.getElementById("near").textContent`);
+    if (!near.includes("0 < K_i < 0.75; -0.5625 < K_d < 0.6")) faults.push(`${name}: one parameter alone: ${near}`);
     await browser.value(`document.getElementById("slice").focus()`);
     const next = await key("ArrowRight");
     expect(`${name}: after the arrow`, `${next.seen} ${next.at} ${next.words}`, "1 K_p = 0.75 K_p = 0.75");

@@ -39,7 +39,8 @@ pub(super) fn run(
     let digits = options.output.digits() as usize;
     let places = digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1);
     let narrow = request.values.width() / Rational::from(NARROW_TO);
-    let answer = question.body(&request.values, &narrow, places, &context.budget)?;
+    let answer = question.body(&request.values, &narrow, places, &context.budget);
+    let answer = answer.map_err(|error| pointed(error, &request, context))?;
     context.warn(None, problem.warnings());
     let body = answer.value();
     let limits = body.slices.iter().filter_map(|slice| slice.map.as_ref().ok()?.value().limits.as_ref().err());
@@ -89,6 +90,7 @@ fn pointed(error: Error, request: &SlicesRequest, context: &Context) -> Error {
         |span: Span, label: &str| in_line(context.line, vec![refused.diagnostics()[0].clone().at(span, label)]).into();
     match refused.code() {
         "E-usage" => at(request.name_span, "asked for a second time"),
+        "E-function" => at(request.range_span, "slices are asked for here"),
         "E-value" => at(request.range_span, "not inside the domain"),
         _ => error,
     }

@@ -213,7 +213,9 @@
         next = [next[0] * width[1] + width[0] * next[1], next[1] * width[1]];
         found = with_(next);
       }
-      if (found.kind !== 'cell' || found.stable !== here.stable) return { value: hi, curve: roots.findIndex(n => n !== 0) };
+      // Digits of a bracket around an end at 0 mean nothing.
+      const atZero = lo[0] > 0n !== hi[0] > 0n && polys.some(f => f.length > 1 && f[0] === 0n);
+      if (found.kind !== 'cell' || found.stable !== here.stable) return { value: atZero ? [0n, 1n] : hi, curve: roots.findIndex(n => n !== 0) };
       from = next;
     }
     return null;

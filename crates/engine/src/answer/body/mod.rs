@@ -48,8 +48,9 @@ impl SliceValues {
     ) -> Result<SliceValues, Diagnostic> {
         let most = SliceValues::MOST;
         if !(2..=most).contains(&count) {
-            let message = format!("{count} slices are asked for");
-            return Err(Diagnostic::error("E-option-value", message).help(format!("ask for 2 to {most} slices")));
+            let message = format!("the number of slices is {count}");
+            return Err(Diagnostic::error("E-option-value", message)
+                .help(format!("it is 2 to {most}: each slice is a whole map")));
         }
         if lower >= upper {
             let error = Diagnostic::error("E-option-value", "the range of the slices is empty");
@@ -236,10 +237,13 @@ impl Asked<'_> {
     fn slice(&self, value: &Rational) -> Result<BodySlice, Error> {
         let budget = self.budget.silent();
         let open = |stopped| BodySlice { value: value.clone(), map: Err(stopped), extent: None };
-        let found = self.problem(value)?.map(self.digits, &budget).map_err(by_boxes).and_then(|map| {
-            let extent = budget.enter(|| extent::of_regions(&map.value().decomposition.regions))?;
-            Ok(BodySlice { value: value.clone(), map: Ok(map), extent })
-        });
+        let found =
+            self.problem(value)?.map(self.digits, &budget).map_err(|error| self.by_boxes(error, value)).and_then(
+                |map| {
+                    let extent = budget.enter(|| extent::of_regions(&map.value().decomposition.regions))?;
+                    Ok(BodySlice { value: value.clone(), map: Ok(map), extent })
+                },
+            );
         match found {
             Err(failure) => failure.stopped().map(open),
             found => found,
@@ -253,18 +257,16 @@ impl Asked<'_> {
         let map = budget.enter(|| problem.decomposed(&budget))??;
         Ok(!map.regions.is_empty())
     }
-}
 
-/// What to do where a map is made of boxes.
-fn by_boxes(error: Error) -> Error {
-    let Error::Refused(refused) = &error else { return error };
-    if !["E-function", "E-dead-time"].contains(&refused.code()) {
-        return error;
+    /// What to do where a map is made of boxes.
+    fn by_boxes(&self, error: Error, value: &Rational) -> Error {
+        let Error::Refused(refused) = &error else { return error };
+        let ([x, y], "E-function" | "E-dead-time") = (self.question.free_names(), refused.code()) else { return error };
+        let message = "slices are exact maps, of rational loops only, and this one has functions, as behind a hold";
+        let one = format!("map -x {x}=LO..HI -y {y}=LO..HI --set {}={value}", self.name);
+        let help = format!("boxes decide one slice at a time, with windows of both axes: '{one}'");
+        Diagnostic::error("E-function", message).help(help).into()
     }
-    let message = "slices are exact maps, of rational loops only, and the loop has functions, as behind a hold";
-    let help =
-        "ask for one slice at a time, with windows: 'map -x NAME=LO..HI -y NAME=LO..HI --set NAME=VALUE' decides boxes";
-    Diagnostic::error("E-function", message).help(help).into()
 }
 
 #[cfg(test)]
