@@ -153,7 +153,8 @@ impl Question {
     ///
     /// Each slice is asked as a question of its own with the value set, not as a specialisation of one polynomial in three
     /// parameters: a constant that is set is another number, and only one that is free counts in the degree
-    /// ([`Question::set`]). The evaluation, which is repeated so, is a small part of a map.
+    /// ([`Question::set`]). The evaluation, which is repeated so, is a small part of a map: less than 1 of 22 ms on the built-in drive, 2
+    /// of 256 ms with six filters in its current feedback.
     ///
     /// Cost: that of [`Problem::map`] for each slice, on as many threads as there are, and that of a decomposition
     /// for each halving of a bracket.
