@@ -35,12 +35,13 @@ pub(super) fn run(
     known_name(context, model, request.values.name(), request.name_span)?;
     fits(options)?;
     warn_of_ignored(model, context);
-    let problem = question.clone().body_problem(&request.values).map_err(|error| pointed(error, &request, context))?;
+    let problem =
+        question.clone().body_problem(&request.values).map_err(|error| pointed(error, &request, axes, context))?;
     let digits = options.output.digits() as usize;
     let places = digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1);
     let narrow = request.values.width() / Rational::from(NARROW_TO);
     let answer = question.body(&request.values, &narrow, places, &context.budget);
-    let answer = answer.map_err(|error| pointed(error, &request, context))?;
+    let answer = answer.map_err(|error| pointed(error, &request, axes, context))?;
     context.warn(None, problem.warnings());
     let body = answer.value();
     let limits = body.slices.iter().filter_map(|slice| slice.map.as_ref().ok()?.value().limits.as_ref().err());
@@ -84,12 +85,15 @@ fn fits(options: &Options) -> Result<(), Error> {
 }
 
 /// What is wrong with the slices, with its place in the command line.
-fn pointed(error: Error, request: &SlicesRequest, context: &Context) -> Error {
+fn pointed(error: Error, request: &SlicesRequest, axes: &[AxisRequest; 2], context: &Context) -> Error {
     let Error::Refused(refused) = &error else { return error };
     let at =
         |span: Span, label: &str| in_line(context.line, vec![refused.diagnostics()[0].clone().at(span, label)]).into();
     match refused.code() {
-        "E-usage" => at(request.name_span, "asked for a second time"),
+        "E-usage" => {
+            let third = axes.iter().any(|axis| axis.name == request.values.name());
+            at(if third { request.name_span } else { axes[1].name_span }, "asked for a second time")
+        }
         "E-function" => at(request.range_span, "slices are asked for here"),
         "E-value" => at(request.range_span, "not inside the domain"),
         _ => error,

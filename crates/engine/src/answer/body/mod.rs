@@ -163,6 +163,9 @@ impl Question {
     /// [`Error::Refused`] as [`Question::plane_problem`], with `E-usage` where the third parameter is on an axis, `E-value`
     /// where a slice is not in its domain, `E-function` for loops whose maps are made of boxes. A budget that runs out
     /// ends the answer early and is told in it.
+    ///
+    /// # Panics
+    /// Unless two parameters are free.
     pub fn body(
         self,
         slices: &SliceValues,
@@ -184,15 +187,19 @@ impl Question {
     /// # Errors
     /// As [`Question::problem`]; `E-usage` where a name is on two axes; `E-value` where a slice is not in the domain of its
     /// parameter.
+    ///
+    /// # Panics
+    /// Unless two other parameters are free.
     pub fn body_problem(self, slices: &SliceValues) -> Result<Arc<Problem>, Error> {
-        let third = slices.name();
-        if self.free_names().iter().any(|name| name == third) {
-            return Err(Diagnostic::error("E-usage", format!("'{third}' is asked for on two axes"))
+        let (third, names) = (slices.name(), self.free_names());
+        let twice = names.iter().find(|name| *name == third || names.iter().filter(|other| other == name).count() > 1);
+        if let Some(name) = twice {
+            return Err(Diagnostic::error("E-usage", format!("'{name}' is asked for on two axes"))
                 .help("name three different parameters with '-x', '-y' and '-z'")
                 .into());
         }
-        self.clone().plane_problem()?;
         let problem = self.free(third).problem()?;
+        assert_eq!(problem.free().len(), 3, "two parameters are free beside that of the slices");
         let domain = &problem.free()[2].domain;
         match slices.values().iter().find(|value| !domain.contains(value)) {
             None => Ok(problem),
