@@ -165,7 +165,7 @@ impl Question {
     /// ends the answer early and is told in it.
     ///
     /// # Panics
-    /// Unless two parameters are free.
+    /// Unless two parameters are free and `narrow` is positive.
     pub fn body(
         self,
         slices: &SliceValues,
@@ -173,6 +173,7 @@ impl Question {
         digits: usize,
         budget: &Budget,
     ) -> Result<Answer<Body>, Error> {
+        assert!(narrow.sign().is_gt(), "no bracket becomes narrower than 0");
         let problem = self.clone().body_problem(slices)?;
         let asked = Asked { question: self, name: slices.name(), digits, budget: budget.share(MAPS.0, MAPS.1) };
         let slices = asked.slices(slices.values(), budget)?;
