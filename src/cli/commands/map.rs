@@ -1,5 +1,6 @@
 //! `jurist map`: the stable region in two parameters.
 
+use super::map_body;
 use super::map_boxes::{self, MethodOptions};
 use super::{Context, decided};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
@@ -23,11 +24,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Digits to which places and frequencies are enclosed, at least and at most.
-const LIMIT_DIGITS: (usize, usize) = (10, 20);
+pub(super) const LIMIT_DIGITS: (usize, usize) = (10, 20);
 
 /// Width and height of the picture, and of the one that a page shows on a telephone.
-const WIDE: (f64, f64) = (860.0, 600.0);
-const NARROW: (f64, f64) = (400.0, 470.0);
+pub(super) const WIDE: (f64, f64) = (860.0, 600.0);
+pub(super) const NARROW: (f64, f64) = (400.0, 470.0);
 
 /// Options of `jurist map`.
 #[derive(Args, Debug)]
@@ -40,6 +41,9 @@ pub(in crate::cli) struct Options {
     /// The second parameter
     #[arg(short = 'y', value_name = "NAME[=LO..HI]", allow_hyphen_values = true)]
     pub y: String,
+    /// A third parameter: the map at each of N values from LO to HI, both included
+    #[arg(short = 'z', value_name = "NAME=LO..HI:N", allow_hyphen_values = true)]
+    pub z: Option<String>,
     /// Draws x on a logarithmic axis [default: for positive ranges of two decades and more]
     #[arg(long, conflicts_with = "linear_x")]
     pub log_x: bool,
@@ -64,7 +68,7 @@ pub(in crate::cli) struct Options {
 
 /// What is written where a picture is asked for.
 #[derive(Clone, Copy, PartialEq)]
-enum Picture {
+pub(super) enum Picture {
     Svg,
     Png,
     Pdf,
@@ -82,6 +86,9 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     for request in &requests {
         known_name(context, &model, &request.name, request.name_span)?;
         question = question.free(&request.name);
+    }
+    if let Some(z) = &options.z {
+        return map_body::run(z, options, &requests, picture, (&model, question), context);
     }
     let (asked, question) = options.require.asked_each(&model, question, &options.region, context)?;
     let boxes = options.method.request(&requests, context)?;
@@ -164,7 +171,7 @@ fn picture_of(options: &Options) -> Result<Option<Picture>, Error> {
     }
 }
 
-fn windows(options: &Options, requests: &[AxisRequest; 2]) -> [WindowRequest; 2] {
+pub(super) fn windows(options: &Options, requests: &[AxisRequest; 2]) -> [WindowRequest; 2] {
     let scale = |log: bool, linear: bool| (log || linear).then_some(log);
     let request = |axis: &AxisRequest, logarithmic| WindowRequest {
         lower: axis.lower.clone(),
@@ -199,7 +206,7 @@ fn draw(
         Picture::Page => {
             let narrow = contents.draw(NARROW.0, NARROW.1, false);
             let text = answer.text(options.output.digits() as usize);
-            map_page(answer, &contents, &trace, &[wide, narrow], &text, &context.budget)?.into_bytes()
+            map_page(answer, &contents, &[wide, narrow], &text, &context.budget)?.into_bytes()
         }
     };
     context.reporter.finish();
