@@ -198,3 +198,78 @@ impl Wall<'_> {
 fn cell_of(branches: &[RealAlgebraic], y: &Rational) -> usize {
     branches.iter().take_while(|v| v.compare_rational(y).is_lt()).count()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::curves::boundary_curves;
+    use super::super::decompose::decompose;
+    use super::*;
+    use crate::model::{Model, ParameterBuilder, Time};
+
+    /// The groups when every wall is asked by Sturm's theorem.
+    fn glued_exactly(
+        curves: &[Curve],
+        strips: &[Strip],
+        y_domain: &Range,
+        budget: &Budget,
+    ) -> Vec<Vec<(usize, usize)>> {
+        let stable: Vec<(usize, usize)> = strips
+            .iter()
+            .enumerate()
+            .flat_map(|(s, strip)| (0..strip.cells.len()).filter(|&c| strip.cells[c].stable).map(move |c| (s, c)))
+            .collect();
+        let polynomials: Vec<Poly<UniPoly>> = curves.iter().map(|c| in_y(&c.polynomial)).collect();
+        let mut groups: Vec<Vec<(usize, usize)>> = stable.iter().map(|&cell| vec![cell]).collect();
+        for (s, pair) in strips.windows(2).enumerate() {
+            let value = pair[0].x.upper.as_ref().unwrap();
+            let wall = Wall { curves, polynomials: &polynomials, strips: pair, value, y_domain };
+            for (left, right) in wall.all_links(budget).unwrap() {
+                let place = |cell| groups.iter().position(|g: &Vec<(usize, usize)>| g.contains(&cell));
+                if let (Some(a), Some(b)) = (place((s, left)), place((s + 1, right)))
+                    && a != b
+                {
+                    let moved = groups.swap_remove(a.max(b));
+                    groups[a.min(b)].extend(moved);
+                }
+            }
+        }
+        for group in &mut groups {
+            group.sort_unstable();
+        }
+        groups.sort();
+        groups
+    }
+
+    /// Regions that touch at a point, that stand one above the other, that begin where others end.
+    #[test]
+    fn groups_are_those_of_the_exact_walls() {
+        let loops = [
+            "z^2 + (a*b)*z + a^2 - b^2 + 1/2",
+            "z^2 + (a^2 + b^2 - 1)*z + a*b + 1/5",
+            "z^3 + (a*b - 1/2)*z^2 + (b^2 - a)*z + a^2 - 1/3",
+            "(z - a^2 + 2)*(z - b^2 + 2)",
+            "z^2 + (a^3 - 3*a - b)*z + 1/4 + b/3",
+            "(z - a*b + 2)*(z - b + a)",
+            "(z - a^2 + b^2 + 2)*(z - b/3)",
+            "(z - a^2 + 2)*(z - a*b)",
+            "(z + (a - b)*(a + b))*(z - a*b)",
+            "z^3 + (3/10)*a*b*z^2 + (a^2 - b - 7/10)*z + b*a^2/2",
+        ];
+        let budget = Budget::unlimited();
+        let mut several = 0;
+        for text in loops {
+            let parameter = |name| ParameterBuilder::new(name).nominal("0");
+            let model = Model::builder(Time::Discrete).parameter(parameter("a")).parameter(parameter("b"));
+            let (model, _) = model.characteristic(text).build().unwrap();
+            let problem = model.ask().free("a").free("b").plane_problem().unwrap();
+            let p = problem.plane(&budget).unwrap().unwrap();
+            let domain = [Range::all(), Range::all()];
+            let curves = boundary_curves(p, problem.shape(), &budget).unwrap().unwrap();
+            let strips = decompose(p, &curves, &domain, problem.shape(), &budget).unwrap();
+            let found = glue_stable_cells(&curves, &strips, &domain[1], false, &budget).unwrap();
+            assert_eq!(found, glued_exactly(&curves, &strips, &domain[1], &budget), "{text}");
+            several += usize::from(found.len() > 1);
+        }
+        assert!(several >= 3, "{several} maps of several regions");
+    }
+}
