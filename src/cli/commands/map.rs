@@ -5,10 +5,11 @@ use super::{Context, decided};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, question};
-use crate::cli::output::{ending, note, unknown_ending};
+use crate::cli::output::{ending, note, unknown_ending, write_answer};
 use crate::cli::picture::{WRITES, pdf, png, write};
-use crate::cli::requirements::RequirementOptions;
+use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Error, Outcome, Status};
+use crate::cli::written::check_certificate;
 use clap::Args;
 use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
 use jurist_draw::page::map_page;
@@ -19,6 +20,7 @@ use jurist_engine::error::Error as EngineError;
 use jurist_engine::problem::Problem;
 use jurist_engine::response::Requirements;
 use jurist_engine::show::{documents, map_boxes_text, map_text};
+use std::ffi::OsString;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -52,6 +54,9 @@ pub(in crate::cli) struct Options {
     /// Draws y on a linear axis
     #[arg(long)]
     pub linear_y: bool,
+    /// Writes a certificate of the exact map that 'jurist verify' re-checks
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<OsString>,
     #[command(flatten)]
     pub method: MethodOptions,
     #[command(flatten)]
@@ -84,8 +89,12 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         question = question.free(&request.name);
     }
     let (asked, question) = options.require.asked_each(&model, question, &options.region, context)?;
+    refuse_proofs(&model, &asked, options.certificate.is_some())?;
     let boxes = options.method.request(&requests, context)?;
-    let method = options.method.method_for(&asked)?;
+    let method = match options.certificate {
+        Some(_) => options.method.method_for_certificate()?,
+        None => options.method.method_for(&asked)?,
+    };
     let problem = question.plane_problem()?;
     let digits = options.output.digits() as usize;
     let places = digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1);
@@ -118,6 +127,13 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, problem.warnings());
+    let certificate = match &options.certificate {
+        Some(file) => Some((answer.certificate(&context.budget)?, file)),
+        None => None,
+    };
+    if let Some((text, file)) = &certificate {
+        write_answer(text, Some(file))?;
+    }
     if let Err(stopped) = &answer.value().limits {
         note(&format!("the regions are decided, what limits them is not: {stopped}"));
     }
@@ -127,6 +143,9 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
             context.budget.enter(|| draw(&answer, kind, windows, options, context))??;
         }
         _ => context.answer(&options.output, || answer.text(digits), || answer.json(digits))?,
+    }
+    if let Some((text, file)) = &certificate {
+        check_certificate(context, &options.output.run, &model.source().text, text, file);
     }
     Ok(Status::Holds)
 }

@@ -62,6 +62,15 @@ impl MethodOptions {
         Ok(MapMethod::Exact)
     }
 
+    /// The method of an answer that has a certificate.
+    pub fn method_for_certificate(&self) -> Result<MapMethod, Error> {
+        if self.method == MethodName::Boxes {
+            let error = Diagnostic::error("E-no-certificate", "a map by boxes has no certificate yet");
+            return Err(error.help("the exact map has one: leave out '--method boxes'").into());
+        }
+        Ok(MapMethod::Exact)
+    }
+
     /// What may help when the exact map is not finished in time.
     pub fn hint(&self, request: &BoxRequest) -> Option<String> {
         let bounded = request.windows.iter().all(|w| w.lower.is_some() && w.upper.is_some());

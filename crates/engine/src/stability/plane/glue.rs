@@ -8,7 +8,33 @@ use crate::stability::interval_set::cells;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
+
+/// A horizontal segment through the wall between a strip and the next one that meets no curve.
+#[derive(Clone, Debug)]
+pub(crate) struct Join {
+    /// The number of the strip on the left.
+    pub strip: usize,
+    /// Its ends, one in each of the two strips.
+    pub x: [Rational; 2],
+    /// Its height.
+    pub y: Rational,
+}
+
+/// Segments that join the stable cells of each region: one less than it has cells.
+///
+/// Cost: that of gluing once more.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub(crate) fn joins(
+    curves: &[Curve],
+    strips: &[Strip],
+    y_domain: &Range,
+    budget: &Budget,
+) -> Result<Vec<Join>, Exhausted> {
+    Ok(glued(curves, strips, y_domain, false, budget)?.1)
+}
 
 /// The stable cells grouped into connected regions, each group ascending.
 ///
@@ -24,6 +50,17 @@ pub(super) fn glue_stable_cells(
     across: bool,
     budget: &Budget,
 ) -> Result<Vec<Vec<(usize, usize)>>, Exhausted> {
+    Ok(glued(curves, strips, y_domain, across, budget)?.0)
+}
+
+/// The regions, and the segments by which they were found to be connected.
+fn glued(
+    curves: &[Curve],
+    strips: &[Strip],
+    y_domain: &Range,
+    across: bool,
+    budget: &Budget,
+) -> Result<(Vec<Vec<(usize, usize)>>, Vec<Join>), Exhausted> {
     budget.step("connecting cells");
     let stable: Vec<(usize, usize)> = strips
         .iter()
@@ -41,16 +78,20 @@ pub(super) fn glue_stable_cells(
     }
     let polynomials: Vec<Poly<UniPoly>> = curves.iter().map(|c| in_y(&c.polynomial)).collect();
     let index = |cell: (usize, usize)| stable.binary_search(&cell).ok();
+    let mut joins = Vec::new();
     for (s, pair) in strips.windows(2).enumerate() {
         let wall = pair[0].x.upper.as_ref().expect("a wall between strips is finite");
         let open = |parent: &[usize]| {
             let side = |strip: usize| stable.iter().enumerate().filter(move |c| c.1.0 == strip).map(|c| c.0);
             side(s).any(|a| side(s + 1).any(|b| root(parent, a) != root(parent, b)))
         };
-        let join = |parent: &mut Vec<usize>, (left, right): (usize, usize)| {
+        let mut join = |parent: &mut Vec<usize>, ((left, right), [x, other, y]): ((usize, usize), [Rational; 3])| {
             if let (Some(a), Some(b)) = (index((s, left)), index((s + 1, right))) {
                 let (a, b) = (root(parent, a), root(parent, b));
-                parent[a.max(b)] = a.min(b);
+                if a != b {
+                    parent[a.max(b)] = a.min(b);
+                    joins.push(Join { strip: s, x: [x, other], y });
+                }
             }
         };
         let search = Wall { curves, polynomials: &polynomials, strips: pair, value: wall, y_domain };
@@ -78,7 +119,7 @@ pub(super) fn glue_stable_cells(
         }
         groups[number[r]].push(cell);
     }
-    Ok(groups)
+    Ok((groups, joins))
 }
 
 fn root(parent: &[usize], mut i: usize) -> usize {
@@ -87,6 +128,9 @@ fn root(parent: &[usize], mut i: usize) -> usize {
     }
     i
 }
+
+/// The cells that are joined, by their numbers in the two strips, and the segment: its ends and its height.
+type Links = BTreeMap<(usize, usize), [Rational; 3]>;
 
 /// The wall between two strips.
 struct Wall<'a> {
@@ -99,23 +143,23 @@ struct Wall<'a> {
 
 impl Wall<'_> {
     /// Links found by trying one height in each gap between the branches close to the wall.
-    fn nearby_links(&self, bits: u64, budget: &Budget) -> Result<BTreeSet<(usize, usize)>, Exhausted> {
+    fn nearby_links(&self, bits: u64, budget: &Budget) -> Result<Links, Exhausted> {
         let (left, right) = self.either_side(bits);
         let sides = [self.branches(&left, budget)?, self.branches(&right, budget)?];
         let mut merged: Vec<RealAlgebraic> = sides.iter().flatten().cloned().collect();
         merged.sort_by(|a, b| a.compare(b));
         merged.dedup_by(|a, b| a.compare(b).is_eq());
-        let mut links = BTreeSet::new();
+        let mut links = Links::new();
         for gap in cells(self.y_domain, &merged) {
             let y = gap.sample();
             let link = (cell_of(&sides[0], &y), cell_of(&sides[1], &y));
             let stable = |side: usize, cell: usize| self.strips[side].cells.get(cell).is_some_and(|c| c.stable);
             if stable(0, link.0)
                 && stable(1, link.1)
-                && !links.contains(&link)
+                && !links.contains_key(&link)
                 && self.is_clear(&left, &right, &y, budget)?
             {
-                links.insert(link);
+                links.insert(link, [left.clone(), right.clone(), y]);
             }
         }
         Ok(links)
@@ -124,9 +168,9 @@ impl Wall<'_> {
     /// All pairs of a cell on the left and a cell on the right that touch along a piece of the wall:
     /// one height in each piece between the distinct roots of the curves on the wall, and a segment
     /// at that height short enough to meet no curve.
-    fn all_links(&self, budget: &Budget) -> Result<BTreeSet<(usize, usize)>, Exhausted> {
+    fn all_links(&self, budget: &Budget) -> Result<Links, Exhausted> {
         let product = self.polynomials.iter().fold(Poly::one(), |p, f| p.times(f));
-        let mut links = BTreeSet::new();
+        let mut links = Links::new();
         let (lower, upper) = (self.y_domain.lower.as_ref(), self.y_domain.upper.as_ref());
         // A curve that contains the whole wall separates the strips.
         let Some(sturm) = SturmAt::new(&product, self.value, lower, upper, budget)? else { return Ok(links) };
@@ -137,7 +181,7 @@ impl Wall<'_> {
                 let (left, right) = self.either_side(bits);
                 if self.is_clear(&left, &right, &y, budget)? {
                     let cell = |x: &Rational| Ok(cell_of(&self.branches(x, budget)?, &y));
-                    links.insert((cell(&left)?, cell(&right)?));
+                    links.insert((cell(&left)?, cell(&right)?), [left, right, y]);
                     break;
                 }
                 bits *= 2;
