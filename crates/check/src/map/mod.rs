@@ -1,6 +1,7 @@
 //! The stable regions in the plane of two parameters.
 
 mod isolation;
+mod residues;
 mod resultant;
 mod strips;
 
@@ -73,8 +74,9 @@ impl Statement {
         }
         let (n, [x, _]) = (self.regions.len(), [&self.names[0], &self.names[1]]);
         let _ = write!(out, ", the loop is stable{within}, off its boundary curves and ");
-        let _ = write!(out, "{} lines of constant {x}, exactly in {n} ", places.len());
-        let _ = write!(out, "{}: ", if n == 1 { "region" } else { "regions" });
+        let several = |n: usize| if n == 1 { "" } else { "s" };
+        let _ = write!(out, "{0} line{1} of constant {x}, ", places.len(), several(places.len()));
+        let _ = write!(out, "exactly in {n} connected region{}: ", several(n));
         for (i, region) in self.regions.iter().enumerate() {
             let first = region.iter().map(|c| c.0).min().unwrap_or(0);
             let last = region.iter().map(|c| c.0).max().unwrap_or(0);
@@ -86,7 +88,7 @@ impl Statement {
             };
             let lower = end(first.checked_sub(1).and_then(|k| places.get(k)), &self.domain[0].0, "-infinity");
             let upper = end(places.get(last), &self.domain[0].1, "infinity");
-            let cells = if region.len() == 1 { "1 cell".to_owned() } else { format!("{} cells", region.len()) };
+            let cells = format!("{} cell{}", region.len(), several(region.len()));
             let _ = write!(out, "{}{cells} for {x} from {lower} to {upper}", if i == 0 { "" } else { "; " });
         }
         out.push('.');

@@ -1,36 +1,111 @@
-//! Resultants with respect to `y` of polynomials in two parameters, by their values at integers.
+//! Resultants with respect to `y` of polynomials in two parameters, by their values modulo many numbers.
 
+use super::residues::Modulus;
 use crate::clock::Clock;
 use crate::number::Z;
-use crate::univariate::Uni;
-use num_traits::{One, Zero};
+use crate::univariate::{Uni, gcd_of};
+use num_traits::{One, Signed, Zero};
 
 /// Resultants of a higher degree are refused.
 const MAX_DEGREE: i64 = 20_000;
 
-/// The resultant of two polynomials in `y`, coefficients from the constant term up, which are polynomials in `x`. Neither is
-/// constant in `y`.
+/// The resultant of two polynomials in `y`, coefficients from the constant term up, which are polynomials in `x`; up to an integer
+/// factor. Neither is constant in `y`.
 ///
-/// It is known by its values at more integers than its degree. At one where no leading coefficient vanishes the value is the
-/// resultant of two polynomials over the integers, by subresultants \[BrownTraub1971\].
+/// Modulo one number it is known by its values at more integers than its degree, where no leading coefficient vanishes. An integer
+/// is known by its residues if twice its size is below the product of the moduli; and the sum of the coefficients' sizes is at most the
+/// product of those of the rows of the Sylvester matrix.
 pub(super) fn resultant(f: &[Uni], g: &[Uni], clock: &Clock) -> Result<Uni, String> {
-    let degree = degree_bound(f, g);
+    let (f, g) = (primitive(f), primitive(g));
+    let degree = degree_bound(&f, &g);
     if degree > MAX_DEGREE {
         return Err("a resultant has too high a degree".into());
     }
-    let (mut nodes, mut values) = (Vec::new(), Vec::new());
-    let mut next = Z::zero();
-    while (values.len() as i64) <= degree {
-        let at = |p: &[Uni]| p.iter().map(|c| value(c, &next, clock)).collect::<Result<Vec<Z>, _>>();
-        let (a, b) = (at(f)?, at(g)?);
-        if ![&a, &b].iter().any(|p| p.last().is_none_or(Zero::is_zero)) {
-            values.push(of_numbers(a, b, clock)?);
-            nodes.push(next.clone());
+    let size = |p: &[Uni]| p.iter().flat_map(|c| &c.0).map(Signed::abs).sum::<Z>();
+    let bound = Z::from(2) * size(&f).pow(g.len() as u32 - 1) * size(&g).pow(f.len() as u32 - 1);
+    let mut known = Residues { moduli: Vec::new(), digits: vec![Vec::new(); degree as usize + 1], product: Z::one() };
+    let mut next = 1 << 62;
+    while known.product <= bound {
+        let modulus = Modulus::below(next).ok_or("a resultant is too long")?;
+        next = modulus.value;
+        if let Some(residues) = modulo(&f, &g, degree as usize, &modulus, clock)? {
+            known.add(modulus, &residues, clock)?;
         }
-        // 0, 1, -1, 2, -2, ...
-        next = if next > Z::zero() { -next } else { Z::one() - next };
     }
-    interpolated(&nodes, values, clock)
+    known.numbers(clock)
+}
+
+/// Without an integer that divides all coefficients.
+fn primitive(p: &[Uni]) -> Vec<Uni> {
+    let content = gcd_of(p.iter().flat_map(|c| &c.0));
+    if content.is_zero() || content.is_one() {
+        return p.to_vec();
+    }
+    p.iter().map(|c| Uni(c.0.iter().map(|c| c / &content).collect())).collect()
+}
+
+/// The coefficients of the resultant modulo one number; `None` if this is the wrong number.
+fn modulo(f: &[Uni], g: &[Uni], degree: usize, m: &Modulus, clock: &Clock) -> Result<Option<Vec<u64>>, String> {
+    let reduced = |p: &[Uni]| p.iter().map(|c| c.0.iter().map(|c| m.of(c)).collect()).collect::<Vec<Vec<u64>>>();
+    let (f, g) = (reduced(f), reduced(g));
+    let leads = [&f, &g].map(|p| p.last().cloned().unwrap_or_default());
+    if leads.iter().any(|lead| lead.iter().all(|c| *c == 0)) {
+        return Ok(None);
+    }
+    let (mut nodes, mut values) = (Vec::with_capacity(degree + 1), Vec::with_capacity(degree + 1));
+    for node in 0u64.. {
+        if values.len() > degree {
+            break;
+        }
+        clock.spend((f.len() + g.len()) * (f[0].len() + f.len().max(g.len())), 1, 1)?;
+        let x = m.of_u64(node);
+        if leads.iter().any(|lead| m.value_at(lead, x) == 0) {
+            continue;
+        }
+        let at = |p: &[Vec<u64>]| p.iter().map(|c| m.value_at(c, x)).collect::<Vec<u64>>();
+        let Some(value) = m.resultant(at(&f), at(&g)) else { return Ok(None) };
+        nodes.push(node);
+        values.push(value);
+    }
+    clock.spend(degree * degree, 1, 1)?;
+    Ok(m.interpolated(&nodes, values))
+}
+
+/// Integers by their residues.
+struct Residues {
+    moduli: Vec<Modulus>,
+    /// Of each integer: it is the first digit, plus the first modulus times the second digit, and so on.
+    digits: Vec<Vec<u64>>,
+    product: Z,
+}
+
+impl Residues {
+    /// One residue more for each of the integers; nothing if the modulus is not coprime to those before.
+    fn add(&mut self, m: Modulus, residues: &[u64], clock: &Clock) -> Result<(), String> {
+        let Some(inverse) = m.inverse(m.of(&self.product)) else { return Ok(()) };
+        let radices: Vec<u64> = self.moduli.iter().map(|other| m.of_u64(other.value)).collect();
+        for (digits, residue) in self.digits.iter_mut().zip(residues) {
+            clock.spend(1, digits.len() as u64 * 64, 1)?;
+            let known = digits.iter().zip(&radices).rev();
+            let known = known.fold(0, |sum, (digit, radix)| m.plus(m.times(sum, *radix), m.of_u64(*digit)));
+            digits.push(m.number(m.times(m.minus(*residue, known), inverse)));
+        }
+        self.product *= m.value;
+        self.moduli.push(m);
+        Ok(())
+    }
+
+    /// The integers, from minus half the product of the moduli to half of it.
+    fn numbers(&self, clock: &Clock) -> Result<Uni, String> {
+        let mut out = Vec::with_capacity(self.digits.len());
+        for digits in &self.digits {
+            clock.spend(digits.len(), self.product.bits() / 2, 64)?;
+            let pairs = digits.iter().zip(&self.moduli).rev();
+            let number = pairs.fold(Z::zero(), |sum, (digit, m)| sum * m.value + digit);
+            out.push(if &number + &number > self.product { number - &self.product } else { number });
+        }
+        Ok(Uni::new(out))
+    }
 }
 
 /// No less than the degree in `x`. With `l` as the weight of `y`, the coefficient of `y^k` has at most the degree `w - l k`, and a product of
@@ -46,85 +121,6 @@ fn degree_bound(f: &[Uni], g: &[Uni]) -> i64 {
     let weight = |p: &[(i64, i64)], l: i64| p.iter().map(|(d, k)| d + l * k).max().unwrap_or(0);
     let bounds = (-steepest..=steepest).map(|l| n * weight(&f, l) + m * weight(&g, l) - l * m * n);
     bounds.min().unwrap_or(0)
-}
-
-fn value(p: &Uni, x: &Z, clock: &Clock) -> Result<Z, String> {
-    clock.spend(p.0.len(), p.0.last().map_or(0, Z::bits), x.bits())?;
-    Ok(p.0.iter().rev().fold(Z::zero(), |sum, c| sum * x + c))
-}
-
-/// The resultant of two polynomials over the integers whose leading coefficients are not zero.
-fn of_numbers(mut a: Vec<Z>, mut b: Vec<Z>, clock: &Clock) -> Result<Z, String> {
-    let both_odd = |a: &[Z], b: &[Z]| a.len().is_multiple_of(2) && b.len().is_multiple_of(2);
-    let mut negative = false;
-    if a.len() < b.len() {
-        negative = both_odd(&a, &b);
-        std::mem::swap(&mut a, &mut b);
-    }
-    let (mut g, mut h) = (Z::one(), Z::one());
-    while b.len() > 1 {
-        let excess = (a.len() - b.len()) as u32;
-        negative ^= both_odd(&a, &b);
-        let rest = pseudo_remainder(a, &b, clock)?;
-        let divisor = &g * h.pow(excess);
-        a = std::mem::replace(&mut b, rest.into_iter().map(|c| c / &divisor).collect());
-        if b.is_empty() {
-            return Ok(Z::zero());
-        }
-        g = a[a.len() - 1].clone();
-        h = power_over(&g, &h, excess);
-    }
-    let result = power_over(&b[0], &h, a.len() as u32 - 1);
-    Ok(if negative { -result } else { result })
-}
-
-/// `g^k h^(1 - k)`, which is an integer.
-fn power_over(g: &Z, h: &Z, k: u32) -> Z {
-    if k == 0 { h.clone() } else { g.pow(k) / h.pow(k - 1) }
-}
-
-/// The remainder of the leading coefficient of `b`, to the power of the difference of the degrees and one, times `a`; without zeros at the
-/// top.
-fn pseudo_remainder(mut a: Vec<Z>, b: &[Z], clock: &Clock) -> Result<Vec<Z>, String> {
-    let (lead, below) = b.split_last().ok_or("internal: a division by zero")?;
-    while a.len() >= b.len() {
-        let Some(top) = a.pop() else { break };
-        clock.spend(2 * a.len(), top.bits(), lead.bits())?;
-        let shift = a.len() - below.len();
-        for (k, c) in a.iter_mut().enumerate() {
-            *c *= lead;
-            if k >= shift {
-                *c -= &top * &below[k - shift];
-            }
-        }
-    }
-    while a.last().is_some_and(Zero::is_zero) {
-        a.pop();
-    }
-    Ok(a)
-}
-
-/// The polynomial with integer coefficients that has these values, by Newton's divided differences: they are integers.
-fn interpolated(nodes: &[Z], mut d: Vec<Z>, clock: &Clock) -> Result<Uni, String> {
-    let n = d.len();
-    for k in 1..n {
-        clock.spend(n - k, d[n - 1].bits(), 64)?;
-        for i in (k..n).rev() {
-            d[i] = (&d[i] - &d[i - 1]) / (&nodes[i] - &nodes[i - k]);
-        }
-    }
-    let mut out: Vec<Z> = Vec::with_capacity(n);
-    for (d, node) in d.into_iter().zip(nodes).rev() {
-        // out (x - node) + d
-        clock.spend(out.len(), d.bits(), 64)?;
-        out.insert(0, Z::zero());
-        for k in 1..out.len() {
-            let step = &out[k] * node;
-            out[k - 1] -= step;
-        }
-        out[0] += d;
-    }
-    Ok(Uni::new(out))
 }
 
 #[cfg(test)]
@@ -163,6 +159,7 @@ mod tests {
 
     #[test]
     fn it_is_the_determinant_of_the_sylvester_matrix() {
+        let long = Z::from(3).pow(200);
         let clock = Clock::new(Duration::MAX);
         let polynomials = [
             vec![uni(&[1, 2]), uni(&[-3]), uni(&[0, 0, 5])],
@@ -172,6 +169,11 @@ mod tests {
             vec![uni(&[0, 0, 0, 1]), uni(&[-1, 1])],
             // A remainder that loses more than one degree.
             vec![uni(&[1]), uni(&[2]), uni(&[]), uni(&[]), uni(&[1])],
+            vec![
+                Uni::new(vec![long.clone(), Z::from(-1)]),
+                Uni::new(vec![-long, Z::from(0), Z::from(7)]),
+                uni(&[-2, 3]),
+            ],
         ];
         for f in &polynomials {
             for g in &polynomials {
