@@ -92,10 +92,14 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     refuse_proofs(&model, &asked, options.certificate.is_some())?;
     let boxes = options.method.request(&requests, context)?;
     let method = match options.certificate {
-        Some(_) => options.method.method_for_certificate()?,
+        Some(_) => MapMethod::Exact,
         None => options.method.method_for(&asked)?,
     };
     let problem = question.plane_problem()?;
+    if options.certificate.is_some() {
+        options.method.refuse_boxes()?;
+        problem.refuse_map_certificate(&context.budget)?;
+    }
     let digits = options.output.digits() as usize;
     let places = digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1);
     let answer = match decided(required(&problem, method, &boxes, places, &asked, context))? {

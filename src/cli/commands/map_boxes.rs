@@ -62,13 +62,13 @@ impl MethodOptions {
         Ok(MapMethod::Exact)
     }
 
-    /// The method of an answer that has a certificate.
-    pub fn method_for_certificate(&self) -> Result<MapMethod, Error> {
-        if self.method == MethodName::Boxes {
-            let error = Diagnostic::error("E-no-certificate", "a map by boxes has no certificate yet");
-            return Err(error.help("the exact map has one: leave out '--method boxes'").into());
+    /// That only the exact map has a certificate.
+    pub fn refuse_boxes(&self) -> Result<(), Error> {
+        if self.method != MethodName::Boxes {
+            return Ok(());
         }
-        Ok(MapMethod::Exact)
+        let error = Diagnostic::error("E-no-certificate", "a map by boxes has no certificate yet");
+        Err(error.help("the exact map has one: leave out '--method boxes'").into())
     }
 
     /// What may help when the exact map is not finished in time.

@@ -60,7 +60,10 @@ impl Answer<Map> {
     pub fn certificate(&self, budget: &Budget) -> Result<String, Error> {
         budget.enter(|| {
             let (problem, map) = (self.problem(), self.value());
-            refuse(problem, map, budget)?;
+            problem.refuse_map_certificate(budget)?;
+            if map.required.is_some() {
+                return Err(no_certificate("no certificate of a map: nothing proves requirements yet"));
+            }
             budget.step("certificate");
             let (mut characteristic, mut proof) = (Vec::new(), Proof::of_nothing());
             if let Some(p) = problem.plane(budget)? {
@@ -91,23 +94,27 @@ impl Answer<Map> {
     }
 }
 
-/// What has no certificate yet.
-fn refuse(problem: &Problem, map: &Map, budget: &Budget) -> Result<(), Error> {
-    refuse_requirements(problem)?;
-    if map.required.is_some() {
-        return Err(no_certificate("no certificate: nothing proves requirements on a map yet"));
+impl Problem {
+    /// Refuses problems whose map has no certificate, before it is made.
+    ///
+    /// Cost: that of [`Problem::algebra_over_symbols`].
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`).
+    pub fn refuse_map_certificate(&self, budget: &Budget) -> Result<(), Error> {
+        refuse_requirements(self)?;
+        if *self.region().bound() == Bound::Free {
+            return Err(no_certificate("no certificate of a map on which the bound of the region is free"));
+        }
+        let symbols = self.algebra_over_symbols(budget)?.symbols();
+        if !symbols.delays().is_empty() {
+            return Err(no_certificate("no certificate of a map: the loop has dead time"));
+        }
+        if !symbols.is_empty() || symbols.modes().iter().flatten().any(|c| !c.is_zero()) {
+            return Err(no_certificate("no certificate of a map: the loop has constants that are not rational"));
+        }
+        Ok(())
     }
-    if *problem.region().bound() == Bound::Free {
-        return Err(no_certificate("no certificate of a map on which the bound of the region is free"));
-    }
-    let symbols = problem.algebra_over_symbols(budget)?.symbols();
-    if !symbols.delays().is_empty() {
-        return Err(no_certificate("no certificate of the map of a loop with dead time"));
-    }
-    if !symbols.is_empty() || symbols.modes().iter().flatten().any(|c| !c.is_zero()) {
-        return Err(no_certificate("no certificate of a map: the loop has constants that are not rational"));
-    }
-    Ok(())
 }
 
 /// That the stable points are in these cells.
