@@ -49,9 +49,12 @@ pub(super) fn glue_stable_cells(
     y_domain: &Range,
     across: bool,
     budget: &Budget,
-) -> Result<Vec<Vec<(usize, usize)>>, Exhausted> {
+) -> Result<Groups, Exhausted> {
     Ok(glued(curves, strips, y_domain, across, budget)?.0)
 }
+
+/// The cells of each region.
+type Groups = Vec<Vec<(usize, usize)>>;
 
 /// The regions, and the segments by which they were found to be connected.
 fn glued(
@@ -60,7 +63,7 @@ fn glued(
     y_domain: &Range,
     across: bool,
     budget: &Budget,
-) -> Result<(Vec<Vec<(usize, usize)>>, Vec<Join>), Exhausted> {
+) -> Result<(Groups, Vec<Join>), Exhausted> {
     budget.step("connecting cells");
     let stable: Vec<(usize, usize)> = strips
         .iter()
@@ -109,7 +112,7 @@ fn glued(
             }
         }
     }
-    let mut groups: Vec<Vec<(usize, usize)>> = Vec::new();
+    let mut groups = Groups::new();
     let mut number = vec![usize::MAX; stable.len()];
     for (i, &cell) in stable.iter().enumerate() {
         let r = root(&parent, i);
