@@ -85,6 +85,7 @@ mod certificates {
     mod coq;
     mod dead_time;
     mod held;
+    mod map_attacks;
     mod maps;
     mod program;
     mod readers;
