@@ -124,7 +124,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
                         .undecided(output, &stopped, text, || documents::Map::new(&problem, Err(&stopped), digits))?
                 }
             };
-            if let Some(hint) = options.method.hint(&boxes) {
+            if let Some(hint) = options.method.hint(&boxes).filter(|_| options.certificate.is_none()) {
                 note(&hint);
             }
             return Ok(status);

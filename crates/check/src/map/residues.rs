@@ -46,7 +46,11 @@ impl Modulus {
     }
 
     pub fn times(&self, x: u64, y: u64) -> u64 {
-        let product = u128::from(x) * u128::from(y);
+        self.reduced(u128::from(x) * u128::from(y))
+    }
+
+    /// A number below `2^64` times the modulus, over `2^64`.
+    fn reduced(&self, product: u128) -> u64 {
         let multiple = (product as u64).wrapping_mul(self.inverse);
         let sum = ((product + u128::from(multiple) * u128::from(self.value)) >> 64) as u64;
         if sum >= self.value { sum - self.value } else { sum }
@@ -94,12 +98,16 @@ impl Modulus {
         while b.len() > 1 {
             let (m, n, lead) = (a.len() - 1, b.len() - 1, b[b.len() - 1]);
             negative ^= both_odd(&a, &b);
-            for shift in (0..=m - n).rev() {
-                let first = a.pop()?;
-                for (k, c) in a.iter_mut().enumerate() {
-                    *c = self.times(*c, lead);
-                    if k >= shift {
-                        *c = self.minus(*c, self.times(first, b[k - shift]));
+            if m == n + 1 {
+                self.reduce_by_two(&mut a, &b);
+            } else {
+                for shift in (0..=m - n).rev() {
+                    let first = a.pop()?;
+                    for (k, c) in a.iter_mut().enumerate() {
+                        *c = self.times(*c, lead);
+                        if k >= shift {
+                            *c = self.minus(*c, self.times(first, b[k - shift]));
+                        }
                     }
                 }
             }
@@ -117,6 +125,26 @@ impl Modulus {
         top = self.times(top, self.power(b[0], a.len() as u64 - 1));
         let result = self.times(top, self.inverse(bottom)?);
         Some(if negative { self.minus(0, result) } else { result })
+    }
+
+    /// The remainder of `lead^2 a` by `b`, one degree less and with this leading coefficient: the usual case. A sum of three products
+    /// is below `2^126`, so that it is reduced once.
+    fn reduce_by_two(&self, a: &mut Vec<u64>, b: &[u64]) {
+        let n = b.len() - 1;
+        let (lead, below) = (b[n], &b[..n]);
+        let (first, second) = (a[n + 1], a[n]);
+        a.truncate(n);
+        let square = self.times(lead, lead);
+        let minus_linear = self.minus(0, self.times(lead, first));
+        let minus_constant = self.minus(self.times(first, below[n - 1]), self.times(lead, second));
+        let mut before = 0;
+        for (c, b) in a.iter_mut().zip(below) {
+            let sum = u128::from(square) * u128::from(*c)
+                + u128::from(minus_linear) * u128::from(before)
+                + u128::from(minus_constant) * u128::from(*b);
+            *c = self.reduced(sum);
+            before = *b;
+        }
     }
 
     /// The coefficients of the polynomial that has these values at ascending numbers, by Newton's divided differences.

@@ -9,6 +9,9 @@ use num_traits::{One, Signed, Zero};
 /// Resultants of a higher degree are refused.
 const MAX_DEGREE: i64 = 20_000;
 
+/// Resultants of longer coefficients are refused.
+const MAX_BITS: u64 = 1 << 22;
+
 /// The resultant of two polynomials in `y`, coefficients from the constant term up, which are polynomials in `x`; up to an integer
 /// factor. Neither is constant in `y`.
 ///
@@ -22,6 +25,10 @@ pub(super) fn resultant(f: &[Uni], g: &[Uni], clock: &Clock) -> Result<Uni, Stri
         return Err("a resultant has too high a degree".into());
     }
     let size = |p: &[Uni]| p.iter().flat_map(|c| &c.0).map(Signed::abs).sum::<Z>();
+    let [of_f, of_g] = [(&f, &g), (&g, &f)].map(|(p, other)| size(p).bits().saturating_mul(other.len() as u64));
+    if of_f.saturating_add(of_g) > MAX_BITS {
+        return Err("a resultant is too long".into());
+    }
     let bound = Z::from(2) * size(&f).pow(g.len() as u32 - 1) * size(&g).pow(f.len() as u32 - 1);
     let mut known = Residues { moduli: Vec::new(), digits: vec![Vec::new(); degree as usize + 1], product: Z::one() };
     let mut next = 1 << 62;
