@@ -1547,15 +1547,12 @@ def over_box(text, names, values):
 def vanishes_only_with(p, factors):
     """Whether nothing but a number is left of a polynomial when what it has in common with the factors is divided out."""
     p = p.primitive()
-    for f in factors:
-        while any(p):
-            quotient = p / f
-            if quotient is None:
-                common = p.common(f)
-                if not any(common):
-                    break
-                quotient = p / common
+    for f in factors:  # most often enough, and cheap beside common divisors
+        while any(p) and (quotient := p / f) is not None:
             p = quotient
+    for f in factors:
+        while any(p) and any(common := p.common(f)):
+            p = p / common
     return bool(p) and not any(p)
 
 def boxed(parameters):
