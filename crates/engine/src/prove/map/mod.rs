@@ -45,12 +45,11 @@ impl Answer<Map> {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_check::{Limits, check};
     /// use jurist_engine::model::Model;
-    /// let text = "time = 'discrete'\nparameters = { a = {}, b = {} }\nloop.characteristic = 'z^2 + a*z + b'";
-    /// let (model, _) = Model::parse(text)?;
-    /// let map = model.ask().free("a").free("b").map(6, &Budget::unlimited())?;
-    /// let certificate = map.certificate(&Budget::unlimited())?;
-    /// assert_eq!(check(text, &certificate, &Limits::default()).unwrap().kind, "map");
-    /// # Ok::<(), jurist_engine::error::Error>(())
+    /// let (drive, budget) = (Model::drive(), Budget::unlimited());
+    /// let map = drive.ask().free("T").free("K_pwm").map(6, &budget).unwrap();
+    /// let certificate = map.certificate(&budget).unwrap();
+    /// let proved = check(&drive.source().text, &certificate, &Limits::default()).unwrap();
+    /// assert_eq!(proved.kind, "map");
     /// ```
     ///
     /// # Errors
