@@ -6,11 +6,11 @@ mod strips;
 use super::cofactors::{Identity, identity};
 use super::emit::coprime_basis;
 use super::held::{polynomials, terms};
+use super::refuse_requirements;
 use super::statement::{about, boundary, number, object, region, set};
 use super::text::{MAX_TEXT, to_text};
-use super::{no_certificate, refuse_requirements};
 use crate::answer::{Answer, Map};
-use crate::error::Error;
+use crate::error::{Diagnostic, Error};
 use crate::problem::{Bound, Problem};
 use crate::stability::plane::{PlanePolynomial, StabilityMap, critical_polynomials, joins};
 use crate::stability::{HalfSizePair, Range};
@@ -114,6 +114,12 @@ impl Problem {
         }
         Ok(())
     }
+}
+
+fn no_certificate(why: impl Into<String>) -> Error {
+    Diagnostic::error("E-no-certificate", why)
+        .help("maps have one where the loop is rational, the bound of its region a number, and stability all that is asked")
+        .into()
 }
 
 /// That the stable points are in these cells.
