@@ -65,8 +65,8 @@
 
 // The model, the question, the answer.
 pub use jurist_engine::answer::{
-    Analysis, Answer, BoxRequest, Frequency, Map, MapBoxes, MapLimit, MapMethod, MapOrBoxes, ParametricTable,
-    PointTable, PointVerdict, RegionExtent, ToleranceAnswer, ToleranceRequest, Verdict,
+    Analysis, Answer, Body, BoxRequest, Frequency, Map, MapBoxes, MapLimit, MapMethod, MapOrBoxes, ParametricTable,
+    PointTable, PointVerdict, RegionExtent, SliceValues, ToleranceAnswer, ToleranceRequest, Verdict,
 };
 pub use jurist_engine::error::{Diagnostic, Diagnostics, Error, Label, Severity, Source, Span};
 pub use jurist_engine::model::{

@@ -57,6 +57,8 @@ mod corpus {
 
 /// Two parameters: the exact decomposition and boxes.
 mod maps {
+    mod body;
+    mod body_program;
     mod boxes;
     mod cases;
     mod laws;

@@ -25,7 +25,7 @@ from ._answers import (
 )
 from ._builder import LoopBuilder
 from ._check import verify
-from ._curves import Locus, Map, Simulation
+from ._curves import Body, Locus, Map, Simulation
 from ._ends import Cause, End, Interval
 from ._errors import (
     CertificateRejected,
@@ -76,6 +76,7 @@ __all__ = [
     "Analysis",
     "At",
     "Bode",
+    "Body",
     "Cause",
     "CertificateRejected",
     "Condition",

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 from ._answers import Document, PointVerdict
-from ._exact import Exact
+from ._exact import Exact, fraction
 
 
 class Map(Document):
@@ -77,6 +78,65 @@ class Map(Document):
     def __str__(self) -> str:
         return self.text().rstrip()
 
+
+
+class Body(Document):
+    """The stable points in three parameters, by exact maps of two of them at values of the third.
+
+    Examples
+    --------
+    >>> import jurist
+    >>> loop = jurist.Loop.characteristic(
+    ...     "(z^2 + a*z + b)*(z - c)", time="discrete", parameters={"a": 0, "b": 0, "c": 0}
+    ... )
+    >>> body = loop.body("a", "b", "c", "-3/2", "3/2", 4)
+    >>> [(str(value), len(body.regions(k))) for k, value in enumerate(body.values)]
+    [('-3/2', 0), ('-1/2', 1), ('1/2', 1), ('3/2', 0)]
+    >>> body.stretches[0]["lower"]["none"], body.verdict(0, 0, "1/2").verdict
+    ('-1', <Verdict.STABLE: 'stable'>)
+    """
+
+    __slots__ = ()
+
+    @property
+    def axes(self) -> tuple[str, str, str]:
+        """The parameters; the slices are at values of the third."""
+        x, y, z = (str(self._document[key]) for key in ("x", "y", "z"))
+        return x, y, z
+
+    @property
+    def values(self) -> tuple[Fraction, ...]:
+        """The values of the third parameter."""
+        return tuple(fraction(piece["at"]) for piece in self.slices)
+
+    @property
+    def slices(self) -> tuple[dict[str, Any], ...]:
+        """The slices as they stand in the document: the keys of a map beside the value."""
+        return tuple(self._document["slices"])
+
+    def regions(self, number: int) -> tuple[dict[str, Any], ...]:
+        """The stable regions of a slice, counted from 0."""
+        return tuple(self.slices[number]["regions"] or ())
+
+    @property
+    def extremes(self) -> dict[str, Any] | None:
+        """The least and the greatest values of the first two over the slices; `None` where no slice has stable points."""
+        found: dict[str, Any] | None = self._document["extremes"]
+        return found
+
+    @property
+    def stretches(self) -> tuple[dict[str, Any], ...]:
+        """Where slices with stable points follow each other, and brackets of where these begin and end."""
+        return tuple(self._document["stretches"])
+
+    def verdict(self, x: Exact, y: Exact, z: Exact) -> PointVerdict:
+        """The verdict at a point, also between two slices."""
+        assert self._loop is not None
+        at = dict(zip(self.axes, (x, y, z)))
+        return self._loop.verdict({**self.point, **at}, **self._loop._region_by(self._words))
+
+    def __str__(self) -> str:
+        return self.text().rstrip()
 
 class Locus(Document):
     """The root locus of a parameter, in floating point, with the exact crossings of the boundary.

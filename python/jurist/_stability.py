@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, Unpack, cast
 
 from ._answers import Analysis, PointVerdict, Table
 from ._asking import Asker
-from ._curves import Map
+from ._curves import Body, Map
 from ._exact import Exact, text_of
 from ._polynomial import Polynomial
 from ._question import Asking, AskingWithin, Bounds, warn
@@ -182,6 +182,35 @@ class StabilityQuestions(Asker):
             words.append(f"--undecided={text_of(undecided)}")
         text = self._document(words, asked)
         return Map(text, self._loop, tuple(words))
+
+    def body(
+        self,
+        x: str,
+        y: str,
+        z: str,
+        lower: Exact,
+        upper: Exact,
+        count: int,
+        values: Mapping[str, Exact] | None = None,
+        **question: Unpack[AskingWithin],
+    ) -> Body:
+        """Exact maps of two parameters at equally spaced values of a third, and how far their stable regions reach together.
+
+        Parameters
+        ----------
+        x, y, z : str
+            The parameters; the maps are of the first two.
+        lower, upper : exact numbers
+            The first and the last value of the third.
+        count : int
+            How many values, at least two.
+        values : mapping, optional
+        """
+        asked = self._asked(values, **question)
+        words = self._words("map", asked)
+        words += ["-x", x, "-y", y, "-z", f"{z}={text_of(lower)}..{text_of(upper)}:{count}"]
+        text = self._document(words, asked)
+        return Body(text, self._loop, tuple(words))
 
     def tolerance(
         self,

@@ -2,6 +2,7 @@
 
 use super::command_line::{CommandLine, Place};
 use jurist_algebra::number::{ParseNumberErrorKind, Rational, parse_number};
+use jurist_engine::answer::SliceValues;
 use jurist_engine::error::{Diagnostic, Diagnostics, Span};
 use std::sync::Arc;
 
@@ -93,6 +94,51 @@ pub(super) fn axis(line: &CommandLine, option: &str, text: &str) -> Result<AxisR
         _ => Ok(AxisRequest { name, lower, upper, name_span: place.part(0, equals) }),
     });
     read.map_err(|d| in_line(line, vec![d]))
+}
+
+/// Slices along a third axis.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SlicesRequest {
+    pub values: SliceValues,
+    /// Where the name stands in the command line's text.
+    pub name_span: Span,
+    /// Where the range and the number of slices stand.
+    pub range_span: Span,
+}
+
+/// Reads `NAME=LO..HI:N`, both ends included.
+pub(super) fn slices(line: &CommandLine, option: &str, text: &str) -> Result<SlicesRequest, Diagnostics> {
+    let place = line.option_value(option, text);
+    let start = text.find('=').map_or(0, |i| i + 1);
+    let expects = |from: usize, what: &str| {
+        Diagnostic::error("E-option-value", format!("{option} expects NAME=LO..HI:N"))
+            .at(place.part(from, text.len()), what)
+            .help(format!("for example {option} K=0..10:11, for 11 slices, both ends included"))
+    };
+    let read = || {
+        if start == 0 {
+            return Err(expects(0, "there is no '='"));
+        }
+        let colon = text.rfind(':').filter(|&i| i >= start).ok_or_else(|| expects(start, "there is no ':N'"))?;
+        let count = text[colon + 1..].trim().parse().map_err(|_| expects(colon + 1, "not a number of slices"))?;
+        let (name, lower, upper) = range(&text[..colon], place, option).map_err(|d| match d.code {
+            "E-option-value" => expects(start, "there is no '..'"),
+            _ => d,
+        })?;
+        let (Some(lower), Some(upper)) = (lower, upper) else {
+            return Err(expects(start, "both ends have to be numbers"));
+        };
+        let values = SliceValues::evenly(name, &lower, &upper, count).map_err(|d| {
+            let (from, to, label) = match lower < upper {
+                true => (colon + 1, text.len(), "the number of slices"),
+                false => (start, colon, "the lower end is not below the upper end"),
+            };
+            d.at(place.part(from, to), label)
+        })?;
+        let name_span = place.part(0, start - 1);
+        Ok(SlicesRequest { values, name_span, range_span: place.part(start, text.len()) })
+    };
+    read().map_err(|d| in_line(line, vec![d]))
 }
 
 /// Reads a plain number, such as that of `--radius`.
@@ -234,6 +280,33 @@ mod tests {
             assert_eq!((error.code(), marked(&error).as_str()), (code, mark), "{value}");
         }
         assert_eq!(set(&["K=1", "K=2", "x"]).unwrap_err().diagnostics().len(), 2);
+    }
+
+    #[test]
+    fn slices_are_exact_and_their_mistakes_are_marked() {
+        let read = |text: &str| slices(&line(&["-z", text]), "-z", text);
+        let found = read("K=0..1:4").unwrap();
+        let values: Vec<String> = found.values.values().iter().map(ToString::to_string).collect();
+        assert_eq!((found.values.name(), values.join(" ")), ("K", "0 1/3 2/3 1".to_owned()));
+        for (value, code, mark) in [
+            ("K", "E-option-value", "K"),
+            ("K=0..1", "E-option-value", "0..1"),
+            ("K=0.1:3", "E-option-value", "0.1:3"),
+            ("K=0..:3", "E-option-value", "0..:3"),
+            ("K=0..inf:3", "E-option-value", "0..inf:3"),
+            ("K=0..1:x", "E-option-value", "x"),
+            ("K=0..1:", "E-option-value", ""),
+            ("K=0..1:1", "E-option-value", "1"),
+            ("K=0..1:101", "E-option-value", "101"),
+            ("K=0..1:99999999999999999999999", "E-option-value", "99999999999999999999999"),
+            ("K=1..0:3", "E-option-value", "1..0"),
+            ("K=1..1:3", "E-option-value", "1..1"),
+            ("K=a..1:3", "E-number", "a"),
+            ("=0..1:3", "E-option-value", "0..1:3"),
+        ] {
+            let error = read(value).unwrap_err();
+            assert_eq!((error.code(), marked(&error).as_str()), (code, mark), "{value}");
+        }
     }
 
     #[test]

@@ -35,6 +35,20 @@ pub(super) struct RequirementOptions {
 }
 
 impl RequirementOptions {
+    /// The first option that requires something, if one does.
+    pub fn first(&self) -> Option<&'static str> {
+        let options = [
+            ("--gain-margin", &self.gain_margin),
+            ("--phase-margin", &self.phase_margin),
+            ("--modulus-margin", &self.modulus_margin),
+            ("--delay-margin", &self.delay_margin),
+            ("--settling-time", &self.settling_time),
+            ("--damping", &self.damping),
+            ("--at", &self.at),
+        ];
+        options.into_iter().find(|(_, text)| text.is_some()).map(|(name, _)| name)
+    }
+
     /// What the model's `[require]` and the command line ask for together, and the question with the region that follows.
     pub fn asked(
         &self,

@@ -1,6 +1,6 @@
 // Chromium, headless, spoken to through its DevTools protocol over two pipes: no package is needed.
 
-import { spawn } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -107,4 +107,29 @@ export class Browser {
     clearTimeout(late);
     rmSync(this.profile, { recursive: true, force: true, maxRetries: 5 });
   }
+}
+
+/** The browser that CHROMIUM names, or the first that is found. */
+export function program() {
+  const names = process.env.CHROMIUM ? [process.env.CHROMIUM] : ["chromium", "chromium-browser", "google-chrome"];
+  for (const name of names) {
+    try {
+      return execFileSync("sh", ["-c", 'command -v "$1"', "sh", name], { encoding: "utf8" }).trim();
+    } catch {
+      // The next one.
+    }
+  }
+  throw new Error(`no browser: ${names.join(", ")}`);
+}
+
+/** What a page complained about, and what it wanted from elsewhere than it may. */
+export function complaints(events, allowed) {
+  const found = [];
+  for (const { method, params } of events) {
+    if (method === "Runtime.exceptionThrown") found.push(`exception: ${params.exceptionDetails.text}`);
+    if (method === "Log.entryAdded" && params.entry.level === "error") found.push(`error: ${params.entry.text}`);
+    if (method === "Runtime.consoleAPICalled" && params.type === "error") found.push("console.error was called");
+    if (method === "Network.requestWillBeSent" && !allowed(params.request.url)) found.push(`request for ${params.request.url}`);
+  }
+  return found;
 }

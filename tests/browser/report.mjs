@@ -7,11 +7,10 @@
 // PICTURES_FOLDER gets page-WIDTH.png (in parts) and report.pdf, with --figures every figure alone.
 // CHROMIUM names the browser, else chromium, chromium-browser or google-chrome is looked for.
 
-import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
-import { Browser } from "./devtools.mjs";
+import { Browser, complaints, program } from "./devtools.mjs";
 
 const WINDOWS = [
   { name: "phone", width: 390, height: 844, scale: 2, mobile: true },
@@ -27,32 +26,6 @@ const [folder, pictures] = plain;
 if (!folder) {
   console.error("usage: node tests/browser/report.mjs REPORT_FOLDER [PICTURES_FOLDER] [--figures]");
   process.exit(2);
-}
-
-function program() {
-  const names = process.env.CHROMIUM ? [process.env.CHROMIUM] : ["chromium", "chromium-browser", "google-chrome"];
-  for (const name of names) {
-    try {
-      return execFileSync("sh", ["-c", 'command -v "$1"', "sh", name], { encoding: "utf8" }).trim();
-    } catch {
-      // The next one.
-    }
-  }
-  throw new Error(`no browser: ${names.join(", ")}`);
-}
-
-/** What the page complained about, and what it wanted from elsewhere. */
-function complaints(events, url) {
-  const found = [];
-  for (const { method, params } of events) {
-    if (method === "Runtime.exceptionThrown") found.push(`exception: ${params.exceptionDetails.text}`);
-    if (method === "Log.entryAdded" && params.entry.level === "error") found.push(`error: ${params.entry.text}`);
-    if (method === "Runtime.consoleAPICalled" && params.type === "error") found.push("console.error was called");
-    if (method === "Network.requestWillBeSent" && ![url, "about:blank"].includes(params.request.url)) {
-      found.push(`request for ${params.request.url}`);
-    }
-  }
-  return found;
 }
 
 const url = pathToFileURL(resolve(folder, "report.html")).href;
@@ -86,7 +59,7 @@ try {
   if (pdf.subarray(0, 5).toString() !== "%PDF-") faults.push("the page does not print");
   console.log(`print: ${pdf.length} bytes`);
   if (pictures) writeFileSync(join(pictures, "report.pdf"), pdf);
-  faults.push(...complaints(browser.events, url));
+  faults.push(...complaints(browser.events, (asked) => [url, "about:blank"].includes(asked)));
 } finally {
   await browser.close();
 }

@@ -320,6 +320,9 @@ fn the_program_writes_and_verifies_certificates_of_maps() {
     let boxes = jurist(&[&ask[..], &[&file, "--method", "boxes"]].concat());
     assert_eq!(boxes.status, 2);
     assert!(boxes.stderr.contains("E-no-certificate"), "{}", boxes.stderr);
+    let slices = jurist(&[&ask[..], &[&file, "-z", "R_a=1..2:3"]].concat());
+    assert_eq!(slices.status, 2);
+    assert!(slices.stderr.contains("E-no-certificate"), "{}", slices.stderr);
     let margins = jurist(&[&ask[..], &[&file, "--phase-margin", "30"]].concat());
     assert_eq!(margins.status, 2);
     assert!(margins.stderr.contains("E-require"), "{}", margins.stderr);

@@ -8,13 +8,16 @@ use jurist_algebra::poly::modular::gcd::primitive_gcd_modular;
 use jurist_algebra::poly::modular::multimodular_resultant::{
     resultant_multimodular, resultant_multimodular_integers, resultant_multimodular_multivariate,
 };
+use jurist_algebra::poly::modular::square_free_resultant::square_free_decomposition;
 use jurist_algebra::poly::multivariate::strategies::multi_poly;
 use jurist_algebra::poly::{
-    Domain, MultiPoly, Poly, RationalFunction, UniPoly, discriminant, resultant, resultant_formal,
-    resultant_formal_subresultant, resultant_subresultant,
+    Domain, MultiPoly, Poly, RationalFunction, SquareFree, UniPoly, discriminant, resultant, resultant_formal,
+    resultant_formal_subresultant, resultant_square_free_decomposition, resultant_subresultant,
 };
 use jurist_engine::stability::{HalfSizePair, Shape};
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
 
 /// Zero, small, word-size, and 500-digit integers of either sign.
 fn integer() -> impl Strategy<Value = Integer> {
@@ -248,5 +251,67 @@ fn threads_do_not_matter() {
         let at = |p: &Poly<MultiPoly>| p.map(|c| c.eval_integers(&point));
         let expected = resultant_formal_subresultant(&at(&a), 8, &at(&b), 7, &Budget::unlimited()).unwrap();
         assert_eq!(one.eval_integers(&point), expected);
+    }
+}
+
+/// A curve in `y` over `Z[x]` whose discriminant has double zeros: the resultant of two polynomials in a third variable.
+fn crossing_branches() -> impl Strategy<Value = Poly<UniPoly>> {
+    let coefficient = || {
+        prop::collection::vec(prop::collection::vec(-999i64..=999, 0..=2), 1..=2)
+            .prop_map(|c| Poly::new(c.iter().map(|c| UniPoly::from_i64(c)).collect()))
+    };
+    let side = |n: usize| prop::collection::vec(coefficient(), n + 1).prop_map(Poly::<Poly<UniPoly>>::new);
+    (side(4), side(4), 0u32..3, 0u32..3).prop_filter_map("no curve", |(a, b, power_x, power_y)| {
+        let curve = resultant_subresultant(&a, &b, &Budget::unlimited()).unwrap();
+        // Units: x and y in tenths, which powers of 2 and 5 in the coefficients follow.
+        let scaled = |c: &UniPoly, k: usize| {
+            let ten = |e: usize, power: u32| Integer::from(10).pow(e as u64 * u64::from(power));
+            let c = c.coeffs().iter().enumerate().map(|(e, x)| x * &ten(e, power_x) * ten(k, power_y));
+            UniPoly::new(c.collect())
+        };
+        let coefficients = curve.coeffs().iter().enumerate().map(|(k, c)| scaled(c, k)).collect();
+        (curve.degree()? > 1).then(|| Poly::new(coefficients))
+    })
+}
+
+/// Long discriminants with many crossings are found by their factors, not whole.
+#[test]
+fn factors_of_long_discriminants_are_found_by_their_images() {
+    let mut runner = TestRunner::deterministic();
+    let found = (0..12).filter(|_| {
+        let f = crossing_branches().new_tree(&mut runner).unwrap().current();
+        square_free_decomposition(&f, &f.derivative()).is_some()
+    });
+    let found = found.count();
+    assert!(found >= 4, "{found} of 12");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// The factors of a discriminant are coprime, and their powers multiply to it.
+    #[test]
+    fn factors_of_discriminants_multiply_to_them(f in crossing_branches()) {
+        let derivative = f.derivative();
+        let whole = resultant(&f, &derivative, &Budget::unlimited()).unwrap();
+        let found = resultant_square_free_decomposition(&f, &derivative, &Budget::unlimited()).unwrap();
+        let Some(factors) = found else {
+            prop_assert!(whole.is_zero());
+            return Ok(());
+        };
+        let power = |(f, e): &(UniPoly, usize)| (0..*e).fold(UniPoly::one(), |p, _| p.times(f));
+        let product = factors.iter().fold(UniPoly::one(), |p, f| p.times(&power(f)));
+        prop_assert_eq!(product.primitive_part(), whole.primitive_part());
+        let radical = factors.iter().fold(UniPoly::one(), |p, (f, _)| p.times(f));
+        prop_assert!(SquareFree::new(radical.clone()).is_some(), "{radical:?}");
+        // A zero 0 may stand apart.
+        let away_from_zero = |factors: Vec<(UniPoly, usize)>| {
+            let without = |f: UniPoly| if f.coeff(0).is_zero() { f.div_exact(&UniPoly::x()).expect("0 is a zero") } else { f };
+            let mut rest: Vec<(usize, UniPoly)> = factors.into_iter().map(|(f, e)| (e, without(f))).collect();
+            rest.retain(|(_, f)| !f.is_constant());
+            rest.sort_by_key(|(e, _)| *e);
+            rest
+        };
+        prop_assert_eq!(away_from_zero(factors), away_from_zero(whole.square_free_decomposition()));
     }
 }

@@ -79,7 +79,7 @@ fn the_page_of_a_map_decomposes_nothing_again() {
     let trace = trace_map(&answer, choose_windows(&answer, &[], &[open(), open()]), &budget).unwrap();
     let contents = MapContents::new(&answer, &trace, Vec::new(), &budget).unwrap();
     let figures = [contents.draw(860.0, 600.0, false), contents.draw(400.0, 470.0, false)];
-    let page = jurist_draw::page::map_page(&answer, &contents, &trace, &figures, "", &budget).unwrap();
+    let page = jurist_draw::page::map_page(&answer, &contents, &figures, "", &budget).unwrap();
     assert!(page.contains("<svg") && !documents::to_text(&answer.json(12)).is_empty());
     assert_eq!(steps.count("characteristic polynomial"), 1);
     // Once in the direction of either axis: the extents of the regions need both.

@@ -8,7 +8,7 @@ use jurist_drive::document::Main;
 use jurist_engine::error::Source;
 use jurist_engine::model::Model;
 use jurist_engine::show::documents::{
-    Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, Margins, Norm, RootLocusForm, Tolerance, Transfer,
+    Analysis, Body, Charpoly, Check, Intervals, Jury, Map, MapBoxes, Margins, Norm, RootLocusForm, Tolerance, Transfer,
     Verdict,
 };
 use serde::Serialize;
@@ -35,6 +35,7 @@ fn read_and_written(document: &Value) -> Result<Value, String> {
     }
     match document["schema"].as_str().expect("a schema") {
         "jurist/analyze/1" => through::<Analysis>(document),
+        "jurist/body/1" => through::<Body>(document),
         "jurist/charpoly/1" => through::<Charpoly>(document),
         "jurist/check/1" => through::<Check>(document),
         "jurist/intervals/1" => through::<Intervals>(document),
@@ -108,6 +109,7 @@ const FORMS: &[&[&str]] = &[
     &["map", "-x", "T", "-y", "K_pwm"],
     &["map", "-x", "T", "-y", "K_pwm", "--radius", "99/100"],
     &["map", "-x", "T=0..1/100", "-y", "K_pwm=0..600", "--method", "boxes", "--undecided", "1/5"],
+    &["map", "examples/pid-body.toml", "-x", "K_i", "-y", "K_d", "-z", "K_p=-1..2:7"],
     &["bode", "examples/drive-blocks.toml", "--at", "i_ref"],
     &["margins"],
     &["margins", "examples/drive-blocks.toml", "--at", "speed controller", "--skew", "1"],
@@ -126,6 +128,7 @@ const FORMS: &[&[&str]] = &[
     &["jury", "--timeout", "0"],
     &["jury", "--param", "T", "--timeout", "0"],
     &["map", "-x", "T", "-y", "K_pwm", "--timeout", "0"],
+    &["map", "examples/pid-body.toml", "-x", "K_i", "-y", "K_d", "-z", "K_p=-1..2:7", "--timeout", "0"],
     &["map", "-x", "T=0..1", "-y", "K_pwm=0..600", "--method", "boxes", "--timeout", "0"],
     &["verdict", "--timeout", "0"],
 ];

@@ -1,5 +1,6 @@
 //! `jurist map`: the stable region in two parameters.
 
+use super::map_body;
 use super::map_boxes::{self, MethodOptions};
 use super::{Context, decided};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
@@ -16,7 +17,7 @@ use jurist_draw::page::map_page;
 #[cfg(feature = "cli")]
 use jurist_drive::published_limits;
 use jurist_engine::answer::{Answer, BoxRequest, Map, MapMethod, MapOrBoxes};
-use jurist_engine::error::Error as EngineError;
+use jurist_engine::error::{Diagnostic, Error as EngineError};
 use jurist_engine::problem::Problem;
 use jurist_engine::response::Requirements;
 use jurist_engine::show::{documents, map_boxes_text, map_text};
@@ -25,11 +26,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Digits to which places and frequencies are enclosed, at least and at most.
-const LIMIT_DIGITS: (usize, usize) = (10, 20);
+pub(super) const LIMIT_DIGITS: (usize, usize) = (10, 20);
 
 /// Width and height of the picture, and of the one that a page shows on a telephone.
-const WIDE: (f64, f64) = (860.0, 600.0);
-const NARROW: (f64, f64) = (400.0, 470.0);
+pub(super) const WIDE: (f64, f64) = (860.0, 600.0);
+pub(super) const NARROW: (f64, f64) = (400.0, 470.0);
 
 /// Options of `jurist map`.
 #[derive(Args, Debug)]
@@ -42,6 +43,9 @@ pub(in crate::cli) struct Options {
     /// The second parameter
     #[arg(short = 'y', value_name = "NAME[=LO..HI]", allow_hyphen_values = true)]
     pub y: String,
+    /// A third parameter: the map at each of N values from LO to HI, both included
+    #[arg(short = 'z', value_name = "NAME=LO..HI:N", allow_hyphen_values = true)]
+    pub z: Option<String>,
     /// Draws x on a logarithmic axis [default: for positive ranges of two decades and more]
     #[arg(long, conflicts_with = "linear_x")]
     pub log_x: bool,
@@ -69,7 +73,7 @@ pub(in crate::cli) struct Options {
 
 /// What is written where a picture is asked for.
 #[derive(Clone, Copy, PartialEq)]
-enum Picture {
+pub(super) enum Picture {
     Svg,
     Png,
     Pdf,
@@ -87,6 +91,16 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     for request in &requests {
         known_name(context, &model, &request.name, request.name_span)?;
         question = question.free(&request.name);
+    }
+    if let Some(z) = &options.z {
+        if options.certificate.is_some() {
+            let error = Diagnostic::error(
+                "E-no-certificate",
+                "maps at several values of a third parameter have no certificate",
+            );
+            return Err(error.help("ask for the map at one value: '--set NAME=VALUE' in the place of '-z'").into());
+        }
+        return map_body::run(z, options, &requests, picture, (&model, question), context);
     }
     let (asked, question) = options.require.asked_each(&model, question, &options.region, context)?;
     refuse_proofs(&model, &asked, options.certificate.is_some())?;
@@ -187,7 +201,7 @@ fn picture_of(options: &Options) -> Result<Option<Picture>, Error> {
     }
 }
 
-fn windows(options: &Options, requests: &[AxisRequest; 2]) -> [WindowRequest; 2] {
+pub(super) fn windows(options: &Options, requests: &[AxisRequest; 2]) -> [WindowRequest; 2] {
     let scale = |log: bool, linear: bool| (log || linear).then_some(log);
     let request = |axis: &AxisRequest, logarithmic| WindowRequest {
         lower: axis.lower.clone(),
@@ -222,7 +236,7 @@ fn draw(
         Picture::Page => {
             let narrow = contents.draw(NARROW.0, NARROW.1, false);
             let text = answer.text(options.output.digits() as usize);
-            map_page(answer, &contents, &trace, &[wide, narrow], &text, &context.budget)?.into_bytes()
+            map_page(answer, &contents, &[wide, narrow], &text, &context.budget)?.into_bytes()
         }
     };
     context.reporter.finish();

@@ -14,6 +14,7 @@ pub(super) mod locus;
 #[cfg(feature = "cli")]
 pub(super) mod main_job;
 pub(super) mod map;
+mod map_body;
 mod map_boxes;
 pub(super) mod margins;
 pub(super) mod new;

@@ -4,7 +4,7 @@ use super::key::Point;
 use crate::cli::assignments::in_line;
 use crate::cli::command_line::CommandLine;
 use crate::cli::status::Error;
-use jurist_algebra::number::{Rational, parse_number};
+use jurist_algebra::number::{Rational, evenly_spaced, parse_number};
 use jurist_engine::error::{Diagnostic, Span};
 
 /// More questions than this are refused: they would not fit into the memory.
@@ -43,17 +43,10 @@ pub(in crate::cli) fn axis(line: &CommandLine, text: &str) -> Result<Axis, Error
             let Some(count) = count.trim().parse().ok().filter(|n| (2..=MOST).contains(n)) else {
                 return Err(wrong(start, "N is a number of values, at least 2"));
             };
-            evenly(&number(low)?, &number(high)?, count)
+            evenly_spaced(&number(low)?, &number(high)?, count)
         }
     };
     Ok(Axis { name: name.trim().to_owned(), values, name_span: place.part(0, name.len()) })
-}
-
-/// So many values from one number to another, both included.
-fn evenly(low: &Rational, high: &Rational, count: usize) -> Vec<Rational> {
-    let width = high - low;
-    let share = |k: usize| Rational::new((k as u64).into(), (count as u64 - 1).into());
-    (0..count).map(|k| low + &(&width * &share(k))).collect()
 }
 
 /// All combinations, each with the values that are the same everywhere; `None` where they are too many.

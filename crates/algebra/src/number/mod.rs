@@ -13,6 +13,7 @@ mod parse;
 mod rational;
 mod root;
 mod rounding;
+mod spaced;
 #[cfg(feature = "strategies")]
 pub mod strategies;
 
@@ -25,6 +26,7 @@ pub use parse::{
     parse_number, scan_decimal_literal,
 };
 pub use rational::Rational;
+pub use spaced::evenly_spaced;
 
 /// The sign of a number: `Less` for negative, `Equal` for zero, `Greater` for positive.
 pub type Sign = std::cmp::Ordering;

@@ -1,6 +1,7 @@
 //! The dense univariate polynomial.
 
 use super::Domain;
+use super::rounded_sign::sign_by_rounding;
 use crate::limits::checkpoint;
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use std::fmt;
@@ -204,7 +205,8 @@ impl UniPoly {
 
     /// The sign of the value at a rational number.
     pub fn sign_at(&self, x: &Rational) -> Sign {
-        self.eval_homogeneous(&x.numerator(), &x.denominator()).sign()
+        let (a, q) = (x.numerator(), x.denominator());
+        sign_by_rounding(self, &a, &q).unwrap_or_else(|| self.eval_homogeneous(&a, &q).sign())
     }
 
     /// `q^n p(a/q)` with `n` the degree: an integer, of the sign of `p(a/q)` when `q > 0`.

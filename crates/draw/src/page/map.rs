@@ -2,9 +2,7 @@
 
 use super::{document, escaped};
 use crate::figures::dark_style;
-use crate::figures::map::{
-    FrequencyPoint, MapContents, MapFigure, MapTrace, Role, Wall, frequency_unit, mechanism_words,
-};
+use crate::figures::map::{FrequencyPoint, MapContents, MapFigure, Role, Wall, frequency_unit, mechanism_words};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Integer;
 use jurist_algebra::poly::{Monomial, RealAlgebraic};
@@ -17,8 +15,13 @@ use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::{Curve, Strip};
 use serde_json::{Value, json};
 
+/// What of a page of maps is exact.
+pub(super) const CERTAIN: &str = "The picture is drawn in floating point. The verdict, the number of roots and the values of one \
+    parameter at which the verdict changes (rounded to four digits) are not: they hold for exactly the numbers shown in the two \
+    fields, which this page looks up with integers of any size in strips and cells that were computed and proved by exact algebra. A \
+    point on a boundary is not stable.";
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: &str = include_str!("page.js");
+pub(super) const SCRIPT: &str = include_str!("page.js");
 
 /// The map as an HTML page that needs nothing from outside: the picture for wide and for narrow screens,
 /// `text` below it, and a script that looks a point up in the exact strips with integers of any size.
@@ -28,7 +31,6 @@ const SCRIPT: &str = include_str!("page.js");
 pub fn map_page(
     answer: &Answer<Map>,
     contents: &MapContents<'_>,
-    trace: &MapTrace,
     figures: &[MapFigure; 2],
     text: &str,
     budget: &Budget,
@@ -43,27 +45,16 @@ pub fn map_page(
     } else {
         format!("With {}.", named_values(answer.problem().set()))
     };
-    let field = |id: &str, axis: &Free| {
-        format!(
-            "<label for=\"{id}\">{}</label><input id=\"{id}\" autocomplete=\"off\" spellcheck=\"false\"><span>{}</span>\n",
-            escaped(&axis.name),
-            escaped(axis.unit.as_deref().unwrap_or_default()),
-        )
-    };
-    let data = data(answer, contents, trace, figures, budget)?.to_string().replace('<', "\\u003c");
+    let data = data(answer, contents, figures, budget)?.to_string().replace('<', "\\u003c");
     let body = format!(
         "<h1>{title}</h1>\n\
          <p class=\"small\">{x_name} from left to right, {y_name} upwards. {others}</p>\n\
-         <div class=\"figure wide\">{wide}</div>\n<div class=\"figure narrow\">{narrow}</div>\n\
-         <div class=\"panel\"><div class=\"inputs\">\n{x_field}{y_field}</div>\n\
-         <div aria-live=\"polite\"><div id=\"verdict\"></div><div id=\"roots\"></div><div id=\"near\"></div></div></div>\n\
+         <div class=\"slice\"><div class=\"figure wide\">{wide}</div>\n<div class=\"figure narrow\">{narrow}</div></div>\n\
+         {fields}\
          <p class=\"small screen\">Move the pointer, tap, use the arrow keys (with Shift in larger steps), or enter exact \
          values: 110, 1e-4, 1/3.</p>\n\
          <h2>What is certain</h2>\n\
-         <p class=\"small\">The picture is drawn in floating point. The verdict, the number of roots and the values of one \
-         parameter at which the verdict changes (rounded to four digits) are not: they hold for exactly the numbers shown in the two fields, which this page looks up with \
-         integers of any size in strips and cells that were computed and proved by exact algebra. A point on a boundary is \
-         not stable.</p>\n\
+         <p class=\"small\">{CERTAIN}</p>\n\
          <h2>Limits</h2>\n<pre>{text}</pre>\n\
          <script type=\"application/json\" id=\"data\">{data}</script>\n<script>\n{SCRIPT}</script>\n",
         title = escaped(&title),
@@ -72,24 +63,43 @@ pub fn map_page(
         others = escaped(&others),
         wide = figures[0].figure.svg(),
         narrow = figures[1].figure.svg(),
-        x_field = field("x", x),
-        y_field = field("y", y),
+        fields = fields(x, y),
         text = escaped(text),
     );
-    let dark = format!("{STYLE}@media screen and (prefers-color-scheme:dark){{\n{}}}\n", dark_style(".figure"));
-    Ok(document(&title, &dark, &body, true))
+    Ok(document(&title, &style(), &body, true))
+}
+
+/// The style of pages of maps.
+pub(super) fn style() -> String {
+    format!("{STYLE}@media screen and (prefers-color-scheme:dark){{\n{}}}\n", dark_style(".figure"))
+}
+
+/// Two fields for exact values, and where the script writes what holds there.
+pub(super) fn fields(x: &Free, y: &Free) -> String {
+    let field = |id: &str, axis: &Free| {
+        format!(
+            "<label for=\"{id}\">{}</label><input id=\"{id}\" autocomplete=\"off\" spellcheck=\"false\"><span>{}</span>\n",
+            escaped(&axis.name),
+            escaped(axis.unit.as_deref().unwrap_or_default()),
+        )
+    };
+    format!(
+        "<div class=\"panel\"><div class=\"inputs\">\n{}{}</div>\n\
+         <div aria-live=\"polite\"><div id=\"verdict\"></div><div id=\"roots\"></div><div id=\"near\"></div></div></div>\n",
+        field("x", x),
+        field("y", y)
+    )
 }
 
 /// What the script needs: the exact strips, and the walls as they are drawn.
-fn data(
+pub(super) fn data(
     answer: &Answer<Map>,
     contents: &MapContents<'_>,
-    trace: &MapTrace,
     figures: &[MapFigure; 2],
     budget: &Budget,
 ) -> Result<Value, Error> {
     let axis = |k: usize| {
-        let (axis, window) = (&answer.problem().free()[k], &trace.windows[k]);
+        let (axis, window) = (&answer.problem().free()[k], &contents.windows()[k]);
         let (from, to) = window.ends();
         json!({
             "name": axis.name,

@@ -1,6 +1,9 @@
 'use strict';
 (() => {
-  const data = JSON.parse(document.getElementById('data').textContent);
+  // One map, or slices of which one is shown; a slice without a map is null.
+  const whole = JSON.parse(document.getElementById('data').textContent);
+  const slices = whole.slices || [whole];
+  let data = slices[0], now = 0;
   const $ = id => document.getElementById(id);
   const abs = a => a < 0n ? -a : a;
   const gcd = (a, b) => { a = abs(a); b = abs(b); while (b) [a, b] = [b, a % b]; return a; };
@@ -31,9 +34,14 @@
     return sign(s);
   }
   const end = e => e && { lo: rational(e.enclosure[0]), hi: rational(e.enclosure[1]), poly: e.polynomial.map(BigInt) };
-  const strips = data.strips.map(s => ({ lower: end(s.lower), upper: end(s.upper), cells: s.cells, wall: s.wall }));
-  const curves = data.curves.map(c => c.terms.map(t => [t[0], t[1], BigInt(t[2])]));
-  const domain = data.axes.map(a => ({ lower: a.lower && rational(a.lower), upper: a.upper && rational(a.upper) }));
+  let strips = [], curves = [];
+  function load(k) {
+    [now, data] = [k, slices[k]];
+    strips = data ? data.strips.map(s => ({ lower: end(s.lower), upper: end(s.upper), cells: s.cells, wall: s.wall })) : [];
+    curves = data ? data.curves.map(c => c.terms.map(t => [t[0], t[1], BigInt(t[2])])) : [];
+    cache = { key: '', chains: [] };
+  }
+  const domain = whole.axes.map(a => ({ lower: a.lower && rational(a.lower), upper: a.upper && rational(a.upper) }));
 
   // An algebraic number against a rational: its enclosure, and inside that the sign of its polynomial.
   function compareEnd(e, q) {
@@ -88,6 +96,7 @@
   function locate(x, y) {
     const inside = (q, d) => (!d.lower || compare(d.lower, q) < 0) && (!d.upper || compare(q, d.upper) < 0);
     if (!inside(x, domain[0]) || !inside(y, domain[1])) return { kind: 'domain' };
+    if (!data) return { kind: 'open' };
     if (data.never) return { kind: 'never' };
     let strip = -1, wall = false;
     for (let k = 0; k < strips.length && strip < 0; k++) {
@@ -133,11 +142,11 @@
 
   // Places in the picture, in floating point.
   const place = (k, value) => {
-    const w = data.axes[k];
+    const w = whole.axes[k];
     return w.log ? (value > 0 ? Math.log(value / w.from) / Math.log(w.to / w.from) : -Infinity) : (value - w.from) / (w.to - w.from);
   };
   const value = (k, at) => {
-    const w = data.axes[k];
+    const w = whole.axes[k];
     return w.log ? w.from * (w.to / w.from) ** at : w.from + (w.to - w.from) * at;
   };
   // A short decimal near a place: what is shown is what is looked up.
@@ -148,8 +157,9 @@
     if (Math.abs(v) < step / 2) return '0';
     return String(Number(v.toPrecision(digits)));
   }
-  const figures = [...document.querySelectorAll('.figure')].map((box, k) => {
-    const svg = box.querySelector('svg'), plot = data.plots[k];
+  const boxes = [...document.querySelectorAll('.slice')];
+  const figures = boxes.map((slice, n) => [...slice.querySelectorAll('.figure')].map((box, k) => {
+    const svg = box.querySelector('svg'), plot = slices[n].plots[k];
     const make = (tag, attributes) => {
       const e = document.createElementNS('http://www.w3.org/2000/svg', tag);
       for (const a in attributes) e.setAttribute(a, attributes[a]);
@@ -161,9 +171,9 @@
     svg.appendChild(group);
     svg.setAttribute('tabindex', '0');
     svg.setAttribute('role', 'img');
-    svg.setAttribute('aria-label', data.label);
+    svg.setAttribute('aria-label', slices[n].label);
     return { box, svg, plot, group, parts };
-  });
+  }));
   const pixel = (f, p) => [f.plot[0] + p[0] * f.plot[2], f.plot[1] + (1 - p[1]) * f.plot[3]];
 
   // Where the verdict changes as one parameter goes up or down from a point and the other stays: which values these
@@ -203,7 +213,9 @@
         next = [next[0] * width[1] + width[0] * next[1], next[1] * width[1]];
         found = with_(next);
       }
-      if (found.kind !== 'cell' || found.stable !== here.stable) return { value: hi, curve: roots.findIndex(n => n !== 0) };
+      // Digits of a bracket around an end at 0 mean nothing.
+      const atZero = lo[0] > 0n !== hi[0] > 0n && polys.some(f => f.length > 1 && f[0] === 0n);
+      if (found.kind !== 'cell' || found.stable !== here.stable) return { value: atZero ? [0n, 1n] : hi, curve: roots.findIndex(n => n !== 0) };
       from = next;
     }
     return null;
@@ -216,7 +228,7 @@
       if (!found) continue;
       const from = number(point[k]), to = number(found.value);
       const ratio = from > 0 && to > 0 || from < 0 && to < 0 ? to / from : null;
-      const relative = ratio !== null ? Math.abs(Math.log(ratio)) : from !== 0 ? Math.abs(to - from) / Math.abs(from) + 1 : Math.abs(to) / (data.axes[k].to - data.axes[k].from);
+      const relative = ratio !== null ? Math.abs(Math.log(ratio)) : from !== 0 ? Math.abs(to - from) / Math.abs(from) + 1 : Math.abs(to) / (whole.axes[k].to - whole.axes[k].from);
       out.push({ k, direction, to, ratio, relative, curve: found.curve, at: [0, 1].map(j => place(j, j === k ? to : number(point[j]))) });
     }
     return out.sort((a, b) => a.relative - b.relative);
@@ -265,8 +277,8 @@
       roots += found.wall === undefined ? ` (strip ${found.strip}, cell ${found.cell})` : ` (wall after strip ${found.wall}, cell ${found.cell})`;
     } else {
       kind = 'other';
-      verdict = { domain: 'outside the domain', never: 'nowhere ' + data.goal, wall: 'on a wall between strips', curve: 'on a boundary: not ' + data.goal }[found.kind];
-      roots = found.kind === 'curve' ? data.curves[found.curve].words : found.kind === 'wall' ? `${data.axes[0].name} is a critical value: move it a little` : '';
+      verdict = { domain: 'outside the domain', open: 'this slice is not decided', never: 'nowhere ' + data?.goal, wall: 'on a wall between strips', curve: 'on a boundary: not ' + data?.goal }[found.kind];
+      roots = found.kind === 'curve' ? data.curves[found.curve].words : found.kind === 'wall' ? `${whole.axes[0].name} is a critical value: move it a little` : '';
     }
     $('verdict').textContent = verdict;
     $('verdict').className = kind;
@@ -276,7 +288,7 @@
     clearTimeout(later);
     later = setTimeout(() => {
       if (found.kind !== 'cell') return;
-      const all = changes(exact, found), name = k => data.axes[k].name, digits = v => String(Number(v.toPrecision(4)));
+      const all = changes(exact, found), name = k => whole.axes[k].name, digits = v => String(Number(v.toPrecision(4)));
       const words = c => {
         const factor = c.ratio === null ? '' : ` (\u00d7 ${digits(c.ratio)})`;
         const why = c.curve < 0 ? 'end of the domain' : data.curves[c.curve].words + frequencyAt(c.curve, c.at);
@@ -290,13 +302,13 @@
       const outside = inside ? '' : ' The point is outside the picture.';
       $('near').textContent = (all.length ? `The verdict changes first, relatively, at ${words(all[0])}. ` : 'The verdict does not change. ')
         + `One parameter alone: ${bounds.join('; ')}.` + outside;
-      for (const g of figures) {
+      for (const g of figures[now]) {
         const n = pixel(g, all.length ? all[0].at.map(a => Math.max(0, Math.min(1, a))) : point.at);
         g.parts.link.setAttribute('x2', n[0].toFixed(1));
         g.parts.link.setAttribute('y2', n[1].toFixed(1));
       }
     }, 120);
-    for (const g of figures) {
+    for (const g of figures[now]) {
       g.group.setAttribute('visibility', inside ? 'visible' : 'hidden');
       if (!inside) continue;
       const [x, y] = pixel(g, point.at), [l, t, w, h] = g.plot;
@@ -316,7 +328,7 @@
   }
   const clamp = a => Math.max(0, Math.min(1, a));
   const go = at => update([decimal(0, clamp(at[0])), decimal(1, clamp(at[1]))]);
-  for (const f of figures) {
+  for (const f of figures.flat()) {
     const track = event => {
       const box = f.svg.getBoundingClientRect(), view = f.svg.viewBox.baseVal;
       const x = (event.clientX - box.left) * view.width / box.width, y = (event.clientY - box.top) * view.height / box.height;
@@ -342,8 +354,24 @@
   }));
   addEventListener('resize', show);
   const fragment = new URLSearchParams(location.hash.slice(1));
-  const asked = data.axes.map(a => fragment.get(a.name));
-  const start = data.axes.map((a, k) => asked[k] || a.nominal || decimal(k, 0.5));
+  load(0);
+  const slider = $('slice');
+  if (slider) {
+    const choose = k => {
+      load(k);
+      slider.value = k;
+      slider.setAttribute('aria-valuetext', whole.shown[k]);
+      $('at').textContent = whole.shown[k];
+      boxes.forEach((box, n) => { box.hidden = n !== k; });
+      document.querySelectorAll('#slices tr').forEach((row, n) => { row.setAttribute('aria-current', n === k + 1); });
+    };
+    const wanted = rational(fragment.get(whole.name) || '');
+    const named = wanted ? whole.values.findIndex(v => compare(rational(v), wanted) === 0) : -1;
+    choose(named < 0 ? whole.first : named);
+    slider.addEventListener('input', () => { choose(Number(slider.value)); show(); });
+  }
+  const asked = whole.axes.map(a => fragment.get(a.name));
+  const start = whole.axes.map((a, k) => asked[k] || a.nominal || decimal(k, 0.5));
   const fits = start.every((text, k) => { const q = rational(text); const at = q ? place(k, number(q)) : -1; return at >= 0 && at <= 1; });
   update(fits || asked.some(a => a) ? start : [decimal(0, 0.5), decimal(1, 0.5)]);
   show();

@@ -94,7 +94,8 @@ impl Problem {
     ///
     /// Cost: with `D` the total degree of the boundary curves, up to `O(D^2)` critical values, the real zeros of
     /// discriminants and resultants of the curves ([Collins1975](jurist_algebra::bibliography#collins1975),
-    /// [McCallum1998](jurist_algebra::bibliography#mccallum1998)); in each strip between them the zeros of the
+    /// [McCallum1998](jurist_algebra::bibliography#mccallum1998)), whose square-free factors are found without them
+    /// ([`resultant_square_free_decomposition`](jurist_algebra::poly::resultant_square_free_decomposition)); in each strip between them the zeros of the
     /// curves on one line are isolated, and one root count decides each of up to `O(D)` cells. Where there is a
     /// stable region all this is done once more with the parameters exchanged, and lines and boxes are narrowed
     /// around each of its extreme values.

@@ -3,6 +3,7 @@
 //! Whoever shows, proves or draws an answer reads it; nothing is decided or isolated again.
 
 mod analysis;
+mod body;
 mod dead_time;
 mod frequency;
 mod map;
@@ -15,6 +16,7 @@ mod tolerance;
 mod verdict;
 
 pub use analysis::Analysis;
+pub use body::{Body, BodySlice, Extreme, Extremes, SliceValues, Stretch, StretchEnd};
 pub(crate) use dead_time::stable_factors;
 pub use frequency::Frequency;
 pub use map::Map;

@@ -31,6 +31,7 @@ pub(crate) use interval_set::zeros_in;
 pub use interval_set::{AlgebraicInterval, IntervalSet, Range};
 pub use jury::{JuryRow, JuryTable, UNDIVIDED_ORDER, is_schur_jury, jury_table, jury_table_with};
 pub use pair_location::ComplexPair;
+use pair_location::complex_pair_at;
 pub use parametric::{AtPoint, ParametricPolynomial};
 pub use root_count::{RootCount, count_roots, is_stable};
 pub use routh::{RouthTable, is_hurwitz_routh, routh_table};

@@ -2,7 +2,7 @@
 
 use super::interval_set::zeros_in;
 use super::{HalfSizePair, ParametricPolynomial, Range, Shape};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, UniPoly, subresultant_chain};
 use jurist_algebra::real::Real;
@@ -11,8 +11,8 @@ use std::cmp::Ordering;
 /// A pair of complex conjugate roots on the boundary, located by the half-size variable
 /// `x = 2 cos(theta)` (unit disc) or `x = -omega^2` (left half plane).
 ///
-/// It is found as the common root of the half-size pair, where that is not rational by subresultants
-/// ([BrownTraub1971](jurist_algebra::bibliography#browntraub1971)).
+/// It is found as the common root of the half-size pair: where the parameter is not rational, by Euclid's algorithm on enclosures
+/// if that is the only one, else by subresultants ([BrownTraub1971](jurist_algebra::bibliography#browntraub1971)).
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
@@ -37,6 +37,8 @@ enum HalfSizeRoot {
     Number(Real),
     /// The angular frequency instead.
     Frequency(Real),
+    /// The only common root of two polynomials, whose coefficients are polynomials in an algebraic parameter value.
+    Common { pair: [Poly<UniPoly>; 2], parameter: RealAlgebraic },
     /// The largest root of a polynomial with only real roots, whose coefficients are polynomials in
     /// an algebraic parameter value.
     Over { polynomial: Poly<UniPoly>, parameter: RealAlgebraic },
@@ -76,7 +78,20 @@ pub(super) fn complex_pair_at(
     if second.is_zero() {
         return Ok(None);
     }
-    let chain = subresultant_chain(&first, &second, budget)?;
+    let both = [first, second];
+    let only =
+        budget.enter(|| (0..PRECISIONS).any(|k| common_divisor(&both, value, FIRST_PRECISION << k).is_some()))?;
+    if only {
+        for &end in ends {
+            let end = UniPoly::constant(Integer::from(end));
+            if budget.enter(|| both.iter().all(|f| value.sign_of(&f.eval(&end)).is_eq()))? {
+                return Ok(None);
+            }
+        }
+        let x = HalfSizeRoot::Common { pair: both, parameter: value.clone() };
+        return Ok(Some(ComplexPair { region, x }));
+    }
+    let chain = subresultant_chain(&both[0], &both[1], budget)?;
     let mut common = Poly::zero();
     for subresultant in chain.iter().rev() {
         common = at_parameter(subresultant, value, budget)?;
@@ -100,6 +115,37 @@ pub(super) fn complex_pair_at(
         return Ok(None);
     }
     Ok(Some(ComplexPair { region, x: HalfSizeRoot::Over { polynomial: common, parameter: value.clone() } }))
+}
+
+/// Bits of the first attempt to see that there is only one common root, and how often they are doubled.
+const FIRST_PRECISION: u64 = 192;
+const PRECISIONS: u32 = 4;
+
+/// Enclosures of the coefficients of a linear common divisor `c_0 + c_1 x` at the parameter value, `c_1` not zero: Euclid's
+/// algorithm until the degree is 1, if all leading coefficients on the way are seen not to be zero. `None` otherwise.
+///
+/// Of two polynomials that have a common root it is the greatest common divisor. `O(m^2)` operations for degree `m`.
+fn common_divisor(pair: &[Poly<UniPoly>; 2], value: &RealAlgebraic, bits: u64) -> Option<[Enclosure; 2]> {
+    let (lo, hi) = value.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
+    let at = Enclosure::new(lo, hi);
+    let enclosed =
+        |f: &Poly<UniPoly>| -> Vec<Enclosure> { f.coeffs().iter().map(|c| c.eval_enclosure(&at, bits)).collect() };
+    let (mut u, mut v) = (enclosed(&pair[0]), enclosed(&pair[1]));
+    while v.len() > 2 {
+        checkpoint(64 * (v.len() * (u.len() - v.len() + 1)) as u64);
+        let top = v.pop()?;
+        while u.len() > v.len() {
+            let q = u.pop()?.div(&top, bits)?;
+            let shift = u.len() - v.len();
+            for (x, y) in u[shift..].iter_mut().zip(&v) {
+                *x = x.sub(&q.mul(y, bits), bits);
+            }
+        }
+        v.push(top);
+        (u, v) = (v, u);
+    }
+    let [c0, c1] = <[Enclosure; 2]>::try_from(v).ok()?;
+    (!c1.contains(&Rational::ZERO)).then_some([c0, c1])
 }
 
 /// The polynomial without the leading coefficients that vanish at the parameter value.
@@ -157,9 +203,17 @@ impl ComplexPair {
                 let (lo, hi) = self.refine_square(omega, bits);
                 Enclosure::new(lo, hi)
             }
+            HalfSizeRoot::Common { pair, parameter } => {
+                let (lo, hi) = self.refine_quotient(bits, |working| common_divisor(pair, parameter, working));
+                Enclosure::new(lo, hi)
+            }
             HalfSizeRoot::Over { polynomial, parameter } => {
                 let (lo, hi) = match polynomial.coeffs() {
-                    [c0, c1] => self.refine_quotient(c0, c1, parameter, bits),
+                    [c0, c1] => self.refine_quotient(bits, |working| {
+                        let (lo, hi) = parameter.refined(&Rational::dyadic(&Integer::ONE, working)).enclosure();
+                        let at = Enclosure::new(lo, hi);
+                        Some([c0, c1].map(|c| c.eval_enclosure(&at, working)))
+                    }),
                     _ => self.bisect(polynomial, parameter, bits),
                 };
                 Enclosure::new(lo, hi)
@@ -231,22 +285,12 @@ impl ComplexPair {
         }
     }
 
-    /// `-c0/c1` at the parameter value.
-    fn refine_quotient(
-        &self,
-        c0: &UniPoly,
-        c1: &UniPoly,
-        parameter: &RealAlgebraic,
-        bits: u64,
-    ) -> (Rational, Rational) {
+    /// `-c0/c1`, of enclosures that are made with more and more bits.
+    fn refine_quotient(&self, bits: u64, enclosed: impl Fn(u64) -> Option<[Enclosure; 2]>) -> (Rational, Rational) {
         let mut working = 2 * bits + 64;
-        let mut parameter = parameter.clone();
         loop {
-            parameter = parameter.refined(&Rational::dyadic(&Integer::ONE, working));
-            let (lo, hi) = parameter.enclosure();
-            let at = Enclosure::new(lo, hi);
-            let evaluate = |c: &UniPoly| c.eval_enclosure(&at, working);
-            if let Some(x) = evaluate(c0).neg().div(&evaluate(c1), working)
+            if let Some([c0, c1]) = enclosed(working)
+                && let Some(x) = c0.neg().div(&c1, working)
                 && self.is_fine(x.lower(), x.upper(), bits)
             {
                 return (x.lower().clone(), x.upper().clone());

@@ -85,7 +85,7 @@ fn divides(candidate: &UniPoly, p: &UniPoly) -> bool {
 }
 
 /// The monic greatest common divisor of two polynomials modulo a prime, not both zero.
-fn monic_gcd(f: &PrimeField, a: Vec<u64>, b: Vec<u64>) -> Vec<u64> {
+pub(super) fn monic_gcd(f: &PrimeField, a: Vec<u64>, b: Vec<u64>) -> Vec<u64> {
     let trim = |p: &mut Vec<u64>| p.truncate(p.iter().rposition(|&c| c != 0).map_or(0, |last| last + 1));
     let (mut a, mut b) = (a, b);
     trim(&mut a);
@@ -96,37 +96,54 @@ fn monic_gcd(f: &PrimeField, a: Vec<u64>, b: Vec<u64>) -> Vec<u64> {
     while !b.is_empty() {
         let m = b.len() - 1;
         checkpoint((a.len() - m) as u64 * m as u64 / 8 + 8);
-        let inverse = f.inverse(b[m]);
-        for c in &mut b {
-            *c = f.mul(*c, inverse);
-        }
         if m == 0 {
-            return b;
+            return vec![f.one()];
         }
-        // Two quotient terms at a time: one reduction for two products.
-        while a.len() >= m + 2 {
-            let n = a.len() - 1;
-            let at = n - m - 1;
-            let first = f.negated(a[n]);
-            let second = f.negated(f.add(a[n - 1], f.mul(first, b[m - 1])));
-            a[at] = f.add(a[at], f.mul(second, b[0]));
-            for ((x, &y), &z) in a[at + 1..at + m].iter_mut().zip(&b[1..m]).zip(&b[..m - 1]) {
-                *x = f.add(*x, f.mul_add_mul(second, y, first, z));
-            }
-            a.truncate(n - 1);
-        }
-        if a.len() == m + 1 {
-            let top = f.negated(a[m]);
-            for (x, &y) in a[..m].iter_mut().zip(&b) {
-                *x = f.add(*x, f.mul(top, y));
-            }
+        if a.len() == m + 2 {
+            // Two quotient terms without a division: l^2 a - q b, l the leading coefficient of b.
+            let (l, top) = (b[m], a[m + 1]);
+            let (square, first) = (f.mul(l, l), f.negated(f.mul(top, l)));
+            let second = f.mul_add_mul(top, b[m - 1], f.negated(l), a[m]);
             a.truncate(m);
+            a[0] = f.mul_add_mul(square, a[0], second, b[0]);
+            for ((x, &y), &z) in a[1..].iter_mut().zip(&b[1..m]).zip(&b[..m - 1]) {
+                let sum = u128::from(square) * u128::from(*x)
+                    + u128::from(second) * u128::from(y)
+                    + u128::from(first) * u128::from(z);
+                *x = f.reduce(sum);
+            }
+        } else {
+            let inverse = f.inverse(b[m]);
+            while a.len() > m {
+                let top = f.negated(f.mul(a[a.len() - 1], inverse));
+                let at = a.len() - 1 - m;
+                for (x, &y) in a[at..at + m].iter_mut().zip(&b) {
+                    *x = f.add(*x, f.mul(top, y));
+                }
+                a.pop();
+            }
         }
         trim(&mut a);
         std::mem::swap(&mut a, &mut b);
     }
     let inverse = f.inverse(a[a.len() - 1]);
     a.iter().map(|&c| f.mul(c, inverse)).collect()
+}
+
+/// The quotient of a polynomial by a monic one that divides it, modulo a prime.
+pub(super) fn divided_by_monic(f: &PrimeField, a: &[u64], divisor: &[u64]) -> Vec<u64> {
+    let m = divisor.len() - 1;
+    checkpoint((a.len().saturating_sub(m) * m / 8) as u64);
+    let backwards: Vec<u64> = divisor[..m].iter().rev().copied().collect();
+    // The coefficients from the top: each is one of the dividend less a sum over those before.
+    let mut quotient: Vec<u64> = Vec::with_capacity(a.len().saturating_sub(m));
+    for &c in a.iter().skip(m).rev() {
+        let known = quotient.len().min(m);
+        let sum: u64 = f.dot_backwards(&quotient[quotient.len() - known..], &backwards[..known]);
+        quotient.push(f.sub(c, sum));
+    }
+    quotient.reverse();
+    quotient
 }
 
 /// [`primitive_gcd_modular`]; `None` where the subresultant sequence is expected to be faster.

@@ -10,12 +10,13 @@ fn is_long(steps: usize) -> bool {
     steps >= LONG
 }
 
-/// The grid `0..lengths[0] x 0..lengths[1] x ...` together with the tables of one prime.
+/// The grid `0..lengths[0] x 0..lengths[1] x ...` together with the tables of one prime; or, on all axes, from another
+/// first point on.
 ///
 /// Data over a grid are stored with the last axis fastest. The prime must exceed every length.
 pub struct Grid<'a> {
     field: &'a PrimeField,
-    /// The forms of 0, 1, 2, ...
+    /// The forms of neighbouring integers.
     points: Vec<u64>,
     /// The forms of 1/0!, 1/1!, ...
     inverse_factorials: Vec<u64>,
@@ -27,9 +28,17 @@ impl<'a> Grid<'a> {
     /// # Panics
     /// When the prime is not above the number of points.
     pub fn new(field: &'a PrimeField, longest: usize) -> Self {
+        Self::starting_at(field, 0, longest)
+    }
+
+    /// The same with another point in place of 0.
+    ///
+    /// # Panics
+    /// When the prime is not above the number of points.
+    pub fn starting_at(field: &'a PrimeField, first: u64, longest: usize) -> Self {
         assert!((longest as u64) < field.prime(), "the points are distinct modulo the prime");
         let mut points = Vec::with_capacity(longest);
-        let mut point = 0;
+        let mut point = field.residue(first);
         for _ in 0..longest {
             points.push(point);
             point = field.add(point, field.one());
@@ -37,23 +46,37 @@ impl<'a> Grid<'a> {
         Grid { field, points, inverse_factorials: Vec::new() }
     }
 
-    /// The factorial of the last point, whose inverse [`Grid::prepare_interpolation`] takes: so the
+    /// The factorial of the number of points less one, whose inverse [`Grid::prepare_interpolation`] takes: so the
     /// caller can invert it together with other elements.
     pub fn factorial(&self) -> u64 {
-        self.points.iter().skip(2).fold(self.field.one(), |product, &point| self.field.mul(product, point))
+        let f = self.field;
+        let (mut product, mut number) = (f.one(), f.one());
+        for _ in 2..self.points.len() {
+            number = f.add(number, f.one());
+            product = f.mul(product, number);
+        }
+        product
     }
 
     /// Makes the tables of interpolation from the inverse of [`Grid::factorial`].
     pub fn prepare_interpolation(&mut self, inverse_factorial: u64) {
+        let f = self.field;
         let mut inverse = inverse_factorial;
+        let mut number = f.residue(self.points.len() as u64);
         self.inverse_factorials = vec![inverse; self.points.len()];
-        for (k, &point) in self.points.iter().enumerate().rev() {
-            self.inverse_factorials[k] = inverse;
-            inverse = self.field.mul(inverse, point);
+        for place in self.inverse_factorials.iter_mut().rev() {
+            *place = inverse;
+            number = f.sub(number, f.one());
+            inverse = f.mul(inverse, number);
         }
     }
 
-    /// The points 0, 1, 2, ... in the form of the field.
+    /// The integers modulo the prime.
+    pub fn field(&self) -> &'a PrimeField {
+        self.field
+    }
+
+    /// The points in the form of the field.
     pub fn points(&self) -> &[u64] {
         &self.points
     }
@@ -147,7 +170,8 @@ impl<'a> Grid<'a> {
         for (x, &inverse) in v.iter_mut().zip(&self.inverse_factorials).skip(2) {
             *x = f.mul(*x, inverse);
         }
-        for level in (1..n.saturating_sub(1)).rev() {
+        let from = usize::from(self.points.first() == Some(&0));
+        for level in (from..n.saturating_sub(1)).rev() {
             let point = self.points[level];
             for j in level..n - 1 {
                 v[j] = f.sub(v[j], f.mul(point, v[j + 1]));
@@ -178,7 +202,8 @@ impl<'a> Grid<'a> {
                 *x = f.mul(*x, inverse);
             }
         }
-        for level in (1..n.saturating_sub(1)).rev() {
+        let from = usize::from(self.points.first() == Some(&0));
+        for level in (from..n.saturating_sub(1)).rev() {
             let point = self.points[level];
             for j in level..n - 1 {
                 let (current, next) = v[j * inner..(j + 2) * inner].split_at_mut(inner);
@@ -198,9 +223,12 @@ mod tests {
     #[test]
     fn values_and_coefficients() {
         let f = largest_primes(1)[0];
-        let mut grid = Grid::new(&f, 12);
-        grid.prepare_interpolation(f.inverse(grid.factorial()));
-        for (outer, terms, inner) in [(1, 1, 1), (1, 5, 1), (2, 2, 3), (3, 4, 2), (1, 12, 1), (2, 7, 1)] {
+        let shapes = [(1, 1, 1), (1, 5, 1), (2, 2, 3), (3, 4, 2), (1, 12, 1), (2, 7, 1)];
+        for (first, (outer, terms, inner)) in [0, 1, 7].into_iter().flat_map(|first| shapes.map(|shape| (first, shape)))
+        {
+            let mut grid = Grid::starting_at(&f, first, 12);
+            grid.prepare_interpolation(f.inverse(grid.factorial()));
+            assert_eq!(grid.points()[2], f.residue(first + 2));
             let data: Vec<u64> =
                 (0..outer * terms * inner).map(|k| f.residue((k * k * 977 + 31 * k + 5) as u64)).collect();
             for count in [1, 2, terms, 12] {

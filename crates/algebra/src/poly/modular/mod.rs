@@ -9,3 +9,5 @@ pub mod kronecker;
 pub mod multimodular_resultant;
 pub mod prime_field;
 pub mod resultant;
+pub mod square_free_resultant;
+mod sylvester_bounds;

@@ -56,7 +56,7 @@ pub fn resultant_multimodular_integers(a: &UniPoly, n: usize, b: &UniPoly, m: us
         coefficients[at_b + k] = c;
     }
     let pair = DensePair { degrees: (n, m), terms: Vec::new(), coefficients };
-    pair.resultant().pop().expect("one number")
+    pair.resultant().1.pop().unwrap_or_default()
 }
 
 /// The resultant over `Z[K]` for formal degrees: evaluated at `0, 1, 2, ...` modulo primes,
@@ -65,6 +65,12 @@ pub fn resultant_multimodular_integers(a: &UniPoly, n: usize, b: &UniPoly, m: us
 /// # Panics
 /// When a formal degree is below the degree.
 pub fn resultant_multimodular(a: &Poly<UniPoly>, n: usize, b: &Poly<UniPoly>, m: usize) -> UniPoly {
+    let (ranges, coefficients) = dense(a, n, b, m).resultant();
+    Poly::new(coefficients).shifted_up(ranges[0].0)
+}
+
+/// Two polynomials whose coefficients are polynomials in one variable.
+pub(super) fn dense<'a>(a: &'a Poly<UniPoly>, n: usize, b: &'a Poly<UniPoly>, m: usize) -> DensePair<'a> {
     let terms = a.coeffs().iter().chain(b.coeffs()).map(|c| c.coeffs().len()).max().unwrap_or(0).max(1);
     let (mut coefficients, at_b) = room(a.coeffs().len(), n, b.coeffs().len(), m, terms);
     let rows = n + m + 2;
@@ -75,8 +81,7 @@ pub fn resultant_multimodular(a: &Poly<UniPoly>, n: usize, b: &Poly<UniPoly>, m:
             }
         }
     }
-    let pair = DensePair { degrees: (n, m), terms: vec![terms], coefficients };
-    Poly::new(pair.resultant())
+    DensePair { degrees: (n, m), terms: vec![terms], coefficients }
 }
 
 /// The resultant over `Z[x_0, x_1, ...]` for formal degrees on a grid of as many dimensions as
@@ -153,14 +158,13 @@ impl Layout {
             }
         }
         let pair = DensePair { degrees: (n, m), terms: self.terms.clone(), coefficients };
-        let lengths = pair.lengths();
-        let values = pair.resultant();
+        let (ranges, values) = pair.resultant();
         let mut exponents = vec![0u32; self.variables.last().map_or(0, |last| last + 1)];
         let mut terms = Vec::new();
         for (place, c) in values.into_iter().enumerate().filter(|(_, c)| !c.is_zero()) {
             let mut rest = place;
-            for (&i, &length) in self.variables.iter().zip(&lengths).rev() {
-                exponents[i] = u32::try_from(rest % length).expect("degrees stay below 2^32");
+            for (&i, &(least, length)) in self.variables.iter().zip(&ranges).rev() {
+                exponents[i] = u32::try_from(least + rest % length).expect("degrees stay below 2^32");
                 rest /= length;
             }
             terms.push((Monomial::new(&exponents), c));

@@ -115,9 +115,20 @@ impl PrimeField {
     /// `sum x_i y_i`, reduced once.
     #[inline]
     pub fn dot(&self, x: &[u64], y: &[u64]) -> u64 {
+        self.sum_of_products(x.iter().zip(y))
+    }
+
+    /// `sum x_i y_(n - 1 - i)`, reduced once.
+    #[inline]
+    pub fn dot_backwards(&self, x: &[u64], y: &[u64]) -> u64 {
+        self.sum_of_products(x.iter().rev().zip(y))
+    }
+
+    #[inline]
+    fn sum_of_products<'a>(&self, pairs: impl Iterator<Item = (&'a u64, &'a u64)>) -> u64 {
         let limit = u128::from(self.prime) << 64;
         let mut sum = 0u128;
-        for (&a, &b) in x.iter().zip(y) {
+        for (&a, &b) in pairs {
             // Both terms are below 2^64 p / 4 and 2^64 p.
             sum += u128::from(a) * u128::from(b);
             if sum >= limit {

@@ -3,6 +3,7 @@
 use super::chinese::{Chinese, Limbs};
 use super::grid::Grid;
 use super::prime_field::PrimeField;
+use super::sylvester_bounds::Frame;
 use crate::limits::checkpoint;
 use crate::number::Integer;
 
@@ -50,11 +51,7 @@ impl DensePair<'_> {
     /// Euclidean lengths of its rows ([Hadamard1893](crate::bibliography#hadamard1893)), with the sum of the magnitudes of its coefficients
     /// in place of each entry; and by Cauchy's formula no coefficient exceeds the greatest value there.
     pub fn height_bits(&self) -> u64 {
-        let rows = self.degrees.0 + self.degrees.1 + 2;
-        let mut norms = vec![Integer::ZERO; rows];
-        for (k, c) in self.coefficients.iter().enumerate() {
-            if c.is_negative() { norms[k % rows] -= *c } else { norms[k % rows] += *c }
-        }
+        let norms = self.norms();
         let square = |norms: &[Integer]| {
             norms.iter().fold(Integer::ZERO, |mut sum, c| {
                 sum.add_mul_assign(c, c);
@@ -66,53 +63,103 @@ impl DensePair<'_> {
         square.bit_length().div_ceil(2)
     }
 
-    /// The coefficients of the resultant for the formal degrees, in an array of the shape
-    /// [`DensePair::lengths`]: evaluated on a grid modulo as many primes as the bound on the
-    /// coefficients asks for, interpolated, and lifted by Chinese remainders.
-    ///
-    /// The formal resultant is a determinant, so no prime and no point is unlucky.
-    pub fn resultant(&self) -> Vec<Integer> {
-        let lengths = self.lengths();
-        let chinese = Chinese::for_bits(self.height_bits());
-        let limbs = Limbs::new(self.coefficients.iter().copied());
-        let size: usize = lengths.iter().product();
-        let image = |f: &PrimeField| self.image(f, limbs.residues(f), &lengths);
-        let products = size * chinese.fields().len() * (self.degrees.0 * self.degrees.1).max(1);
-        let images: Vec<Vec<u64>> = chinese.images(products >= PARALLEL_MIN_PRODUCTS, image);
-        (0..size).map(|k| chinese.integer(images.iter().map(|image| image[k]))).collect()
+    /// For each coefficient of the two polynomials the sum of the magnitudes in it.
+    pub(super) fn norms(&self) -> Vec<Integer> {
+        let rows = self.degrees.0 + self.degrees.1 + 2;
+        let mut norms = vec![Integer::ZERO; rows];
+        for (k, c) in self.coefficients.iter().enumerate() {
+            if c.is_negative() { norms[k % rows] -= *c } else { norms[k % rows] += *c }
+        }
+        norms
     }
 
-    /// The resultant modulo one prime.
-    fn image(&self, f: &PrimeField, residues: Vec<u64>, lengths: &[usize]) -> Vec<u64> {
-        let rows = self.degrees.0 + self.degrees.1 + 2;
-        let mut grid = Grid::new(f, lengths.iter().copied().max().unwrap_or(1));
-        let mut data = residues;
-        let mut inner = rows;
-        for (&terms, &length) in self.terms.iter().zip(lengths).rev() {
-            data = grid.evaluate(&data, terms, inner, length);
-            inner *= length;
-        }
-        let mut values = Vec::with_capacity(data.len() / rows);
-        let mut divisors = Vec::with_capacity(data.len() / rows + 1);
-        let mut scratch = Scratch::default();
-        for pair in data.chunks_exact(rows) {
-            let (a, b) = pair.split_at(self.degrees.0 + 1);
-            let (value, divisor) = resultant_fraction(f, a, b, &mut scratch);
-            values.push(value);
-            divisors.push(divisor);
-        }
-        divisors.push(grid.factorial());
-        f.invert_all(&mut divisors);
-        grid.prepare_interpolation(divisors[values.len()]);
-        for (v, &d) in values.iter_mut().zip(&divisors) {
-            *v = f.mul(*v, d);
-        }
+    /// For each variable the least exponent that is stored and how many from there on, and the coefficients of the resultant
+    /// for the formal degrees in an array of that shape: evaluated on a grid modulo as many primes as bounds of the
+    /// exponents and the coefficients ask for, interpolated, and lifted by Chinese remainders.
+    ///
+    /// The formal resultant is a determinant, so no prime and no point is unlucky.
+    pub fn resultant(&self) -> (Vec<(usize, usize)>, Vec<Integer>) {
+        let Some(frame) = Frame::new(self) else { return (vec![(0, 0); self.terms.len()], Vec::new()) };
+        let chinese = Chinese::for_bits(frame.bits);
+        let limbs = self.limbs(&frame);
+        let size = frame.points();
+        let image = |f: &PrimeField| self.image(f, &limbs, &frame);
+        let images: Vec<Vec<u64>> = chinese.images(self.is_worth_threads(size, chinese.fields().len()), image);
+        let coefficient = |k: usize| {
+            let value = chinese.integer(images.iter().map(|image| image[k]));
+            if frame.divisor.is_one() { value } else { value * &frame.divisor }
+        };
+        let coefficients = (0..size).map(coefficient).collect();
+        (frame.ranges, coefficients)
+    }
+
+    /// All coefficients, and then the known divisor, to be reduced modulo primes.
+    pub(super) fn limbs(&self, frame: &Frame) -> Limbs {
+        Limbs::new(self.coefficients.iter().copied().chain([&frame.divisor]))
+    }
+
+    /// The resultant without what is known to divide it modulo one prime: the values on the grid, interpolated.
+    fn image(&self, f: &PrimeField, limbs: &Limbs, frame: &Frame) -> Vec<u64> {
+        let mut grid = self.grid(f, frame);
+        let mut values = self.values(limbs, frame, &grid);
+        grid.prepare_interpolation(f.inverse(grid.factorial()));
         let mut inner = 1;
-        for &length in lengths.iter().rev() {
+        for &(_, length) in frame.ranges.iter().rev() {
             grid.interpolate(&mut values, length, inner);
             inner *= length;
         }
         values
+    }
+
+    /// The grid from 0 on, or from 1 on where powers of variables are divided by.
+    pub(super) fn grid<'f>(&self, f: &'f PrimeField, frame: &Frame) -> Grid<'f> {
+        let longest = frame.ranges.iter().map(|range| range.1).max().unwrap_or(1);
+        Grid::starting_at(f, u64::from(frame.ranges.iter().any(|range| range.0 > 0)), longest)
+    }
+
+    /// The values of the resultant on a grid modulo its prime, without what is known to divide it.
+    pub(super) fn values(&self, limbs: &Limbs, frame: &Frame, grid: &Grid<'_>) -> Vec<u64> {
+        let f = grid.field();
+        let rows = self.degrees.0 + self.degrees.1 + 2;
+        let mut data = limbs.residues(f);
+        let known = data.pop().expect("the divisor is the last");
+        let mut inner = rows;
+        for (&terms, &(_, length)) in self.terms.iter().zip(&frame.ranges).rev() {
+            data = grid.evaluate(&data, terms, inner, length);
+            inner *= length;
+        }
+        let powers = self.powers(frame, grid, known);
+        let mut values = Vec::with_capacity(data.len() / rows);
+        let mut divisors = Vec::with_capacity(data.len() / rows);
+        let mut scratch = Scratch::default();
+        for (k, pair) in data.chunks_exact(rows).enumerate() {
+            let (a, b) = pair.split_at(self.degrees.0 + 1);
+            let (value, divisor) = resultant_fraction(f, a, b, &mut scratch);
+            values.push(value);
+            divisors.push(powers.get(k).map_or(divisor, |&power| f.mul(divisor, power)));
+        }
+        f.invert_all(&mut divisors);
+        for (v, &d) in values.iter_mut().zip(&divisors) {
+            *v = f.mul(*v, d);
+        }
+        values
+    }
+
+    /// What is known to divide the resultant, at all points of the grid; nothing where that is 1.
+    fn powers(&self, frame: &Frame, grid: &Grid<'_>, known: u64) -> Vec<u64> {
+        let f = grid.field();
+        if frame.divisor.is_one() && frame.ranges.iter().all(|range| range.0 == 0) {
+            return Vec::new();
+        }
+        frame.ranges.iter().fold(vec![known], |powers, &(order, length)| {
+            let axis: Vec<u64> = grid.points()[..length].iter().map(|&x| f.power(x, order as u64)).collect();
+            powers.iter().flat_map(|&p| axis.iter().map(move |&x| f.mul(p, x))).collect()
+        })
+    }
+
+    /// Whether the values on so many points modulo so many primes are worth the other threads.
+    pub(super) fn is_worth_threads(&self, points: usize, primes: usize) -> bool {
+        points * primes * (self.degrees.0 * self.degrees.1).max(1) >= PARALLEL_MIN_PRODUCTS
     }
 }
 

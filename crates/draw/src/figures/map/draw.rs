@@ -1,6 +1,6 @@
 //! The drawing: region, domain, walls, marks, axes.
 
-use super::super::axes::{BELOW, Frame};
+use super::super::axes::{BELOW, Frame, Heading};
 use super::super::clip::Window;
 use super::super::facts::heading;
 use super::super::legend::{self, hatched};
@@ -10,6 +10,7 @@ use super::labels::{FrequencyPoint, extreme_points, frequencies, limits_on_lines
 use super::layers::Layers;
 use super::lines::{Role, Wall, mechanism_colour, walls};
 use super::trace::MapTrace;
+use super::window::AxisWindow;
 use super::{REGION, UNSTABLE};
 use crate::scene::{Item, Point, Rectangle, Scene, Segment, Stroke, through};
 use jurist_algebra::limits::Budget;
@@ -80,9 +81,43 @@ impl<'a> MapContents<'a> {
         Ok(MapContents { answer, map, trace, layers, walls, frequencies: found, on_lines, published })
     }
 
+    /// The windows of both axes.
+    pub fn windows(&self) -> &[AxisWindow; 2] {
+        &self.trace.windows
+    }
+
     /// The picture at a size, with or without its title.
     pub fn draw(&self, width: f64, height: f64, titled: bool) -> MapFigure {
-        Drawing::new(self, width, height, titled).finish()
+        let entries = self.legend().0;
+        let head = if titled { Head::Title(&entries) } else { Head::Legend(&entries) };
+        Drawing::new(self, width, height, &head).finish()
+    }
+
+    /// The picture under a legend that several have, so that their axes are in the same place.
+    pub fn draw_under(&self, width: f64, height: f64, legend: &Legend) -> MapFigure {
+        Drawing::new(self, width, height, &Head::Legend(&legend.0)).finish()
+    }
+
+    /// The picture as one of several on common axes: a caption above it, no legend, no words beside walls.
+    pub(super) fn draw_among(&self, width: f64, height: f64, caption: &str) -> Scene {
+        let mut drawing = Drawing::new(self, width, height, &Head::Caption(caption));
+        drawing.shapes();
+        drawing.scene
+    }
+
+    /// The legend of the picture.
+    pub(super) fn legend(&self) -> Legend {
+        Legend(self.entries())
+    }
+
+    /// Where the nominal point is, if the window shows it.
+    pub(super) fn nominal(&self) -> Option<Point> {
+        let [Some(x), Some(y)] = [0, 1].map(|k| self.answer.problem().free()[k].nominal.as_ref()) else {
+            return None;
+        };
+        let windows = &self.trace.windows;
+        let at = (windows[0].place(x.to_f64_approximate()), windows[1].place(y.to_f64_approximate()));
+        inside(at).then_some(at)
     }
 
     /// The domain in places of the window: left, lower, right, upper, each from 0 to 1.
@@ -106,6 +141,20 @@ pub(super) fn what(problem: &Problem) -> String {
     if asked == "stable" { "Stable region".to_owned() } else { format!("Region of {asked}") }
 }
 
+/// Samples of what is drawn with their names.
+#[derive(Debug)]
+pub struct Legend(pub(super) Vec<legend::Entry>);
+
+/// What stands above the axes.
+enum Head<'a> {
+    /// Title, values, legend.
+    Title(&'a [legend::Entry]),
+    /// The legend.
+    Legend(&'a [legend::Entry]),
+    /// A line of words.
+    Caption(&'a str),
+}
+
 /// A picture in the making.
 pub(super) struct Drawing<'a> {
     pub contents: &'a MapContents<'a>,
@@ -122,11 +171,15 @@ pub(super) struct Drawing<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(contents: &'a MapContents<'a>, width: f64, height: f64, titled: bool) -> Self {
+    fn new(contents: &'a MapContents<'a>, width: f64, height: f64, head: &Head<'_>) -> Self {
         let problem = contents.answer.problem();
         let [x, y] = [0, 1].map(|k| contents.trace.windows[k].axis(&problem.free()[k]));
         let mut scene = Scene::new(width, height);
-        let mut top = if titled { heading(&what(problem), problem).draw(&mut scene) } else { 4.0 };
+        let mut top = match head {
+            Head::Title(_) => heading(&what(problem), problem).draw(&mut scene),
+            Head::Legend(_) => 4.0,
+            Head::Caption(text) => Heading { title: (*text).to_owned(), notes: Vec::new() }.draw(&mut scene) + 5.0,
+        };
         let left = Frame::left_of(&y, height - top - BELOW);
         let plot = Rectangle { left, top: 0.0, width: width - left - RIGHT, height: 0.0 };
         let mut drawing = Drawing {
@@ -138,14 +191,26 @@ impl<'a> Drawing<'a> {
             dots: Vec::new(),
             said: Vec::new(),
         };
-        let entries = drawing.entries();
-        top = legend::in_rows(&mut drawing.scene, &entries, (14.0, top + 2.0), width - 28.0) + 6.0;
+        if let Head::Title(entries) | Head::Legend(entries) = head {
+            top = legend::in_rows(&mut drawing.scene, entries, (14.0, top + 2.0), width - 28.0) + 6.0;
+        }
         drawing.frame.plot.top = top;
         drawing.frame.plot.height = (height - top - BELOW).max(20.0);
         drawing
     }
 
     fn finish(mut self) -> MapFigure {
+        self.shapes();
+        self.limits_on_lines();
+        for k in (0..self.contents.walls.len()).filter(|k| self.contents.walls[*k].role == Role::Stable) {
+            self.labels(k);
+        }
+        let plot = self.frame.plot;
+        MapFigure { figure: self.scene.into(), plot: (plot.left, plot.top, plot.width, plot.height) }
+    }
+
+    /// Everything but the words beside walls.
+    fn shapes(&mut self) {
         self.ground();
         self.region();
         self.layers();
@@ -160,12 +225,6 @@ impl<'a> Drawing<'a> {
         }
         self.layer_edges();
         self.marks();
-        self.limits_on_lines();
-        for &k in edges.iter().filter(|k| self.contents.walls[**k].role == Role::Stable) {
-            self.labels(k);
-        }
-        let plot = self.frame.plot;
-        MapFigure { figure: self.scene.into(), plot: (plot.left, plot.top, plot.width, plot.height) }
     }
 
     pub(super) fn at(&self, place: Point) -> Point {
@@ -224,12 +283,7 @@ impl<'a> Drawing<'a> {
     }
 
     pub(super) fn nominal(&self) -> Option<Point> {
-        let [Some(x), Some(y)] = [0, 1].map(|k| self.contents.answer.problem().free()[k].nominal.as_ref()) else {
-            return None;
-        };
-        let windows = &self.contents.trace.windows;
-        let at = (windows[0].place(x.to_f64_approximate()), windows[1].place(y.to_f64_approximate()));
-        inside(at).then_some(at)
+        self.contents.nominal()
     }
 
     fn lines_through_nominal(&mut self) {

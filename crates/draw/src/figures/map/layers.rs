@@ -3,7 +3,7 @@
 use super::super::legend::{Entry, Sample};
 use super::super::panel::apart;
 use super::super::{COLOURS, clip::Window};
-use super::draw::Drawing;
+use super::draw::{Drawing, MapContents};
 use super::trace::{MapTrace, TracedStrip, trace};
 use super::window::AxisWindow;
 use super::{MET, REGION};
@@ -140,10 +140,12 @@ impl Drawing<'_> {
             }
         }
     }
+}
 
-    /// Their samples for the legend.
+impl MapContents<'_> {
+    /// The samples of layers for the legend.
     pub(super) fn layer_entries(&self) -> Vec<Entry> {
-        let Some(layers) = &self.contents.layers else { return Vec::new() };
+        let Some(layers) = &self.layers else { return Vec::new() };
         let (of, most) = (layers.found.requirements.len(), layers.most());
         let mut out = Vec::new();
         for met in 1..=most {

@@ -3,17 +3,17 @@
 use super::super::legend::{Entry, Sample};
 use super::super::panel::Shape;
 use super::super::{FAINT, INK};
-use super::draw::{Drawing, inside, wall_stroke};
+use super::draw::{MapContents, inside, wall_stroke};
 use super::labels::words;
 use super::lines::{Role, Wall};
 use super::{REGION, UNSTABLE};
 use crate::scene::Stroke;
 use jurist_engine::show::region::goal_or_stable;
 
-impl Drawing<'_> {
+impl MapContents<'_> {
     /// Samples of what is drawn with their names.
     pub(super) fn entries(&self) -> Vec<Entry> {
-        let contents = self.contents;
+        let contents = self;
         let goal = goal_or_stable(contents.answer.problem());
         let mut entries: Vec<Entry> = Vec::new();
         if !contents.map.regions.is_empty() {

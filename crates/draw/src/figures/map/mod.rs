@@ -9,16 +9,18 @@ mod labels;
 mod layers;
 mod legend;
 mod lines;
+mod multiples;
 mod trace;
 mod window;
 mod words;
 
 pub use boxes::boxes_figure;
-pub use draw::{MapContents, MapFigure};
+pub use draw::{Legend, MapContents, MapFigure};
 pub use labels::{FrequencyPoint, frequency_unit};
 pub use lines::{Role, Wall, mechanism_colour, mechanism_words};
+pub use multiples::{common_legend, slice_name, small_multiples};
 pub use trace::{MapTrace, TracedLine, TracedStrip, trace_map};
-pub use window::{AxisWindow, WindowRequest, choose_windows};
+pub use window::{AxisWindow, WindowRequest, choose_windows, common_windows};
 
 use crate::scene::Colour;
 

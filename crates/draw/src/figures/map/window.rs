@@ -66,17 +66,43 @@ impl AxisWindow {
 
 /// The windows of both axes: what is asked for, else so that everything bounded shows.
 pub fn choose_windows(answer: &Answer<Map>, marks: &[(f64, f64)], requests: &[WindowRequest; 2]) -> [AxisWindow; 2] {
-    [0, 1].map(|parameter| choose(answer, marks, &requests[parameter], parameter))
+    common_windows(&[answer], marks, requests)
 }
 
-fn choose(answer: &Answer<Map>, marks: &[(f64, f64)], request: &WindowRequest, parameter: usize) -> AxisWindow {
+/// The windows that several maps of the same two parameters share; what shows is chosen by those with stable points, if there are
+/// any.
+///
+/// # Panics
+/// Without a map.
+pub fn common_windows(
+    answers: &[&Answer<Map>],
+    marks: &[(f64, f64)],
+    requests: &[WindowRequest; 2],
+) -> [AxisWindow; 2] {
+    let with_regions = answers.iter().copied().filter(|a| !a.value().decomposition.regions.is_empty());
+    let mut shown: Vec<&Answer<Map>> = with_regions.collect();
+    if shown.is_empty() {
+        shown = answers.to_vec();
+    }
+    [0, 1].map(|parameter| {
+        let mut values: Vec<f64> = marks.iter().map(|m| if parameter == 0 { m.0 } else { m.1 }).collect();
+        let mut open = [false; 2];
+        for answer in &shown {
+            let [lower, upper] = shown_values(answer, parameter, &mut values);
+            open = [open[0] || lower, open[1] || upper];
+        }
+        values.retain(|v| v.is_finite() && v.abs() < 1e300 && (*v == 0.0 || v.abs() > 1e-300));
+        window_of(&values, open, &shown[0].problem().free()[parameter].domain, &requests[parameter])
+    })
+}
+
+/// Adds the values of a map that are to be seen; whether a region has no lower and no upper end.
+fn shown_values(answer: &Answer<Map>, parameter: usize, values: &mut Vec<f64>) -> [bool; 2] {
     let axis = &answer.problem().free()[parameter];
     let regions = &answer.value().decomposition.regions;
     let extents: Vec<&AlgebraicInterval> = regions.iter().map(|r| if parameter == 0 { &r.x } else { &r.y }).collect();
-    let open = [extents.iter().any(|e| e.lower.is_none()), extents.iter().any(|e| e.upper.is_none())];
-    let mut values: Vec<f64> = extents.iter().flat_map(|e| [&e.lower, &e.upper]).flatten().map(approximate).collect();
+    values.extend(extents.iter().flat_map(|e| [&e.lower, &e.upper]).flatten().map(approximate));
     values.extend(axis.nominal.as_ref().map(Rational::to_f64_approximate));
-    values.extend(marks.iter().map(|m| if parameter == 0 { m.0 } else { m.1 }));
     for (_, set) in answer.value().slices.iter().filter(|(line, _)| line.parameter().name == axis.name) {
         let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
         values.extend(ends.map(|e| approximate_real(&e.value)));
@@ -92,8 +118,7 @@ fn choose(answer: &Answer<Map>, marks: &[(f64, f64)], request: &WindowRequest, p
     if regions.is_empty() {
         values.extend(values_without_regions(answer, parameter));
     }
-    values.retain(|v| v.is_finite() && v.abs() < 1e300 && (*v == 0.0 || v.abs() > 1e-300));
-    window_of(&values, open, &axis.domain, request)
+    [extents.iter().any(|e| e.lower.is_none()), extents.iter().any(|e| e.upper.is_none())]
 }
 
 /// Without a region the boundary curves are what there is to see.

@@ -255,7 +255,8 @@ impl Place {
 
 impl MapQuestion {
     pub(super) fn new(problem: &Problem) -> Self {
-        let [x, y] = problem.axes();
+        // A third free parameter is that of slices.
+        let [x, y, ..] = problem.free() else { panic!("two parameters are free") };
         MapQuestion {
             title: title(problem),
             time: problem.time(),
@@ -304,13 +305,26 @@ impl PlaneRegion {
         let extents = [&region.x, &region.y].map(|interval| [&interval.lower, &interval.upper]);
         let end = |parameter: usize, side: usize| {
             let limit = limits.and_then(|l| l.ends[parameter][side].as_ref());
-            match (limit, extents[parameter][side]) {
-                (Some(limit), _) => Some(RegionEnd::Limit(RegionLimit::new(limit, parameter, problem, digits))),
-                (None, value) => value.as_ref().map(|value| RegionEnd::Plain(PlainEnd::new(value, digits))),
-            }
+            RegionEnd::new(limit, extents[parameter][side].as_ref(), parameter, problem, digits)
         };
         let bounds = |parameter| Bounds { lower: end(parameter, 0), upper: end(parameter, 1) };
         PlaneRegion { cells: region.cells.clone(), x: bounds(0), y: bounds(1) }
+    }
+}
+
+impl RegionEnd {
+    /// The end of a parameter with its limit where that is known; `None` where there is no end.
+    pub(super) fn new(
+        limit: Option<&MapLimit>,
+        value: Option<&RealAlgebraic>,
+        parameter: usize,
+        problem: &Problem,
+        digits: usize,
+    ) -> Option<Self> {
+        match limit {
+            Some(limit) => Some(RegionEnd::Limit(RegionLimit::new(limit, parameter, problem, digits))),
+            None => value.map(|value| RegionEnd::Plain(PlainEnd::new(value, digits))),
+        }
     }
 }
 
@@ -328,21 +342,26 @@ impl RegionLimit {
     }
 }
 
+impl Regions {
+    /// Of a map that is known.
+    pub(super) fn new(answer: &answer::Map, problem: &Problem, digits: usize) -> Self {
+        let (map, limits) = (&answer.decomposition, answer.limits());
+        let region = |(k, r)| PlaneRegion::new(r, limits.get(k), problem, digits);
+        Regions {
+            never_stable: map.never_stable,
+            never_stable_cause: map.never_stable.then(|| answer.never_stable_cause.map(str::to_owned)),
+            curves: map.curves.iter().map(Curve::from).collect(),
+            strips: map.strips.iter().map(|s| Strip::new(s, map, problem.axes()[0], digits)).collect(),
+            regions: map.regions.iter().enumerate().map(region).collect(),
+            required: answer.required.as_ref().map(|found| RequiredInPlane::new(found, digits)),
+        }
+    }
+}
+
 impl Map {
     /// The document, also of a map that the budget did not allow; decimals to so many significant digits.
     pub fn new(problem: &Problem, answer: Result<&answer::Map, &Exhausted>, digits: usize) -> Self {
-        let known = |answer: &answer::Map| {
-            let (map, limits) = (&answer.decomposition, answer.limits());
-            let region = |(k, r)| PlaneRegion::new(r, limits.get(k), problem, digits);
-            Regions {
-                never_stable: map.never_stable,
-                never_stable_cause: map.never_stable.then(|| answer.never_stable_cause.map(str::to_owned)),
-                curves: map.curves.iter().map(Curve::from).collect(),
-                strips: map.strips.iter().map(|s| Strip::new(s, map, problem.axes()[0], digits)).collect(),
-                regions: map.regions.iter().enumerate().map(region).collect(),
-                required: answer.required.as_ref().map(|found| RequiredInPlane::new(found, digits)),
-            }
-        };
+        let known = |answer: &answer::Map| Regions::new(answer, problem, digits);
         Map { schema: MapName::V1, question: MapQuestion::new(problem), answer: Answered::of(answer, known) }
     }
 }

@@ -16,6 +16,7 @@
 //! ```
 
 mod analyze;
+mod body;
 mod boxes;
 mod charpoly;
 mod check;
@@ -37,6 +38,7 @@ mod undecided;
 mod verdict;
 
 pub use analyze::{Analysis, AnalysisName};
+pub use body::{Body, BodyName, BodySlice, Extreme, Stretch, StretchEnd};
 pub use boxes::{Areas, BoxVerdict, MapBoxes, MapBoxesName, MapBoxesOpen, PlaneBox, SubdividedWindow, Window};
 pub(in crate::show) use charpoly::report_text;
 pub use charpoly::{

@@ -1,7 +1,7 @@
 //! JSON Schemas of the documents, made of their types.
 
 use super::{
-    Analysis, Charpoly, Check, Intervals, Jury, Map, MapBoxes, Margins, Norm, RootLocusForm, Tolerance, Transfer,
+    Analysis, Body, Charpoly, Check, Intervals, Jury, Map, MapBoxes, Margins, Norm, RootLocusForm, Tolerance, Transfer,
     Verdict,
 };
 use schemars::JsonSchema;
@@ -24,6 +24,7 @@ pub fn schemas() -> Vec<(&'static str, Value)> {
     }
     vec![
         entry::<Analysis>("jurist/analyze/1"),
+        entry::<Body>("jurist/body/1"),
         entry::<Charpoly>("jurist/charpoly/1"),
         entry::<Check>("jurist/check/1"),
         entry::<Intervals>("jurist/intervals/1"),

@@ -1,5 +1,6 @@
 //! The stable region in two parameters, for people.
 
+mod body;
 mod boxes;
 mod required;
 mod text;

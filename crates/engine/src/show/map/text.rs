@@ -70,7 +70,7 @@ pub(super) fn axis_text(axis: &Free) -> String {
     }
 }
 
-fn never_stable_text(cause: &str) -> &'static str {
+pub(super) fn never_stable_text(cause: &str) -> &'static str {
     match cause {
         "undefined" => ": the loop is undefined for all values of both",
         "z=1" => ": a root stays at z = 1",
@@ -130,7 +130,7 @@ fn region_text(
 }
 
 /// `complex pair at 1.2 Hz, 0.4 rad`.
-fn mechanism(limit: &MapLimit, problem: &Problem) -> String {
+pub(super) fn mechanism(limit: &MapLimit, problem: &Problem) -> String {
     let mut causes = causes_text(&limit.limit.causes, problem);
     if limit.limit.causes.contains(Cause::Pole) {
         causes.push_str(" (undefined there)");
@@ -148,7 +148,7 @@ fn mechanism(limit: &MapLimit, problem: &Problem) -> String {
 }
 
 /// Where the extreme value is taken.
-fn place(limit: &MapLimit, parameter: usize, axes: [&Free; 2]) -> String {
+pub(super) fn place(limit: &MapLimit, parameter: usize, axes: [&Free; 2]) -> String {
     let other = axes[1 - parameter];
     let places = &limit.limit.at;
     if places.is_empty() {

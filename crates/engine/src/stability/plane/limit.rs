@@ -2,7 +2,9 @@
 
 use super::curves::{Curve, PlanePolynomial};
 use super::decompose::{StabilityMap, Strip, at_y, branches_at, in_y, swapped_curve};
-use crate::stability::{AlgebraicInterval, Cause, Causes, ComplexPair, End, HalfSizePair, Range, Shape, end_at};
+use crate::stability::{
+    AlgebraicInterval, Cause, Causes, ComplexPair, End, HalfSizePair, Range, Shape, complex_pair_at, end_at,
+};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{MultiPoly, Poly, RealAlgebraic, SquareFree, isolate_real_roots_in};
@@ -290,7 +292,15 @@ impl Search<'_> {
         let mut ends = Vec::new();
         let Some(p) = self.p.at_x(&approach.near) else { return Ok(ends) };
         for (value, curve) in [&approach.below, &approach.above].into_iter().zip(approach.sides) {
-            if let (Some(value), Some(_)) = (value, curve) {
+            let (Some(value), Some(curve)) = (value, curve) else { continue };
+            let causes = &self.curves[curve].causes;
+            if causes.iter().eq([Cause::ComplexPair]) {
+                // Away from all other curves nothing else can happen.
+                let pair = complex_pair_at(&p, value, self.region, self.budget)?;
+                let mut causes = Causes::default();
+                pair.iter().for_each(|_| causes.insert(Cause::ComplexPair));
+                ends.push(End { value: value.clone().into(), causes, pair });
+            } else {
                 ends.extend(end_at(&p, value, &self.domain[1], self.region, self.budget)?);
             }
         }

@@ -27,6 +27,11 @@ impl Cell {
         &self.lo + &(&Integer::ONE << self.log_width)
     }
 
+    /// How many halvings of the unit interval lead to its width.
+    pub fn depth(&self) -> u64 {
+        self.bits - self.log_width
+    }
+
     /// The order of the lower ends.
     pub fn compare(&self, other: &Cell) -> Sign {
         let bits = self.bits.max(other.bits);

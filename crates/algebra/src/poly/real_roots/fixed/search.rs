@@ -22,6 +22,9 @@ const HALVINGS_BEFORE_NEWTON: u32 = 10;
 /// The first Newton step shrinks a cell by `2^FIRST_ZOOM`.
 const FIRST_ZOOM: u64 = 16;
 
+/// Coefficients that lose their bits in fewer halvings than this are computed with twice as many, which are kept as long.
+const HALVINGS_TO_LAST: u64 = 8;
+
 /// The unit interval is first computed for so many sign variations.
 const FEW_VARIATIONS: usize = 20;
 
@@ -35,8 +38,25 @@ struct Node {
     unchanged: u32,
     /// The next Newton step shrinks by `2^zoom`.
     zoom: u64,
-    /// The precision last computed from the polynomial, and the depth at which it was.
-    bought: (u64, u64),
+    bought: Bought,
+}
+
+/// The precision last computed from the polynomial.
+#[derive(Clone, Copy)]
+struct Bought {
+    precision: u64,
+    /// The depth of that cell.
+    depth: u64,
+    /// Whether it was more than the variations ask for, because of that being lost at once.
+    more: bool,
+}
+
+impl Bought {
+    /// The bits to keep of the coefficients of a cell with so many variations.
+    fn kept(&self, cell: &Cell, variations: usize) -> u64 {
+        let bits = bits_for(variations);
+        if self.more && cell.depth() - self.depth < HALVINGS_TO_LAST { bits.max(self.precision) } else { bits }
+    }
 }
 
 /// A cell with exactly one root, and whether the polynomial is positive at its upper end.
@@ -69,7 +89,15 @@ pub fn search(piece: &mut Piece, most: usize) -> Vec<Found> {
         bernstein = piece.bernstein(&cell, precision, Some(hint));
         variations = counted(&bernstein, ends);
     }
-    let node = Node { cell, bernstein, variations, ends, unchanged: 0, zoom: FIRST_ZOOM, bought: (precision, 0) };
+    let node = Node {
+        cell,
+        bernstein,
+        variations,
+        ends,
+        unchanged: 0,
+        zoom: FIRST_ZOOM,
+        bought: Bought { precision, depth: 0, more: false },
+    };
     place(node, &mut stack, &mut found);
     while let Some(node) = stack.pop() {
         checkpoint(16);
@@ -95,14 +123,16 @@ fn place(node: Node, stack: &mut Vec<Node>, found: &mut Vec<Found>) {
 fn step(piece: &mut Piece, mut node: Node, stack: &mut Vec<Node>, found: &mut Vec<Found>) {
     if node.bernstein.precision() < LEAST_PRECISION {
         // More bits if the last ones did not last.
-        let depth = node.cell.bits - node.cell.log_width;
-        let (last, at) = node.bought;
+        let depth = node.cell.depth();
+        let last = node.bought;
         let fresh = bits_for(node.variations.most);
-        let precision = if depth - at < 8 { 2 * last.max(fresh) } else { fresh.max(last / 2) };
+        let more = depth - last.depth < HALVINGS_TO_LAST;
+        let kept = if last.more { last.precision } else { 0 };
+        let precision = fresh.max(if more { 2 * kept.max(fresh) } else { kept / 2 });
         let hint = node.bernstein.height as i64 + node.bernstein.scale;
         node.bernstein = piece.bernstein(&node.cell, precision, Some(hint));
         node.variations = counted(&node.bernstein, node.ends);
-        node.bought = (precision, depth);
+        node.bought = Bought { precision, depth, more };
         place(node, stack, found);
         return;
     }
@@ -143,7 +173,7 @@ fn halve(piece: &mut Piece, node: Node, stack: &mut Vec<Node>, found: &mut Vec<F
         let bernstein = if variations.most == 1 {
             Bernstein { flat: Vec::new(), limbs, error, height: 0, scale: 0 }
         } else {
-            trimmed(&flat, limbs, error, bernstein.scale, bits_for(variations.most))
+            trimmed(&flat, limbs, error, bernstein.scale, bought.kept(&cell, variations.most))
         };
         let same = variations.most == v.most && counts[1 - k].most == 0;
         let unchanged = if same { unchanged + 1 } else { 0 };
@@ -195,7 +225,7 @@ fn newton(piece: &mut Piece, node: &Node) -> Option<Node> {
     if variations.least < v {
         return None;
     }
-    let bought = (precision, cell.bits - cell.log_width);
+    let bought = Bought { precision, depth: cell.depth(), more: false };
     let unchanged = node.unchanged;
     Some(Node { cell, bernstein, variations, ends: (low, high), unchanged, zoom: 2 * zoom, bought })
 }

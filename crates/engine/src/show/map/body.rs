@@ -1,0 +1,187 @@
+//! Slices of the stable region in three parameters, for people.
+
+use super::super::intervals::{heading, set_lines, undecided_text};
+use super::super::layout::{Columns, short, visible};
+use super::super::real;
+use super::super::region::goal_or_stable;
+use super::text::{axis_text, mechanism, never_stable_text, place};
+use crate::answer::{Answer, Body, BodySlice, Extreme, Extremes, Stretch, StretchEnd};
+use crate::problem::Problem;
+use crate::stability::{AlgebraicInterval, IntervalSet};
+use jurist_algebra::number::to_decimal;
+
+/// Digits in the table of slices.
+const TABLE_DIGITS: usize = 7;
+
+impl Answer<Body> {
+    /// The answer for people: a row for each slice, how far they reach together, and where they begin and end.
+    pub fn text(&self, digits: usize) -> String {
+        let (problem, body) = (self.problem(), self.value());
+        let [x, y, z] = self.axes();
+        let [first, last] = [body.slices.first(), body.slices.last()].map(|s| s.map(|s| short(&s.value)));
+        let mut out = format!(
+            "{}\n{} against {}, at {} values of {}",
+            heading(problem),
+            axis_text(x),
+            axis_text(y),
+            body.slices.len(),
+            z.name
+        );
+        if let Some(unit) = &z.unit {
+            out.push_str(&format!(" in {}", visible(unit)));
+        }
+        out.push_str(&format!(" from {} to {}\n", first.unwrap_or_default(), last.unwrap_or_default()));
+        out.push_str(&self.table().to_string());
+        match &body.extremes {
+            Err(stopped) => out.push_str(&format!("over the slices: {}\n", undecided_text(stopped))),
+            Ok(None) => {}
+            Ok(Some(extremes)) => out.push_str(&self.extremes_text(extremes, digits)),
+        }
+        out.push_str(&self.stretches_text());
+        out
+    }
+
+    /// The heads and a row for each slice: its value, the number of its regions, and how far they reach.
+    pub fn rows(&self) -> Vec<Vec<String>> {
+        let [x, y, z] = self.axes();
+        let head = vec![z.name.clone(), "regions".to_owned(), x.name.clone(), y.name.clone()];
+        let goal = goal_or_stable(self.problem());
+        let row = |slice: &BodySlice| {
+            let mut cells = vec![short(&slice.value)];
+            match &slice.map {
+                Err(stopped) => cells.extend(["?".to_owned(), undecided_text(stopped)]),
+                Ok(map) => {
+                    cells.push(map.value().decomposition.regions.len().to_string());
+                    cells.extend(match (&slice.extent, map.value().never_stable_cause) {
+                        (Some(extent), _) => {
+                            [(x, &extent[0]), (y, &extent[1])].map(|(axis, i)| span(&axis.name, i)).to_vec()
+                        }
+                        (None, Some(cause)) => vec![format!("{goal} nowhere{}", never_stable_text(cause))],
+                        (None, None) => vec![format!("{goal} nowhere")],
+                    });
+                }
+            }
+            cells
+        };
+        std::iter::once(head).chain(self.value().slices.iter().map(row)).collect()
+    }
+
+    /// How far the slices reach and where they begin and end, as sentences.
+    pub fn sentences(&self, digits: usize) -> Vec<String> {
+        let extremes = self.value().extremes.as_ref().ok().and_then(Option::as_ref);
+        let rows = extremes.map(|extremes| self.extreme_rows(extremes, digits)).unwrap_or_default();
+        let sentence = |row: Vec<String>| {
+            let rest: Vec<String> = row[1..].iter().filter(|cell| !cell.is_empty()).cloned().collect();
+            format!("{}: {}", row[0], rest.join(", "))
+        };
+        let mut out: Vec<String> = rows.into_iter().map(sentence).collect();
+        out.extend(self.stretches_text().lines().map(|line| line.trim().to_owned()));
+        out
+    }
+
+    fn axes(&self) -> [&crate::problem::Free; 3] {
+        let [x, y, z] = self.problem().free() else { unreachable!("a body has three free parameters") };
+        [x, y, z]
+    }
+
+    fn table(&self) -> Columns {
+        let mut columns = Columns::new("    ");
+        self.rows().into_iter().for_each(|row| columns.row(row));
+        columns
+    }
+
+    fn extremes_text(&self, extremes: &Extremes, digits: usize) -> String {
+        let mut columns = Columns::new("    ");
+        self.extreme_rows(extremes, digits).into_iter().for_each(|row| columns.row(row));
+        let known = if self.value().open_slices().next().is_some() { " that are decided" } else { "" };
+        format!("over the slices{known}, not over all {}\n{columns}", self.axes()[2].name)
+    }
+
+    fn extreme_rows(&self, extremes: &Extremes, digits: usize) -> Vec<Vec<String>> {
+        let axes = self.axes();
+        let row = |parameter: usize, side: usize, extreme: &Extreme| {
+            let (word, name) = (["least", "greatest"][side], &axes[parameter].name);
+            let at = self.reached_at(&extreme.slices);
+            let Some(value) = &extreme.value else { return vec![format!("no {word} {name}"), String::new(), at] };
+            let decimal = real::rounded(&value.clone().into(), digits).decimal;
+            let mut cells = vec![format!("{word} {name}"), decimal, at];
+            // On several slices the same value has several frequencies and places.
+            if let (Some(limit), [_]) = (&extreme.limit, extreme.slices.as_slice()) {
+                cells.extend([mechanism(limit, self.problem()), place(limit, parameter, [axes[0], axes[1]])]);
+            }
+            cells
+        };
+        let ends = |k: usize| extremes.ends[k].iter().enumerate().map(move |(side, extreme)| row(k, side, extreme));
+        ends(0).chain(ends(1)).collect()
+    }
+
+    /// `at K = 1/2`, or at how many slices.
+    fn reached_at(&self, slices: &[usize]) -> String {
+        let name = &self.axes()[2].name;
+        match slices {
+            [one] => format!("at {name} = {}", short(&self.value().slices[*one].value)),
+            several => format!("on {} slices", several.len()),
+        }
+    }
+
+    fn stretches_text(&self) -> String {
+        let (body, name) = (self.value(), &self.axes()[2].name);
+        let points = points_text(self.problem());
+        if body.stretches.is_empty() {
+            return match body.open_slices().next() {
+                None => format!("no slice has {points}\n"),
+                Some(_) => format!("no slice that is decided has {points}\n"),
+            };
+        }
+        let value = |k: usize| short(&body.slices[k].value);
+        let mut out = String::new();
+        for stretch in &body.stretches {
+            let slices = match (stretch.first, stretch.last) {
+                (a, b) if a == b => format!("on the slice at {name} = {}", value(a)),
+                (a, b) => format!("on the {} slices from {name} = {} to {}", b - a + 1, value(a), value(b)),
+            };
+            out.push_str(&format!("{points} {slices}\n"));
+            for (side, end) in stretch.ends.iter().enumerate() {
+                out.push_str(&format!("    {}\n", self.end_text(stretch, side, end)));
+            }
+        }
+        out
+    }
+
+    fn end_text(&self, stretch: &Stretch, side: usize, end: &StretchEnd) -> String {
+        let (body, name) = (self.value(), &self.axes()[2].name);
+        let word = ["begin", "end"][side];
+        match end {
+            StretchEnd::Range => {
+                let number = [stretch.first, stretch.last][side];
+                let at = short(&body.slices[number].value);
+                format!("at {name} = {at} the range that was asked for {word}s")
+            }
+            StretchEnd::Open => format!("where they {word} is not known: the slice beside is not decided"),
+            StretchEnd::Between { stable, none, stopped } => {
+                let width = to_decimal(&(stable - none).abs(), 2);
+                let mut text = format!(
+                    "they {word} between {name} = {}, where there are some, and {name} = {}, where there are none (width {width})",
+                    short(stable),
+                    short(none)
+                );
+                if let Some(stopped) = stopped {
+                    text.push_str(&format!("; not narrowed further: {stopped}"));
+                }
+                text
+            }
+        }
+    }
+}
+
+/// `stable points`, or points with what a radius or a decay rate asks for.
+fn points_text(problem: &Problem) -> String {
+    match goal_or_stable(problem).as_str() {
+        "stable" => "stable points".to_owned(),
+        goal => format!("points with {goal}"),
+    }
+}
+
+fn span(name: &str, extent: &AlgebraicInterval) -> String {
+    set_lines(name, &IntervalSet::from_iter([extent.clone()]), TABLE_DIGITS).remove(0)
+}
