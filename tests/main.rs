@@ -87,6 +87,8 @@ mod certificates {
     mod coq;
     mod dead_time;
     mod held;
+    mod map_attacks;
+    mod maps;
     mod program;
     mod readers;
     mod smt;

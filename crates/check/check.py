@@ -86,9 +86,8 @@ def scaled(p, top, bottom=1):
     spend(2 * len(p), size(p) + len(p) * top.bit_length(), len(p) * bottom.bit_length())
     return [c * top ** k * bottom ** (len(p) - 1 - k) for k, c in enumerate(p)]
 
-def descartes(f, a, b):
+def descartes(p, a, b):
     """At least the number of roots in the open interval (a, b), equal to it if 0 or 1; None is an infinite end."""
-    p = f.listed(1)
     if len(p) < 2 or a is b is None:
         return len(p) - 1 if p else 0
     if a is None:
@@ -1054,14 +1053,15 @@ def eliminated(rows):
         last = top
     return sign * last
 
-def interpolated(values):
-    """The coefficients of the polynomial with these values at 0, 1, 2, ..., by Newton's divided differences."""
+def interpolated(values, nodes=None):
+    """The coefficients of the polynomial with these values at 0, 1, 2, ..., or other integers, by Newton's divided differences."""
     d, out = values[:], []
+    nodes = range(len(d)) if nodes is None else nodes
     spend(len(d) ** 2, size(d), 10)
     for k in range(1, len(d)):
-        d[k:] = [(b - a) // k for a, b in zip(d[k - 1:], d[k:])]
-    for k in range(len(d) - 1, -1, -1):  # out (x - k) + d_k
-        out = [a - k * b for a, b in zip([d[k], *out], [*out, 0])]
+        d[k:] = [(b - a) // (y - x) for a, b, x, y in zip(d[k - 1:], d[k:], nodes, nodes[k:])]
+    for c, x in zip(d[::-1], nodes[::-1]):  # out (z - x) + c
+        out = [a - x * b for a, b in zip([c, *out], [*out, 0])]
     return out
 
 def determinant(m):
@@ -1185,11 +1185,11 @@ def quasi_polynomial(model, loop, values):
 class Exact:
     """Polynomials in the parameter with integer coefficients."""
 
-    def read(self, json_value):
-        return polynomial(json_value)
+    def __init__(self, read=None):
+        self.read = read or polynomial
 
     def descartes(self, f, a, b):
-        return descartes(f, a, b)
+        return descartes(f.listed(1), a, b)
 
     def vanishes(self, f, x):
         return value(f.listed(1), x) == 0
@@ -1547,16 +1547,38 @@ def over_box(text, names, values):
 def vanishes_only_with(p, factors):
     """Whether nothing but a number is left of a polynomial when what it has in common with the factors is divided out."""
     p = p.primitive()
-    for f in factors:
-        while any(p):
-            quotient = p / f
-            if quotient is None:
-                common = p.common(f)
-                if not any(common):
-                    break
-                quotient = p / common
+    for f in factors:  # most often enough, and cheap beside common divisors
+        while any(p) and (quotient := p / f) is not None:
             p = quotient
+    for f in factors:
+        while any(p) and any(common := p.common(f)):
+            p = p / common
     return bool(p) and not any(p)
+
+def boxed(parameters):
+    """A reader of polynomials in so many parameters of a box, which are the variables from 2 on."""
+    def read(json_value):
+        out = {}
+        for c, *exponents in items(json_value, lambda term: items(term, lambda item: item)):
+            e = sum(count(k) << FIELD * (v + 2) for v, k in enumerate(exponents))
+            need(all(0 <= k <= MAX_DEGREE for k in exponents) and (not exponents or exponents[-1]), "a term is not in its shortest form")
+            need(len(exponents) <= parameters and integer(c) and e not in out, "a term is not in its shortest form")
+            out[e] = integer(c)
+        return P(out)
+    return read
+
+def at_point(polynomials, point):
+    """Polynomials in the parameters of a box, as the coefficients of one in z, times a positive number."""
+    return P.of([c.get(0, 0) for c in cleared([p.at(point) for p in polynomials])]).listed(0)
+
+def beside(given, own):
+    """What the model's own polynomial has beside the given one."""
+    need(len(given) == len(own) and any(given), "characteristic: not that of the model")
+    given = cleared(given)
+    k = min((k for k, c in enumerate(given) if c), key=lambda k: len(given[k]))
+    common = own[k] / given[k]
+    need(common is not None and all(g * common == o for g, o in zip(given, own)), "characteristic: not that of the model")
+    return common
 
 def check_tolerance(model, document, statement, values, discrete, extent):
     names = ["schema", "statement", "characteristic", "factors", "pair"]
@@ -1578,26 +1600,11 @@ def check_tolerance(model, document, statement, values, discrete, extent):
         factors = [of_limit if of_limit is not None and limit in (None, name) else factor for name in names]
         return [[x + factor * (end - x) for end in ends] for factor, x, ends in zip(factors, nominal, between)]
 
-    def read(json_value):
-        out = {}
-        for c, *exponents in items(json_value, lambda term: items(term, lambda item: item)):
-            e = sum(count(k) << FIELD * (v + 2) for v, k in enumerate(exponents))
-            need(all(0 <= k <= MAX_DEGREE for k in exponents) and (not exponents or exponents[-1]), "a term is not in its shortest form")
-            need(len(exponents) <= len(names) and integer(c) and e not in out, "a term is not in its shortest form")
-            out[e] = integer(c)
-        return P(out)
-
-    def at(polynomials, point):
-        return P.of([c.get(0, 0) for c in cleared([p.at(point) for p in polynomials])]).listed(0)
-
     is_discrete, own, divisors = over_box(model, names, values)
     need(is_discrete == discrete, "the model's time is another")
+    read = boxed(len(names))
     own, given = in_region(own, discrete, extent), items(given, read)
-    need(len(given) == len(own) and any(given), "characteristic: not that of the model")
-    given = cleared(given)
-    k = min((k for k, c in enumerate(given) if c), key=lambda k: len(given[k]))
-    common = own[k] / given[k]
-    need(common is not None and all(g * common == o for g, o in zip(given, own)), "characteristic: not that of the model")
+    common, given = beside(given, own), cleared(given)
     n, p = len(given) - 1, given
     if discrete:  # (1 - s)^n D((1 + s)/(1 - s))
         p = [ZERO] * (n + 1)
@@ -1618,7 +1625,7 @@ def check_tolerance(model, document, statement, values, discrete, extent):
     v0, weight = rational(v0), rational(weight)
     need(v0 > 0 and weight > 0, "pair: a scale is not positive")
     follow(tree, Tensor.of_pair(p, sides, v0, weight))
-    d = at(given, nominal)
+    d = at_point(given, nominal)
     need(len(d) == n + 1 and places(d, discrete) == (n, 0, 0), "stable: the nominal point is not")
     sentence = f"in {statement['time']} time, {statement['region']}, "
     sentence += ", ".join(f"{low} <= {name} <= {high}" for name, (low, high) in zip(names, sides))
@@ -1629,13 +1636,213 @@ def check_tolerance(model, document, statement, values, discrete, extent):
         need(own_factor >= 0 and len(point) == len(names), "beyond: there is no point")
         box = at_factor(factor, own_factor)
         need(all(low <= x <= high for x, (low, high) in zip(point, box)), "beyond: the point is not in its box")
-        undefined, d = any(not at(ways, point) for ways in divisors), at(own, point)
+        undefined, d = any(not at_point(ways, point) for ways in divisors), at_point(own, point)
         found = places(d, discrete) if d and not undefined else (0, 0, 0)
         found = [n, *found, 0 if undefined else n - sum(found)]
         need([*map(count, counts)] == found, f"beyond: the counts are {found}")
         need(undefined or found[1] < n, "beyond: the point is stable")
         sentence += "; not at " + ", ".join(f"{name} = {x}" for name, x in zip(names, point))
     return sentence
+
+# ---------------------------------------------------------------- maps of two parameters
+
+def curve(f):
+    """A polynomial in the variables 2 and 3, x and y, as coefficients in y which are lists of coefficients in x."""
+    return [c.listed(2) for c in f.coefficients(3)]
+
+def at_x(f, x):
+    """A curve over a rational x, in y; times a positive number."""
+    longest = max(map(len, f))
+    return [value([*c, *[0] * (longest - len(c))], x) for c in f]
+
+def at_y(f, y):
+    """A curve at a rational y, in x; times a positive number."""
+    longest = max(map(len, f))
+    return trimmed([value([c[k] if k < len(c) else 0 for c in f], y) for k in range(longest)])
+
+def trimmed(p):
+    while p and not p[-1]:
+        p.pop()
+    return p
+
+def resultant_of_numbers(a, b):
+    """Of two polynomials with integer coefficients, by subresultants [BrownTraub1971]."""
+    sign = 1
+    if len(a) < len(b):
+        a, b, sign = b, a, -1 if len(a) % 2 == len(b) % 2 == 0 else 1
+    g = h = 1
+    while len(b) > 1:
+        excess, last = len(a) - len(b), b[-1]
+        spend(2 * len(a) * (excess + 1), size(a), size(b))
+        if len(a) % 2 == len(b) % 2 == 0:
+            sign = -sign
+        divisor = g * h ** excess
+        while len(a) >= len(b):  # the remainder of last^(excess + 1) a
+            top, shift = a[-1], len(a) - len(b)
+            a = [last * c for c in a[:shift]] + [last * c - top * d for c, d in zip(a[shift:], b[:-1])]
+        a, b = b, [c // divisor for c in trimmed(a)]
+        if not b:
+            return 0
+        g = last
+        h = g ** excess // h ** (excess - 1) if excess else h
+    n = len(a) - 1
+    return sign * (b[0] ** n // h ** (n - 1) if n else h)
+
+def resultant(f, g):
+    """The resultant in y of two curves, in x, by its values at more integers than its degree."""
+    m, n = len(f) - 1, len(g) - 1
+    degrees = [[(k, len(c) - 1) for k, c in enumerate(p) if c] for p in (f, g)]
+    steepest = max(d for p in degrees for _, d in p)
+    bound = min(n * max(d + l * k for k, d in degrees[0]) + m * max(d + l * k for k, d in degrees[1]) - l * m * n
+                for l in range(-steepest, steepest + 1))
+    need(bound <= MAX_DEGREE, "a resultant has too high a degree")
+    nodes, values, x = [], [], 0
+    while len(nodes) <= bound:
+        a, b = ([value(c, x) for c in p] for p in (f, g))
+        if a[-1] and b[-1]:
+            nodes.append(x)
+            values.append(resultant_of_numbers(a, b))
+        x = -x if x > 0 else 1 - x
+    return trimmed(interpolated(values, nodes))
+
+def isolated(json_list, f, low, high):
+    """The places of the roots of a polynomial in the open interval, as pairs of ends, equal at a rational root."""
+    need(f, "roots: a polynomial is zero everywhere")
+    found, before = [], low
+
+    def gap(after):
+        if before is not None and before == after:
+            need(value(f, after), "roots: not in order")
+        else:
+            need(before is None or after is None or before < after, "roots: not in order")
+            need(descartes(f, before, after) == 0, "roots: a gap is not shown to have none")
+
+    need(isinstance(json_list, list), "roots: not a list")
+    for item in json_list:
+        ends = items(item, rational) if isinstance(item, list) else [rational(item)]
+        need(len(ends) in (1, 2), "roots: an item has more than two numbers")
+        gap(ends[0])
+        if isinstance(item, list):
+            if len(ends) == 1:
+                need(not value(f, ends[0]), "roots: a number is none")
+            else:
+                need(ends[0] < ends[1] and value(f, ends[0]) and value(f, ends[1]), "roots: a root at an end of an enclosure")
+                need(descartes(f, *ends) == 1, "roots: an enclosure is not shown to hold just one")
+            found.append((ends[0], ends[-1]))
+        else:
+            need(value(f, ends[0]), "roots: a gap is split at one")
+        before = ends[-1]
+    gap(high)
+    return found
+
+def merged(lists):
+    """The places of the roots of several polynomials, which are different."""
+    places = sorted(place for one in lists for place in one)
+    for (a, b), (c, d) in zip(places, places[1:]):
+        need(b < c or b == c and not a == b == d, "roots: two are not shown to be different")
+    return places
+
+def in_stretch(x, places, k, low, high):
+    """Whether x is behind k of the places, before the next one, and in the interval."""
+    before = places[k - 1] if k else None
+    after = places[k] if k < len(places) else None
+    return (k <= len(places) and (low is None or low < x) and (high is None or x < high)
+            and (before is None or before[1] < x or before[0] < before[1] == x)
+            and (after is None or x < after[0] or x == after[0] < after[1]))
+
+def check_map(model, document, statement, values, discrete, extent):
+    names = ["schema", "statement", "characteristic", "boundary", "factors", "x_factors", "strips", "joins"]
+    _, _, given, boundary, factors, x_factors, strips, joins = parts(document, names, ["model"])
+    *_, x, y, domain, regions = parts(statement, ["kind", "time", "set", "region", "x", "y", "domain", "regions"])
+    need(extent != "parameter", "the region has no parameter here")
+    names = [name_of(x), name_of(y)]
+    domain = [[None if b is None else rational(b) for b in parts(ends, ["lower", "upper"])] for ends in parts(domain, ["x", "y"])]
+    need(all(None in ends or ends[0] < ends[1] for ends in domain), "the domain is empty")
+    regions = items(regions, lambda cells: items(cells, lambda cell: tuple(items(cell, count))))
+    need(all(len(cell) == 2 for cells in regions for cell in cells), "a cell is not a pair")
+    (left, right), (low, high) = domain
+    is_discrete, own, divisors = over_box(model, names, values)
+    need(is_discrete == discrete, "the model's time is another")
+    ring = Exact(boxed(2))
+    given, nothing = items(given, ring.read), not all(map(any, divisors))
+    if not (nothing and not given):
+        own = in_region(own, discrete, extent)
+        need(any(own) or given == own, "characteristic: not that of the model")
+    common = beside(given, own) if given and any(own) else ONE
+    certain, identity, nowhere = boundaries(given, len(own) - 1, discrete, [ZERO] * nothing, boundary, ring)
+    sentence = f"in {statement['time']} time, {statement['region']}, {names[0]} in {domain_of(left, right)}, {names[1]} in {domain_of(low, high)}"
+    sentence += "".join(f", {name} = {x}" for name, x in values.items())
+    if nowhere:
+        need(factors == x_factors == strips == joins == regions == [], "the loop is stable nowhere")
+        return sentence + ": stable nowhere"
+    factors = [f.primitive() for f in items(factors, ring.read)]
+    need(all(map(any, factors)), "factors: one is constant")
+    for ways in divisors + [[p] for p in (common, *certain, *([identity["value"]] if identity else []))]:
+        need(any(vanishes_only_with(way, factors) for way in ways), "factors: a boundary polynomial is not a product of them")
+    curves = [curve(f) for f in factors]
+    with_y = [f for f in curves if len(f) > 1]
+    # The values of x where curves may meet, turn, leave or end.
+    found, known = [], []
+    for p, own_roots in items(x_factors, lambda item: parts(item, ["polynomial", "roots"])):
+        p = polynomial(p)
+        need(p.degree(1), "x_factors: one is constant")
+        known.append(p.primitive())
+        found.append(isolated(own_roots, p.listed(1), left, right))
+    walls = merged(found)
+    critical = [f[-1] for f in curves]
+    for i, f in enumerate(with_y):
+        if len(f) > 2:
+            critical.append(resultant(f, [[k * c for c in row] for k, row in enumerate(f)][1:]))
+        critical += [p for p in (at_y(f, e) for e in (low, high) if e is not None) if p]
+        critical += [resultant(f, g) for g in with_y[:i]]
+    for p in critical:
+        p = P.of(p, 1).primitive()
+        for f in known:
+            while p.degree(1) and (quotient := p / f) is not None:
+                p = quotient
+        need(p and not any(p), "x_factors: a polynomial is not a product of them")
+    # The strips between them.
+    need(isinstance(strips, list) and len(strips) == len(walls) + 1, "strips: not one between two walls")
+
+    def branches(own_roots, x, high):
+        need(isinstance(own_roots, list) and len(own_roots) == len(with_y), "strips: not one list of roots for each curve")
+        return [isolated(one, at_x(f, x), low, high) for one, f in zip(own_roots, with_y)]
+
+    stable = set()
+    for i, (x, own_roots, cells) in enumerate(parts(strip, ["x", "roots", "cells"]) for strip in strips):
+        x, cells = rational(x), items(cells, rational)
+        need(in_stretch(x, walls, i, left, right), "strips: the sample is outside")
+        places_in_y = merged(branches(own_roots, x, high))
+        need(len(cells) == len(places_in_y) + 1, "strips: not one cell between two branches")
+        for k, y in enumerate(cells):
+            need(in_stretch(y, places_in_y, k, low, high), "strips: the point of a cell is outside")
+            d = at_point(given, [x, y])
+            need(len(d) == len(given), "strips: the point of a cell loses degree")
+            if places(d, discrete)[0] == len(d) - 1:
+                stable.add((i, k))
+    listed_cells = [cell for cells in regions for cell in cells]
+    need(all(regions) and len(listed_cells) == len(stable) and set(listed_cells) == stable, "stable: the regions are not the stable cells")
+    # What joins the cells of a region.
+    region_of = {cell: {cell} for cell in stable}
+    number_of = {cell: i for i, cells in enumerate(regions) for cell in cells}
+    for i, x, y, below, clear in items(joins, lambda item: parts(item, ["strip", "x", "y", "below", "clear"])):
+        (a, b), y, sides = items(x, rational), rational(y), items(below, list)
+        need(in_stretch(y, [], 0, low, high) and len(sides) == 2 and len(clear) == len(curves), "joins: a part is wrong")
+        cells = []
+        for i, x, side in ((count(i), a, sides[0]), (i + 1, b, sides[1])):
+            need(in_stretch(x, walls, i, left, right), "joins: an end is not in its strip")
+            cells.append((i, sum(map(len, branches(side, x, y)))))
+        for splits, f in zip(clear, curves):
+            along = at_y(f, y)
+            need(isolated(splits, along, a, b) == [] and value(along, a) and value(along, b), "joins: the segment meets a curve")
+        need(all(cell in stable for cell in cells) and number_of[cells[0]] == number_of[cells[1]], "joins: not between cells of one region")
+        both = region_of[cells[0]] | region_of[cells[1]]
+        region_of |= dict.fromkeys(both, both)
+    need(all(region_of[cells[0]] == set(cells) for cells in regions), "joins: the cells of a region are not all joined")
+    return f"{sentence}: off its boundary curves and {len(walls)} lines stable exactly in {len(regions)} regions of {len(stable)} cells"
+
+def domain_of(low, high):
+    return f"({'-infinity' if low is None else low}, {'infinity' if high is None else high})"
 
 # ---------------------------------------------------------------- dead time
 
@@ -1867,10 +2074,11 @@ def read(certificate):
     hooks = {"parse_int": small, "parse_float": small, "parse_constant": small, "object_pairs_hook": strict}
     document = json.loads(certificate, **hooks)
     need(depth(document) <= MAX_DEPTH, "nested too deep")
-    need(isinstance(document, dict) and document.get("schema") in (RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES), "unknown schema")
+    need(isinstance(document, dict) and document.get("schema") in SCHEMAS, "unknown schema")
     return document
 
-RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES = (f"jurist/certificate/{version}" for version in range(1, 5))
+SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 6)]
+RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS = SCHEMAS
 FURTHER = ["bits", "symbols", "modes"]
 
 def table_of(document):
@@ -1886,7 +2094,7 @@ def check(model, certificate):
     document = read(certificate)
     statement = document["statement"]
     kind, time, values, region = (statement[key] for key in ("kind", "time", "set", "region"))
-    kinds = ("tolerance",) if document["schema"] == OF_BOXES else ("intervals", "verdict")
+    kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"]}.get(document["schema"], ["intervals", "verdict"])
     need(kind in kinds, "unknown kind of statement")
     need(time in ("discrete", "continuous"), "unknown time")
     discrete = time == "discrete"
@@ -1896,6 +2104,8 @@ def check(model, certificate):
     need(not discrete or extent == "parameter" or extent > 0, "the radius is not positive")
     if kind == "tolerance":
         return check_tolerance(model, document, statement, values, discrete, extent)
+    if kind == "map":
+        return check_map(model, document, statement, values, discrete, extent)
     if document["schema"] == WITH_DEAD_TIME:
         need(kind == "intervals" and not discrete, "unknown kind of statement")
         return check_windows(model, document, statement, values, extent)

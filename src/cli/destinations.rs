@@ -72,7 +72,10 @@ impl<'a> Names<'a> {
             Some(Command::Tolerance(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
             Some(Command::Jury(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
             Some(Command::Charpoly(o)) => names.question(&o.model.model, &o.output.output),
-            Some(Command::Map(o)) => names.question(&o.model.model, &o.output.output),
+            Some(Command::Map(o)) => {
+                names.question(&o.model.model, &o.output.output);
+                names.outputs.extend(o.certificate.iter().map(|file| ("the certificate", file.clone())));
+            }
             Some(Command::Margins(o)) => names.question(&o.model.model, &o.output.output),
             Some(Command::Norm(o)) => {
                 // The model is the first of three names.

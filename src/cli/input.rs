@@ -80,7 +80,7 @@ pub(super) const CERTIFIED_MODEL: Wanted =
 /// The certificate itself.
 pub(super) const CERTIFICATE: Wanted = Wanted {
     noun: "certificate",
-    help: "CERTIFICATE is a file that '--certificate FILE' of 'jurist intervals' or 'jurist verdict' wrote, '-' for standard input",
+    help: "CERTIFICATE is a file that '--certificate FILE' of 'jurist intervals', 'verdict', 'tolerance' or 'map' wrote, '-' for standard input",
 };
 
 fn unreadable(context: &Context, path: &OsString, name: &str, error: &std::io::Error, wanted: &Wanted) -> Error {

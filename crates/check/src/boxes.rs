@@ -241,7 +241,7 @@ impl Statement {
 }
 
 /// Polynomials at a point, together times a positive number, as coefficients of one polynomial.
-fn at(list: &[Multi], point: &[Q], clock: &Clock) -> Result<Uni, String> {
+pub(super) fn at(list: &[Multi], point: &[Q], clock: &Clock) -> Result<Uni, String> {
     // Variables 0 and 1 are not there.
     let values: Vec<Q> = (0..FIRST).map(|_| Q::zero()).chain(point.iter().cloned()).collect();
     let constant = |p: Multi| p.0.into_values().next().unwrap_or_default();
@@ -249,7 +249,7 @@ fn at(list: &[Multi], point: &[Q], clock: &Clock) -> Result<Uni, String> {
 }
 
 /// Reads a list of terms: each its coefficient and the exponents of the parameters of the box.
-fn polynomial(json: &Json, parameters: usize) -> Result<Multi, String> {
+pub(super) fn polynomial(json: &Json, parameters: usize) -> Result<Multi, String> {
     let mut terms: BTreeMap<Vec<u32>, Z> = BTreeMap::new();
     for term in list(json, "a polynomial")? {
         let [c, exponents @ ..] = list(term, "a term")? else { return Err("a term is empty".into()) };

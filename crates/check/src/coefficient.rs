@@ -1,24 +1,29 @@
 //! What the check asks of polynomials in the parameter, be their coefficients integers or polynomials in symbols.
 
 use super::clock::Clock;
+use super::multivariate::Multi;
 use super::number::{Q, Z};
 use super::roots::{is_hurwitz, is_schur};
 use super::univariate::Uni;
 
-/// A polynomial in the parameter over an ordered ring. What cannot be told is an error: nothing is ever guessed.
-pub(super) trait Coefficient: Clone + PartialEq {
+/// A polynomial in any number of parameters.
+pub(super) trait Ring: Clone + PartialEq {
     fn zero(&self) -> Self;
     fn is_zero(&self) -> bool;
     fn plus(&self, other: &Self) -> Self;
     fn minus(&self, other: &Self) -> Self;
     fn times(&self, other: &Self, clock: &Clock) -> Result<Self, String>;
     fn scaled(&self, factor: &Z) -> Self;
+    /// Whether it is not zero for every value of the parameters, for certain.
+    fn is_nonzero(&self, clock: &Clock) -> Result<bool, String>;
+}
+
+/// A polynomial in the parameter over an ordered ring. What cannot be told is an error: nothing is ever guessed.
+pub(super) trait Coefficient: Ring {
     /// The degree in the parameter, 0 for zero.
     fn degree(&self) -> usize;
     /// Whether it is a number other than zero for certain.
     fn is_unit(&self, clock: &Clock) -> Result<bool, String>;
-    /// Whether it is not zero for every value of the parameter, for certain.
-    fn is_nonzero(&self, clock: &Clock) -> Result<bool, String>;
     /// Whether it is zero at a rational number.
     fn vanishes_at(&self, value: &Q, clock: &Clock) -> Result<bool, String>;
     /// The quotient of an exact division.
@@ -29,7 +34,7 @@ pub(super) trait Coefficient: Clone + PartialEq {
     fn is_stable_at(coefficients: &[Self], value: &Q, discrete: bool, clock: &Clock) -> Result<bool, String>;
 }
 
-impl Coefficient for Uni {
+impl Ring for Uni {
     fn zero(&self) -> Self {
         Uni::default()
     }
@@ -54,16 +59,48 @@ impl Coefficient for Uni {
         Uni::scaled(self, factor)
     }
 
+    fn is_nonzero(&self, _: &Clock) -> Result<bool, String> {
+        Ok(!Uni::is_zero(self))
+    }
+}
+
+impl Ring for Multi {
+    fn zero(&self) -> Self {
+        Multi::default()
+    }
+
+    fn is_zero(&self) -> bool {
+        Multi::is_zero(self)
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        Multi::plus(self, other)
+    }
+
+    fn minus(&self, other: &Self) -> Self {
+        Multi::minus(self, other)
+    }
+
+    fn times(&self, other: &Self, clock: &Clock) -> Result<Self, String> {
+        Multi::times(self, other, clock)
+    }
+
+    fn scaled(&self, factor: &Z) -> Self {
+        Multi::scaled(self, factor)
+    }
+
+    fn is_nonzero(&self, _: &Clock) -> Result<bool, String> {
+        Ok(!Multi::is_zero(self))
+    }
+}
+
+impl Coefficient for Uni {
     fn degree(&self) -> usize {
         Uni::degree(self)
     }
 
     fn is_unit(&self, _: &Clock) -> Result<bool, String> {
         Ok(self.0.len() == 1)
-    }
-
-    fn is_nonzero(&self, _: &Clock) -> Result<bool, String> {
-        Ok(!Uni::is_zero(self))
     }
 
     fn vanishes_at(&self, value: &Q, clock: &Clock) -> Result<bool, String> {
@@ -88,7 +125,7 @@ impl Coefficient for Uni {
 }
 
 /// A positive multiple of the polynomial at a value of the parameter.
-fn at_point(coefficients: &[Uni], sample: &Q, clock: &Clock) -> Result<Uni, String> {
+pub(super) fn at_point(coefficients: &[Uni], sample: &Q, clock: &Clock) -> Result<Uni, String> {
     // All values over the denominator of the sample to the power of the highest degree.
     let degree = coefficients.iter().map(Uni::degree).max().unwrap_or(0);
     let mut values = Vec::with_capacity(coefficients.len());

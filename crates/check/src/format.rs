@@ -18,6 +18,9 @@ pub const SCHEMA_WITH_DEAD_TIME: &str = "jurist/certificate/3";
 /// The schema of certificates of boxes of tolerances.
 pub const SCHEMA_OF_BOXES: &str = "jurist/certificate/4";
 
+/// The version of maps of two parameters.
+pub const SCHEMA_OF_MAPS: &str = "jurist/certificate/5";
+
 /// Texts longer than this many bytes are refused unread.
 pub const MAX_TEXT: usize = 64 << 20;
 

@@ -1,7 +1,7 @@
 //! The pair of half the degree that describes the boundary.
 
 use super::clock::Clock;
-use super::coefficient::Coefficient;
+use super::coefficient::Ring;
 use num_bigint::BigInt;
 
 /// A polynomial in `x`, coefficients from the constant term up, each a polynomial in the parameter.
@@ -12,7 +12,7 @@ pub(super) type InX<P> = Vec<P>;
 /// Discrete, `D# = z^n D(1/z)`, `x = z + 1/z`: for `n = 2k`, `z^k A = D + D#` and `z^(k-1) (z^2 - 1) B = D - D#`;
 /// for `n = 2k + 1`, `z^k (z + 1) A = D + D#` and `z^k (z - 1) B = D - D#`.
 /// Continuous, `x = s^2`: `D = A(s^2) + s B(s^2)`.
-pub(super) fn pair<P: Coefficient>(d: &[P], discrete: bool) -> (InX<P>, usize, InX<P>, usize) {
+pub(super) fn pair<P: Ring>(d: &[P], discrete: bool) -> (InX<P>, usize, InX<P>, usize) {
     let n = d.len() - 1;
     let k = n / 2;
     let degree_b = if n.is_multiple_of(2) { k - 1 } else { k };
@@ -45,7 +45,7 @@ pub(super) fn pair<P: Coefficient>(d: &[P], discrete: bool) -> (InX<P>, usize, I
 
 /// `z^-m S` in `x` for a symmetric `S` of degree `2m`: takes off `s_2m (z + 1/z)^m`, whose expansion is
 /// binomial, and goes on with the rest.
-fn in_x<P: Coefficient>(s: &[P], m: usize) -> InX<P> {
+fn in_x<P: Ring>(s: &[P], m: usize) -> InX<P> {
     let mut rest = s.to_vec();
     let mut out = vec![s[0].zero(); m + 1];
     for j in (0..=m).rev() {
@@ -64,7 +64,7 @@ fn in_x<P: Coefficient>(s: &[P], m: usize) -> InX<P> {
 }
 
 /// The product of two polynomials in `x`.
-pub(super) fn times<P: Coefficient>(a: &InX<P>, b: &InX<P>, clock: &Clock) -> Result<InX<P>, String> {
+pub(super) fn times<P: Ring>(a: &InX<P>, b: &InX<P>, clock: &Clock) -> Result<InX<P>, String> {
     let (Some(first), false) = (a.first(), b.is_empty()) else { return Ok(Vec::new()) };
     let mut out = vec![first.zero(); a.len() + b.len() - 1];
     for (i, x) in a.iter().enumerate().filter(|(_, x)| !x.is_zero()) {

@@ -1,7 +1,7 @@
 //! Loops with blocks behind a hold: everything is over the symbols of a certificate.
 
 use super::clock::Clock;
-use super::coefficient::Coefficient;
+use super::coefficient::{Coefficient, Ring};
 use super::interval::Interval;
 use super::multivariate::Multi;
 use super::number::Q;

@@ -1,7 +1,7 @@
 //! The stable set of one parameter: the one forward pass over the line.
 
 use super::clock::Clock;
-use super::coefficient::Coefficient;
+use super::coefficient::{Coefficient, Ring};
 use super::half_size::{InX, pair, times};
 use super::number::Q;
 use super::statement::{End, boolean, count, end, list, number, object, polynomials, text};
@@ -33,17 +33,17 @@ pub(super) struct Proof<'j> {
 }
 
 /// Everything whose zeros can change the number of stable roots.
-struct Boundaries<P> {
+pub(super) struct Boundaries<P> {
     /// At a zero of one of these the loop is not stable, or not defined.
-    certain: Vec<P>,
+    pub certain: Vec<P>,
     /// The identity `U A + V B = value`, for a degree of at least 2.
-    pair: Option<Identity<P>>,
+    pub pair: Option<Identity<P>>,
 }
 
-struct Identity<P> {
+pub(super) struct Identity<P> {
     u: InX<P>,
     v: InX<P>,
-    value: P,
+    pub value: P,
 }
 
 /// Where one stretch of the line ends and the next begins.
@@ -95,7 +95,7 @@ pub(super) fn check<P: Coefficient>(
 }
 
 /// The boundary polynomials; `None` when one of them vanishes identically, so that no value is stable.
-fn boundaries<P: Coefficient>(
+pub(super) fn boundaries<P: Ring>(
     d: &Loop<'_, P>,
     given: &Json,
     read: Reader<'_, P>,

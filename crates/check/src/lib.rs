@@ -27,6 +27,7 @@ mod hold;
 mod interval;
 mod intervals;
 mod keys;
+mod map;
 mod model;
 mod multivariate;
 mod number;
@@ -45,7 +46,7 @@ mod univariate;
 mod verdict;
 
 use clock::{Clock, out_of_time};
-use format::{Json, SCHEMA, SCHEMA_OF_BOXES, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS};
+use format::{Json, SCHEMA, SCHEMA_OF_BOXES, SCHEMA_OF_MAPS, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS};
 use num_traits::Zero;
 use number::{Q, shorten};
 use over::Over;
@@ -110,7 +111,7 @@ impl Default for Limits {
 pub struct Proved {
     /// The statement in a sentence or two.
     pub statement: String,
-    /// The kind of the statement: `intervals`, `verdict` or `tolerance`.
+    /// The kind of the statement: `intervals`, `verdict`, `tolerance` or `map`.
     pub kind: &'static str,
 }
 
@@ -138,6 +139,12 @@ pub enum Step {
     Factors,
     /// The points, counts and samples on the line.
     Line,
+    /// The factors in `x` make up all values where curves may meet, turn, leave or end.
+    Projection,
+    /// The strips between these values, and the cells of each.
+    Strips,
+    /// What joins the cells of a region.
+    Joins,
     /// The claimed set, or the claimed verdict.
     Stable,
     /// The check was given up in the middle of a step.
@@ -155,6 +162,9 @@ impl Step {
             Step::Boundary => "boundary",
             Step::Factors => "factors",
             Step::Line => "line",
+            Step::Projection => "x_factors",
+            Step::Strips => "strips",
+            Step::Joins => "joins",
             Step::Stable => "stable",
             Step::Time => "time",
         }
@@ -259,21 +269,23 @@ fn checked(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Re
     // Another version may have other parts, so it is looked at first.
     let schema = json.get("schema").ok_or_else(|| "the certificate has no 'schema'".to_owned());
     let schema = Step::Format.of(schema.and_then(|s| text(s, "'schema'")))?;
-    if ![SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_WITH_DEAD_TIME, SCHEMA_OF_BOXES].contains(&schema) {
-        let known = format!("'{SCHEMA}', '{SCHEMA_WITH_SYMBOLS}', '{SCHEMA_WITH_DEAD_TIME}' or '{SCHEMA_OF_BOXES}'");
-        let reason = format!("the schema is '{}', not {known}", shorten(schema));
+    let known = [SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_WITH_DEAD_TIME, SCHEMA_OF_BOXES, SCHEMA_OF_MAPS];
+    if !known.contains(&schema) {
+        let [rest @ .., last] = known.map(|name| format!("'{name}'"));
+        let reason = format!("the schema is '{}', not {} or {last}", shorten(schema), rest.join(", "));
         return Err(Rejection { step: Step::Format, reason });
     }
     let statement =
         Step::Format.of(json.get("statement").ok_or_else(|| "the certificate has no 'statement'".into()))?;
     let kind = Step::Statement.of(statement.get("kind").ok_or_else(|| "the statement has no 'kind'".into()))?;
     match Step::Statement.of(text(kind, "'kind'"))? {
+        "map" if schema == SCHEMA_OF_MAPS => map::check(model, &json, statement, &clock),
         "tolerance" if schema == SCHEMA_OF_BOXES => boxes::check(model, &json, statement, &clock),
         "intervals" if schema == SCHEMA_WITH_DEAD_TIME => dead_time::check(model, &json, statement, &clock),
-        "intervals" if schema != SCHEMA_OF_BOXES => check_intervals(model, &json, statement, &clock),
-        "verdict" if ![SCHEMA_WITH_DEAD_TIME, SCHEMA_OF_BOXES].contains(&schema) => {
-            verdict::check(model, &json, statement, &clock)
+        "intervals" if [SCHEMA, SCHEMA_WITH_SYMBOLS].contains(&schema) => {
+            check_intervals(model, &json, statement, &clock)
         }
+        "verdict" if [SCHEMA, SCHEMA_WITH_SYMBOLS].contains(&schema) => verdict::check(model, &json, statement, &clock),
         other => {
             let reason = format!("unknown kind of statement '{}'", shorten(other));
             Err(Rejection { step: Step::Statement, reason })

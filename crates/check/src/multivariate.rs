@@ -165,17 +165,22 @@ impl Multi {
         // The largest key is the leading term of a lexicographic order: shorter lists count as padded with 0.
         let Some((lead_e, lead_c)) = divisor.0.last_key_value() else { return Ok(None) };
         let (mut rest, mut quotient) = (self.clone(), Multi::default());
+        let bits = longest(divisor.0.values());
         while let Some((e, c)) = rest.0.last_key_value() {
-            clock.tick()?;
             let fits = e.len() >= lead_e.len() && e.iter().zip(lead_e).all(|(a, b)| a >= b);
             let factor = c / lead_c;
             if !fits || &factor * lead_c != *c {
                 return Ok(None);
             }
-            let difference = e.iter().enumerate().map(|(i, a)| a - lead_e.get(i).copied().unwrap_or(0)).collect();
-            let term = Multi::default().with(difference, factor);
-            rest = rest.minus(&term.times(divisor, clock)?);
-            quotient = quotient.plus(&term);
+            let difference: Vec<u32> =
+                e.iter().enumerate().map(|(i, a)| a - lead_e.get(i).copied().unwrap_or(0)).collect();
+            count(clock, divisor.0.len(), factor.bits(), bits)?;
+            for (f, d) in &divisor.0 {
+                let n = f.len().max(difference.len());
+                let at = |list: &[u32], i: usize| list.get(i).copied().unwrap_or(0);
+                rest.add((0..n).map(|i| at(f, i) + at(&difference, i)).collect(), -(d * &factor));
+            }
+            quotient.add(difference, factor);
         }
         Ok(Some(quotient))
     }

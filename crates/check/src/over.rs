@@ -3,7 +3,7 @@
 //! Zero is only ever an identity; a sign is only ever read off an enclosure.
 
 use super::clock::Clock;
-use super::coefficient::Coefficient;
+use super::coefficient::{Coefficient, Ring};
 use super::interval::{Interval, balanced};
 use super::multivariate::Multi;
 use super::number::{Q, Z, integer};
@@ -87,7 +87,7 @@ fn uncertain(what: &str, table: &Table) -> String {
     format!("{what} is not certain with {} bits", table.bits)
 }
 
-impl Coefficient for Over {
+impl Ring for Over {
     fn zero(&self) -> Self {
         self.with(Multi::default())
     }
@@ -112,16 +112,18 @@ impl Coefficient for Over {
         self.with(self.polynomial.scaled(factor))
     }
 
+    fn is_nonzero(&self, clock: &Clock) -> Result<bool, String> {
+        Ok(self.enclosed(clock)?.iter().any(|c| !c.contains_zero()))
+    }
+}
+
+impl Coefficient for Over {
     fn degree(&self) -> usize {
         self.polynomial.degree(1)
     }
 
     fn is_unit(&self, clock: &Clock) -> Result<bool, String> {
         Ok(self.degree() == 0 && self.is_nonzero(clock)?)
-    }
-
-    fn is_nonzero(&self, clock: &Clock) -> Result<bool, String> {
-        Ok(self.enclosed(clock)?.iter().any(|c| !c.contains_zero()))
     }
 
     fn vanishes_at(&self, value: &Q, clock: &Clock) -> Result<bool, String> {

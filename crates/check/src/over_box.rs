@@ -150,19 +150,21 @@ fn not_that(k: usize) -> String {
 /// there is anything, and a number other than zero is left.
 pub(super) fn vanishes_only_with(p: &Multi, factors: &[Multi], clock: &Clock) -> Result<bool, String> {
     let Some(mut p) = primitive(vec![p.clone()]).pop().filter(|p| !p.is_zero()) else { return Ok(false) };
+    // Divisions that leave nothing are most often enough, and cheap beside common divisors.
+    for f in factors {
+        while !p.is_constant()
+            && let Some(quotient) = p.divided(f, clock)?
+        {
+            p = quotient;
+        }
+    }
     for f in factors {
         while !p.is_constant() {
-            let quotient = match p.divided(f, clock)? {
-                Some(quotient) => quotient,
-                None => {
-                    let common = p.gcd(f, clock)?;
-                    match common.is_constant() {
-                        true => break,
-                        false => p.divided(&common, clock)?.ok_or("internal: a gcd does not divide")?,
-                    }
-                }
-            };
-            p = quotient;
+            let common = p.gcd(f, clock)?;
+            if common.is_constant() {
+                break;
+            }
+            p = p.divided(&common, clock)?.ok_or("internal: a gcd does not divide")?;
         }
     }
     Ok(p.is_constant())

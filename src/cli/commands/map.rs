@@ -6,20 +6,22 @@ use super::{Context, decided};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, question};
-use crate::cli::output::{ending, note, unknown_ending};
+use crate::cli::output::{ending, note, unknown_ending, write_answer};
 use crate::cli::picture::{WRITES, pdf, png, write};
-use crate::cli::requirements::RequirementOptions;
+use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Error, Outcome, Status};
+use crate::cli::written::check_certificate;
 use clap::Args;
 use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
 use jurist_draw::page::map_page;
 #[cfg(feature = "cli")]
 use jurist_drive::published_limits;
 use jurist_engine::answer::{Answer, BoxRequest, Map, MapMethod, MapOrBoxes};
-use jurist_engine::error::Error as EngineError;
+use jurist_engine::error::{Diagnostic, Error as EngineError};
 use jurist_engine::problem::Problem;
 use jurist_engine::response::Requirements;
 use jurist_engine::show::{documents, map_boxes_text, map_text};
+use std::ffi::OsString;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -56,6 +58,9 @@ pub(in crate::cli) struct Options {
     /// Draws y on a linear axis
     #[arg(long)]
     pub linear_y: bool,
+    /// Writes a certificate of the exact map that 'jurist verify' re-checks
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<OsString>,
     #[command(flatten)]
     pub method: MethodOptions,
     #[command(flatten)]
@@ -88,12 +93,27 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         question = question.free(&request.name);
     }
     if let Some(z) = &options.z {
+        if options.certificate.is_some() {
+            let error = Diagnostic::error(
+                "E-no-certificate",
+                "maps at several values of a third parameter have no certificate",
+            );
+            return Err(error.help("ask for the map at one value: '--set NAME=VALUE' in the place of '-z'").into());
+        }
         return map_body::run(z, options, &requests, picture, (&model, question), context);
     }
     let (asked, question) = options.require.asked_each(&model, question, &options.region, context)?;
+    refuse_proofs(&model, &asked, options.certificate.is_some())?;
     let boxes = options.method.request(&requests, context)?;
-    let method = options.method.method_for(&asked)?;
+    let method = match options.certificate {
+        Some(_) => MapMethod::Exact,
+        None => options.method.method_for(&asked)?,
+    };
     let problem = question.plane_problem()?;
+    if options.certificate.is_some() {
+        options.method.refuse_boxes()?;
+        problem.refuse_map_certificate(&context.budget)?;
+    }
     let digits = options.output.digits() as usize;
     let places = digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1);
     let answer = match decided(required(&problem, method, &boxes, places, &asked, context))? {
@@ -118,13 +138,20 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
                         .undecided(output, &stopped, text, || documents::Map::new(&problem, Err(&stopped), digits))?
                 }
             };
-            if let Some(hint) = options.method.hint(&boxes) {
+            if let Some(hint) = options.method.hint(&boxes).filter(|_| options.certificate.is_none()) {
                 note(&hint);
             }
             return Ok(status);
         }
     };
     context.warn(None, problem.warnings());
+    let certificate = match &options.certificate {
+        Some(file) => Some((answer.certificate(&context.budget)?, file)),
+        None => None,
+    };
+    if let Some((text, file)) = &certificate {
+        write_answer(text, Some(file))?;
+    }
     if let Err(stopped) = &answer.value().limits {
         note(&format!("the regions are decided, what limits them is not: {stopped}"));
     }
@@ -134,6 +161,9 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
             context.budget.enter(|| draw(&answer, kind, windows, options, context))??;
         }
         _ => context.answer(&options.output, || answer.text(digits), || answer.json(digits))?,
+    }
+    if let Some((text, file)) = &certificate {
+        check_certificate(context, &options.output.run, &model.source().text, text, file);
     }
     Ok(Status::Holds)
 }

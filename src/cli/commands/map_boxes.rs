@@ -62,6 +62,15 @@ impl MethodOptions {
         Ok(MapMethod::Exact)
     }
 
+    /// That only the exact map has a certificate.
+    pub fn refuse_boxes(&self) -> Result<(), Error> {
+        if self.method != MethodName::Boxes {
+            return Ok(());
+        }
+        let error = Diagnostic::error("E-no-certificate", "a map by boxes has no certificate yet");
+        Err(error.help("the exact map has one: leave out '--method boxes'").into())
+    }
+
     /// What may help when the exact map is not finished in time.
     pub fn hint(&self, request: &BoxRequest) -> Option<String> {
         let bounded = request.windows.iter().all(|w| w.lower.is_some() && w.upper.is_some());

@@ -214,7 +214,7 @@ fn between(l: &Option<Rational>, r: &Option<Rational>) -> Rational {
 }
 
 /// Splits an interval without roots until Descartes' rule sees none in any piece.
-fn split(
+pub(super) fn split(
     l: &Option<Rational>,
     r: &Option<Rational>,
     factors: &[UniPoly],
@@ -252,7 +252,7 @@ fn split(
 }
 
 /// Descartes' bound for an open interval, `None` for the whole line and a polynomial that is not constant.
-fn variations(f: &UniPoly, l: &Option<Rational>, r: &Option<Rational>) -> Option<usize> {
+pub(super) fn variations(f: &UniPoly, l: &Option<Rational>, r: &Option<Rational>) -> Option<usize> {
     if f.is_constant() {
         return Some(0);
     }

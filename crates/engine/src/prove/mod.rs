@@ -7,6 +7,7 @@ mod dead_time;
 mod emit;
 mod held;
 mod line;
+mod map;
 mod over_symbols;
 mod smt2;
 mod statement;

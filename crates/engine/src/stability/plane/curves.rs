@@ -67,6 +67,21 @@ impl PlanePolynomial {
         &self.polynomial
     }
 
+    /// Where one of these vanishes the loop is not stable: the poles, the leading coefficient, and the values that are roots on the
+    /// boundary at fixed places.
+    pub(crate) fn certain(&self, region: Shape) -> Vec<MultiPoly> {
+        let mut out = self.poles.clone();
+        out.extend([self.denominator.clone(), self.polynomial.coeff(self.formal_degree)]);
+        if self.formal_degree > 0 {
+            let value = |z: i64| self.polynomial.eval(&MultiPoly::constant(Integer::from(z)));
+            match region {
+                Shape::UnitDisc => out.extend([value(1), value(-1)]),
+                Shape::LeftHalfPlane => out.push(value(0)),
+            }
+        }
+        out
+    }
+
     /// The exact root count at a point.
     pub fn at(&self, x: &Rational, y: &Rational, region: Shape) -> AtPoint {
         let point = [x.clone(), y.clone()];

@@ -8,7 +8,33 @@ use crate::stability::interval_set::cells;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A horizontal segment through the wall between a strip and the next one that meets no curve.
+#[derive(Clone, Debug)]
+pub(crate) struct Join {
+    /// The number of the strip on the left.
+    pub strip: usize,
+    /// Its ends, one in each of the two strips.
+    pub x: [Rational; 2],
+    /// Its height.
+    pub y: Rational,
+}
+
+/// Segments that join the stable cells of each region: one less than it has cells.
+///
+/// Cost: that of gluing once more.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub(crate) fn joins(
+    curves: &[Curve],
+    strips: &[Strip],
+    y_domain: &Range,
+    budget: &Budget,
+) -> Result<Vec<Join>, Exhausted> {
+    Ok(glued(curves, strips, y_domain, false, budget)?.1)
+}
 
 /// The stable cells grouped into connected regions, each group ascending.
 ///
@@ -23,7 +49,21 @@ pub(super) fn glue_stable_cells(
     y_domain: &Range,
     across: bool,
     budget: &Budget,
-) -> Result<Vec<Vec<(usize, usize)>>, Exhausted> {
+) -> Result<Groups, Exhausted> {
+    Ok(glued(curves, strips, y_domain, across, budget)?.0)
+}
+
+/// The cells of each region.
+type Groups = Vec<Vec<(usize, usize)>>;
+
+/// The regions, and the segments by which they were found to be connected.
+fn glued(
+    curves: &[Curve],
+    strips: &[Strip],
+    y_domain: &Range,
+    across: bool,
+    budget: &Budget,
+) -> Result<(Groups, Vec<Join>), Exhausted> {
     budget.step("connecting cells");
     let stable: Vec<(usize, usize)> = strips
         .iter()
@@ -41,6 +81,7 @@ pub(super) fn glue_stable_cells(
     }
     let polynomials: Vec<Poly<UniPoly>> = curves.iter().map(|c| in_y(&c.polynomial)).collect();
     let index = |cell: (usize, usize)| stable.binary_search(&cell).ok();
+    let mut joins = Vec::new();
     for (s, pair) in strips.windows(2).enumerate() {
         let wall = pair[0].x.upper.as_ref().expect("a wall between strips is finite");
         // Clear heights so far, and the pairs of which it is not known whether the wall connects them.
@@ -51,10 +92,13 @@ pub(super) fn glue_stable_cells(
             let apart = pairs.filter(|(a, b)| root(parent, a.0) != root(parent, b.0)).map(|(a, b)| (a.1, b.1));
             apart.filter(|pair| !heights.iter().any(|height| separates(*height, *pair))).collect()
         };
-        let join = |parent: &mut Vec<usize>, (left, right): (usize, usize)| {
+        let mut join = |parent: &mut Vec<usize>, ((left, right), [x, other, y]): ((usize, usize), [Rational; 3])| {
             if let (Some(a), Some(b)) = (index((s, left)), index((s + 1, right))) {
                 let (a, b) = (root(parent, a), root(parent, b));
-                parent[a.max(b)] = a.min(b);
+                if a != b {
+                    parent[a.max(b)] = a.min(b);
+                    joins.push(Join { strip: s, x: [x, other], y });
+                }
             }
         };
         let search = Wall { curves, polynomials: &polynomials, strips: pair, value: wall, y_domain };
@@ -64,8 +108,8 @@ pub(super) fn glue_stable_cells(
                 break;
             }
             for link in search.nearby_links(bits, &pairs, budget)? {
+                heights.insert(link.0);
                 join(&mut parent, link);
-                heights.insert(link);
             }
         }
         if !open(&parent, &heights).is_empty() {
@@ -74,7 +118,7 @@ pub(super) fn glue_stable_cells(
             }
         }
     }
-    let mut groups: Vec<Vec<(usize, usize)>> = Vec::new();
+    let mut groups = Groups::new();
     let mut number = vec![usize::MAX; stable.len()];
     for (i, &cell) in stable.iter().enumerate() {
         let r = root(&parent, i);
@@ -84,7 +128,7 @@ pub(super) fn glue_stable_cells(
         }
         groups[number[r]].push(cell);
     }
-    Ok(groups)
+    Ok((groups, joins))
 }
 
 /// Whether a clear height in these cells on the left and on the right shows that a pair of cells does not touch at the wall: it is
@@ -100,6 +144,9 @@ fn root(parent: &[usize], mut i: usize) -> usize {
     i
 }
 
+/// The cells that are joined, by their numbers in the two strips, and the segment: its ends and its height.
+type Links = BTreeMap<(usize, usize), [Rational; 3]>;
+
 /// The wall between two strips.
 struct Wall<'a> {
     curves: &'a [Curve],
@@ -112,24 +159,19 @@ struct Wall<'a> {
 impl Wall<'_> {
     /// Clear heights, as their cells on the left and on the right, that connect or separate one of the given pairs of cells: one is
     /// tried in each gap between the branches close to the wall.
-    fn nearby_links(
-        &self,
-        bits: u64,
-        pairs: &[(usize, usize)],
-        budget: &Budget,
-    ) -> Result<BTreeSet<(usize, usize)>, Exhausted> {
+    fn nearby_links(&self, bits: u64, pairs: &[(usize, usize)], budget: &Budget) -> Result<Links, Exhausted> {
         let (left, right) = self.either_side(bits);
         let sides = [self.branches(&left, budget)?, self.branches(&right, budget)?];
         let mut merged: Vec<RealAlgebraic> = sides.iter().flatten().cloned().collect();
         merged.sort_by(|a, b| a.compare(b));
         merged.dedup_by(|a, b| a.compare(b).is_eq());
-        let mut links = BTreeSet::new();
+        let mut links = Links::new();
         for gap in cells(self.y_domain, &merged) {
             let y = gap.sample();
             let link = (cell_of(&sides[0], &y), cell_of(&sides[1], &y));
             let helps = pairs.contains(&link) || pairs.iter().any(|pair| separates(link, *pair));
-            if helps && !links.contains(&link) && self.is_clear(&left, &right, &y, budget)? {
-                links.insert(link);
+            if helps && !links.contains_key(&link) && self.is_clear(&left, &right, &y, budget)? {
+                links.insert(link, [left.clone(), right.clone(), y]);
             }
         }
         Ok(links)
@@ -138,9 +180,9 @@ impl Wall<'_> {
     /// All pairs of a cell on the left and a cell on the right that touch along a piece of the wall:
     /// one height in each piece between the distinct roots of the curves on the wall, and a segment
     /// at that height short enough to meet no curve.
-    fn all_links(&self, budget: &Budget) -> Result<BTreeSet<(usize, usize)>, Exhausted> {
+    fn all_links(&self, budget: &Budget) -> Result<Links, Exhausted> {
         let product = self.polynomials.iter().fold(Poly::one(), |p, f| p.times(f));
-        let mut links = BTreeSet::new();
+        let mut links = Links::new();
         let (lower, upper) = (self.y_domain.lower.as_ref(), self.y_domain.upper.as_ref());
         // A curve that contains the whole wall separates the strips.
         let Some(sturm) = SturmAt::new(&product, self.value, lower, upper, budget)? else { return Ok(links) };
@@ -151,7 +193,7 @@ impl Wall<'_> {
                 let (left, right) = self.either_side(bits);
                 if self.is_clear(&left, &right, &y, budget)? {
                     let cell = |x: &Rational| Ok(cell_of(&self.branches(x, budget)?, &y));
-                    links.insert((cell(&left)?, cell(&right)?));
+                    links.insert((cell(&left)?, cell(&right)?), [left, right, y]);
                     break;
                 }
                 bits *= 2;
@@ -223,7 +265,7 @@ mod tests {
         for (s, pair) in strips.windows(2).enumerate() {
             let value = pair[0].x.upper.as_ref().unwrap();
             let wall = Wall { curves, polynomials: &polynomials, strips: pair, value, y_domain };
-            for (left, right) in wall.all_links(budget).unwrap() {
+            for (left, right) in wall.all_links(budget).unwrap().into_keys() {
                 let place = |cell| groups.iter().position(|g: &Vec<(usize, usize)>| g.contains(&cell));
                 if let (Some(a), Some(b)) = (place((s, left)), place((s + 1, right)))
                     && a != b

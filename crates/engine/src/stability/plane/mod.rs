@@ -1,6 +1,7 @@
 //! Two parameters at once: the plane cut into open cells of constant root count.
 
 pub mod boxes;
+mod certified;
 mod curves;
 mod decompose;
 mod glue;
@@ -10,8 +11,10 @@ mod projection;
 mod query;
 mod sturm_at;
 
+pub(crate) use certified::{at_height, critical_polynomials, over};
 pub use curves::{Curve, PlanePolynomial, boundary_curves, vanishing_boundary};
 pub use decompose::{Branch, Cell, StabilityMap, StableRegion, Strip, stability_map};
+pub(crate) use glue::{Join, joins};
 pub(crate) use layers::{Asked, layers};
 pub(crate) use limit::multi_value;
 pub use limit::{Limit, RegionLimits, region_limits};

@@ -1,0 +1,196 @@
+//! Arithmetic modulo numbers of 62 bits, in Montgomery's form.
+//!
+//! The moduli are most likely prime, and nothing rests on it: an inverse is tested when it is taken, and where there is
+//! none another modulus is used.
+
+use crate::number::Z;
+use num_traits::{Signed, ToPrimitive};
+
+/// A modulus. Residues `x` stand for `x/2^64`.
+pub(super) struct Modulus {
+    pub value: u64,
+    /// `-1/value` modulo `2^64`.
+    inverse: u64,
+    /// `2^128`, which stands for `2^64`.
+    square: u64,
+}
+
+impl Modulus {
+    /// Of an odd number below `2^62`.
+    pub fn new(value: u64) -> Self {
+        // Newton's iteration doubles the digits that are right.
+        let inverse = (0..6).fold(1u64, |x, _| x.wrapping_mul(2u64.wrapping_sub(value.wrapping_mul(x))));
+        let square = (u128::MAX % u128::from(value) + 1) % u128::from(value);
+        Modulus { value, inverse: inverse.wrapping_neg(), square: square as u64 }
+    }
+
+    /// The greatest odd number below a bound, and above `2^61`, that passes Fermat's test.
+    pub fn below(bound: u64) -> Option<Self> {
+        let odd = (1 << 61..bound).rev().filter(|p| p % 2 == 1).map(Modulus::new);
+        odd.into_iter().find(|m| m.power(m.of_u64(2), m.value - 1) == m.of_u64(1))
+    }
+
+    pub fn of_u64(&self, x: u64) -> u64 {
+        self.times(x % self.value, self.square)
+    }
+
+    pub fn of(&self, x: &Z) -> u64 {
+        let rest = (x % self.value).to_i64().unwrap_or(0);
+        let residue = self.of_u64(rest.unsigned_abs());
+        if x.is_negative() { self.minus(0, residue) } else { residue }
+    }
+
+    /// The residue between 0 and the modulus itself.
+    pub fn number(&self, x: u64) -> u64 {
+        self.times(x, 1)
+    }
+
+    pub fn times(&self, x: u64, y: u64) -> u64 {
+        self.reduced(u128::from(x) * u128::from(y))
+    }
+
+    /// A number below `2^64` times the modulus, over `2^64`.
+    fn reduced(&self, product: u128) -> u64 {
+        let multiple = (product as u64).wrapping_mul(self.inverse);
+        let sum = ((product + u128::from(multiple) * u128::from(self.value)) >> 64) as u64;
+        if sum >= self.value { sum - self.value } else { sum }
+    }
+
+    pub fn plus(&self, x: u64, y: u64) -> u64 {
+        let sum = x + y;
+        if sum >= self.value { sum - self.value } else { sum }
+    }
+
+    pub fn minus(&self, x: u64, y: u64) -> u64 {
+        if x >= y { x - y } else { x + self.value - y }
+    }
+
+    pub fn power(&self, x: u64, mut exponent: u64) -> u64 {
+        let (mut result, mut square) = (self.of_u64(1), x);
+        while exponent > 0 {
+            if exponent % 2 == 1 {
+                result = self.times(result, square);
+            }
+            square = self.times(square, square);
+            exponent /= 2;
+        }
+        result
+    }
+
+    pub fn inverse(&self, x: u64) -> Option<u64> {
+        let inverse = self.power(x, self.value - 2);
+        (self.times(x, inverse) == self.of_u64(1)).then_some(inverse)
+    }
+
+    pub fn value_at(&self, p: &[u64], x: u64) -> u64 {
+        p.iter().rev().fold(0, |sum, c| self.plus(self.times(sum, x), *c))
+    }
+
+    /// The resultant of two polynomials whose leading coefficients are not zero: by Euclid's algorithm without divisions,
+    /// what the multiples make too much divided out at the end.
+    pub fn resultant(&self, mut a: Vec<u64>, mut b: Vec<u64>) -> Option<u64> {
+        let both_odd = |a: &[u64], b: &[u64]| a.len().is_multiple_of(2) && b.len().is_multiple_of(2);
+        let (mut top, mut bottom, mut negative) = (self.of_u64(1), self.of_u64(1), false);
+        if a.len() < b.len() {
+            negative = both_odd(&a, &b);
+            std::mem::swap(&mut a, &mut b);
+        }
+        while b.len() > 1 {
+            let (m, n, lead) = (a.len() - 1, b.len() - 1, b[b.len() - 1]);
+            negative ^= both_odd(&a, &b);
+            if m == n + 1 {
+                self.reduce_by_two(&mut a, &b);
+            } else {
+                for shift in (0..=m - n).rev() {
+                    let first = a.pop()?;
+                    for (k, c) in a.iter_mut().enumerate() {
+                        *c = self.times(*c, lead);
+                        if k >= shift {
+                            *c = self.minus(*c, self.times(first, b[k - shift]));
+                        }
+                    }
+                }
+            }
+            while a.last() == Some(&0) {
+                a.pop();
+            }
+            if a.is_empty() {
+                return Some(0);
+            }
+            // With r the remainder of lead^s a: Res(a, b) lead^(s n) = (-1)^(m n) lead^(m - deg r) Res(b, r).
+            top = self.times(top, self.power(lead, (m + 1 - a.len()) as u64));
+            bottom = self.times(bottom, self.power(lead, ((m - n + 1) * n) as u64));
+            std::mem::swap(&mut a, &mut b);
+        }
+        top = self.times(top, self.power(b[0], a.len() as u64 - 1));
+        let result = self.times(top, self.inverse(bottom)?);
+        Some(if negative { self.minus(0, result) } else { result })
+    }
+
+    /// The remainder of `lead^2 a` by `b`, one degree less and with this leading coefficient: the usual case. A sum of three products
+    /// is below `2^126`, so that it is reduced once.
+    fn reduce_by_two(&self, a: &mut Vec<u64>, b: &[u64]) {
+        let n = b.len() - 1;
+        let (lead, below) = (b[n], &b[..n]);
+        let (first, second) = (a[n + 1], a[n]);
+        a.truncate(n);
+        let square = self.times(lead, lead);
+        let minus_linear = self.minus(0, self.times(lead, first));
+        let minus_constant = self.minus(self.times(first, below[n - 1]), self.times(lead, second));
+        let mut before = 0;
+        for (c, b) in a.iter_mut().zip(below) {
+            let sum = u128::from(square) * u128::from(*c)
+                + u128::from(minus_linear) * u128::from(before)
+                + u128::from(minus_constant) * u128::from(*b);
+            *c = self.reduced(sum);
+            before = *b;
+        }
+    }
+
+    /// The coefficients of the polynomial that has these values at ascending numbers, by Newton's divided differences.
+    pub fn interpolated(&self, nodes: &[u64], mut d: Vec<u64>) -> Option<Vec<u64>> {
+        let (n, last) = (d.len(), nodes.last()? - nodes.first()?);
+        let inverses = (1..=last).map(|k| self.inverse(self.of_u64(k))).collect::<Option<Vec<u64>>>()?;
+        for k in 1..n {
+            for i in (k..n).rev() {
+                let difference = (nodes[i] - nodes[i - k]) as usize;
+                d[i] = self.times(self.minus(d[i], d[i - 1]), inverses[difference - 1]);
+            }
+        }
+        let mut out: Vec<u64> = Vec::with_capacity(n);
+        for (c, node) in d.into_iter().zip(nodes).rev() {
+            // out (x - node) + c
+            let node = self.of_u64(*node);
+            out.insert(0, 0);
+            for k in 1..out.len() {
+                out[k - 1] = self.minus(out[k - 1], self.times(out[k], node));
+            }
+            out[0] = self.plus(out[0], c);
+        }
+        Some(out)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn residues_are_those_of_integers() {
+        let m = Modulus::below(1 << 62).unwrap();
+        assert_eq!(m.value, (1 << 62) - 57); // the greatest prime there
+        let (x, y) = (123_456_789_012_345_678u64, 987_654_321_098_765_432u64);
+        let (a, b) = (m.of_u64(x), m.of_u64(y));
+        let by_128 = |z: u128| (z % u128::from(m.value)) as u64;
+        assert_eq!(m.number(m.times(a, b)), by_128(u128::from(x) * u128::from(y)));
+        assert_eq!(m.number(m.plus(a, b)), by_128(u128::from(x) + u128::from(y)));
+        assert_eq!(m.plus(m.minus(a, b), b), a);
+        assert_eq!(m.times(m.inverse(a).unwrap(), a), m.of_u64(1));
+        assert_eq!(m.inverse(0), None);
+        let long = Z::from(x) * Z::from(y) * Z::from(-7);
+        assert_eq!(m.plus(m.of(&long), m.times(m.of_u64(7), m.times(a, b))), 0);
+        // No inverse is taken for one that is none.
+        let composite = Modulus::new(((1 << 31) - 1) * ((1 << 30) - 35));
+        assert_eq!(composite.inverse(composite.of_u64((1 << 31) - 1)), None);
+    }
+}
