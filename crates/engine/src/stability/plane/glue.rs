@@ -8,7 +8,7 @@ use crate::stability::interval_set::cells;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A horizontal segment through the wall between a strip and the next one that meets no curve.
 #[derive(Clone, Debug)]
@@ -40,8 +40,8 @@ pub(crate) fn joins(
 ///
 /// Two neighbouring cells of one strip are parts of one region where `across` is asked for: then curves inside a region
 /// are no boundaries of it. Two cells on either side of a wall are parts of one region when a horizontal segment leads from one
-/// to the other without meeting a curve: that is proved by root counts. Where a few trials do not connect
-/// all that might be connected, one height is taken in every piece of the wall, found by Sturm's theorem
+/// to the other without meeting a curve: that is proved by root counts. They do not touch there when a segment that meets no curve
+/// leads to the wall and beyond it between them. Where a few trials settle not all pairs, one height is taken in every piece of the wall, found by Sturm's theorem
 /// over the wall's algebraic number.
 pub(super) fn glue_stable_cells(
     curves: &[Curve],
@@ -84,9 +84,13 @@ fn glued(
     let mut joins = Vec::new();
     for (s, pair) in strips.windows(2).enumerate() {
         let wall = pair[0].x.upper.as_ref().expect("a wall between strips is finite");
-        let open = |parent: &[usize]| {
-            let side = |strip: usize| stable.iter().enumerate().filter(move |c| c.1.0 == strip).map(|c| c.0);
-            side(s).any(|a| side(s + 1).any(|b| root(parent, a) != root(parent, b)))
+        // Clear heights so far, and the pairs of which it is not known whether the wall connects them.
+        let mut heights: BTreeSet<(usize, usize)> = BTreeSet::new();
+        let open = |parent: &[usize], heights: &BTreeSet<(usize, usize)>| -> Vec<(usize, usize)> {
+            let side = |strip: usize| stable.iter().enumerate().filter(move |c| c.1.0 == strip).map(|c| (c.0, c.1.1));
+            let pairs = side(s).flat_map(|a| side(s + 1).map(move |b| (a, b)));
+            let apart = pairs.filter(|(a, b)| root(parent, a.0) != root(parent, b.0)).map(|(a, b)| (a.1, b.1));
+            apart.filter(|pair| !heights.iter().any(|height| separates(*height, *pair))).collect()
         };
         let mut join = |parent: &mut Vec<usize>, ((left, right), [x, other, y]): ((usize, usize), [Rational; 3])| {
             if let (Some(a), Some(b)) = (index((s, left)), index((s + 1, right))) {
@@ -99,14 +103,16 @@ fn glued(
         };
         let search = Wall { curves, polynomials: &polynomials, strips: pair, value: wall, y_domain };
         for bits in [8, 16, 32] {
-            if !open(&parent) {
+            let pairs = open(&parent, &heights);
+            if pairs.is_empty() {
                 break;
             }
-            for link in search.nearby_links(bits, budget)? {
+            for link in search.nearby_links(bits, &pairs, budget)? {
+                heights.insert(link.0);
                 join(&mut parent, link);
             }
         }
-        if open(&parent) {
+        if !open(&parent, &heights).is_empty() {
             for link in search.all_links(budget)? {
                 join(&mut parent, link);
             }
@@ -123,6 +129,12 @@ fn glued(
         groups[number[r]].push(cell);
     }
     Ok((groups, joins))
+}
+
+/// Whether a clear height in these cells on the left and on the right shows that a pair of cells does not touch at the wall: it is
+/// above the one and below the other, on the whole way to the wall.
+fn separates(height: (usize, usize), pair: (usize, usize)) -> bool {
+    (height.0 > pair.0 && height.1 < pair.1) || (height.0 < pair.0 && height.1 > pair.1)
 }
 
 fn root(parent: &[usize], mut i: usize) -> usize {
@@ -145,8 +157,9 @@ struct Wall<'a> {
 }
 
 impl Wall<'_> {
-    /// Links found by trying one height in each gap between the branches close to the wall.
-    fn nearby_links(&self, bits: u64, budget: &Budget) -> Result<Links, Exhausted> {
+    /// Clear heights, as their cells on the left and on the right, that connect or separate one of the given pairs of cells: one is
+    /// tried in each gap between the branches close to the wall.
+    fn nearby_links(&self, bits: u64, pairs: &[(usize, usize)], budget: &Budget) -> Result<Links, Exhausted> {
         let (left, right) = self.either_side(bits);
         let sides = [self.branches(&left, budget)?, self.branches(&right, budget)?];
         let mut merged: Vec<RealAlgebraic> = sides.iter().flatten().cloned().collect();
@@ -156,12 +169,8 @@ impl Wall<'_> {
         for gap in cells(self.y_domain, &merged) {
             let y = gap.sample();
             let link = (cell_of(&sides[0], &y), cell_of(&sides[1], &y));
-            let stable = |side: usize, cell: usize| self.strips[side].cells.get(cell).is_some_and(|c| c.stable);
-            if stable(0, link.0)
-                && stable(1, link.1)
-                && !links.contains_key(&link)
-                && self.is_clear(&left, &right, &y, budget)?
-            {
+            let helps = pairs.contains(&link) || pairs.iter().any(|pair| separates(link, *pair));
+            if helps && !links.contains_key(&link) && self.is_clear(&left, &right, &y, budget)? {
                 links.insert(link, [left.clone(), right.clone(), y]);
             }
         }
@@ -230,4 +239,79 @@ impl Wall<'_> {
 /// The number of the cell that holds a height: how many branches are below.
 fn cell_of(branches: &[RealAlgebraic], y: &Rational) -> usize {
     branches.iter().take_while(|v| v.compare_rational(y).is_lt()).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::curves::boundary_curves;
+    use super::super::decompose::decompose;
+    use super::*;
+    use crate::model::{Model, ParameterBuilder, Time};
+
+    /// The groups when every wall is asked by Sturm's theorem.
+    fn glued_exactly(
+        curves: &[Curve],
+        strips: &[Strip],
+        y_domain: &Range,
+        budget: &Budget,
+    ) -> Vec<Vec<(usize, usize)>> {
+        let stable: Vec<(usize, usize)> = strips
+            .iter()
+            .enumerate()
+            .flat_map(|(s, strip)| (0..strip.cells.len()).filter(|&c| strip.cells[c].stable).map(move |c| (s, c)))
+            .collect();
+        let polynomials: Vec<Poly<UniPoly>> = curves.iter().map(|c| in_y(&c.polynomial)).collect();
+        let mut groups: Vec<Vec<(usize, usize)>> = stable.iter().map(|&cell| vec![cell]).collect();
+        for (s, pair) in strips.windows(2).enumerate() {
+            let value = pair[0].x.upper.as_ref().unwrap();
+            let wall = Wall { curves, polynomials: &polynomials, strips: pair, value, y_domain };
+            for (left, right) in wall.all_links(budget).unwrap().into_keys() {
+                let place = |cell| groups.iter().position(|g: &Vec<(usize, usize)>| g.contains(&cell));
+                if let (Some(a), Some(b)) = (place((s, left)), place((s + 1, right)))
+                    && a != b
+                {
+                    let moved = groups.swap_remove(a.max(b));
+                    groups[a.min(b)].extend(moved);
+                }
+            }
+        }
+        for group in &mut groups {
+            group.sort_unstable();
+        }
+        groups.sort();
+        groups
+    }
+
+    /// Regions that touch at a point, that stand one above the other, that begin where others end.
+    #[test]
+    fn groups_are_those_of_the_exact_walls() {
+        let loops = [
+            "z^2 + (a*b)*z + a^2 - b^2 + 1/2",
+            "z^2 + (a^2 + b^2 - 1)*z + a*b + 1/5",
+            "z^3 + (a*b - 1/2)*z^2 + (b^2 - a)*z + a^2 - 1/3",
+            "(z - a^2 + 2)*(z - b^2 + 2)",
+            "z^2 + (a^3 - 3*a - b)*z + 1/4 + b/3",
+            "(z - a*b + 2)*(z - b + a)",
+            "(z - a^2 + b^2 + 2)*(z - b/3)",
+            "(z - a^2 + 2)*(z - a*b)",
+            "(z + (a - b)*(a + b))*(z - a*b)",
+            "z^3 + (3/10)*a*b*z^2 + (a^2 - b - 7/10)*z + b*a^2/2",
+        ];
+        let budget = Budget::unlimited();
+        let mut several = 0;
+        for text in loops {
+            let parameter = |name| ParameterBuilder::new(name).nominal("0");
+            let model = Model::builder(Time::Discrete).parameter(parameter("a")).parameter(parameter("b"));
+            let (model, _) = model.characteristic(text).build().unwrap();
+            let problem = model.ask().free("a").free("b").plane_problem().unwrap();
+            let p = problem.plane(&budget).unwrap().unwrap();
+            let domain = [Range::all(), Range::all()];
+            let curves = boundary_curves(p, problem.shape(), &budget).unwrap().unwrap();
+            let strips = decompose(p, &curves, &domain, problem.shape(), &budget).unwrap();
+            let found = glue_stable_cells(&curves, &strips, &domain[1], false, &budget).unwrap();
+            assert_eq!(found, glued_exactly(&curves, &strips, &domain[1], &budget), "{text}");
+            several += usize::from(found.len() > 1);
+        }
+        assert!(several >= 3, "{several} maps of several regions");
+    }
 }
