@@ -1,6 +1,6 @@
 //! The map of two parameters of the built-in drive, against answers in one parameter and root counts.
 
-use crate::helpers::model::keeping;
+use crate::helpers::model::{example, keeping};
 use crate::helpers::number::number;
 use crate::helpers::plane::cell_agrees;
 use crate::helpers::program::{command, json, jurist, jurist_with_input, refused};
@@ -8,6 +8,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::model::Model;
+use jurist_engine::stability::AlgebraicInterval;
 use jurist_engine::stability::plane::StabilityMap;
 use proptest::prelude::*;
 
@@ -364,4 +365,44 @@ fn drawn_points_lie_on_the_curves() {
         }
     }
     assert!(seen > 60, "{seen}");
+}
+
+/// The examples whose maps are exact, in both orders of the axes: over two points of every strip the stable cells are the stable set
+/// of one parameter, which knows nothing of maps.
+#[test]
+fn maps_of_the_examples_are_cut_by_lines_into_stable_sets() {
+    let maps = [
+        ("acc-benchmark", "k", "m_1"),
+        ("buck-converter", "K_p", "V_g"),
+        ("bus-steering", "q1", "q2"),
+        ("de-gaston-safonov", "p1", "p2"),
+        ("digital-pll", "K_p", "K_i"),
+        ("drive", "T", "K_pwm"),
+        ("fiat-dedra", "q1", "q2"),
+        ("heavy-ball", "alpha", "beta"),
+        ("lcl-active-damping", "k", "c"),
+        ("pid-body", "K_i", "K_d"),
+        ("pmsm-current-loop", "K_p", "omega_e"),
+        ("vicino-tesi-milanese", "q1", "q2"),
+    ];
+    let budget = Budget::unlimited();
+    let mut lines = 0;
+    for (name, a, b) in maps {
+        for [x, y] in [[a, b], [b, a]] {
+            let answer = example(name).ask().free(x).free(y).map(6, &budget).unwrap();
+            let domain = answer.problem().free()[1].domain.clone();
+            for strip in &decided(&answer).strips {
+                let further =
+                    AlgebraicInterval { lower: Some(strip.sample.clone().into()), upper: strip.x.upper.clone() };
+                for at in [strip.sample.clone(), further.sample()] {
+                    let cut = decided(&answer).slice(&at, &domain, &budget).unwrap().unwrap();
+                    let line = answer.slice(0, &at, &budget).unwrap();
+                    let set = line.value().to_interval_set().unwrap();
+                    assert!(cut.same_as(&set), "{name}, {x} = {at}: {cut:?} {set:?}");
+                    lines += 1;
+                }
+            }
+        }
+    }
+    assert!(lines > 300, "{lines}");
 }
