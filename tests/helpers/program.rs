@@ -33,15 +33,25 @@ pub fn jurist(arguments: &[&str]) -> Run {
 
 /// Runs the program with a model on standard input.
 pub fn jurist_with_input(arguments: &[&str], input: &[u8]) -> Run {
-    let mut child = command(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program runs");
+    finished(output_with_input(&mut command(arguments), input))
+}
+
+/// Runs the program with a model on standard input and no more address space than so many kilobytes, on one thread; where it ends for
+/// want of memory the status is that of the shell.
+#[cfg(target_os = "linux")]
+pub fn within_address_space(kilobytes: usize, arguments: &[&str], input: &[u8]) -> Run {
+    let mut shell = Command::new("sh");
+    let script = format!("ulimit -v {kilobytes} && \"$0\" \"$@\"; exit $?");
+    shell.args(["-c", &script, env!("CARGO_BIN_EXE_jurist")]).args(arguments).env("RAYON_NUM_THREADS", "1");
+    finished(output_with_input(&mut shell, input))
+}
+
+fn output_with_input(command: &mut Command, input: &[u8]) -> Output {
+    let mut child =
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program runs");
     // A program that refuses its arguments does not read.
     let _ = child.stdin.take().expect("piped").write_all(input);
-    finished(child.wait_with_output().expect("the program ends"))
+    child.wait_with_output().expect("the program ends")
 }
 
 /// The first answer from `run`, given 1 second, then 2, 4 and so on: a machine may be as slow as it likes, and where there

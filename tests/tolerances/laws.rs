@@ -240,6 +240,41 @@ proptest! {
         }
     }
 
+    /// Two parameters that occur only as their product are one parameter, their product, in the box of its values.
+    #[test]
+    fn two_parameters_of_one_common_monomial_are_one(
+        nominal in prop::collection::vec(5i64..30, 3),
+        percent in prop::collection::vec(1i64..60, 3),
+    ) {
+        let parameters: Vec<(i64, i64)> = nominal.iter().copied().zip(percent).collect();
+        let both = asked(&continuous(&parameters, "s^3 + (1 + p0*p1)*s^2 + (p2 + 2)*s + p0*p1*p2"));
+        let Some(factor) = &both.value().factor else { return Ok(()) };
+        let merged = |factor: &Rational| {
+            let sides: Vec<[Rational; 2]> = both.value().sides.iter().map(|side| side.at(factor)).collect();
+            let line = |name: &str, middle: Rational, low: &Rational, high: &Rational| {
+                format!("{name} = {{ nominal = '{middle}', tolerance = {{ low = '{low}', high = '{high}' }} }}\n")
+            };
+            let product = |k: usize| &sides[0][k] * &sides[1][k];
+            let middle = |i: usize| both.value().sides[i].nominal().clone();
+            // All ends are positive.
+            let text = line("q", &middle(0) * &middle(1), &product(0), &product(1)) + &line("p2", middle(2), &sides[2][0], &sides[2][1]);
+            let model = load(&format!(
+                "time = 'continuous'\n[parameters]\n{text}[loop]\ncharacteristic = 's^3 + (1 + q)*s^2 + (p2 + 2)*s + q*p2'\n"
+            ));
+            let request = ToleranceRequest::of_model(&model).box_alone();
+            model.ask().tolerance(&request, &Budget::unlimited()).unwrap().into_value().decision
+        };
+        prop_assert_eq!(merged(&Rational::ONE).is_stable(), both.value().decision.is_stable());
+        // A factor below 1 leaves the ends positive.
+        if factor.lower <= Rational::ONE {
+            prop_assert!(merged(&factor.lower).is_stable(), "{}", factor.lower);
+        }
+        if let Some(upper) = factor.upper.as_ref().filter(|upper| **upper <= Rational::ONE) {
+            let merged = merged(upper);
+            prop_assert!(matches!(merged, BoxDecision::NotStable { .. }), "{} {:?}", upper, merged);
+        }
+    }
+
     #[test]
     fn a_unit_changes_nothing(scale in 1i64..1000, percent in 1i64..40) {
         let model = |unit: i64| load(&format!(

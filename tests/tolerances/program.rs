@@ -114,3 +114,40 @@ fn no_time_is_undecided() {
     fits(&document).unwrap();
     assert!(document["undecided"]["budget"].is_string());
 }
+
+/// Bars of the shares, the locus on the way to the worst point, the response there beside the nominal one.
+#[test]
+fn a_picture_has_bars_the_locus_and_the_worst_response() {
+    let folder = std::env::temp_dir().join(format!("jurist-tolerances-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("worst.svg");
+    let run = jurist(&["tolerance", "--tol", EIGHT, "-o", file.to_str().unwrap()]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let svg = std::fs::read_to_string(&file).unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    for part in [
+        "share of the margin that each tolerance uses",
+        ">42.2 %<",
+        ">15.6 %<",
+        "Root locus in factor",
+        ">nominal<",
+        ">worst point<",
+    ] {
+        assert!(svg.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn the_volume_is_for_up_to_six_parameters() {
+    refused(&["tolerance", "--tol", "R_a,L_a,J,B_v,K_a,k_1,k_2=20%", "--volume"], "E-tolerance");
+    let run = jurist(&["tolerance", "--tol", "R_a,L_a=20%", "--volume"]);
+    assert!(run.stdout.contains("of the box       100 % stable, 0 % not, 0 % undecided"), "{}", run.stdout);
+}
+
+#[test]
+fn a_box_that_leaves_a_domain_is_answered_with_a_warning() {
+    let model = "time = 'continuous'\nparameters.a = { nominal = 1, min = 0.95, tolerance = '10%' }\nloop.characteristic = 's + a'\n";
+    let run = jurist_with_input(&["tolerance", "-"], model.as_bytes());
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stderr.contains("W-outside-domain"), "{}", run.stderr);
+}

@@ -8,6 +8,7 @@
 mod characteristic;
 mod dense;
 mod determinant;
+mod expansion;
 mod faddeev_leverrier;
 mod hessenberg;
 mod multimodular;
@@ -19,5 +20,5 @@ pub use characteristic::CharacteristicPolynomial;
 pub use dense::Matrix;
 pub use determinant::{determinant_bareiss, determinant_leibniz};
 pub use faddeev_leverrier::{FaddeevLeVerrier, characteristic_over_denominator, faddeev_leverrier};
-pub use multimodular::characteristic_polynomial_multimodular;
+pub use multimodular::{characteristic_polynomial_multimodular, characteristic_polynomial_over_rows};
 pub use rational::{Cleared, RationalMatrix};

@@ -1,7 +1,7 @@
 //! Matrices of rational functions.
 
 use super::{
-    CharacteristicPolynomial, FaddeevLeVerrier, Matrix, characteristic_polynomial_multimodular, faddeev_leverrier,
+    CharacteristicPolynomial, FaddeevLeVerrier, Matrix, characteristic_polynomial_over_rows, faddeev_leverrier,
 };
 use crate::limits::{Budget, Exhausted};
 use crate::poly::{Domain, MultiPoly, RationalFunction};
@@ -61,7 +61,7 @@ impl RationalMatrix {
     }
 
     /// `det(zI - M)` with coefficients in lowest terms, monic. The poles are those of the entries;
-    /// `variables` are the names of variables 0, 1, ... By [`characteristic_polynomial_multimodular`] where the grid of
+    /// `variables` are the names of variables 0, 1, ... By [`characteristic_polynomial_over_rows`] where the grid of
     /// parameters is not too large, else by the recursion of Faddeev and LeVerrier.
     ///
     /// Cost: `O(n^3)` products of residues ([Hadamard1893](crate::bibliography#hadamard1893) bounds how many primes
@@ -78,7 +78,7 @@ impl RationalMatrix {
         variables: Vec<String>,
         budget: &Budget,
     ) -> Result<CharacteristicPolynomial, Exhausted> {
-        let Some((numerator, denominator)) = characteristic_polynomial_multimodular(self, budget)? else {
+        let Some((numerator, denominator)) = characteristic_polynomial_over_rows(self, budget)? else {
             return self.characteristic_polynomial_faddeev_leverrier(variables, budget);
         };
         budget.enter(|| {

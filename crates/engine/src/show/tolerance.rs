@@ -59,11 +59,12 @@ impl Shown<'_> {
             let percent = |share: &Rational| to_decimal(&(share * &Rational::from(100)), 4);
             let _ = writeln!(
                 out,
-                "of the box       {} % stable, {} % not, {} % undecided ({} boxes)",
+                "of the box       {} % stable, {} % not, {} % undecided ({} {})",
                 percent(&volume.stable),
                 percent(&volume.unstable),
                 percent(&volume.undecided),
-                volume.boxes
+                volume.boxes,
+                if volume.boxes == 1 { "box" } else { "boxes" }
             );
         }
         if let Some(limit) = &self.answer.limit {

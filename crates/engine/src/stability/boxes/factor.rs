@@ -145,12 +145,18 @@ impl<'a> ToleranceProblem<'a> {
         Some(ToleranceProblem { p, sides, reference, scale })
     }
 
-    /// The number of Bernstein coefficients of the pair; `None` where there are more than are worked with.
+    /// The number of Bernstein coefficients of the pair; `None` where it, or of what must not vanish, has more than are worked with.
     pub fn coefficients(&self) -> Option<usize> {
+        let fits = |degrees: &[usize], frequencies: usize| {
+            let product = degrees.iter().try_fold(frequencies, |product, degree| product.checked_mul(degree + 1));
+            product.filter(|&n| n <= MOST_COEFFICIENTS)
+        };
+        // A divisor that cancels is not in the pair.
+        for (_, f) in &self.p.certain {
+            fits(&f.degrees().into_iter().map(|degree| degree as usize).collect::<Vec<_>>(), 1)?;
+        }
         let pair = self.p.excluded().pair;
-        let counts = pair.degrees.iter().map(|l| l + 1).chain([pair.width / 2]);
-        let product = counts.into_iter().try_fold(1usize, |product, count| product.checked_mul(count));
-        product.filter(|&n| n <= MOST_COEFFICIENTS)
+        fits(&pair.degrees, pair.width / 2)
     }
 
     /// The number of parameters.

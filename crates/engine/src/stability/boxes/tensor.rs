@@ -267,4 +267,39 @@ mod tests {
             assert!((&left - &right).abs() <= fresh[5].abs() * Integer::from(64));
         }
     }
+
+    /// A monomial that several coefficients of a pair have is one term of the bundle, and each plane is that of its polynomial alone.
+    #[test]
+    fn monomials_in_common_are_one_term_of_the_pair() {
+        let (x, y) = (MultiPoly::variable(0), MultiPoly::variable(1));
+        let n = |n: i64| MultiPoly::constant(Integer::from(n));
+        // x y and 1 in all four, x^2 in the last: E_0, E_1, O_0, O_1.
+        let xy = x.times(&y);
+        let polynomials = [
+            xy.plus(&n(3)),
+            xy.times(&n(-2)).plus(&n(5)),
+            xy.times(&n(7)).minus(&n(4)),
+            xy.plus(&x.times(&x)).plus(&n(1)),
+        ];
+        let pair = Bundle::new(&polynomials.iter().collect::<Vec<_>>(), 2);
+        assert_eq!(pair.terms.len(), 3);
+        assert_eq!(pair.degrees, [2, 1]);
+        let sides = [[q("-1/2"), q("3")], [q("1/5"), q("2")]];
+        let all = expand(&pair, &sides);
+        let (tensor, weight) = Tensor::of_pair(&pair, &sides, FrequencyScale(0));
+        for (k, p) in polynomials.iter().enumerate() {
+            let alone = Bundle { degrees: pair.degrees.clone(), ..Bundle::new(&[p], 2) };
+            let own = expand(&alone, &sides);
+            let together: Vec<&Integer> = all.iter().skip(k).step_by(4).collect();
+            assert!(together.into_iter().eq(&own), "{k}");
+            // The planes are the same numbers in fixed point, frequency last: up to one factor for each plane.
+            let plane = &tensor.planes[k / 2];
+            let fixed = |i: usize| Integer::from(plane[2 * i + k % 2]);
+            for i in 0..own.len() {
+                let (left, right) = (&fixed(i) * &own[0], &fixed(0) * &own[i]);
+                assert!((&left - &right).abs() <= (own[0].abs() + own[i].abs()) * Integer::from(2), "{k} {i}");
+            }
+        }
+        assert!(weight.abs() < 8);
+    }
 }
