@@ -35,18 +35,23 @@ pub(super) struct RequirementOptions {
 }
 
 impl RequirementOptions {
-    /// The first option that requires something, if one does.
-    pub fn first(&self) -> Option<&'static str> {
-        let options = [
-            ("--gain-margin", &self.gain_margin),
-            ("--phase-margin", &self.phase_margin),
-            ("--modulus-margin", &self.modulus_margin),
-            ("--delay-margin", &self.delay_margin),
-            ("--settling-time", &self.settling_time),
-            ("--damping", &self.damping),
-            ("--at", &self.at),
-        ];
-        options.into_iter().find(|(_, text)| text.is_some()).map(|(name, _)| name)
+    /// The keys of `[require]` that the options stand for, with what is given.
+    fn given(&self) -> [(&'static str, &Option<String>); 7] {
+        [
+            ("at", &self.at),
+            ("gain_margin", &self.gain_margin),
+            ("phase_margin", &self.phase_margin),
+            ("modulus_margin", &self.modulus_margin),
+            ("delay_margin", &self.delay_margin),
+            ("damping", &self.damping),
+            ("settling_time", &self.settling_time),
+        ]
+    }
+
+    /// An option that requires something, if one does.
+    pub fn first(&self) -> Option<String> {
+        let mut given = self.given().into_iter().rev().filter(|(_, text)| text.is_some());
+        given.next().map(|(key, _)| format!("--{}", key.replace('_', "-")))
     }
 
     /// What the model's `[require]` and the command line ask for together, and the question with the region that follows.
@@ -57,19 +62,9 @@ impl RequirementOptions {
         region: &RegionOptions,
         context: &Context,
     ) -> Result<(Requirements, Question), Error> {
-        let options = [
-            ("at", &self.at),
-            ("gain_margin", &self.gain_margin),
-            ("phase_margin", &self.phase_margin),
-            ("modulus_margin", &self.modulus_margin),
-            ("delay_margin", &self.delay_margin),
-            ("damping", &self.damping),
-            ("settling_time", &self.settling_time),
-            ("decay", &region.decay),
-            ("radius", &region.radius),
-        ];
+        let own = [("decay", &region.decay), ("radius", &region.radius)];
         let further: Vec<(&str, &str)> =
-            options.iter().filter_map(|(name, text)| Some((*name, text.as_deref()?))).collect();
+            self.given().into_iter().chain(own).filter_map(|(name, text)| Some((name, text.as_deref()?))).collect();
         // A region alone is the question's own.
         let asks = further.iter().any(|(name, _)| !["decay", "radius"].contains(name));
         if !asks && model.require().is_empty() {

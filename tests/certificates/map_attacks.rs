@@ -1,6 +1,7 @@
 //! Certificates of wrong statements about maps, made by hand against one step of the check each. Both checkers must reject all.
 
 use crate::helpers::certificates::checkers::{accept, reject};
+use crate::helpers::certificates::with;
 use crate::helpers::model::read;
 use jurist_algebra::limits::Budget;
 use jurist_check::format::Json;
@@ -37,12 +38,6 @@ const BY_HAND: &str = r#"{
 
 const BY_HAND_MODEL: &str =
     "time = 'discrete'\nparameters = { a = {}, b = {}, c = {} }\nloop.characteristic = 'z + a*b + c'";
-
-/// The first occurrence of a text replaced, which must be there.
-fn with(certificate: &str, from: &str, to: &str) -> String {
-    assert!(certificate.contains(from), "{from} in\n{certificate}");
-    certificate.replacen(from, to, 1)
-}
 
 #[test]
 fn a_certificate_by_hand_is_accepted_and_lies_about_it_are_not() {

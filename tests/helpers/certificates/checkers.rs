@@ -1,7 +1,9 @@
 //! Both checkers on one certificate, and the certificates of whole loops.
 
+use super::mutations;
 use super::python::Python;
 use jurist_algebra::limits::Budget;
+use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};
 use jurist_engine::answer::PointVerdict;
 use jurist_engine::problem::Question;
@@ -36,6 +38,29 @@ pub fn reject(model: &str, certificate: &str, step: Step) {
     if let Some(Ok(proved)) = python(model, certificate) {
         panic!("Python accepted: {proved}\n{certificate}");
     }
+}
+
+/// Asserts of all changes of one value in a certificate, at least so many of them wrong, that both checkers say the same, and that what
+/// they accept is true.
+pub fn reject_or_find_true(model: &str, certificate: &str, least: usize, is_true: impl Fn(&Json) -> bool) {
+    let original = Json::parse(certificate).unwrap();
+    assert!(is_true(&original), "{certificate}");
+    let (mut rejected, mut accepted) = (0, 0);
+    for changed in mutations(&original).into_iter().filter(|changed| changed.get("model") == original.get("model")) {
+        let certificate = changed.to_text();
+        let verdict = check(model, &certificate, &LIMITS);
+        if let Some(other) = python(model, &certificate) {
+            assert_eq!(verdict.is_ok(), other.is_ok(), "{verdict:?} {other:?}\n{model}\n{certificate}");
+        }
+        match verdict {
+            Err(_) => rejected += 1,
+            Ok(proved) => {
+                accepted += 1;
+                assert!(is_true(&changed), "{}\n{model}\n{certificate}", proved.statement);
+            }
+        }
+    }
+    assert!(rejected >= least && accepted < rejected / 3, "{rejected} rejected, {accepted} accepted");
 }
 
 /// The stable set, whose certificate both checkers accept.

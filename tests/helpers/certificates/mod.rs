@@ -111,6 +111,12 @@ pub fn verdict_emitted(model: &str, parameter: &str, value: &str) -> String {
     answer.certificate(&budget).expect(model)
 }
 
+/// The first occurrence of a text replaced, which must be there.
+pub fn with(certificate: &str, from: &str, to: &str) -> String {
+    assert!(certificate.contains(from), "{from} in\n{certificate}");
+    certificate.replacen(from, to, 1)
+}
+
 /// One count of a verdict's statement raised by one.
 pub fn with_count_changed(certificate: &str, key: &str) -> String {
     let mut json = Json::parse(certificate).unwrap();

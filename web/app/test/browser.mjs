@@ -2,27 +2,14 @@
 
 import { createServer } from "node:http";
 import { readFileSync } from "node:fs";
-import { execFileSync } from "node:child_process";
 import { dirname, join, normalize, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
-import { Browser } from "../../../tests/browser/devtools.mjs";
+import { Browser, program } from "../../../tests/browser/devtools.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 export const root = join(here, "../../..");
 export const folder = resolve(process.env.PAGE ?? join(root, "target/page"));
 export const fromFile = pathToFileURL(join(folder, "index.html")).href;
-
-function program() {
-  const names = process.env.CHROMIUM ? [process.env.CHROMIUM] : ["chromium", "chromium-browser", "google-chrome"];
-  for (const name of names) {
-    try {
-      return execFileSync("sh", ["-c", 'command -v "$1"', "sh", name], { encoding: "utf8" }).trim();
-    } catch {
-      // The next one.
-    }
-  }
-  throw new Error(`no browser: ${names.join(", ")}`);
-}
 
 const TYPES = { html: "text/html; charset=utf-8", js: "text/javascript", css: "text/css", wasm: "application/wasm" };
 

@@ -115,7 +115,8 @@ impl Modulus {
                 a.pop();
             }
             if a.is_empty() {
-                return Some(0);
+                // A remainder of zero tells something only where all that was multiplied with has an inverse.
+                return self.inverse(self.times(bottom, lead)).map(|_| 0);
             }
             // With r the remainder of lead^s a: Res(a, b) lead^(s n) = (-1)^(m n) lead^(m - deg r) Res(b, r).
             top = self.times(top, self.power(lead, (m + 1 - a.len()) as u64));
@@ -174,6 +175,16 @@ impl Modulus {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_remainder_of_zero_by_a_divisor_of_zero_tells_nothing() {
+        let m = Modulus::new(15);
+        let of = |c: &[u64]| c.iter().map(|&c| m.of_u64(c)).collect::<Vec<u64>>();
+        // Modulo 15: 3 (5 x^2) is zero, and so is the remainder by 3 x, whatever they are.
+        assert_eq!(m.resultant(of(&[0, 0, 5]), of(&[0, 3])), None);
+        assert_eq!(m.resultant(of(&[2, 1]), of(&[1, 1])).map(|r| m.number(r)), Some(14));
+        assert_eq!(m.resultant(of(&[0, 1, 1]), of(&[0, 1])).map(|r| m.number(r)), Some(0));
+    }
 
     #[test]
     fn residues_are_those_of_integers() {

@@ -127,7 +127,8 @@ fn degree_bound(f: &[Uni], g: &[Uni]) -> i64 {
     let steepest = f.iter().chain(&g).map(|(d, _)| *d).max().unwrap_or(0);
     let weight = |p: &[(i64, i64)], l: i64| p.iter().map(|(d, k)| d + l * k).max().unwrap_or(0);
     let bounds = (-steepest..=steepest).map(|l| n * weight(&f, l) + m * weight(&g, l) - l * m * n);
-    bounds.min().unwrap_or(0)
+    // A determinant without a term is zero: its bound may be anything.
+    bounds.min().unwrap_or(0).max(0)
 }
 
 #[cfg(test)]
@@ -187,6 +188,9 @@ mod tests {
                 assert_eq!(resultant(f, g, &clock).unwrap(), sylvester(f, g), "{f:?} {g:?}");
             }
         }
+        // Of y^2 and (x^2 + 1) y^2 no term of the determinant is left, and the bound of the degree is below zero.
+        let (f, g) = (vec![uni(&[]), uni(&[]), uni(&[0, 1])], vec![uni(&[]), uni(&[]), uni(&[1, 0, 1])]);
+        assert!(resultant(&f, &g, &clock).unwrap().is_zero());
         // A common factor: x y + 1.
         let (f, g) = (vec![uni(&[1]), uni(&[1, 1]), uni(&[0, 1])], vec![uni(&[2]), uni(&[1, 2]), uni(&[0, 1])]);
         assert!(resultant(&f, &g, &clock).unwrap().is_zero());

@@ -1,5 +1,6 @@
 //! Cofactors of a pair of polynomials: `U A + V B = value`.
 
+use crate::stability::{HalfSizePair, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::poly::{Domain, Poly, RemainderSequence, Step};
 
@@ -10,9 +11,20 @@ pub(super) struct Identity<P> {
     pub value: P,
 }
 
+/// The identity of the half-size pair of a polynomial in `z` or `s` of degree `n`.
+pub(super) fn of_half_size_pair<P: Domain>(
+    d: &Poly<P>,
+    n: usize,
+    shape: Shape,
+    budget: &Budget,
+) -> Result<Identity<P>, Exhausted> {
+    let pair = HalfSizePair::new(d, n, shape);
+    identity(&pair.a, &pair.b, budget)
+}
+
 /// The identity by subresultants with their cofactors [BrownTraub1971](jurist_algebra::bibliography#browntraub1971), divided by all that `U` and `V` have
 /// in common; `value` is zero if and only if `A` and `B` have a common factor.
-pub(super) fn identity<P: Domain>(a: &Poly<P>, b: &Poly<P>, budget: &Budget) -> Result<Identity<P>, Exhausted> {
+fn identity<P: Domain>(a: &Poly<P>, b: &Poly<P>, budget: &Budget) -> Result<Identity<P>, Exhausted> {
     let swapped = a.coeffs().len() < b.coeffs().len();
     let (first, second) = if swapped { (b, a) } else { (a, b) };
     // The last members are s0 first + t0 second and s1 first + t1 second.

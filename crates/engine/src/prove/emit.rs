@@ -1,6 +1,6 @@
 //! Writing certificates of the answers that are shown. Nothing here is trusted: what is wrong is found by the checkers.
 
-use super::cofactors::{Identity, identity};
+use super::cofactors::{Identity, of_half_size_pair};
 use super::line::{Line, Separator};
 use super::statement::{self, about, boundary, number, object};
 use super::text::to_text;
@@ -8,7 +8,7 @@ use super::{dead_time, held};
 use super::{no_certificate, refuse_requirements, refuse_transcendental};
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
-use crate::stability::{HalfSizePair, ParametricPolynomial, Shape, StableSet};
+use crate::stability::{ParametricPolynomial, Shape, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Integer;
 use jurist_algebra::poly::{Domain, UniPoly};
@@ -147,8 +147,7 @@ impl Proof {
         let mut all = certain.clone();
         let mut proof = Proof::default();
         if n >= 2 {
-            let pair = HalfSizePair::new(&jurist_algebra::poly::Poly::new(d.to_vec()), n, shape);
-            let identity = identity(&pair.a, &pair.b, budget)?;
+            let identity = of_half_size_pair(&jurist_algebra::poly::Poly::new(d.to_vec()), n, shape, budget)?;
             let value = identity.value.clone();
             proof.identity = Some(identity);
             if value.is_zero() {

@@ -2,7 +2,7 @@
 
 mod line;
 
-use super::cofactors::{Identity, identity};
+use super::cofactors::{Identity, of_half_size_pair};
 use super::no_certificate;
 use super::over_symbols::{Enclosed, coprime_basis};
 use super::statement::{self, about, boundary, number, object};
@@ -10,7 +10,7 @@ use super::text::to_text;
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
 use crate::problem::Problem;
-use crate::stability::{HalfSizePair, Shape, StableSet, SymbolicPolynomial};
+use crate::stability::{Shape, StableSet, SymbolicPolynomial};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction};
@@ -76,8 +76,7 @@ pub(super) fn of_set(answer: &Answer<StableSet>, budget: &Budget) -> Result<Stri
     let mut proof = Loop { polynomial: &p, factors: Vec::new(), certain, identity: None };
     let mut is_nowhere = proof.certain.iter().any(MultiPoly::is_zero);
     if n >= 2 && !is_nowhere {
-        let pair = HalfSizePair::new(&polynomial, n, Shape::UnitDisc);
-        let found = identity(&pair.a, &pair.b, budget)?;
+        let found = of_half_size_pair(&polynomial, n, Shape::UnitDisc, budget)?;
         is_nowhere = found.value.is_zero();
         proof.identity = Some(found);
     }

@@ -3,7 +3,7 @@
 mod isolation;
 mod strips;
 
-use super::cofactors::{Identity, identity};
+use super::cofactors::{Identity, of_half_size_pair};
 use super::emit::coprime_basis;
 use super::held::{polynomials, terms};
 use super::refuse_requirements;
@@ -12,8 +12,8 @@ use super::text::{MAX_TEXT, to_text};
 use crate::answer::{Answer, Map};
 use crate::error::{Diagnostic, Error};
 use crate::problem::{Bound, Problem};
+use crate::stability::Range;
 use crate::stability::plane::{PlanePolynomial, StabilityMap, critical_polynomials, joins};
-use crate::stability::{HalfSizePair, Range};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Integer;
 use jurist_algebra::poly::{Domain, MultiPoly};
@@ -167,8 +167,7 @@ impl Proof {
             budget.step("the identity of the half-size pair");
             // Of what the characteristic part says, without common integers.
             let d = jurist_algebra::poly::Poly::new(coefficients(p));
-            let pair = HalfSizePair::new(&d, p.formal_degree(), shape);
-            let identity = identity(&pair.a, &pair.b, budget)?;
+            let identity = of_half_size_pair(&d, p.formal_degree(), shape, budget)?;
             let value = identity.value.clone();
             proof.identity = Some(identity);
             if value.is_zero() {
