@@ -23,6 +23,11 @@ use crate::limits::{Budget, Exhausted};
 /// # Ok::<(), jurist_algebra::limits::Exhausted>(())
 /// ```
 ///
+/// Cost: with `d` the degree of the resultant in `x`, `n` and `m` those of the polynomials in `y` and `b` the bits of its bound, `O(b d n m)`
+/// products of residues for the values, and `O(c d^2)` for the factors, `c` at most `b` and about twice the bits of the longest factor; where
+/// the factors are not found so, that of [`resultant`] and of its decomposition. The coefficients of a factor are lifted as fractions
+/// ([Monagan2004](crate::bibliography#monagan2004)) from square-free decompositions modulo primes ([Yun1976](crate::bibliography#yun1976)).
+///
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
 pub fn resultant_square_free_decomposition(

@@ -98,6 +98,8 @@ impl Determinant<'_> {
 /// this way does not find it.
 ///
 /// Only squares, cubes and so on are told apart: the factors need not be irreducible.
+///
+/// Cost: that of [`resultant_square_free_decomposition`](crate::poly::resultant_square_free_decomposition) without what it falls back on.
 pub fn square_free_decomposition(a: &Poly<UniPoly>, b: &Poly<UniPoly>) -> Option<Vec<(UniPoly, usize)>> {
     let (n, m) = (a.degree()?, b.degree()?);
     let pair = dense(a, n, b, m);

@@ -298,7 +298,9 @@ impl Search<'_> {
                 // Away from all other curves nothing else can happen.
                 let pair = complex_pair_at(&p, value, self.region, self.budget)?;
                 let mut causes = Causes::default();
-                pair.iter().for_each(|_| causes.insert(Cause::ComplexPair));
+                if pair.is_some() {
+                    causes.insert(Cause::ComplexPair);
+                }
                 ends.push(End { value: value.clone().into(), causes, pair });
             } else {
                 ends.extend(end_at(&p, value, &self.domain[1], self.region, self.budget)?);
