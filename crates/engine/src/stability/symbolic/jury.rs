@@ -98,12 +98,10 @@ impl SymbolicPolynomial {
     pub fn jury_table(&self, digits: usize, budget: &Budget) -> Result<Option<EnclosedTable>, Exhausted> {
         let Table::Fixed(symbols) = &self.symbols else { unreachable!("without parameter symbols are numbers") };
         budget.step("the table");
-        let number = |p: &MultiPoly| p.map_variables(|i| i.saturating_sub(1));
-        for pole in self.poles.iter().chain([&self.degree_loss]) {
-            if symbols.is_zero(&number(pole), budget)? {
-                return Ok(None);
-            }
+        if self.is_undefined_without_parameter(budget)? {
+            return Ok(None);
         }
+        let number = |p: &MultiPoly| p.map_variables(|i| i.saturating_sub(1));
         let mut at_ends = Vec::new();
         for z in [1, -1] {
             let value = number(&self.polynomial.eval(&MultiPoly::constant(Integer::from(z))));
@@ -122,6 +120,17 @@ impl SymbolicPolynomial {
             bits *= 2;
         }
         Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "the conditions of the table"))
+    }
+
+    /// Whether a loop without parameter is undefined, or its degree lost.
+    pub(super) fn is_undefined_without_parameter(&self, budget: &Budget) -> Result<bool, Exhausted> {
+        let Table::Fixed(symbols) = &self.symbols else { unreachable!("without parameter symbols are numbers") };
+        for pole in self.poles.iter().chain([&self.degree_loss]) {
+            if symbols.is_zero(&pole.map_variables(|i| i.saturating_sub(1)), budget)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Which entries of the first rows are zero: no enclosure shows that. As far as rows that are not divided stay short.
@@ -229,7 +238,7 @@ impl SymbolicPolynomial {
 }
 
 /// The ball with no more bits than its digits need.
-fn shortened(b: &Ball, digits: usize) -> Ball {
+pub(super) fn shortened(b: &Ball, digits: usize) -> Ball {
     let least = b.least_magnitude_units();
     if least.is_zero() {
         return b.clone();
