@@ -86,6 +86,7 @@ mod certificates {
     mod check;
     mod coq;
     mod dead_time;
+    mod gain;
     mod held;
     mod map_attacks;
     mod maps;

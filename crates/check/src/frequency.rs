@@ -4,10 +4,14 @@ use super::clock::Clock;
 use super::interval::{Interval, solutions};
 use super::number::{Q, Z};
 use super::univariate::Uni;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, Zero};
+use std::collections::BTreeMap;
 
 /// The axis is halved this often at most.
 const MAX_HALVINGS: usize = 200;
+
+/// More parts of the axis are refused.
+const MAX_PARTS: usize = 100_000;
 
 /// Powers of two between which the highest power of `s` is to dominate from.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -128..=256;
@@ -50,7 +54,7 @@ impl Family {
 
     /// The exponent of a power of two from which on, for `p` from `a` to `b` and `Re s >= 0`, the highest power of `s` without delay
     /// outweighs all other terms: a coefficient is largest at one of the ends, and what is left divided by that power falls.
-    pub fn beyond(&self, a: &Q, b: &Q) -> Result<i32, String> {
+    pub fn beyond(&self, a: &Q, b: &Q, clock: &Clock) -> Result<i32, String> {
         let n = self.order;
         let (first, last) = (self.leading(a), self.leading(b));
         let dominates = || "the highest power of s is not shown to outweigh the others".to_owned();
@@ -66,12 +70,16 @@ impl Family {
             return Err(dominates());
         }
         let power = |e: i32| if e < 0 { Q::new(Z::one(), Z::one() << -e) } else { Q::from(Z::one() << e) };
-        let is_beyond = |e: &i32| {
-            let s = power(*e);
+        let bits = left.numer().bits() + left.denom().bits();
+        for e in EXPONENTS {
+            clock.spend(n * n, bits + 256, bits + 256)?;
+            let s = power(e);
             let rest = others.iter().rev().fold(Q::zero(), |sum, c| sum * &s + c);
-            rest < &left * num_traits::pow(s, n)
-        };
-        EXPONENTS.into_iter().find(is_beyond).ok_or_else(dominates)
+            if rest < &left * num_traits::pow(s, n) {
+                return Ok(e);
+            }
+        }
+        Err(dominates())
     }
 }
 
@@ -144,7 +152,7 @@ impl Label {
         };
         [0, 1, 3].into_iter().find_map(|step| {
             let label = (self.0 + step) % 4;
-            holds(label).then(|| (Label(label), if step == 3 { -1 } else { step }))
+            holds(label).then_some((Label(label), if step == 3 { -1 } else { step }))
         })
     }
 }
@@ -156,27 +164,25 @@ struct Part {
     turn: Complex,
 }
 
-/// The axis from 0 to a power of two.
+/// The axis from 0 on, in units of `2^-bits`.
 pub(super) struct Frequencies<'a> {
     family: &'a Family,
-    /// The axis ends at `2^end` units.
-    end: usize,
     bits: usize,
     /// `exp(i omega tau)` for `omega` of `2^k` units.
-    turns: Vec<Option<Complex>>,
+    turns: BTreeMap<usize, Complex>,
+    /// How many parts have been looked at.
+    parts: usize,
     clock: &'a Clock,
 }
 
 impl<'a> Frequencies<'a> {
-    /// From 0 to `2^exponent`, with so many bits after the point.
-    pub fn new(family: &'a Family, exponent: i32, bits: usize, clock: &'a Clock) -> Self {
-        let end = usize::try_from(bits as i64 + i64::from(exponent)).unwrap_or(0);
-        Frequencies { family, end, bits, turns: vec![None; end + 1], clock }
+    pub fn new(family: &'a Family, bits: usize, clock: &'a Clock) -> Self {
+        Frequencies { family, bits, turns: BTreeMap::new(), parts: 0, clock }
     }
 
     /// `exp(i omega tau)` for `omega` of `2^k` units.
     fn turn(&mut self, k: usize) -> Result<Complex, String> {
-        if let Some(Some(known)) = self.turns.get(k) {
+        if let Some(known) = self.turns.get(&k) {
             return Ok(known.clone());
         }
         let omega = Q::new(Z::one() << k, Z::one() << self.bits);
@@ -184,26 +190,22 @@ impl<'a> Frequencies<'a> {
             solutions(&[Q::one(), Q::zero()], &(omega * &self.family.tau), self.bits, self.clock)?.into_iter();
         let (Some(cos), Some(sin)) = (row.next(), row.next()) else { return Err("internal: no circle".into()) };
         let found = Complex([cos, sin]);
-        self.turns[k] = Some(found.clone());
+        self.turns.insert(k, found.clone());
         Ok(found)
     }
 
-    /// Calls `settles` with `A` and `B` on parts of the axis from 0 on, in order; one that it does not settle is halved.
-    pub fn walk(
-        &mut self,
-        count: &mut usize,
-        most: usize,
-        mut settles: impl FnMut([Complex; 2], usize) -> bool,
-    ) -> Result<(), String> {
-        let least = self.end.saturating_sub(MAX_HALVINGS).max(2);
-        if self.end <= least {
+    /// Calls `settles` with `A` and `B` on parts of the axis from 0 to `2^exponent`, in order; one that it does not settle is halved.
+    pub fn walk(&mut self, exponent: i32, mut settles: impl FnMut([Complex; 2], usize) -> bool) -> Result<(), String> {
+        let end = usize::try_from(self.bits as i64 + i64::from(exponent)).unwrap_or(0);
+        let least = end.saturating_sub(MAX_HALVINGS).max(2);
+        if end <= least {
             return Err("the frequencies are too low for the bits".into());
         }
-        let turn = self.turn(self.end - 1)?;
-        let mut parts = vec![Part { lower: Z::zero(), width: self.end, turn }];
+        let turn = self.turn(end - 1)?;
+        let mut parts = vec![Part { lower: Z::zero(), width: end, turn }];
         while let Some(part) = parts.pop() {
-            *count += 1;
-            if *count > most {
+            self.parts += 1;
+            if self.parts > MAX_PARTS {
                 return Err("the axis would have to be cut into too many parts".into());
             }
             if settles(self.enclosed(&part)?, self.bits) {
@@ -247,7 +249,7 @@ impl<'a> Frequencies<'a> {
                 power = power.times(&part.turn, bits);
             }
             // exp(-i k omega tau) differs from that in the middle by no more than the angle.
-            let off = &radius * Z::from(k.to_u64().unwrap_or(u64::MAX));
+            let off = &radius * Z::from(k);
             let near = |x: &Interval| Interval { lo: (&x.lo - &off).max(-&one), hi: (&x.hi + &off).min(one.clone()) };
             let z = Complex([near(&power.0[0]), near(&power.0[1]).negated()]);
             for (sum, coefficients) in out.iter_mut().zip(both) {

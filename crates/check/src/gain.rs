@@ -12,8 +12,8 @@ use super::{Proved, Rejection, Step, is_discrete};
 use crate::format::Json;
 use num_traits::{Signed, Zero};
 
-/// More parts of the imaginary axis are refused.
-const MAX_PARTS: usize = 200_000;
+/// Longer numerators and denominators of ends are refused.
+const MAX_BITS: u64 = 4096;
 
 /// An interval of the parameter, ends included, with the number of roots to the right that is claimed for all of it.
 struct Cell {
@@ -28,8 +28,8 @@ pub(super) fn check(text_of_model: &str, json: &Json, statement: &Json, clock: &
     let keys = ["kind", "time", "parameter", "set", "region", "cells"];
     let [_, time, parameter, set, region, cells] = Step::Statement.of(object(statement, "the statement", keys, &[]))?;
     let bits = Step::Format.of(count(bits, "'bits'").and_then(|bits| match bits {
-        64..=4096 => Ok(bits),
-        _ => Err("'bits' is not from 64 to 4096".into()),
+        64..=1024 => Ok(bits),
+        _ => Err("'bits' is not from 64 to 1024".into()),
     }))?;
     let base = Step::Format.of(number(base, "'delay'"))?;
     let (parameter, set) = Step::Statement.of((|| {
@@ -40,14 +40,13 @@ pub(super) fn check(text_of_model: &str, json: &Json, statement: &Json, clock: &
     })())?;
     let cells = Step::Statement.of(read_cells(cells))?;
     let (family, divisors) = Step::Model.of(clock.reading(|| family(text_of_model, parameter, &set, base, clock)))?;
-    let mut parts = 0;
+    let mut frequencies = Frequencies::new(&family, bits, clock);
     for cell in &cells {
         Step::Boundary.of(defined(cell, &divisors, clock))?;
-        let axis = Step::Boundary.of(family.beyond(&cell.lower, &cell.upper))?;
-        let mut frequencies = Frequencies::new(&family, axis, bits, clock);
-        Step::Boundary.of(clear(&mut frequencies, cell, &mut parts))?;
+        let axis = Step::Boundary.of(family.beyond(&cell.lower, &cell.upper, clock))?;
+        Step::Boundary.of(clear(&mut frequencies, axis, cell))?;
         let middle = (&cell.lower + &cell.upper) / Q::from(Z::from(2));
-        let right = Step::Line.of(counted(&family, &mut frequencies, &middle, &mut parts))?;
+        let right = Step::Line.of(counted(&family, &mut frequencies, axis, &middle))?;
         if right != cell.right {
             let reason = format!("{right} roots are to the right from {} to {}", cell.lower, cell.upper);
             return Err(Rejection { step: Step::Stable, reason });
@@ -61,6 +60,9 @@ fn read_cells(json: &Json) -> Result<Vec<Cell>, String> {
     for cell in list(json, "'cells'")? {
         let [between, right] = object(cell, "a cell", ["between", "right"], &[])?;
         let (lower, upper) = pair(between, "'between'")?;
+        if [&lower, &upper].iter().any(|x| x.numer().bits().max(x.denom().bits()) > MAX_BITS) {
+            return Err("an end of a cell has too many digits".into());
+        }
         if cells.last().is_some_and(|last| last.upper >= lower) {
             return Err("the cells are not in order".into());
         }
@@ -121,11 +123,11 @@ fn defined(cell: &Cell, divisors: &[Uni], clock: &Clock) -> Result<(), String> {
 
 /// That no root is on the axis for any value in the cell: `A + p B = 0` for a real `p` only where `A conj B` is real, and then
 /// `p |B|^2 = -Re(A conj B)`.
-fn clear(frequencies: &mut Frequencies<'_>, cell: &Cell, parts: &mut usize) -> Result<(), String> {
+fn clear(frequencies: &mut Frequencies<'_>, axis: i32, cell: &Cell) -> Result<(), String> {
     let (a, b) = (&cell.lower, &cell.upper);
     let largest = a.abs().max(b.abs());
     let squared = &largest * &largest;
-    frequencies.walk(parts, MAX_PARTS, |[x, y], bits| {
+    frequencies.walk(axis, |[x, y], bits| {
         let [re, im] = x.times(&y.conjugate(), bits).0;
         if !im.contains_zero() {
             return true;
@@ -140,14 +142,14 @@ fn clear(frequencies: &mut Frequencies<'_>, cell: &Cell, parts: &mut usize) -> R
 }
 
 /// The number of roots to the right at one value, at which none is on the axis.
-fn counted(family: &Family, frequencies: &mut Frequencies<'_>, p: &Q, parts: &mut usize) -> Result<usize, String> {
+fn counted(family: &Family, frequencies: &mut Frequencies<'_>, axis: i32, p: &Q) -> Result<usize, String> {
     let first = family.at_zero(p);
     let mut label = Label::of_sign(first.is_negative(), 0);
     if first.is_zero() {
         return Err("s = 0 is a root".into());
     }
     let mut turns = 0_i64;
-    frequencies.walk(parts, MAX_PARTS, |[x, y], _| {
+    frequencies.walk(axis, |[x, y], _| {
         let value = x.scaled(p.denom()).plus(&y.scaled(p.numer()));
         match label.next(&value) {
             Some((next, step)) => {

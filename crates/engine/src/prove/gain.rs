@@ -6,7 +6,7 @@ use super::text::to_text;
 use crate::answer::Answer;
 use crate::error::Error;
 use crate::problem::{BaseDelay, DelayedLoop, Problem};
-use crate::stability::dead_time::{NotCounted, NotSolved, gain_cells};
+use crate::stability::dead_time::{GainLoop, GainPoint, NotCounted, NotSolved, gain_cells};
 use crate::stability::{Range, StableSet, zeros_in};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
@@ -23,6 +23,10 @@ const BITS: u64 = 256;
 /// Gaps around ends are about as narrow as this digit.
 const DIGITS: usize = 12;
 
+/// The same where roots meet on the axis or only touch it: the checkers' first-order enclosures need parts of the axis there that are as
+/// many as the gap is narrow.
+const WIDE_DIGITS: usize = 3;
+
 /// The certificate of the root counts in the cells of a parameter.
 pub(super) fn of_set(answer: &Answer<StableSet>, delayed: &DelayedLoop, budget: &Budget) -> Result<String, Error> {
     let problem = answer.problem();
@@ -38,30 +42,32 @@ pub(super) fn of_set(answer: &Answer<StableSet>, delayed: &DelayedLoop, budget: 
     };
     // What ends a cell: the domain, roots on the axis, and where the loop is undefined.
     let end = |end: &Option<Rational>| Real::from(end.clone().expect("both ends are there"));
-    let mut ends: Vec<(Real, Option<usize>)> = vec![(end(&range.lower), None)];
+    let simple = |value: Real, right: Option<usize>| Limit { value, right, digits: DIGITS };
+    let mut ends: Vec<Limit> = vec![simple(end(&range.lower), None)];
     for (point, right) in cells.points.iter().zip(&cells.right) {
-        ends.push((point.value.clone(), *right));
+        let digits = if is_singular(point, &gain, tau) { WIDE_DIGITS } else { DIGITS };
+        ends.push(Limit { value: point.value.clone(), right: *right, digits });
     }
-    ends.push((end(&range.upper), cells.right.last().copied().flatten()));
+    ends.push(simple(end(&range.upper), cells.right.last().copied().flatten()));
     for pole in delayed.poles() {
         for zero in zeros_in(pole, &range, budget)? {
             let zero = Real::from(zero);
             let mut at = 0;
-            while ends[at].0.compare(&zero, budget)?.is_lt() {
+            while ends[at].value.compare(&zero, budget)?.is_lt() {
                 at += 1;
             }
-            if ends[at].0.compare(&zero, budget)?.is_gt() {
-                let right = ends[at].1;
-                ends.insert(at, (zero, right));
+            if ends[at].value.compare(&zero, budget)?.is_gt() {
+                let right = ends[at].right;
+                ends.insert(at, simple(zero, right));
             }
         }
     }
     let mut list = Vec::new();
     for pair in ends.windows(2) {
         budget.check()?;
-        let Some(right) = pair[1].1 else { continue };
-        let (_, lower) = budget.enter(|| gap(&pair[0].0, &scale))?;
-        let (upper, _) = budget.enter(|| gap(&pair[1].0, &scale))?;
+        let Some(right) = pair[1].right else { continue };
+        let (_, lower) = budget.enter(|| pair[0].gap(&scale))?;
+        let (upper, _) = budget.enter(|| pair[1].gap(&scale))?;
         // Two ends may be nearer than their gaps are wide.
         if lower < upper {
             let between = Value::Array(vec![number(&lower), number(&upper)]);
@@ -109,19 +115,45 @@ fn looked_at(answer: &Answer<StableSet>, problem: &Problem) -> (Range, Rational)
     (Range::between(Some(lower), Some(upper)), scale)
 }
 
-/// Short numbers a little below and a little above an end.
-fn gap(end: &Real, scale: &Rational) -> (Rational, Rational) {
-    let unit = Rational::new(Integer::ONE, Integer::from(10).pow(DIGITS as u64));
-    let (lo, hi, size) = match end.exact() {
-        Some(x) => (x.clone(), x.clone(), if x.is_zero() { scale.clone() } else { x.abs() }),
-        None => {
-            let (lo, hi) = end.refined_to_digits(DIGITS).enclosure();
-            let size = lo.abs().max(hi.abs());
-            (lo, hi, size)
-        }
-    };
-    let width = size * unit;
-    let short = |a: Rational, b: Rational| simplest_between(&a, &b).expect("an interval with numbers inside");
-    let twice = &width + &width;
-    (short(&lo - &twice, &lo - &width), short(&hi + &width, &hi + &twice))
+/// What ends a cell.
+struct Limit {
+    value: Real,
+    /// The roots to the right in the cell below.
+    right: Option<usize>,
+    /// How narrow the gap around it is.
+    digits: usize,
+}
+
+impl Limit {
+    /// Short numbers a little below and a little above.
+    fn gap(&self, scale: &Rational) -> (Rational, Rational) {
+        let unit = Rational::new(Integer::ONE, Integer::from(10).pow(self.digits as u64));
+        let (lo, hi, size) = match self.value.exact() {
+            Some(x) => (x.clone(), x.clone(), if x.is_zero() { scale.clone() } else { x.abs() }),
+            None => {
+                let (lo, hi) = self.value.refined_to_digits(DIGITS).enclosure();
+                let size = lo.abs().max(hi.abs());
+                (lo, hi, size)
+            }
+        };
+        let width = size * unit;
+        let short = |a: Rational, b: Rational| simplest_between(&a, &b).expect("an interval with numbers inside");
+        let twice = &width + &width;
+        (short(&lo - &twice, &lo - &width), short(&hi + &width, &hi + &twice))
+    }
+}
+
+/// Whether two roots meet at `s = 0`, or roots only touch the axis.
+fn is_singular(point: &GainPoint, gain: &GainLoop, tau: &Rational) -> bool {
+    if point.change == Some(0) {
+        return true;
+    }
+    let Some(p) = point.value.exact().and_then(|x| gain.at(&x)) else { return false };
+    let (mut value, mut slope) = (Rational::ZERO, Rational::ZERO);
+    for (k, part) in p.parts().iter().enumerate() {
+        let delay = Rational::from(k as u64) * tau;
+        value += &Rational::from(part.coeff(0));
+        slope += &(Rational::from(part.coeff(1)) - delay * Rational::from(part.coeff(0)));
+    }
+    value.is_zero() && slope.is_zero()
 }
