@@ -47,6 +47,12 @@ impl TaylorModel {
         self.first().widened(&self.around())
     }
 
+    /// A power of two that no value on the disc is larger than, the least but for a factor of two; that of one for the function 0.
+    pub fn exponent(&self) -> i64 {
+        let norm = Scaled::norm_units(self);
+        if norm.is_zero() { 0 } else { norm.bit_length() as i64 - self.bits() as i64 }
+    }
+
     /// How far from the first coefficient values are at most.
     fn around(&self) -> Integer {
         self.norm_units() - self.first().magnitude_units()

@@ -1,10 +1,11 @@
 //! Functions of a parameter and symbols: polynomials in them, and resultants that are not expanded.
 
+use super::horner::Horner;
 use super::rational_series;
 use super::specialise::resultant_on_line;
 use super::{MovingSymbols, Symbols};
 use crate::ball::{Ball, Elementary, Enclosed, enclosed_resultant, enclosed_resultant_by_minors};
-use crate::limits::{Budget, Exhausted, checkpoint};
+use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
 use crate::poly::multivariate::Line;
 use crate::poly::{Domain, MultiPoly, Poly, UniPoly, resultant_formal};
@@ -39,7 +40,7 @@ impl From<MultiPoly> for Function {
 }
 
 /// Polynomials of so many coefficients have few minors.
-const MOST_BY_MINORS: usize = 9;
+pub(super) const MOST_BY_MINORS: usize = 9;
 
 /// Bits after which a resultant that may be zero is expanded.
 const MOST_BITS: u64 = 1024;
@@ -267,26 +268,7 @@ impl Enclosed for Exact {
 
 /// A polynomial at series.
 pub(super) fn polynomial_at<S: Elementary>(p: &MultiPoly, values: &[S]) -> S {
-    // Horner's scheme in the variables, the last one outermost: as few products as the shape of the polynomial allows.
-    fn horner<S: Elementary>(p: &MultiPoly, values: &[S]) -> S {
-        checkpoint(16);
-        if let Some(c) = p.as_constant() {
-            return values[0].integer(&c);
-        }
-        let last = *p.variables().last().expect("not constant");
-        let parts = p.as_poly_in(last);
-        let mut sum: Option<S> = None;
-        for part in parts.coeffs().iter().rev() {
-            let shifted = sum.map(|s| s.times(&values[last]));
-            sum = Some(match (shifted, part.terms().is_empty()) {
-                (Some(s), true) => s,
-                (Some(s), false) => s.plus(&horner(part, values)),
-                (None, _) => horner(part, values),
-            });
-        }
-        sum.unwrap_or_else(|| values[0].nothing())
-    }
-    horner(p, values)
+    Horner::of(p).at(values)
 }
 
 impl MovingSymbols {

@@ -13,6 +13,7 @@ mod definition;
 mod dominated;
 mod forms;
 mod function;
+mod horner;
 mod moving;
 mod moving_root;
 mod normal_form;

@@ -1,6 +1,6 @@
 //! Symbols that depend on a parameter, such as `exp(-2*T)` in `T`, and the zeros of polynomials in the parameter and in them.
 
-use super::forms::{Form, Forms};
+use super::forms::Forms;
 use super::function::polynomial_at;
 use super::moving_root::MovingRoot;
 use super::pieces::{self, Look, Piece};
@@ -52,7 +52,10 @@ pub struct Zeros {
 /// Terms of the Taylor polynomials; halving an interval makes what is left out 2^12 times smaller.
 pub(super) const TERMS: usize = 12;
 
-/// Bits of the first attempt.
+/// Bits of the first attempt, with short numbers.
+const FEW_BITS: u64 = 128;
+
+/// Bits of the first attempt with others.
 pub(super) const FIRST_BITS: u64 = 192;
 
 /// Exponents beyond this are not enclosed over an interval.
@@ -213,11 +216,10 @@ impl MovingSymbols {
         Some(f.at_series(&values).coefficients()[0].clone())
     }
 
-    /// The function on a disc of the parameter somewhat larger than one around the interval.
-    fn model(&self, f: &Form, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> Option<TaylorModel> {
+    /// The parameter and all symbols on a disc of the parameter somewhat larger than one around the interval.
+    fn models(&self, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> Option<Vec<TaylorModel>> {
         let radius = Ball::from_rational(&(&(hi - lo) * &pieces::disc_radius()), bits);
-        let parameter = TaylorModel::linear(&Ball::from_rational(&lo.midpoint(hi), bits), &radius, terms);
-        Some(f.at_series(&self.series(&parameter)?))
+        self.series(&TaylorModel::linear(&Ball::from_rational(&lo.midpoint(hi), bits), &radius, terms))
     }
 
     /// The zeros of a polynomial in the parameter and symbols strictly between two numbers, looked for first on the scale of the
@@ -264,9 +266,7 @@ impl MovingSymbols {
         // Every octave away from the usual value waits for two halvings, so that a place where zeros crowd leaves others decided.
         let mut todo = BinaryHeap::from([Reverse((0, start, end, 0))]);
         let usual = if lower < near && near < upper { near.clone() } else { lower.midpoint(upper) };
-        let around = usual.abs() * Rational::dyadic(&Integer::ONE, 6);
-        let (lo, hi) = (&usual - &around, &usual + &around);
-        let forms = budget.enter(|| Forms::of(self, f).best_around(self, &lo, &hi, TERMS, FIRST_BITS))?;
+        let forms = budget.enter(|| Forms::of(self, f).best_around(self, &usual, TERMS))?;
         // Counted, not timed: the same model has the same answer on every machine.
         let work = Budget::with_work(MOST_WORK);
         let mut looks = 0;
@@ -279,7 +279,7 @@ impl MovingSymbols {
             let one = |(lo, hi, halvings): (Rational, Rational, i64)| {
                 // Towards 0 there is no end of octaves.
                 let is_far = || is_open && hi < *near && octaves(&lo, &hi, near) > MOST_OCTAVES;
-                let looks = self.look(f, &forms, &lo, &hi);
+                let looks = self.look(&forms, &lo, &hi);
                 let goes_on = !is_last && halvings < MOST_HALVINGS && !is_far();
                 // What is left of an interval is looked at as it is, most of one in two parts.
                 let is_most = |a: &Rational, b: &Rational| (b - a) * Rational::from(2) > &hi - &lo;
@@ -375,37 +375,48 @@ impl MovingSymbols {
     }
 
     /// What the function's Taylor polynomial says of pieces of an interval.
-    fn look(&self, f: &Function, forms: &Forms, lo: &Rational, hi: &Rational) -> Vec<(Rational, Rational, Look)> {
+    fn look(&self, forms: &Forms, lo: &Rational, hi: &Rational) -> Vec<(Rational, Rational, Look)> {
         // Twice the bits that the interval's width takes away.
         let width = hi - lo;
         let small = width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
-        let mut bits = FIRST_BITS + small * 4;
-        let form = forms.best(self, lo, hi, TERMS, bits);
-        for _ in 0..MOST_DOUBLINGS {
-            let Some(model) = self.model(form, lo, hi, TERMS, bits) else {
+        let form = forms.best(self, lo, hi, TERMS);
+        let mut bits = FEW_BITS + small * 4;
+        for attempt in 0..=MOST_DOUBLINGS {
+            let at_point = |x: &Rational| self.series(&Series::constant(&Ball::from_rational(x, bits), 1));
+            let Some(values) = self.models(lo, hi, TERMS, bits) else {
                 // Without a value in the middle and at both ends there is little hope for what is between: it stays undecided.
-                let has_none =
-                    |x: &Rational| self.series(&Series::constant(&Ball::from_rational(x, bits), 1)).is_none();
-                let is_lost = [lo.clone(), lo.midpoint(hi), hi.clone()].iter().all(has_none);
+                let is_lost = [lo.clone(), lo.midpoint(hi), hi.clone()].iter().all(|x| at_point(x).is_none());
                 return vec![(lo.clone(), hi.clone(), if is_lost { Look::Hopeless } else { Look::Unknown })];
             };
-            let piece = Piece::new(&model, lo, hi);
-            let sign_at = |x: &Rational| self.sign_at(f, x, bits);
-            let found = piece.judged(&sign_at);
-            if found.iter().any(|(_, _, look)| !matches!(look, Look::Unknown)) {
+            let sign_at = |x: &Rational| form.at_series(&at_point(x)?).coefficients()[0].sign().filter(|s| s.is_ne());
+            let judged = if attempt == 0 {
+                let short = form.at_short(&values);
+                short.and_then(|k| judged(&Piece::new(k.coefficients, k.rest, lo, hi), &k.noise, &sign_at))
+            } else {
+                let mut taylor = form.at_series(&values).coefficients();
+                let rest = taylor.pop().expect("a model has a rest").magnitude_units();
+                let noise = taylor[..2].iter().map(Ball::width_units).max().unwrap_or(Integer::ZERO);
+                judged(&Piece::new(taylor, rest, lo, hi), &noise, &sign_at)
+            };
+            if let Some(found) = judged {
                 return found;
             }
-            let taylor = piece.coefficients();
-            // Where the function varies by more than is noise, a shorter interval tells more than more bits do.
-            let noise = taylor[..2].iter().map(Ball::width_units).max().unwrap_or(Integer::ZERO);
-            let variation = taylor[1..].iter().map(Ball::magnitude_units).max().unwrap_or(Integer::ZERO);
-            if noise < (variation >> 8) {
-                return found;
-            }
-            bits *= 2;
+            bits = if attempt == 0 { FIRST_BITS + small * 4 } else { 2 * bits };
         }
         vec![(lo.clone(), hi.clone(), Look::Hopeless)]
     }
+}
+
+/// What a polynomial that is known but for some noise says; `None` where more bits may tell more than a shorter interval.
+fn judged(
+    piece: &Piece,
+    noise: &Integer,
+    sign_at: &dyn Fn(&Rational) -> Option<Sign>,
+) -> Option<Vec<(Rational, Rational, Look)>> {
+    let found = piece.judged(sign_at);
+    let is_decided = found.iter().any(|(_, _, look)| !matches!(look, Look::Unknown));
+    // Where the function varies by more than is noise, a shorter interval tells more than more bits do.
+    (is_decided || *noise < (piece.variation() >> 8)).then_some(found)
 }
 
 /// Whether exponentials of a companion matrix anywhere in these balls may have too many bits to be of use.

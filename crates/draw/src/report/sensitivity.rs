@@ -87,7 +87,7 @@ fn of_parameter(question: &Question, limits: &Limits, work: u64, parts: &Parts<'
     if list.is_empty() {
         return heading + &paragraph("The model has no other number that could move them.");
     }
-    let near = near(answer, &base, shown);
+    let windows: Vec<Range> = WINDOWS.iter().filter_map(|reach| window(answer, &base, shown, reach)).collect();
     parts.budget().step(&format!("what moves the limits of {}", limits.name));
     let share = parts.budget().share(1, 2).silent();
     let jobs: Vec<(usize, i64)> = (0..list.len()).flat_map(|k| [(k, 90), (k, 110)]).collect();
@@ -96,8 +96,8 @@ fn of_parameter(question: &Question, limits: &Limits, work: u64, parts: &Parts<'
         let asked = question.clone().set(&list[k].name, value).free(&limits.name);
         parts.within(&share, Work::Units(work), |budget| {
             // Mostly a limit moves little; what happens far away is another question, and may be a long one.
-            if let Some(near) = &near {
-                let answer = asked.clone().domain(&limits.name, near.clone()).stable_set(budget)?;
+            for window in &windows {
+                let answer = asked.clone().domain(&limits.name, window.clone()).stable_set(budget)?;
                 if let Some(around) = around_nominal(&answer)
                     && (!shown[0] || binds(around.lower.as_ref()))
                     && (!shown[1] || binds(around.upper.as_ref()))
@@ -118,17 +118,28 @@ fn of_parameter(question: &Question, limits: &Limits, work: u64, parts: &Parts<'
     html + &missing.map(Missing::html).unwrap_or_default()
 }
 
-/// From the nominal value to twice as far away as each limit that is shown, as far as the domain goes.
-fn near(answer: &Answer<StableSet>, base: &[Option<Real>; 2], shown: [bool; 2]) -> Option<Range> {
+/// How far windows reach beyond the limits: a quarter, and once, of what is smaller, the limit or its distance to the nominal value.
+const WINDOWS: [(i64, i64); 2] = [(1, 4), (1, 1)];
+
+/// From beyond one limit to beyond the other, as far as the domain goes.
+fn window(answer: &Answer<StableSet>, base: &[Option<Real>; 2], shown: [bool; 2], reach: &(i64, i64)) -> Option<Range> {
     let free = answer.problem().parameter();
     let nominal = free.nominal.as_ref()?;
-    let distance = |side: usize| {
+    let reach = Rational::new(reach.0.into(), reach.1.into());
+    // The limit, and how far it is at least.
+    let limit = |side: usize| {
         let (lo, hi) = base[side].as_ref().filter(|_| shown[side])?.refined_to_digits(3).enclosure();
-        Some((if side == 0 { nominal - lo } else { hi - nominal }) * Rational::from(2))
+        Some(if side == 0 { (lo.clone(), nominal - lo) } else { (hi.clone(), hi - nominal) })
     };
-    let least = [distance(0), distance(1)].into_iter().flatten().min()?;
-    let [below, above] =
-        [0, 1].map(|side| distance(side).unwrap_or_else(|| &least * &Rational::dyadic(&Integer::ONE, 4)));
+    let known = [limit(0), limit(1)];
+    let least = known.iter().flatten().map(|(_, distance)| distance.clone()).min()?;
+    let [below, above] = known.map(|known| match known {
+        None => &least * &Rational::dyadic(&Integer::ONE, 4),
+        Some((limit, distance)) => {
+            let scale = if limit.is_zero() { distance.clone() } else { limit.abs().min(distance.clone()) };
+            distance + scale * &reach
+        }
+    });
     let (mut lower, mut upper) = (nominal - below, nominal + above);
     if let Some(end) = &free.domain.lower {
         lower = lower.max(end.clone());
