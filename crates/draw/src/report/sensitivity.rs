@@ -87,7 +87,6 @@ fn of_parameter(question: &Question, limits: &Limits, work: u64, parts: &Parts<'
     if list.is_empty() {
         return heading + &paragraph("The model has no other number that could move them.");
     }
-    let windows: Vec<Range> = WINDOWS.iter().filter_map(|reach| window(answer, &base, shown, reach)).collect();
     parts.budget().step(&format!("what moves the limits of {}", limits.name));
     let share = parts.budget().share(1, 2).silent();
     let jobs: Vec<(usize, i64)> = (0..list.len()).flat_map(|k| [(k, 90), (k, 110)]).collect();
@@ -96,14 +95,15 @@ fn of_parameter(question: &Question, limits: &Limits, work: u64, parts: &Parts<'
         let asked = question.clone().set(&list[k].name, value).free(&limits.name);
         parts.within(&share, Work::Units(work), |budget| {
             // Mostly a limit moves little; what happens far away is another question, and may be a long one.
-            for window in &windows {
-                let answer = asked.clone().domain(&limits.name, window.clone()).stable_set(budget)?;
-                if let Some(around) = around_nominal(&answer)
-                    && (!shown[0] || binds(around.lower.as_ref()))
-                    && (!shown[1] || binds(around.upper.as_ref()))
-                {
+            let mut steps = [0, 0];
+            while let Some(window) = window(answer, &base, shown, steps) {
+                let answer = asked.clone().domain(&limits.name, window).stable_set(budget)?;
+                let Some(around) = around_nominal(&answer) else { break };
+                let is_open = [&around.lower, &around.upper].map(|end| !binds(end.as_ref()));
+                if (0..2).all(|side| !(shown[side] && is_open[side])) {
                     return Ok(ends(&answer));
                 }
+                (0..2).filter(|side| shown[*side] && is_open[*side]).for_each(|side| steps[side] += 1);
             }
             Ok(ends(&asked.stable_set(budget)?))
         })
@@ -118,14 +118,15 @@ fn of_parameter(question: &Question, limits: &Limits, work: u64, parts: &Parts<'
     html + &missing.map(Missing::html).unwrap_or_default()
 }
 
-/// How far windows reach beyond the limits: a quarter, and once, of what is smaller, the limit or its distance to the nominal value.
-const WINDOWS: [(i64, i64); 2] = [(1, 4), (1, 1)];
+/// How far windows reach beyond the limits, one after the other: so many quarters of what is smaller, the limit or its distance to the
+/// nominal value.
+const QUARTERS: [i64; 3] = [1, 2, 4];
 
-/// From beyond one limit to beyond the other, as far as the domain goes.
-fn window(answer: &Answer<StableSet>, base: &[Option<Real>; 2], shown: [bool; 2], reach: &(i64, i64)) -> Option<Range> {
+/// From beyond one limit to beyond the other, as far as the domain goes; `None` where the steps are at their end.
+fn window(answer: &Answer<StableSet>, base: &[Option<Real>; 2], shown: [bool; 2], steps: [usize; 2]) -> Option<Range> {
     let free = answer.problem().parameter();
     let nominal = free.nominal.as_ref()?;
-    let reach = Rational::new(reach.0.into(), reach.1.into());
+    let quarters = [QUARTERS.get(steps[0])?, QUARTERS.get(steps[1])?];
     // The limit, and how far it is at least.
     let limit = |side: usize| {
         let (lo, hi) = base[side].as_ref().filter(|_| shown[side])?.refined_to_digits(3).enclosure();
@@ -133,13 +134,14 @@ fn window(answer: &Answer<StableSet>, base: &[Option<Real>; 2], shown: [bool; 2]
     };
     let known = [limit(0), limit(1)];
     let least = known.iter().flatten().map(|(_, distance)| distance.clone()).min()?;
-    let [below, above] = known.map(|known| match known {
+    let reach = |side: usize| match &known[side] {
         None => &least * &Rational::dyadic(&Integer::ONE, 4),
         Some((limit, distance)) => {
             let scale = if limit.is_zero() { distance.clone() } else { limit.abs().min(distance.clone()) };
-            distance + scale * &reach
+            distance + &(scale * Rational::new(Integer::from(*quarters[side]), Integer::from(4)))
         }
-    });
+    };
+    let [below, above] = [reach(0), reach(1)];
     let (mut lower, mut upper) = (nominal - below, nominal + above);
     if let Some(end) = &free.domain.lower {
         lower = lower.max(end.clone());
