@@ -46,23 +46,27 @@ pub fn fundamental_solutions(coefficients: &[Series], time: &Series) -> Vec<Seri
         return solutions_by_taylor(coefficients, time);
     }
     let last: Vec<&Ball> = coefficients.iter().map(|c| &c.coefficients()[0]).collect();
-    let at = |t: &Ball| {
-        exponential(&BallMatrix::from_fn(n, |i, j| {
-            if i + 1 == n {
-                last[j].mul(t).neg()
-            } else if j == i + 1 {
-                t.clone()
-            } else {
-                Ball::zero(bits)
-            }
-        }))
-    };
     // A wide time as its middle and what is around it: the exponentials of multiples of one matrix commute.
     let t = &time.coefficients()[0];
     let middle = Ball::from_units(t.middle_units(), t.middle_units(), bits);
     let around = t.sub(&middle);
-    let e = if around.is_zero() { at(&middle) } else { at(&middle).mul(&at(&around)) };
-    let mut rows: Vec<Vec<Ball>> = vec![(0..n).map(|j| e.at(0, j).clone()).collect()];
+    let constants: Vec<Series> = last.iter().map(|c| Series::constant(c, 1)).collect();
+    let at_middle = solutions_by_taylor(&constants, &Series::constant(&middle, 1));
+    let mut first: Vec<Ball> = at_middle.iter().map(|s| s.coefficients()[0].clone()).collect();
+    if !around.is_zero() {
+        let e = exponential(&BallMatrix::from_fn(n, |i, j| {
+            if i + 1 == n {
+                last[j].mul(&around).neg()
+            } else if j == i + 1 {
+                around.clone()
+            } else {
+                Ball::zero(bits)
+            }
+        }));
+        let entry = |j: usize| (0..n).fold(Ball::zero(bits), |sum, i| sum.add(&first[i].mul(e.at(i, j))));
+        first = (0..n).map(entry).collect();
+    }
+    let mut rows: Vec<Vec<Ball>> = vec![first];
     for k in 1..terms {
         checkpoint((n * k) as u64);
         let mut row = vec![Ball::zero(bits); n];

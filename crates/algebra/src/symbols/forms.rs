@@ -8,11 +8,11 @@
 //! A resultant is taken in its unknown `x` and in `x - 2`: that is small for roots near `z = 1`, `x = z + 1/z`, as most are where the
 //! sampling period is short.
 
-use super::function::{MOST_BY_MINORS, polynomial_at};
-use super::horner::Horner;
+use super::function::polynomial_at;
+use super::horner::Scheme;
 use super::scales::exponent;
 use super::{Definition, Function, MovingSymbols};
-use crate::ball::{Ball, Elementary, Known, Series, ShortModel, TaylorModel, short_resultant};
+use crate::ball::{Ball, Elementary, Known, Series, TaylorModel};
 use crate::number::{Integer, Rational};
 use crate::poly::{Domain, MultiPoly, RationalFunction};
 use std::borrow::Cow;
@@ -41,8 +41,7 @@ pub(super) struct Form {
     /// The function has been multiplied by these powers of `q`, and divided by a number of so many bits.
     powers: Vec<u64>,
     divided: i64,
-    /// The polynomials of the function: the one, or both lists.
-    schemes: Vec<Vec<Horner>>,
+    scheme: Scheme,
 }
 
 /// The first terms of a symbol: `p/q`, with `q` a positive number times a power of the parameter.
@@ -64,35 +63,17 @@ impl Form {
     /// The function at series of the parameter and the symbols, up to a factor that is not zero in an interval in which the parameter
     /// keeps its sign.
     pub fn at_series<S: Elementary>(&self, values: &[S]) -> S {
-        self.function.at_series(&self.arguments(values))
+        self.scheme.at(&self.arguments(values))
     }
 
-    /// The same up to a power of two and the sign, in short numbers; `None` where they are too short.
+    /// The same up to a power of two, in short numbers; `None` where they are too short.
     pub fn at_short(&self, values: &[TaylorModel]) -> Option<Known> {
-        if self.schemes[0].len() > MOST_BY_MINORS {
-            return None;
-        }
-        let values = self.arguments(values);
-        let exponents: Vec<i64> = values.iter().map(TaylorModel::exponent).collect();
-        let short: Vec<ShortModel> = values.iter().zip(&exponents).map(|(v, e)| ShortModel::of(v, *e)).collect();
-        let at = |list: &Vec<Horner>| -> Vec<ShortModel> {
-            let largest = list.iter().filter_map(|p| p.largest_term(&exponents)).max().unwrap_or(0);
-            list.iter().map(|p| p.at_short(&short, &exponents, largest)).collect()
-        };
-        match self.schemes.as_slice() {
-            [a, b] => short_resultant(&at(a), &at(b)).known(),
-            [list, ..] => at(list)[0].known(),
-            [] => None,
-        }
+        self.scheme.at_short(&self.arguments(values))
     }
 
     fn new(function: Function, starts: Vec<Option<Start>>, powers: Vec<u64>, divided: i64) -> Form {
-        let list = |list: &[MultiPoly]| list.iter().map(Horner::of).collect();
-        let schemes = match &function {
-            Function::Polynomial(p) => vec![vec![Horner::of(p)]],
-            Function::Resultant { a, b } => vec![list(a), list(b)],
-        };
-        Form { function, starts, powers, divided, schemes }
+        let scheme = Scheme::of(&function);
+        Form { function, starts, powers, divided, scheme }
     }
 
     /// The parameter, and what stands for the symbols.

@@ -1,10 +1,10 @@
 //! Functions of a parameter and symbols: polynomials in them, and resultants that are not expanded.
 
-use super::horner::Horner;
+use super::horner::{Horner, Scheme};
 use super::rational_series;
 use super::specialise::resultant_on_line;
 use super::{MovingSymbols, Symbols};
-use crate::ball::{Ball, Elementary, Enclosed, enclosed_resultant, enclosed_resultant_by_minors};
+use crate::ball::{Ball, Elementary, Enclosed, enclosed_resultant};
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
 use crate::poly::multivariate::Line;
@@ -38,9 +38,6 @@ impl From<MultiPoly> for Function {
         Function::Polynomial(p)
     }
 }
-
-/// Polynomials of so many coefficients have few minors.
-pub(super) const MOST_BY_MINORS: usize = 9;
 
 /// Bits after which a resultant that may be zero is expanded.
 const MOST_BITS: u64 = 1024;
@@ -159,18 +156,7 @@ impl Function {
 
     /// The function at series of the parameter and the symbols.
     pub(super) fn at_series<S: Elementary>(&self, values: &[S]) -> S {
-        match self {
-            Function::Polynomial(p) => polynomial_at(p, values),
-            Function::Resultant { a, b } => {
-                let at = |list: &[MultiPoly]| list.iter().map(|p| polynomial_at(p, values)).collect::<Vec<S>>();
-                let (a, b) = (at(a), at(b));
-                if a.len() <= MOST_BY_MINORS {
-                    enclosed_resultant_by_minors(&a, &b)
-                } else {
-                    enclosed_resultant(&a, &b)
-                }
-            }
-        }
+        Scheme::of(self).at(values)
     }
 
     /// The function at series with rational coefficients.

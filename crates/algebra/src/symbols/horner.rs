@@ -1,6 +1,10 @@
-//! Polynomials in the order in which they are evaluated.
+//! Polynomials, and functions made of them, in the order in which they are evaluated.
 
-use crate::ball::{Elementary, Enclosed, ShortModel};
+use super::Function;
+use crate::ball::{
+    Elementary, Enclosed, Known, ShortModel, TaylorModel, enclosed_resultant, enclosed_resultant_by_minors,
+    short_resultant,
+};
 use crate::limits::checkpoint;
 use crate::number::Integer;
 use crate::poly::{Domain, MultiPoly};
@@ -71,6 +75,51 @@ impl Horner {
                     .filter_map(|(k, p)| Some(p.as_ref()?.largest_term(exponents)? + exponents[*variable] * k as i64))
                     .max()
             }
+        }
+    }
+}
+
+/// A function as the schemes of its polynomials.
+#[derive(Clone, Debug)]
+pub(super) enum Scheme {
+    Polynomial(Horner),
+    Resultant(Vec<Horner>, Vec<Horner>),
+}
+
+/// Polynomials of so many coefficients have few minors.
+const MOST_BY_MINORS: usize = 9;
+
+impl Scheme {
+    pub fn of(f: &Function) -> Scheme {
+        let list = |list: &[MultiPoly]| list.iter().map(Horner::of).collect();
+        match f {
+            Function::Polynomial(p) => Scheme::Polynomial(Horner::of(p)),
+            Function::Resultant { a, b } => Scheme::Resultant(list(a), list(b)),
+        }
+    }
+
+    /// The function at series or models of the parameter and the symbols.
+    pub fn at<S: Elementary>(&self, values: &[S]) -> S {
+        let list = |list: &[Horner]| list.iter().map(|p| p.at(values)).collect::<Vec<S>>();
+        match self {
+            Scheme::Polynomial(p) => p.at(values),
+            Scheme::Resultant(a, b) if a.len() <= MOST_BY_MINORS => enclosed_resultant_by_minors(&list(a), &list(b)),
+            Scheme::Resultant(a, b) => enclosed_resultant(&list(a), &list(b)),
+        }
+    }
+
+    /// The same up to a power of two, in short numbers; `None` where they are too short.
+    pub fn at_short(&self, values: &[TaylorModel]) -> Option<Known> {
+        let exponents: Vec<i64> = values.iter().map(TaylorModel::exponent).collect();
+        let short: Vec<ShortModel> = values.iter().zip(&exponents).map(|(v, e)| ShortModel::of(v, *e)).collect();
+        let list = |list: &[Horner]| -> Vec<ShortModel> {
+            let largest = list.iter().filter_map(|p| p.largest_term(&exponents)).max().unwrap_or(0);
+            list.iter().map(|p| p.at_short(&short, &exponents, largest)).collect()
+        };
+        match self {
+            Scheme::Polynomial(p) => list(std::slice::from_ref(p))[0].known(),
+            Scheme::Resultant(a, b) if a.len() <= MOST_BY_MINORS => short_resultant(&list(a), &list(b)).known(),
+            Scheme::Resultant(..) => None,
         }
     }
 }

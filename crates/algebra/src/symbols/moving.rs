@@ -2,6 +2,7 @@
 
 use super::forms::Forms;
 use super::function::polynomial_at;
+use super::horner::Scheme;
 use super::moving_root::MovingRoot;
 use super::pieces::{self, Look, Piece};
 use super::scales::{between_scales, exponent, joined, octaves};
@@ -14,7 +15,7 @@ use crate::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
 use crate::real::{Enclosing, Real, Transcendental};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A table of symbols whose arguments are rational functions of a parameter (variable 0) and of earlier symbols (symbol `i` is
 /// variable `i + 1`).
@@ -24,7 +25,7 @@ use std::sync::Arc;
 /// use jurist_algebra::number::Rational;
 /// use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 /// use jurist_algebra::symbols::{Definition, MovingSymbols};
-/// use std::sync::Arc;
+/// use std::sync::{Arc, OnceLock};
 /// // exp(-T) - T = 0
 /// let minus = -&RationalFunction::variable(0);
 /// let symbols = Arc::new(MovingSymbols::new(vec![("X".into(), Definition::Exponential(minus))]));
@@ -53,7 +54,7 @@ pub struct Zeros {
 pub(super) const TERMS: usize = 12;
 
 /// Bits of the first attempt, with short numbers.
-const FEW_BITS: u64 = 128;
+const FEW_BITS: u64 = 112;
 
 /// Bits of the first attempt with others.
 pub(super) const FIRST_BITS: u64 = 192;
@@ -211,9 +212,9 @@ impl MovingSymbols {
     }
 
     /// The value of a function, the parameter anywhere in a ball.
-    pub(super) fn value(&self, f: &Function, parameter: &Ball) -> Option<Ball> {
+    pub(super) fn value(&self, f: &Scheme, parameter: &Ball) -> Option<Ball> {
         let values = self.series(&Series::constant(parameter, 1))?;
-        Some(f.at_series(&values).coefficients()[0].clone())
+        Some(f.at(&values).coefficients()[0].clone())
     }
 
     /// The parameter and all symbols on a disc of the parameter somewhat larger than one around the interval.
@@ -266,6 +267,7 @@ impl MovingSymbols {
         // Every octave away from the usual value waits for two halvings, so that a place where zeros crowd leaves others decided.
         let mut todo = BinaryHeap::from([Reverse((0, start, end, 0))]);
         let usual = if lower < near && near < upper { near.clone() } else { lower.midpoint(upper) };
+        let scheme = Arc::new(Scheme::of(f));
         let forms = budget.enter(|| Forms::of(self, f).best_around(self, &usual, TERMS))?;
         // Counted, not timed: the same model has the same answer on every machine.
         let work = Budget::with_work(MOST_WORK);
@@ -285,7 +287,7 @@ impl MovingSymbols {
                 let is_most = |a: &Rational, b: &Rational| (b - a) * Rational::from(2) > &hi - &lo;
                 let part = |(a, b, look): (Rational, Rational, Look)| {
                     let middle = goes_on && look == Look::Unknown && is_most(&a, &b);
-                    let middle = middle.then(|| self.split_point(f, &a, &b, near));
+                    let middle = middle.then(|| self.split_point(&scheme, &a, &b, near));
                     (a, b, look, middle)
                 };
                 (looks.into_iter().map(part).collect::<Vec<_>>(), goes_on)
@@ -323,7 +325,13 @@ impl MovingSymbols {
         let shared = Arc::new(f.clone());
         for (lo, hi) in brackets {
             let place = Enclosure::new(lo, hi);
-            let root = MovingRoot { symbols: Arc::clone(self), function: Arc::clone(&shared), place: place.clone() };
+            let root = MovingRoot {
+                symbols: Arc::clone(self),
+                function: Arc::clone(&shared),
+                scheme: Arc::clone(&scheme),
+                place: place.clone(),
+                rising: OnceLock::new(),
+            };
             found.zeros.push(self.known(root, f, budget)?);
         }
         Ok(found)
@@ -341,6 +349,10 @@ impl MovingSymbols {
 
     /// Whether the function is zero at a rational value of the parameter; `None` where that is neither proved nor disproved.
     fn vanishing(&self, f: &Function, value: &Rational, budget: &Budget) -> Result<Option<bool>, Exhausted> {
+        // A sign that is certain spares a table of exact arguments.
+        if budget.enter(|| self.sign_at(&Scheme::of(f), value, FEW_BITS))?.is_some() {
+            return Ok(Some(false));
+        }
         match self.vanishes_at(f, value, budget) {
             Err(stopped) if stopped.budget.starts_with("precision") => Ok(None),
             found => found.map(Some),
@@ -361,17 +373,17 @@ impl MovingSymbols {
         Ok(Real::from(Transcendental::within(root, place)))
     }
 
-    pub(super) fn sign_at(&self, f: &Function, at: &Rational, bits: u64) -> Option<Sign> {
+    pub(super) fn sign_at(&self, f: &Scheme, at: &Rational, bits: u64) -> Option<Sign> {
         self.value(f, &Ball::from_rational(at, bits))?.sign().filter(|s| s.is_ne())
     }
 
     /// A number about in the middle, between far ends by their scale, at which the function is certainly not zero.
-    fn split_point(&self, f: &Function, lo: &Rational, hi: &Rational, near: &Rational) -> Rational {
-        if let Some(middle) = between_scales(lo, hi, near).filter(|x| self.sign_at(f, x, FIRST_BITS).is_some()) {
+    fn split_point(&self, f: &Scheme, lo: &Rational, hi: &Rational, near: &Rational) -> Rational {
+        if let Some(middle) = between_scales(lo, hi, near).filter(|x| self.sign_at(f, x, FEW_BITS).is_some()) {
             return middle;
         }
         let at = |n: i64| lo + &(&(hi - lo) * &Rational::new(Integer::from(n), Integer::from(64)));
-        [32, 31, 33, 29, 35].into_iter().map(at).find(|x| self.sign_at(f, x, FIRST_BITS).is_some()).unwrap_or(at(32))
+        [32, 31, 33, 29, 35].into_iter().map(at).find(|x| self.sign_at(f, x, FEW_BITS).is_some()).unwrap_or(at(32))
     }
 
     /// What the function's Taylor polynomial says of pieces of an interval.
