@@ -1,7 +1,8 @@
 //! Taylor models with coefficients of two words: many times faster than those of any length, and known to 88 bits.
 
 use super::bezout::determinant_by_minors;
-use super::{Ball, Enclosed, TaylorModel, hybrid_bezout};
+use super::solutions::{Summed, Units, row_by_taylor};
+use super::{Ball, Elementary, Enclosed, TaylorModel, hybrid_bezout};
 use crate::limits::checkpoint;
 use crate::number::Integer;
 
@@ -137,6 +138,38 @@ impl ShortModel {
         let errors = self.errors.zip(other.errors);
         let errors = errors.map(|(a, b)| Errors { rest: a.rest + b.rest, noise: a.noise + b.noise });
         ShortModel { coefficients, errors }.fitting()
+    }
+}
+
+/// As [`fundamental_solutions`](super::fundamental_solutions()), of the order of one; `None` where numbers are too short.
+pub(super) fn short_solutions(coefficients: &[TaylorModel], time: &TaylorModel) -> Option<Vec<TaylorModel>> {
+    let units = Units::of(coefficients, time);
+    let of_coefficient = |j| units.of_coefficient(coefficients.len(), j) as i64;
+    let polynomial = coefficients.iter().enumerate().map(|(j, c)| ShortModel::of(c, of_coefficient(j)));
+    let t = ShortModel::of(time, units.halvings as i64 - units.octaves as i64);
+    let row = row_by_taylor(&polynomial.collect::<Vec<_>>(), &t, u64::from(BITS), units.halvings);
+    let of_entry = |(j, s): (usize, &ShortModel)| {
+        Some(TaylorModel::from_known(&s.known()?, -((units.octaves * j as u64) as i64), time.bits()))
+    };
+    row.iter().enumerate().map(of_entry).collect()
+}
+
+impl Summed for ShortModel {
+    fn one(&self) -> ShortModel {
+        self.constant(&Integer::ONE, 0)
+    }
+
+    fn divided_by(&self, n: u64) -> ShortModel {
+        let n = i128::from(n);
+        let above = |x: i128| -(-x).div_euclid(n);
+        let lost = self.coefficients.len() as i128;
+        let errors = self.errors.map(|e| Errors { rest: above(e.rest), noise: above(e.noise) + lost });
+        ShortModel { coefficients: self.coefficients.iter().map(|c| c.div_euclid(n)).collect(), errors }
+    }
+
+    fn widened(&self) -> ShortModel {
+        let errors = self.errors.map(|e| Errors { noise: e.noise + 1, ..e });
+        ShortModel { errors, ..self.clone() }
     }
 }
 

@@ -392,7 +392,7 @@ impl MovingSymbols {
         let width = hi - lo;
         let small = width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
         let form = forms.best(self, lo, hi, TERMS);
-        let mut bits = FEW_BITS + small * 4;
+        let mut bits = FEW_BITS + (small * 4).min(64);
         for attempt in 0..=MOST_DOUBLINGS {
             let at_point = |x: &Rational| self.series(&Series::constant(&Ball::from_rational(x, bits), 1));
             let Some(values) = self.models(lo, hi, TERMS, bits) else {
