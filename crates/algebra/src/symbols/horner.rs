@@ -2,7 +2,7 @@
 
 use super::Function;
 use crate::ball::{
-    Elementary, Enclosed, Known, ShortModel, TaylorModel, enclosed_resultant, enclosed_resultant_by_minors,
+    Ball, Elementary, Enclosed, Known, ShortModel, TaylorModel, enclosed_resultant, enclosed_resultant_by_minors,
     short_resultant,
 };
 use crate::limits::checkpoint;
@@ -30,6 +30,11 @@ impl Horner {
     /// The value where the variables are as given.
     pub fn at<S: Elementary>(&self, values: &[S]) -> S {
         self.evaluated(values, &[], 0, &|c, _| values[0].integer(c))
+    }
+
+    /// The value at balls with so many bits.
+    pub fn at_balls(&self, values: &[Ball], bits: u64) -> Ball {
+        self.evaluated(values, &[], 0, &|c, _| Ball::from_integer(c, bits))
     }
 
     /// The value over a power of two, and its exponent, where the variables are `2^exponent` times what is given: such that no term is

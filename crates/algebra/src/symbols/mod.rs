@@ -34,6 +34,7 @@ pub use root::EnclosedPoly;
 pub use roots::{SymbolicPoly, common_factor, enclosed_roots, merged};
 pub use specialise::resultants_seem_simple_in;
 
+use self::horner::Horner;
 use crate::ball::{Ball, BallMatrix, Series, exp, exponential, exponential_of_rationals, fundamental_solutions};
 use crate::matrix::Matrix;
 use crate::number::{Enclosure, Integer, Rational};
@@ -203,34 +204,11 @@ impl Symbols {
 
     /// The value of a polynomial in symbols, computed with that many bits after the point.
     ///
-    /// Cost: a product of balls for each factor of each term, and the powers that occur.
+    /// Cost: products of balls, as many as Horner's scheme in several variables takes: at most one for each term and symbol.
     pub fn enclose(&self, p: &MultiPoly, bits: u64) -> Ball {
-        let highest = p.degrees();
         // The arguments of a symbol are asked for while the table of values is made: then only what they have is there.
-        let needed = highest.iter().rposition(|d| *d > 0).map_or(0, |i| i + 1);
-        let values = self.first_values(needed, bits);
-        let powers: Vec<Vec<Ball>> = (0..needed)
-            .map(|i| {
-                let mut powers = vec![Ball::from_integer(&Integer::ONE, bits)];
-                for k in 0..highest[i] as usize {
-                    powers.push(powers[k].mul(&values[i]));
-                }
-                powers
-            })
-            .collect();
-        let mut sum = Ball::zero(bits);
-        for (monomial, c) in p.terms() {
-            let mut term: Option<Ball> = None;
-            for (i, powers) in powers.iter().enumerate() {
-                let e = monomial.exponent(i) as usize;
-                if e > 0 {
-                    term = Some(term.map_or_else(|| powers[e].clone(), |t| t.mul(&powers[e])));
-                }
-            }
-            let term = term.map_or_else(|| Ball::from_integer(c, bits), |t| t.scaled(c));
-            sum = sum.add(&term);
-        }
-        sum
+        let needed = p.variables().last().map_or(0, |i| i + 1);
+        Horner::of(p).at_balls(&self.first_values(needed, bits), bits)
     }
 
     fn first_values(&self, count: usize, bits: u64) -> Arc<Vec<Ball>> {
