@@ -9,6 +9,7 @@ mod elementary;
 mod exponential;
 mod functions;
 mod series;
+mod short_model;
 mod solutions;
 mod taylor_model;
 
@@ -19,6 +20,7 @@ pub use elementary::Elementary;
 pub use exponential::{BallMatrix, exponential, exponential_of_rationals};
 pub use functions::{cos_sin, exp, tan};
 pub use series::Series;
+pub use short_model::{Known, ShortModel, short_resultant};
 pub use solutions::fundamental_solutions;
 pub use taylor_model::TaylorModel;
 
