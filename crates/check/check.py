@@ -2158,16 +2158,21 @@ class Family:
 def check_cells(model, document, statement, values, extent):
     """Root counts for all values of a parameter in closed intervals, at a fixed dead time."""
     _, _, bits, base = parts(document, ["schema", "statement", "bits", "delay"], ["model"])
-    *_, parameter, cells = parts(statement, ["kind", "time", "set", "region", "parameter", "cells"])
+    if statement["kind"] == "verdict":  # a cell of one point, without a parameter
+        *_, verdict, right = parts(statement, ["kind", "time", "set", "region", "verdict", "right"])
+        need(verdict == ("unstable" if count(right) else "stable"), "stable: the verdict is another")
+        parameter, cells = None, [(Fraction(0), Fraction(0), right)]
+    else:
+        *_, parameter, cells = parts(statement, ["kind", "time", "set", "region", "parameter", "cells"])
+        cells = items(cells, lambda cell: parts(cell, ["between", "right"]))
+        cells, parameter = [(*pair(between), count(right)) for between, right in cells], name_of(parameter)
     need(type(bits) is int and 64 <= bits <= 1024, "bits: out of range")
     base = rational(base)
     need(base > 0 and extent == 0, "the dead time or the region is another")
-    cells = items(cells, lambda cell: parts(cell, ["between", "right"]))
-    cells = [(*pair(between), count(right)) for between, right in cells]
     need(cells and all(a[1] < b[0] for a, b in zip(cells, cells[1:])), "cells: not in order")
     ends = [x for a, b, _ in cells for x in (a, b)]
     need(size(x.numerator for x in ends) <= 4096 >= size(x.denominator for x in ends), "cells: too many digits")
-    d, divisors = characteristic_function(model, name_of(parameter), values, DeadTime(base, 0))
+    d, divisors = characteristic_function(model, parameter, values, DeadTime(base, 0))
     divisors = [p.content(0) for p in divisors]
     rows = [part.coefficients(0) for part in d.coefficients(2)]
     while not any(rows[0]):
@@ -2187,6 +2192,8 @@ def check_cells(model, document, statement, values, extent):
         found = family.right(exponent, (a + b) / 2)
         need(found == right, f"cells: {found} roots are to the right from {a} to {b}")
     given = "".join(f", {name} = {x}" for name, x in values.items())
+    if parameter is None:
+        return f"in continuous time{given}: {cells[0][2]} roots to the right of the imaginary axis, none on it"
     of = [[f"[{a}, {b}]" for a, b, right in cells if right in wanted] for wanted in ({0}, {c[2] for c in cells})]
     return f"in continuous time{given}: of {parameter} in {' or '.join(of[1])} stable exactly in {' or '.join(of[0]) or 'none'}"
 
@@ -2277,7 +2284,7 @@ def check(model, certificate):
     document = read(certificate)
     statement = document["statement"]
     kind, time, values, region = (statement[key] for key in ("kind", "time", "set", "region"))
-    kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"], OF_CELLS: ["cells"]}.get(document["schema"], ["intervals", "verdict"])
+    kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"], OF_CELLS: ["cells", "verdict"]}.get(document["schema"], ["intervals", "verdict"])
     need(kind in kinds, "unknown kind of statement")
     need(time in ("discrete", "continuous"), "unknown time")
     discrete = time == "discrete"
@@ -2289,7 +2296,7 @@ def check(model, certificate):
         return check_tolerance(model, document, statement, values, discrete, extent)
     if kind == "map":
         return check_map(model, document, statement, values, discrete, extent)
-    if kind == "cells":
+    if document["schema"] == OF_CELLS:
         need(not discrete, "unknown kind of statement")
         return check_cells(model, document, statement, values, extent)
     if document["schema"] == WITH_DEAD_TIME:

@@ -70,7 +70,9 @@ fn what_no_checker_knows_gets_no_certificate() {
     let answer = gain.ask().free("T_i").stable_set(&Budget::unlimited()).expect("an answer");
     let certified = answer.certificate(&Budget::unlimited());
     assert!(certified.is_ok_and(|text| text.contains("jurist/certificate/6")));
-    let verdict = gain.ask().verdict(&Budget::unlimited()).expect("a verdict");
+    // A pair on the axis: marginal.
+    let oscillator = read("time = 'continuous'\nloop.characteristic = 's^2 + 1 + (s^2 + 1)*exp(-s)/2'\n");
+    let verdict = oscillator.ask().verdict(&Budget::unlimited()).expect("a verdict");
     assert!(verdict.certificate(&Budget::unlimited()).is_err());
     for function in ["s + 1 + exp(-tau*s) + exp(-2*tau*s)", "s + 1 + exp(-(tau + 1)*s)"] {
         let model = read(&written(function));

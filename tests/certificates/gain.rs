@@ -243,6 +243,25 @@ fn hostile_certificates_end() {
     reject(&model, &certificate("128", far), Step::Boundary);
 }
 
+/// A point of a loop with dead time: as many roots to the right as the engine counts, and no other number of them.
+#[test]
+fn verdicts_beside_dead_time_are_certified() {
+    for function in FUNCTIONS {
+        let model = written(function);
+        for value in ["-2/3", "3/2", "11"] {
+            let verdict = read(&model).ask().set("K", number(value)).verdict(&Budget::unlimited()).expect(function);
+            let certificate = verdict.certificate(&Budget::unlimited()).expect(function);
+            accept(&model, &certificate);
+            let right = verdict.value().delayed.and_then(|roots| roots.right).expect(function);
+            let said = format!("\"right\": {right}");
+            reject(&model, &with(&certificate, &said, &format!("\"right\": {}", right + 2)), Step::Stable);
+            let (from, to) = if right == 0 { ("\"stable\"", "\"unstable\"") } else { ("\"unstable\"", "\"stable\"") };
+            reject(&model, &with(&certificate, from, to), Step::Stable);
+            reject_somewhere(&model, &with(&certificate, "\"decay\": \"0\"", "\"decay\": \"1/10\""));
+        }
+    }
+}
+
 /// By hand: `s + 1 + K exp(-s)` has the limits -1 and 2.26182633411465..., and two roots to the right beyond, one below.
 #[test]
 fn the_cells_of_a_first_order_loop_by_hand() {

@@ -89,7 +89,7 @@ fn quasi_polynomial(
     base: &Q,
     clock: &Clock,
 ) -> Result<Vec<Uni>, String> {
-    let found = characteristic_function(text, parameter, set, Base::OfParameter(base), clock)?;
+    let found = characteristic_function(text, Some(parameter), set, Base::OfParameter(base), clock)?;
     if found.divisors.iter().any(|p| p.degree(1) > 0) || found.function.degree(1) > 0 {
         return Err("the loop, or a divisor of the model, depends on the parameter beside its dead time".into());
     }
@@ -110,12 +110,12 @@ pub(super) struct CharacteristicFunction {
 
 pub(super) fn characteristic_function(
     text: &str,
-    parameter: &str,
+    parameter: Option<&str>,
     set: &[(String, Q)],
     base: Base<'_>,
     clock: &Clock,
 ) -> Result<CharacteristicFunction, String> {
-    let asked = model::asked(text, Some(parameter), set, &Table::empty(), Some(base), clock)?;
+    let asked = model::asked(text, parameter, set, &Table::empty(), Some(base), clock)?;
     if asked.discrete {
         return Err("the model's time is not that of the statement".into());
     }

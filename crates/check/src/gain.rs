@@ -22,26 +22,76 @@ struct Cell {
     right: usize,
 }
 
-pub(super) fn check(text_of_model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
+/// The bits and the base of all dead times.
+fn fixed(json: &Json) -> Result<(usize, Q), String> {
     let keys = ["schema", "statement", "bits", "delay"];
-    let [_, _, bits, base] = Step::Format.of(object(json, "the certificate", keys, &["model"]))?;
+    let [_, _, bits, base] = object(json, "the certificate", keys, &["model"])?;
+    match count(bits, "'bits'")? {
+        bits @ 64..=1024 => Ok((bits, number(base, "'delay'")?)),
+        _ => Err("'bits' is not from 64 to 1024".into()),
+    }
+}
+
+/// That the region is the left half plane, and the dead time positive.
+fn usual(time: &Json, region: &Json, base: &Q) -> Result<(), String> {
+    if is_discrete(time)? || extent(region, false)? != Extent::Number(Q::zero()) || !base.is_positive() {
+        return Err("the boundary is not the imaginary axis, or the dead time is not positive".into());
+    }
+    Ok(())
+}
+
+pub(super) fn check(text_of_model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
+    let (bits, base) = Step::Format.of(fixed(json))?;
     let keys = ["kind", "time", "parameter", "set", "region", "cells"];
     let [_, time, parameter, set, region, cells] = Step::Statement.of(object(statement, "the statement", keys, &[]))?;
-    let bits = Step::Format.of(count(bits, "'bits'").and_then(|bits| match bits {
-        64..=1024 => Ok(bits),
-        _ => Err("'bits' is not from 64 to 1024".into()),
-    }))?;
-    let base = Step::Format.of(number(base, "'delay'"))?;
     let (parameter, set) = Step::Statement.of((|| {
-        if is_discrete(time)? || extent(region, false)? != Extent::Number(Q::zero()) || !base.is_positive() {
-            return Err("the boundary is not the imaginary axis, or the dead time is not positive".to_owned());
-        }
+        usual(time, region, &base)?;
         Ok((identifier(text(parameter, "'parameter'")?)?, values(set)?))
     })())?;
     let cells = Step::Statement.of(read_cells(cells))?;
-    let (family, divisors) = Step::Model.of(clock.reading(|| family(text_of_model, parameter, &set, base, clock)))?;
+    let given = (Some(parameter), set.as_slice());
+    prove(text_of_model, given, base, bits, &cells, clock)?;
+    Ok(Proved { statement: in_words(parameter, &set, &cells), kind: "cells" })
+}
+
+/// The roots to the right at the point that all parameters have.
+pub(super) fn check_verdict(
+    text_of_model: &str,
+    json: &Json,
+    statement: &Json,
+    clock: &Clock,
+) -> Result<Proved, Rejection> {
+    let (bits, base) = Step::Format.of(fixed(json))?;
+    let keys = ["kind", "time", "set", "region", "verdict", "right"];
+    let [_, time, set, region, verdict, right] = Step::Statement.of(object(statement, "the statement", keys, &[]))?;
+    let (set, verdict, right) = Step::Statement.of((|| {
+        usual(time, region, &base)?;
+        Ok((values(set)?, text(verdict, "'verdict'")?, count(right, "'right'")?))
+    })())?;
+    let name = if right == 0 { "stable" } else { "unstable" };
+    if verdict != name {
+        return Err(Rejection { step: Step::Stable, reason: format!("the verdict is '{name}' then") });
+    }
+    let cell = Cell { lower: Q::zero(), upper: Q::zero(), right };
+    prove(text_of_model, (None, &set), base, bits, &[cell], clock)?;
+    let at: Vec<String> = set.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+    let at = if at.is_empty() { "The".to_owned() } else { format!("At {}, the", at.join(", ")) };
+    let statement = format!("{at} loop is {name}: {right} roots to the right of the imaginary axis, none on it.");
+    Ok(Proved { statement, kind: "verdict" })
+}
+
+/// That as many roots are to the right as the cells say.
+fn prove(
+    text_of_model: &str,
+    (parameter, set): (Option<&str>, &[(String, Q)]),
+    base: Q,
+    bits: usize,
+    cells: &[Cell],
+    clock: &Clock,
+) -> Result<(), Rejection> {
+    let (family, divisors) = Step::Model.of(clock.reading(|| family(text_of_model, parameter, set, base, clock)))?;
     let mut frequencies = Frequencies::new(&family, bits, clock);
-    for cell in &cells {
+    for cell in cells {
         Step::Boundary.of(defined(cell, &divisors, clock))?;
         let axis = Step::Boundary.of(family.beyond(&cell.lower, &cell.upper, clock))?;
         Step::Boundary.of(clear(&mut frequencies, axis, cell))?;
@@ -52,7 +102,7 @@ pub(super) fn check(text_of_model: &str, json: &Json, statement: &Json, clock: &
             return Err(Rejection { step: Step::Stable, reason });
         }
     }
-    Ok(Proved { statement: in_words(parameter, &set, &cells), kind: "cells" })
+    Ok(())
 }
 
 fn read_cells(json: &Json) -> Result<Vec<Cell>, String> {
@@ -74,7 +124,7 @@ fn read_cells(json: &Json) -> Result<Vec<Cell>, String> {
 /// The characteristic function `A(s, z) + p B(s, z)`, and polynomials at whose zeros the loop is undefined.
 fn family(
     text: &str,
-    parameter: &str,
+    parameter: Option<&str>,
     set: &[(String, Q)],
     tau: Q,
     clock: &Clock,

@@ -286,6 +286,7 @@ fn checked(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Re
         "map" if schema == SCHEMA_OF_MAPS => map::check(model, &json, statement, &clock),
         "tolerance" if schema == SCHEMA_OF_BOXES => boxes::check(model, &json, statement, &clock),
         "cells" if schema == SCHEMA_OF_CELLS => gain::check(model, &json, statement, &clock),
+        "verdict" if schema == SCHEMA_OF_CELLS => gain::check_verdict(model, &json, statement, &clock),
         "intervals" if schema == SCHEMA_WITH_DEAD_TIME => dead_time::check(model, &json, statement, &clock),
         "intervals" if [SCHEMA, SCHEMA_WITH_SYMBOLS].contains(&schema) => {
             check_intervals(model, &json, statement, &clock)

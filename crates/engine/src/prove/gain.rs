@@ -3,7 +3,7 @@
 use super::no_certificate;
 use super::statement::{about, number, object, region, set};
 use super::text::to_text;
-use crate::answer::Answer;
+use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
 use crate::problem::{BaseDelay, DelayedLoop, Problem};
 use crate::stability::dead_time::{GainLoop, GainPoint, NotCounted, NotSolved, gain_cells};
@@ -85,13 +85,36 @@ pub(super) fn of_set(answer: &Answer<StableSet>, delayed: &DelayedLoop, budget: 
         ("region", region(problem.region())),
         ("cells", Value::Array(list)),
     ]);
-    Ok(to_text(&object([
+    Ok(certificate(problem, statement, tau))
+}
+
+/// The certificate of a point at which no root is on the axis.
+pub(super) fn of_verdict(answer: &Answer<PointVerdict>, delayed: &DelayedLoop) -> Result<String, Error> {
+    let (problem, verdict) = (answer.problem(), answer.value());
+    let right = verdict.delayed.filter(|roots| roots.on == 0).and_then(|roots| roots.right);
+    let (BaseDelay::Number(tau), Some(right), true) = (delayed.delay(), right, delayed.decay().is_zero()) else {
+        let message = "no certificate: of a loop with dead time the count of roots to the right has one, none of them on the axis";
+        return Err(no_certificate(message));
+    };
+    let statement = object([
+        ("kind", "verdict".into()),
+        ("time", problem.time().name().into()),
+        ("set", set(problem.set())),
+        ("region", region(problem.region())),
+        ("verdict", verdict.verdict.name().into()),
+        ("right", right.into()),
+    ]);
+    Ok(certificate(problem, statement, tau))
+}
+
+fn certificate(problem: &Problem, statement: Value, tau: &Rational) -> String {
+    to_text(&object([
         ("schema", SCHEMA.into()),
         ("model", about(problem)),
         ("statement", statement),
         ("bits", BITS.into()),
         ("delay", number(tau)),
-    ])))
+    ]))
 }
 
 /// The part of the domain that is spoken of, twice as far as the largest limit where it has no end, and the size of the limits.
