@@ -303,6 +303,16 @@ impl<'a> ToleranceProblem<'a> {
                     (coarser, retreats, open, is_rough) = (Rational::ONE, 0, None, proved.is_none());
                 }
                 Outcome::Open { why, cell } => {
+                    // Where the proof does not come through, a point may be that the search has missed.
+                    let middle: Vec<Rational> = cell.iter().map(|[lo, hi]| lo.midpoint(hi)).collect();
+                    refutations += 1;
+                    if middle.len() == self.parameters()
+                        && refutations <= REFUTATIONS
+                        && matches!(budget.enter(|| search.run_from(&middle)), Ok(true))
+                    {
+                        (coarser, retreats, open, is_rough) = (Rational::ONE, 0, None, proved.is_none());
+                        continue;
+                    }
                     open.get_or_insert((why, cell));
                     retreats += 1;
                     if retreats > RETREATS {
