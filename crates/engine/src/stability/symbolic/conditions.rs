@@ -1,7 +1,7 @@
 //! The classical conditions of a loop over symbols, each solved for the parameter.
 
 use super::basis::{Boundary, Split, Unexpanded};
-use super::jury::{Comparison, EnclosedCondition, EnclosedRow, EnclosedTable};
+use super::jury::Comparison;
 use super::minors::{EnclosedMinor, Minor};
 use super::rows::{Asked, EnclosedRows, SymbolicRow, enclosed_rows, plus, shown, times};
 use super::set::sample;
@@ -138,48 +138,6 @@ impl SymbolicPolynomial {
             }
             found => found,
         }
-    }
-
-    /// Routh's table of a continuous loop without parameter, whose entries are enclosed to a relative width of `10^-(digits + 2)`;
-    /// `None` where the loop is undefined, or its degree lost.
-    ///
-    /// ```
-    /// use jurist_algebra::limits::Budget;
-    /// use jurist_engine::model::{Model, Time};
-    /// let (model, _) = Model::builder(Time::Continuous).characteristic("s^2 + pi*s + sqrt(2)").build()?;
-    /// let budget = Budget::unlimited();
-    /// let p = model.ask().problem()?.symbolic(&budget)?.unwrap();
-    /// let table = p.routh_table(12, &budget)?.unwrap();
-    /// assert!(table.holds() && table.conditions.len() == 2);
-    /// # Ok::<(), jurist_engine::error::Error>(())
-    /// ```
-    ///
-    /// Cost: that of [`SymbolicPolynomial::classical_test`].
-    ///
-    /// # Errors
-    /// [`Exhausted`] when the budget runs out.
-    pub fn routh_table(&self, digits: usize, budget: &Budget) -> Result<Option<EnclosedTable>, Exhausted> {
-        if self.is_undefined_without_parameter(budget)? {
-            return Ok(None);
-        }
-        let test = self.classical_test(&Range::all(), Shape::LeftHalfPlane, digits, budget)?;
-        let zero = Enclosure::from_rational(Rational::ZERO);
-        let number = |p: &Vec<Enclosure>| p.first().unwrap_or(&zero).clone();
-        let row = |row: SymbolicRow| EnclosedRow {
-            entries: row.entries.iter().map(number).collect(),
-            name: row.name,
-            divided_by: row.divided_by,
-        };
-        let condition = |c: SymbolicCondition| EnclosedCondition {
-            comparison: c.comparison,
-            left: number(&c.left),
-            right: number(&c.right),
-            row: c.row,
-            holds: !c.solution.intervals.is_empty(),
-            name: c.name,
-        };
-        let rows = test.rows.into_iter().map(row).collect();
-        Ok(Some(EnclosedTable { rows, conditions: test.conditions.into_iter().map(condition).collect() }))
     }
 
     /// The same as [`SymbolicPolynomial::classical_test`]; determinants with no more than `most` terms are expanded.
