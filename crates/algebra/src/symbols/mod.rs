@@ -24,6 +24,7 @@ mod scales;
 mod sign;
 mod specialise;
 mod taylor;
+mod values;
 mod zero_at_end;
 
 pub use definition::Definition;
@@ -32,6 +33,7 @@ pub use moving::{MovingSymbols, Zeros};
 pub use root::EnclosedPoly;
 pub use roots::{SymbolicPoly, common_factor, enclosed_roots, merged};
 pub use specialise::resultants_seem_simple_in;
+pub use values::ParametricSymbols;
 
 use crate::ball::{Ball, BallMatrix, exp, exponential, exponential_of_rationals};
 use crate::matrix::Matrix;

@@ -10,6 +10,7 @@ mod determinants;
 mod exact;
 mod factor;
 mod families;
+mod family;
 mod line;
 mod multiplier;
 mod polynomial;

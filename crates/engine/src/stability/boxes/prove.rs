@@ -51,7 +51,7 @@ impl BoxProof {
 
 /// What is known of a box.
 #[derive(Clone, Debug)]
-pub(super) enum Outcome {
+pub enum Outcome {
     /// Every point is stable.
     Stable(BoxProof),
     /// On the way from the nominal point to this one stability is lost.
