@@ -303,7 +303,7 @@ impl Problem {
         budget: &Budget,
     ) -> Result<Problem, Error> {
         assert_eq!((base.len(), step.len()), (self.free.len(), self.free.len()), "each free parameter moves");
-        let algebra = self.algebra(budget)?;
+        let algebra = self.algebra_over_symbols(budget)?;
         let algebra = budget.enter(|| algebra.on_ray(name, base, step))?;
         let free = vec![Free { name: name.to_owned(), unit: None, nominal: None, domain }];
         let problem = Problem::new(Arc::clone(&self.model), self.set.clone(), free, self.region.clone(), Vec::new());

@@ -50,6 +50,11 @@ pub trait Family {
         false
     }
 
+    /// The polynomial, where it is one in the parameters alone or with narrow sides for constants.
+    fn as_polynomial(&self) -> Option<&BoxPolynomial> {
+        None
+    }
+
     /// Decides one box with at most so many cells; `known` are the signs and the scale at its nominal point.
     fn prove(
         &self,
@@ -239,6 +244,10 @@ impl Family for BoxPolynomial {
 
     fn is_mirrored(&self) -> bool {
         self.excluded().mirrored
+    }
+
+    fn as_polynomial(&self) -> Option<&BoxPolynomial> {
+        Some(self)
     }
 
     fn prove(

@@ -52,30 +52,6 @@ impl<'a> Line<'a> {
         Poly::new(self.coefficients.iter().map(value).collect())
     }
 
-    /// The combination of the pair, at the frequency of the pair near `t`, that does not change with the frequency.
-    fn pair_function(&self, t: &Rational) -> Option<Bundle> {
-        let c = self.coefficients_at(t);
-        let v = pair_frequency(&c)?;
-        let (even, odd) = even_and_odd(&c);
-        // Perpendicular to the derivative by the frequency; only directions matter, so a few digits are enough.
-        let slope = |f: &UniPoly| f.derivative().eval_rational(&v);
-        let (x, y) = (slope(&odd), -slope(&even));
-        let scale = x.abs().max(y.abs());
-        let whole = |x: &Rational| x.checked_div(&scale).map(|x| (x * Rational::from(Integer::ONE << 48u64)).floor());
-        let (x, y) = (whole(&x)?, whole(&y)?);
-        let (a, q) = (v.numerator(), v.denominator());
-        let pair = self.p.pair();
-        let k = pair.width / 2 - 1;
-        let weights: Vec<Integer> = (0..=k).map(|j| &a.pow(j as u64) * &q.pow((k - j) as u64)).collect();
-        Some(pair.combined(1, |c| {
-            let part = |odd: usize| {
-                let values = c[odd * (k + 1)..].iter().zip(&weights);
-                values.fold(Integer::ZERO, |sum, (c, w)| sum + c * w)
-            };
-            vec![&(&part(0) * &x) + &(&part(1) * &y)]
-        }))
-    }
-
     /// The frequency, as `omega^2` in the half plane, of the pair that is nearest to crossing at `t`.
     pub fn frequency(&self, t: &Rational) -> Option<Rational> {
         pair_frequency(&self.coefficients_at(t))
@@ -111,7 +87,7 @@ impl Path for Line<'_> {
         let changed = self.certain.iter().zip(self.reference).position(|(f, &sign)| f.sign_at(hi) != sign);
         let function = match changed {
             Some(k) => Bundle::new(&[&self.p.certain[k].1], point.len()),
-            None => self.pair_function(&t)?,
+            None => pair_function(&self.coefficients_at(&t), &self.p.pair())?,
         };
         let (a, q): (Vec<Integer>, Vec<Integer>) = point.iter().map(|x| (x.numerator(), x.denominator())).unzip();
         let by_parameter = function.gradient(&a, &q);
@@ -138,6 +114,28 @@ fn even_and_odd(c: &UniPoly) -> (UniPoly, UniPoly) {
         Poly::new(c.coeffs().iter().skip(odd).step_by(2).enumerate().map(signed).collect())
     };
     (part(0), part(1))
+}
+
+/// The combination of the pair, at the frequency of the pair of a polynomial, that does not change with the frequency.
+pub(super) fn pair_function(c: &UniPoly, pair: &Bundle) -> Option<Bundle> {
+    let v = pair_frequency(c)?;
+    let (even, odd) = even_and_odd(c);
+    // Perpendicular to the derivative by the frequency; only directions matter, so a few digits are enough.
+    let slope = |f: &UniPoly| f.derivative().eval_rational(&v);
+    let (x, y) = (slope(&odd), -slope(&even));
+    let scale = x.abs().max(y.abs());
+    let whole = |x: &Rational| x.checked_div(&scale).map(|x| (x * Rational::from(Integer::ONE << 48u64)).floor());
+    let (x, y) = (whole(&x)?, whole(&y)?);
+    let (a, q) = (v.numerator(), v.denominator());
+    let k = pair.width / 2 - 1;
+    let weights: Vec<Integer> = (0..=k).map(|j| &a.pow(j as u64) * &q.pow((k - j) as u64)).collect();
+    Some(pair.combined(1, |c| {
+        let part = |odd: usize| {
+            let values = c[odd * (k + 1)..].iter().zip(&weights);
+            values.fold(Integer::ZERO, |sum, (c, w)| sum + c * w)
+        };
+        vec![&(&part(0) * &x) + &(&part(1) * &y)]
+    }))
 }
 
 /// Near a crossing the pair has nearly a common root: that of the last linear remainder, to some 60 digits of binary.

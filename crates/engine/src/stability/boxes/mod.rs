@@ -12,6 +12,8 @@ mod factor;
 mod families;
 mod family;
 mod line;
+mod moving;
+mod moving_prove;
 mod multiplier;
 mod polynomial;
 mod prove;
@@ -27,7 +29,9 @@ mod volume;
 
 pub use exact::{CriticalCell, ExactProof, Place};
 pub use factor::{BoxDecision, LargestFactor, ToleranceProblem, Witness};
+pub(crate) use family::Family;
 pub(crate) use line::on_line;
+pub use moving::MovingPolynomial;
 pub use polynomial::BoxPolynomial;
 pub use prove::{BoxProof, MOST_COEFFICIENTS};
 pub(crate) use search::ray;
