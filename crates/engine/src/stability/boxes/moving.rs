@@ -6,7 +6,7 @@
 use super::family::{Family, Gradient, Path, pulls_of};
 use super::line::pair_function;
 use super::polynomial::{BoxPolynomial, Bundle};
-use super::prove::{Outcome, scale_of};
+use super::prove::{Outcome, closed_by_constant, closed_by_vector, scale_of};
 use crate::stability::{AtPoint, Shape, count_roots, is_hurwitz_routh};
 use jurist_algebra::ball::{Ball, Elementary, Series};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
@@ -222,7 +222,10 @@ impl Family for MovingPolynomial {
         cells: usize,
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
-        self.proved(sides, known, cells, budget)
+        match self.proved(sides, known, (closed_by_constant, cells), budget)? {
+            Outcome::Open { .. } => self.proved(sides, known, (closed_by_vector, cells), budget),
+            outcome => Ok(outcome),
+        }
     }
 }
 

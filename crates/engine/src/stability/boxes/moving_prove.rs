@@ -8,7 +8,8 @@
 
 use super::moving::MovingPolynomial;
 use super::polynomial::Bundle;
-use super::prove::{BoxProof, Cell, Outcome, closed_by_vector, simplest_point};
+use super::prove::{BoxProof, Cell, Closing, Outcome, simplest_point};
+use super::separate::separating_vector;
 use super::tensor::{FrequencyScale, Tensor};
 use super::tree::Tree;
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel};
@@ -151,12 +152,12 @@ impl MovingPolynomial {
         KEPT_BITS.into_iter().find(fits).unwrap_or(KEPT_BITS[KEPT_BITS.len() - 1])
     }
 
-    /// Decides one box with at most so many parts.
+    /// Decides one box with at most so many parts, cells of them closed in this way.
     pub(super) fn proved(
         &self,
         whole: &[[Rational; 2]],
         known: (&[Sign], i64),
-        cells: usize,
+        (closing, cells): (Closing, usize),
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
         let refuted = |point: Vec<Rational>| (!self.is_seen_stable(&point)).then_some(Outcome::Refuted(point));
@@ -170,7 +171,7 @@ impl MovingPolynomial {
             let mut last = sides.clone();
             let curvature = match &part {
                 None => None,
-                Some(part) => match part.proved(&sides, &self.inside, self.coefficients(), known, budget)? {
+                Some(part) => match part.proved(&sides, &self.inside, self.coefficients(), known, closing, budget)? {
                     Ok(count) => {
                         proved += count;
                         continue;
@@ -225,6 +226,7 @@ impl Part {
         inside: &[usize],
         coefficients: usize,
         (reference, scale): (&[Sign], i64),
+        closing: Closing,
         budget: &Budget,
     ) -> Result<Result<usize, Vec<[Rational; 2]>>, Exhausted> {
         let mut local = sides.to_vec();
@@ -270,7 +272,7 @@ impl Part {
         while let Some(cell) = stack.pop() {
             budget.check()?;
             nodes += 1;
-            let hint = match closed_by_vector(&cell, nodes) {
+            let hint = match closing(&cell, nodes) {
                 Ok(_) => {
                     leaves += 1;
                     continue;
@@ -278,7 +280,9 @@ impl Part {
                 Err(hint) => hint,
             };
             let axis = hint.or_else(|| cell.tensor.best_axis());
-            let axis = axis.filter(|_| nodes + stack.len() < CELLS_IN_PART && !is_blurred(&cell));
+            let axis = axis.filter(|_| {
+                nodes + stack.len() < CELLS_IN_PART && !is_blurred(&cell) && !is_clear_but_for_slack(&cell)
+            });
             let Some(axis) = axis else { return Ok(Err(back(cell.sides(&local)))) };
             let [low, high] = cell.halves(axis);
             stack.extend([high, low]);
@@ -294,6 +298,12 @@ fn is_blurred(cell: &Cell) -> bool {
         let (low, high) = cell.tensor.range(plane);
         high - low <= off(plane)
     })
+}
+
+/// Whether the coefficients themselves prove a pair's cell, and only not what they are off by.
+fn is_clear_but_for_slack(cell: &Cell) -> bool {
+    let [x, y] = cell.tensor.planes.as_slice() else { return false };
+    separating_vector(x, y, cell.tensor.error).is_some()
 }
 
 /// The polynomials without their bounds.
