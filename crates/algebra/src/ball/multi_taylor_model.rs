@@ -193,12 +193,9 @@ impl MultiTaylorModel {
 
     /// The quotient; `None` where the divisor may have a zero in the polydisc.
     ///
-    /// With `q` any polynomial, `a/b - q = (a - q b)/b`; Newton's iteration makes it one that has the first terms.
+    /// With `q` any polynomial, `a/b - q = (a - q b)/b`; Newton's iteration makes it one that has the first terms. The norm of `1/b` is at
+    /// most that of such a polynomial `p` for `a = 1`, over one less the norm of `1 - p b`.
     pub fn div(&self, other: &MultiTaylorModel) -> Option<MultiTaylorModel> {
-        let least = other.least();
-        if least.is_zero() {
-            return None;
-        }
         let one = self.integer(&Integer::ONE);
         let first = Ball::from_units(other.coefficients[0].clone(), other.coefficients[0].clone(), self.bits);
         let mut inverse = self.constant(&Ball::from_integer(&Integer::ONE, self.bits).div(&first)?).known();
@@ -207,9 +204,14 @@ impl MultiTaylorModel {
             let missing = one.sub(&divisor.mul(&inverse)).known();
             inverse = inverse.add(&inverse.mul(&missing)).known();
         }
+        let unit = &Integer::ONE << self.bits;
+        let left = &unit - &one.sub(&inverse.mul(other)).norm();
+        if !left.sign().is_gt() {
+            return None;
+        }
         let quotient = self.known().mul(&inverse).known();
         let missed = self.sub(&quotient.mul(other)).norm();
-        let rest = ratio_up(&missed, &least, self.bits);
+        let rest = up(missed * ratio_up(&inverse.norm(), &left, self.bits), self.bits);
         Some(MultiTaylorModel { rest, ..quotient })
     }
 

@@ -44,6 +44,14 @@ impl ParametricSymbols {
         all.into_iter().filter(|v| *v < parameters).collect()
     }
 
+    /// The parameters in what arguments are divided by, ascending: where these vary much, little is known of the symbols.
+    pub fn parameters_below(&self, parameters: usize) -> Vec<usize> {
+        let arguments = self.table.iter().flat_map(|(_, definition)| definition.arguments());
+        let below = arguments.flat_map(|f| f.denominator().variables());
+        let all: std::collections::BTreeSet<usize> = below.collect();
+        all.into_iter().filter(|v| *v < parameters).collect()
+    }
+
     /// The parameters and all symbols as enclosures, from those of the parameters; `None` where a divisor may vanish, a root's argument
     /// may be negative, or an exponential is too large.
     ///

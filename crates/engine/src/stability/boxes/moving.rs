@@ -56,6 +56,8 @@ pub struct MovingPolynomial {
     parameters: usize,
     /// The parameters that symbols depend on.
     pub(super) inside: Vec<usize>,
+    /// Those of them that something is divided by.
+    pub(super) below: Vec<usize>,
     /// The coefficients in the half plane, then what must not vanish, as polynomials in the other parameters: exponents of these,
     /// with polynomials in what is inside and in symbols.
     pub(super) functions: Vec<Vec<(Vec<u32>, MultiPoly)>>,
@@ -87,7 +89,8 @@ impl MovingPolynomial {
         let coefficients = polynomial.in_half_plane();
         let all = coefficients.iter().chain(polynomial.certain().iter().map(|(_, f)| f));
         let functions = all.map(split).collect();
-        MovingPolynomial { polynomial, symbols, parameters, inside, functions }
+        let below = symbols.parameters_below(parameters);
+        MovingPolynomial { polynomial, symbols, parameters, inside, below, functions }
     }
 
     /// The degree the polynomial is meant to have.

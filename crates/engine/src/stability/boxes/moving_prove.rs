@@ -38,6 +38,12 @@ const CELLS_IN_PART: usize = 600;
 /// A part is not halved more often along one parameter.
 const MOST_HALVINGS: u32 = 60;
 
+/// A side whose ends have at least this ratio is cut at the middle of its octaves.
+const LEAST_RATIO: i64 = 2;
+
+/// Binary digits of such a cut.
+const CUT_BITS: u64 = 8;
+
 /// After so many parts in which nothing was proved a point of the present one is tested.
 const TESTED_EVERY: usize = 8;
 
@@ -189,19 +195,22 @@ impl MovingPolynomial {
             {
                 return Ok(outcome);
             }
-            // Where nothing is known of the functions, along the side that is longest by the whole box.
-            let wide = |i: usize| sides[i][0] < sides[i][1] && halvings[i] < MOST_HALVINGS;
-            let axes = self.inside.iter().copied().filter(|&i| wide(i));
+            let wide = |i: &usize| sides[*i][0] < sides[*i][1] && halvings[*i] < MOST_HALVINGS;
+            let axes = self.inside.iter().copied().filter(wide);
             let axis = match curvature {
                 Some(curvature) => axes.max_by(|&i, &j| (&curvature[i], j).cmp(&(&curvature[j], i))),
-                None => axes.min_by_key(|&i| (halvings[i], i)),
+                // Nothing is known of the functions: along the widest side of a divisor, if there is any.
+                None => {
+                    let longest = |a: &usize, b: &usize| (extent(&sides[*a]), b).cmp(&(extent(&sides[*b]), a));
+                    self.below.iter().copied().filter(wide).max_by(longest).or_else(|| axes.max_by(longest))
+                }
             };
             let Some(axis) = axis.filter(|_| !is_last) else {
                 let corners = corners(&last).find_map(refuted);
                 let why = if is_last { "too many cells" } else { "a cell too small" };
                 return Ok(corners.unwrap_or(Outcome::Open { why, cell: last }));
             };
-            let middle = sides[axis][0].midpoint(&sides[axis][1]);
+            let middle = cut(&sides[axis]);
             let (mut low, mut high) = (sides.clone(), sides);
             (low[axis][1], high[axis][0]) = (middle.clone(), middle);
             let mut deeper = halvings;
@@ -318,6 +327,34 @@ fn bundle(list: &[Known], parameters: usize) -> Bundle {
     }
     let terms = terms.into_iter().map(|(exponents, c)| (exponents.clone(), c)).collect();
     Bundle { width: list.len(), degrees, terms }
+}
+
+/// How wide a side is for its distance from zero.
+fn extent([low, high]: &[Rational; 2]) -> Rational {
+    let size = low.abs().max(high.abs());
+    (high - low).checked_div(&size).unwrap_or(Rational::ZERO)
+}
+
+/// Where a side is cut: in the middle, of the octaves where it spans several.
+fn cut([low, high]: &[Rational; 2]) -> Rational {
+    let middle = low.midpoint(high);
+    let (near, far) = if low.is_negative() { (high.abs(), low.abs()) } else { (low.clone(), high.clone()) };
+    let is_one_sided = low.sign() == high.sign() && !low.is_zero();
+    if !is_one_sided || far < &near * &Rational::from(LEAST_RATIO) {
+        return middle;
+    }
+    // A root of the product, to some binary digits.
+    let scale = Rational::from(4).pow(size_of(&near)).expect("four is not zero");
+    let product = (&near * &far).checked_div(&scale).expect("a power is not zero");
+    let root = Rational::dyadic(&(&product * &Rational::from(1 << (2 * CUT_BITS))).floor().sqrt_floor(), CUT_BITS);
+    let root = &root * &Rational::from(2).pow(size_of(&near)).expect("two is not zero");
+    let root = if low.is_negative() { -root } else { root };
+    if *low < root && root < *high { root } else { middle }
+}
+
+/// The power of two near a number that is not zero.
+fn size_of(x: &Rational) -> i64 {
+    x.numerator().bit_length() as i64 - x.denominator().bit_length() as i64
 }
 
 /// The degree of Taylor models in so many variables.
