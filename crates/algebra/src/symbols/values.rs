@@ -6,6 +6,7 @@ use super::scales::exponent;
 use crate::ball::{Ball, Elementary};
 use crate::number::{Enclosure, Rational};
 use crate::poly::{MultiPoly, RationalFunction};
+use std::collections::BTreeSet;
 
 /// Exponents beyond this are not enclosed over an interval.
 const LARGEST: i64 = 1 << 13;
@@ -37,19 +38,19 @@ impl ParametricSymbols {
         ParametricSymbols { table }
     }
 
+    /// What the symbols are functions of.
+    pub fn arguments(&self) -> impl Iterator<Item = &RationalFunction> {
+        self.table.iter().flat_map(|(_, definition)| definition.arguments())
+    }
+
     /// The parameters that functions depend on, ascending.
     pub fn parameters_inside(&self, parameters: usize) -> Vec<usize> {
-        let arguments = self.table.iter().flat_map(|(_, definition)| definition.arguments());
-        let all: std::collections::BTreeSet<usize> = arguments.flat_map(RationalFunction::variables).collect();
-        all.into_iter().filter(|v| *v < parameters).collect()
+        first_of(self.arguments().flat_map(RationalFunction::variables), parameters)
     }
 
     /// The parameters in what arguments are divided by, ascending: where these vary much, little is known of the symbols.
     pub fn parameters_below(&self, parameters: usize) -> Vec<usize> {
-        let arguments = self.table.iter().flat_map(|(_, definition)| definition.arguments());
-        let below = arguments.flat_map(|f| f.denominator().variables());
-        let all: std::collections::BTreeSet<usize> = below.collect();
-        all.into_iter().filter(|v| *v < parameters).collect()
+        first_of(self.arguments().flat_map(|f| f.denominator().variables()), parameters)
     }
 
     /// The parameters and all symbols as enclosures, from those of the parameters; `None` where a divisor may vanish, a root's argument
@@ -66,6 +67,11 @@ impl ParametricSymbols {
     pub fn value<S: Elementary>(&self, p: &MultiPoly, values: &[S]) -> S {
         polynomial_at(p, values)
     }
+}
+
+/// The first variables of a list, ascending, each once.
+fn first_of(variables: impl Iterator<Item = usize>, count: usize) -> Vec<usize> {
+    variables.filter(|v| *v < count).collect::<BTreeSet<usize>>().into_iter().collect()
 }
 
 /// The parameters and all symbols, from the parameters'; `None` where a divisor may vanish.

@@ -12,12 +12,16 @@ use crate::stability::boxes::{
 };
 use crate::stability::{AtPoint, Range};
 use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::poly::{RationalFunction, RealAlgebraic};
 use std::sync::Arc;
 
 /// The part of the time that may be spent on the exact end of the worst line.
 const END_SHARE: (u32, u32) = (1, 3);
+
+/// The part of the time that may be spent on the bracket of the largest factor.
+const BRACKET_SHARE: (u32, u32) = (4, 5);
 
 impl Problem {
     pub(super) fn tolerance(
@@ -35,7 +39,12 @@ impl Problem {
         if algebra.symbols().is_moving() && algebra.symbols().delays().is_empty() {
             refuse_beside_functions(request)?;
             let symbols = parametric_symbols(algebra.symbols())?;
-            let p = budget.enter(|| MovingPolynomial::new(d, sides.len(), symbols, self.shape()))?;
+            // Where the sample time is not positive there is no loop, and where an argument divides by zero no function.
+            let time = algebra.sample_time().into_iter().flat_map(|t| [t.numerator(), t.denominator()]);
+            let below = symbols.arguments().map(RationalFunction::denominator);
+            let poles = d.poles.iter().chain(time).chain(below).cloned().collect();
+            let d = CharacteristicPolynomial { poles, ..d.clone() };
+            let p = budget.enter(|| MovingPolynomial::new(&d, sides.len(), symbols, self.shape()))?;
             return self.tolerance_of(&p, &Truth::of_points(self), sides, request, budget);
         }
         let truth = Truth::of(self, budget)?;
@@ -86,7 +95,12 @@ impl Problem {
             Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
             None => truth.decision(p, boxes.decide(&Rational::ONE, budget)?, budget)?,
         };
-        let factor = boxes.bracket(search, &|_| request.gap.clone(), domain_factor.as_ref(), budget)?;
+        let known = match &decision {
+            BoxDecision::Stable(proof) => Some(proof.clone()),
+            _ => None,
+        };
+        let part = budget.share(BRACKET_SHARE.0, BRACKET_SHARE.1);
+        let factor = boxes.bracket(search, known, &|_| request.gap.clone(), domain_factor.as_ref(), &part)?;
         let factor = truth.factor(p, factor, budget)?;
         let decision = agreed(decision, &factor, None);
         let (mut decision, mut factor) = (decision, Some(factor));
@@ -214,13 +228,21 @@ impl Problem {
         let (Some(direction), Some(upper)) = (&factor.direction, &factor.upper) else { return Ok(None) };
         let (base, step) = ray(sides, direction);
         let is_rational = self.algebra_over_symbols(budget)?.symbols().is_empty();
+        let is_undefined = factor.witness.as_ref().is_some_and(|w| matches!(w.at, AtPoint::Undefined));
+        if is_undefined && !is_rational {
+            return Ok(None);
+        }
         // Functions are looked at near the end alone: the box before it is stable.
         let range = match is_rational {
             true => Range::between(Some(Rational::ZERO), Some(upper * &Rational::from(2))),
             false => Range::between(Some(factor.lower.clone()), Some(upper + &(upper - &factor.lower))),
         };
         let part = budget.share(END_SHARE.0, END_SHARE.1);
-        let problem = Arc::new(self.on_ray("factor", &base, &step, range.clone(), &part)?);
+        let problem = match self.on_ray("factor", &base, &step, range.clone(), &part) {
+            Ok(problem) => Arc::new(problem),
+            Err(Error::Stopped(_)) => return Ok(None),
+            Err(error) => return Err(error),
+        };
         let set = match problem.stable_set(&part) {
             Ok(set) => set,
             Err(Error::Stopped(_)) => return Ok(None),

@@ -66,7 +66,11 @@ impl<'a> Truth<'a> {
         let problem = self.problem;
         let names = problem.free().iter().map(|free| free.name.clone());
         let question = problem.model().ask().within(problem.region().clone()).set_all(problem.set().to_vec());
-        let verdict = question.set_all(names.zip(point.iter().cloned())).verdict(budget)?.into_value();
+        let verdict = match question.set_all(names.zip(point.iter().cloned())).verdict(budget) {
+            // The model has no meaning there, such as with a sample time that is not positive.
+            Err(Error::Undefined(_) | Error::Refused(_)) => return Ok(AtPoint::Undefined),
+            verdict => verdict?.into_value(),
+        };
         Ok(match (verdict.verdict, verdict.count) {
             (Verdict::Undefined, _) | (_, None) => AtPoint::Undefined,
             (_, Some(count)) => AtPoint::Defined { count, infinite: verdict.infinite },
@@ -114,7 +118,10 @@ impl<'a> Truth<'a> {
         let free = self.problem.free().len();
         let witness = match found.witness.take() {
             None => None,
-            Some(witness) => self.confirmed(p, witness, budget)?,
+            Some(witness) => match self.confirmed(p, witness, budget) {
+                Err(Error::Stopped(_)) => None,
+                confirmed => confirmed?,
+            },
         };
         if witness.is_none() {
             (found.upper, found.direction, found.shares) = (None, None, None);

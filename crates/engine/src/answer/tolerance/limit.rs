@@ -45,7 +45,7 @@ impl Problem {
                 let share = value(factor).abs().checked_div(&moved).unwrap_or(Rational::ONE);
                 (&request.gap * &share).min(request.gap.clone())
             };
-            let factor = boxes.bracket(boxes.searched(budget)?, &gap, most.as_ref(), budget)?;
+            let factor = boxes.bracket(boxes.searched(budget)?, None, &gap, most.as_ref(), budget)?;
             let factor = truth.factor(p, factor, budget)?;
             let worst = self.worst_end(&own, &factor, budget)?.map(|(worst, _)| worst);
             *slot = Some(LimitSide {

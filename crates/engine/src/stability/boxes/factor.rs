@@ -217,7 +217,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         most: Option<&Rational>,
         budget: &Budget,
     ) -> Result<LargestFactor, Exhausted> {
-        self.bracket(self.searched(budget)?, &|_| gap.clone(), most, budget)
+        self.bracket(self.searched(budget)?, None, &|_| gap.clone(), most, budget)
     }
 
     /// The nearest points that are not stable, as far as a search without proof finds them.
@@ -234,15 +234,17 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         self.witness(search.line(&best.direction).witness(&best.lo, &best.hi)?)
     }
 
-    /// [`ToleranceProblem::largest_factor`] from a search, with a relative width that depends on the upper end.
+    /// [`ToleranceProblem::largest_factor`] from a search and the proof of the box of factor 1, if there is one, with a relative width
+    /// that depends on the upper end.
     pub(crate) fn bracket(
         &self,
         mut search: Search<F>,
+        known: Option<BoxProof>,
         gap: &dyn Fn(&Rational) -> Rational,
         most: Option<&Rational>,
         budget: &Budget,
     ) -> Result<LargestFactor, Exhausted> {
-        let mut proved: Option<(Rational, BoxProof)> = None;
+        let mut proved = known.map(|proof| (Rational::ONE, proof));
         let mut open = None;
         let mut coarser = Rational::ONE;
         let (mut retreats, mut refutations) = (0, 0);
@@ -290,7 +292,14 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
                         open = Some(("a point that no line from the nominal one shows", Vec::new()));
                         break;
                     }
-                    nearer?;
+                    match nearer {
+                        Err(exhausted) if proved.is_none() => return Err(exhausted),
+                        Err(_) => {
+                            open = Some(("the time", Vec::new()));
+                            break;
+                        }
+                        Ok(_) => {}
+                    }
                     // A new end, a new attempt at the full precision.
                     (coarser, retreats, open, is_rough) = (Rational::ONE, 0, None, proved.is_none());
                 }

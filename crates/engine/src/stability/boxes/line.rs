@@ -100,7 +100,7 @@ impl Path for Line<'_> {
 }
 
 /// The zero of a linear polynomial, or of another that has a rational one, in `(lo, hi]`.
-fn rational_zero(f: &UniPoly, lo: &Rational, hi: &Rational) -> Option<Rational> {
+pub(super) fn rational_zero(f: &UniPoly, lo: &Rational, hi: &Rational) -> Option<Rational> {
     let square_free = jurist_algebra::poly::SquareFree::part_of(f).filter(|f| f.degree() > 0)?;
     let budget = jurist_algebra::limits::Budget::unlimited();
     let (zeros, _) = jurist_algebra::poly::real_roots::rational_roots(&square_free, &budget).ok()?;

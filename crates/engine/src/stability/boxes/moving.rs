@@ -4,7 +4,7 @@
 //! exactly by who asks. Boxes are proved in [`moving_prove`](super::moving_prove).
 
 use super::family::{Family, Gradient, Path, pulls_of};
-use super::line::pair_function;
+use super::line::{on_line, pair_function, rational_zero};
 use super::polynomial::{BoxPolynomial, Bundle};
 use super::prove::{Outcome, closed_by_constant, closed_by_vector, scale_of};
 use crate::stability::{AtPoint, Shape, count_roots, is_hurwitz_routh};
@@ -132,6 +132,23 @@ impl MovingPolynomial {
         Some(self.series_at(&series)?.iter().map(|s| s.coefficients()[0].middle_units()).collect())
     }
 
+    /// Whether the loop is stable at a point; `None` where that is not seen, as where exponents are very large.
+    pub(super) fn seen_at(&self, point: &[Rational]) -> Option<bool> {
+        match self.numbers(point) {
+            Some(numbers) => {
+                let defined = numbers[self.coefficients()..].iter().all(|c| !c.is_zero());
+                Some(defined && is_hurwitz_routh(&self.half_plane(&numbers)))
+            }
+            None => self.rational_divisors().any(|(_, p)| p.eval(point).is_zero()).then_some(false),
+        }
+    }
+
+    /// What must not vanish, of that what is a polynomial in the parameters alone, with its place.
+    fn rational_divisors(&self) -> impl Iterator<Item = (usize, &MultiPoly)> {
+        let is_rational = |(_, p): &(usize, &MultiPoly)| p.variables().iter().all(|v| *v < self.parameters);
+        self.polynomial.certain().iter().map(|(_, p)| p).enumerate().filter(is_rational)
+    }
+
     fn half_plane(&self, numbers: &[Integer]) -> UniPoly {
         Poly::new(numbers[..self.coefficients()].to_vec())
     }
@@ -197,9 +214,7 @@ impl Family for MovingPolynomial {
     }
 
     fn is_stable_at(&self, point: &[Rational]) -> bool {
-        let Some(numbers) = self.numbers(point) else { return false };
-        let defined = numbers[self.coefficients()..].iter().all(|c| !c.is_zero());
-        defined && is_hurwitz_routh(&self.half_plane(&numbers))
+        self.seen_at(point) == Some(true)
     }
 
     fn signs_at(&self, point: &[Rational]) -> Option<(Vec<Sign>, i64)> {
@@ -246,13 +261,28 @@ impl Path for MovingLine<'_> {
     }
 
     fn is_good(&self, t: &Rational) -> bool {
-        let Some(numbers) = self.p.numbers(&self.point(t)) else { return false };
+        let point = self.point(t);
+        let Some(numbers) = self.p.numbers(&point) else {
+            // Not seen: as far as the divisors tell.
+            let mut divisors = self.p.rational_divisors();
+            return divisors.all(|(k, p)| p.eval(&point).sign() == self.reference[k]);
+        };
         let certain = numbers[self.p.coefficients()..].iter().zip(self.reference);
         certain.into_iter().all(|(c, sign)| c.sign() == *sign) && is_hurwitz_routh(&self.p.half_plane(&numbers))
     }
 
     fn is_stable(&self, t: &Rational) -> bool {
         self.p.is_stable_at(&self.point(t))
+    }
+
+    /// A point at which a divisor vanishes is taken before one beyond it, where exponents may be very large.
+    fn witness(&self, lo: &Rational, hi: &Rational) -> Option<Vec<Rational>> {
+        let candidate = |t: &Rational| Some(self.point(t)).filter(|point| self.p.seen_at(point) == Some(false));
+        let divisors = self.p.rational_divisors().map(|(_, f)| {
+            let [f, _] = on_line([f, &MultiPoly::one()], &self.base, &self.step);
+            rational_zero(&f, lo, hi)
+        });
+        divisors.flatten().min().as_ref().and_then(candidate).or_else(|| candidate(hi))
     }
 
     fn gradient(&self, lo: &Rational, hi: &Rational) -> Option<Gradient> {

@@ -166,7 +166,7 @@ impl MovingPolynomial {
         (closing, cells): (Closing, usize),
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
-        let refuted = |point: Vec<Rational>| (!self.is_seen_stable(&point)).then_some(Outcome::Refuted(point));
+        let refuted = |point: Vec<Rational>| (self.seen_at(&point) == Some(false)).then_some(Outcome::Refuted(point));
         let mut stack = vec![(whole.to_vec(), vec![0u32; whole.len()])];
         let (mut parts, mut proved, mut missed) = (0, 0, 0);
         while let Some((sides, halvings)) = stack.pop() {
@@ -219,11 +219,6 @@ impl MovingPolynomial {
         }
         let pair = Tree::default();
         Ok(Outcome::Stable(BoxProof { certain: Vec::new(), scale: known.1, weight: 0, pair, beside: proved }))
-    }
-
-    fn is_seen_stable(&self, point: &[Rational]) -> bool {
-        use super::family::Family;
-        self.is_stable_at(point)
     }
 }
 
