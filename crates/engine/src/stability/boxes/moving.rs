@@ -19,6 +19,9 @@ use std::collections::BTreeMap;
 /// Bits after the point of coefficients at a point.
 const POINT_BITS: u64 = 256;
 
+/// A box is cut into so many parts at most.
+const MOST_PARTS: usize = 2000;
+
 /// A characteristic polynomial in parameters and in symbols that depend on them.
 ///
 /// ```
@@ -240,6 +243,7 @@ impl Family for MovingPolynomial {
         cells: usize,
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
+        let cells = cells.min(MOST_PARTS);
         match self.proved(sides, known, (closed_by_constant, cells), budget)? {
             Outcome::Open { .. } => self.proved(sides, known, (closed_by_vector, cells), budget),
             outcome => Ok(outcome),

@@ -370,3 +370,21 @@ fn corners(sides: &[[Rational; 2]]) -> impl Iterator<Item = Vec<Rational>> + '_ 
         sides.iter().enumerate().map(|(i, side)| side[usize::from(upper(i))].clone()).collect()
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use jurist_algebra::number::parse_number;
+
+    #[test]
+    fn sides_of_several_octaves_are_cut_between_these() {
+        let at = |low: &str, high: &str| cut(&[low, high].map(|x| parse_number(x).unwrap())).to_string();
+        assert_eq!([at("1", "16"), at("-16", "-1"), at("1/1024", "1/64")], ["4", "-4", "1/256"]);
+        assert_eq!([at("-1", "3"), at("0", "4"), at("3", "5")], ["1", "2", "4"]);
+    }
+
+    #[test]
+    fn models_have_the_degree_that_the_number_of_variables_allows() {
+        assert_eq!([1, 2, 3, 4, 5, 6, 9, 30].map(model_degree), [12, 12, 7, 5, 4, 3, 2, 2]);
+    }
+}

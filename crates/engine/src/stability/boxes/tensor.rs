@@ -382,4 +382,45 @@ mod tests {
         }
         assert!(weight.abs() < 8);
     }
+    /// Coefficients of `example() + t` with a bound that holds `t` are within it of those of `example()`, also in halves.
+    #[test]
+    fn what_coefficients_are_off_by_is_kept_in_halves() {
+        let f = example();
+        let zero = MultiPoly::zero();
+        let sides = [[q("-1/3"), q("5/2")], [q("1/7"), q("3")]];
+        let exact = Bundle::new(&[&f, &zero, &zero, &f], 2);
+        let slack = [3, 0, 0, 5].map(|n: i64| Integer::from(n));
+        let (tensor, _) = Tensor::of_pair_within(&exact, &slack, &sides, FrequencyScale(2));
+        let (off, _) = Tensor::of_pair(
+            &Bundle::new(
+                &[&f.plus(&MultiPoly::constant(3.into())), &zero, &zero, &f.minus(&MultiPoly::constant(5.into()))],
+                2,
+            ),
+            &sides,
+            FrequencyScale(2),
+        );
+        assert_eq!(tensor.slack.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
+        // The planes of both have their own powers of two: they differ by less than a factor of two here.
+        let scale = |a: &Tensor, plane: usize| a.planes[plane].iter().map(|v| v.unsigned_abs()).max().unwrap();
+        for plane in 0..2 {
+            let (a, b) = (scale(&tensor, plane), scale(&off, plane));
+            assert!(a < 2 * b && b < 2 * a);
+        }
+        let mut pairs = vec![(tensor, off)];
+        for axis in [2, 0, 2, 1] {
+            pairs = pairs.into_iter().flat_map(|(a, b)| a.halves(axis).into_iter().zip(b.halves(axis))).collect();
+            for (a, b) in &pairs {
+                let error = a.error + b.error;
+                for plane in 0..2 {
+                    for (i, (x, y)) in a.planes[plane].iter().zip(&b.planes[plane]).enumerate() {
+                        assert!((x - y).abs() <= a.slack[plane][i % 2] + error, "axis {axis}, plane {plane}");
+                    }
+                }
+            }
+        }
+        // Twice as far along the frequency the bound of the first coefficient counts half.
+        assert!(pairs.iter().any(|(a, _)| a.slack[0][0] > a.slack[0][1] && a.slack[0][1] > 0));
+        let nothing_known = fixed_bounds([Integer::ONE << 90u64, Integer::ZERO].into_iter(), 0);
+        assert_eq!(nothing_known, [1 << BITS, 1 << BITS]);
+    }
 }
