@@ -150,13 +150,13 @@ pub fn determinant_enclosed<R: Enclosed>(mut rows: Vec<Vec<R>>) -> R {
         }
         product = times(product, pivot);
     }
-    let rest = expanded(&rows);
+    let rest = determinant_by_minors(&rows);
     let value = product.map_or_else(|| rest.clone(), |p| p.times(&rest));
     if negative { value.nothing().minus(&value) } else { value }
 }
 
 /// The determinant by expansion along the rows, each minor of the first rows once.
-fn expanded<R: Enclosed>(rows: &[Vec<R>]) -> R {
+pub(super) fn determinant_by_minors<R: Enclosed>(rows: &[Vec<R>]) -> R {
     let n = rows.len();
     let zero = rows[0][0].nothing();
     let mut minors: Vec<Option<R>> = vec![None; 1 << n];
@@ -211,7 +211,7 @@ pub fn enclosed_resultant<R: Enclosed>(a: &[R], b: &[R]) -> R {
 /// When a list is empty, or both are constants.
 pub fn enclosed_resultant_by_minors<R: Enclosed>(a: &[R], b: &[R]) -> R {
     let (a, b) = if a.len() >= b.len() { (a, b) } else { (b, a) };
-    expanded(&hybrid_bezout(a, b))
+    determinant_by_minors(&hybrid_bezout(a, b))
 }
 
 /// The common root of two polynomials that are known to have one, by the kernel of their hybrid matrix; `None` where it is
@@ -291,7 +291,7 @@ mod tests {
         let mut seed = 3;
         for n in 1..7 {
             let rows: Vec<Vec<Ball>> = (0..n).map(|_| balls(&numbers(n, &mut seed), 160)).collect();
-            let (x, y) = (determinant_enclosed(rows.clone()), expanded(&rows));
+            let (x, y) = (determinant_enclosed(rows.clone()), determinant_by_minors(&rows));
             assert!(x.intersection(&y).is_some() && x.union(&y).width_units().bit_length() < 120, "{x:?} {y:?}");
             // No pivot is certain where every entry may vanish; the determinant is enclosed all the same.
             let wide: Vec<Vec<Ball>> = rows.iter().map(|r| r.iter().map(|x| x.union(&x.neg())).collect()).collect();

@@ -45,6 +45,38 @@ impl BallMatrix {
         })
     }
 
+    /// Exponents `d` with which the entries `m_ij 2^(d_j - d_i)` have rows and columns of about the same size, so that the norm is small
+    /// ([ParlettReinsch1969](crate::bibliography#parlettreinsch1969)).
+    fn balancing_units(&self) -> Vec<i64> {
+        let n = self.size;
+        let mut units = vec![0i64; n];
+        let sizes = self.entry_sizes();
+        for _ in 0..2 * n {
+            let before = units.clone();
+            for i in 0..n {
+                let at = |row: usize, column: usize| {
+                    sizes[row * n + column].map(|size| size + units[column] - units[row]).filter(|_| row != column)
+                };
+                let row = (0..n).filter_map(|j| at(i, j)).max();
+                let column = (0..n).filter_map(|j| at(j, i)).max();
+                // A row without entries may be scaled as one likes, and is not.
+                if let (Some(row), Some(column)) = (row, column) {
+                    units[i] += (row - column) / 2;
+                }
+            }
+            if units == before {
+                break;
+            }
+        }
+        units
+    }
+
+    /// The number of bits of each entry; none for zero.
+    fn entry_sizes(&self) -> Vec<Option<i64>> {
+        let size = |b: &Ball| (!b.is_zero()).then(|| b.magnitude_units().bit_length() as i64);
+        self.entries.iter().map(size).collect()
+    }
+
     /// An upper bound of the greatest row sum of absolute values, in units of `2^-bits`.
     fn norm_units(&self) -> Integer {
         let row = |i: usize| (0..self.size).fold(Integer::ZERO, |sum, j| sum + self.at(i, j).magnitude_units());
@@ -54,7 +86,7 @@ impl BallMatrix {
 
 /// An enclosure of `exp(M)` for every matrix `M` in the given one.
 ///
-/// `M` is scaled by a power of two until its norm is at most 1/4; then the Taylor series is summed, whose rest after the
+/// `M` is balanced, and scaled by a power of two until its norm is at most 1/4; then the Taylor series is summed, whose rest after the
 /// power `k` is at most `(1/4)^(k+1)/(k+1)! 4/3`; then the sum is squared as often as it was halved. Entries are as wide as
 /// those of `M`, times the norm of the exponential, and some bits more.
 ///
@@ -65,16 +97,21 @@ pub fn exponential(m: &BallMatrix) -> BallMatrix {
         return m.clone();
     }
     let bits = m.at(0, 0).bits;
-    let norm = m.norm_units();
-    if norm.is_zero() {
+    if m.norm_units().is_zero() {
         // Exactly, so that what vanishes at the time 0 is seen to.
         let one = Ball::from_integer(&Integer::ONE, bits);
         return BallMatrix::from_fn(n, |i, j| if i == j { one.clone() } else { Ball::zero(bits) });
     }
+    // The same matrix in other units, exactly; what is multiplied in the end needs as many bits more.
+    let units = m.balancing_units();
+    let spread = units.iter().max().zip(units.iter().min()).map_or(0, |(most, least)| (most - least) as u64);
+    let in_units = |sign: i64, i: usize, j: usize| sign * (units[j] - units[i]);
+    let more = bits + spread;
+    let balanced = BallMatrix::from_fn(n, |i, j| m.at(i, j).with_bits(more).shifted(in_units(1, i, j)));
     // 2^halvings >= 4 norm.
-    let halvings = (norm.bit_length() + 2).saturating_sub(bits);
-    let working = bits + 2 * halvings + 16;
-    let x = m.map(|b| b.with_bits(working).shifted(-(halvings as i64)));
+    let halvings = (balanced.norm_units().bit_length() + 2).saturating_sub(more);
+    let working = more + 2 * halvings + 16;
+    let x = balanced.map(|b| b.with_bits(working).shifted(-(halvings as i64)));
     let one = Ball::from_integer(&Integer::ONE, working);
     let zero = Ball::zero(working);
     let identity = BallMatrix::from_fn(n, |i, j| if i == j { one.clone() } else { zero.clone() });
@@ -94,7 +131,7 @@ pub fn exponential(m: &BallMatrix) -> BallMatrix {
     for _ in 0..halvings {
         out = out.mul(&out);
     }
-    out.map(|b| b.with_bits(bits))
+    BallMatrix::from_fn(n, |i, j| out.at(i, j).shifted(in_units(-1, i, j)).with_bits(bits))
 }
 
 /// Bits that are added when an exponential turned out too wide.

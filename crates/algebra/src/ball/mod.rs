@@ -10,6 +10,7 @@ mod exponential;
 mod functions;
 mod multi_taylor_model;
 mod series;
+mod short_model;
 mod solutions;
 mod taylor_model;
 
@@ -21,6 +22,7 @@ pub use exponential::{BallMatrix, exponential, exponential_of_rationals};
 pub use functions::{cos_sin, exp, tan};
 pub use multi_taylor_model::MultiTaylorModel;
 pub use series::Series;
+pub use short_model::{Known, ShortModel, short_resultant};
 pub use solutions::fundamental_solutions;
 pub use taylor_model::TaylorModel;
 

@@ -1,6 +1,6 @@
 //! Analytic functions of several variables as polynomials with a bound of all that is left out.
 
-use super::solutions::{Scaled, solutions_by_taylor};
+use super::solutions::{Scaled, Summed, solutions_by_taylor};
 use super::{Ball, Elementary, Enclosed, exp};
 use crate::limits::checkpoint;
 use crate::number::Integer;
@@ -253,7 +253,7 @@ impl MultiTaylorModel {
         let one = self.integer(&Integer::ONE);
         let mut sum = one.clone();
         for k in (1..=self.monomials.degree as u64).rev() {
-            sum = one.add(&Scaled::divided_by(&moving.mul(&sum), k));
+            sum = one.add(&Summed::divided_by(&moving.mul(&sum), k));
         }
         let norm = moving.norm();
         let norm = Ball::from_units(norm.clone(), norm, self.bits);
@@ -325,6 +325,12 @@ impl Scaled for MultiTaylorModel {
             (all.map(|c| c >> shift).collect(), up(self.rest.clone(), shift) + self.roundings())
         };
         MultiTaylorModel { bits, ..self.with(coefficients, rest) }
+    }
+}
+
+impl Summed for MultiTaylorModel {
+    fn one(&self) -> MultiTaylorModel {
+        self.integer(&Integer::ONE)
     }
     fn divided_by(&self, n: u64) -> MultiTaylorModel {
         let n = Integer::from(n);

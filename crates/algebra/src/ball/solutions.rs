@@ -1,19 +1,37 @@
 //! Fundamental solutions of linear differential equations at times that are series.
 
-use super::{Ball, BallMatrix, Elementary, Series, exponential};
+use super::{Ball, BallMatrix, Elementary, Enclosed, Series, exponential};
 use crate::limits::checkpoint;
 use crate::number::Integer;
 
 /// What the Taylor series of an exponential is summed in: a normed algebra of enclosures in fixed point.
-pub(super) trait Scaled: Elementary {
-    /// A bound of the norm in units, in which a product is at most the product.
-    fn norm_units(&self) -> Integer;
-    /// Times a power of two, with so many bits.
-    fn rescaled(&self, bits: u64, exponent: i64) -> Self;
+pub(super) trait Summed: Enclosed {
+    /// One, of the same kind as this value.
+    fn one(&self) -> Self;
     /// The quotient by an integer.
     fn divided_by(&self, n: u64) -> Self;
     /// With all that has at most the norm of one unit added.
     fn widened(&self) -> Self;
+}
+
+/// The same, with any number of bits.
+pub(super) trait Scaled: Summed + Elementary {
+    /// A bound of the norm in units, in which a product is at most the product.
+    fn norm_units(&self) -> Integer;
+    /// Times a power of two, with so many bits.
+    fn rescaled(&self, bits: u64, exponent: i64) -> Self;
+}
+
+impl Summed for Series {
+    fn one(&self) -> Series {
+        self.integer(&Integer::ONE)
+    }
+    fn divided_by(&self, n: u64) -> Series {
+        self.map(|c| c.divided_by(n))
+    }
+    fn widened(&self) -> Series {
+        self.map(|c| c.widened(&Integer::ONE))
+    }
 }
 
 impl Scaled for Series {
@@ -23,12 +41,6 @@ impl Scaled for Series {
     fn rescaled(&self, bits: u64, exponent: i64) -> Series {
         let more = bits >= self.bits();
         self.map(|c| if more { c.with_bits(bits).shifted(exponent) } else { c.shifted(exponent).with_bits(bits) })
-    }
-    fn divided_by(&self, n: u64) -> Series {
-        self.map(|c| c.divided_by(n))
-    }
-    fn widened(&self) -> Series {
-        self.map(|c| c.widened(&Integer::ONE))
     }
 }
 
@@ -46,23 +58,27 @@ pub fn fundamental_solutions(coefficients: &[Series], time: &Series) -> Vec<Seri
         return solutions_by_taylor(coefficients, time);
     }
     let last: Vec<&Ball> = coefficients.iter().map(|c| &c.coefficients()[0]).collect();
-    let at = |t: &Ball| {
-        exponential(&BallMatrix::from_fn(n, |i, j| {
-            if i + 1 == n {
-                last[j].mul(t).neg()
-            } else if j == i + 1 {
-                t.clone()
-            } else {
-                Ball::zero(bits)
-            }
-        }))
-    };
     // A wide time as its middle and what is around it: the exponentials of multiples of one matrix commute.
     let t = &time.coefficients()[0];
     let middle = Ball::from_units(t.middle_units(), t.middle_units(), bits);
     let around = t.sub(&middle);
-    let e = if around.is_zero() { at(&middle) } else { at(&middle).mul(&at(&around)) };
-    let mut rows: Vec<Vec<Ball>> = vec![(0..n).map(|j| e.at(0, j).clone()).collect()];
+    let constants: Vec<Series> = last.iter().map(|c| Series::constant(c, 1)).collect();
+    let at_middle = solutions_by_taylor(&constants, &Series::constant(&middle, 1));
+    let mut first: Vec<Ball> = at_middle.iter().map(|s| s.coefficients()[0].clone()).collect();
+    if !around.is_zero() {
+        let e = exponential(&BallMatrix::from_fn(n, |i, j| {
+            if i + 1 == n {
+                last[j].mul(&around).neg()
+            } else if j == i + 1 {
+                around.clone()
+            } else {
+                Ball::zero(bits)
+            }
+        }));
+        let entry = |j: usize| (0..n).fold(Ball::zero(bits), |sum, i| sum.add(&first[i].mul(e.at(i, j))));
+        first = (0..n).map(entry).collect();
+    }
+    let mut rows: Vec<Vec<Ball>> = vec![first];
     for k in 1..terms {
         checkpoint((n * k) as u64);
         let mut row = vec![Ball::zero(bits); n];
@@ -90,27 +106,56 @@ pub fn fundamental_solutions(coefficients: &[Series], time: &Series) -> Vec<Seri
 /// [`exponential`](super::exponential()), in the norm that sums coefficients, so that the rest of the Taylor series is bounded in every
 /// coefficient at once.
 pub(super) fn solutions_by_taylor<S: Scaled>(coefficients: &[S], time: &S) -> Vec<S> {
-    let (n, bits) = (coefficients.len(), time.bits());
-    // 2^octaves is at least each |c_j|^(1/(n - j)).
-    let octaves = |(j, c): (usize, &S)| {
-        (c.norm_units().bit_length() as i64 - bits as i64).max(0).unsigned_abs().div_ceil((n - j) as u64)
-    };
-    let octaves = coefficients.iter().enumerate().map(octaves).max().unwrap_or(0);
-    let first_bits = bits + octaves + 16;
-    let scaled = |bits: u64| -> Vec<S> {
-        let one = |(j, c): (usize, &S)| c.rescaled(bits, -((octaves * (n - j) as u64) as i64));
-        coefficients.iter().enumerate().map(one).collect()
-    };
-    let whole = time.rescaled(first_bits, octaves as i64);
-    let last_row = scaled(first_bits).iter().fold(Integer::ZERO, |sum, c| sum + c.times(&whole).norm_units());
-    // 2^halvings >= 4 norm.
-    let halvings = (last_row.max(whole.norm_units()).bit_length() + 2).saturating_sub(first_bits);
-    let working = first_bits + 2 * halvings;
-    let polynomial = scaled(working);
-    let t = time.rescaled(working, octaves as i64 - halvings as i64);
-    let steps: Vec<S> = polynomial.iter().map(|c| c.times(&t)).collect();
+    let bits = time.bits();
+    let units = Units::of(coefficients, time);
+    let working = bits + units.octaves + 16 + 2 * units.halvings;
+    let scaled = |(j, c): (usize, &S)| c.rescaled(working, -(units.of_coefficient(coefficients.len(), j) as i64));
+    let polynomial: Vec<S> = coefficients.iter().enumerate().map(scaled).collect();
+    let t = time.rescaled(working, units.octaves as i64 - units.halvings as i64);
+    let row = row_by_taylor(&polynomial, &t, working, units.halvings);
+    row.iter().enumerate().map(|(j, s)| s.rescaled(bits, -((units.octaves * j as u64) as i64))).collect()
+}
+
+/// The powers of two that an equation is scaled by.
+pub(super) struct Units {
+    /// In time by `2^-octaves` the roots are about 1 at most: it is at least each `|c_j|^(1/(n - j))`.
+    pub octaves: u64,
+    /// A time as short as that over `2^halvings` has an exponential with a quick Taylor series.
+    pub halvings: u64,
+}
+
+impl Units {
+    pub fn of<S: Scaled>(coefficients: &[S], time: &S) -> Units {
+        let (n, bits) = (coefficients.len(), time.bits());
+        let octaves = |(j, c): (usize, &S)| {
+            (c.norm_units().bit_length() as i64 - bits as i64).max(0).unsigned_abs().div_ceil((n - j) as u64)
+        };
+        let octaves = coefficients.iter().enumerate().map(octaves).max().unwrap_or(0);
+        let first_bits = bits + octaves + 16;
+        let scaled = |(j, c): (usize, &S)| c.rescaled(first_bits, -((octaves * (n - j) as u64) as i64));
+        let whole = time.rescaled(first_bits, octaves as i64);
+        let last_row = coefficients
+            .iter()
+            .enumerate()
+            .map(scaled)
+            .fold(Integer::ZERO, |sum, c| sum + c.times(&whole).norm_units());
+        // 2^halvings >= 4 norm.
+        let halvings = (last_row.max(whole.norm_units()).bit_length() + 2).saturating_sub(first_bits);
+        Units { octaves, halvings }
+    }
+
+    /// The exponent of the power of two that a coefficient is divided by.
+    pub fn of_coefficient(&self, order: usize, j: usize) -> u64 {
+        self.octaves * (order - j) as u64
+    }
+}
+
+/// The first row of the exponential of the companion matrix at `2^halvings` times a short time.
+pub(super) fn row_by_taylor<S: Summed>(polynomial: &[S], t: &S, working: u64, halvings: u64) -> Vec<S> {
+    let n = polynomial.len();
+    let steps: Vec<S> = polynomial.iter().map(|c| c.times(t)).collect();
     let mut term = vec![t.nothing(); n];
-    term[0] = t.integer(&Integer::ONE);
+    term[0] = t.one();
     let mut sum = term.clone();
     // The term of power k is at most 2^-small.
     let (mut k, mut small) = (0u64, 0u64);
@@ -119,7 +164,7 @@ pub(super) fn solutions_by_taylor<S: Scaled>(coefficients: &[S], time: &S) -> Ve
         let highest = term[n - 1].clone();
         let next = |j: usize| {
             let carried = highest.times(&steps[j]);
-            let next = if j == 0 { t.nothing().minus(&carried) } else { term[j - 1].times(&t).minus(&carried) };
+            let next = if j == 0 { t.nothing().minus(&carried) } else { term[j - 1].times(t).minus(&carried) };
             next.divided_by(k)
         };
         term = (0..n).map(next).collect();
@@ -144,8 +189,7 @@ pub(super) fn solutions_by_taylor<S: Scaled>(coefficients: &[S], time: &S) -> Ve
         // Of the last square, the first row is all that is needed.
         rows = (0..if left > 0 { n } else { 1 }).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
     }
-    let out = &rows[0];
-    out.iter().enumerate().map(|(j, s)| s.rescaled(bits, -((octaves * j as u64) as i64))).collect()
+    rows.swap_remove(0)
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Analytic functions as polynomials with a bound of all that is left out.
 
-use super::solutions::{Scaled, solutions_by_taylor};
-use super::{Ball, Elementary, Enclosed, Series, exp, fundamental_solutions};
+use super::short_model::short_solutions;
+use super::solutions::{Scaled, Summed, solutions_by_taylor};
+use super::{Ball, Elementary, Enclosed, Known, Series, exp, fundamental_solutions};
 use crate::number::Integer;
 
 /// A power series in `x` of which the first coefficients are enclosed, and the sum of the absolute values of all others is bounded: a
@@ -26,6 +27,9 @@ pub struct TaylorModel {
     rest: Integer,
 }
 
+/// With so many bits or fewer, short numbers are as good for the solutions of an equation.
+const SHORT_BITS: u64 = 176;
+
 impl TaylorModel {
     /// `c + r x` with so many terms, at least two.
     ///
@@ -47,6 +51,12 @@ impl TaylorModel {
         self.first().widened(&self.around())
     }
 
+    /// A power of two that no value on the disc is larger than, the least but for a factor of two; that of one for the function 0.
+    pub fn exponent(&self) -> i64 {
+        let norm = Scaled::norm_units(self);
+        if norm.is_zero() { 0 } else { norm.bit_length() as i64 - self.bits() as i64 }
+    }
+
     /// How far from the first coefficient values are at most.
     fn around(&self) -> Integer {
         self.norm_units() - self.first().magnitude_units()
@@ -61,6 +71,12 @@ impl TaylorModel {
     /// A function of which nothing is left out.
     pub(super) fn from_series(polynomial: Series) -> TaylorModel {
         TaylorModel { polynomial, rest: Integer::ZERO }
+    }
+
+    /// A polynomial and what it is wrong by, times a power of two, with so many bits.
+    pub(super) fn from_known(known: &Known, exponent: i64, bits: u64) -> TaylorModel {
+        let coefficients = known.coefficients.iter().map(|c| c.widened(&known.noise)).collect();
+        TaylorModel::with(Series::new(coefficients), known.rest.clone()).rescaled(bits, exponent)
     }
 
     pub(super) fn polynomial(&self) -> &Series {
@@ -180,7 +196,8 @@ impl TaylorModel {
         let is_constant =
             |c: &TaylorModel| c.rest.is_zero() && c.polynomial.coefficients()[1..].iter().all(Ball::is_zero);
         if !coefficients.iter().all(is_constant) {
-            return solutions_by_taylor(coefficients, time);
+            let short = (time.bits() <= SHORT_BITS).then(|| short_solutions(coefficients, time)).flatten();
+            return short.unwrap_or_else(|| solutions_by_taylor(coefficients, time));
         }
         let (n, bits) = (coefficients.len(), time.bits());
         let series: Vec<Series> = coefficients.iter().map(|c| c.polynomial.clone()).collect();
@@ -256,6 +273,19 @@ impl Enclosed for TaylorModel {
     }
 }
 
+impl Summed for TaylorModel {
+    fn one(&self) -> TaylorModel {
+        self.integer(&Integer::ONE)
+    }
+    fn divided_by(&self, n: u64) -> TaylorModel {
+        let rest = -(-&self.rest).div_mod_floor(&Integer::from(n)).0;
+        TaylorModel::with(self.polynomial.divided_by(n), rest)
+    }
+    fn widened(&self) -> TaylorModel {
+        TaylorModel::with(self.polynomial.widened(), &self.rest + &Integer::ONE)
+    }
+}
+
 impl Scaled for TaylorModel {
     fn norm_units(&self) -> Integer {
         self.polynomial.norm_units() + &self.rest
@@ -265,13 +295,6 @@ impl Scaled for TaylorModel {
         let by = exponent + bits as i64 - self.bits() as i64;
         let rest = if by >= 0 { &self.rest << by.unsigned_abs() } else { up(self.rest.clone(), by.unsigned_abs()) };
         TaylorModel::with(self.polynomial.rescaled(bits, exponent), rest)
-    }
-    fn divided_by(&self, n: u64) -> TaylorModel {
-        let rest = -(-&self.rest).div_mod_floor(&Integer::from(n)).0;
-        TaylorModel::with(Scaled::divided_by(&self.polynomial, n), rest)
-    }
-    fn widened(&self) -> TaylorModel {
-        TaylorModel::with(Scaled::widened(&self.polynomial), &self.rest + &Integer::ONE)
     }
 }
 

@@ -9,10 +9,15 @@
 //! sampling period is short.
 
 use super::function::polynomial_at;
+use super::horner::Scheme;
+use super::scales::exponent;
 use super::{Definition, Function, MovingSymbols};
-use crate::ball::{Ball, Elementary, Series};
+use crate::ball::{Ball, Elementary, Known, Series, TaylorModel};
 use crate::number::{Integer, Rational};
 use crate::poly::{Domain, MultiPoly, RationalFunction};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 /// The powers of time up to which symbols are expanded.
 const ORDERS: std::ops::RangeInclusive<u32> = 0..=3;
@@ -36,6 +41,7 @@ pub(super) struct Form {
     /// The function has been multiplied by these powers of `q`, and divided by a number of so many bits.
     powers: Vec<u64>,
     divided: i64,
+    scheme: Scheme,
 }
 
 /// The first terms of a symbol: `p/q`, with `q` a positive number times a power of the parameter.
@@ -47,21 +53,40 @@ struct Start {
 
 /// The forms of a function, the function itself first.
 #[derive(Debug)]
-pub(super) struct Forms(Vec<Form>);
+pub(super) struct Forms {
+    list: Vec<Form>,
+    /// By the exponent and the sign of the parameter.
+    best_of_octave: Mutex<BTreeMap<(i64, bool), usize>>,
+}
 
 impl Form {
     /// The function at series of the parameter and the symbols, up to a factor that is not zero in an interval in which the parameter
     /// keeps its sign.
     pub fn at_series<S: Elementary>(&self, values: &[S]) -> S {
+        self.scheme.at(&self.arguments(values))
+    }
+
+    /// The same up to a power of two, in short numbers; `None` where they are too short.
+    pub fn at_short(&self, values: &[TaylorModel]) -> Option<Known> {
+        self.scheme.at_short(&self.arguments(values))
+    }
+
+    fn new(function: Function, starts: Vec<Option<Start>>, powers: Vec<u64>, divided: i64) -> Form {
+        let scheme = Scheme::of(&function);
+        Form { function, starts, powers, divided, scheme }
+    }
+
+    /// The parameter, and what stands for the symbols.
+    fn arguments<'v, S: Elementary>(&self, values: &'v [S]) -> Cow<'v, [S]> {
         if self.starts.iter().all(Option::is_none) {
-            return self.function.at_series(values);
+            return Cow::Borrowed(values);
         }
         let of_symbol = |(start, value): (&Option<Start>, &S)| match start {
             None => value.clone(),
             Some(start) => value.times(&polynomial_at(&start.q, values)).minus(&polynomial_at(&start.p, values)),
         };
         let rest = self.starts.iter().zip(&values[1..]).map(of_symbol);
-        self.function.at_series(&std::iter::once(values[0].clone()).chain(rest).collect::<Vec<_>>())
+        std::iter::once(values[0].clone()).chain(rest).collect()
     }
 
     /// Bits of the factor at a value of the parameter.
@@ -82,14 +107,9 @@ impl Forms {
     /// Cost: for each order, products of polynomials.
     pub fn of(symbols: &MovingSymbols, f: &Function) -> Forms {
         let nothing = || vec![None; symbols.table().len()];
-        let mut forms = vec![Form { function: f.clone(), starts: nothing(), powers: Vec::new(), divided: 0 }];
+        let mut forms = vec![Form::new(f.clone(), nothing(), Vec::new(), 0)];
         let about = about_two(f);
-        forms.extend(about.iter().map(|f| Form {
-            function: f.clone(),
-            starts: nothing(),
-            powers: Vec::new(),
-            divided: 0,
-        }));
+        forms.extend(about.iter().map(|f| Form::new(f.clone(), nothing(), Vec::new(), 0)));
         for order in ORDERS {
             let starts: Vec<Option<Start>> = symbols.table().iter().map(|(_, d)| start(d, order)).collect();
             let texts =
@@ -100,42 +120,44 @@ impl Forms {
             forms.extend(about.iter().filter_map(|f| rewritten(f, starts.clone())));
             forms.extend(rewritten(f, starts));
         }
-        Forms(forms)
+        Forms { list: forms, best_of_octave: Mutex::default() }
     }
 
-    /// The function itself and the two forms that are best around this interval.
-    pub fn best_around(self, symbols: &MovingSymbols, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> Forms {
-        let costs = self.costs(symbols, lo, hi, terms, bits);
-        let mut forms: Vec<(usize, Form)> = self.0.into_iter().enumerate().collect();
-        if let Some(costs) = costs {
+    /// The function itself and the two forms that are best around a value of the parameter.
+    pub fn best_around(mut self, symbols: &MovingSymbols, x: &Rational, terms: usize) -> Forms {
+        if let Some(costs) = self.costs(symbols, x, terms) {
+            let mut forms: Vec<(usize, Form)> = std::mem::take(&mut self.list).into_iter().enumerate().collect();
             forms[1..].sort_by_key(|(i, _)| costs[*i]);
+            self.list = forms.into_iter().map(|(_, form)| form).collect();
         }
-        forms.truncate(KEPT);
-        Forms(forms.into_iter().map(|(_, form)| form).collect())
+        self.list.truncate(KEPT);
+        self
     }
 
     /// The form that is likely to decide the longest interval for its cost, around this one.
-    pub fn best(&self, symbols: &MovingSymbols, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> &Form {
-        let costs = self.costs(symbols, lo, hi, terms, bits).unwrap_or_default();
-        self.0.iter().zip(costs).min_by_key(|(_, cost)| *cost).map_or(&self.0[0], |(form, _)| form)
+    pub fn best(&self, symbols: &MovingSymbols, lo: &Rational, hi: &Rational, terms: usize) -> &Form {
+        let middle = lo.midpoint(hi);
+        // The factors of forms may have a zero at 0.
+        if self.list.len() == 1 || middle.is_zero() || lo.sign() != hi.sign() {
+            return &self.list[0];
+        }
+        // What cancels is about the same over an octave.
+        let (octave, is_negative) = (exponent(&middle), middle.is_negative());
+        let mut known = self.best_of_octave.lock().unwrap_or_else(PoisonError::into_inner);
+        let best = known.entry((octave, is_negative)).or_insert_with(|| {
+            let size = Rational::from(2).pow(octave).expect("two is not zero");
+            let costs = self.costs(symbols, &if is_negative { -size } else { size }, terms).unwrap_or_default();
+            costs.iter().enumerate().min_by_key(|(_, cost)| **cost).map_or(0, |(i, _)| i)
+        });
+        &self.list[*best]
     }
 
-    /// For each form the logarithm of its cost, in quarters of bits and times the number of terms; `None` where nothing has a value, or
-    /// the factors have zeros.
-    fn costs(
-        &self,
-        symbols: &MovingSymbols,
-        lo: &Rational,
-        hi: &Rational,
-        terms: usize,
-        bits: u64,
-    ) -> Option<Vec<i64>> {
-        if self.0.len() == 1 || (lo.is_negative() && hi.sign().is_gt()) {
-            return None;
-        }
-        let middle = lo.midpoint(hi);
-        let width = (hi - lo) * Rational::dyadic(&Integer::ONE, MEASURED);
-        let parameter = Ball::between(&(&middle - &width), &(&middle + &width), bits + 2 * MEASURED);
+    /// For each form the logarithm of its cost, in quarters of bits and times the number of terms; `None` where nothing has a value.
+    fn costs(&self, symbols: &MovingSymbols, x: &Rational, terms: usize) -> Option<Vec<i64>> {
+        let width = x.abs() * Rational::dyadic(&Integer::ONE, MEASURED);
+        // As many bits after the point for a short sampling period as for the unit.
+        let bits = 4 * MEASURED + 2 * exponent(x).min(0).unsigned_abs();
+        let parameter = Ball::between(&(x - &width), &(x + &width), bits);
         let values = symbols.series(&Series::constant(&parameter, 1))?;
         // The interval that is decided is shorter by the power 1/terms of what cancels.
         let cost = |form: &Form| {
@@ -143,7 +165,7 @@ impl Forms {
             let size = i64::from(u128::from(form.function.size()).saturating_pow(4).ilog2());
             4 * (noise - form.factor_bits(&parameter)) + size * terms as i64
         };
-        Some(self.0.iter().map(cost).collect())
+        Some(self.list.iter().map(cost).collect())
     }
 }
 
@@ -255,7 +277,7 @@ fn rewritten(f: &Function, starts: Vec<Option<Start>>) -> Option<Form> {
         (Function::Resultant { .. }, b, Some(a)) => Function::Resultant { a, b },
         _ => return None,
     };
-    Some(Form { function, starts, powers, divided })
+    Some(Form::new(function, starts, powers, divided))
 }
 
 /// `q^degree f` with `(p + x)/q` in place of the variable.
@@ -303,8 +325,8 @@ mod tests {
         let resultant = Function::resultant(vec![x.clone(), c.clone(), MultiPoly::one()], vec![s.minus(&t), y.clone()]);
         for f in [Function::from(product), Function::from(x.minus(&MultiPoly::one())), resultant] {
             let forms = Forms::of(&symbols, &f);
-            assert!(forms.0.len() > 2, "{}", forms.0.len());
-            for form in &forms.0 {
+            assert!(forms.list.len() > 2, "{}", forms.list.len());
+            for form in &forms.list {
                 // Value over value and over the factors, which is the same number everywhere.
                 let ratio = |at: &str| {
                     let parameter = Ball::from_rational(&number(at), 256);
@@ -333,8 +355,8 @@ mod tests {
         let f = Function::from(MultiPoly::one().minus(&x).minus(&t).minus(&t));
         let forms = Forms::of(&symbols, &f);
         let (lo, hi) = (number("0.001"), number("0.0011"));
-        let best = forms.best(&symbols, &lo, &hi, 12, 192);
-        assert!(!std::ptr::eq(best, &forms.0[0]));
+        let best = forms.best(&symbols, &lo, &hi, 12);
+        assert!(!std::ptr::eq(best, &forms.list[0]));
         assert_eq!(best.function, Function::from(x.negated()));
     }
 }

@@ -1,10 +1,11 @@
 //! Functions of a parameter and symbols: polynomials in them, and resultants that are not expanded.
 
+use super::horner::{Horner, Scheme};
 use super::rational_series;
 use super::specialise::resultant_on_line;
 use super::{MovingSymbols, Symbols};
-use crate::ball::{Ball, Elementary, Enclosed, enclosed_resultant, enclosed_resultant_by_minors};
-use crate::limits::{Budget, Exhausted, checkpoint};
+use crate::ball::{Ball, Elementary, Enclosed, enclosed_resultant};
+use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
 use crate::poly::multivariate::Line;
 use crate::poly::{Domain, MultiPoly, Poly, UniPoly, resultant_formal};
@@ -37,9 +38,6 @@ impl From<MultiPoly> for Function {
         Function::Polynomial(p)
     }
 }
-
-/// Polynomials of so many coefficients have few minors.
-const MOST_BY_MINORS: usize = 9;
 
 /// Bits after which a resultant that may be zero is expanded.
 const MOST_BITS: u64 = 1024;
@@ -158,18 +156,7 @@ impl Function {
 
     /// The function at series of the parameter and the symbols.
     pub(super) fn at_series<S: Elementary>(&self, values: &[S]) -> S {
-        match self {
-            Function::Polynomial(p) => polynomial_at(p, values),
-            Function::Resultant { a, b } => {
-                let at = |list: &[MultiPoly]| list.iter().map(|p| polynomial_at(p, values)).collect::<Vec<S>>();
-                let (a, b) = (at(a), at(b));
-                if a.len() <= MOST_BY_MINORS {
-                    enclosed_resultant_by_minors(&a, &b)
-                } else {
-                    enclosed_resultant(&a, &b)
-                }
-            }
-        }
+        Scheme::of(self).at(values)
     }
 
     /// The function at series with rational coefficients.
@@ -267,26 +254,7 @@ impl Enclosed for Exact {
 
 /// A polynomial at series.
 pub(super) fn polynomial_at<S: Elementary>(p: &MultiPoly, values: &[S]) -> S {
-    // Horner's scheme in the variables, the last one outermost: as few products as the shape of the polynomial allows.
-    fn horner<S: Elementary>(p: &MultiPoly, values: &[S]) -> S {
-        checkpoint(16);
-        if let Some(c) = p.as_constant() {
-            return values[0].integer(&c);
-        }
-        let last = *p.variables().last().expect("not constant");
-        let parts = p.as_poly_in(last);
-        let mut sum: Option<S> = None;
-        for part in parts.coeffs().iter().rev() {
-            let shifted = sum.map(|s| s.times(&values[last]));
-            sum = Some(match (shifted, part.terms().is_empty()) {
-                (Some(s), true) => s,
-                (Some(s), false) => s.plus(&horner(part, values)),
-                (None, _) => horner(part, values),
-            });
-        }
-        sum.unwrap_or_else(|| values[0].nothing())
-    }
-    horner(p, values)
+    Horner::of(p).at(values)
 }
 
 impl MovingSymbols {

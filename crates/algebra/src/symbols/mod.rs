@@ -13,6 +13,7 @@ mod definition;
 mod dominated;
 mod forms;
 mod function;
+mod horner;
 mod moving;
 mod moving_root;
 mod normal_form;
@@ -35,7 +36,8 @@ pub use roots::{SymbolicPoly, common_factor, enclosed_roots, merged};
 pub use specialise::resultants_seem_simple_in;
 pub use values::ParametricSymbols;
 
-use crate::ball::{Ball, BallMatrix, exp, exponential, exponential_of_rationals};
+use self::horner::Horner;
+use crate::ball::{Ball, BallMatrix, Series, exp, exponential, exponential_of_rationals, fundamental_solutions};
 use crate::matrix::Matrix;
 use crate::number::{Enclosure, Integer, Rational};
 use crate::poly::{MultiPoly, RationalFunction};
@@ -137,9 +139,20 @@ impl Symbols {
             return Arc::clone(values);
         }
         let mut values = Vec::with_capacity(self.len());
+        // All solutions of an equation at once.
+        let mut rows: Vec<(&[RationalFunction], &RationalFunction, Vec<Ball>)> = Vec::new();
         for (_, definition) in &self.table {
-            let value = self.value(definition, bits);
-            values.push(value);
+            let Definition::Fundamental { polynomial, index, time } = definition else {
+                values.push(self.value(definition, bits));
+                continue;
+            };
+            let row = rows.iter().position(|(of, at, _)| *of == polynomial.as_slice() && *at == time);
+            let row = row.unwrap_or_else(|| {
+                let found = narrow(bits, polynomial.len() - 1, |bits| self.solutions(polynomial, time, bits));
+                rows.push((polynomial, time, found));
+                rows.len() - 1
+            });
+            values.push(rows[row].2[*index].clone());
         }
         let values = Arc::new(values);
         known().insert(bits, Arc::clone(&values));
@@ -148,23 +161,18 @@ impl Symbols {
 
     /// The value of a definition, narrow unless an argument is at a pole.
     fn value(&self, definition: &Definition, bits: u64) -> Ball {
-        if let Some(value) = at_rationals(definition, bits) {
-            return value;
-        }
-        let narrow = Integer::from(1 << 8);
-        let mut working = bits + 32;
-        loop {
-            let value = self.attempt(definition, working).map(|v| v.with_bits(bits));
-            let is_last = working > 16 * (bits + 64);
-            match value {
-                Some(value) if is_last || value.width_units() <= narrow => return value,
-                None if is_last => {
-                    let wide = Integer::ONE << (2 * bits + 64);
-                    return Ball::from_units(-&wide, wide, bits);
-                }
-                _ => working *= 2,
-            }
-        }
+        let at_rationals = at_rationals(definition, bits);
+        at_rationals
+            .unwrap_or_else(|| narrow(bits, 1, |bits| Some(vec![self.attempt(definition, bits)?])).swap_remove(0))
+    }
+
+    /// All fundamental solutions of an equation at a time; `None` where a divisor may vanish.
+    fn solutions(&self, polynomial: &[RationalFunction], time: &RationalFunction, bits: u64) -> Option<Vec<Ball>> {
+        let constant = |c: &RationalFunction| Some(Series::constant(&self.quotient_at(c, bits)?, 1));
+        let (_, lower) = polynomial.split_last()?;
+        let coefficients = lower.iter().map(constant).collect::<Option<Vec<Series>>>()?;
+        let row = fundamental_solutions(&coefficients, &constant(time)?);
+        Some(row.iter().map(|s| s.coefficients()[0].clone()).collect())
     }
 
     /// The value computed with that many bits; `None` where a divisor may vanish.
@@ -186,19 +194,7 @@ impl Symbols {
                 e.at(0, 1).div(e.at(0, 0))
             }
             Definition::Fundamental { polynomial, index, time } => {
-                let (n, t) = (polynomial.len() - 1, at(time)?);
-                let last: Vec<Ball> =
-                    polynomial[..n].iter().map(|c| Some(at(c)?.mul(&t).neg())).collect::<Option<_>>()?;
-                let companion = BallMatrix::from_fn(n, |i, j| {
-                    if i + 1 == n {
-                        last[j].clone()
-                    } else if j == i + 1 {
-                        t.clone()
-                    } else {
-                        Ball::zero(bits)
-                    }
-                });
-                Some(exponential(&companion).at(0, *index).clone())
+                Some(self.solutions(polynomial, time, bits)?.swap_remove(*index))
             }
         }
     }
@@ -210,34 +206,11 @@ impl Symbols {
 
     /// The value of a polynomial in symbols, computed with that many bits after the point.
     ///
-    /// Cost: a product of balls for each factor of each term, and the powers that occur.
+    /// Cost: products of balls, as many as Horner's scheme in several variables takes: at most one for each term and symbol.
     pub fn enclose(&self, p: &MultiPoly, bits: u64) -> Ball {
-        let highest = p.degrees();
         // The arguments of a symbol are asked for while the table of values is made: then only what they have is there.
-        let needed = highest.iter().rposition(|d| *d > 0).map_or(0, |i| i + 1);
-        let values = self.first_values(needed, bits);
-        let powers: Vec<Vec<Ball>> = (0..needed)
-            .map(|i| {
-                let mut powers = vec![Ball::from_integer(&Integer::ONE, bits)];
-                for k in 0..highest[i] as usize {
-                    powers.push(powers[k].mul(&values[i]));
-                }
-                powers
-            })
-            .collect();
-        let mut sum = Ball::zero(bits);
-        for (monomial, c) in p.terms() {
-            let mut term: Option<Ball> = None;
-            for (i, powers) in powers.iter().enumerate() {
-                let e = monomial.exponent(i) as usize;
-                if e > 0 {
-                    term = Some(term.map_or_else(|| powers[e].clone(), |t| t.mul(&powers[e])));
-                }
-            }
-            let term = term.map_or_else(|| Ball::from_integer(c, bits), |t| t.scaled(c));
-            sum = sum.add(&term);
-        }
-        sum
+        let needed = p.variables().last().map_or(0, |i| i + 1);
+        Horner::of(p).at_balls(&self.first_values(needed, bits), bits)
     }
 
     fn first_values(&self, count: usize, bits: u64) -> Arc<Vec<Ball>> {
@@ -264,11 +237,24 @@ fn at_rationals(definition: &Definition, bits: u64) -> Option<Ball> {
             Some(exponential_of_rationals(&Matrix::from_fn(1, 1, |_, _| x.clone()), bits).at(0, 0).clone())
         }
         Definition::Tangent { square, time } => Some(tangent(&square.as_constant()?, &time.as_constant()?, bits)),
-        Definition::Fundamental { polynomial, index, time } => {
-            let n = polynomial.len() - 1;
-            let factor: Vec<Rational> =
-                polynomial[..n].iter().map(RationalFunction::as_constant).collect::<Option<_>>()?;
-            Some(exponential_of_rationals(&companion(&factor, &time.as_constant()?), bits).at(0, *index).clone())
+        Definition::Fundamental { .. } => None,
+    }
+}
+
+/// The values that are found with more and more bits, until they are narrow; wide ones, `count` of them, where they never are.
+fn narrow(bits: u64, count: usize, mut attempt: impl FnMut(u64) -> Option<Vec<Ball>>) -> Vec<Ball> {
+    let most = Integer::from(1 << 8);
+    let mut working = bits + 32;
+    loop {
+        let found: Option<Vec<Ball>> = attempt(working).map(|list| list.iter().map(|v| v.with_bits(bits)).collect());
+        let is_last = working > 16 * (bits + 64);
+        match found {
+            Some(list) if is_last || list.iter().all(|v| v.width_units() <= most) => return list,
+            None if is_last => {
+                let wide = Integer::ONE << (2 * bits + 64);
+                return vec![Ball::from_units(-&wide, wide, bits); count];
+            }
+            _ => working *= 2,
         }
     }
 }

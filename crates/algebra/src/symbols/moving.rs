@@ -1,7 +1,8 @@
 //! Symbols that depend on a parameter, such as `exp(-2*T)` in `T`, and the zeros of polynomials in the parameter and in them.
 
-use super::forms::{Form, Forms};
+use super::forms::Forms;
 use super::function::polynomial_at;
+use super::horner::Scheme;
 use super::moving_root::MovingRoot;
 use super::pieces::{self, Look, Piece};
 use super::scales::{between_scales, exponent, joined, octaves};
@@ -15,7 +16,7 @@ use crate::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
 use crate::real::{Enclosing, Real, Transcendental};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A table of symbols whose arguments are rational functions of a parameter (variable 0) and of earlier symbols (symbol `i` is
 /// variable `i + 1`).
@@ -25,7 +26,7 @@ use std::sync::Arc;
 /// use jurist_algebra::number::Rational;
 /// use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 /// use jurist_algebra::symbols::{Definition, MovingSymbols};
-/// use std::sync::Arc;
+/// use std::sync::{Arc, OnceLock};
 /// // exp(-T) - T = 0
 /// let minus = -&RationalFunction::variable(0);
 /// let symbols = Arc::new(MovingSymbols::new(vec![("X".into(), Definition::Exponential(minus))]));
@@ -53,7 +54,10 @@ pub struct Zeros {
 /// Terms of the Taylor polynomials; halving an interval makes what is left out 2^12 times smaller.
 pub(super) const TERMS: usize = 12;
 
-/// Bits of the first attempt.
+/// Bits of the first attempt, with short numbers.
+const FEW_BITS: u64 = 112;
+
+/// Bits of the first attempt with others.
 pub(super) const FIRST_BITS: u64 = 192;
 
 /// So many intervals are looked at side by side, however many threads there are: work is counted, and what it decides is the same.
@@ -161,16 +165,15 @@ impl MovingSymbols {
     }
 
     /// The value of a function, the parameter anywhere in a ball.
-    pub(super) fn value(&self, f: &Function, parameter: &Ball) -> Option<Ball> {
+    pub(super) fn value(&self, f: &Scheme, parameter: &Ball) -> Option<Ball> {
         let values = self.series(&Series::constant(parameter, 1))?;
-        Some(f.at_series(&values).coefficients()[0].clone())
+        Some(f.at(&values).coefficients()[0].clone())
     }
 
-    /// The function on a disc of the parameter somewhat larger than one around the interval.
-    fn model(&self, f: &Form, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> Option<TaylorModel> {
+    /// The parameter and all symbols on a disc of the parameter somewhat larger than one around the interval.
+    fn models(&self, lo: &Rational, hi: &Rational, terms: usize, bits: u64) -> Option<Vec<TaylorModel>> {
         let radius = Ball::from_rational(&(&(hi - lo) * &pieces::disc_radius()), bits);
-        let parameter = TaylorModel::linear(&Ball::from_rational(&lo.midpoint(hi), bits), &radius, terms);
-        Some(f.at_series(&self.series(&parameter)?))
+        self.series(&TaylorModel::linear(&Ball::from_rational(&lo.midpoint(hi), bits), &radius, terms))
     }
 
     /// The zeros of a polynomial in the parameter and symbols strictly between two numbers, looked for first on the scale of the
@@ -217,9 +220,8 @@ impl MovingSymbols {
         // Every octave away from the usual value waits for two halvings, so that a place where zeros crowd leaves others decided.
         let mut todo = BinaryHeap::from([Reverse((0, start, end, 0))]);
         let usual = if lower < near && near < upper { near.clone() } else { lower.midpoint(upper) };
-        let around = usual.abs() * Rational::dyadic(&Integer::ONE, 6);
-        let (lo, hi) = (&usual - &around, &usual + &around);
-        let forms = budget.enter(|| Forms::of(self, f).best_around(self, &lo, &hi, TERMS, FIRST_BITS))?;
+        let scheme = Arc::new(Scheme::of(f));
+        let forms = budget.enter(|| Forms::of(self, f).best_around(self, &usual, TERMS))?;
         // Counted, not timed: the same model has the same answer on every machine.
         let work = Budget::with_work(MOST_WORK);
         let mut looks = 0;
@@ -232,13 +234,13 @@ impl MovingSymbols {
             let one = |(lo, hi, halvings): (Rational, Rational, i64)| {
                 // Towards 0 there is no end of octaves.
                 let is_far = || is_open && hi < *near && octaves(&lo, &hi, near) > MOST_OCTAVES;
-                let looks = self.look(f, &forms, &lo, &hi);
+                let looks = self.look(&forms, &lo, &hi);
                 let goes_on = !is_last && halvings < MOST_HALVINGS && !is_far();
                 // What is left of an interval is looked at as it is, most of one in two parts.
                 let is_most = |a: &Rational, b: &Rational| (b - a) * Rational::from(2) > &hi - &lo;
                 let part = |(a, b, look): (Rational, Rational, Look)| {
                     let middle = goes_on && look == Look::Unknown && is_most(&a, &b);
-                    let middle = middle.then(|| self.split_point(f, &a, &b, near));
+                    let middle = middle.then(|| self.split_point(&scheme, &a, &b, near));
                     (a, b, look, middle)
                 };
                 (looks.into_iter().map(part).collect::<Vec<_>>(), goes_on)
@@ -276,7 +278,13 @@ impl MovingSymbols {
         let shared = Arc::new(f.clone());
         for (lo, hi) in brackets {
             let place = Enclosure::new(lo, hi);
-            let root = MovingRoot { symbols: Arc::clone(self), function: Arc::clone(&shared), place: place.clone() };
+            let root = MovingRoot {
+                symbols: Arc::clone(self),
+                function: Arc::clone(&shared),
+                scheme: Arc::clone(&scheme),
+                place: place.clone(),
+                rising: OnceLock::new(),
+            };
             found.zeros.push(self.known(root, f, budget)?);
         }
         Ok(found)
@@ -294,6 +302,10 @@ impl MovingSymbols {
 
     /// Whether the function is zero at a rational value of the parameter; `None` where that is neither proved nor disproved.
     fn vanishing(&self, f: &Function, value: &Rational, budget: &Budget) -> Result<Option<bool>, Exhausted> {
+        // A sign that is certain spares a table of exact arguments.
+        if budget.enter(|| self.sign_at(&Scheme::of(f), value, FEW_BITS))?.is_some() {
+            return Ok(Some(false));
+        }
         match self.vanishes_at(f, value, budget) {
             Err(stopped) if stopped.budget.starts_with("precision") => Ok(None),
             found => found.map(Some),
@@ -314,49 +326,60 @@ impl MovingSymbols {
         Ok(Real::from(Transcendental::within(root, place)))
     }
 
-    pub(super) fn sign_at(&self, f: &Function, at: &Rational, bits: u64) -> Option<Sign> {
+    pub(super) fn sign_at(&self, f: &Scheme, at: &Rational, bits: u64) -> Option<Sign> {
         self.value(f, &Ball::from_rational(at, bits))?.sign().filter(|s| s.is_ne())
     }
 
     /// A number about in the middle, between far ends by their scale, at which the function is certainly not zero.
-    fn split_point(&self, f: &Function, lo: &Rational, hi: &Rational, near: &Rational) -> Rational {
-        if let Some(middle) = between_scales(lo, hi, near).filter(|x| self.sign_at(f, x, FIRST_BITS).is_some()) {
+    fn split_point(&self, f: &Scheme, lo: &Rational, hi: &Rational, near: &Rational) -> Rational {
+        if let Some(middle) = between_scales(lo, hi, near).filter(|x| self.sign_at(f, x, FEW_BITS).is_some()) {
             return middle;
         }
         let at = |n: i64| lo + &(&(hi - lo) * &Rational::new(Integer::from(n), Integer::from(64)));
-        [32, 31, 33, 29, 35].into_iter().map(at).find(|x| self.sign_at(f, x, FIRST_BITS).is_some()).unwrap_or(at(32))
+        [32, 31, 33, 29, 35].into_iter().map(at).find(|x| self.sign_at(f, x, FEW_BITS).is_some()).unwrap_or(at(32))
     }
 
     /// What the function's Taylor polynomial says of pieces of an interval.
-    fn look(&self, f: &Function, forms: &Forms, lo: &Rational, hi: &Rational) -> Vec<(Rational, Rational, Look)> {
+    fn look(&self, forms: &Forms, lo: &Rational, hi: &Rational) -> Vec<(Rational, Rational, Look)> {
         // Twice the bits that the interval's width takes away.
         let width = hi - lo;
         let small = width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
-        let mut bits = FIRST_BITS + small * 4;
-        let form = forms.best(self, lo, hi, TERMS, bits);
-        for _ in 0..MOST_DOUBLINGS {
-            let Some(model) = self.model(form, lo, hi, TERMS, bits) else {
+        let form = forms.best(self, lo, hi, TERMS);
+        let mut bits = FEW_BITS + (small * 4).min(64);
+        for attempt in 0..=MOST_DOUBLINGS {
+            let at_point = |x: &Rational| self.series(&Series::constant(&Ball::from_rational(x, bits), 1));
+            let Some(values) = self.models(lo, hi, TERMS, bits) else {
                 // Without a value in the middle and at both ends there is little hope for what is between: it stays undecided.
-                let has_none =
-                    |x: &Rational| self.series(&Series::constant(&Ball::from_rational(x, bits), 1)).is_none();
-                let is_lost = [lo.clone(), lo.midpoint(hi), hi.clone()].iter().all(has_none);
+                let is_lost = [lo.clone(), lo.midpoint(hi), hi.clone()].iter().all(|x| at_point(x).is_none());
                 return vec![(lo.clone(), hi.clone(), if is_lost { Look::Hopeless } else { Look::Unknown })];
             };
-            let piece = Piece::new(&model, lo, hi);
-            let sign_at = |x: &Rational| self.sign_at(f, x, bits);
-            let found = piece.judged(&sign_at);
-            if found.iter().any(|(_, _, look)| !matches!(look, Look::Unknown)) {
+            let sign_at = |x: &Rational| form.at_series(&at_point(x)?).coefficients()[0].sign().filter(|s| s.is_ne());
+            let judged = if attempt == 0 {
+                let short = form.at_short(&values);
+                short.and_then(|k| judged(&Piece::new(k.coefficients, k.rest, lo, hi), &k.noise, &sign_at))
+            } else {
+                let mut taylor = form.at_series(&values).coefficients();
+                let rest = taylor.pop().expect("a model has a rest").magnitude_units();
+                let noise = taylor[..2].iter().map(Ball::width_units).max().unwrap_or(Integer::ZERO);
+                judged(&Piece::new(taylor, rest, lo, hi), &noise, &sign_at)
+            };
+            if let Some(found) = judged {
                 return found;
             }
-            let taylor = piece.coefficients();
-            // Where the function varies by more than is noise, a shorter interval tells more than more bits do.
-            let noise = taylor[..2].iter().map(Ball::width_units).max().unwrap_or(Integer::ZERO);
-            let variation = taylor[1..].iter().map(Ball::magnitude_units).max().unwrap_or(Integer::ZERO);
-            if noise < (variation >> 8) {
-                return found;
-            }
-            bits *= 2;
+            bits = if attempt == 0 { FIRST_BITS + small * 4 } else { 2 * bits };
         }
         vec![(lo.clone(), hi.clone(), Look::Hopeless)]
     }
+}
+
+/// What a polynomial that is known but for some noise says; `None` where more bits may tell more than a shorter interval.
+fn judged(
+    piece: &Piece,
+    noise: &Integer,
+    sign_at: &dyn Fn(&Rational) -> Option<Sign>,
+) -> Option<Vec<(Rational, Rational, Look)>> {
+    let found = piece.judged(sign_at);
+    let is_decided = found.iter().any(|(_, _, look)| !matches!(look, Look::Unknown));
+    // Where the function varies by more than is noise, a shorter interval tells more than more bits do.
+    (is_decided || *noise < (piece.variation() >> 8)).then_some(found)
 }

@@ -1,56 +1,83 @@
 //! One zero of a function of a parameter and symbols that depend on it, refined to any width.
 
+use super::horner::Scheme;
 use super::moving::FIRST_BITS;
 use super::{Function, MovingSymbols};
 use crate::ball::{Ball, Series};
 use crate::limits::checkpoint;
 use crate::number::{Enclosure, Integer, Rational};
 use crate::real::{Enclosing, Origin};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// The only zero of a function in an interval on which it is monotone.
 #[derive(Debug)]
 pub(super) struct MovingRoot {
     pub symbols: Arc<MovingSymbols>,
     pub function: Arc<Function>,
+    pub scheme: Arc<Scheme>,
     pub place: Enclosure,
+    /// Whether the function is negative below the zero, once it was asked.
+    pub rising: OnceLock<bool>,
 }
 
+/// Newton's step errs by about so many times its square over the interval on which the function is monotone, at first.
+const FIRST_CURVATURE: i64 = 4;
+
 impl Enclosing for MovingRoot {
+    /// Newton's method at points: a step ends in a short interval, and two signs tell whether the zero is in it.
     fn enclose(&self, bits: u64, known: Option<&Enclosure>) -> Enclosure {
         let known = known.unwrap_or(&self.place);
         let (mut lo, mut hi) = (known.lower().clone(), known.upper().clone());
         let target = Rational::dyadic(&Integer::ONE, bits);
-        let half = Rational::dyadic(&Integer::ONE, 1);
+        let mut curvature = self.place.upper() - self.place.lower();
+        curvature = Rational::from(FIRST_CURVATURE).checked_div(&curvature).unwrap_or(Rational::ONE);
         let mut working = bits + 96;
-        let rising = self.rises();
+        let rising = *self.rising.get_or_init(|| self.rises());
         while &hi - &lo > target {
             checkpoint(bits);
-            let width = &hi - &lo;
-            // A dyadic number in the middle, so that it is exact.
-            let middle = Ball::from_rational(&lo.midpoint(&hi), working).lower();
+            // Dyadic numbers, so that they are exact.
+            let dyadic = |x: &Rational| Ball::from_rational(x, working).lower();
+            let middle = dyadic(&lo.midpoint(&hi));
             let point = Ball::from_rational(&middle, working);
-            let whole = Ball::between(&lo, &hi, working);
-            let at_middle = self.symbols.value(&self.function, &point);
             let one = Ball::from_integer(&Integer::ONE, working);
-            let slope = self.symbols.series(&Series::linear(&whole, &one, 2));
-            let slope = slope.map(|values| self.function.at_series(&values).coefficients()[1].clone());
-            if let (Some(at_middle), Some(slope)) = (&at_middle, slope)
-                && let Some(newton) = at_middle.div(&slope).and_then(|step| point.sub(&step).intersection(&whole))
-                && (newton.upper() - newton.lower()) <= &width * &half
-            {
-                (lo, hi) = (newton.lower().max(lo), newton.upper().min(hi));
+            let at_middle = self.symbols.series(&Series::linear(&point, &one, 2)).map(|values| self.scheme.at(&values));
+            let at_middle = at_middle.as_ref().map(Series::coefficients);
+            let sign = at_middle.and_then(|c| c[0].sign()).filter(|s| s.is_ne());
+            let (Some([value, slope]), Some(sign), true) = (at_middle, sign, lo < middle && middle < hi) else {
+                working *= 2;
                 continue;
+            };
+            if sign.is_gt() == rising {
+                hi = middle.clone();
+            } else {
+                lo = middle.clone();
             }
-            match at_middle.and_then(|v| v.sign()).filter(|s| s.is_ne()) {
-                Some(sign) if middle > lo && middle < hi => {
-                    if sign.is_gt() == rising {
-                        hi = middle;
-                    } else {
-                        lo = middle;
-                    }
+            let Some(step) = value.div(slope) else { continue };
+            let guess = &middle - &step.lower().midpoint(&step.upper());
+            let square = (&guess - &middle).pow(2).expect("a square");
+            let around = &(&square * &curvature)
+                + &(&(step.upper() - step.lower()) + &(&target * &Rational::dyadic(&Integer::ONE, 2)));
+            let (below, above) = (dyadic(&(&guess - &around)), dyadic(&(&guess + &around)));
+            let is_above = |x: &Rational| self.symbols.sign_at(&self.scheme, x, working).map(|s| s.is_gt() == rising);
+            let mut is_in = true;
+            for x in [below, above] {
+                if !(lo < x && x < hi) {
+                    continue;
                 }
-                _ => working *= 2,
+                match is_above(&x) {
+                    Some(true) => {
+                        is_in &= x > guess;
+                        hi = x;
+                    }
+                    Some(false) => {
+                        is_in &= x <= guess;
+                        lo = x;
+                    }
+                    None => is_in = false,
+                }
+            }
+            if !is_in {
+                curvature = curvature * Rational::from(16);
             }
         }
         Enclosure::new(lo, hi)
@@ -68,8 +95,8 @@ impl MovingRoot {
     fn rises(&self) -> bool {
         let mut working = FIRST_BITS;
         loop {
-            let below = self.symbols.sign_at(&self.function, self.place.lower(), working);
-            let above = self.symbols.sign_at(&self.function, self.place.upper(), working);
+            let below = self.symbols.sign_at(&self.scheme, self.place.lower(), working);
+            let above = self.symbols.sign_at(&self.scheme, self.place.upper(), working);
             if let (Some(a), Some(b)) = (below, above)
                 && a != b
             {

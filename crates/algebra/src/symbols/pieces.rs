@@ -3,7 +3,7 @@
 //! To evaluate a function is dear, to halve the interval of a polynomial is cheap: what is left out of the polynomial is small on a wide interval
 //! already, while the function varies there as a high power of the parameter and has to be looked at piece by piece.
 
-use crate::ball::{Ball, TaylorModel};
+use crate::ball::Ball;
 use crate::number::{Integer, Rational, Sign};
 
 /// The radius of the disc is this quotient of the interval's radius: what is left out is known of its derivative too on the interval.
@@ -40,28 +40,22 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// The whole interval.
+    /// The whole interval, from a polynomial on the disc and, in its units, a bound of the sum of the absolute values of all coefficients of
+    /// what it is wrong by.
     ///
-    /// With `|e_n| + |e_(n+1)| + ... <= e` on the disc the powers of `y = q x`, `q = 5/4`, have the coefficients `e_k q^-k`, and `k q^-k` falls from
-    /// `k = 5` on.
-    ///
-    /// # Panics
-    /// For fewer than five terms.
-    pub fn new(model: &TaylorModel, lo: &Rational, hi: &Rational) -> Piece {
+    /// With `|e_0| + |e_1| + ... <= e` on the disc the powers of `y = q x`, `q = 5/4`, have the coefficients `e_k q^-k`, and `k q^-k < 2`.
+    pub fn new(polynomial: Vec<Ball>, rest: Integer, lo: &Rational, hi: &Rational) -> Piece {
         let scaled = |(k, c): (usize, &Ball)| {
             (0..k).fold(c.scaled(&Integer::from(DISC.1).pow(k as u64)), |c, _| c.divided_by(DISC.0))
         };
-        let mut polynomial: Vec<Ball> = model.coefficients().iter().enumerate().map(scaled).collect();
-        let rest = polynomial.pop().expect("a model has a rest").magnitude_units();
-        assert!(polynomial.len() > 4, "enough terms for a bound of the slope");
-        let rest_of_slope = &rest * &Integer::from(polynomial.len() as u64);
+        let polynomial: Vec<Ball> = polynomial.iter().enumerate().map(scaled).collect();
+        let rest_of_slope = &rest + &rest;
         Piece { lo: lo.clone(), hi: hi.clone(), polynomial, rest, rest_of_slope }
     }
 
-    /// The coefficients, and the bound of the rest as one more.
-    pub fn coefficients(&self) -> Vec<Ball> {
-        let rest = Ball::from_units(-&self.rest, self.rest.clone(), self.polynomial[0].bits());
-        self.polynomial.iter().cloned().chain([rest]).collect()
+    /// The greatest coefficient but the first, in units, the rest being one.
+    pub fn variation(&self) -> Integer {
+        self.polynomial[1..].iter().map(Ball::magnitude_units).chain([self.rest.clone()]).max().expect("a rest")
     }
 
     /// What is known of pieces from below, those next to each other of which nothing is known joined; the sign of the function at a
@@ -145,7 +139,7 @@ impl Piece {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ball::Elementary;
+    use crate::ball::{Elementary, TaylorModel};
     use proptest::prelude::*;
 
     const BITS: u64 = 256;
@@ -159,12 +153,18 @@ mod tests {
         TaylorModel::linear(&ball(&lo.midpoint(hi)), &ball(&((hi - lo) * disc_radius())), terms)
     }
 
+    fn of_model(model: &TaylorModel, lo: &Rational, hi: &Rational) -> Piece {
+        let mut coefficients = model.coefficients();
+        let rest = coefficients.pop().unwrap().magnitude_units();
+        Piece::new(coefficients, rest, lo, hi)
+    }
+
     /// `p^20 (p^2 + 1)`, over an octave: no coefficient dominates, but every piece of it is decided.
     #[test]
     fn a_high_power_has_no_zero_on_an_octave() {
         let (lo, hi) = (number("1"), number("2"));
         let p = parameter(&lo, &hi, 24);
-        let piece = Piece::new(&p.power(20).mul(&p.mul(&p).add(&p.integer(&Integer::ONE))), &lo, &hi);
+        let piece = of_model(&p.power(20).mul(&p.mul(&p).add(&p.integer(&Integer::ONE))), &lo, &hi);
         assert_eq!(piece.look(&|_| None), Look::Unknown);
         assert_eq!(piece.judged(&|_| None), [(lo, hi, Look::None)]);
     }
@@ -179,7 +179,7 @@ mod tests {
             let (lo, hi) = (Rational::from(lo), Rational::from(lo + width));
             let p = parameter(&lo, &hi, 12);
             let less = |x: &Rational| p.sub(&p.constant(&Ball::from_rational(x, BITS)));
-            let piece = Piece::new(&p.exp().mul(&less(&a)).mul(&less(&b)), &lo, &hi);
+            let piece = of_model(&p.exp().mul(&less(&a)).mul(&less(&b)), &lo, &hi);
             let exact = |x: &Rational| Some(((x - &a) * (x - &b)).sign()).filter(|s| s.is_ne());
             let found = piece.judged(&exact);
             prop_assert_eq!((&found[0].0, &found.last().unwrap().1), (&lo, &hi));

@@ -37,7 +37,8 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis from its label: a unit stands in parentheses at its end, `time (s)`.
+    /// An axis from its label: a unit stands in parentheses at its end, `time (s)`. A unit alone, ` (s)`, makes an axis without a title
+    /// whose numbers have that unit.
     ///
     /// ```
     /// use jurist_draw::figures::{Axis, Scale};
@@ -72,6 +73,7 @@ impl Axis {
     /// Quantity and unit: `T (ms)`.
     pub fn title(&self) -> String {
         match self.unit.as_str() {
+            _ if self.name.is_empty() => String::new(),
             "" => self.name.clone(),
             unit => format!("{} ({}{unit})", self.name, prefix(self.thousands())),
         }

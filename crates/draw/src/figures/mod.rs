@@ -11,6 +11,7 @@ mod legend;
 mod locus;
 pub mod map;
 mod panel;
+mod placing;
 mod response;
 mod response_figure;
 mod responses;

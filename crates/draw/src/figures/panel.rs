@@ -3,6 +3,7 @@
 use super::axes::{Axis, BELOW, Frame, Heading, Scale};
 use super::clip::Window;
 use super::legend::{self, Entry, Sample};
+use super::placing::Occupied;
 use super::{FAINT_INK, Figure, INK};
 use crate::scene::{Anchor, Colour, Point, Rectangle, Scene, Stroke, Words, width};
 
@@ -90,7 +91,7 @@ pub struct Panel {
     pub title: String,
     /// Smaller words below the title.
     pub notes: Vec<String>,
-    /// Along x, with the unit.
+    /// Along x, with the unit; as [`Axis::labelled`].
     pub x_label: String,
     /// Along y, with the unit.
     pub y_label: String,
@@ -204,16 +205,19 @@ impl Panel {
         let frame = Frame { x, y, plot, equal: self.equal };
         frame.draw(&mut scene);
         self.reference_lines(&mut scene, &frame);
+        let mut occupied = self.lines_across(&frame);
         for curve in &self.curves {
             for piece in window.pieces(&self.placed(curve)) {
-                let points: Vec<Point> = piece.into_iter().map(|p| frame.at_places(p)).collect();
-                scene.polyline(&apart(points), stroke(curve));
+                let points = apart(piece.into_iter().map(|p| frame.at_places(p)).collect());
+                scene.polyline(&points, stroke(curve));
+                occupied.curve(points);
             }
         }
         for mark in self.marks.iter().filter(|m| window.contains(self.place(m.at))) {
             legend::mark(&mut scene, mark.shape, Colour::css(&mark.colour), frame.at(mark.at));
+            occupied.mark(frame.at(mark.at));
         }
-        self.labels(&mut scene, &frame);
+        self.labels(&mut scene, &frame, occupied);
         if let Some(corner) = self.legend.filter(|c| *c != Corner::Above && !entries.is_empty()) {
             let (w, h) = legend::box_size(&entries);
             let right = plot.right() - w - 8.0;
@@ -250,17 +254,34 @@ impl Panel {
         }
     }
 
-    /// The words with their arrows, kept inside the axes.
-    fn labels(&self, scene: &mut Scene, frame: &Frame) {
+    /// The dashed lines as what words had rather not cover.
+    fn lines_across(&self, frame: &Frame) -> Occupied {
+        let mut occupied = Occupied::default();
+        self.levels.iter().for_each(|(level, _)| occupied.level(frame.at((self.x.0, *level)).1));
+        self.verticals.iter().for_each(|(value, _)| occupied.vertical(frame.at((*value, self.y.0)).0));
+        occupied
+    }
+
+    /// The words with their arrows, kept inside the axes and off the curves.
+    fn labels(&self, scene: &mut Scene, frame: &Frame, mut occupied: Occupied) {
         for text in &self.texts {
             let half = width(&text.text, TEXT) / 2.0;
-            let (x, y) = frame.at(text.at);
-            let (low, high) = (frame.plot.left + half + 4.0, frame.plot.right() - half - 4.0);
-            let x = if low < high { x.clamp(low, high) } else { f64::midpoint(low, high) };
-            let y = y.clamp(frame.plot.top + 14.0, frame.plot.bottom() - 5.0);
-            if let Some(target) = text.target.map(|t| frame.at(t)) {
+            let target = text.target.map(|t| frame.at(t));
+            let (x, y) = occupied.place(&text.text, TEXT, frame.at(text.at), target, &frame.plot);
+            if let Some(target) = target {
                 // From the nearest point of the words' rectangle.
-                let from = (target.0.clamp(x - half, x + half), if target.1 > y { y + 4.0 } else { y - 10.0 });
+                let beside = target.1.clamp(y - 10.0, y + 4.0);
+                let from_side = (target.0 - x).abs() > half;
+                let from = (
+                    target.0.clamp(x - half, x + half),
+                    if from_side {
+                        beside
+                    } else if target.1 > y {
+                        y + 4.0
+                    } else {
+                        y - 10.0
+                    },
+                );
                 pointer(scene, from, target);
             }
             let words = Words::new(&text.text, (x, y), TEXT, INK).anchored(Anchor::Middle);

@@ -234,6 +234,7 @@ pub fn bode(answer: &Answer<Margins>, response: &FrequencyResponse) -> Figure {
     };
     let magnitude = Panel {
         title: title(answer),
+        x_label: if response.hertz { " (Hz)" } else { "" }.to_owned(),
         levels: vec![(0.0, String::new())],
         ..panel(ResponsePoint::decibels, "modulus (dB)", true)
     };

@@ -20,13 +20,13 @@ pub use model::{comment_at, entries};
 
 use crate::page::{Section, math, paragraph, report_page};
 use certificates::Commands;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, join, parallel_map};
 use jurist_engine::problem::Question;
 use jurist_engine::show::layout::called;
 use part::{Parts, Work};
 
 /// Proves a certificate again by other code; an error is the reason why it was not accepted.
-pub type Checker<'a> = &'a dyn Fn(&str) -> Result<(), String>;
+pub type Checker<'a> = &'a (dyn Fn(&str) -> Result<(), String> + Sync);
 
 /// The page, and whether it is all of it.
 #[derive(Clone, Debug)]
@@ -69,24 +69,28 @@ pub fn loop_report(question: &Question, file: Option<&str>, check: Option<Checke
         .as_ref()
         .map_err(Clone::clone)
         .and_then(|problem| parts.part("the verdict", Work::Any, |budget| problem.verdict(budget)));
-    let limits = limits::find(question, &parts);
-    let margins = margins::find(&problem, &parts);
-    let section = |(id, heading, html): (&'static str, &'static str, String)| Section { id, heading, html };
+    let (limits, margins) = join(|| limits::find(question, &parts), || margins::find(&problem, &parts));
     let commands = Commands { file, question };
-    let sections = [
-        ("model", "The model", model::section(question)),
-        ("limits", "Verdict and limits", limits::section(&verdict, &limits)),
-        ("margins", "Margins of the loop", margins::section(&margins)),
-        ("sensitivity", "What moves the limits", sensitivity::section(question, &limits, &parts)),
-        ("tolerance", "Worst corner of the tolerances", tolerance::section(question, &parts)),
-        ("locus", "Root locus", pictures::locus(&limits, &parts)),
-        ("bode", "Bode diagram", margins::bode_section(&margins, &parts)),
-        ("response", "Response", pictures::response(&problem, &verdict, &parts)),
-        ("map", "Map of two parameters", pictures::map(question, &limits, &parts)),
-        ("certificates", "Certificates", certificates::section(&commands, &verdict, &limits, check, &parts)),
-        ("proved", "What is proved, what is drawn, what is left out", proved::section(model)),
-    ]
-    .map(section);
+    // Parts that need nothing of each other, side by side.
+    type Made<'p> = Box<dyn Fn() -> String + Sync + Send + 'p>;
+    let sections: Vec<(&'static str, &'static str, Made<'_>)> = vec![
+        ("model", "The model", Box::new(|| model::section(question))),
+        ("limits", "Verdict and limits", Box::new(|| limits::section(&verdict, &limits))),
+        ("margins", "Margins of the loop", Box::new(|| margins::section(&margins))),
+        ("sensitivity", "What moves the limits", Box::new(|| sensitivity::section(question, &limits, &parts))),
+        ("tolerance", "Worst corner of the tolerances", Box::new(|| tolerance::section(question, &parts))),
+        ("locus", "Root locus", Box::new(|| pictures::locus(&limits, &parts))),
+        ("bode", "Bode diagram", Box::new(|| margins::bode_section(&margins, &parts))),
+        ("response", "Response", Box::new(|| pictures::response(&problem, &verdict, &parts))),
+        ("map", "Map of two parameters", Box::new(|| pictures::map(question, &limits, &parts))),
+        (
+            "certificates",
+            "Certificates",
+            Box::new(|| certificates::section(&commands, &verdict, &limits, check, &parts)),
+        ),
+        ("proved", "What is proved, what is drawn, what is left out", Box::new(|| proved::section(model))),
+    ];
+    let sections: Vec<Section> = parallel_map(sections, |(id, heading, make)| Section { id, heading, html: make() });
     let title = format!("Stability report: {}", called(model.title()));
     let mut lead = format!("At the nominal point <b>{}</b>.", math(&limits::verdict_sentence(&verdict)));
     lead.extend(limits::nearest_sentence(&limits).map(|s| format!(" {}", math(&s))));

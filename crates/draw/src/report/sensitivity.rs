@@ -4,10 +4,11 @@ use super::limits::Limits;
 use super::part::{Missing, Part, Parts, Work};
 use super::{around_nominal, limit_text, percent_change};
 use crate::page::{Table, math, paragraph};
-use jurist_algebra::limits::parallel_map;
+use jurist_algebra::limits::{Budget, parallel_map};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::real::Real;
 use jurist_engine::answer::Answer;
+use jurist_engine::error::Error;
 use jurist_engine::problem::Question;
 use jurist_engine::show::layout::short;
 use jurist_engine::stability::{End, Range, StableSet};
@@ -87,25 +88,16 @@ fn of_parameter(question: &Question, limits: &Limits, work: u64, parts: &Parts<'
     if list.is_empty() {
         return heading + &paragraph("The model has no other number that could move them.");
     }
-    let near = near(answer, &base, shown);
+    let near = Near::of(answer, &base, shown);
     parts.budget().step(&format!("what moves the limits of {}", limits.name));
     let share = parts.budget().share(1, 2).silent();
     let jobs: Vec<(usize, i64)> = (0..list.len()).flat_map(|k| [(k, 90), (k, 110)]).collect();
     let found: Vec<Part<Ends>> = parallel_map(jobs, |(k, percent): (usize, i64)| {
         let value = &list[k].nominal * &Rational::new(percent.into(), 100.into());
         let asked = question.clone().set(&list[k].name, value).free(&limits.name);
-        parts.within(&share, Work::Units(work), |budget| {
-            // Mostly a limit moves little; what happens far away is another question, and may be a long one.
-            if let Some(near) = &near {
-                let answer = asked.clone().domain(&limits.name, near.clone()).stable_set(budget)?;
-                if let Some(around) = around_nominal(&answer)
-                    && (!shown[0] || binds(around.lower.as_ref()))
-                    && (!shown[1] || binds(around.upper.as_ref()))
-                {
-                    return Ok(ends(&answer));
-                }
-            }
-            Ok(ends(&asked.stable_set(budget)?))
+        parts.within(&share, Work::Units(work), |budget| match &near {
+            Some(near) => near.ends(&asked, budget),
+            None => Ok(ends(&asked.stable_set(budget)?)),
         })
     });
     let (table, still) = table(&limits.name, &base, shown, &list, &found);
@@ -118,25 +110,76 @@ fn of_parameter(question: &Question, limits: &Limits, work: u64, parts: &Parts<'
     html + &missing.map(Missing::html).unwrap_or_default()
 }
 
-/// From the nominal value to twice as far away as each limit that is shown, as far as the domain goes.
-fn near(answer: &Answer<StableSet>, base: &[Option<Real>; 2], shown: [bool; 2]) -> Option<Range> {
-    let free = answer.problem().parameter();
-    let nominal = free.nominal.as_ref()?;
-    let distance = |side: usize| {
-        let (lo, hi) = base[side].as_ref().filter(|_| shown[side])?.refined_to_digits(3).enclosure();
-        Some((if side == 0 { nominal - lo } else { hi - nominal }) * Rational::from(2))
-    };
-    let least = [distance(0), distance(1)].into_iter().flatten().min()?;
-    let [below, above] =
-        [0, 1].map(|side| distance(side).unwrap_or_else(|| &least * &Rational::dyadic(&Integer::ONE, 4)));
-    let (mut lower, mut upper) = (nominal - below, nominal + above);
-    if let Some(end) = &free.domain.lower {
-        lower = lower.max(end.clone());
+/// How far windows reach beyond the limits, one after the other: so many quarters of what is smaller, the limit or its distance to the
+/// nominal value.
+const QUARTERS: [i64; 3] = [1, 2, 4];
+
+/// Where a limit that has moved is looked for first: mostly it moves little, and what happens far away is another question, which may be a
+/// long one.
+struct Near {
+    name: String,
+    /// By side, the ends of windows from the nominal value outwards, the last one that of the domain; a single one where no limit is asked for.
+    ends: [Vec<Option<Rational>>; 2],
+}
+
+impl Near {
+    fn of(answer: &Answer<StableSet>, base: &[Option<Real>; 2], shown: [bool; 2]) -> Option<Near> {
+        let free = answer.problem().parameter();
+        let nominal = free.nominal.as_ref()?;
+        // The limit, and how far it is at least.
+        let limit = |side: usize| {
+            let (lo, hi) = base[side].as_ref().filter(|_| shown[side])?.refined_to_digits(3).enclosure();
+            Some(if side == 0 { (lo.clone(), nominal - lo) } else { (hi.clone(), hi - nominal) })
+        };
+        let known = [limit(0), limit(1)];
+        let least = known.iter().flatten().map(|(_, distance)| distance.clone()).min()?;
+        let ends = |side: usize| -> Vec<Option<Rational>> {
+            let domain = if side == 0 { &free.domain.lower } else { &free.domain.upper };
+            let within = |x: Rational| match domain {
+                Some(end) if side == 0 => x.max(end.clone()),
+                Some(end) => x.min(end.clone()),
+                None => x,
+            };
+            let at = |distance: Rational| Some(within(if side == 0 { nominal - distance } else { nominal + distance }));
+            let Some((limit, distance)) = &known[side] else {
+                return vec![at(&least * &Rational::dyadic(&Integer::ONE, 4))];
+            };
+            let scale = if limit.is_zero() { distance.clone() } else { limit.abs().min(distance.clone()) };
+            let quarter = scale * Rational::dyadic(&Integer::ONE, 2);
+            let windows = QUARTERS.iter().map(|n| at(distance + &(&quarter * &Rational::from(*n))));
+            windows.chain([domain.clone()]).collect()
+        };
+        Some(Near { name: free.name.clone(), ends: [ends(0), ends(1)] })
     }
-    if let Some(end) = &free.domain.upper {
-        upper = upper.min(end.clone());
+
+    /// The ends of the interval around the nominal value, asked for in one window, and from there outwards where that goes on.
+    fn ends(&self, asked: &Question, budget: &Budget) -> Result<Ends, Error> {
+        let within = |lower: &Option<Rational>, upper: &Option<Rational>| {
+            let window = Range::between(lower.clone(), upper.clone());
+            asked.clone().domain(&self.name, window).stable_set(budget)
+        };
+        let (lower, upper) = (&self.ends[0][0], &self.ends[1][0]);
+        let answer = within(lower, upper)?;
+        let Some(around) = around_nominal(&answer) else { return Ok(None) };
+        let mut found = [&around.lower, &around.upper].map(Clone::clone);
+        for side in [0, 1] {
+            let mut reached = self.ends[side][0].clone();
+            for next in &self.ends[side][1..] {
+                let (Some(from), false) = (&reached, binds(found[side].as_ref()) || reached == *next) else { break };
+                // Windows overlap, so that nothing is between them.
+                let inner = if side == 0 { upper } else { lower };
+                let (Some(inner), Some(most)) = (inner, &self.ends[side][0]) else { break };
+                let overlap = from + &((inner - most) * Rational::dyadic(&Integer::ONE, 6));
+                let answer = if side == 0 { within(next, &Some(overlap))? } else { within(&Some(overlap), next)? };
+                let Some(goes_on) = answer.value().intervals().iter().find(|i| i.contains(from)) else {
+                    return Ok(ends(&asked.clone().stable_set(budget)?));
+                };
+                found[side] = if side == 0 { goes_on.lower.clone() } else { goes_on.upper.clone() };
+                reached = next.clone();
+            }
+        }
+        Ok(Some(found.map(|end| end.map(|end| end.value))))
     }
-    Some(Range::between(Some(lower), Some(upper)))
 }
 
 /// The rows of the numbers that move a limit, and the names of those that do not.
