@@ -36,7 +36,8 @@ fn verdict_at(answer: &Answer<ToleranceAnswer>, point: &[Rational]) -> Verdict {
     let problem = answer.problem();
     let names = problem.free().iter().map(|free| free.name.clone());
     let question = problem.model().ask().set_all(names.zip(point.iter().cloned()));
-    question.verdict(&Budget::unlimited()).unwrap().value().verdict
+    // Without a positive sample time there is no loop.
+    question.verdict(&Budget::unlimited()).map_or(Verdict::Undefined, |answer| answer.value().verdict)
 }
 
 /// The bracket is as narrow as asked for; its witness is not stable; the corners, and some points, of its proved box are.

@@ -311,6 +311,19 @@ impl Problem {
         Ok(problem)
     }
 
+    /// The problem with another domain of its one free parameter, its algebra as it is known.
+    ///
+    /// # Panics
+    /// Unless one parameter is free.
+    pub fn over_domain(&self, domain: Range) -> Problem {
+        let free = vec![Free { domain, ..self.parameter().clone() }];
+        let problem = Problem::new(Arc::clone(&self.model), self.set.clone(), free, self.region.clone(), Vec::new());
+        if let Some(algebra) = self.algebra.get() {
+            problem.algebra.get_or_init(|| algebra.clone());
+        }
+        problem
+    }
+
     /// The problem with its one free parameter at a value.
     pub(crate) fn with_value(&self, value: &Rational) -> Problem {
         let mut set = self.set.clone();
