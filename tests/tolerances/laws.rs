@@ -124,6 +124,17 @@ proptest! {
             prop_assert!(factor.upper.as_ref().is_some_and(|upper| end.value.compare_rational(upper).is_ge() || near(end, upper)));
     }
 
+    /// The search began at other corners; the proof does not come through near to the one that is worst.
+    #[test]
+    fn a_worst_corner_that_the_search_missed_is_found_from_where_the_proof_ended(percent in 63i64..66) {
+        let parameters = [(22, percent), (9, 72), (6, 79)];
+        let answer = asked(&continuous(&parameters, "s^3 + (1 + p0*p1)*s^2 + (p0 + p1*p2)*s + p0*p2 + p1"));
+        let factor = answer.value().factor.as_ref().expect("a factor");
+        let upper = factor.upper.as_ref().expect("a point that is not stable");
+        let ratio = upper / &factor.lower;
+        prop_assert!(ratio < "1.002".parse::<Rational>().unwrap() && factor.open.is_none(), "{}", ratio);
+    }
+
     #[test]
     fn one_parameter_agrees_with_its_stable_set(a in 1i64..40, b in 1i64..40, c in 1i64..40, percent in 1i64..200) {
         let model = load(&format!(

@@ -11,8 +11,14 @@ use crate::poly::UniPoly;
 /// the coefficients.
 const PRIMES_TRIED: usize = 8;
 
-/// A prime just below 2^31: products of residues and sums of two fit `u64`.
-const LARGE_PRIME: u64 = 2_147_483_647;
+/// The greatest prime below 2^30: products of residues and sums of nine fit `u64`.
+const LARGE_PRIME: u64 = 1_073_741_789;
+
+/// So many coefficients are multiplied by powers before a sum is reduced.
+const CHUNK: usize = 8;
+
+/// Products of so few linear factors are made one factor after the other.
+const FEW_FACTORS: usize = 8;
 
 /// All rational roots, ascending, and the polynomial without their linear factors.
 ///
@@ -71,7 +77,7 @@ pub(super) fn without_rational_roots(p: &SquareFree) -> (Vec<Rational>, SquareFr
 /// (determined modulo the square of the prime) and very likely a root, as it is one modulo a larger
 /// prime; and the other residues.
 fn small_roots(p: &UniPoly, prime: u64, candidates: Vec<u64>) -> (Vec<Rational>, Vec<u64>) {
-    if prime >= 1 << 16 {
+    if prime >= 1 << 15 {
         // Products of residues would not fit.
         return (Vec::new(), candidates);
     }
@@ -83,21 +89,18 @@ fn small_roots(p: &UniPoly, prime: u64, candidates: Vec<u64>) -> (Vec<Rational>,
         return (Vec::new(), candidates);
     }
     let lead_lift = lead.mod_u64(modulus);
+    let slopes = residues(&p.derivative(), prime);
     let inverse_big = power(lead.mod_u64(big), big - 2, big);
     let (mut roots, mut others) = (Vec::new(), Vec::new());
     for r in candidates {
         // p(r) = 0 and p'(r) != 0 modulo the prime: one step of Newton's.
-        let (mut value, mut slope) = (0, 0);
-        for &c in at_lift.iter().rev() {
-            slope = (slope * r + value) % modulus;
-            value = (value * r + c) % modulus;
-        }
-        let inverse = power(slope % prime, prime - 2, prime);
+        let value = value_modulo(&at_lift, r, modulus);
+        let inverse = power(value_modulo(&slopes, r, prime), prime - 2, prime);
         let x = (r + modulus - value * inverse % modulus) % modulus;
         let y = x * lead_lift % modulus;
         let y = if 2 * y > modulus { y as i64 - modulus as i64 } else { y as i64 };
         let x = (y.rem_euclid(big as i64) as u64) * inverse_big % big;
-        if at_big.iter().rev().fold(0, |acc, &c| (acc * x + c) % big) == 0 {
+        if value_modulo(&at_big, x, big) == 0 {
             roots.push(Rational::new(Integer::from(y), lead.clone()));
         } else {
             others.push(r);
@@ -109,8 +112,18 @@ fn small_roots(p: &UniPoly, prime: u64, candidates: Vec<u64>) -> (Vec<Rational>,
 /// The product of the linear polynomials with given roots, halves first.
 fn product_of_linear(roots: &[Rational]) -> UniPoly {
     match roots {
-        [] => UniPoly::from_i64(&[1]),
-        [x] => linear(x),
+        few if few.len() <= FEW_FACTORS => {
+            let mut product = vec![Integer::ONE];
+            for x in few {
+                let (n, d) = (x.numerator(), x.denominator());
+                product.push(Integer::ZERO);
+                for k in (0..product.len()).rev() {
+                    let below = if k > 0 { &product[k - 1] * &d } else { Integer::ZERO };
+                    product[k] = below - &product[k] * &n;
+                }
+            }
+            UniPoly::new(product)
+        }
         _ => {
             let (a, b) = roots.split_at(roots.len() / 2);
             &product_of_linear(a) * &product_of_linear(b)
@@ -161,16 +174,16 @@ fn choose_prime(p: &UniPoly) -> (u64, Vec<u64>) {
     }
 }
 
-/// The value modulo a prime: four coefficients to a division, where products of four residues fit.
-fn value_modulo(f: &[u64], x: u64, prime: u64) -> u64 {
-    if prime >= 1 << 15 {
-        return f.iter().rev().fold(0, |acc, &c| (acc * x + c) % prime);
+/// The value modulo a number below 2^30.
+fn value_modulo(f: &[u64], x: u64, modulus: u64) -> u64 {
+    let mut powers = [1; CHUNK];
+    for k in 1..CHUNK {
+        powers[k] = powers[k - 1] * x % modulus;
     }
-    let (chunks, top) = f.as_chunks::<4>();
-    let (x2, x3) = (x * x, x * x * x);
-    let x4 = x2 * x2 % prime;
-    let top = top.iter().rev().fold(0, |acc, &c| acc * x + c) % prime;
-    chunks.iter().rev().fold(top, |acc, c| (acc * x4 + c[3] * x3 + c[2] * x2 + c[1] * x + c[0]) % prime)
+    let whole = powers[CHUNK - 1] * x % modulus;
+    let sum = |c: &[u64]| c.iter().zip(&powers).map(|(c, power)| c * power).sum::<u64>();
+    let (chunks, top) = f.as_chunks::<CHUNK>();
+    chunks.iter().rev().fold(sum(top) % modulus, |acc, c| (acc * whole + sum(c)) % modulus)
 }
 
 /// The least prime above `n`, which is small.

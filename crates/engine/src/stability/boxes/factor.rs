@@ -21,6 +21,9 @@ const RETREATS: u32 = 6;
 /// How often the upper end moves to a point at which a proof failed.
 const REFUTATIONS: u32 = 64;
 
+/// All corners of so many parameters are tried where a proof does not come through.
+const MOST_FOR_CORNERS: usize = 6;
+
 /// Without any crossing the largest factor that is proved.
 const FAR: i64 = 1 << 10;
 
@@ -304,6 +307,17 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
                     (coarser, retreats, open, is_rough) = (Rational::ONE, 0, None, proved.is_none());
                 }
                 Outcome::Open { why, cell } => {
+                    // Where the proof does not come through, a point may be that the search has missed.
+                    refutations += 1;
+                    let missed = |search: &mut Search| {
+                        let middle: Vec<Rational> = cell.iter().map(|[lo, hi]| lo.midpoint(hi)).collect();
+                        (middle.len() == self.parameters() && search.run_from(&middle))
+                            || self.run_from_corners(search, &target)
+                    };
+                    if refutations <= REFUTATIONS && matches!(budget.enter(|| missed(&mut search)), Ok(true)) {
+                        (coarser, retreats, open, is_rough) = (Rational::ONE, 0, None, proved.is_none());
+                        continue;
+                    }
                     open.get_or_insert((why, cell));
                     retreats += 1;
                     if retreats > RETREATS {
@@ -322,6 +336,19 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         let factor = &crossing.hi * &(&Rational::ONE + &Rational::dyadic(&Integer::ONE, BEYOND));
         let point = self.search().line(&crossing.direction).point(&factor);
         Some((factor, point))
+    }
+
+    /// Whether a search from one of the box's corners, where these are few, finds a nearer end.
+    fn run_from_corners(&self, search: &mut Search, factor: &Rational) -> bool {
+        let sides = at_factor(&self.sides, factor);
+        if sides.len() > MOST_FOR_CORNERS {
+            return false;
+        }
+        (0..1usize << sides.len()).fold(false, |is_nearer, corner| {
+            let point: Vec<Rational> =
+                sides.iter().enumerate().map(|(i, side)| side[corner >> i & 1].clone()).collect();
+            search.run_from(&point) || is_nearer
+        })
     }
 
     /// A point that is not stable bounds the factor, however the line to it runs.
