@@ -309,7 +309,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
                 Outcome::Open { why, cell } => {
                     // Where the proof does not come through, a point may be that the search has missed.
                     refutations += 1;
-                    let missed = |search: &mut Search| {
+                    let missed = |search: &mut Search<F>| {
                         let middle: Vec<Rational> = cell.iter().map(|[lo, hi]| lo.midpoint(hi)).collect();
                         (middle.len() == self.parameters() && search.run_from(&middle))
                             || self.run_from_corners(search, &target)
@@ -339,7 +339,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
     }
 
     /// Whether a search from one of the box's corners, where these are few, finds a nearer end.
-    fn run_from_corners(&self, search: &mut Search, factor: &Rational) -> bool {
+    fn run_from_corners(&self, search: &mut Search<F>, factor: &Rational) -> bool {
         let sides = at_factor(&self.sides, factor);
         if sides.len() > MOST_FOR_CORNERS {
             return false;
