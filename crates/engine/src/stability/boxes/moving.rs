@@ -46,9 +46,9 @@ const MOST_PARTS: usize = 2000;
 /// let boxes = ToleranceProblem::new(&p, sides.to_vec()).unwrap();
 /// let budget = Budget::unlimited();
 /// assert!(boxes.decide(&1.into(), &budget)?.is_stable());
-/// // 3/2 + f/10 = (1 + X)/(1 - X) with X = exp(-1 - f/10): f = 2.4...
+/// // 3/2 + f/10 = (1 + X)/(1 - X) with X = exp(-1 - f/10): f = 2.75...
 /// let factor = boxes.largest_factor(&"1/1000".parse().unwrap(), None, &budget)?;
-/// assert!(factor.lower > "2.4".parse().unwrap() && factor.upper.unwrap() < "2.5".parse().unwrap());
+/// assert!(factor.lower > "2.7".parse().unwrap() && factor.upper.unwrap() < "2.8".parse().unwrap());
 /// # Ok::<(), jurist_engine::error::Error>(())
 /// ```
 #[derive(Clone, Debug)]
