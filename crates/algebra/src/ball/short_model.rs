@@ -240,7 +240,7 @@ impl Sum {
         let (lower, carried) = self.lower.overflowing_add((self.mixed as u128) << 64);
         let upper = self.upper + (self.mixed >> 64) + i128::from(carried);
         let room = LIMIT >> (128 - BITS);
-        (-room <= upper && upper < room).then(|| upper << (128 - BITS) | (lower >> BITS) as i128)
+        (-room <= upper && upper < room).then_some(upper << (128 - BITS) | (lower >> BITS) as i128)
     }
 }
 

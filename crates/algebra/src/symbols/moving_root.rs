@@ -77,7 +77,7 @@ impl Enclosing for MovingRoot {
                 }
             }
             if !is_in {
-                curvature = curvature * Rational::from(16);
+                curvature *= Rational::from(16);
             }
         }
         Enclosure::new(lo, hi)

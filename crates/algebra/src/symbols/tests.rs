@@ -167,3 +167,28 @@ fn a_zero_at_the_end_of_a_function_of_a_square_is_seen_to_be_alone() {
     assert_eq!(found.zeros.iter().map(|z| z.decimal(20)).collect::<Vec<_>>(), ["0.51002945749382402528"]);
     assert!(found.undecided.is_empty(), "{:?}", found.undecided);
 }
+
+/// Where the parameter is negative, forms of a function may have its opposite sign: signs of the one and of the other say nothing together.
+/// The zero is so near to an end that no Taylor polynomial tells the sign there.
+#[test]
+fn zeros_beside_an_end_are_found_where_the_parameter_is_negative() {
+    let budget = Budget::unlimited();
+    let inverse = RationalFunction::variable(0).recip().unwrap();
+    let symbols = Arc::new(MovingSymbols::new(vec![("X".into(), Definition::Exponential(-&inverse))]));
+    let (lower, upper) = (number("-1001"), number("-1000"));
+    // T X - T + 1, about 1/(2 T) by cancellation, rises with T.
+    let x = crate::ball::exp(&crate::ball::Ball::from_rational(&number("1/1001"), 400)).lower();
+    let at_lower = &(&lower * &x) - &(&lower - &Rational::ONE);
+    let tiny = Rational::from(10).pow(-46).unwrap();
+    for (value, count) in [(&at_lower - &tiny, 1), (&at_lower + &tiny, 0)] {
+        let (n, d) = (value.numerator(), value.denominator());
+        let [t, x] = [0, 1].map(MultiPoly::variable);
+        let less = t.times(&x).minus(&t).plus(&MultiPoly::one());
+        let f = less.scaled_by(&d).minus(&MultiPoly::constant(n));
+        let found = symbols.zeros_in(&f.into(), &lower, &upper, &number("-1000"), &budget).unwrap();
+        assert_eq!((found.zeros.len(), found.undecided.len()), (count, 0), "{found:?}");
+        if let Some(zero) = found.zeros.first() {
+            assert!(zero.compare_rational(&(&lower + &number("1/1000000000000000000000000"))).is_lt());
+        }
+    }
+}

@@ -130,7 +130,7 @@ mod tests {
         for _ in 0..4 {
             let words = occupied.words.clone();
             let at = occupied.place("PM -137.02°", 11.0, (225.0, 130.0), Some(target), &PLOT);
-            let placed = occupied.words.last().unwrap().clone();
+            let placed = *occupied.words.last().unwrap();
             let before = Occupied { words, ..occupied.clone() };
             assert!(before.covered(&placed) < 1.0, "{at:?}");
             assert!(placed.left >= 0.0 && placed.right() <= 400.0 && placed.top >= 0.0 && placed.bottom() <= 300.0);
