@@ -64,11 +64,18 @@ impl<'a> Truth<'a> {
             return Ok(budget.enter(|| p.at(point))?);
         }
         let problem = self.problem;
+        let time = problem.algebra_over_symbols(budget)?.sample_time();
+        if let Some(time) = time.filter(|time| time.variables().iter().all(|v| *v < point.len())) {
+            // No loop has a sample time that is not positive.
+            let value = time.numerator().eval(point).checked_div(&time.denominator().eval(point));
+            if value.is_none_or(|value| !value.sign().is_gt()) {
+                return Ok(AtPoint::Undefined);
+            }
+        }
         let names = problem.free().iter().map(|free| free.name.clone());
         let question = problem.model().ask().within(problem.region().clone()).set_all(problem.set().to_vec());
         let verdict = match question.set_all(names.zip(point.iter().cloned())).verdict(budget) {
-            // The model has no meaning there, such as with a sample time that is not positive.
-            Err(Error::Undefined(_) | Error::Refused(_)) => return Ok(AtPoint::Undefined),
+            Err(Error::Undefined(_)) => return Ok(AtPoint::Undefined),
             verdict => verdict?.into_value(),
         };
         Ok(match (verdict.verdict, verdict.count) {
