@@ -73,6 +73,7 @@ mod tolerances {
     mod held;
     mod hostile;
     mod laws;
+    mod moving;
     mod program;
     mod published;
     mod required;

@@ -57,10 +57,3 @@ fn a_box_beyond_the_limit_has_a_witness() {
     let BoxDecision::NotStable { witness: Some(witness) } = &answer.value().decision else { panic!("a witness") };
     assert_ne!(verdict_at(&answer, &witness.point), Verdict::Stable);
 }
-
-#[test]
-fn a_parameter_inside_of_an_exponential_is_refused_by_name() {
-    let request = ToleranceRequest::new([("R_a", "20%".parse().unwrap())]);
-    let refused = example("drive-hold").ask().tolerance(&request, &Budget::unlimited()).unwrap_err();
-    assert!(refused.to_string().contains("E-function"), "{refused}");
-}

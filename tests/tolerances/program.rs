@@ -151,3 +151,15 @@ fn a_box_that_leaves_a_domain_is_answered_with_a_warning() {
     assert_eq!(run.status, 0, "{}", run.stderr);
     assert!(run.stderr.contains("W-outside-domain"), "{}", run.stderr);
 }
+
+#[test]
+fn tolerances_inside_of_functions_are_answered_and_have_no_certificate() {
+    let asked = ["tolerance", "examples/drive-hold.toml", "--tol", "R_a,L_a,J=20%"];
+    let document = document(&[&asked[..], &["--digits", "3"]].concat(), 0);
+    assert_eq!((&document["verdict"], &document["worst"]["cause"]), (&"stable".into(), &"complex pair".into()));
+    let frequency = document["worst"]["frequency_hz"].as_f64().unwrap();
+    assert!(1650.0 < frequency && frequency < 1670.0, "{frequency}");
+    let run = jurist(&[&asked[..], &["--certificate", "-"]].concat());
+    assert_eq!(run.status, 2, "{}", run.stdout);
+    assert!(run.stderr.contains("E-no-certificate"), "{}", run.stderr);
+}

@@ -8,6 +8,7 @@ mod bezout;
 mod elementary;
 mod exponential;
 mod functions;
+mod multi_taylor_model;
 mod series;
 mod short_model;
 mod solutions;
@@ -19,6 +20,7 @@ pub use bezout::{
 pub use elementary::Elementary;
 pub use exponential::{BallMatrix, exponential, exponential_of_rationals};
 pub use functions::{cos_sin, exp, tan};
+pub use multi_taylor_model::MultiTaylorModel;
 pub use series::Series;
 pub use short_model::{Known, ShortModel, short_resultant};
 pub use solutions::fundamental_solutions;

@@ -25,6 +25,7 @@ mod scales;
 mod sign;
 mod specialise;
 mod taylor;
+mod values;
 mod zero_at_end;
 
 pub use definition::Definition;
@@ -33,6 +34,7 @@ pub use moving::{MovingSymbols, Zeros};
 pub use root::EnclosedPoly;
 pub use roots::{SymbolicPoly, common_factor, enclosed_roots, merged};
 pub use specialise::resultants_seem_simple_in;
+pub use values::ParametricSymbols;
 
 use self::horner::Horner;
 use crate::ball::{Ball, BallMatrix, Series, exp, exponential, exponential_of_rationals, fundamental_solutions};

@@ -6,6 +6,7 @@ use super::horner::Scheme;
 use super::moving_root::MovingRoot;
 use super::pieces::{self, Look, Piece};
 use super::scales::{between_scales, exponent, joined, octaves};
+use super::values::values_of;
 use super::{Definition, Function, Symbols};
 use crate::ball::{Ball, Elementary, Known, Series, TaylorModel};
 use crate::limits::{Budget, Exhausted, parallel_map};
@@ -58,9 +59,6 @@ const FEW_BITS: u64 = 112;
 
 /// Bits of the first attempt with others.
 pub(super) const FIRST_BITS: u64 = 192;
-
-/// Exponents beyond this are not enclosed over an interval.
-const LARGEST: i64 = 1 << 13;
 
 /// So many intervals are looked at side by side, however many threads there are: work is counted, and what it decides is the same.
 const BATCH: usize = 4;
@@ -156,52 +154,7 @@ impl MovingSymbols {
 
     /// The parameter and all symbols as series or models, from the parameter's; `None` where a divisor may vanish.
     pub fn series<S: Elementary>(&self, parameter: &S) -> Option<Vec<S>> {
-        let bits = parameter.bits();
-        let mut values = vec![parameter.clone()];
-        // All solutions of an equation at once.
-        let mut rows: Vec<(&Vec<RationalFunction>, &RationalFunction, Vec<S>)> = Vec::new();
-        for (_, definition) in &self.table {
-            let at = |f: &RationalFunction| -> Option<S> {
-                polynomial_at(f.numerator(), &values).over(&polynomial_at(f.denominator(), &values))
-            };
-            let value = match definition {
-                Definition::Pi => parameter.constant(&Ball::from_enclosure(&Enclosure::pi(bits + 8), bits)),
-                Definition::Algebraic(x) => parameter.constant(&Definition::enclosed(x, bits)),
-                Definition::Root(x) => at(x)?.square_root()?,
-                Definition::Exponential(x) => {
-                    let x = at(x)?;
-                    if x.range().upper() > Rational::from(LARGEST) {
-                        return None;
-                    }
-                    x.exponential()
-                }
-                Definition::Tangent { square, time } => {
-                    let (w, t) = (at(square)?, at(time)?);
-                    let row = t.solutions(&[w, parameter.nothing()]);
-                    row[1].over(&row[0])?
-                }
-                Definition::Fundamental { polynomial, index, time } => {
-                    let known = rows.iter().find(|(of, at, _)| *of == polynomial && *at == time);
-                    match known {
-                        Some((_, _, row)) => row[*index].clone(),
-                        None => {
-                            let n = polynomial.len() - 1;
-                            let coefficients = polynomial[..n].iter().map(at).collect::<Option<Vec<S>>>()?;
-                            let time_there = at(time)?;
-                            if is_too_large(&coefficients, &time_there) {
-                                return None;
-                            }
-                            let row = time_there.solutions(&coefficients);
-                            let value = row[*index].clone();
-                            rows.push((polynomial, time, row));
-                            value
-                        }
-                    }
-                }
-            };
-            values.push(value);
-        }
-        Some(values)
+        values_of(&self.table, vec![parameter.clone()])
     }
 
     /// The values of polynomials in the parameter and symbols, the parameter anywhere in a ball; `None` where a divisor may
@@ -437,17 +390,4 @@ fn judged(
     let is_decided = found.iter().any(|(_, _, look)| !matches!(look, Look::Unknown));
     // Where the function varies by more than is noise, a shorter interval tells more than more bits do.
     (is_decided || *noise < (piece.variation() >> 8)).then_some(found)
-}
-
-/// Whether exponentials of a companion matrix anywhere in these balls may have too many bits to be of use.
-fn is_too_large<S: Elementary>(coefficients: &[S], time: &S) -> bool {
-    let size = |s: &S| Rational::dyadic(&s.range().magnitude_units(), s.bits());
-    let n = coefficients.len() as i64;
-    // No root is larger than twice the greatest of the roots |c_k|^(1/(n - k)).
-    let octaves = coefficients.iter().enumerate().map(|(k, c)| {
-        let size = size(c);
-        if size.is_zero() { 0 } else { exponent(&size).div_euclid(n - k as i64) + 1 }
-    });
-    let rate = Rational::from(2).pow(octaves.max().unwrap_or(0).max(0)).expect("two is not zero");
-    size(time) * rate > Rational::from(LARGEST)
 }

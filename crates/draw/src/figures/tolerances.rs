@@ -12,6 +12,7 @@ use jurist_engine::answer::{Answer, ToleranceAnswer};
 use jurist_engine::error::Error;
 use jurist_engine::model::Time;
 use jurist_engine::problem::Problem;
+use jurist_engine::stability::Range;
 use std::sync::Arc;
 
 /// More bars are drawn as one.
@@ -38,9 +39,19 @@ const MOST_SAMPLES: usize = 20_000;
 pub fn tolerance_figure(answer: &Answer<ToleranceAnswer>, budget: &Budget) -> Result<Figure, Error> {
     let mut parts: Vec<Figure> = bars(answer).into_iter().collect();
     if let Some(worst) = &answer.value().worst {
-        let set = worst.problem.stable_set(budget)?;
         let end = worst.end.value.refined_to_digits(6).enclosure().1;
-        let range = (Rational::ZERO, &end * &Rational::new(6.into(), 5.into()));
+        let is_rational = worst.problem.algebra_over_symbols(budget)?.symbols().is_empty();
+        let beyond = if is_rational { Rational::new(6.into(), 5.into()) } else { Rational::new(17.into(), 16.into()) };
+        let last = &end * &beyond;
+        let set = match is_rational {
+            true => worst.problem.stable_set(budget)?,
+            // The end is known of a short stretch of the line alone; the picture is of all of it.
+            false => {
+                let whole = Range::between(Some(Rational::ZERO), Some(last.clone()));
+                Arc::new(worst.problem.over_domain(whole)).stable_set(budget)?
+            }
+        };
+        let range = (Rational::ZERO, last);
         parts.push(locus_of(&set, &range, None, budget)?.figure);
     }
     parts.extend(responses(answer, budget)?);

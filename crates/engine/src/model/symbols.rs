@@ -152,6 +152,22 @@ impl Symbols {
         self.table.iter().map(|s| (s.name.clone(), s.meaning.text(&variables))).collect()
     }
 
+    /// The symbols where all that is kept has been replaced by functions of one name; `images` are those of all variables. `None` where
+    /// an argument divides by zero then.
+    pub(crate) fn along(&self, name: &str, images: &[RationalFunction]) -> Option<Symbols> {
+        let placed = |f: &RationalFunction| f.compose(images);
+        let table = self.table.iter().map(|s| Some(Symbol { meaning: s.meaning.try_map(placed)?, ..s.clone() }));
+        let polynomial = |p: &MultiPoly| Some(RationalFunction::from(p.clone()).compose(images)?.numerator().clone());
+        Some(Symbols {
+            kept: vec![name.to_owned()],
+            table: table.collect::<Option<_>>()?,
+            nonzero: self.nonzero.iter().map(polynomial).collect::<Option<_>>()?,
+            near: Vec::new(),
+            samples: self.samples.iter().map(placed).collect::<Option<_>>()?,
+            ..self.clone()
+        })
+    }
+
     /// The polynomials in kept names and symbols that are known to have no zero.
     pub(in crate::model) fn nonzero(&self) -> &[MultiPoly] {
         &self.nonzero

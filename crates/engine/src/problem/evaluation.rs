@@ -161,6 +161,9 @@ impl Algebra {
 impl Algebra {
     /// What is left where all free parameters move along the line `base + t step`; `t` is the only variable.
     pub(super) fn on_ray(&self, name: &str, base: &[Rational], step: &[Rational]) -> Algebra {
+        if !self.symbols.is_empty() {
+            return self.on_ray_over_symbols(name, base, step);
+        }
         let left = |f: &RationalFunction| {
             let [above, below] = on_line([f.numerator(), f.denominator()], base, step);
             RationalFunction::new(MultiPoly::from_univariate(&above, 0), MultiPoly::from_univariate(&below, 0))
@@ -186,6 +189,34 @@ impl Algebra {
             sample_time: self.sample_time.as_ref().and_then(left),
             closed_loop: None,
             symbols: self.symbols.clone(),
+        }
+    }
+
+    /// The same where there are symbols, which stay variables after the one.
+    fn on_ray_over_symbols(&self, name: &str, base: &[Rational], step: &[Rational]) -> Algebra {
+        let t = RationalFunction::variable(0);
+        let on_line =
+            base.iter().zip(step).map(|(b, s)| &RationalFunction::from(b.clone()) + &(&t * &s.clone().into()));
+        let images: Vec<RationalFunction> =
+            on_line.chain((1..=self.symbols.iter().count()).map(RationalFunction::variable)).collect();
+        let left = |f: &RationalFunction| f.compose(&images);
+        let pole = |p: &MultiPoly| Some(left(&p.clone().into())?.numerator().clone());
+        let symbols = self.symbols.along(name, &images);
+        let polynomial = self.polynomial.as_ref().zip(symbols.as_ref()).and_then(|(d, symbols)| {
+            let poles = d.poles.iter().map(pole).collect::<Option<Vec<_>>>()?;
+            let coefficients = d.coefficients.iter().map(left).collect::<Option<Vec<_>>>()?;
+            let variables = symbols.variables();
+            let is_defined = !poles.iter().any(MultiPoly::is_zero);
+            is_defined.then(|| CharacteristicPolynomial { variables, coefficients, poles, ..d.clone() })
+        });
+        let undefined = polynomial.is_none().then(|| "an expression divides by zero".to_owned());
+        Algebra {
+            undefined: self.undefined.clone().or(undefined),
+            polynomial,
+            formal_degree: self.formal_degree,
+            sample_time: self.sample_time.as_ref().and_then(left),
+            closed_loop: None,
+            symbols: symbols.unwrap_or_default(),
         }
     }
 }

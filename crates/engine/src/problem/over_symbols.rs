@@ -6,7 +6,7 @@ use crate::model::{self, Symbol};
 use crate::stability::{SymbolicPlane, SymbolicPolynomial};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::poly::RationalFunction;
-use jurist_algebra::symbols::{Definition, MovingSymbols, Symbols};
+use jurist_algebra::symbols::{Definition, MovingSymbols, ParametricSymbols, Symbols};
 use std::sync::Arc;
 
 impl Problem {
@@ -115,11 +115,16 @@ pub(crate) fn fixed_symbols(symbols: &model::Symbols) -> Result<Symbols, Error> 
 
 /// The table of symbols where one name is kept, on which they may depend.
 pub(crate) fn moving_symbols(symbols: &model::Symbols) -> Result<MovingSymbols, Error> {
-    let mut table = Vec::new();
-    for symbol in symbols.iter() {
-        table.push((symbol.name.clone(), definition(symbol, |f| Some(f.clone()))?));
-    }
-    Ok(MovingSymbols::new(table))
+    Ok(MovingSymbols::new(definitions(symbols)?))
+}
+
+/// The table of symbols where several names are kept, on which they may depend.
+pub(crate) fn parametric_symbols(symbols: &model::Symbols) -> Result<ParametricSymbols, Error> {
+    Ok(ParametricSymbols::new(definitions(symbols)?))
+}
+
+fn definitions(symbols: &model::Symbols) -> Result<Vec<(String, Definition)>, Error> {
+    symbols.iter().map(|symbol| Ok((symbol.name.clone(), definition(symbol, |f| Some(f.clone()))?))).collect()
 }
 
 /// The definition with its arguments' variables as the table numbers them.

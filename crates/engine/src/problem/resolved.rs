@@ -160,7 +160,7 @@ impl Problem {
         let message = "this is asked of rational loops only yet, and the loop has functions, as behind a hold";
         let list: Vec<String> =
             algebra.symbols().definitions().iter().take(4).map(|(name, text)| format!("{name} = {text}")).collect();
-        let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, locus, map by boxes, jury in a parameter outside of functions and at a point, report";
+        let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, locus, map by boxes, tolerance, jury in a parameter outside of functions and at a point, report";
         Err(Diagnostic::error("E-function", message).help(format!("{help}; it contains {}", list.join(", "))).into())
     }
 
@@ -303,12 +303,25 @@ impl Problem {
         budget: &Budget,
     ) -> Result<Problem, Error> {
         assert_eq!((base.len(), step.len()), (self.free.len(), self.free.len()), "each free parameter moves");
-        let algebra = self.algebra(budget)?;
+        let algebra = self.algebra_over_symbols(budget)?;
         let algebra = budget.enter(|| algebra.on_ray(name, base, step))?;
         let free = vec![Free { name: name.to_owned(), unit: None, nominal: None, domain }];
         let problem = Problem::new(Arc::clone(&self.model), self.set.clone(), free, self.region.clone(), Vec::new());
         problem.algebra.get_or_init(|| algebra);
         Ok(problem)
+    }
+
+    /// The problem with another domain of its one free parameter, its algebra as it is known.
+    ///
+    /// # Panics
+    /// Unless one parameter is free.
+    pub fn over_domain(&self, domain: Range) -> Problem {
+        let free = vec![Free { domain, ..self.parameter().clone() }];
+        let problem = Problem::new(Arc::clone(&self.model), self.set.clone(), free, self.region.clone(), Vec::new());
+        if let Some(algebra) = self.algebra.get() {
+            problem.algebra.get_or_init(|| algebra.clone());
+        }
+        problem
     }
 
     /// The problem with its one free parameter at a value.

@@ -5,18 +5,23 @@ use super::required::{nearer, worse};
 use super::{ToleranceAnswer, ToleranceRequest, WorstEnd};
 use crate::answer::Answer;
 use crate::error::{Diagnostic, Error};
-use crate::problem::Problem;
+use crate::problem::{Problem, parametric_symbols};
 use crate::stability::boxes::{
-    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, LargestFactor, MOST_PARAMETERS, Side, ToleranceProblem, ray,
+    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, Family, LargestFactor, MOST_PARAMETERS, MovingPolynomial, Side,
+    ToleranceProblem, ray,
 };
 use crate::stability::{AtPoint, Range};
 use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::poly::{RationalFunction, RealAlgebraic};
 use std::sync::Arc;
 
 /// The part of the time that may be spent on the exact end of the worst line.
 const END_SHARE: (u32, u32) = (1, 3);
+
+/// The part of the time that may be spent on the bracket of the largest factor.
+const BRACKET_SHARE: (u32, u32) = (4, 5);
 
 impl Problem {
     pub(super) fn tolerance(
@@ -26,49 +31,85 @@ impl Problem {
         budget: &Budget,
     ) -> Result<Answer<ToleranceAnswer>, Error> {
         refuse_beside_requirements(request)?;
-        let truth = Truth::of(self, budget)?;
-        let Some(d) = self.algebra_over_symbols(budget)?.polynomial() else {
+        let algebra = self.algebra_over_symbols(budget)?;
+        let Some(d) = algebra.polynomial() else {
             let decision = BoxDecision::NotStable { witness: None };
             return Ok(self.answered(sides, AtPoint::Undefined, decision));
         };
+        if algebra.symbols().is_moving() && algebra.symbols().delays().is_empty() {
+            refuse_beside_functions(request)?;
+            let symbols = parametric_symbols(algebra.symbols())?;
+            // Where the sample time is not positive there is no loop, and where an argument divides by zero no function.
+            let time = algebra.sample_time().into_iter().flat_map(|t| [t.numerator(), t.denominator()]);
+            let below = symbols.arguments().map(RationalFunction::denominator);
+            let poles = d.poles.iter().chain(time).chain(below).cloned().collect();
+            let d = CharacteristicPolynomial { poles, ..d.clone() };
+            let p = budget.enter(|| MovingPolynomial::new(&d, sides.len(), symbols, self.shape()))?;
+            return self.tolerance_of(&p, &Truth::of_points(self), sides, request, budget);
+        }
+        let truth = Truth::of(self, budget)?;
+        let p = budget.enter(|| BoxPolynomial::over(d, truth.beside(&sides).len(), self.shape()))?;
+        self.tolerance_of(&p, &truth, sides, request, budget)
+    }
+
+    /// The answer about a family of loops.
+    fn tolerance_of<F: Family>(
+        self: &Arc<Self>,
+        p: &F,
+        truth: &Truth,
+        sides: Vec<Side>,
+        request: &ToleranceRequest,
+        budget: &Budget,
+    ) -> Result<Answer<ToleranceAnswer>, Error> {
         let all = truth.beside(&sides);
-        let p = budget.enter(|| BoxPolynomial::over(d, all.len(), self.shape()))?;
+        let degree = self.algebra_over_symbols(budget)?.formal_degree();
         let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
-        let at = truth.at(&p, &nominal, budget)?;
-        let Some(boxes) = budget.enter(|| ToleranceProblem::new(&p, all.clone()))? else {
-            let decision = match truth.is_exact() || !at.is_stable(p.formal_degree()) {
-                true => BoxDecision::not_stable_at(nominal, at.clone()),
-                false => {
+        let at = truth.at(p, &nominal, budget)?;
+        let boxes = match at.is_stable(degree) {
+            true => budget.enter(|| ToleranceProblem::new(p, all.clone()))?,
+            false => None,
+        };
+        let Some(boxes) = boxes else {
+            let decision = match at.is_stable(degree) {
+                false => BoxDecision::not_stable_at(nominal, at.clone()),
+                true => {
                     BoxDecision::Undecided { why: "constants that are not told from their limits", cell: Vec::new() }
                 }
             };
             return Ok(self.answered(sides, at, decision));
         };
-        if boxes.coefficients().is_none() {
-            return Err(too_many(&boxes));
+        let polynomial = p.as_polynomial().and_then(|p| ToleranceProblem::new(p, all.clone()));
+        if let Some(polynomial) = polynomial.as_ref().filter(|boxes| boxes.coefficients().is_none()) {
+            return Err(too_many(polynomial));
         }
         if !request.factor {
-            let decision = truth.decision(&p, boxes.decide(&Rational::ONE, budget)?, budget)?;
+            let decision = truth.decision(p, boxes.decide(&Rational::ONE, budget)?, budget)?;
             if decision.is_stable() {
                 return Ok(self.answered(sides, at, decision));
             }
         }
         let domain_factor = self.domain_factor(&sides);
         let search = boxes.searched(budget)?;
-        let refuted = boxes.refuted(&search, &Rational::ONE).map(|witness| truth.confirmed(&p, witness, budget));
+        let refuted = boxes.refuted(&search, &Rational::ONE).map(|witness| truth.confirmed(p, witness, budget));
         let decision = match refuted.transpose()?.flatten() {
             Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
-            None => truth.decision(&p, boxes.decide(&Rational::ONE, budget)?, budget)?,
+            None => truth.decision(p, boxes.decide(&Rational::ONE, budget)?, budget)?,
         };
-        let factor = boxes.bracket(search, &|_| request.gap.clone(), domain_factor.as_ref(), budget)?;
-        let factor = truth.factor(&p, factor, budget)?;
+        let known = match &decision {
+            BoxDecision::Stable(proof) => Some(proof.clone()),
+            _ => None,
+        };
+        let part = budget.share(BRACKET_SHARE.0, BRACKET_SHARE.1);
+        let factor = boxes.bracket(search, known, &|_| request.gap.clone(), domain_factor.as_ref(), &part)?;
+        let factor = truth.factor(p, factor, budget)?;
         let decision = agreed(decision, &factor, None);
         let (mut decision, mut factor) = (decision, Some(factor));
         let (mut required, mut binding) = (Vec::new(), None);
         for (k, requirement) in request.requirements.iter().enumerate() {
             let nearest = factor.as_ref().and_then(|factor| factor.upper.as_ref());
             let most = nearest.into_iter().chain(&domain_factor).min().cloned();
-            let found = self.required_box(requirement, &sides, request, most.as_ref(), &p, budget)?;
+            let Some(base) = p.as_polynomial() else { unreachable!("refused beside functions") };
+            let found = self.required_box(requirement, &sides, request, most.as_ref(), base, budget)?;
             decision = worse(decision, found.decision.clone());
             factor = match (factor, found.factor.clone()) {
                 (Some(known), Some(own)) => {
@@ -84,19 +125,24 @@ impl Problem {
             let value = ToleranceAnswer { required, ..self.bare(sides, at, decision) };
             return Ok(Answer::new(Arc::clone(self), value));
         };
-        let (worst, cells) = match truth.is_exact() && binding.is_none() {
-            true => self.worst_end(&sides, &factor, budget)?.unzip(),
-            false => (None, None),
+        let (worst, cells) = match binding {
+            None => self.worst_end(&sides, &factor, budget)?.unzip(),
+            Some(_) => (None, None),
         };
         let limit = match &request.limit {
             None => None,
-            Some(name) => Some(self.tolerance_limit(&p, &sides, &truth, name, request, budget)?),
+            Some(name) => Some(self.tolerance_limit(p, &sides, truth, name, request, budget)?),
         };
-        let exact = match (&worst, &cells) {
-            (Some(worst), Some(cells)) if request.exact => boxes.exact(&factor, &worst.end, cells, budget)?,
+        let exact = match (&worst, &cells, &polynomial) {
+            (Some(worst), Some(cells), Some(boxes)) if request.exact && truth.is_exact() => {
+                boxes.exact(&factor, &worst.end, cells, budget)?
+            }
             _ => None,
         };
-        let volume = self.volume(&boxes, sides.len(), request, budget)?;
+        let volume = match &polynomial {
+            Some(boxes) => self.volume(boxes, sides.len(), request, budget)?,
+            None => None,
+        };
         let decision = agreed(decision, &factor, exact.as_ref());
         let value = ToleranceAnswer {
             sides,
@@ -181,17 +227,35 @@ impl Problem {
     ) -> Result<Option<(WorstEnd, Vec<RealAlgebraic>)>, Error> {
         let (Some(direction), Some(upper)) = (&factor.direction, &factor.upper) else { return Ok(None) };
         let (base, step) = ray(sides, direction);
-        let range = Range::between(Some(Rational::ZERO), Some(upper * &Rational::from(2)));
+        let is_rational = self.algebra_over_symbols(budget)?.symbols().is_empty();
+        let is_undefined = factor.witness.as_ref().is_some_and(|w| matches!(w.at, AtPoint::Undefined));
+        if is_undefined && !is_rational {
+            return Ok(None);
+        }
+        // Functions are looked at near the end alone: the box before it is stable.
+        let range = match is_rational {
+            true => Range::between(Some(Rational::ZERO), Some(upper * &Rational::from(2))),
+            false => Range::between(Some(factor.lower.clone()), Some(upper + &(upper - &factor.lower))),
+        };
         let part = budget.share(END_SHARE.0, END_SHARE.1);
-        let problem = Arc::new(self.on_ray("factor", &base, &step, range, &part)?);
-        let set = match problem.stable_set(&part) {
-            Ok(set) => set,
+        let problem = match self.on_ray("factor", &base, &step, range.clone(), &part) {
+            Ok(problem) => Arc::new(problem),
             Err(Error::Stopped(_)) => return Ok(None),
             Err(error) => return Err(error),
         };
-        let first =
-            set.value().intervals().first().filter(|i| i.lower.as_ref().is_none_or(|end| end.value.sign().is_eq()));
-        let end = first.and_then(|i| i.upper.clone());
+        let set = match problem.stable_set(&part) {
+            Ok(set) => set,
+            Err(Error::Stopped(_)) => return Ok(None),
+            Err(error) if is_rational => return Err(error),
+            // The end is known as a bracket all the same.
+            Err(_) => return Ok(None),
+        };
+        let first = set.value().intervals().first().filter(|i| {
+            i.lower
+                .as_ref()
+                .is_none_or(|end| range.lower.as_ref().is_some_and(|low| end.value.exact().as_ref() == Some(low)))
+        });
+        let end = first.and_then(|i| i.upper.clone()).filter(|end| end.causes.is_limit());
         let zeros = set.value().cells().map(|cells| cells.zeros.clone()).unwrap_or_default();
         Ok(end.map(|end| (WorstEnd { problem, end }, zeros)))
     }
@@ -216,6 +280,20 @@ pub(super) fn agreed(decision: BoxDecision, factor: &LargestFactor, exact: Optio
         }
         _ => decision,
     }
+}
+
+/// What is not asked of loops with functions of parameters, and with dead time.
+fn refuse_beside_functions(request: &ToleranceRequest) -> Result<(), Error> {
+    let what = match (request.requirements.first(), &request.volume, request.exact) {
+        (Some(_), ..) => "requirements on margins, damping or settling are",
+        (_, Some(_), _) => "the volume of a box is",
+        (.., true) => "the factor as an algebraic number is",
+        _ => return Ok(()),
+    };
+    let message = format!("{what} not asked of tolerances inside of functions or with dead time yet");
+    Err(Diagnostic::error("E-tolerance", message)
+        .help("known of it: whether the box is stable, the largest factor with its worst point and shares, and --limit")
+        .into())
 }
 
 /// Requirements are not looked at by these questions.

@@ -1,13 +1,13 @@
-//! Tolerances of loops with constants that are not rational, such as plants behind a hold whose times are fixed.
+//! Tolerances of loops with what is not rational, such as plants behind a hold.
 //!
-//! Each symbol is one more side of the box, as wide as its enclosure: what is proved for all values in it holds for the true
+//! Each symbol whose arguments are fixed is one more side of the box, as wide as its enclosure: what is proved for all values in it holds for the true
 //! one. A point that is not stable is counted once more with the true constants.
 
 use crate::answer::Verdict;
-use crate::error::{Diagnostic, Error};
+use crate::error::Error;
 use crate::problem::Problem;
 use crate::stability::AtPoint;
-use crate::stability::boxes::{BoxDecision, BoxPolynomial, LargestFactor, Side, Witness};
+use crate::stability::boxes::{BoxDecision, Family, LargestFactor, Side, Witness};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
@@ -19,24 +19,23 @@ const SYMBOL_BITS: u64 = 512;
 pub(super) struct Truth<'a> {
     problem: &'a Arc<Problem>,
     symbols: Vec<Side>,
+    is_exact: bool,
 }
 
 impl<'a> Truth<'a> {
-    /// Encloses the symbols of a problem.
+    /// Of a loop whose verdict at a point is asked of the model itself.
+    pub fn of_points(problem: &'a Arc<Problem>) -> Self {
+        Truth { problem, symbols: Vec::new(), is_exact: false }
+    }
+
+    /// Encloses the symbols of a problem, none of which moves.
     ///
     /// # Errors
-    /// `E-function` where a parameter with a tolerance is inside of a function; `E-dead-time`.
+    /// `E-dead-time`.
     pub fn of(problem: &'a Arc<Problem>, budget: &Budget) -> Result<Self, Error> {
         let symbols = problem.algebra_over_symbols(budget)?.symbols();
         if symbols.is_empty() {
-            return Ok(Truth { problem, symbols: Vec::new() });
-        }
-        if symbols.is_moving() && symbols.delays().is_empty() {
-            let moving = symbols.iter().filter(|symbol| symbol.is_moving).take(3);
-            let list: Vec<String> = moving.map(|symbol| symbol.name.clone()).collect();
-            let message = "a parameter with a tolerance is inside of a function: tolerances of it are not decided yet";
-            let help = format!("leave it out with --fix; the functions are {}", list.join(", "));
-            return Err(Diagnostic::error("E-function", message).help(help).into());
+            return Ok(Truth { problem, symbols: Vec::new(), is_exact: true });
         }
         let table = problem.fixed_symbols(budget)?;
         let values = budget.enter(|| table.values(SYMBOL_BITS))?;
@@ -46,12 +45,12 @@ impl<'a> Truth<'a> {
             let widths = [&middle - &low, &high - &middle];
             Side::fixed(middle, widths)
         };
-        Ok(Truth { problem, symbols: values.iter().map(side).collect() })
+        Ok(Truth { problem, symbols: values.iter().map(side).collect(), is_exact: false })
     }
 
     /// Whether everything is rational.
     pub fn is_exact(&self) -> bool {
-        self.symbols.is_empty()
+        self.is_exact
     }
 
     /// The sides of the parameters and those of the symbols.
@@ -60,14 +59,25 @@ impl<'a> Truth<'a> {
     }
 
     /// The exact root count at a point of the parameters.
-    pub fn at(&self, p: &BoxPolynomial, point: &[Rational], budget: &Budget) -> Result<AtPoint, Error> {
-        if self.is_exact() {
+    pub fn at(&self, p: &impl Family, point: &[Rational], budget: &Budget) -> Result<AtPoint, Error> {
+        if self.is_exact {
             return Ok(budget.enter(|| p.at(point))?);
         }
         let problem = self.problem;
+        let time = problem.algebra_over_symbols(budget)?.sample_time();
+        if let Some(time) = time.filter(|time| time.variables().iter().all(|v| *v < point.len())) {
+            // No loop has a sample time that is not positive.
+            let value = time.numerator().eval(point).checked_div(&time.denominator().eval(point));
+            if value.is_none_or(|value| !value.sign().is_gt()) {
+                return Ok(AtPoint::Undefined);
+            }
+        }
         let names = problem.free().iter().map(|free| free.name.clone());
         let question = problem.model().ask().within(problem.region().clone()).set_all(problem.set().to_vec());
-        let verdict = question.set_all(names.zip(point.iter().cloned())).verdict(budget)?.into_value();
+        let verdict = match question.set_all(names.zip(point.iter().cloned())).verdict(budget) {
+            Err(Error::Undefined(_)) => return Ok(AtPoint::Undefined),
+            verdict => verdict?.into_value(),
+        };
         Ok(match (verdict.verdict, verdict.count) {
             (Verdict::Undefined, _) | (_, None) => AtPoint::Undefined,
             (_, Some(count)) => AtPoint::Defined { count, infinite: verdict.infinite },
@@ -75,19 +85,20 @@ impl<'a> Truth<'a> {
     }
 
     /// A point that is not stable with the true constants.
-    pub fn confirmed(&self, p: &BoxPolynomial, witness: Witness, budget: &Budget) -> Result<Option<Witness>, Error> {
-        if self.is_exact() {
+    pub fn confirmed(&self, p: &impl Family, witness: Witness, budget: &Budget) -> Result<Option<Witness>, Error> {
+        if self.is_exact {
             return Ok(Some(witness));
         }
         let mut point = witness.point;
         point.truncate(self.problem.free().len());
         let at = self.at(p, &point, budget)?;
-        Ok((!at.is_stable(p.formal_degree())).then(|| Witness::new(point, at)))
+        let degree = self.problem.algebra_over_symbols(budget)?.formal_degree();
+        Ok((!at.is_stable(degree)).then(|| Witness::new(point, at)))
     }
 
     /// The decision with the true constants, for the parameters alone.
-    pub fn decision(&self, p: &BoxPolynomial, found: BoxDecision, budget: &Budget) -> Result<BoxDecision, Error> {
-        if self.is_exact() {
+    pub fn decision(&self, p: &impl Family, found: BoxDecision, budget: &Budget) -> Result<BoxDecision, Error> {
+        if self.is_exact {
             return Ok(found);
         }
         let close =
@@ -107,14 +118,17 @@ impl<'a> Truth<'a> {
     }
 
     /// The bracket with the true constants, for the parameters alone.
-    pub fn factor(&self, p: &BoxPolynomial, mut found: LargestFactor, budget: &Budget) -> Result<LargestFactor, Error> {
-        if self.is_exact() {
+    pub fn factor(&self, p: &impl Family, mut found: LargestFactor, budget: &Budget) -> Result<LargestFactor, Error> {
+        if self.is_exact {
             return Ok(found);
         }
         let free = self.problem.free().len();
         let witness = match found.witness.take() {
             None => None,
-            Some(witness) => self.confirmed(p, witness, budget)?,
+            Some(witness) => match self.confirmed(p, witness, budget) {
+                Err(Error::Stopped(_)) => None,
+                confirmed => confirmed?,
+            },
         };
         if witness.is_none() {
             (found.upper, found.direction, found.shares) = (None, None, None);

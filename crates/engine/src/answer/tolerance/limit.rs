@@ -4,7 +4,7 @@ use super::held::Truth;
 use super::{LimitSide, ToleranceLimit, ToleranceRequest};
 use crate::error::Error;
 use crate::problem::Problem;
-use crate::stability::boxes::{BoxPolynomial, Side, ToleranceProblem};
+use crate::stability::boxes::{Family, Side, ToleranceProblem};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ impl Problem {
     /// How far one parameter may go on either side while the others keep their tolerances.
     pub(super) fn tolerance_limit(
         self: &Arc<Self>,
-        p: &BoxPolynomial,
+        p: &impl Family,
         sides: &[Side],
         truth: &Truth,
         name: &str,
@@ -45,12 +45,9 @@ impl Problem {
                 let share = value(factor).abs().checked_div(&moved).unwrap_or(Rational::ONE);
                 (&request.gap * &share).min(request.gap.clone())
             };
-            let factor = boxes.bracket(boxes.searched(budget)?, &gap, most.as_ref(), budget)?;
+            let factor = boxes.bracket(boxes.searched(budget)?, None, &gap, most.as_ref(), budget)?;
             let factor = truth.factor(p, factor, budget)?;
-            let worst = match truth.is_exact() {
-                true => self.worst_end(&own, &factor, budget)?.map(|(worst, _)| worst),
-                false => None,
-            };
+            let worst = self.worst_end(&own, &factor, budget)?.map(|(worst, _)| worst);
             *slot = Some(LimitSide {
                 safe: value(&factor.lower),
                 unsafe_at: factor.upper.as_ref().map(value),

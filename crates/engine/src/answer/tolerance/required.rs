@@ -85,7 +85,7 @@ impl Problem {
             }
             let nearest = found.factor.as_ref().and_then(|factor| factor.upper.as_ref());
             let most = most.into_iter().chain(nearest).min().cloned();
-            let bracket = boxes.bracket(search, &|_| request.gap.clone(), most.as_ref(), budget)?;
+            let bracket = boxes.bracket(search, None, &|_| request.gap.clone(), most.as_ref(), budget)?;
             let bracket = of_parameters(&boxes, bracket, sides.len(), of)?;
             let decision = agreed(decision, &bracket, None);
             found.factor = Some(match found.factor.take() {

@@ -14,6 +14,7 @@
 
 use super::determinants::{derivatives, product};
 use super::factor::{LargestFactor, ToleranceProblem};
+use super::family::Path;
 use super::polynomial::Bundle;
 use super::prove::{Cell, Outcome, closed_by_constant, closed_by_vector, keeps_sign};
 use super::search::ray;

@@ -1,9 +1,8 @@
 //! The largest factor by which all tolerances can be scaled, between a proof and a point.
 
+use super::family::{Family, Path};
 use super::polynomial::BoxPolynomial;
-use super::prove::{
-    BoxProof, Closing, MOST_COEFFICIENTS, Outcome, closed_by_constant, closed_by_vector, prove, signs_at,
-};
+use super::prove::{BoxProof, MOST_COEFFICIENTS, Outcome};
 use super::search::{Crossing, Search};
 use super::sides::{Side, at_factor};
 use crate::stability::AtPoint;
@@ -12,9 +11,6 @@ use jurist_algebra::number::{Integer, Rational, Sign};
 
 /// A proof that needs more cells than this is first tried at a smaller factor.
 const CELLS: usize = 4000;
-
-/// Constant vectors are given up after so many cells.
-const CONSTANT_CELLS: usize = 4000;
 
 /// A box that needs more cells than this is not decided.
 const MOST_CELLS: usize = 1 << 18;
@@ -55,8 +51,8 @@ const BEYOND: u64 = 40;
 /// assert!(factor.lower <= "3/2".parse().unwrap() && factor.upper.unwrap() >= "3/2".parse().unwrap());
 /// # Ok::<(), jurist_engine::error::Error>(())
 /// ```
-pub struct ToleranceProblem<'a> {
-    pub(super) p: &'a BoxPolynomial,
+pub struct ToleranceProblem<'a, F = BoxPolynomial> {
+    pub(super) p: &'a F,
     pub(super) sides: Vec<Side>,
     pub(super) reference: Vec<Sign>,
     pub(super) scale: i64,
@@ -133,21 +129,7 @@ pub struct LargestFactor {
     pub(super) crossing: Option<Crossing>,
 }
 
-impl<'a> ToleranceProblem<'a> {
-    /// A loop and its tolerances; `None` unless the nominal point is stable.
-    ///
-    /// # Panics
-    /// When the numbers of parameters differ.
-    pub fn new(p: &'a BoxPolynomial, sides: Vec<Side>) -> Option<Self> {
-        assert_eq!(p.parameters(), sides.len(), "each parameter has its side");
-        let nominal: Vec<Rational> = sides.iter().map(|s| s.nominal().clone()).collect();
-        if !p.is_stable_at(&nominal) {
-            return None;
-        }
-        let (reference, scale) = signs_at(p, &nominal)?;
-        Some(ToleranceProblem { p, sides, reference, scale })
-    }
-
+impl ToleranceProblem<'_> {
     /// The number of Bernstein coefficients of the pair; `None` where it, or of what must not vanish, has more than are worked with.
     pub fn coefficients(&self) -> Option<usize> {
         let fits = |degrees: &[usize], frequencies: usize| {
@@ -161,6 +143,22 @@ impl<'a> ToleranceProblem<'a> {
         let pair = self.p.excluded().pair;
         fits(&pair.degrees, pair.width / 2)
     }
+}
+
+impl<'a, F: Family> ToleranceProblem<'a, F> {
+    /// A loop and its tolerances; `None` unless the nominal point is stable.
+    ///
+    /// # Panics
+    /// When the numbers of parameters differ.
+    pub fn new(p: &'a F, sides: Vec<Side>) -> Option<Self> {
+        assert_eq!(p.parameters(), sides.len(), "each parameter has its side");
+        let nominal: Vec<Rational> = sides.iter().map(|s| s.nominal().clone()).collect();
+        if !p.is_stable_at(&nominal) {
+            return None;
+        }
+        let (reference, scale) = p.signs_at(&nominal)?;
+        Some(ToleranceProblem { p, sides, reference, scale })
+    }
 
     /// The number of parameters.
     pub fn parameters(&self) -> usize {
@@ -169,13 +167,7 @@ impl<'a> ToleranceProblem<'a> {
 
     fn attempt(&self, factor: &Rational, cells: usize, budget: &Budget) -> Result<Outcome, Exhausted> {
         let sides = at_factor(&self.sides, factor);
-        let by = |closing: Closing, cells: usize| {
-            budget.enter(|| prove(self.p, &sides, &self.reference, self.scale, (closing, cells), budget))?
-        };
-        match by(closed_by_constant, cells.min(CONSTANT_CELLS))? {
-            Outcome::Open { .. } => by(closed_by_vector, cells),
-            outcome => Ok(outcome),
-        }
+        budget.enter(|| self.p.prove(&sides, (&self.reference, self.scale), cells, budget))?
     }
 
     /// Whether the box of a factor is stable.
@@ -211,7 +203,7 @@ impl<'a> ToleranceProblem<'a> {
         Some(Witness { point, at })
     }
 
-    pub(super) fn search(&self) -> Search<'_> {
+    pub(super) fn search(&self) -> Search<'_, F> {
         Search::new(self.p, &self.sides, &self.reference)
     }
 
@@ -228,11 +220,11 @@ impl<'a> ToleranceProblem<'a> {
         most: Option<&Rational>,
         budget: &Budget,
     ) -> Result<LargestFactor, Exhausted> {
-        self.bracket(self.searched(budget)?, &|_| gap.clone(), most, budget)
+        self.bracket(self.searched(budget)?, None, &|_| gap.clone(), most, budget)
     }
 
     /// The nearest points that are not stable, as far as a search without proof finds them.
-    pub(crate) fn searched(&self, budget: &Budget) -> Result<Search<'_>, Exhausted> {
+    pub(crate) fn searched(&self, budget: &Budget) -> Result<Search<'_, F>, Exhausted> {
         budget.step("looking for the worst point");
         let mut search = self.search();
         budget.enter(|| search.run(self.scale))?;
@@ -240,20 +232,22 @@ impl<'a> ToleranceProblem<'a> {
     }
 
     /// What a search found within the box of a factor.
-    pub(crate) fn refuted(&self, search: &Search, factor: &Rational) -> Option<Witness> {
+    pub(crate) fn refuted(&self, search: &Search<F>, factor: &Rational) -> Option<Witness> {
         let best = search.best.as_ref().filter(|best| best.hi <= *factor)?;
         self.witness(search.line(&best.direction).witness(&best.lo, &best.hi)?)
     }
 
-    /// [`ToleranceProblem::largest_factor`] from a search, with a relative width that depends on the upper end.
+    /// [`ToleranceProblem::largest_factor`] from a search and the proof of the box of factor 1, if there is one, with a relative width
+    /// that depends on the upper end.
     pub(crate) fn bracket(
         &self,
-        mut search: Search,
+        mut search: Search<F>,
+        known: Option<BoxProof>,
         gap: &dyn Fn(&Rational) -> Rational,
         most: Option<&Rational>,
         budget: &Budget,
     ) -> Result<LargestFactor, Exhausted> {
-        let mut proved: Option<(Rational, BoxProof)> = None;
+        let mut proved = known.map(|proof| (Rational::ONE, proof));
         let mut open = None;
         let mut coarser = Rational::ONE;
         let (mut retreats, mut refutations) = (0, 0);
@@ -301,14 +295,21 @@ impl<'a> ToleranceProblem<'a> {
                         open = Some(("a point that no line from the nominal one shows", Vec::new()));
                         break;
                     }
-                    nearer?;
+                    match nearer {
+                        Err(exhausted) if proved.is_none() => return Err(exhausted),
+                        Err(_) => {
+                            open = Some(("the time", Vec::new()));
+                            break;
+                        }
+                        Ok(_) => {}
+                    }
                     // A new end, a new attempt at the full precision.
                     (coarser, retreats, open, is_rough) = (Rational::ONE, 0, None, proved.is_none());
                 }
                 Outcome::Open { why, cell } => {
                     // Where the proof does not come through, a point may be that the search has missed.
                     refutations += 1;
-                    let missed = |search: &mut Search| {
+                    let missed = |search: &mut Search<F>| {
                         let middle: Vec<Rational> = cell.iter().map(|[lo, hi]| lo.midpoint(hi)).collect();
                         (middle.len() == self.parameters() && search.run_from(&middle))
                             || self.run_from_corners(search, &target)
@@ -338,7 +339,7 @@ impl<'a> ToleranceProblem<'a> {
     }
 
     /// Whether a search from one of the box's corners, where these are few, finds a nearer end.
-    fn run_from_corners(&self, search: &mut Search, factor: &Rational) -> bool {
+    fn run_from_corners(&self, search: &mut Search<F>, factor: &Rational) -> bool {
         let sides = at_factor(&self.sides, factor);
         if sides.len() > MOST_FOR_CORNERS {
             return false;
@@ -351,7 +352,7 @@ impl<'a> ToleranceProblem<'a> {
     }
 
     /// A point that is not stable bounds the factor, however the line to it runs.
-    fn reaches(&self, search: &mut Search, point: &[Rational]) -> bool {
+    fn reaches(&self, search: &mut Search<F>, point: &[Rational]) -> bool {
         let Some(direction) = search.towards(point) else { return false };
         let line = search.line(&direction);
         let factor = self.factor_of(point);
@@ -375,7 +376,7 @@ impl<'a> ToleranceProblem<'a> {
 
     fn bracketed(
         &self,
-        search: Search,
+        search: Search<F>,
         proved: Option<(Rational, BoxProof)>,
         open: Option<(&'static str, Vec<[Rational; 2]>)>,
     ) -> LargestFactor {

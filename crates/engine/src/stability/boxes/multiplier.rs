@@ -157,7 +157,7 @@ fn main_direction(x: &[i128], y: &[i128]) -> Option<(i128, i128)> {
 }
 
 fn raise(tensor: &Tensor, axes: &[usize]) -> Raised {
-    let mut error = tensor.error;
+    let mut error = tensor.greatest_error();
     for &axis in axes {
         error *= tensor.count(axis) as i128;
     }

@@ -45,6 +45,20 @@ impl Bundle {
         Bundle { width, degrees: self.degrees.clone(), terms }
     }
 
+    /// Of the coefficients `c_0, ..., c_n` in the half plane the polynomials `E_0, ..., E_k, O_0, ..., O_k`.
+    pub fn pair(&self) -> Bundle {
+        let k = (self.width - 1) / 2;
+        self.combined(2 * (k + 1), |c| {
+            let part = |odd: usize| {
+                (0..=k).map(move |j| {
+                    let value = c.get(2 * j + odd).cloned().unwrap_or(Integer::ZERO);
+                    if j % 2 == 1 { -value } else { value }
+                })
+            };
+            part(0).chain(part(1)).collect()
+        })
+    }
+
     /// The values at a point `a_i / q_i`, all times the product of `q_i^degree_i`.
     pub fn values(&self, a: &[Integer], q: &[Integer]) -> Vec<Integer> {
         let tables: Vec<Vec<Integer>> = self.powers(a, q);
@@ -227,16 +241,7 @@ impl BoxPolynomial {
 
     /// `E_0, ..., E_k, O_0, ..., O_k` with `P(i w) = E(w^2) + i w O(w^2)`.
     pub(super) fn pair(&self) -> Bundle {
-        let k = self.formal_degree / 2;
-        self.coefficients.combined(2 * (k + 1), |c| {
-            let part = |odd: usize| {
-                (0..=k).map(move |j| {
-                    let value = c.get(2 * j + odd).cloned().unwrap_or(Integer::ZERO);
-                    if j % 2 == 1 { -value } else { value }
-                })
-            };
-            part(0).chain(part(1)).collect()
-        })
+        self.coefficients.pair()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::multiplier::{Sought, affine_multiplier};
 use super::polynomial::{BoxPolynomial, Bundle, Excluded};
-use super::separate::separating_vector;
+use super::separate::separating_vector_within;
 use super::tensor::{FrequencyScale, Tensor};
 use super::tree::{Axis, Node, Tree};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -20,6 +20,9 @@ const TESTED_EVERY: usize = 64;
 
 /// After so many nodes vectors that are affine in a cell are tried, in cells halved so often.
 const AFFINE_AFTER: (usize, u32) = (48, 6);
+
+/// Where coefficients are off by more than this no such vector is tried: products with it are to fit.
+const GREATEST_ERROR: i128 = 1 << 60;
 
 /// Parts of each side in which a cell that stays open is tested.
 const PARTS: i64 = 8;
@@ -40,18 +43,20 @@ pub struct BoxProof {
     pub weight: i64,
     /// Cells of frequency and parameters without a zero of the pair.
     pub pair: Tree,
+    /// Cells that are not in the tree: of loops with functions of parameters, and with dead time.
+    pub beside: usize,
 }
 
 impl BoxProof {
     /// The number of cells of frequency and parameters.
     pub fn cells(&self) -> usize {
-        self.pair.leaves()
+        self.pair.leaves() + self.beside
     }
 }
 
 /// What is known of a box.
 #[derive(Clone, Debug)]
-pub(super) enum Outcome {
+pub enum Outcome {
     /// Every point is stable.
     Stable(BoxProof),
     /// On the way from the nominal point to this one stability is lost.
@@ -198,7 +203,7 @@ pub(super) fn prove(
         let [low, high] = cell.halves(axis);
         stack.extend([high, low]);
     }
-    Ok(Outcome::Stable(BoxProof { certain, scale, weight, pair: Tree(nodes) }))
+    Ok(Outcome::Stable(BoxProof { certain, scale, weight, pair: Tree(nodes), beside: 0 }))
 }
 
 /// The last side, from 0, with its mirror image.
@@ -217,14 +222,15 @@ pub(super) type Closing = fn(&Cell, usize) -> Result<Node, Option<usize>>;
 /// [`Closing`] by vectors that are constant in a cell: enough where the worst point is a corner.
 pub(super) fn closed_by_constant(cell: &Cell, _: usize) -> Result<Node, Option<usize>> {
     let [x, y] = cell.tensor.planes.as_slice() else { unreachable!("a pair") };
-    let found = separating_vector(x, y, cell.tensor.error).ok_or(None)?;
+    let found = separating_vector_within(x, y, cell.tensor.error, &cell.tensor.slack).ok_or(None)?;
     Ok(Node::Separated(found.0, found.1))
 }
 
 /// [`Closing`] also by vectors that are affine in a cell.
 pub(super) fn closed_by_vector(cell: &Cell, nodes: usize) -> Result<Node, Option<usize>> {
     let constant = closed_by_constant(cell, nodes);
-    if constant.is_ok() || nodes < AFFINE_AFTER.0 || cell.halvings() < AFFINE_AFTER.1 {
+    let is_vague = cell.tensor.greatest_error() > GREATEST_ERROR;
+    if constant.is_ok() || nodes < AFFINE_AFTER.0 || cell.halvings() < AFFINE_AFTER.1 || is_vague {
         return constant;
     }
     match affine_multiplier(&cell.tensor) {
@@ -281,6 +287,13 @@ pub(super) fn keeps_sign(
     Ok(Ok(Tree(nodes)))
 }
 
+/// The scale of frequencies of a polynomial: the geometric mean of its roots' moduli is about two to this.
+pub(super) fn scale_of(values: &[Integer]) -> i64 {
+    let size = |c: &Integer| c.bit_length() as i64;
+    let n = values.len() - 1;
+    if n == 0 { 0 } else { (size(&values[0]) - size(&values[n])).div_euclid(n as i64) }
+}
+
 /// The signs of the certain polynomials at a point, and the scale of frequencies there; `None` where one vanishes.
 pub(super) fn signs_at(p: &BoxPolynomial, point: &[Rational]) -> Option<(Vec<Sign>, i64)> {
     let (a, q): (Vec<_>, Vec<_>) = point.iter().map(|x| (x.numerator(), x.denominator())).unzip();
@@ -289,9 +302,6 @@ pub(super) fn signs_at(p: &BoxPolynomial, point: &[Rational]) -> Option<(Vec<Sig
     if signs.contains(&Sign::Equal) {
         return None;
     }
-    let values = p.coefficients.values(&a, &q);
-    let size = |c: &Integer| c.bit_length() as i64;
-    let n = p.formal_degree() as i64;
-    let scale = if n == 0 { 0 } else { (size(&values[0]) - size(&values[n as usize])).div_euclid(n) };
+    let scale = scale_of(&p.coefficients.values(&a, &q));
     Some((signs, scale))
 }

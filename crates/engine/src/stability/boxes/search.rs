@@ -1,7 +1,7 @@
 //! Looking for the nearest point that is not stable. Whatever is found is exact; that nothing nearer exists, the proof says.
 
-use super::line::{Gradient, Line, rounded, unit};
-use super::polynomial::BoxPolynomial;
+use super::family::{Family, Gradient, Path};
+use super::line::{rounded, unit};
 use super::sides::Side;
 use jurist_algebra::number::{Integer, Rational, Sign};
 use jurist_algebra::poly::algebraic::simplest_between;
@@ -25,9 +25,6 @@ const LEAST_WEIGHT: u32 = 12;
 /// Rounds of turning such coordinates at the end.
 const SETTLINGS: usize = 4;
 
-/// Frequencies that give directions to begin with: `4^scale` times powers of two up to this one.
-const OCTAVES: i64 = 5;
-
 /// Parts of the range of an angle that are tried to begin with.
 const ANGLES: i64 = 4;
 
@@ -42,23 +39,23 @@ pub(super) struct Crossing {
     pub hi: Rational,
 }
 
-pub(crate) struct Search<'a> {
-    p: &'a BoxPolynomial,
+pub(crate) struct Search<'a, F: Family> {
+    p: &'a F,
     sides: &'a [Side],
     reference: &'a [Sign],
     /// The nearest crossing so far.
     pub(super) best: Option<Crossing>,
 }
 
-impl<'a> Search<'a> {
-    pub fn new(p: &'a BoxPolynomial, sides: &'a [Side], reference: &'a [Sign]) -> Self {
+impl<'a, F: Family> Search<'a, F> {
+    pub fn new(p: &'a F, sides: &'a [Side], reference: &'a [Sign]) -> Self {
         Search { p, sides, reference, best: None }
     }
 
     /// The line in a direction; the factor is its parameter.
-    pub(super) fn line(&self, direction: &[Rational]) -> Line<'a> {
+    pub(super) fn line(&self, direction: &[Rational]) -> F::Line<'a> {
         let (base, step) = ray(self.sides, direction);
-        Line::new(self.p, base, step, self.reference)
+        self.p.line(base, step, self.reference)
     }
 
     /// The direction through a point, if it has any.
@@ -95,44 +92,16 @@ impl<'a> Search<'a> {
     /// Directions to begin with: those that move each certain polynomial, and the pair at some frequencies, towards zero.
     fn starts(&self, scale: i64) -> Vec<Vec<Rational>> {
         let nominal: Vec<Rational> = self.sides.iter().map(|s| s.nominal().clone()).collect();
-        let (a, q): (Vec<Integer>, Vec<Integer>) = nominal.iter().map(|x| (x.numerator(), x.denominator())).unzip();
-        let mut functions = Vec::new();
-        for (_, f) in &self.p.certain {
-            let bundle = super::polynomial::Bundle::new(&[f], nominal.len());
-            let value = bundle.values(&a, &q).remove(0);
-            functions.push(bundle.combined(1, |c| vec![&c[0] * &value]));
-        }
-        let pair = self.p.pair();
-        let k = pair.width / 2 - 1;
-        let values = pair.values(&a, &q);
-        for octave in -OCTAVES..=OCTAVES {
-            let power = 2 * scale + octave;
-            let weight =
-                |j: usize| Integer::ONE << (power.unsigned_abs() * (if power >= 0 { j } else { k - j }) as u64);
-            let weights: Vec<Integer> = (0..=k).map(weight).collect();
-            let at = |c: &[Integer], odd: usize| {
-                c[odd * (k + 1)..].iter().zip(&weights).fold(Integer::ZERO, |sum, (c, w)| sum + c * w)
-            };
-            // omega^2 is the weight of the odd part in the square of the modulus.
-            let (x, mut y) = (at(&values, 0), at(&values, 1));
-            let mut x = x;
-            if power >= 0 {
-                y = &y << power.unsigned_abs()
-            } else {
-                x = &x << power.unsigned_abs()
-            }
-            functions.push(pair.combined(1, |c| vec![&(&at(c, 0) * &x) + &(&at(c, 1) * &y)]));
-        }
         let mut starts: Vec<Vec<Rational>> = Vec::new();
-        for f in functions {
-            let direction = f.gradient(&a, &q).iter().map(|g| unit(g.sign().reverse())).collect();
+        for gradient in self.p.pulls(&nominal, scale) {
+            let direction = gradient.iter().map(|g| unit(g.sign().reverse())).collect();
             if let Some(direction) = self.normalised(direction)
                 && !starts.contains(&direction)
             {
                 starts.push(direction);
             }
         }
-        if self.p.excluded().mirrored {
+        if self.p.is_mirrored() {
             // The worst angle may be any.
             let last = self.sides.len() - 1;
             for direction in starts.clone() {
@@ -168,7 +137,7 @@ impl<'a> Search<'a> {
     }
 
     /// The crossing in a direction, if it is nearer than the best.
-    fn nearer(&self, direction: &[Rational], than: Option<&Rational>) -> Option<(Crossing, Line<'a>)> {
+    fn nearer(&self, direction: &[Rational], than: Option<&Rational>) -> Option<(Crossing, F::Line<'a>)> {
         let line = self.line(direction);
         let (lo, hi) = line.crossing(than, COARSE)?;
         Some((Crossing { direction: direction.to_vec(), lo, hi }, line))
@@ -184,7 +153,7 @@ impl<'a> Search<'a> {
                 line.gradient(&lo, &hi)
             };
             let Some(gradient) = line.gradient(&current.lo, &current.hi).or_else(closer) else { break };
-            let wanted: Vec<Rational> = wanted(&gradient);
+            let wanted: Vec<Rational> = gradient.wanted();
             let Some(turned) = self.normalised(wanted.clone()) else { break };
             if turned == current.direction {
                 break;
@@ -235,7 +204,7 @@ impl<'a> Search<'a> {
                     old.clone()
                 }
             };
-            let turned = wanted(&gradient).into_iter().zip(&best.direction).zip(&weights).map(turn).collect();
+            let turned = gradient.wanted().into_iter().zip(&best.direction).zip(&weights).map(turn).collect();
             let Some(turned) = self.normalised(turned).filter(|turned| *turned != best.direction) else { return };
             let Some((lo, hi)) = self.line(&turned).crossing(Some(&best.hi), FINE) else { return };
             self.best = Some(Crossing { direction: turned, lo, hi });
@@ -260,7 +229,7 @@ impl<'a> Search<'a> {
                 continue;
             };
             let goes_on = line.gradient(&lo, &hi).is_some_and(|g| {
-                let sign = wanted(&g)[i].sign();
+                let sign = g.wanted()[i].sign();
                 sign == (&far - &here).sign()
             });
             if goes_on {
@@ -310,7 +279,7 @@ impl<'a> Search<'a> {
         let Some(best) = &mut self.best else { return };
         let line = Search::new(self.p, self.sides, self.reference).line(&best.direction);
         if let Some(t) = simplest_between(&best.lo, &best.hi)
-            && !self.p.is_stable_at(&line.point(&t))
+            && !line.is_stable(&t)
         {
             best.hi = t;
         }
@@ -343,11 +312,4 @@ pub(crate) fn ray(sides: &[Side], direction: &[Rational]) -> (Vec<Rational>, Vec
 /// To some 60 binary digits.
 fn rounded_share(share: &Rational) -> Rational {
     if share.is_zero() { Rational::ZERO } else { rounded(share, 60) }
-}
-
-/// For each parameter the side that brings the crossing nearer.
-fn wanted(gradient: &Gradient) -> Vec<Rational> {
-    let along = gradient.along.sign();
-    let side = |g: &Rational| if along.is_gt() { unit(g.sign()) } else { unit(g.sign().reverse()) };
-    gradient.by_parameter.iter().map(side).collect()
 }

@@ -12,6 +12,16 @@ const DIRECTION_BITS: u32 = 60;
 /// The cone that the points span is kept by its two extreme rays; the vector is taken from the middle of its dual cone and
 /// proved on all points. One pass over the points, and one for each vector that is tried.
 pub(super) fn separating_vector(x: &[i128], y: &[i128], error: i128) -> Option<(i128, i128)> {
+    separating_vector_within(x, y, error, &[])
+}
+
+/// The same where the components of the points are off by so much more, in turns of as many points as there are bounds.
+pub(super) fn separating_vector_within(
+    x: &[i128],
+    y: &[i128],
+    error: i128,
+    slack: &[Vec<i128>],
+) -> Option<(i128, i128)> {
     let [first, last] = cone(x, y)?;
     let [f, l] = [unit(first), unit(last)];
     // The middle of the cone; where it is nearly a half plane, the sum of both rays says little.
@@ -25,7 +35,7 @@ pub(super) fn separating_vector(x: &[i128], y: &[i128], error: i128) -> Option<(
     while q < LARGEST {
         let v = (rounded(middle.0, q), rounded(middle.1, q));
         let is_positive = |ray: (i128, i128)| v.0 * ray.0 + v.1 * ray.1 > 0;
-        if is_positive(first) && is_positive(last) && holds(v, x, y, error) {
+        if is_positive(first) && is_positive(last) && holds(v, x, y, error, slack) {
             return Some(v);
         }
         q = if q < 4 { q + 1 } else { q + q / 2 };
@@ -33,9 +43,11 @@ pub(super) fn separating_vector(x: &[i128], y: &[i128], error: i128) -> Option<(
     None
 }
 
-fn holds((a, b): (i128, i128), x: &[i128], y: &[i128], error: i128) -> bool {
+fn holds((a, b): (i128, i128), x: &[i128], y: &[i128], error: i128, slack: &[Vec<i128>]) -> bool {
     let least = error * (a.abs() + b.abs());
-    x.iter().zip(y).all(|(x, y)| a * x + b * y > least)
+    let [own_x, own_y] = slack else { return x.iter().zip(y).all(|(x, y)| a * x + b * y > least) };
+    let bounds: Vec<i128> = own_x.iter().zip(own_y).map(|(x, y)| least + a.abs() * x + b.abs() * y).collect();
+    x.iter().zip(y).zip(bounds.iter().cycle()).all(|((x, y), least)| a * x + b * y > *least)
 }
 
 /// The extreme rays of the cone that points span, the second counterclockwise of the first; `None` unless they lie in an
@@ -106,10 +118,10 @@ mod tests {
             let (x, y): (Vec<i128>, Vec<i128>) = points.iter().copied().unzip();
             // Any vector that separates small points can be taken with entries up to 2 * 30.
             let candidates = (-61..=61).flat_map(|a| (-61..=61).map(move |b| (a, b)));
-            let exists = candidates.into_iter().any(|v| holds(v, &x, &y, 0));
+            let exists = candidates.into_iter().any(|v| holds(v, &x, &y, 0, &[]));
             let found = separating_vector(&x, &y, 0);
             prop_assert_eq!(found.is_some(), exists);
-            prop_assert!(found.is_none_or(|v| holds(v, &x, &y, 0)));
+            prop_assert!(found.is_none_or(|v| holds(v, &x, &y, 0, &[])));
         }
     }
 }

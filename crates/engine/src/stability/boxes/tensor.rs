@@ -20,6 +20,8 @@ pub(super) struct Tensor {
     pub planes: Vec<Vec<i128>>,
     /// How far a coefficient may be from the true one.
     pub error: i128,
+    /// How much farther, for each polynomial and each place along the frequency axis; none where the polynomials are exact.
+    pub slack: Vec<Vec<i128>>,
 }
 
 /// How the frequency axis is scaled: `v = 2^scale t / (1 - t)`, `v` the frequency or its square.
@@ -29,7 +31,17 @@ pub(super) struct FrequencyScale(pub i64);
 impl Tensor {
     /// Of a pair `E_0, ..., E_k, O_0, ..., O_k` over the box and all frequencies, and by how many powers of two the second
     /// polynomial was made larger relative to the first.
-    pub fn of_pair(pair: &Bundle, sides: &[[Rational; 2]], FrequencyScale(scale): FrequencyScale) -> (Tensor, i64) {
+    pub fn of_pair(pair: &Bundle, sides: &[[Rational; 2]], scale: FrequencyScale) -> (Tensor, i64) {
+        Tensor::of_pair_within(pair, &[], sides, scale)
+    }
+
+    /// The same where each coefficient may be off by so much anywhere in the box.
+    pub fn of_pair_within(
+        pair: &Bundle,
+        slack: &[Integer],
+        sides: &[[Rational; 2]],
+        FrequencyScale(scale): FrequencyScale,
+    ) -> (Tensor, i64) {
         let count = pair.width / 2;
         let k = count - 1;
         let mut binomials = vec![Integer::ONE];
@@ -48,16 +60,36 @@ impl Tensor {
         let plane = |odd: usize| all.chunks(pair.width).flat_map(move |c| c[odd * count..(odd + 1) * count].iter());
         let (even, even_shift) = fixed_point(plane(0));
         let (odd, odd_shift) = fixed_point(plane(1));
+        let common = common_factor(pair, sides);
+        let off = |odd: usize, shift: i64| {
+            let own = slack[odd * count..(odd + 1) * count].iter().zip(&factors);
+            fixed_bounds(own.map(|(s, f)| &(s * f) * &common), shift)
+        };
+        let slack = if slack.is_empty() { Vec::new() } else { vec![off(0, even_shift), off(1, odd_shift)] };
         let counts = pair.degrees.iter().map(|l| l + 1).chain([count]).collect();
-        (Tensor { counts, planes: vec![even, odd], error: 1 }, odd_shift - even_shift)
+        (Tensor { counts, planes: vec![even, odd], error: 1, slack }, odd_shift - even_shift)
     }
 
     /// Of one polynomial over the box; the frequency axis has one coefficient.
     pub fn of_one(polynomial: &Bundle, sides: &[[Rational; 2]]) -> Tensor {
+        Tensor::of_one_within(polynomial, &Integer::ZERO, sides)
+    }
+
+    /// The same where the polynomial may be off by so much anywhere in the box.
+    pub fn of_one_within(polynomial: &Bundle, slack: &Integer, sides: &[[Rational; 2]]) -> Tensor {
         let all = expand(polynomial, sides);
-        let (plane, _) = fixed_point(all.iter());
+        let (plane, shift) = fixed_point(all.iter());
         let counts = polynomial.degrees.iter().map(|l| l + 1).chain([1]).collect();
-        Tensor { counts, planes: vec![plane], error: 1 }
+        let slack = match slack.is_zero() {
+            true => Vec::new(),
+            false => vec![fixed_bounds([slack * &common_factor(polynomial, sides)].into_iter(), shift)],
+        };
+        Tensor { counts, planes: vec![plane], error: 1, slack }
+    }
+
+    /// How far a coefficient of any polynomial may be from the true one.
+    pub fn greatest_error(&self) -> i128 {
+        self.error + self.slack.iter().flatten().copied().max().unwrap_or(0)
     }
 
     /// The number of axes; the last is the frequency.
@@ -115,8 +147,12 @@ impl Tensor {
             low.push(left);
             high.push(right);
         }
-        let make = |planes| Tensor { counts: self.counts.clone(), planes, error };
-        [make(low), make(high)]
+        let [low_slack, high_slack] = match axis + 1 == self.counts.len() {
+            true => halved_bounds(self.slack),
+            false => [self.slack.clone(), self.slack],
+        };
+        let make = |planes, slack| Tensor { counts: self.counts.clone(), planes, error, slack };
+        [make(low, low_slack), make(high, high_slack)]
     }
 
     /// The axis along which halving helps most: frequency by its variation, a parameter by how far the values are from being
@@ -163,6 +199,31 @@ impl Tensor {
     }
 }
 
+/// Bounds along the frequency axis for either half of it, rounded up.
+fn halved_bounds(slack: Vec<Vec<i128>>) -> [Vec<Vec<i128>>; 2] {
+    let (mut low, mut high) = (Vec::new(), slack);
+    for right in &mut high {
+        let mut left = right.clone();
+        for step in 1..left.len() {
+            for at in 0..left.len() - step {
+                right[at] = (right[at] + right[at + 1] + 1) >> 1;
+            }
+            left[step] = right[0];
+        }
+        low.push(left);
+    }
+    [low, high]
+}
+
+/// The factor of all coefficients that [`expand`] gives.
+fn common_factor(bundle: &Bundle, sides: &[[Rational; 2]]) -> Integer {
+    let one = |(&degree, [low, high]): (&usize, &[Rational; 2])| {
+        let q = low.denominator().lcm(&high.denominator());
+        &common_binomial(degree) * &q.pow(degree as u64)
+    };
+    bundle.degrees.iter().zip(sides).map(one).fold(Integer::ONE, |product, factor| &product * &factor)
+}
+
 /// The Bernstein coefficients of all polynomials of a bundle over a box, times one positive factor; of each multi-index those
 /// of all polynomials stand side by side.
 pub(super) fn expand(bundle: &Bundle, sides: &[[Rational; 2]]) -> Vec<Integer> {
@@ -199,10 +260,7 @@ fn monomials(degree: usize, [low, high]: &[Rational; 2]) -> Vec<Vec<Integer>> {
     let q = low.denominator().lcm(&high.denominator());
     let whole = |v: &Rational| (v * &Rational::from(&q)).numerator();
     let ends = [whole(low), whole(high)];
-    let binomial = |n: usize, k: usize| {
-        (0..k).fold(Integer::ONE, |b, i| (&b * &Integer::from((n - i) as u64)).div_exact(&Integer::from(i as u64 + 1)))
-    };
-    let common = (0..=degree).fold(Integer::ONE, |l, e| l.lcm(&binomial(degree, e)));
+    let common = common_binomial(degree);
     let coefficient = |e: usize, j: usize| {
         // The polar form: of the e factors, i are taken at the upper end.
         let mut sum = Integer::ZERO;
@@ -215,91 +273,41 @@ fn monomials(degree: usize, [low, high]: &[Rational; 2]) -> Vec<Vec<Integer>> {
     (0..=degree).map(|e| (0..=degree).map(|j| coefficient(e, j)).collect()).collect()
 }
 
+fn binomial(n: usize, k: usize) -> Integer {
+    (0..k).fold(Integer::ONE, |b, i| (&b * &Integer::from((n - i) as u64)).div_exact(&Integer::from(i as u64 + 1)))
+}
+
+/// The least common multiple of the binomial coefficients of a degree.
+fn common_binomial(degree: usize) -> Integer {
+    (0..=degree).fold(Integer::ONE, |l, e| l.lcm(&binomial(degree, e)))
+}
+
+/// Bounds times two to this power, rounded up. Where one is beyond all coefficients, nothing is known, also not of halves.
+fn fixed_bounds(bounds: impl Iterator<Item = Integer>, shift: i64) -> Vec<i128> {
+    let by = shift.unsigned_abs();
+    let scaled: Vec<Integer> = bounds.map(|b| if shift >= 0 { b << by } else { -(-b >> by) }).collect();
+    let is_beyond = scaled.iter().any(|b| b.bit_length() > BITS);
+    scaled.iter().map(|b| if is_beyond { 1 << BITS } else { small(b) }).collect()
+}
+
+/// A number that is not negative and has few bits.
+fn small(n: &Integer) -> i128 {
+    let limbs = n.as_limbs();
+    let limb = |i: usize| i128::from(limbs.get(i).copied().unwrap_or(0));
+    limb(0) | limb(1) << 64
+}
+
 /// The numbers times a power of two, truncated so that the greatest has [`BITS`] bits, and the exponent of that power.
 fn fixed_point<'a>(values: impl Iterator<Item = &'a Integer> + Clone) -> (Vec<i128>, i64) {
     let bits = values.clone().map(Integer::bit_length).max().unwrap_or(0);
     let fixed = |v: &Integer| {
         let magnitude = v.abs();
         let scaled = if bits > BITS { &magnitude >> (bits - BITS) } else { &magnitude << (BITS - bits) };
-        let limbs = scaled.as_limbs();
-        let limb = |i: usize| i128::from(limbs.get(i).copied().unwrap_or(0));
-        let value = limb(0) | limb(1) << 64;
+        let value = small(&scaled);
         if v.is_negative() { -value } else { value }
     };
     (values.map(fixed).collect(), BITS as i64 - bits as i64)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use jurist_algebra::number::parse_number;
-    use jurist_algebra::poly::{Domain, MultiPoly};
-
-    fn q(text: &str) -> Rational {
-        parse_number(text).unwrap()
-    }
-
-    /// `2 x^2 y - 3 x + 5 y + 7`
-    fn example() -> MultiPoly {
-        let (x, y) = (MultiPoly::variable(0), MultiPoly::variable(1));
-        let n = |n: i64| MultiPoly::constant(Integer::from(n));
-        x.times(&x).times(&y).times(&n(2)).minus(&x.times(&n(3))).plus(&y.times(&n(5))).plus(&n(7))
-    }
-
-    #[test]
-    fn coefficients_at_corners_are_values_and_halves_are_those_of_the_halves() {
-        let f = example();
-        let bundle = Bundle::new(&[&f], 2);
-        let sides = [[q("-1/3"), q("5/2")], [q("1/7"), q("3")]];
-        let all = expand(&bundle, &sides);
-        let corner = |x: usize, y: usize| f.eval(&[sides[0][x].clone(), sides[1][y].clone()]);
-        // Indices: 3 along x, 2 along y.
-        let ratio = corner(1, 1).checked_div(&Rational::from(all[5].clone())).unwrap();
-        for (at, value) in [(0, corner(0, 0)), (1, corner(0, 1)), (4, corner(1, 0))] {
-            assert_eq!(&Rational::from(all[at].clone()) * &ratio, value);
-        }
-        let middle = sides[0][0].midpoint(&sides[0][1]);
-        let [low, _] = Tensor::of_one(&bundle, &sides).halves(0);
-        let fresh = expand(&bundle, &[[sides[0][0].clone(), middle], sides[1].clone()]);
-        for i in 0..6 {
-            let (left, right) =
-                (Integer::from(low.planes[0][i]) * &fresh[5], &fresh[i] * &Integer::from(low.planes[0][5]));
-            assert!((&left - &right).abs() <= fresh[5].abs() * Integer::from(64));
-        }
-    }
-
-    /// A monomial that several coefficients of a pair have is one term of the bundle, and each plane is that of its polynomial alone.
-    #[test]
-    fn monomials_in_common_are_one_term_of_the_pair() {
-        let (x, y) = (MultiPoly::variable(0), MultiPoly::variable(1));
-        let n = |n: i64| MultiPoly::constant(Integer::from(n));
-        // x y and 1 in all four, x^2 in the last: E_0, E_1, O_0, O_1.
-        let xy = x.times(&y);
-        let polynomials = [
-            xy.plus(&n(3)),
-            xy.times(&n(-2)).plus(&n(5)),
-            xy.times(&n(7)).minus(&n(4)),
-            xy.plus(&x.times(&x)).plus(&n(1)),
-        ];
-        let pair = Bundle::new(&polynomials.iter().collect::<Vec<_>>(), 2);
-        assert_eq!(pair.terms.len(), 3);
-        assert_eq!(pair.degrees, [2, 1]);
-        let sides = [[q("-1/2"), q("3")], [q("1/5"), q("2")]];
-        let all = expand(&pair, &sides);
-        let (tensor, weight) = Tensor::of_pair(&pair, &sides, FrequencyScale(0));
-        for (k, p) in polynomials.iter().enumerate() {
-            let alone = Bundle { degrees: pair.degrees.clone(), ..Bundle::new(&[p], 2) };
-            let own = expand(&alone, &sides);
-            let together: Vec<&Integer> = all.iter().skip(k).step_by(4).collect();
-            assert!(together.into_iter().eq(&own), "{k}");
-            // The planes are the same numbers in fixed point, frequency last: up to one factor for each plane.
-            let plane = &tensor.planes[k / 2];
-            let fixed = |i: usize| Integer::from(plane[2 * i + k % 2]);
-            for i in 0..own.len() {
-                let (left, right) = (&fixed(i) * &own[0], &fixed(0) * &own[i]);
-                assert!((&left - &right).abs() <= (own[0].abs() + own[i].abs()) * Integer::from(2), "{k} {i}");
-            }
-        }
-        assert!(weight.abs() < 8);
-    }
-}
+mod tests;

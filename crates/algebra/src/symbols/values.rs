@@ -1,0 +1,139 @@
+//! The values of symbols whose arguments are functions of parameters.
+
+use super::Definition;
+use super::function::polynomial_at;
+use super::scales::exponent;
+use crate::ball::{Ball, Elementary};
+use crate::number::{Enclosure, Rational};
+use crate::poly::{MultiPoly, RationalFunction};
+use std::collections::BTreeSet;
+
+/// Exponents beyond this are not enclosed over an interval.
+const LARGEST: i64 = 1 << 13;
+
+/// A table of symbols whose arguments are rational functions of several parameters, which are the first variables, and of earlier
+/// symbols, which are the variables after them.
+///
+/// ```
+/// use jurist_algebra::ball::{Ball, MultiTaylorModel};
+/// use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+/// use jurist_algebra::symbols::{Definition, ParametricSymbols};
+/// // X = exp(x y) with x, y about 1
+/// let product = &RationalFunction::variable(0) * &RationalFunction::variable(1);
+/// let symbols = ParametricSymbols::new(vec![("X".into(), Definition::Exponential(product))]);
+/// let about_one = (Ball::from_integer(&1.into(), 64), Ball::from_integer(&1.into(), 64).shifted(-8));
+/// let parameters = MultiTaylorModel::linear(&[about_one.clone(), about_one], 3);
+/// let values = symbols.values(&parameters).unwrap();
+/// let difference = symbols.value(&MultiPoly::variable(2).minus(&MultiPoly::variable(2)), &values);
+/// assert!(difference.terms().all(|(_, c)| c.is_zero()));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParametricSymbols {
+    table: Vec<(String, Definition)>,
+}
+
+impl ParametricSymbols {
+    /// The table of these names and definitions.
+    pub fn new(table: Vec<(String, Definition)>) -> Self {
+        ParametricSymbols { table }
+    }
+
+    /// What the symbols are functions of.
+    pub fn arguments(&self) -> impl Iterator<Item = &RationalFunction> {
+        self.table.iter().flat_map(|(_, definition)| definition.arguments())
+    }
+
+    /// The parameters that functions depend on, ascending.
+    pub fn parameters_inside(&self, parameters: usize) -> Vec<usize> {
+        first_of(self.arguments().flat_map(RationalFunction::variables), parameters)
+    }
+
+    /// The parameters in what arguments are divided by, ascending: where these vary much, little is known of the symbols.
+    pub fn parameters_below(&self, parameters: usize) -> Vec<usize> {
+        first_of(self.arguments().flat_map(|f| f.denominator().variables()), parameters)
+    }
+
+    /// The parameters and all symbols as enclosures, from those of the parameters; `None` where a divisor may vanish, a root's argument
+    /// may be negative, or an exponential is too large.
+    ///
+    /// Cost: an exponential of a small matrix for each symbol.
+    pub fn values<S: Elementary>(&self, parameters: &[S]) -> Option<Vec<S>> {
+        values_of(&self.table, parameters.to_vec())
+    }
+
+    /// The value of a polynomial in parameters and symbols at [values](ParametricSymbols::values).
+    ///
+    /// Cost: a product for each step of Horner's scheme.
+    pub fn value<S: Elementary>(&self, p: &MultiPoly, values: &[S]) -> S {
+        polynomial_at(p, values)
+    }
+}
+
+/// The first variables of a list, ascending, each once.
+fn first_of(variables: impl Iterator<Item = usize>, count: usize) -> Vec<usize> {
+    variables.filter(|v| *v < count).collect::<BTreeSet<usize>>().into_iter().collect()
+}
+
+/// The parameters and all symbols, from the parameters'; `None` where a divisor may vanish.
+pub(super) fn values_of<S: Elementary>(table: &[(String, Definition)], parameters: Vec<S>) -> Option<Vec<S>> {
+    let mut values = parameters;
+    let like = values.first()?.clone();
+    let bits = like.bits();
+    // All solutions of an equation at once.
+    let mut rows: Vec<(&Vec<RationalFunction>, &RationalFunction, Vec<S>)> = Vec::new();
+    for (_, definition) in table {
+        let at = |f: &RationalFunction| -> Option<S> {
+            polynomial_at(f.numerator(), &values).over(&polynomial_at(f.denominator(), &values))
+        };
+        let value = match definition {
+            Definition::Pi => like.constant(&Ball::from_enclosure(&Enclosure::pi(bits + 8), bits)),
+            Definition::Algebraic(x) => like.constant(&Definition::enclosed(x, bits)),
+            Definition::Root(x) => at(x)?.square_root()?,
+            Definition::Exponential(x) => {
+                let x = at(x)?;
+                if x.range().upper() > Rational::from(LARGEST) {
+                    return None;
+                }
+                x.exponential()
+            }
+            Definition::Tangent { square, time } => {
+                let (w, t) = (at(square)?, at(time)?);
+                let row = t.solutions(&[w, like.nothing()]);
+                row[1].over(&row[0])?
+            }
+            Definition::Fundamental { polynomial, index, time } => {
+                let known = rows.iter().find(|(of, at, _)| *of == polynomial && *at == time);
+                match known {
+                    Some((_, _, row)) => row[*index].clone(),
+                    None => {
+                        let n = polynomial.len() - 1;
+                        let coefficients = polynomial[..n].iter().map(at).collect::<Option<Vec<S>>>()?;
+                        let time_there = at(time)?;
+                        if is_too_large(&coefficients, &time_there) {
+                            return None;
+                        }
+                        let row = time_there.solutions(&coefficients);
+                        let value = row[*index].clone();
+                        rows.push((polynomial, time, row));
+                        value
+                    }
+                }
+            }
+        };
+        values.push(value);
+    }
+    Some(values)
+}
+
+/// Whether exponentials of a companion matrix anywhere in these balls may have too many bits to be of use.
+fn is_too_large<S: Elementary>(coefficients: &[S], time: &S) -> bool {
+    let size = |s: &S| Rational::dyadic(&s.range().magnitude_units(), s.bits());
+    let n = coefficients.len() as i64;
+    // No root is larger than twice the greatest of the roots |c_k|^(1/(n - k)).
+    let octaves = coefficients.iter().enumerate().map(|(k, c)| {
+        let size = size(c);
+        if size.is_zero() { 0 } else { exponent(&size).div_euclid(n - k as i64) + 1 }
+    });
+    let rate = Rational::from(2).pow(octaves.max().unwrap_or(0).max(0)).expect("two is not zero");
+    size(time) * rate > Rational::from(LARGEST)
+}

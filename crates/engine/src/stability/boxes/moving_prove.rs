@@ -1,0 +1,390 @@
+//! The proof that a whole box is stable where functions of parameters are in the coefficients.
+//!
+//! The box is cut in the parameters that functions depend on. In a part every coefficient is a polynomial of low degree in the
+//! part's coordinates and in the other parameters, with a bound of all that is left out
+//! ([`MultiTaylorModel`], after [MakinoBerz2003](jurist_algebra::bibliography#makinoberz2003)). The Bernstein coefficients of
+//! these polynomials are known up to that bound, and prove cells as those of a polynomial do. A part in which the bound is too
+//! wide is halved along the parameter in which the coefficients are farthest from straight.
+
+use super::moving::MovingPolynomial;
+use super::polynomial::Bundle;
+use super::prove::{BoxProof, Cell, Closing, Outcome, simplest_point};
+use super::separate::separating_vector;
+use super::tensor::{FrequencyScale, Tensor};
+use super::tree::Tree;
+use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel};
+use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
+use jurist_algebra::number::{Integer, Rational, Sign};
+use std::collections::BTreeMap;
+
+/// Bits after the point of coefficients in a part of the box.
+const BITS: u64 = 192;
+
+/// Taylor models have about so many coefficients.
+const MODEL_TERMS: usize = 130;
+
+/// The greatest degree of a Taylor model.
+const MODEL_DEGREE: usize = 12;
+
+/// A tensor of a part has at most so many coefficients for each polynomial; beyond it terms of higher degree are left out.
+const TENSOR_TERMS: usize = 1 << 13;
+
+/// Terms smaller than the greatest by so many bits are left out; where that leaves too many, by fewer.
+const KEPT_BITS: [u64; 7] = [48, 40, 32, 24, 16, 8, 3];
+
+/// Cells of frequency and parameters in one part.
+const CELLS_IN_PART: usize = 600;
+
+/// A part is not halved more often along one parameter.
+const MOST_HALVINGS: u32 = 60;
+
+/// A side whose ends have at least this ratio is cut at the middle of its octaves.
+const LEAST_RATIO: i64 = 2;
+
+/// Binary digits of such a cut.
+const CUT_BITS: u64 = 8;
+
+/// After so many parts in which nothing was proved a point of the present one is tested.
+const TESTED_EVERY: usize = 8;
+
+/// A polynomial in the coordinates of a part, up to a bound.
+struct Known {
+    terms: BTreeMap<Vec<u32>, Integer>,
+    slack: Integer,
+}
+
+/// What is known of a loop in a part of a box: coordinates of what is inside of functions go from -1 to 1.
+struct Part {
+    /// The coefficients in the half plane, then what must not vanish.
+    functions: Vec<Known>,
+    /// For each parameter how far the functions are from straight in it.
+    curvature: Vec<Integer>,
+}
+
+impl MovingPolynomial {
+    /// What is known in a part; `None` where something may not be defined.
+    fn part(&self, sides: &[[Rational; 2]]) -> Option<Part> {
+        let count = self.inside.len();
+        let lines: Vec<(Ball, Ball)> = self
+            .inside
+            .iter()
+            .map(|&i| {
+                let [low, high] = &sides[i];
+                let middle = low.midpoint(high);
+                (Ball::from_rational(&middle, BITS), Ball::from_rational(&(high - &middle), BITS))
+            })
+            .collect();
+        let moving = MultiTaylorModel::linear(&lines, model_degree(count));
+        // What is not inside of functions is not looked at here.
+        let mut parameters = vec![moving[0].integer(&Integer::ZERO); sides.len()];
+        for (&i, model) in self.inside.iter().zip(moving) {
+            parameters[i] = model;
+        }
+        let parts = self.parts_at(&parameters)?;
+        let most = |beside: &[u32]| {
+            let powers = beside.iter().zip(sides).filter(|(e, _)| **e > 0);
+            powers.fold(Rational::ONE, |product, (&e, [low, high])| {
+                let largest = low.abs().max(high.abs());
+                &product * &largest.pow(i64::from(e)).expect("a positive exponent")
+            })
+        };
+        let mut curvature = vec![Integer::ZERO; sides.len()];
+        let mut functions: Vec<Known> = Vec::new();
+        let mut sized: Vec<Vec<(Vec<u32>, Integer, Integer)>> = Vec::new();
+        for (f, parts) in self.functions.iter().zip(&parts) {
+            let mut slack = Integer::ZERO;
+            let mut own = Vec::new();
+            for ((beside, _), model) in f.iter().zip(parts) {
+                let bound = most(beside);
+                let size = |c: &Integer| (&Rational::from(c.abs()) * &bound).ceil();
+                slack += &size(model.rest_units());
+                for (exponents, c) in model.terms().filter(|(_, c)| !c.is_zero()) {
+                    let mut all = beside.clone();
+                    for (&i, &e) in self.inside.iter().zip(exponents) {
+                        all[i] = e;
+                    }
+                    own.push((all, c.clone(), size(c)));
+                }
+            }
+            let largest = own.iter().map(|(.., size)| size).max().cloned().unwrap_or(Integer::ONE);
+            for (exponents, _, size) in &own {
+                let total: u32 = self.inside.iter().map(|&i| exponents[i]).sum();
+                for &i in self.inside.iter().filter(|_| total > 1) {
+                    let share = (&(size * &Integer::from(u64::from(exponents[i]))) << BITS).div_mod_floor(&largest).0;
+                    curvature[i] += &share;
+                }
+            }
+            sized.push(own);
+            functions.push(Known { terms: BTreeMap::new(), slack });
+        }
+        let bits = self.kept_bits(&sized);
+        for (known, own) in functions.iter_mut().zip(sized) {
+            let largest = own.iter().map(|(.., size)| size).max().cloned().unwrap_or(Integer::ZERO);
+            let least = &largest >> bits;
+            for (exponents, c, size) in own {
+                if self.stays(&exponents, &size, &least) {
+                    known.terms.insert(exponents, c);
+                } else {
+                    known.slack += &size;
+                }
+            }
+        }
+        Some(Part { functions, curvature })
+    }
+
+    /// Whether a term is kept: one of at most the first degree, or not much smaller than the greatest.
+    fn stays(&self, exponents: &[u32], size: &Integer, least: &Integer) -> bool {
+        self.inside.iter().map(|&i| exponents[i]).sum::<u32>() < 2 || size > least
+    }
+
+    /// By how many bits terms may be smaller than the greatest, so that tensors are not too large.
+    fn kept_bits(&self, sized: &[Vec<(Vec<u32>, Integer, Integer)>]) -> u64 {
+        let frequencies = self.formal_degree() / 2 + 1;
+        let fits = |bits: &u64| {
+            let mut degrees: Vec<u32> = Vec::new();
+            for own in sized {
+                let largest = own.iter().map(|(.., size)| size).max().cloned().unwrap_or(Integer::ZERO);
+                let least = &largest >> *bits;
+                for (exponents, _, size) in own {
+                    if self.stays(exponents, size, &least) {
+                        degrees.resize(exponents.len(), 0);
+                        degrees.iter_mut().zip(exponents).for_each(|(d, e)| *d = (*d).max(*e));
+                    }
+                }
+            }
+            let terms = degrees.iter().try_fold(frequencies, |n, &d| n.checked_mul(d as usize + 1));
+            terms.is_some_and(|n| n <= TENSOR_TERMS)
+        };
+        KEPT_BITS.into_iter().find(fits).unwrap_or(KEPT_BITS[KEPT_BITS.len() - 1])
+    }
+
+    /// Decides one box with at most so many parts, cells of them closed in this way.
+    pub(super) fn proved(
+        &self,
+        whole: &[[Rational; 2]],
+        known: (&[Sign], i64),
+        (closing, cells): (Closing, usize),
+        budget: &Budget,
+    ) -> Result<Outcome, Exhausted> {
+        let refuted = |point: Vec<Rational>| (self.seen_at(&point) == Some(false)).then_some(Outcome::Refuted(point));
+        let mut stack = vec![(whole.to_vec(), vec![0u32; whole.len()])];
+        let (mut parts, mut proved, mut missed) = (0, 0, 0);
+        while let Some((sides, halvings)) = stack.pop() {
+            budget.check()?;
+            parts += 1;
+            checkpoint(1000);
+            let part = self.part(&sides);
+            let mut last = sides.clone();
+            let curvature = match &part {
+                None => None,
+                Some(part) => match part.proved(&sides, &self.inside, self.coefficients(), known, closing, budget)? {
+                    Ok(count) => {
+                        proved += count;
+                        continue;
+                    }
+                    Err(cell) => {
+                        last = cell;
+                        Some(&part.curvature)
+                    }
+                },
+            };
+            missed += 1;
+            let is_last = parts + stack.len() > cells;
+            if (missed % TESTED_EVERY == 1 || is_last)
+                && let Some(outcome) = refuted(simplest_point(&last)).or_else(|| refuted(middle(&last)))
+            {
+                return Ok(outcome);
+            }
+            let wide = |i: &usize| sides[*i][0] < sides[*i][1] && halvings[*i] < MOST_HALVINGS;
+            let axes = self.inside.iter().copied().filter(wide);
+            let axis = match curvature {
+                Some(curvature) => axes.max_by(|&i, &j| (&curvature[i], j).cmp(&(&curvature[j], i))),
+                // Nothing is known of the functions: along the widest side of a divisor, if there is any.
+                None => {
+                    let longest = |a: &usize, b: &usize| (extent(&sides[*a]), b).cmp(&(extent(&sides[*b]), a));
+                    self.below.iter().copied().filter(wide).max_by(longest).or_else(|| axes.max_by(longest))
+                }
+            };
+            let Some(axis) = axis.filter(|_| !is_last) else {
+                let corners = corners(&last).find_map(refuted);
+                let why = if is_last { "too many cells" } else { "a cell too small" };
+                return Ok(corners.unwrap_or(Outcome::Open { why, cell: last }));
+            };
+            let middle = cut(&sides[axis]);
+            let (mut low, mut high) = (sides.clone(), sides);
+            (low[axis][1], high[axis][0]) = (middle.clone(), middle);
+            let mut deeper = halvings;
+            deeper[axis] += 1;
+            stack.extend([(high, deeper.clone()), (low, deeper)]);
+        }
+        let pair = Tree::default();
+        Ok(Outcome::Stable(BoxProof { certain: Vec::new(), scale: known.1, weight: 0, pair, beside: proved }))
+    }
+}
+
+impl Part {
+    /// The number of cells that prove the part; else the cell in which that is not seen.
+    fn proved(
+        &self,
+        sides: &[[Rational; 2]],
+        inside: &[usize],
+        coefficients: usize,
+        (reference, scale): (&[Sign], i64),
+        closing: Closing,
+        budget: &Budget,
+    ) -> Result<Result<usize, Vec<[Rational; 2]>>, Exhausted> {
+        let mut local = sides.to_vec();
+        for &i in inside {
+            local[i] = [-Rational::ONE, Rational::ONE];
+        }
+        // From the coordinates of the part back to the parameters.
+        let back = |cell: Vec<[Rational; 2]>| {
+            let mut out = cell;
+            for &i in inside {
+                let [low, high] = &sides[i];
+                let half = Rational::new(1.into(), 2.into());
+                out[i] = out[i].each_ref().map(|u| low + &(&(&(high - low) * &half) * &(u + &Rational::ONE)));
+            }
+            out
+        };
+        for (f, sign) in self.functions[coefficients..].iter().zip(reference) {
+            let bundle = bundle(std::slice::from_ref(f), sides.len());
+            let tensor = Tensor::of_one_within(&bundle, &f.slack, &local);
+            let mut stack = vec![Cell::whole(tensor)];
+            let mut cells = 0;
+            while let Some(cell) = stack.pop() {
+                budget.check()?;
+                cells += 1;
+                let ((low, high), error) = (cell.tensor.range(0), cell.tensor.greatest_error());
+                if if sign.is_gt() { low > error } else { high < -error } {
+                    continue;
+                }
+                let axis = cell.tensor.best_axis().filter(|_| !is_blurred(&cell) && cells < CELLS_IN_PART);
+                let Some(axis) = axis else { return Ok(Err(back(cell.sides(&local)))) };
+                stack.extend(cell.halves(axis));
+            }
+        }
+        let own = &self.functions[..coefficients];
+        let bounds = [own.iter().map(|f| vec![f.slack.clone()]).collect::<Vec<_>>()].concat();
+        let slack =
+            Bundle { width: coefficients, degrees: Vec::new(), terms: vec![(Vec::new(), bounds.concat())] }.pair();
+        let slack: Vec<Integer> = slack.terms[0].1.iter().map(Integer::abs).collect();
+        let pair = bundle(own, sides.len()).pair();
+        let (tensor, _) = Tensor::of_pair_within(&pair, &slack, &local, FrequencyScale(2 * scale));
+        let mut stack = vec![Cell::whole(tensor)];
+        let (mut nodes, mut leaves) = (0, 0);
+        while let Some(cell) = stack.pop() {
+            budget.check()?;
+            nodes += 1;
+            let hint = match closing(&cell, nodes) {
+                Ok(_) => {
+                    leaves += 1;
+                    continue;
+                }
+                Err(hint) => hint,
+            };
+            let axis = hint.or_else(|| cell.tensor.best_axis());
+            let axis = axis.filter(|_| {
+                nodes + stack.len() < CELLS_IN_PART && !is_blurred(&cell) && !is_clear_but_for_slack(&cell)
+            });
+            let Some(axis) = axis else { return Ok(Err(back(cell.sides(&local)))) };
+            let [low, high] = cell.halves(axis);
+            stack.extend([high, low]);
+        }
+        Ok(Ok(leaves))
+    }
+}
+
+/// Whether the values of a cell vary no more than they are off: halving it does not help.
+fn is_blurred(cell: &Cell) -> bool {
+    let off = |plane: usize| cell.tensor.slack.get(plane).and_then(|s| s.iter().max()).map_or(0, |s| 4 * s);
+    (0..cell.tensor.planes.len()).all(|plane| {
+        let (low, high) = cell.tensor.range(plane);
+        high - low <= off(plane)
+    })
+}
+
+/// Whether the coefficients themselves prove a pair's cell, and only not what they are off by.
+fn is_clear_but_for_slack(cell: &Cell) -> bool {
+    let [x, y] = cell.tensor.planes.as_slice() else { return false };
+    separating_vector(x, y, cell.tensor.error).is_some()
+}
+
+/// The polynomials without their bounds.
+fn bundle(list: &[Known], parameters: usize) -> Bundle {
+    let mut terms: BTreeMap<&Vec<u32>, Vec<Integer>> = BTreeMap::new();
+    let mut degrees = vec![0; parameters];
+    for (k, f) in list.iter().enumerate() {
+        for (exponents, c) in &f.terms {
+            degrees.iter_mut().zip(exponents).for_each(|(d, &e)| *d = (*d).max(e as usize));
+            terms.entry(exponents).or_insert_with(|| vec![Integer::ZERO; list.len()])[k] = c.clone();
+        }
+    }
+    let terms = terms.into_iter().map(|(exponents, c)| (exponents.clone(), c)).collect();
+    Bundle { width: list.len(), degrees, terms }
+}
+
+/// How wide a side is for its distance from zero.
+fn extent([low, high]: &[Rational; 2]) -> Rational {
+    let size = low.abs().max(high.abs());
+    (high - low).checked_div(&size).unwrap_or(Rational::ZERO)
+}
+
+/// Where a side is cut: in the middle, of the octaves where it spans several.
+fn cut([low, high]: &[Rational; 2]) -> Rational {
+    let middle = low.midpoint(high);
+    let (near, far) = if low.is_negative() { (high.abs(), low.abs()) } else { (low.clone(), high.clone()) };
+    let is_one_sided = low.sign() == high.sign() && !low.is_zero();
+    if !is_one_sided || far < &near * &Rational::from(LEAST_RATIO) {
+        return middle;
+    }
+    // A root of the product, to some binary digits.
+    let scale = Rational::from(4).pow(size_of(&near)).expect("four is not zero");
+    let product = (&near * &far).checked_div(&scale).expect("a power is not zero");
+    let root = Rational::dyadic(&(&product * &Rational::from(1 << (2 * CUT_BITS))).floor().sqrt_floor(), CUT_BITS);
+    let root = &root * &Rational::from(2).pow(size_of(&near)).expect("two is not zero");
+    let root = if low.is_negative() { -root } else { root };
+    if *low < root && root < *high { root } else { middle }
+}
+
+/// The power of two near a number that is not zero.
+fn size_of(x: &Rational) -> i64 {
+    x.numerator().bit_length() as i64 - x.denominator().bit_length() as i64
+}
+
+/// The degree of Taylor models in so many variables.
+fn model_degree(variables: usize) -> usize {
+    let terms = |degree: usize| (1..=variables).fold(1, |n, i| n * (degree + i) / i);
+    (2..=MODEL_DEGREE).rev().find(|&degree| terms(degree) <= MODEL_TERMS).unwrap_or(2)
+}
+
+fn middle(sides: &[[Rational; 2]]) -> Vec<Rational> {
+    sides.iter().map(|[low, high]| low.midpoint(high)).collect()
+}
+
+/// The corners of a box, not too many.
+fn corners(sides: &[[Rational; 2]]) -> impl Iterator<Item = Vec<Rational>> + '_ {
+    let wide: Vec<usize> = (0..sides.len()).filter(|&i| sides[i][0] < sides[i][1]).take(6).collect();
+    (0..1usize << wide.len()).map(move |mask| {
+        let upper = |i: usize| wide.iter().position(|w| *w == i).is_some_and(|bit| mask >> bit & 1 == 1);
+        sides.iter().enumerate().map(|(i, side)| side[usize::from(upper(i))].clone()).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use jurist_algebra::number::parse_number;
+
+    #[test]
+    fn sides_of_several_octaves_are_cut_between_these() {
+        let at = |low: &str, high: &str| cut(&[low, high].map(|x| parse_number(x).unwrap())).to_string();
+        assert_eq!([at("1", "16"), at("-16", "-1"), at("1/1024", "1/64")], ["4", "-4", "1/256"]);
+        assert_eq!([at("-1", "3"), at("0", "4"), at("3", "5")], ["1", "2", "4"]);
+    }
+
+    #[test]
+    fn models_have_the_degree_that_the_number_of_variables_allows() {
+        assert_eq!([1, 2, 3, 4, 5, 6, 9, 30].map(model_degree), [12, 12, 7, 5, 4, 3, 2, 2]);
+    }
+}
