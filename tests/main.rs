@@ -87,6 +87,7 @@ mod certificates {
     mod check;
     mod coq;
     mod dead_time;
+    mod gain;
     mod held;
     mod map_attacks;
     mod maps;

@@ -543,6 +543,12 @@ class Model:
             constant(value)
         return value
 
+class DeadTime:
+    """All dead times are multiples of a base, which is a number times this power of the parameter."""
+
+    def __init__(self, base, power):
+        self.base, self.power = base, power
+
 class Loop:
     """Equations of signals and states, and everything that is divided by."""
 
@@ -551,7 +557,7 @@ class Loop:
         self.values, self.symbols, self.sample_time = values, symbols, root.get("sample_time")
         self.first = 2 + len(values or [])  # symbols are the variables from here on
         self.scope = Scope({name: c for name, c in model.constants.items() if name not in variables}, variables)
-        if isinstance(symbols, Fraction) and self.z == "s":  # the dead time of which all are multiples, over the parameter
+        if isinstance(symbols, DeadTime) and self.z == "s":
             self.scope.exponential = lambda f: self.delayed(-f, 1)
         self.unknowns, self.equations, self.degree, self.own = [], [], 0, []
         if "sample_time" in root:
@@ -720,8 +726,9 @@ class Loop:
     def delayed(self, f, power):
         """exp(-tau s) as a power of the symbol, for tau as a value, or tau s with the power 1 of s."""
         top, bottom = (p.at(self.values) for p in (f.scalar(), f.bottom))
-        need(not any(bottom) and list(top) == [(1 << FIELD) + power], "a dead time is not a multiple of the parameter")
-        k = Fraction(top[(1 << FIELD) + power]) / Fraction(bottom[0]) / self.symbols
+        at = (self.symbols.power << FIELD) + power
+        need(not any(bottom) and list(top) == [at], "a dead time is no number, or not a multiple of the parameter")
+        k = Fraction(top[at]) / Fraction(bottom[0]) / self.symbols.base
         need(k.denominator == 1 and 0 < k <= 256, "a dead time is not a multiple of the base")
         return scalar(P({int(k) << FIELD * self.first: 1}))
 
@@ -1115,8 +1122,6 @@ def loop_of(text, kept, values, boxed=(), symbols=None):
 def characteristic_polynomial(text, kept, values, symbols=None):
     """Whether time is discrete, the degree, the coefficients of z^0, z^1, ... (none if undefined), the poles."""
     model, loop, values = loop_of(text, kept, values, symbols=symbols)
-    if isinstance(symbols, Fraction):
-        return quasi_polynomial(model, loop, values)
     if symbols:
         return over_symbols(model, loop, values)
 
@@ -1168,15 +1173,32 @@ def over_symbols(model, loop, values):
     need(all(poles), "the loop is undefined for every value")
     return True, loop.degree, d.coefficients(0), poles
 
-def quasi_polynomial(model, loop, values):
-    """P_0(s) + P_1(s) z + ... with the symbol z for the dead time; nothing else depends on the parameter."""
+def characteristic_function(text, parameter, values, dead_time):
+    """The function in s, the parameter and the symbol z for the dead time, and what is divided by, none of it with z."""
+    model, loop, values = loop_of(text, parameter, values, symbols=dead_time)
     need(not model.discrete, "a sampled loop has no dead time")
-    for divisor in loop.scope.divisors:
-        [p] = cleared([divisor.at(values)])
-        need(p and not p.degree(1) and not p.degree(2), "a divisor depends on the dead time, or is zero")
+    divisors = [cleared([divisor.at(values)])[0] for divisor in loop.scope.divisors]
+    if "characteristic" in model.root["loop"]:
+        divisors.append(cleared([loop.equations[0].bottom.at(values)])[0])
+        need(not divisors[-1].degree(0), "the characteristic function has a denominator")
+
+    def system(equations, unknowns):
+        return expanded([cleared([e.tops.get(name, ZERO).at(values) for name in unknowns]) for e in equations])
+
+    for equations, states in loop.own:
+        own = system(equations, states)
+        need(own.degree(0) == len(states), "a block loses its order")
+        divisors.append(own.lead(0))
+    need(all(p and not p.degree(2) for p in divisors), "a divisor depends on the dead time, or is zero")
     need(len(loop.equations) == len(loop.unknowns), "there are not as many equations as unknowns")
-    d = expanded([cleared([e.tops.get(name, ZERO).at(values) for name in loop.unknowns]) for e in loop.equations])
-    need(d and d.degree(0) == loop.degree and not d.degree(1), "the loop is not well posed, or depends on the parameter")
+    d = system(loop.equations, loop.unknowns)
+    need(d and d.degree(0) == loop.degree, "the loop is not well posed")
+    return cleared([d])[0], divisors
+
+def quasi_polynomial(text, parameter, values, base):
+    """P_0(s) + P_1(s) z + ..., where nothing but the dead time depends on the parameter."""
+    d, divisors = characteristic_function(text, parameter, values, DeadTime(base, 1))
+    need(not any(p.degree(1) for p in [d, *divisors]), "the loop, or a divisor, depends on the parameter beside its dead time")
     parts = d.coefficients(2)
     while not parts[0]:
         parts.pop(0)
@@ -1934,7 +1956,7 @@ def check_windows(model, document, statement, values, extent):
     base = rational(base)
     need(base > 0 and extent == 0, "the dead time or the region is another")
     given = items(given, lambda part: items(part, integer))
-    own = [part.listed(0) for part in characteristic_polynomial(model, name_of(parameter), values, base)]
+    own = [part.listed(0) for part in quasi_polynomial(model, name_of(parameter), values, base)]
     need(given in (own, [[-c for c in part] for part in own]), "parts: not those of the model")
     need(len(given) == 2, "parts: more than one multiple of the dead time")
     p, q = given
@@ -2007,6 +2029,174 @@ def check_windows(model, document, statement, values, extent):
     given = "".join(f", {name} = {x}" for name, x in values.items())
     return f"in continuous time{given}: stable exactly for {parameter} from {' or '.join(where) or 'nowhere'} in ({low}, {high})"
 
+# ---------------------------------------------------------------- a gain beside dead time
+
+def times_complex(x, y, bits):
+    (a, b), (c, d) = x, y
+    return added(times(a, c, bits), scaled_by(times(b, d, bits), -1)), added(times(a, d, bits), times(b, c, bits))
+
+def conjugate(x):
+    return x[0], scaled_by(x[1], -1)
+
+def square_of(x, bits):
+    """The square of the modulus of an enclosed complex number."""
+    squares = [(0 if part[0] <= 0 <= part[1] else times(part, part, bits)[0], times(part, part, bits)[1]) for part in x]
+    return added(*squares)
+
+class Family:
+    """sum (A_k(s) + p B_k(s)) z^k with z = exp(-tau s)."""
+
+    MOST_HALVINGS, MOST_PARTS, MOST_ORDER = 200, 100_000, 64
+
+    def __init__(self, rows, tau, bits):
+        self.order = max((j for row in rows for j, c in enumerate(row) if any(c)), default=0)
+        need(1 <= self.order <= self.MOST_ORDER, "the loop has no fitting order")
+        rows = [[*row, *[[]] * (self.order + 1)][:self.order + 1] for row in rows]
+        self.parts = [[[[*c, 0, 0][k] for c in row] for k in (0, 1)] for row in rows]
+        self.tau, self.bits, self.turns, self.looked_at = tau, bits, {}, 0
+
+    def coefficient(self, k, j, p):
+        return self.parts[k][0][j] + p * self.parts[k][1][j]
+
+    def beyond(self, a, b):
+        """From this power of two on the highest power of s without delay outweighs all else, for p from a to b and Re s >= 0."""
+        n, delays = self.order, range(len(self.parts))
+        ends = [self.coefficient(0, n, p) for p in (a, b)]
+        largest = lambda k, j: max(abs(self.coefficient(k, j, p)) for p in (a, b))
+        others = [sum(largest(k, j) for k in delays) for j in range(n)]
+        left = min(map(abs, ends)) - sum(largest(k, n) for k in delays[1:])
+        need(ends[0] * ends[1] > 0 and left > 0, "the highest power of s is not shown to outweigh the others")
+        for e in range(-128, 257):
+            s = Fraction(2) ** e
+            spend(n, 600 * n, 600)
+            if sum(c * s ** j for j, c in enumerate(others)) < left * s ** n:
+                return e
+        raise Rejected("the highest power of s is not shown to outweigh the others")
+
+    def turn(self, k):
+        """exp(i omega tau) for omega of 2^k units."""
+        if k not in self.turns:
+            self.turns[k] = tuple(solutions([Fraction(1), Fraction(0)], Fraction(2) ** (k - self.bits) * self.tau, self.bits))
+        return self.turns[k]
+
+    def walk(self, exponent, settles):
+        """Calls it with A and B on parts of the axis up to a power of two, in order; what it does not settle is halved."""
+        end, bits = self.bits + exponent, self.bits
+        least = max(end - self.MOST_HALVINGS, 2)
+        need(end > least, "the frequencies are too low for the bits")
+        todo = [(0, end, self.turn(end - 1))]
+        while todo:
+            lower, width, turn = todo.pop()
+            self.looked_at += 1
+            need(self.looked_at <= self.MOST_PARTS, "the axis would have to be cut into too many parts")
+            if settles(*self.enclosed(lower, width, turn)):
+                continue
+            need(width > least, "a root may be on the axis")
+            quarter = self.turn(width - 2)
+            todo.append((lower + (1 << width - 1), width - 1, times_complex(turn, quarter, bits)))
+            todo.append((lower, width - 1, times_complex(turn, conjugate(quarter), bits)))
+
+    def enclosed(self, lower, width, turn):
+        """A and B for s = i omega, omega from a number of units on, and exp(i omega tau) known in the middle."""
+        bits, one = self.bits, 1 << self.bits
+        omega, powers = (lower, lower + (1 << width)), [(one, one)]
+        for _ in range(self.order):
+            powers.append(times(powers[-1], omega, bits))
+        radius = -(-(self.tau.numerator << width - 1) // self.tau.denominator)  # the angle to the ends of the part
+        power, out = ((one, one), (0, 0)), [((0, 0), (0, 0))] * 2
+        for k, both in enumerate(self.parts):
+            power = times_complex(power, turn, bits) if k else power
+            z = conjugate(tuple((max(lo - k * radius, -one), min(hi + k * radius, one)) for lo, hi in power))
+            for which, coefficients in enumerate(both):
+                if any(coefficients):
+                    spend(len(coefficients), bits, size(coefficients))
+                    sums = [(0, 0), (0, 0)]
+                    for j, c in enumerate(coefficients):  # i^j: 1, i, -1, -i
+                        sums[j % 2] = added(sums[j % 2], scaled_by(powers[j], -c if j % 4 >= 2 else c))
+                    term = times_complex(sums, z, bits) if k else sums
+                    out[which] = tuple(map(added, out[which], term))
+        return out
+
+    def clear(self, exponent, a, b):
+        """No root is on the axis for p from a to b: p |B|^2 = -Re(A conj B) where A conj B is real."""
+        bits, largest = self.bits, max(abs(a), abs(b)) ** 2
+
+        def settles(x, y):
+            re, im = times_complex(x, conjugate(y), bits)
+            if im[0] > 0 or im[1] < 0:
+                return True
+            of_x, of_y = square_of(x, bits), square_of(y, bits)
+            beside = [added(scaled_by(re, p.denominator), scaled_by(of_y, p.numerator)) for p in (a, b)]
+            return (beside[0][0] > 0 or beside[1][1] < 0
+                    or of_x[0] * largest.denominator > of_y[1] * largest.numerator)
+
+        self.walk(exponent, settles)
+
+    def right(self, exponent, p):
+        """The roots to the right at one value: quarter turns of the argument on the way along the axis [Mikhailov]."""
+        first = sum(self.coefficient(k, 0, p) for k in range(len(self.parts)))
+        need(first, "s = 0 is a root")
+        half_plane, turns = 2 * (first < 0), 0  # around 1, i, -1, -i
+
+        def settles(x, y):
+            nonlocal half_plane, turns
+            re, im = (added(scaled_by(x[i], p.denominator), scaled_by(y[i], p.numerator)) for i in (0, 1))
+            inside = re[0] > 0, im[0] > 0, re[1] < 0, im[1] < 0
+            for step in (0, 1, -1):
+                if inside[(half_plane + step) % 4]:
+                    half_plane, turns = (half_plane + step) % 4, turns + step
+                    return True
+            return False
+
+        self.walk(exponent, settles)
+        step = (self.order + 2 * (self.coefficient(0, self.order, p) < 0) - half_plane) % 4
+        need(step != 2, "the argument does not turn as it must")
+        twice = self.order - turns - (-1 if step == 3 else step)
+        need(twice >= 0 and twice % 2 == 0, "the argument does not turn as it must")
+        return twice // 2
+
+def check_cells(model, document, statement, values, extent):
+    """Root counts for all values of a parameter in closed intervals, at a fixed dead time."""
+    _, _, bits, base = parts(document, ["schema", "statement", "bits", "delay"], ["model"])
+    if statement["kind"] == "verdict":  # a cell of one point, without a parameter
+        *_, verdict, right = parts(statement, ["kind", "time", "set", "region", "verdict", "right"])
+        need(verdict == ("unstable" if count(right) else "stable"), "stable: the verdict is another")
+        parameter, cells = None, [(Fraction(0), Fraction(0), right)]
+    else:
+        *_, parameter, cells = parts(statement, ["kind", "time", "set", "region", "parameter", "cells"])
+        cells = items(cells, lambda cell: parts(cell, ["between", "right"]))
+        cells, parameter = [(*pair(between), count(right)) for between, right in cells], name_of(parameter)
+    need(type(bits) is int and 64 <= bits <= 1024, "bits: out of range")
+    base = rational(base)
+    need(base > 0 and extent == 0, "the dead time or the region is another")
+    need(cells and all(a[1] < b[0] for a, b in zip(cells, cells[1:])), "cells: not in order")
+    ends = [x for a, b, _ in cells for x in (a, b)]
+    need(size(x.numerator for x in ends) <= 4096 >= size(x.denominator for x in ends), "cells: too many digits")
+    d, divisors = characteristic_function(model, parameter, values, DeadTime(base, 0))
+    divisors = [p.content(0) for p in divisors]
+    rows = [part.coefficients(0) for part in d.coefficients(2)]
+    while not any(rows[0]):
+        rows.pop(0)
+    content = ZERO
+    for c in (c for row in rows for c in row if c):
+        content = content.common(c)
+    divisors.append(content)
+    rows = [[(c / content).listed(1) for c in row] for row in rows]
+    need(all(len(c) <= 2 for row in rows for c in row), "the parameter does not enter as a factor")
+    family = Family(rows, base, bits)
+    for a, b, right in cells:
+        for p in (p.listed(1) for p in divisors):
+            need(value(p, a) and value(p, b) and descartes(p, a, b) == 0, "a divisor is not shown to be other than zero")
+        exponent = family.beyond(a, b)
+        family.clear(exponent, a, b)
+        found = family.right(exponent, (a + b) / 2)
+        need(found == right, f"cells: {found} roots are to the right from {a} to {b}")
+    given = "".join(f", {name} = {x}" for name, x in values.items())
+    if parameter is None:
+        return f"in continuous time{given}: {cells[0][2]} roots to the right of the imaginary axis, none on it"
+    of = [[f"[{a}, {b}]" for a, b, right in cells if right in wanted] for wanted in ({0}, {c[2] for c in cells})]
+    return f"in continuous time{given}: of {parameter} in {' or '.join(of[1])} stable exactly in {' or '.join(of[0]) or 'none'}"
+
 # ---------------------------------------------------------------- the parts of a certificate
 
 def integer(text):
@@ -2077,8 +2267,8 @@ def read(certificate):
     need(isinstance(document, dict) and document.get("schema") in SCHEMAS, "unknown schema")
     return document
 
-SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 6)]
-RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS = SCHEMAS
+SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 7)]
+RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS = SCHEMAS
 FURTHER = ["bits", "symbols", "modes"]
 
 def table_of(document):
@@ -2094,7 +2284,7 @@ def check(model, certificate):
     document = read(certificate)
     statement = document["statement"]
     kind, time, values, region = (statement[key] for key in ("kind", "time", "set", "region"))
-    kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"]}.get(document["schema"], ["intervals", "verdict"])
+    kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"], OF_CELLS: ["cells", "verdict"]}.get(document["schema"], ["intervals", "verdict"])
     need(kind in kinds, "unknown kind of statement")
     need(time in ("discrete", "continuous"), "unknown time")
     discrete = time == "discrete"
@@ -2106,6 +2296,9 @@ def check(model, certificate):
         return check_tolerance(model, document, statement, values, discrete, extent)
     if kind == "map":
         return check_map(model, document, statement, values, discrete, extent)
+    if document["schema"] == OF_CELLS:
+        need(not discrete, "unknown kind of statement")
+        return check_cells(model, document, statement, values, extent)
     if document["schema"] == WITH_DEAD_TIME:
         need(kind == "intervals" and not discrete, "unknown kind of statement")
         return check_windows(model, document, statement, values, extent)

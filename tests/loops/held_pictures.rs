@@ -1,6 +1,6 @@
 //! Maps, loci and tables of loops with plants behind a hold, as the program makes them.
 
-use crate::helpers::program::{json, jurist};
+use crate::helpers::program::{json, jurist, jurist_with_input};
 use serde_json::Value;
 
 #[test]
@@ -51,6 +51,62 @@ fn the_table_behind_a_hold_holds_up_to_the_certified_limit() {
         let failing = document["conditions"].as_array().unwrap().iter().filter(|c| c["holds"] == false).count();
         assert_eq!(failing == 0, holds);
     }
-    let refused = jurist(&["jury", "examples/dc-servo.toml", "--param", "K"]);
-    assert!(refused.stderr.contains("jury at a point"), "{}", refused.stderr);
+    let refused = jurist(&["jury", "examples/dc-servo.toml", "--param", "T"]);
+    assert!(refused.stderr.contains("jury in a parameter"), "{}", refused.stderr);
+}
+
+/// The conditions together hold where the loop is stable, end by end; inside of each condition's solution it holds at a point too.
+#[test]
+fn the_conditions_in_a_gain_behind_a_hold_have_their_own_limits() {
+    for (model, parameter, conditions) in [
+        ("drive-hold", "K_pwm", 7),
+        ("lcl-inverter", "Kp", 6),
+        ("two-mass-drive", "K_p", 8),
+        ("anti-alias-filter", "T_i", 6),
+        ("dc-servo", "K", 4),
+    ] {
+        let file = format!("examples/{model}.toml");
+        let table = json(&["jury", &file, "--param", parameter, "--json", "--digits", "15"]);
+        let set = json(&["intervals", &file, "--param", parameter, "--json", "--digits", "15"]);
+        assert_eq!(table["intersection"], set["stable"], "{model}");
+        let list = table["conditions"].as_array().unwrap();
+        assert_eq!(list.len(), conditions, "{model}");
+        let ends = set["stable"].as_array().unwrap().iter().flat_map(|i| [&i["lower"], &i["upper"]]);
+        let decimals = |i: &Value| ["lower", "upper"].map(|side| i[side]["decimal"].clone());
+        for end in ends.filter(|end| !end.is_null() && !end["cause"].as_str().unwrap().contains("domain")) {
+            // Every end of the stable set is one of some condition.
+            let is_own =
+                |c: &Value| c["solution"].as_array().unwrap().iter().any(|i| decimals(i).contains(&end["decimal"]));
+            assert!(list.iter().any(is_own), "{model}: {end}");
+        }
+        let text = jurist(&["jury", &file, "--param", parameter]).stdout;
+        assert!(text.contains("all together") && text.contains("rounded to 12 digits"), "{text}");
+    }
+    // The conditions at 551 and at 555: of the drive only the last two are lost in between.
+    let table = json(&["jury", "examples/drive-hold.toml", "--param", "K_pwm", "--json"]);
+    let inside = |c: &Value, x: f64| {
+        let number = |end: &Value, none: f64| end["decimal"].as_str().map_or(none, |d| d.parse().unwrap());
+        let holds = |i: &Value| number(&i["lower"], f64::MIN) < x && x < number(&i["upper"], f64::MAX);
+        c["solution"].as_array().unwrap().iter().any(holds)
+    };
+    for x in [551.0, 555.0, 1e7] {
+        let point = json(&["jury", "examples/drive-hold.toml", "--set", &format!("K_pwm={x}"), "--json"]);
+        for (c, at) in table["conditions"].as_array().unwrap().iter().zip(point["conditions"].as_array().unwrap()) {
+            assert_eq!((&c["name"], Value::from(inside(c, x))), (&at["name"], at["holds"].clone()), "{x}");
+        }
+    }
+}
+
+#[test]
+fn routh_conditions_with_functions_of_constants_are_solved() {
+    let model = "time = 'continuous'\nparameters.K = { nominal = 1 }\n[loop]\ncharacteristic = 's^3 + pi*s^2 + sqrt(2)*s + K'\n";
+    let text = jurist_with_input(&["jury", "-", "--param", "K"], model.as_bytes()).stdout;
+    assert!(text.contains("H_2 > 0        K < 4.44288293816"), "{text}");
+    assert!(text.contains("all together   0 < K < 4.44288293816"), "{text}");
+    let document: Value =
+        serde_json::from_str(&jurist_with_input(&["jury", "-", "--set", "K=4.5", "--json"], model.as_bytes()).stdout)
+            .unwrap();
+    let holds: Vec<&Value> = document["conditions"].as_array().unwrap().iter().map(|c| &c["holds"]).collect();
+    assert_eq!(holds, [true, false, false]);
+    assert_eq!(document["rows"][3]["name"], "s^0");
 }

@@ -12,7 +12,7 @@ mod hold_rows;
 use super::characteristic::Form;
 use super::clock::Clock;
 use super::declarations::Declarations;
-use super::expression::{Names, Scope, number};
+use super::expression::{Base, Names, Scope, number};
 use super::hold::Hold;
 use super::model::{Ports, matrix, names, outputs, sized};
 use super::multivariate::{Fraction, Multi};
@@ -49,8 +49,8 @@ pub(super) struct Values<'v> {
     /// The values of the variables; the symbols follow.
     pub numbers: &'v [Q],
     pub table: &'v Table,
-    /// The base of all dead times over the parameter.
-    pub base: Option<&'v Q>,
+    /// The base of all dead times.
+    pub base: Option<Base<'v>>,
 }
 
 /// The matrices of a state-space block.

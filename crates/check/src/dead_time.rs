@@ -3,6 +3,7 @@
 use super::characteristic::Form;
 use super::clock::Clock;
 use super::crossing::{Crossing, square_of_modulus};
+use super::expression::Base;
 use super::interval::Interval;
 use super::multivariate::Multi;
 use super::number::{Q, Z, rational};
@@ -88,49 +89,69 @@ fn quasi_polynomial(
     base: &Q,
     clock: &Clock,
 ) -> Result<Vec<Uni>, String> {
-    let asked = model::asked(text, Some(parameter), set, &Table::empty(), Some(base), clock)?;
-    if asked.discrete {
-        return Err("the model's time is not that of the statement".into());
+    let found = characteristic_function(text, Some(parameter), set, Base::OfParameter(base), clock)?;
+    if found.divisors.iter().any(|p| p.degree(1) > 0) || found.function.degree(1) > 0 {
+        return Err("the loop, or a divisor of the model, depends on the parameter beside its dead time".into());
     }
-    for divisor in &asked.divisors {
-        let [p] = substituted(std::slice::from_ref(divisor), &asked.values, clock)?
-            .try_into()
-            .map_err(|_| "internal: one polynomial is another number of them")?;
-        let p: Multi = p;
-        if p.is_zero() || p.degree(1) > 0 || p.degree(2) > 0 {
-            return Err("a divisor depends on the dead time, or is zero".into());
-        }
-    }
-    let (d, degree) = match &asked.form {
-        Form::Written(f) => {
-            let row = substituted(&[f.numerator.clone(), f.whole_denominator(clock)?], &asked.values, clock)?;
-            if !row[1].is_constant() || row[1].is_zero() {
-                return Err("the characteristic function has a denominator".into());
-            }
-            (row[0].clone(), f.numerator.degree(0))
-        }
-        Form::System((rows, degree), alone) => {
-            for (rows, degree) in alone {
-                let rows = rows.iter().map(|r| substituted(r, &asked.values, clock)).collect::<Result<Vec<_>, _>>()?;
-                let lead = determinant(&rows, clock)?.coefficients(0).into_iter().nth(*degree);
-                if lead.is_none_or(|lead| lead.is_zero() || !lead.is_constant()) {
-                    return Err("a block loses its order".into());
-                }
-            }
-            let rows = rows.iter().map(|r| substituted(r, &asked.values, clock)).collect::<Result<Vec<_>, _>>()?;
-            (determinant(&rows, clock)?, *degree)
-        }
-        _ => return Err("a matrix has no dead time".into()),
-    };
-    if d.is_zero() || d.degree(0) != degree || d.degree(1) > 0 {
-        return Err("the loop is not well posed, or depends on the parameter beside its dead time".into());
-    }
-    let [d] = primitive(vec![d]).try_into().map_err(|_| "internal: one polynomial is another number of them")?;
-    let parts = d.coefficients(2).into_iter().map(|part| {
+    let parts = found.function.coefficients(2).into_iter().map(|part| {
         let coefficients = part.coefficients(0);
         Uni::new(coefficients.iter().map(|c| c.0.values().next().cloned().unwrap_or_default()).collect())
     });
     Ok(parts.skip_while(Uni::is_zero).collect())
+}
+
+/// The characteristic function of a continuous loop with dead time.
+pub(super) struct CharacteristicFunction {
+    /// In `s`, the parameter and `z`, of the model's degree in `s`; without common integer factor.
+    pub function: Multi,
+    /// The loop is undefined where one of them is zero for all `s`; none is zero for all values of the parameter, or has `z`.
+    pub divisors: Vec<Multi>,
+}
+
+pub(super) fn characteristic_function(
+    text: &str,
+    parameter: Option<&str>,
+    set: &[(String, Q)],
+    base: Base<'_>,
+    clock: &Clock,
+) -> Result<CharacteristicFunction, String> {
+    let asked = model::asked(text, parameter, set, &Table::empty(), Some(base), clock)?;
+    if asked.discrete {
+        return Err("the model's time is not that of the statement".into());
+    }
+    let at_values = |row: &[Multi]| substituted(row, &asked.values, clock);
+    let mut divisors = Vec::new();
+    for divisor in &asked.divisors {
+        divisors.extend(at_values(std::slice::from_ref(divisor))?);
+    }
+    let (d, degree) = match &asked.form {
+        Form::Written(f) => {
+            let row = at_values(&[f.numerator.clone(), f.whole_denominator(clock)?])?;
+            if row[1].degree(0) > 0 {
+                return Err("the characteristic function has a denominator".into());
+            }
+            divisors.push(row[1].clone());
+            (row[0].clone(), f.numerator.degree(0))
+        }
+        Form::System((rows, degree), alone) => {
+            for (rows, degree) in alone {
+                let rows = rows.iter().map(|r| at_values(r)).collect::<Result<Vec<_>, _>>()?;
+                let lead = determinant(&rows, clock)?.coefficients(0).into_iter().nth(*degree);
+                divisors.push(lead.ok_or("a block loses its order")?);
+            }
+            let rows = rows.iter().map(|r| at_values(r)).collect::<Result<Vec<_>, _>>()?;
+            (determinant(&rows, clock)?, *degree)
+        }
+        _ => return Err("a matrix has no dead time".into()),
+    };
+    if divisors.iter().any(|p| p.is_zero() || p.degree(2) > 0) {
+        return Err("a divisor depends on the dead time, or is zero".into());
+    }
+    if d.is_zero() || d.degree(0) != degree {
+        return Err("the loop is not well posed".into());
+    }
+    let function = primitive(vec![d]).swap_remove(0);
+    Ok(CharacteristicFunction { function, divisors })
 }
 
 /// The roots to the right for small dead times, and the switches up to the last that matters.

@@ -13,9 +13,21 @@ const MAX_NESTING: usize = 200;
 /// Exponents may be this large.
 const MAX_POWER: i64 = 1000;
 
-/// How dead time is read: `exp(-k base p s)` of the parameter `p` in question is the power `k` of one more variable.
+/// The dead time of which all others are whole multiples.
+#[derive(Clone, Copy)]
+pub(super) enum Base<'q> {
+    /// This times the parameter in question.
+    OfParameter(&'q Q),
+    /// A number.
+    Number(&'q Q),
+}
+
+/// How dead time is read: `exp(-k base s)`, or `exp(-k base p s)` of the parameter `p` in question, is the power `k` of one more
+/// variable.
 pub(super) struct DeadTime {
     pub base: Q,
+    /// The power of the parameter: 0 or 1.
+    pub power: usize,
     /// Values of the variables; the one of dead time follows.
     pub values: Vec<Q>,
 }
@@ -101,11 +113,11 @@ impl<'c> Scope<'c> {
         let top = tau.numerator.specialised(1, &of.values, self.clock)?;
         let bottom = tau.whole_denominator(self.clock)?.specialised(1, &of.values, self.clock)?;
         let (mut coefficient, mut divisor) = (Q::zero(), Q::zero());
-        for (rows, at, number) in [(&top, (power, 1), &mut coefficient), (&bottom, (0, 0), &mut divisor)] {
+        for (rows, at, number) in [(&top, (power, of.power), &mut coefficient), (&bottom, (0, 0), &mut divisor)] {
             for (i, row) in rows.iter().enumerate() {
                 for (j, c) in row.iter().enumerate().filter(|(_, c)| !c.is_zero()) {
                     if (i, j) != at {
-                        return Err("a dead time is not a multiple of the parameter".into());
+                        return Err("a dead time is no number, or not a multiple of the parameter".into());
                     }
                     number.clone_from(c);
                 }

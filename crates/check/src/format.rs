@@ -21,6 +21,9 @@ pub const SCHEMA_OF_BOXES: &str = "jurist/certificate/4";
 /// The version of maps of two parameters.
 pub const SCHEMA_OF_MAPS: &str = "jurist/certificate/5";
 
+/// The schema of certificates of a gain beside dead time.
+pub const SCHEMA_OF_CELLS: &str = "jurist/certificate/6";
+
 /// Texts longer than this many bytes are refused unread.
 pub const MAX_TEXT: usize = 64 << 20;
 

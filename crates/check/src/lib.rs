@@ -19,6 +19,8 @@ mod declarations;
 mod determinant;
 mod expression;
 pub mod format;
+mod frequency;
+mod gain;
 #[doc = include_str!("grammar.md")]
 pub mod grammar {}
 mod half_size;
@@ -46,7 +48,9 @@ mod univariate;
 mod verdict;
 
 use clock::{Clock, out_of_time};
-use format::{Json, SCHEMA, SCHEMA_OF_BOXES, SCHEMA_OF_MAPS, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS};
+use format::{
+    Json, SCHEMA, SCHEMA_OF_BOXES, SCHEMA_OF_CELLS, SCHEMA_OF_MAPS, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS,
+};
 use num_traits::Zero;
 use number::{Q, shorten};
 use over::Over;
@@ -111,7 +115,7 @@ impl Default for Limits {
 pub struct Proved {
     /// The statement in a sentence or two.
     pub statement: String,
-    /// The kind of the statement: `intervals`, `verdict`, `tolerance` or `map`.
+    /// The kind of the statement: `intervals`, `verdict`, `tolerance`, `map` or `cells`.
     pub kind: &'static str,
 }
 
@@ -269,7 +273,7 @@ fn checked(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Re
     // Another version may have other parts, so it is looked at first.
     let schema = json.get("schema").ok_or_else(|| "the certificate has no 'schema'".to_owned());
     let schema = Step::Format.of(schema.and_then(|s| text(s, "'schema'")))?;
-    let known = [SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_WITH_DEAD_TIME, SCHEMA_OF_BOXES, SCHEMA_OF_MAPS];
+    let known = [SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_WITH_DEAD_TIME, SCHEMA_OF_BOXES, SCHEMA_OF_MAPS, SCHEMA_OF_CELLS];
     if !known.contains(&schema) {
         let [rest @ .., last] = known.map(|name| format!("'{name}'"));
         let reason = format!("the schema is '{}', not {} or {last}", shorten(schema), rest.join(", "));
@@ -281,6 +285,8 @@ fn checked(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Re
     match Step::Statement.of(text(kind, "'kind'"))? {
         "map" if schema == SCHEMA_OF_MAPS => map::check(model, &json, statement, &clock),
         "tolerance" if schema == SCHEMA_OF_BOXES => boxes::check(model, &json, statement, &clock),
+        "cells" if schema == SCHEMA_OF_CELLS => gain::check(model, &json, statement, &clock),
+        "verdict" if schema == SCHEMA_OF_CELLS => gain::check_verdict(model, &json, statement, &clock),
         "intervals" if schema == SCHEMA_WITH_DEAD_TIME => dead_time::check(model, &json, statement, &clock),
         "intervals" if [SCHEMA, SCHEMA_WITH_SYMBOLS].contains(&schema) => {
             check_intervals(model, &json, statement, &clock)

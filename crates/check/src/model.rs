@@ -4,7 +4,7 @@ use super::blocks::{Values, system_matrix};
 use super::characteristic::{Characteristic, Form, specialised};
 use super::clock::Clock;
 use super::declarations::{Declarations, Meaning};
-use super::expression::{DeadTime, Names, Scope, number};
+use super::expression::{Base, DeadTime, Names, Scope, number};
 use super::keys;
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, shorten};
@@ -41,13 +41,13 @@ pub(super) struct Asked {
     pub values: Vec<Q>,
 }
 
-/// Reads the model for a question, exponentials over the symbols of a table, dead times as multiples of `base` times the parameter.
+/// Reads the model for a question, exponentials over the symbols of a table, dead times as multiples of `base`.
 pub(super) fn asked(
     text: &str,
     kept: Option<&str>,
     values: &[(String, Q)],
     table: &Table,
-    base: Option<&Q>,
+    base: Option<Base<'_>>,
     clock: &Clock,
 ) -> Result<Asked, String> {
     read_for((kept, &[]), text, values, table, base, clock)
@@ -68,7 +68,7 @@ fn read_for(
     text: &str,
     values: &[(String, Q)],
     table: &Table,
-    base: Option<&Q>,
+    base: Option<Base<'_>>,
     clock: &Clock,
 ) -> Result<Asked, String> {
     let root = toml::read(text)?;
@@ -96,7 +96,11 @@ fn evaluated(
 ) -> Result<(Form, BTreeSet<Multi>), String> {
     let mut scope = declared.scope(meaning, clock)?;
     if let Some(Values { numbers, base: Some(base), .. }) = values.filter(|_| !declared.discrete) {
-        scope.dead_time = Some(DeadTime { base: base.clone(), values: numbers.to_vec() });
+        let (base, power) = match base {
+            Base::OfParameter(base) => (base.clone(), 1),
+            Base::Number(base) => (base.clone(), 0),
+        };
+        scope.dead_time = Some(DeadTime { base, power, values: numbers.to_vec() });
     }
     if let Some(value) = root.get("sample_time") {
         let time = scope.scalar(value)?;

@@ -8,7 +8,7 @@ use super::pieces::{self, Look, Piece};
 use super::scales::{between_scales, exponent, joined, octaves};
 use super::values::values_of;
 use super::{Definition, Function, Symbols};
-use crate::ball::{Ball, Elementary, Series, TaylorModel};
+use crate::ball::{Ball, Elementary, Known, Series, TaylorModel};
 use crate::limits::{Budget, Exhausted, parallel_map};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::algebraic::simplest_between;
@@ -303,7 +303,7 @@ impl MovingSymbols {
     /// Whether the function is zero at a rational value of the parameter; `None` where that is neither proved nor disproved.
     fn vanishing(&self, f: &Function, value: &Rational, budget: &Budget) -> Result<Option<bool>, Exhausted> {
         // A sign that is certain spares a table of exact arguments.
-        if budget.enter(|| self.sign_at(&Scheme::of(f), value, FEW_BITS))?.is_some() {
+        if budget.enter(|| self.is_clear(&Scheme::of(f), value))? {
             return Ok(Some(false));
         }
         match self.vanishes_at(f, value, budget) {
@@ -330,13 +330,21 @@ impl MovingSymbols {
         self.value(f, &Ball::from_rational(at, bits))?.sign().filter(|s| s.is_ne())
     }
 
+    /// Whether the function is certainly not zero at a number, by short numbers or else a few bits more.
+    fn is_clear(&self, f: &Scheme, at: &Rational) -> bool {
+        let point = TaylorModel::linear(&Ball::from_rational(at, FEW_BITS), &Ball::zero(FEW_BITS), 2);
+        let known = self.series(&point).and_then(|values| f.at_short(&values));
+        let is_apart = |k: Known| k.coefficients[0].least_magnitude_units() > k.rest;
+        known.is_some_and(is_apart) || self.sign_at(f, at, FEW_BITS).is_some()
+    }
+
     /// A number about in the middle, between far ends by their scale, at which the function is certainly not zero.
     fn split_point(&self, f: &Scheme, lo: &Rational, hi: &Rational, near: &Rational) -> Rational {
-        if let Some(middle) = between_scales(lo, hi, near).filter(|x| self.sign_at(f, x, FEW_BITS).is_some()) {
+        if let Some(middle) = between_scales(lo, hi, near).filter(|x| self.is_clear(f, x)) {
             return middle;
         }
         let at = |n: i64| lo + &(&(hi - lo) * &Rational::new(Integer::from(n), Integer::from(64)));
-        [32, 31, 33, 29, 35].into_iter().map(at).find(|x| self.sign_at(f, x, FEW_BITS).is_some()).unwrap_or(at(32))
+        [32, 31, 33, 29, 35].into_iter().map(at).find(|x| self.is_clear(f, x)).unwrap_or(at(32))
     }
 
     /// What the function's Taylor polynomial says of pieces of an interval.

@@ -3,7 +3,10 @@
 use super::Answer;
 use crate::error::{Diagnostic, Error};
 use crate::problem::{Problem, Question};
-use crate::stability::{ClassicalTest, EnclosedTable, Range, Shape, StableSet, classical_test, stable_set};
+use crate::stability::{
+    ClassicalTest, EnclosedTable, End, Range, RealIntervals, Shape, StableSet, SymbolicTest, classical_test,
+    stable_set, symbolic_stable_set,
+};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
@@ -29,10 +32,16 @@ use std::sync::Arc;
 pub struct ParametricTable {
     /// The table and the solved conditions; `None` when the loop is undefined for every value.
     pub test: Option<ClassicalTest>,
+    /// The table where the loop has functions of constants, as behind a hold: its coefficients are enclosed. `test` is `None`
+    /// then.
+    pub enclosed: Option<SymbolicTest>,
     /// The stable set found independently, from the boundary polynomials. Its ends are those of the
     /// conditions' intersection: a difference is a defect and refuses the answer.
     pub stable: StableSet,
 }
+
+/// Bits to which ends of the two ways are compared where they are no algebraic numbers.
+const COMPARED_BITS: u64 = 256;
 
 /// Digits to which entries are enclosed.
 const ENCLOSED_DIGITS: usize = 60;
@@ -95,30 +104,49 @@ impl Question {
 
 impl Problem {
     /// The table with polynomial entries. The intersection of the conditions is compared with the stable set from the
-    /// boundary polynomials, each time.
+    /// boundary polynomials, each time; where ends are transcendental numbers, to 256 bits.
     ///
-    /// Cost: that of [`Problem::algebra`], once, of [`classical_test`], and of [`stable_set`] for the comparison.
+    /// Cost: that of [`Problem::algebra`], once, of [`classical_test`], and of [`stable_set`] for the comparison. Behind a hold
+    /// that of [`SymbolicPolynomial::classical_test`](crate::stability::SymbolicPolynomial::classical_test) and of
+    /// [`symbolic_stable_set`].
     ///
     /// # Errors
-    /// [`Error::Stopped`]; [`Error::Refused`] where the two ways disagree (a defect of this program).
+    /// [`Error::Stopped`]; [`Error::Refused`] where the two ways disagree (a defect of this program), and with `E-function`
+    /// where functions depend on the parameter.
     pub fn parametric_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<ParametricTable>, Error> {
         budget.enter(|| {
+            let symbols = self.algebra_over_symbols(budget)?.symbols();
+            if !symbols.is_empty() && symbols.delays().is_empty() && !symbols.is_moving() {
+                return self.symbolic_table(budget);
+            }
             let Some(p) = self.parametric(budget)? else {
-                return Ok(Answer::new(Arc::clone(self), ParametricTable { test: None, stable: StableSet::default() }));
+                let nothing = ParametricTable { test: None, enclosed: None, stable: StableSet::default() };
+                return Ok(Answer::new(Arc::clone(self), nothing));
             };
             let domain = &self.parameter().domain;
             let stable = stable_set(p, domain, self.shape(), budget)?;
             let test = classical_test(p, domain, self.shape(), budget)?;
             if !stable.to_interval_set().is_some_and(|set| test.intersection.same_as(&set)) {
-                return Err(Diagnostic::error(
-                    "E-internal",
-                    "the table's conditions and the boundary polynomials disagree",
-                )
-                .help("this is a defect of jurist: please report it with the model")
-                .into());
+                return Err(ways_disagree());
             }
-            Ok(Answer::new(Arc::clone(self), ParametricTable { test: Some(test), stable }))
+            Ok(Answer::new(Arc::clone(self), ParametricTable { test: Some(test), enclosed: None, stable }))
         })?
+    }
+
+    fn symbolic_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<ParametricTable>, Error> {
+        let Some(p) = self.symbolic(budget)? else {
+            let nothing = ParametricTable { test: None, enclosed: None, stable: StableSet::default() };
+            return Ok(Answer::new(Arc::clone(self), nothing));
+        };
+        let domain = &self.parameter().domain;
+        let stable = symbolic_stable_set(&p, domain, self.shape(), budget)?;
+        let test = p.classical_test(domain, self.shape(), ENCLOSED_DIGITS, budget)?;
+        let real = |end: &Option<End>| end.as_ref().map(|end| end.value.clone());
+        let intervals = stable.intervals().iter().map(|i| [real(&i.lower), real(&i.upper)]).collect();
+        if !budget.enter(|| RealIntervals { intervals }.agree(&test.intersection, COMPARED_BITS))? {
+            return Err(ways_disagree());
+        }
+        Ok(Answer::new(Arc::clone(self), ParametricTable { test: None, enclosed: Some(test), stable }))
     }
 
     /// The table at the point that the values of all parameters are.
@@ -127,14 +155,15 @@ impl Problem {
     /// [`SymbolicPolynomial::jury_table`](crate::stability::SymbolicPolynomial::jury_table), with enough digits for what is shown.
     ///
     /// # Errors
-    /// [`Error::Stopped`] when the budget runs out; `E-function` for continuous loops with functions.
+    /// [`Error::Stopped`] when the budget runs out; `E-dead-time`.
     pub fn point_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointTable>, Error> {
         budget.enter(|| {
             let symbols = self.algebra_over_symbols(budget)?.symbols();
-            if !symbols.is_empty() && symbols.delays().is_empty() && self.shape() == Shape::UnitDisc {
-                let enclosed = match self.symbolic(budget)? {
-                    Some(p) => p.jury_table(ENCLOSED_DIGITS, budget)?,
-                    None => None,
+            if !symbols.is_empty() && symbols.delays().is_empty() {
+                let enclosed = match (self.symbolic(budget)?, self.shape()) {
+                    (Some(p), Shape::UnitDisc) => p.jury_table(ENCLOSED_DIGITS, budget)?,
+                    (Some(p), Shape::LeftHalfPlane) => p.routh_table(ENCLOSED_DIGITS, budget)?,
+                    (None, _) => None,
                 };
                 return Ok(Answer::new(Arc::clone(self), PointTable { test: None, enclosed }));
             }
@@ -144,4 +173,10 @@ impl Problem {
             Ok(Answer::new(Arc::clone(self), PointTable { test, enclosed: None }))
         })?
     }
+}
+
+fn ways_disagree() -> Error {
+    Diagnostic::error("E-internal", "the table's conditions and the boundary polynomials disagree")
+        .help("this is a defect of jurist: please report it with the model")
+        .into()
 }

@@ -1,6 +1,7 @@
 //! Certificates of stable dead times: where roots can cross the axis, and how often they have by each end.
 
 use super::emit::polynomials;
+use super::gain;
 use super::no_certificate;
 use super::statement::{self, about, number, object};
 use super::text::to_text;
@@ -40,7 +41,7 @@ pub(super) fn of_set(answer: &Answer<StableSet>, delayed: &DelayedLoop, budget: 
     let problem = answer.problem();
     let domain = &problem.parameter().domain;
     let BaseDelay::Line { slope, offset } = delayed.delay() else {
-        return Err(no_certificate("no certificate: a gain beside dead time has none yet"));
+        return gain::of_set(answer, delayed, budget);
     };
     if !offset.is_zero() || delayed.degree_in_parameter() > 0 || !delayed.poles().is_empty() {
         return Err(no_certificate("no certificate: the dead time is not a multiple of the parameter"));

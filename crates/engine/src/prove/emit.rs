@@ -4,8 +4,8 @@ use super::cofactors::{Identity, of_half_size_pair};
 use super::line::{Line, Separator};
 use super::statement::{self, about, boundary, number, object};
 use super::text::to_text;
-use super::{dead_time, held};
-use super::{no_certificate, refuse_requirements, refuse_transcendental};
+use super::{dead_time, gain, held};
+use super::{refuse_requirements, refuse_transcendental};
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
 use crate::stability::{ParametricPolynomial, Shape, StableSet};
@@ -78,14 +78,15 @@ impl Answer<PointVerdict> {
     /// Cost: `O(n)` greatest common divisors of integers; no root is counted again.
     ///
     /// # Errors
-    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where the loop is not rational.
+    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where the loop has functions written in
+    /// the model, or dead time and roots on the axis.
     pub fn certificate(&self, budget: &Budget) -> Result<String, Error> {
         budget.enter(|| {
             budget.step("certificate");
             let (problem, verdict) = (self.problem(), self.value());
             refuse_requirements(problem)?;
-            if problem.delayed(budget)?.is_some() {
-                return Err(no_certificate("no certificate: the loop has dead time"));
+            if let Some(delayed) = problem.delayed(budget)? {
+                return gain::of_verdict(self, delayed);
             }
             if held::is_held(problem, budget)? {
                 return held::of_verdict(self, budget);

@@ -5,6 +5,7 @@ mod cofactors;
 mod coq;
 mod dead_time;
 mod emit;
+mod gain;
 mod held;
 mod line;
 mod map;
@@ -37,6 +38,6 @@ fn refuse_requirements(problem: &Problem) -> Result<(), Error> {
 
 fn no_certificate(why: impl Into<String>) -> Error {
     Diagnostic::error("E-no-certificate", why)
-        .help("known: loops behind a hold at fixed times, the dead time of a loop with one; the answer is printed without it")
+        .help("known: loops behind a hold at fixed times, the dead time of a loop with one, a gain beside a fixed one; the answer is printed without it")
         .into()
 }

@@ -5,7 +5,7 @@ use super::margins::margin;
 use super::{real, region};
 use crate::answer::Answer;
 use crate::problem::Problem;
-use crate::stability::{Cause, End, IntervalSet, Range, StableSet, UndecidedBracket};
+use crate::stability::{Cause, End, IntervalSet, Range, RealIntervals, StableSet, UndecidedBracket};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, parse_number, to_decimal};
 use jurist_algebra::poly::RealAlgebraic;
@@ -88,6 +88,11 @@ pub fn set_lines(name: &str, set: &IntervalSet, digits: usize) -> Vec<String> {
 pub fn stable_lines(name: &str, set: &StableSet, digits: usize) -> Vec<String> {
     let real = |end: &Option<End>| end.as_ref().map(|end| end.value.clone());
     lines(name, set.intervals().iter().map(|i| [real(&i.lower), real(&i.upper)]).collect(), digits)
+}
+
+/// The same for ends of any kind.
+pub(super) fn real_lines(name: &str, set: &RealIntervals, digits: usize) -> Vec<String> {
+    lines(name, set.intervals.clone(), digits)
 }
 
 fn lines(name: &str, intervals: Vec<[Option<Real>; 2]>, digits: usize) -> Vec<String> {

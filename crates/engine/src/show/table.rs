@@ -1,16 +1,16 @@
 //! The classical table: Jury's in discrete time, Routh's in continuous time.
 
 use super::documents::TableKind;
-use super::intervals::{domain_text, set_lines, undecided_text};
+use super::intervals::{domain_text, real_lines, set_lines, undecided_text};
 use super::layout::{Columns, called, named_values, wrapped};
 use super::notation::{Coefficient, coefficient_text};
 use super::region;
 use crate::answer::{Answer, ParametricTable, PointTable};
 use crate::model::Time;
 use crate::problem::Problem;
-use crate::stability::{ClassicalTest, EnclosedTable, ScaledPoly, Table, UNDIVIDED_ORDER, row_name};
+use crate::stability::{ClassicalTest, EnclosedTable, ScaledPoly, SymbolicTest, Table, UNDIVIDED_ORDER, row_name};
 use jurist_algebra::limits::Exhausted;
-use jurist_algebra::number::{Rational, enclosed_decimal, to_decimal};
+use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, parse_number, to_decimal};
 use jurist_algebra::poly::UniPoly;
 
 /// Characters per line of a printed table.
@@ -88,16 +88,20 @@ fn table_name(time: Time) -> &'static str {
 pub fn table_text(problem: &Problem, answer: Result<&ParametricTable, &Exhausted>, digits: usize) -> String {
     let name = &problem.parameter().name;
     let mut out = heading(problem);
-    let test = match answer.map(|table| &table.test) {
+    let table = match answer {
         Err(stopped) => {
             out.push_str(&format!("{}\n", undecided_text(stopped)));
             return out;
         }
-        Ok(None) => {
-            out.push_str(&format!("the loop is undefined for every {name}\n"));
-            return out;
-        }
-        Ok(Some(test)) => test,
+        Ok(table) => table,
+    };
+    if let Some(test) = &table.enclosed {
+        out.push_str(&symbolic_text(test, problem.time(), name, digits));
+        return out;
+    }
+    let Some(test) = &table.test else {
+        out.push_str(&format!("the loop is undefined for every {name}\n"));
+        return out;
     };
     out.push_str(&scheme(test));
     if let Some(factor) = &test.cleared_by {
@@ -137,10 +141,14 @@ fn relative(time: Time, goal: &str) -> String {
 
 /// The conditions with their solutions, and what they have in common.
 fn conditions_text(test: &ClassicalTest, name: &str, digits: usize) -> String {
-    let mut columns = Columns::new("  ");
     let sets = test.conditions.iter().map(|c| (c.name.as_str(), &c.solution));
-    for (label, set) in sets.chain([("all together", &test.intersection)]) {
-        let mut lines = set_lines(name, set, digits);
+    let sets = sets.chain([("all together", &test.intersection)]);
+    solutions_text(sets.map(|(label, set)| (label, set_lines(name, set, digits))))
+}
+
+fn solutions_text<'a>(solutions: impl Iterator<Item = (&'a str, Vec<String>)>) -> String {
+    let mut columns = Columns::new("  ");
+    for (label, mut lines) in solutions {
         if lines.is_empty() {
             lines.push("nowhere".to_owned());
         }
@@ -150,6 +158,56 @@ fn conditions_text(test: &ClassicalTest, name: &str, digits: usize) -> String {
         }
     }
     columns.to_string()
+}
+
+/// A table in one parameter whose coefficients are enclosed.
+fn symbolic_text(test: &SymbolicTest, time: Time, name: &str, digits: usize) -> String {
+    let mut out = match time {
+        Time::Discrete => {
+            jury_scheme(test.order, test.rows.iter().map(|r| (r.name.clone(), r.entries.len(), r.divided_by.clone())))
+        }
+        Time::Continuous => routh_scheme(test.order, test.rows.iter().map(|r| r.entries.len())),
+    };
+    if let Some(factor) = &test.cleared_by {
+        out.push_str(&format!("coefficients multiplied by {}\n", enclosed_polynomial(factor, name, digits)));
+    }
+    out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has enclosures)\n"));
+    let mut is_open = false;
+    for (i, row) in test.rows.iter().enumerate() {
+        for (k, entry) in row.entries.iter().enumerate() {
+            let label = entry_label(time, i, &row.name, k);
+            let text = format!("{label} = {}", enclosed_polynomial(entry, name, digits));
+            out.push_str(&format!("  {}\n", wrapped(&text, WIDTH - 2, "      ")));
+            is_open |= entry.iter().any(is_not_told);
+        }
+    }
+    if is_open {
+        out.push_str("  (coefficients that are not told from zero are left out)\n");
+    }
+    let named = if time == Time::Continuous { DETERMINANTS } else { "" };
+    out.push_str(&format!("\nConditions, each with its exact solution set\n{named}"));
+    let sets = test.conditions.iter().map(|c| (c.name.as_str(), &c.solution));
+    let sets = sets.chain([("all together", &test.intersection)]);
+    out.push_str(&solutions_text(sets.map(|(label, set)| (label, real_lines(name, set, digits)))));
+    out
+}
+
+/// Whether zero is inside, and other numbers.
+fn is_not_told(e: &Enclosure) -> bool {
+    e.lower() != e.upper() && e.contains(&Rational::ZERO)
+}
+
+/// A polynomial in the parameter with enclosed coefficients, rounded.
+fn enclosed_polynomial(p: &[Enclosure], name: &str, digits: usize) -> String {
+    let rounded = |e: &Enclosure| {
+        let (lo, hi) = (e.lower(), e.upper());
+        let decimal = enclosed_decimal(lo, hi, digits).and_then(|text| parse_number(&text).ok());
+        decimal.unwrap_or_else(|| lo.midpoint(hi))
+    };
+    let told = p.iter().enumerate().rev().filter(|(_, e)| !is_not_told(e));
+    let terms = told.map(|(k, e)| (vec![k as u32], rounded(e))).filter(|(_, c)| !c.is_zero());
+    let coefficient = Coefficient { numerator: terms.collect(), denominator: None };
+    coefficient_text(&coefficient, &[name.to_owned()], Some(digits))
 }
 
 /// The table at a point for people.
@@ -162,7 +220,7 @@ fn point_table_text(problem: &Problem, answer: &PointTable, digits: usize) -> St
     }
     out.push('\n');
     if let Some(table) = &answer.enclosed {
-        out.push_str(&enclosed_text(table, digits));
+        out.push_str(&enclosed_text(table, problem.time(), digits));
         return out;
     }
     let Some(test) = &answer.test else {
@@ -189,27 +247,45 @@ fn decided_text<'a>(conditions: impl Iterator<Item = (&'a str, bool)>, all: bool
 }
 
 /// A table whose entries are enclosed.
-fn enclosed_text(table: &EnclosedTable, digits: usize) -> String {
-    let n = table.rows.first().map_or(0, |row| row.entries.len().saturating_sub(1));
-    let rows = table.rows.iter().map(|r| (r.name.clone(), r.entries.len(), r.divided_by.clone()));
-    let mut out = jury_scheme(n, rows);
+fn enclosed_text(table: &EnclosedTable, time: Time, digits: usize) -> String {
+    let order = match time {
+        Time::Discrete => table.rows.first().map_or(0, |row| row.entries.len().saturating_sub(1)),
+        Time::Continuous => table.rows.iter().take(2).map(|row| row.entries.len()).sum::<usize>().saturating_sub(1),
+    };
+    let mut out = match time {
+        Time::Discrete => {
+            jury_scheme(order, table.rows.iter().map(|r| (r.name.clone(), r.entries.len(), r.divided_by.clone())))
+        }
+        Time::Continuous => routh_scheme(order, table.rows.iter().map(|r| r.entries.len())),
+    };
     out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has enclosures)\n"));
-    for row in &table.rows {
+    for (i, row) in table.rows.iter().enumerate() {
         for (k, entry) in row.entries.iter().enumerate() {
             let (lo, hi) = (entry.lower(), entry.upper());
             let decimal = enclosed_decimal(lo, hi, digits).unwrap_or_else(|| to_decimal(&lo.midpoint(hi), digits));
-            out.push_str(&format!("  {}_{k} = {decimal}\n", row.name));
+            out.push_str(&format!("  {} = {decimal}\n", entry_label(time, i, &row.name, k)));
         }
     }
     let conditions = table.conditions.iter().map(|c| (c.name.as_str(), c.holds));
-    out.push_str(&format!("\nConditions\n{}", decided_text(conditions, table.holds())));
+    let named = if time == Time::Continuous { DETERMINANTS } else { "" };
+    out.push_str(&format!("\nConditions\n{named}{}", decided_text(conditions, table.holds())));
     out
 }
 
+/// `b_1`, or in Routh's table `r_1,1`.
+fn entry_label(time: Time, row: usize, name: &str, k: usize) -> String {
+    match time {
+        Time::Discrete => format!("{name}_{k}"),
+        Time::Continuous => format!("r_{row},{k}"),
+    }
+}
+
 /// How Routh's conditions are named after the rows.
+const DETERMINANTS: &str = "  (H_k is the first entry r_k,0 of row k, the Hurwitz determinant of order k)\n";
+
 fn determinants(test: &ClassicalTest) -> &'static str {
     match test.table {
-        Table::Routh(_) => "  (H_k is the first entry r_k,0 of row k, the Hurwitz determinant of order k)\n",
+        Table::Routh(_) => DETERMINANTS,
         Table::Jury(_) => "",
     }
 }
@@ -219,15 +295,18 @@ fn scheme(test: &ClassicalTest) -> String {
     let n = order(test);
     match &test.table {
         Table::Jury(_) => jury_scheme(n, rows(test).into_iter().map(|r| (r.name, r.entries.len(), r.divided_by))),
-        Table::Routh(table) => {
-            let mut columns = Columns::new("  ");
-            for (i, row) in table.rows.iter().enumerate() {
-                let names = (0..row.len()).map(|k| format!("r_{i},{k}"));
-                columns.row(std::iter::once(format!("s^{}", n.saturating_sub(i))).chain(names));
-            }
-            format!("\n{columns}")
-        }
+        Table::Routh(table) => routh_scheme(n, table.rows.iter().map(Vec::len)),
     }
+}
+
+/// Of Routh's rows by their lengths.
+fn routh_scheme(n: usize, lengths: impl Iterator<Item = usize>) -> String {
+    let mut columns = Columns::new("  ");
+    for (i, length) in lengths.enumerate() {
+        let names = (0..length).map(|k| format!("r_{i},{k}"));
+        columns.row(std::iter::once(format!("s^{}", n.saturating_sub(i))).chain(names));
+    }
+    format!("\n{columns}")
 }
 
 /// Of Jury's rows: their names, lengths, and what they were divided by.

@@ -8,6 +8,7 @@ use super::undecided::{Answered, Undecided};
 use crate::answer::{self, Answer};
 use crate::problem::Problem;
 use crate::stability::AlgebraicInterval;
+use jurist_algebra::poly::RealAlgebraic;
 use serde::{Deserialize, Serialize};
 
 schema_name!(BodyName, "jurist/body/1");
@@ -127,7 +128,7 @@ impl Answer<answer::Body> {
         let (problem, body) = (self.problem(), self.value());
         let third = &problem.free()[2];
         let bounds = |interval: &AlgebraicInterval| {
-            let end = |value: &Option<_>| value.as_ref().map(|value| PlainEnd::new(value, digits));
+            let end = |value: &Option<RealAlgebraic>| value.clone().map(|value| PlainEnd::new(value, digits));
             Bounds { lower: end(&interval.lower), upper: end(&interval.upper) }
         };
         let slice = |slice: &answer::BodySlice| BodySlice {

@@ -6,9 +6,8 @@ use crate::problem::Problem;
 use crate::show::margins::margin;
 use crate::show::real::{self, JSON_NUMBER_DIGITS};
 use crate::show::region;
-use crate::stability::{self, AlgebraicInterval, IntervalSet, Range};
+use crate::stability::{self, Range};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::real::Real;
 use serde::{Deserialize, Serialize};
 
@@ -40,15 +39,14 @@ pub struct PlainEnd {
 }
 
 impl PlainEnd {
-    pub(super) fn new(value: &RealAlgebraic, digits: usize) -> Self {
-        PlainEnd { number: Number::new(&value.clone().into(), digits), closed: false }
+    pub(super) fn new(value: impl Into<Real>, digits: usize) -> Self {
+        PlainEnd { number: Number::new(&value.into(), digits), closed: false }
     }
 
     /// A union of open intervals.
-    pub(super) fn intervals(set: &IntervalSet, digits: usize) -> Vec<Bounds<PlainEnd>> {
-        let end = |value: &Option<RealAlgebraic>| value.as_ref().map(|value| PlainEnd::new(value, digits));
-        let interval = |i: &AlgebraicInterval| Bounds { lower: end(&i.lower), upper: end(&i.upper) };
-        set.intervals().iter().map(interval).collect()
+    pub(super) fn intervals(set: impl Iterator<Item = [Option<Real>; 2]>, digits: usize) -> Vec<Bounds<PlainEnd>> {
+        let end = |value: Option<Real>| value.map(|value| PlainEnd::new(value, digits));
+        set.map(|[lower, upper]| Bounds { lower: end(lower), upper: end(upper) }).collect()
     }
 }
 

@@ -10,11 +10,13 @@ use crate::model::Time;
 use crate::problem::Problem;
 use crate::show::table::{coefficients, order, rows};
 use crate::stability::{
-    ClassicalTest, Comparison, EnclosedCondition, EnclosedRow, Inequality, ScaledPoly, Table, row_name,
+    ClassicalTest, Comparison, EnclosedCondition, EnclosedRow, Inequality, ScaledPoly, SymbolicCondition, SymbolicRow,
+    SymbolicTest, Table, row_name,
 };
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, UniPoly};
+use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly};
+use jurist_algebra::real::Real;
 use serde::{Deserialize, Serialize};
 
 schema_name!(JuryName, "jurist/jury/1");
@@ -43,7 +45,7 @@ pub struct JuryInParameter {
     pub table: TableKind,
     /// The table and its conditions.
     #[serde(flatten)]
-    pub answer: Answered<SolvedTable, TableOpen>,
+    pub answer: Answered<TableInParameter, TableOpen>,
 }
 
 /// The table with numbers.
@@ -97,18 +99,30 @@ impl TableKind {
     }
 }
 
-/// A table in one parameter; all lists are empty where the loop is undefined for every value.
+/// A table in one parameter.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct SolvedTable {
+#[serde(untagged)]
+pub enum TableInParameter {
+    /// The table.
+    Exact(SolvedTable<Exact>),
+    /// The table of a loop with functions of constants, as behind a hold: lower and upper bounds of the coefficients.
+    Enclosed(SolvedTable<Enclosure>),
+}
+
+/// A table in one parameter; all lists are empty where the loop is undefined for every value.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "SolvedTableOf{E}"))]
+#[serde(bound(deserialize = "E: Deserialize<'de>"))]
+pub struct SolvedTable<E> {
     /// The rows; an entry is a polynomial in the parameter, coefficients from the constant term up.
-    pub rows: Vec<Row<Vec<Exact>>>,
+    pub rows: Vec<Row<Vec<E>>>,
     /// The polynomial in the parameter that the loop's coefficients were multiplied by to clear their denominators; left
     /// out where there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub cleared_by: Option<Vec<Exact>>,
+    pub cleared_by: Option<Vec<E>>,
     /// The conditions of stability.
-    pub conditions: Vec<Condition<Vec<Exact>, Solution>>,
+    pub conditions: Vec<Condition<Vec<E>, Solution>>,
     /// Where all conditions hold: the stable set.
     pub intersection: Vec<Bounds<End>>,
 }
@@ -187,6 +201,16 @@ pub enum Relation {
     SmallerAbsolute,
 }
 
+impl From<Comparison> for Relation {
+    fn from(comparison: Comparison) -> Self {
+        match comparison {
+            Comparison::Greater => Relation::Greater,
+            Comparison::GreaterAbsolute => Relation::GreaterAbsolute,
+            Comparison::SmallerAbsolute => Relation::SmallerAbsolute,
+        }
+    }
+}
+
 /// A condition of stability.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "ConditionWith{R}"))]
@@ -212,6 +236,12 @@ pub struct Condition<E, R> {
 pub struct Solution {
     /// The values of the parameter for which it holds, as intervals in ascending order; empty: never.
     pub solution: Vec<Bounds<PlainEnd>>,
+}
+
+impl From<Vec<Bounds<PlainEnd>>> for Solution {
+    fn from(solution: Vec<Bounds<PlainEnd>>) -> Self {
+        Solution { solution }
+    }
 }
 
 /// Whether a condition holds.
@@ -280,16 +310,23 @@ impl JuryInParameter {
     /// The document, also of a table that the budget did not allow; decimals to so many significant digits.
     pub fn new(problem: &Problem, answer: Result<&ParametricTable, &Exhausted>, digits: usize) -> Self {
         let solved = |answer: &ParametricTable| {
+            // The stable set is the conditions' intersection, end by end, and knows the causes.
+            let intersection = End::intervals(&answer.stable, problem, digits);
+            if let Some(test) = &answer.enclosed {
+                return TableInParameter::Enclosed(enclosed_table(test, intersection, digits));
+            }
             let test = answer.test.as_ref();
-            let solution =
-                |c: &crate::stability::Condition| Solution { solution: PlainEnd::intervals(&c.solution, digits) };
-            SolvedTable {
+            let solution = |c: &crate::stability::Condition| {
+                let ends = c.solution.intervals().iter();
+                let real = |end: &Option<RealAlgebraic>| end.clone().map(Real::from);
+                PlainEnd::intervals(ends.map(|i| [real(&i.lower), real(&i.upper)]), digits).into()
+            };
+            TableInParameter::Exact(SolvedTable {
                 rows: test.map(|t| table_rows(t, polynomial)).unwrap_or_default(),
                 cleared_by: test.and_then(|t| t.cleared_by.as_ref()).map(Exact::coefficients),
                 conditions: test.map(|t| conditions(t, polynomial, solution)).unwrap_or_default(),
-                // The stable set is the same set, end by end, and knows the causes.
-                intersection: End::intervals(&answer.stable, problem, digits),
-            }
+                intersection,
+            })
         };
         JuryInParameter {
             schema: JuryName::V1,
@@ -312,7 +349,7 @@ impl JuryAtPoint {
         };
         if let Some(table) = &answer.enclosed {
             let rows = table.rows.iter().map(enclosed_row).collect();
-            let conditions = table.conditions.iter().map(enclosed_condition).collect();
+            let conditions = table.conditions.iter().map(|c| enclosed_condition(c, &table.rows)).collect();
             return JuryAtPoint::Enclosed(point_table(problem, rows, conditions, answer.holds()));
         }
         let test = answer.test.as_ref();
@@ -347,23 +384,44 @@ fn bounds(e: &jurist_algebra::number::Enclosure) -> Enclosure {
     enclosure(e.lower(), e.upper())
 }
 
+/// A table whose coefficients are enclosed.
+fn enclosed_table(test: &SymbolicTest, intersection: Vec<Bounds<End>>, digits: usize) -> SolvedTable<Enclosure> {
+    let polynomial = |p: &Vec<jurist_algebra::number::Enclosure>| -> Vec<Enclosure> {
+        if p.is_empty() { vec![enclosure(&Rational::ZERO, &Rational::ZERO)] } else { p.iter().map(bounds).collect() }
+    };
+    let row = |row: &SymbolicRow| Row {
+        name: row.name.clone(),
+        entries: row.entries.iter().map(polynomial).collect(),
+        divided_by: row.divided_by.clone(),
+    };
+    let condition = |c: &SymbolicCondition| Condition {
+        name: c.name.clone(),
+        relation: c.comparison.into(),
+        left: polynomial(&c.left),
+        right: polynomial(&c.right),
+        row: c.row.map(|k| test.rows[k].name.clone()),
+        result: PlainEnd::intervals(c.solution.intervals.iter().cloned(), digits).into(),
+    };
+    SolvedTable {
+        rows: test.rows.iter().map(row).collect(),
+        cleared_by: test.cleared_by.as_ref().map(polynomial),
+        conditions: test.conditions.iter().map(condition).collect(),
+        intersection,
+    }
+}
+
 fn enclosed_row(row: &EnclosedRow) -> Row<Enclosure> {
     let entries = row.entries.iter().map(bounds).collect();
     Row { name: row.name.clone(), entries, divided_by: row.divided_by.clone() }
 }
 
-fn enclosed_condition(c: &EnclosedCondition) -> Condition<Enclosure, Holds> {
-    let relation = match c.comparison {
-        Comparison::Greater => Relation::Greater,
-        Comparison::GreaterAbsolute => Relation::GreaterAbsolute,
-        Comparison::SmallerAbsolute => Relation::SmallerAbsolute,
-    };
+fn enclosed_condition(c: &EnclosedCondition, rows: &[EnclosedRow]) -> Condition<Enclosure, Holds> {
     Condition {
         name: c.name.clone(),
-        relation,
+        relation: c.comparison.into(),
         left: bounds(&c.left),
         right: bounds(&c.right),
-        row: c.row.map(row_name),
+        row: c.row.map(|k| rows[k].name.clone()),
         result: Holds { holds: c.holds },
     }
 }

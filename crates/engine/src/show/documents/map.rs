@@ -323,7 +323,7 @@ impl RegionEnd {
     ) -> Option<Self> {
         match limit {
             Some(limit) => Some(RegionEnd::Limit(RegionLimit::new(limit, parameter, problem, digits))),
-            None => value.map(|value| RegionEnd::Plain(PlainEnd::new(value, digits))),
+            None => value.map(|value| RegionEnd::Plain(PlainEnd::new(value.clone(), digits))),
         }
     }
 }

@@ -51,7 +51,7 @@ pub use end::{Bounds, End, FrequencyOfPair, PlainEnd};
 pub use intervals::{Intervals, IntervalsName, IntervalsOpen, SensitivityFound, Stable, UndecidedEnclosure};
 pub use jury::{
     Condition, Holds, Jury, JuryAtPoint, JuryInParameter, JuryName, PointTable, Relation, Row, RowsOpen, Solution,
-    SolvedTable, TableKind, TableOpen,
+    SolvedTable, TableInParameter, TableKind, TableOpen,
 };
 pub use map::{
     Branch, Cell, CellVerdict, Curve, CurveTerm, Map, MapName, MapOpen, MapQuestion, Pair, Place, PlaneRegion,

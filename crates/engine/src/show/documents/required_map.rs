@@ -77,7 +77,7 @@ pub struct RequiredRegion {
 
 fn bounds(interval: &AlgebraicInterval, digits: usize) -> Bounds<PlainEnd> {
     let [lower, upper] =
-        [&interval.lower, &interval.upper].map(|end| end.as_ref().map(|value| PlainEnd::new(value, digits)));
+        [&interval.lower, &interval.upper].map(|end| end.as_ref().map(|value| PlainEnd::new(value.clone(), digits)));
     Bounds { lower, upper }
 }
 

@@ -1,7 +1,7 @@
 //! The zeros of boundary functions of a parameter and symbols that may depend on it.
 
 use super::Condition;
-use super::set::coprime;
+use super::basis::coprime;
 use crate::stability::{Cause, Range};
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Integer, Rational};

@@ -1,10 +1,10 @@
-//! The Jury table of a loop whose coefficients are numbers over symbols, with enclosed entries.
+//! The tables of Jury and of Routh of a loop whose coefficients are numbers over symbols, with enclosed entries.
 
-use super::{SymbolicPolynomial, Table};
-use crate::stability::{UNDIVIDED_ORDER, row_name};
+use super::{SymbolicCondition, SymbolicPolynomial, SymbolicRow, Table};
+use crate::stability::{Range, Shape, UNDIVIDED_ORDER, row_name};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::{Enclosure, Integer};
+use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly};
 use jurist_algebra::symbols::Symbols;
 
@@ -98,12 +98,10 @@ impl SymbolicPolynomial {
     pub fn jury_table(&self, digits: usize, budget: &Budget) -> Result<Option<EnclosedTable>, Exhausted> {
         let Table::Fixed(symbols) = &self.symbols else { unreachable!("without parameter symbols are numbers") };
         budget.step("the table");
-        let number = |p: &MultiPoly| p.map_variables(|i| i.saturating_sub(1));
-        for pole in self.poles.iter().chain([&self.degree_loss]) {
-            if symbols.is_zero(&number(pole), budget)? {
-                return Ok(None);
-            }
+        if self.is_undefined_without_parameter(budget)? {
+            return Ok(None);
         }
+        let number = |p: &MultiPoly| p.map_variables(|i| i.saturating_sub(1));
         let mut at_ends = Vec::new();
         for z in [1, -1] {
             let value = number(&self.polynomial.eval(&MultiPoly::constant(Integer::from(z))));
@@ -122,6 +120,59 @@ impl SymbolicPolynomial {
             bits *= 2;
         }
         Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "the conditions of the table"))
+    }
+
+    /// Routh's table of a continuous loop without parameter, whose entries are enclosed to a relative width of `10^-(digits + 2)`;
+    /// `None` where the loop is undefined, or its degree lost.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::model::{Model, Time};
+    /// let (model, _) = Model::builder(Time::Continuous).characteristic("s^2 + pi*s + sqrt(2)").build()?;
+    /// let budget = Budget::unlimited();
+    /// let p = model.ask().problem()?.symbolic(&budget)?.unwrap();
+    /// let table = p.routh_table(12, &budget)?.unwrap();
+    /// assert!(table.holds() && table.conditions.len() == 2);
+    /// # Ok::<(), jurist_engine::error::Error>(())
+    /// ```
+    ///
+    /// Cost: that of [`SymbolicPolynomial::classical_test`].
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn routh_table(&self, digits: usize, budget: &Budget) -> Result<Option<EnclosedTable>, Exhausted> {
+        if self.is_undefined_without_parameter(budget)? {
+            return Ok(None);
+        }
+        let test = self.classical_test(&Range::all(), Shape::LeftHalfPlane, digits, budget)?;
+        let zero = Enclosure::from_rational(Rational::ZERO);
+        let number = |p: &Vec<Enclosure>| p.first().unwrap_or(&zero).clone();
+        let row = |row: SymbolicRow| EnclosedRow {
+            entries: row.entries.iter().map(number).collect(),
+            name: row.name,
+            divided_by: row.divided_by,
+        };
+        let condition = |c: SymbolicCondition| EnclosedCondition {
+            comparison: c.comparison,
+            left: number(&c.left),
+            right: number(&c.right),
+            row: c.row,
+            holds: !c.solution.intervals.is_empty(),
+            name: c.name,
+        };
+        let rows = test.rows.into_iter().map(row).collect();
+        Ok(Some(EnclosedTable { rows, conditions: test.conditions.into_iter().map(condition).collect() }))
+    }
+
+    /// Whether a loop without parameter is undefined, or its degree lost.
+    pub(super) fn is_undefined_without_parameter(&self, budget: &Budget) -> Result<bool, Exhausted> {
+        let Table::Fixed(symbols) = &self.symbols else { unreachable!("without parameter symbols are numbers") };
+        for pole in self.poles.iter().chain([&self.degree_loss]) {
+            if symbols.is_zero(&pole.map_variables(|i| i.saturating_sub(1)), budget)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Which entries of the first rows are zero: no enclosure shows that. As far as rows that are not divided stay short.
@@ -229,7 +280,7 @@ impl SymbolicPolynomial {
 }
 
 /// The ball with no more bits than its digits need.
-fn shortened(b: &Ball, digits: usize) -> Ball {
+pub(super) fn shortened(b: &Ball, digits: usize) -> Ball {
     let least = b.least_magnitude_units();
     if least.is_zero() {
         return b.clone();
@@ -244,7 +295,6 @@ fn shortened(b: &Ball, digits: usize) -> Ball {
 mod tests {
     use super::*;
     use crate::model::{Model, Time};
-    use jurist_algebra::number::Rational;
 
     fn table(characteristic: &str) -> Option<EnclosedTable> {
         let (model, _) = Model::builder(Time::Discrete).characteristic(characteristic).build().unwrap();

@@ -4,19 +4,27 @@
 //! a loop without them is decided by signs of polynomials in symbols: the boundary polynomials are the same, and so is the
 //! half-size pair.
 
+mod basis;
 mod boundary_zeros;
+mod conditions;
 mod count;
+mod interpolation;
 mod jury;
+mod minors;
 mod moving;
 mod pair;
 mod plane;
 mod resultant;
 mod rounded;
+mod rows;
 mod set;
+mod statements;
 
 pub(crate) use boundary_zeros::{Bracket, told_apart, zeros_of_functions};
+pub use conditions::{RealIntervals, SymbolicCondition, SymbolicTest};
 pub use jury::{Comparison, EnclosedCondition, EnclosedRow, EnclosedTable};
 pub use plane::SymbolicPlane;
+pub use rows::SymbolicRow;
 pub use set::symbolic_stable_set;
 
 use super::{AtPoint, Cause, HalfSizePair, Shape};
@@ -219,3 +227,5 @@ const MOST_EXPANDED: u64 = 400;
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_conditions;

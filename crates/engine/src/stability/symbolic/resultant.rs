@@ -1,11 +1,13 @@
 //! The resultant of the half-size pair as a polynomial in the parameter whose coefficients are enclosed, not expanded in the
 //! symbols: they would have too many terms.
 
+use super::basis::Unexpanded;
 use super::count::common_roots;
+use super::interpolation::{bits_for_interpolation, interpolated};
 use super::pair::Pair;
 use crate::stability::{HalfSizePair, Shape};
 use jurist_algebra::ball::{Ball, enclosed_resultant};
-use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 use jurist_algebra::real::Origin;
@@ -78,11 +80,6 @@ impl PairResultant {
         Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "zeros among the coefficients of the resultant"))
     }
 
-    /// Whether the resultant is zero where the parameter is.
-    pub fn vanishes_at_zero(&self) -> bool {
-        self.low > 0
-    }
-
     /// How many roots the pair has in common where the parameter is 0.
     fn common_at_zero(&self, budget: &Budget) -> Result<usize, Exhausted> {
         let first = |list: &[Vec<MultiPoly>]| list.iter().map(|c| c.first().cloned().unwrap_or_default()).collect();
@@ -112,17 +109,14 @@ impl PairResultant {
     /// All coefficients, from values at small multiples of the likely scale.
     fn coefficients(&self, bits: u64) -> Vec<Ball> {
         let count = self.high + 1;
-        let working = bits + 16 + 2 * count as u64 * (u64::from(count.ilog2()) + 1);
+        let working = bits + bits_for_interpolation(count);
         let enclosed = |list: &[Vec<MultiPoly>]| -> Vec<Vec<Ball>> {
             let scaled = |(k, c): (usize, &MultiPoly)| self.symbols.enclose(c, working).shifted(self.scale * k as i64);
             list.iter().map(|c| c.iter().enumerate().map(scaled).collect()).collect()
         };
         let (a, b) = (enclosed(&self.a), enclosed(&self.b));
-        // 0, 1, -1, 2, -2, ...
-        let nodes: Vec<i64> = (0..count as i64).map(|k| if k % 2 == 0 { -k / 2 } else { (k + 1) / 2 }).collect();
-        let value = |node: &i64| {
-            checkpoint(count as u64);
-            let node = Integer::from(*node);
+        let value = |node: i64| {
+            let node = Integer::from(node);
             let at = |list: &[Vec<Ball>]| -> Vec<Ball> {
                 let horner =
                     |c: &Vec<Ball>| c.iter().rev().fold(Ball::zero(working), |sum, c| sum.scaled(&node).add(c));
@@ -130,25 +124,14 @@ impl PairResultant {
             };
             enclosed_resultant(&at(&a), &at(&b))
         };
-        let mut differences: Vec<Ball> = nodes.iter().map(value).collect();
-        for order in 1..count {
-            for k in (order..count).rev() {
-                let step = nodes[k] - nodes[k - order];
-                let difference = differences[k].sub(&differences[k - 1]).divided_by(step.unsigned_abs());
-                differences[k] = if step < 0 { difference.neg() } else { difference };
-            }
-        }
-        // Newton's form in powers.
-        let mut out: Vec<Ball> = Vec::with_capacity(count);
-        for k in (0..count).rev() {
-            let minus = Integer::from(-nodes[k]);
-            out.insert(0, Ball::zero(working));
-            for i in 0..out.len() - 1 {
-                out[i] = out[i].add(&out[i + 1].scaled(&minus));
-            }
-            out[0] = out[0].add(&differences[k]);
-        }
+        let out = interpolated(count, value);
         out.iter().enumerate().map(|(k, c)| c.shifted(-self.scale * k as i64)).collect()
+    }
+}
+
+impl Unexpanded for PairResultant {
+    fn vanishes_at_zero(&self) -> bool {
+        self.low > 0
     }
 }
 

@@ -1,5 +1,6 @@
 //! The exact set of stable parameter values of a loop with transcendental constants.
 
+use super::basis::{Boundary, Split, Unexpanded, Zero};
 use super::moving::moving_stable_set;
 use super::pair::{Common, CommonRoots, Pair, Values};
 use super::resultant::PairResultant;
@@ -7,60 +8,9 @@ use super::{MOST_EXPANDED, SymbolicPolynomial, Table};
 use crate::stability::{AtPoint, Cause, Causes, End, Range, Shape, StableInterval, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::multivariate::are_coprime_in;
-use jurist_algebra::poly::{Domain, MultiPoly, isolate_real_roots_in};
 use jurist_algebra::real::{Real, rational_between};
-use jurist_algebra::symbols::{EnclosedPoly, Function, SymbolicPoly, Symbols, enclosed_roots, merged};
+use jurist_algebra::symbols::{Function, SymbolicPoly, Symbols};
 use std::sync::Arc;
-
-/// A polynomial in the parameter whose coefficients are numbers.
-enum Condition {
-    /// A polynomial over symbols.
-    Symbolic(SymbolicPoly),
-    /// A resultant that is not expanded.
-    Resultant(Arc<PairResultant>),
-}
-
-impl Condition {
-    fn vanishes_at(&self, x: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
-        match self {
-            Condition::Symbolic(p) => p.vanishes_at(x, budget),
-            Condition::Resultant(p) if x.is_zero() => Ok(p.vanishes_at_zero()),
-            Condition::Resultant(p) => p.vanishes_at(x, budget),
-        }
-    }
-
-    fn roots(&self, range: &Range, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
-        let (lower, upper) = (range.lower.as_ref(), range.upper.as_ref());
-        let p = match self {
-            Condition::Symbolic(p) => return p.real_roots_in(lower, upper, budget),
-            Condition::Resultant(p) => p,
-        };
-        let mut found = enclosed_roots(&(Arc::clone(p) as Arc<dyn EnclosedPoly>), lower, upper, budget)?;
-        let inside = lower.is_none_or(Rational::is_negative) && upper.is_none_or(|u| u.sign().is_gt());
-        if p.vanishes_at_zero() && inside {
-            found = merged(found, vec![Real::from(Rational::ZERO)], budget)?;
-        }
-        Ok(found)
-    }
-}
-
-/// A boundary condition and the polynomials it is made of.
-struct Boundary {
-    cause: Cause,
-    condition: Condition,
-    /// Which polynomials of the basis divide it.
-    parts: Vec<usize>,
-}
-
-/// The boundary conditions, and the pairwise coprime polynomials they are made of.
-type Split = (Vec<Boundary>, Vec<Condition>);
-
-/// A zero of the boundary polynomials, and from which polynomial of the basis it comes.
-struct Zero {
-    value: Real,
-    parts: Vec<usize>,
-}
 
 /// The exact stable set of a loop with one parameter and transcendental constants over an open range.
 ///
@@ -103,17 +53,16 @@ pub(super) fn set_over(
     most: u64,
     budget: &Budget,
 ) -> Result<StableSet, Exhausted> {
-    let Some(found) = boundaries(p, symbols, region, most, budget)? else {
+    let Some(split) = boundaries(p, symbols, region, most, budget)? else {
         return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
     };
-    let (boundaries, basis) = found;
     budget.step("isolating the boundaries' zeros");
-    let zeros = zeros(&boundaries, &basis, range, budget)?;
+    let zeros = split.zeros(range, budget)?;
     let common = (p.formal_degree > 1).then(|| {
         let pair = Arc::new(Pair::of(&p.pair(region)));
         CommonRoots::new(pair, Arc::clone(symbols) as Arc<dyn Values>)
     });
-    let examiner = Examiner { p, range, boundaries: &boundaries, common, budget };
+    let examiner = Examiner { p, range, boundaries: &split.boundaries, common, budget };
     let values = zeros.iter().map(|z| z.value.clone()).collect();
     let at = |sample: &Rational| p.at(sample, region, budget);
     let end = |place: Place<'_>, is_between: bool| match place {
@@ -191,99 +140,26 @@ fn boundaries(
     budget: &Budget,
 ) -> Result<Option<Split>, Exhausted> {
     let Some(conditions) = p.conditions(region, most, budget)? else { return Ok(None) };
-    let mut found: Vec<(Cause, SymbolicPoly)> = Vec::new();
-    let mut resultant = None;
+    let mut expanded: Vec<(Cause, SymbolicPoly)> = Vec::new();
+    let mut enclosed: Vec<(Cause, Arc<dyn Unexpanded>)> = Vec::new();
     for (cause, function) in conditions {
         budget.check()?;
         match function {
             Function::Polynomial(polynomial) => {
                 let Some(polynomial) = SymbolicPoly::new(&polynomial, symbols, budget)? else { return Ok(None) };
-                found.push((cause, polynomial));
+                expanded.push((cause, polynomial));
             }
             Function::Resultant { .. } => {
                 let pair = Arc::new(Pair::of(&p.pair(region)));
-                resultant = Some((cause, Arc::new(PairResultant::new(&pair, symbols, budget)?)));
+                enclosed.push((cause, Arc::new(PairResultant::new(&pair, symbols, budget)?)));
             }
         }
     }
-    let rests: Vec<MultiPoly> = found.iter().map(|(_, b)| b.rest().clone()).collect();
-    let basis = budget.enter(|| coprime(&rests, &[0]))?;
-    let mut boundaries = Vec::with_capacity(found.len());
-    for (cause, polynomial) in found {
-        let divides = |part: &MultiPoly| {
-            polynomial.rest() == part
-                || (!are_coprime_in(polynomial.rest(), part, 0) && polynomial.rest().gcd(part).degree_in(0) > 0)
-        };
-        let parts = budget.enter(|| (0..basis.len()).filter(|&k| divides(&basis[k])).collect())?;
-        boundaries.push(Boundary { cause, condition: Condition::Symbolic(polynomial), parts });
-    }
-    let mut parts = Vec::with_capacity(basis.len());
-    for part in &basis {
-        // A factor of a polynomial whose content is not zero has none that is.
-        let Some(part) = SymbolicPoly::new(part, symbols, budget)? else { return Ok(None) };
-        parts.push(Condition::Symbolic(part));
-    }
-    if let Some((cause, resultant)) = resultant {
-        boundaries.push(Boundary {
-            cause,
-            condition: Condition::Resultant(Arc::clone(&resultant)),
-            parts: vec![parts.len()],
-        });
-        parts.push(Condition::Resultant(resultant));
-    }
-    Ok(Some((boundaries, parts)))
-}
-
-/// Square-free, pairwise coprime polynomials of which all given ones, square-free themselves, are products, as far as factors
-/// are concerned in which one of `unknowns` occurs.
-pub(super) fn coprime(polynomials: &[MultiPoly], unknowns: &[usize]) -> Vec<MultiPoly> {
-    let varies = |p: &MultiPoly| unknowns.iter().any(|&j| p.degree_in(j) > 0);
-    let mut basis: Vec<MultiPoly> = Vec::new();
-    for p in polynomials {
-        let mut part = p.clone();
-        let mut k = 0;
-        while k < basis.len() && varies(&part) {
-            if !unknowns.iter().all(|&j| are_coprime_in(&part, &basis[k], j)) {
-                let common = part.gcd(&basis[k]).primitive_over_integers();
-                if varies(&common) {
-                    let rest = basis[k].div_exact(&common).expect("a gcd divides");
-                    part = part.div_exact(&common).expect("a gcd divides");
-                    basis[k] = common;
-                    if varies(&rest) {
-                        basis.push(rest);
-                    }
-                }
-            }
-            k += 1;
-        }
-        if varies(&part) {
-            basis.push(part);
-        }
-    }
-    basis
-}
-
-/// All zeros in the range, ascending.
-fn zeros(boundaries: &[Boundary], basis: &[Condition], range: &Range, budget: &Budget) -> Result<Vec<Zero>, Exhausted> {
-    let (lower, upper) = (range.lower.as_ref(), range.upper.as_ref());
-    let mut all: Vec<Real> = Vec::new();
-    for boundary in boundaries {
-        let Condition::Symbolic(polynomial) = &boundary.condition else { continue };
-        let roots = isolate_real_roots_in(polynomial.algebraic(), lower, upper, budget)?;
-        all = merged(all, roots.into_iter().map(Real::from).collect(), budget)?;
-    }
-    let mut from: Vec<(usize, Real)> = Vec::new();
-    for (k, part) in basis.iter().enumerate() {
-        let roots = part.roots(range, budget)?;
-        from.extend(roots.iter().map(|root| (k, root.clone())));
-        all = merged(all, roots, budget)?;
-    }
-    let part_of = |value: &Real| from.iter().filter(|(_, root)| root.is_same(value)).map(|(k, _)| *k).collect();
-    Ok(all.into_iter().map(|value| Zero { parts: part_of(&value), value }).collect())
+    Split::new(expanded, enclosed, symbols, budget).map(Some)
 }
 
 /// A rational number inside of a cell.
-fn sample(cell: &[Option<Real>], budget: &Budget) -> Result<Rational, Exhausted> {
+pub(super) fn sample(cell: &[Option<Real>], budget: &Budget) -> Result<Rational, Exhausted> {
     match cell {
         [Some(lower), Some(upper)] => Ok(rational_between(lower, upper, budget)?.expect("the ends differ")),
         [Some(lower), None] => budget.enter(|| lower.rational_above()),
@@ -315,19 +191,8 @@ impl Examiner<'_> {
 
     /// At a zero of the boundary polynomials; `None` where nothing happens that matters between two stable cells.
     fn at_zero(&self, zero: &Zero, is_between: bool) -> Result<Option<End>, Exhausted> {
-        let mut vanishes = Vec::new();
-        for boundary in self.boundaries {
-            let by_part = boundary.parts.iter().any(|k| zero.parts.contains(k));
-            let by_root = match (&boundary.condition, zero.value.algebraic()) {
-                (Condition::Symbolic(p), Some(x)) => x.sign_of(p.algebraic().poly()).is_eq(),
-                _ => false,
-            };
-            let by_value = match zero.value.exact() {
-                Some(exact) if !by_part && !by_root => boundary.condition.vanishes_at(&exact, self.budget)?,
-                _ => false,
-            };
-            vanishes.push(by_part || by_root || by_value);
-        }
+        let vanishes = self.boundaries.iter().map(|boundary| boundary.has(zero, self.budget));
+        let vanishes = vanishes.collect::<Result<Vec<bool>, Exhausted>>()?;
         self.end(&zero.value, &vanishes, is_between)
     }
 

@@ -1,3 +1,4 @@
+use super::basis::Unexpanded;
 use super::set::set_over;
 use super::*;
 use crate::stability::{End, Range, RootCount, StableSet};
