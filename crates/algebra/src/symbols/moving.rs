@@ -317,7 +317,9 @@ impl MovingSymbols {
         let width = root.place.upper() - root.place.lower();
         let bits = SHORT_BITS + 8 + width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
         let place = budget.enter(|| root.enclose(bits, None))?;
-        if let Some(short) = simplest_between(place.lower(), place.upper())
+        // The zero may be an end of its place, or all of it.
+        let around = Rational::dyadic(&Integer::ONE, bits);
+        if let Some(short) = simplest_between(&(place.lower() - &around), &(place.upper() + &around))
             && short.numerator().bit_length() + short.denominator().bit_length() < SHORT_BITS
             && self.vanishes_at(f, &short, budget)?
         {

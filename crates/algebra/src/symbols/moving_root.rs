@@ -44,7 +44,12 @@ impl Enclosing for MovingRoot {
             let at_middle = at_middle.as_ref().map(Series::coefficients);
             let sign = at_middle.and_then(|c| c[0].sign()).filter(|s| s.is_ne());
             let (Some([value, slope]), Some(sign), true) = (at_middle, sign, lo < middle && middle < hi) else {
-                working *= 2;
+                // The middle is the zero, or nearly.
+                let nearer = at_middle.and_then(|c| self.around_zero(&point, &c[0], &Ball::between(&lo, &hi, working)));
+                match nearer.filter(|n| n.upper() - n.lower() <= (&hi - &lo) * Rational::dyadic(&Integer::ONE, 1)) {
+                    Some(nearer) => (lo, hi) = (nearer.lower().max(lo), nearer.upper().min(hi)),
+                    None => working *= 2,
+                }
                 continue;
             };
             if sign.is_gt() == rising {
@@ -91,6 +96,14 @@ impl Enclosing for MovingRoot {
 }
 
 impl MovingRoot {
+    /// Where the zero is by the interval form of Newton's step from a point with this value; `None` where the derivative may vanish between.
+    fn around_zero(&self, point: &Ball, value: &Ball, whole: &Ball) -> Option<Ball> {
+        let one = Ball::from_integer(&Integer::ONE, whole.bits());
+        let values = self.symbols.series(&Series::linear(whole, &one, 2))?;
+        let step = value.div(&self.scheme.at(&values).coefficients()[1])?;
+        point.sub(&step).intersection(whole)
+    }
+
     /// Whether the function is negative below the zero.
     fn rises(&self) -> bool {
         let mut working = FIRST_BITS;

@@ -192,3 +192,18 @@ fn zeros_beside_an_end_are_found_where_the_parameter_is_negative() {
         }
     }
 }
+
+/// Where a middle of its bracket is the zero no sign is ever known there.
+#[test]
+fn a_zero_in_the_middle_of_its_bracket_is_refined_without_end_of_bits() {
+    let budget = Budget::unlimited();
+    let t = RationalFunction::variable(0);
+    let symbols = Arc::new(MovingSymbols::new(vec![("X".into(), Definition::Exponential(-&t))]));
+    // exp(-T) - 1 + T^3, zero at T = 0 between bounds that are as far away.
+    let [t, x] = [0, 1].map(MultiPoly::variable);
+    let f = Function::from(x.minus(&MultiPoly::one()).plus(&t.times(&t).times(&t)));
+    let (lower, upper) = (number("-1/2"), number("1/2"));
+    let found = symbols.zeros_in(&f, &lower, &upper, &number("1/3"), &budget).unwrap();
+    assert_eq!((found.zeros.len(), found.undecided.len()), (1, 0));
+    assert_eq!(found.zeros[0].exact(), Some(Rational::ZERO));
+}
