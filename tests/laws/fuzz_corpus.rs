@@ -41,3 +41,8 @@ fn interval_answer() {
 fn certificate_check() {
     replay("certificate_check", jurist_fuzzing::certificate_check);
 }
+
+#[test]
+fn sampled_against_float_roots() {
+    replay("sampled_against_float_roots", jurist_fuzzing::sampled_against_float_roots);
+}

@@ -10,10 +10,12 @@ pub mod endless;
 mod isolation;
 mod model;
 mod number;
+mod sampled;
 mod stability;
 
 pub use certificate::certificate_check;
 pub use isolation::isolation_against_sturm;
 pub use model::model_parser;
 pub use number::number_parser;
+pub use sampled::sampled_against_float_roots;
 pub use stability::{interval_answer, jury_against_count};
