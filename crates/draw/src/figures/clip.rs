@@ -13,7 +13,7 @@ impl Window {
     }
 
     /// The part of a segment inside the window, by the method of Liang and Barsky [LiangBarsky1984](jurist_algebra::bibliography#liangbarsky1984).
-    fn cut(&self, a: (f64, f64), b: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
+    pub fn cut(&self, a: (f64, f64), b: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
         let (dx, dy) = (b.0 - a.0, b.1 - a.1);
         let (mut from, mut to) = (0.0f64, 1.0f64);
         for (direction, room) in
@@ -64,5 +64,15 @@ mod tests {
         assert_eq!(pieces, vec![vec![(0.0, 0.0), (1.0, 1.0)], vec![(3.0, 1.0), (4.0, 0.0), (10.0, 0.0)]]);
         assert!(window.pieces(&[(0.0, 5.0), (10.0, 5.0)]).is_empty());
         assert!(window.pieces(&[(f64::NAN, 0.0), (1.0, 0.0)]).is_empty());
+    }
+
+    #[test]
+    fn segments_cross_a_window_or_not() {
+        let window = Window { x: (10.0, 30.0), y: (10.0, 20.0) };
+        let crosses = |a, b| window.cut(a, b).is_some();
+        assert!(crosses((0.0, 0.0), (40.0, 30.0)) && crosses((15.0, 15.0), (16.0, 15.0)));
+        assert!(crosses((20.0, -50.0), (20.0, 50.0)));
+        assert!(!crosses((0.0, 0.0), (9.0, 40.0)) && !crosses((0.0, 25.0), (40.0, 25.0)));
+        assert!(!crosses((0.0, 15.0), (5.0, 15.0)));
     }
 }

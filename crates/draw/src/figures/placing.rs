@@ -1,5 +1,6 @@
 //! Where words stand so that nothing is drawn through them.
 
+use super::clip::Window;
 use crate::scene::{Point, Rectangle, width};
 
 /// Room around words.
@@ -72,7 +73,8 @@ impl Occupied {
 
     /// How much a rectangle covers: a curve counts as much as ten lines across.
     fn covered(&self, r: &Rectangle) -> f64 {
-        let crossed = |points: &Vec<Point>| points.windows(2).any(|pair| crosses(r, pair[0], pair[1]));
+        let window = Window { x: (r.left, r.right()), y: (r.top, r.bottom()) };
+        let crossed = |points: &Vec<Point>| points.windows(2).any(|pair| window.cut(pair[0], pair[1]).is_some());
         let curves = self.curves.iter().filter(|points| crossed(points)).count();
         let overlaps =
             |l: f64, t: f64, w: f64, h: f64| l < r.right() && r.left < l + w && t < r.bottom() && r.top < t + h;
@@ -85,40 +87,11 @@ impl Occupied {
     }
 }
 
-/// Whether a segment has a point in a rectangle, by cutting it at the sides ([LiangBarsky1984]).
-///
-/// [LiangBarsky1984]: https://doi.org/10.1145/357332.357333
-fn crosses(r: &Rectangle, a: Point, b: Point) -> bool {
-    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
-    let (mut from, mut to) = (0.0f64, 1.0f64);
-    for (p, q) in [(-dx, a.0 - r.left), (dx, r.right() - a.0), (-dy, a.1 - r.top), (dy, r.bottom() - a.1)] {
-        if p == 0.0 {
-            if q < 0.0 {
-                return false;
-            }
-        } else if p < 0.0 {
-            from = from.max(q / p);
-        } else {
-            to = to.min(q / p);
-        }
-    }
-    from <= to
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     const PLOT: Rectangle = Rectangle { left: 0.0, top: 0.0, width: 400.0, height: 300.0 };
-
-    #[test]
-    fn segments_cross_a_rectangle_or_not() {
-        let r = Rectangle { left: 10.0, top: 10.0, width: 20.0, height: 10.0 };
-        assert!(crosses(&r, (0.0, 0.0), (40.0, 30.0)) && crosses(&r, (15.0, 15.0), (16.0, 15.0)));
-        assert!(crosses(&r, (20.0, -50.0), (20.0, 50.0)));
-        assert!(!crosses(&r, (0.0, 0.0), (9.0, 40.0)) && !crosses(&r, (0.0, 25.0), (40.0, 25.0)));
-        assert!(!crosses(&r, (0.0, 15.0), (5.0, 15.0)));
-    }
 
     /// A steep curve right of the target, and one through the wanted place.
     #[test]

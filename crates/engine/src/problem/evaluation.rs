@@ -181,15 +181,7 @@ impl Algebra {
                 ..d.clone()
             })
         });
-        let undefined = polynomial.is_none().then(|| "an expression divides by zero".to_owned());
-        Algebra {
-            undefined: self.undefined.clone().or(undefined),
-            polynomial,
-            formal_degree: self.formal_degree,
-            sample_time: self.sample_time.as_ref().and_then(left),
-            closed_loop: None,
-            symbols: self.symbols.clone(),
-        }
+        self.moved(polynomial, self.sample_time.as_ref().and_then(left), self.symbols.clone())
     }
 
     /// The same where there are symbols, which stay variables after the one.
@@ -209,14 +201,24 @@ impl Algebra {
             let is_defined = !poles.iter().any(MultiPoly::is_zero);
             is_defined.then(|| CharacteristicPolynomial { variables, coefficients, poles, ..d.clone() })
         });
+        self.moved(polynomial, self.sample_time.as_ref().and_then(left), symbols.unwrap_or_default())
+    }
+
+    /// The algebra of the same loop on a line.
+    fn moved(
+        &self,
+        polynomial: Option<CharacteristicPolynomial>,
+        sample_time: Option<RationalFunction>,
+        symbols: Symbols,
+    ) -> Algebra {
         let undefined = polynomial.is_none().then(|| "an expression divides by zero".to_owned());
         Algebra {
             undefined: self.undefined.clone().or(undefined),
             polynomial,
             formal_degree: self.formal_degree,
-            sample_time: self.sample_time.as_ref().and_then(left),
+            sample_time,
             closed_loop: None,
-            symbols: symbols.unwrap_or_default(),
+            symbols,
         }
     }
 }

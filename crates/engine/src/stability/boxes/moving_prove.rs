@@ -265,9 +265,8 @@ impl Part {
             }
         }
         let own = &self.functions[..coefficients];
-        let bounds = [own.iter().map(|f| vec![f.slack.clone()]).collect::<Vec<_>>()].concat();
-        let slack =
-            Bundle { width: coefficients, degrees: Vec::new(), terms: vec![(Vec::new(), bounds.concat())] }.pair();
+        let bounds = own.iter().map(|f| f.slack.clone()).collect();
+        let slack = Bundle { width: coefficients, degrees: Vec::new(), terms: vec![(Vec::new(), bounds)] }.pair();
         let slack: Vec<Integer> = slack.terms[0].1.iter().map(Integer::abs).collect();
         let pair = bundle(own, sides.len()).pair();
         let (tensor, _) = Tensor::of_pair_within(&pair, &slack, &local, FrequencyScale(2 * scale));

@@ -1,7 +1,7 @@
 //! Determinants in the coefficients of a polynomial whose signs are the conditions of Jury and of Routh.
 
 use super::basis::Unexpanded;
-use super::interpolation::{bits_for_interpolation, interpolated};
+use super::interpolation::{coefficients_of, likely_scale};
 use jurist_algebra::ball::{Ball, determinant_enclosed};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::{Matrix, determinant_bareiss};
@@ -163,7 +163,7 @@ impl EnclosedMinor {
         let high = parts.iter().map(degree).sum();
         let symbols = Arc::clone(symbols);
         let mut out = EnclosedMinor { minor, symbols, parts, low: 0, high, scale: 0 };
-        out.scale = budget.enter(|| out.likely_scale())?;
+        out.scale = budget.enter(|| likely_scale(out.parts.iter().flatten(), &out.symbols, FIRST_BITS))?;
         let mut bits = FIRST_BITS;
         let mut proved = (0, 0);
         while bits <= MOST_BITS {
@@ -224,33 +224,14 @@ impl EnclosedMinor {
         Ok(true)
     }
 
-    /// The exponent of two at which the terms with the parameter are about as large as those without.
-    fn likely_scale(&self) -> i64 {
-        let length = |k: usize| {
-            let parts = self.parts.iter().flatten().filter_map(|c| c.get(k));
-            parts.map(|p| self.symbols.enclose(p, FIRST_BITS).magnitude_units().bit_length()).max().unwrap_or(0) as i64
-        };
-        match (length(0), length(1)) {
-            (0, _) | (_, 0) => 0,
-            (without, with) => without - with,
-        }
-    }
-
-    /// All coefficients, from values at small multiples of the likely scale.
+    /// All coefficients.
     fn coefficients(&self, bits: u64) -> Vec<Ball> {
-        let count =
-            self.parts.iter().map(|row| row.iter().map(Vec::len).max().unwrap_or(1).max(1) - 1).sum::<usize>() + 1;
-        let working = bits + bits_for_interpolation(count);
-        let scaled = |(k, c): (usize, &MultiPoly)| self.symbols.enclose(c, working).shifted(self.scale * k as i64);
-        let entry = |c: &Vec<MultiPoly>| -> Vec<Ball> { c.iter().enumerate().map(scaled).collect() };
-        let rows: Vec<Vec<Vec<Ball>>> = self.parts.iter().map(|row| row.iter().map(entry).collect()).collect();
-        let value = |node: i64| {
-            let node = Integer::from(node);
-            let horner = |c: &Vec<Ball>| c.iter().rev().fold(Ball::zero(working), |sum, c| sum.scaled(&node).add(c));
-            determinant_enclosed(rows.iter().map(|row| row.iter().map(horner).collect()).collect())
-        };
-        let found = interpolated(count, value);
-        found.iter().enumerate().map(|(k, c)| c.shifted(-self.scale * k as i64)).collect()
+        let size = self.parts.len();
+        let degree = |row: &Vec<Vec<MultiPoly>>| row.iter().map(Vec::len).max().unwrap_or(1).max(1) - 1;
+        let count = self.parts.iter().map(degree).sum::<usize>() + 1;
+        coefficients_of(self.parts.iter().flatten(), &self.symbols, (self.scale, count, bits), |entries| {
+            determinant_enclosed(entries.chunks(size).map(<[Ball]>::to_vec).collect())
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::basis::Unexpanded;
 use super::count::common_roots;
-use super::interpolation::{bits_for_interpolation, interpolated};
+use super::interpolation::{coefficients_of, likely_scale};
 use super::pair::Pair;
 use crate::stability::{HalfSizePair, Shape};
 use jurist_algebra::ball::{Ball, enclosed_resultant};
@@ -57,7 +57,7 @@ impl PairResultant {
         let high = (a.len() - 1) * in_b + (b.len() - 1) * in_a;
         let (pair, symbols) = (Arc::clone(pair), Arc::clone(symbols));
         let mut out = PairResultant { a, b, pair, symbols, low: 0, high, scale: 0 };
-        out.scale = budget.enter(|| out.likely_scale())?;
+        out.scale = budget.enter(|| likely_scale(out.a.iter().chain(&out.b), &out.symbols, FIRST_BITS))?;
         let (mut bits, mut known) = (FIRST_BITS, None);
         while bits <= MOST_BITS {
             let all = budget.enter(|| out.coefficients(bits))?;
@@ -94,38 +94,13 @@ impl PairResultant {
         common_degree(last(&self.a, in_a), last(&self.b, in_b), &self.symbols, self.pair.region, budget)
     }
 
-    /// The exponent of two at which the terms with the parameter are about as large as those without.
-    fn likely_scale(&self) -> i64 {
-        let length = |k: usize| {
-            let parts = self.a.iter().chain(&self.b).filter_map(|c| c.get(k));
-            parts.map(|p| self.symbols.enclose(p, FIRST_BITS).magnitude_units().bit_length()).max().unwrap_or(0) as i64
-        };
-        match (length(0), length(1)) {
-            (0, _) | (_, 0) => 0,
-            (without, with) => without - with,
-        }
-    }
-
-    /// All coefficients, from values at small multiples of the likely scale.
+    /// All coefficients.
     fn coefficients(&self, bits: u64) -> Vec<Ball> {
-        let count = self.high + 1;
-        let working = bits + bits_for_interpolation(count);
-        let enclosed = |list: &[Vec<MultiPoly>]| -> Vec<Vec<Ball>> {
-            let scaled = |(k, c): (usize, &MultiPoly)| self.symbols.enclose(c, working).shifted(self.scale * k as i64);
-            list.iter().map(|c| c.iter().enumerate().map(scaled).collect()).collect()
-        };
-        let (a, b) = (enclosed(&self.a), enclosed(&self.b));
-        let value = |node: i64| {
-            let node = Integer::from(node);
-            let at = |list: &[Vec<Ball>]| -> Vec<Ball> {
-                let horner =
-                    |c: &Vec<Ball>| c.iter().rev().fold(Ball::zero(working), |sum, c| sum.scaled(&node).add(c));
-                list.iter().map(horner).collect()
-            };
-            enclosed_resultant(&at(&a), &at(&b))
-        };
-        let out = interpolated(count, value);
-        out.iter().enumerate().map(|(k, c)| c.shifted(-self.scale * k as i64)).collect()
+        let entries = self.a.iter().chain(&self.b);
+        coefficients_of(entries, &self.symbols, (self.scale, self.high + 1, bits), |values| {
+            let (a, b) = values.split_at(self.a.len());
+            enclosed_resultant(a, b)
+        })
     }
 }
 
