@@ -39,10 +39,43 @@ fn kharitonov(low: &[Rational], high: &[Rational]) -> bool {
     })
 }
 
-/// Within a part in `2^19` of an end, about the width that brackets have: where the worst point is inside of a side, a corner next to it may be in the bracket.
-fn near(end: &jurist_engine::stability::End, x: &Rational) -> bool {
-    let room = x * &Rational::dyadic(&jurist_algebra::number::Integer::ONE, 19);
-    end.value.compare_rational(&(x - &room)).is_ge()
+/// Whether `end` is not below `upper`, an upper end of a bracket whose relative width may be `gap`: the bracket is left as soon as it is so narrow.
+fn reaches(end: &jurist_engine::stability::End, upper: &Rational, gap: &Rational) -> bool {
+    end.value.compare_rational(&(upper - &(upper * gap))).is_ge()
+}
+
+/// The loop `characteristic` along the ray from the nominal point of a box to one of its corners, `r` times as far.
+fn ray(parameters: &[(i64, i64)], mask: usize, characteristic: &str) -> Model {
+    let lines: String = parameters
+        .iter()
+        .enumerate()
+        .map(|(i, (nominal, percent))| {
+            let sign = if mask >> i & 1 == 1 { '+' } else { '-' };
+            format!("p{i} = '{nominal}/10*(1 {sign} r*{percent}/100)'\n")
+        })
+        .collect();
+    load(&format!(
+        "time = 'continuous'\n[constants]\n{lines}[parameters]\nr = {{ nominal = 0 }}\n[loop]\ncharacteristic = '{characteristic}'\n"
+    ))
+}
+
+const MULTI_AFFINE: &str = "s^3 + (1 + p0*p1)*s^2 + (p0 + p1*p2)*s + p0*p2 + p1";
+
+/// The search ended at a point beyond the worst corner, as near to the proof as asked.
+#[test]
+fn a_closer_bracket_comes_down_to_the_end_on_the_ray_to_the_worst_corner() {
+    let parameters = [(22, 35), (8, 5), (18, 55)];
+    let model = continuous(&parameters, MULTI_AFFINE);
+    let set = ray(&parameters, 1, MULTI_AFFINE).ask().free("r").stable_set(&Budget::unlimited()).unwrap();
+    let end = set.value().intervals()[0].upper.as_ref().unwrap();
+    for gap in ["1/1000", "1/1000000"] {
+        let gap: Rational = gap.parse().unwrap();
+        let request = ToleranceRequest::of_model(&model).gap(gap.clone());
+        let answer = model.ask().tolerance(&request, &Budget::unlimited()).unwrap();
+        let factor = answer.value().factor.as_ref().unwrap();
+        assert!(end.value.compare_rational(&factor.lower).is_gt());
+        assert!(reaches(end, factor.upper.as_ref().unwrap(), &gap));
+    }
 }
 
 proptest! {
@@ -74,7 +107,7 @@ proptest! {
         percent in prop::collection::vec(5i64..90, 3),
     ) {
         let parameters: Vec<(i64, i64)> = nominal.into_iter().zip(percent).collect();
-        let model = continuous(&parameters, "s^3 + (1 + p0*p1)*s^2 + (p0 + p1*p2)*s + p0*p2 + p1");
+        let model = continuous(&parameters, MULTI_AFFINE);
         let answer = asked(&model);
         let sides: Vec<[Rational; 2]> = answer.value().sides.iter().map(|s| s.at(&Rational::ONE)).collect();
         let grid: Vec<Vec<Rational>> = (0..27).map(|k| {
@@ -104,31 +137,24 @@ proptest! {
         percent in prop::collection::vec(5i64..90, 3),
         mask in 0..8usize,
     ) {
-        let characteristic = "s^3 + (1 + p0*p1)*s^2 + (p0 + p1*p2)*s + p0*p2 + p1";
         let parameters: Vec<(i64, i64)> = nominal.iter().copied().zip(percent.iter().copied()).collect();
-        let answer = asked(&continuous(&parameters, characteristic));
+        let answer = asked(&continuous(&parameters, MULTI_AFFINE));
         let Some(factor) = &answer.value().factor else { return Ok(()) };
-            let lines: String = parameters.iter().enumerate().map(|(i, (nominal, percent))| {
-                let sign = if mask >> i & 1 == 1 { '+' } else { '-' };
-                format!("p{i} = '{nominal}/10*(1 {sign} r*{percent}/100)'\n")
-            }).collect();
-            let model = load(&format!(
-                "time = 'continuous'\n[constants]\n{lines}[parameters]\nr = {{ nominal = 0 }}\n[loop]\ncharacteristic = '{characteristic}'\n"
-            ));
-            let set = model.ask().free("r").stable_set(&Budget::unlimited()).unwrap();
-            let around = set.value().intervals().iter().find(|i| {
-                i.lower.as_ref().is_none_or(|e| e.value.sign().is_lt()) && i.upper.as_ref().is_none_or(|e| e.value.sign().is_gt())
-            });
-            let Some(end) = &around.expect("stable at the nominal point").upper else { return Ok(()) };
-            prop_assert!(end.value.compare_rational(&factor.lower).is_gt(), "{}", mask);
-            prop_assert!(factor.upper.as_ref().is_some_and(|upper| end.value.compare_rational(upper).is_ge() || near(end, upper)));
+        let set = ray(&parameters, mask, MULTI_AFFINE).ask().free("r").stable_set(&Budget::unlimited()).unwrap();
+        let around = set.value().intervals().iter().find(|i| {
+            i.lower.as_ref().is_none_or(|e| e.value.sign().is_lt()) && i.upper.as_ref().is_none_or(|e| e.value.sign().is_gt())
+        });
+        let Some(end) = &around.expect("stable at the nominal point").upper else { return Ok(()) };
+        prop_assert!(end.value.compare_rational(&factor.lower).is_gt(), "{}", mask);
+        let gap = Rational::new(1.into(), 1000.into());
+        prop_assert!(factor.upper.as_ref().is_some_and(|upper| reaches(end, upper, &gap)));
     }
 
     /// The search began at other corners; the proof does not come through near to the one that is worst.
     #[test]
     fn a_worst_corner_that_the_search_missed_is_found_from_where_the_proof_ended(percent in 63i64..66) {
         let parameters = [(22, percent), (9, 72), (6, 79)];
-        let answer = asked(&continuous(&parameters, "s^3 + (1 + p0*p1)*s^2 + (p0 + p1*p2)*s + p0*p2 + p1"));
+        let answer = asked(&continuous(&parameters, MULTI_AFFINE));
         let factor = answer.value().factor.as_ref().expect("a factor");
         let upper = factor.upper.as_ref().expect("a point that is not stable");
         let ratio = upper / &factor.lower;
@@ -243,7 +269,7 @@ proptest! {
     ) {
         let of = |share: i64| {
             let parameters: Vec<(i64, i64)> = nominal.iter().zip(&percent).map(|(&n, &p)| (n, p * share / 10)).collect();
-            asked(&continuous(&parameters, "s^3 + (1 + p0*p1)*s^2 + (p0 + p1*p2)*s + p0*p2 + p1"))
+            asked(&continuous(&parameters, MULTI_AFFINE))
         };
         let (inner, outer) = (of(share), of(10));
         if outer.value().decision.is_stable() {
