@@ -3,6 +3,7 @@
 use super::around_nominal;
 use super::part::{Part, Parts, Work};
 use crate::page::{Table, math, paragraph};
+use jurist_algebra::limits::parallel_map;
 use jurist_algebra::number::{Rational, parse_number, to_decimal};
 use jurist_engine::answer::{Answer, PointVerdict};
 use jurist_engine::problem::{Problem, Question};
@@ -47,15 +48,13 @@ impl Shown {
 /// The stable set of every parameter that is not set.
 pub(super) fn find(question: &Question, parts: &Parts<'_>) -> Vec<Limits> {
     let names = question.model().parameters().iter().map(|p| p.name.clone());
-    names
-        .filter(|name| !question.values_set().contains_key(name))
-        .map(|name| {
-            let question = question.clone().free(&name);
-            let set = parts.part(&format!("limits of {name}"), Work::Any, |budget| question.stable_set(budget));
-            let shown = set.as_ref().map_or_else(|_| Shown::default(), Shown::of);
-            Limits { name, set, shown }
-        })
-        .collect()
+    let names: Vec<String> = names.filter(|name| !question.values_set().contains_key(name)).collect();
+    parallel_map(names, |name: String| {
+        let question = question.clone().free(&name);
+        let set = parts.part(&format!("limits of {name}"), Work::Any, |budget| question.stable_set(budget));
+        let shown = set.as_ref().map_or_else(|_| Shown::default(), Shown::of);
+        Limits { name, set, shown }
+    })
 }
 
 /// `stable: all 6 roots are inside the unit circle`, or why nothing is known.
