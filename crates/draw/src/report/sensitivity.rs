@@ -1,5 +1,6 @@
 //! What moves the limits: every one computed again, exactly, with one number a tenth smaller or larger.
 
+use super::limit::CHANGE_DIGITS;
 use super::limits::Limits;
 use super::part::{Missing, Part, Parts, Work};
 use super::{around_nominal, limit_text, percent_change};
@@ -178,7 +179,8 @@ impl Near {
                 reached = next.clone();
             }
         }
-        Ok(Some(found.map(|end| end.map(|end| end.value))))
+        // Refined once for all that is printed of them.
+        Ok(Some(found.map(|end| end.map(|end| end.value.refined_to_digits(CHANGE_DIGITS)))))
     }
 }
 
