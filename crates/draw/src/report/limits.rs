@@ -3,7 +3,7 @@
 use super::around_nominal;
 use super::part::{Part, Parts, Work};
 use crate::page::{Table, math, paragraph};
-use jurist_algebra::limits::parallel_map;
+use jurist_algebra::limits::{join, parallel_map};
 use jurist_algebra::number::{Rational, parse_number, to_decimal};
 use jurist_engine::answer::{Answer, PointVerdict};
 use jurist_engine::problem::{Problem, Question};
@@ -39,7 +39,7 @@ struct Shown {
 
 impl Shown {
     fn of(answer: &Answer<StableSet>) -> Shown {
-        let [exact, rounded] = [DIGITS, PLACES].map(|digits| ends(answer, digits));
+        let (exact, rounded) = join(|| ends(answer, DIGITS), || ends(answer, PLACES));
         let nearest = nearest(answer, &rounded);
         Shown { exact, rounded, nearest }
     }
