@@ -135,6 +135,14 @@ impl MovingPolynomial {
         Some(self.series_at(&series)?.iter().map(|s| s.coefficients()[0].middle_units()).collect())
     }
 
+    /// The coefficients in the half plane at a point; `None` where something may not be defined.
+    pub(super) fn enclosed(&self, point: &[Rational]) -> Option<Vec<Ball>> {
+        let series: Vec<Series> =
+            point.iter().map(|x| Series::constant(&Ball::from_rational(x, POINT_BITS), 1)).collect();
+        let found = self.series_at(&series)?;
+        Some(found[..self.coefficients()].iter().map(|s| s.coefficients()[0].clone()).collect())
+    }
+
     /// Whether the loop is stable at a point; `None` where that is not seen, as where exponents are very large.
     pub(super) fn seen_at(&self, point: &[Rational]) -> Option<bool> {
         match self.numbers(point) {

@@ -158,6 +158,19 @@ impl MovingPolynomial {
         KEPT_BITS.into_iter().find(fits).unwrap_or(KEPT_BITS[KEPT_BITS.len() - 1])
     }
 
+    /// Whether no root comes to the boundary in a box, taken as one part, and nothing that must not vanish changes its sign.
+    pub(super) fn keeps_count(
+        &self,
+        sides: &[[Rational; 2]],
+        known: (&[Sign], i64),
+        closing: (Closing, usize),
+        budget: &Budget,
+    ) -> Result<bool, Exhausted> {
+        checkpoint(1000);
+        let Some(part) = self.part(sides) else { return Ok(false) };
+        Ok(part.proved(sides, &self.inside, self.coefficients(), known, closing, budget)?.is_ok())
+    }
+
     /// Decides one box with at most so many parts, cells of them closed in this way.
     pub(super) fn proved(
         &self,
@@ -177,7 +190,14 @@ impl MovingPolynomial {
             let mut last = sides.clone();
             let curvature = match &part {
                 None => None,
-                Some(part) => match part.proved(&sides, &self.inside, self.coefficients(), known, closing, budget)? {
+                Some(part) => match part.proved(
+                    &sides,
+                    &self.inside,
+                    self.coefficients(),
+                    known,
+                    (closing, CELLS_IN_PART),
+                    budget,
+                )? {
                     Ok(count) => {
                         proved += count;
                         continue;
@@ -223,14 +243,14 @@ impl MovingPolynomial {
 }
 
 impl Part {
-    /// The number of cells that prove the part; else the cell in which that is not seen.
+    /// The number of cells, of at most so many, that prove the part; else the cell in which that is not seen.
     fn proved(
         &self,
         sides: &[[Rational; 2]],
         inside: &[usize],
         coefficients: usize,
         (reference, scale): (&[Sign], i64),
-        closing: Closing,
+        (closing, most): (Closing, usize),
         budget: &Budget,
     ) -> Result<Result<usize, Vec<[Rational; 2]>>, Exhausted> {
         let mut local = sides.to_vec();
@@ -259,7 +279,7 @@ impl Part {
                 if if sign.is_gt() { low > error } else { high < -error } {
                     continue;
                 }
-                let axis = cell.tensor.best_axis().filter(|_| !is_blurred(&cell) && cells < CELLS_IN_PART);
+                let axis = cell.tensor.best_axis().filter(|_| !is_blurred(&cell) && cells < most);
                 let Some(axis) = axis else { return Ok(Err(back(cell.sides(&local)))) };
                 stack.extend(cell.halves(axis));
             }
@@ -284,7 +304,7 @@ impl Part {
             };
             let axis = hint.or_else(|| cell.tensor.best_axis());
             let axis = axis.filter(|_| {
-                nodes + stack.len() < CELLS_IN_PART && !is_blurred(&cell) && !is_clear_but_for_slack(&cell)
+                nodes + stack.len() < most && !is_blurred(&cell) && !is_clear_but_for_slack(&cell)
             });
             let Some(axis) = axis else { return Ok(Err(back(cell.sides(&local)))) };
             let [low, high] = cell.halves(axis);
