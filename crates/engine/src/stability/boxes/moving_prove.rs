@@ -64,6 +64,11 @@ struct Part {
 impl MovingPolynomial {
     /// What is known in a part; `None` where something may not be defined.
     fn part(&self, sides: &[[Rational; 2]]) -> Option<Part> {
+        Some(self.part_of(sides, &self.models(sides)?))
+    }
+
+    /// The parts of all functions over sides of what is inside of functions: other sides do not change them.
+    pub(super) fn models(&self, sides: &[[Rational; 2]]) -> Option<Vec<Vec<MultiTaylorModel>>> {
         let count = self.inside.len();
         let lines: Vec<(Ball, Ball)> = self
             .inside
@@ -80,7 +85,11 @@ impl MovingPolynomial {
         for (&i, model) in self.inside.iter().zip(moving) {
             parameters[i] = model;
         }
-        let parts = self.parts_at(&parameters)?;
+        self.parts_at(&parameters)
+    }
+
+    /// What is known in a part, from the functions' models.
+    fn part_of(&self, sides: &[[Rational; 2]], parts: &[Vec<MultiTaylorModel>]) -> Part {
         let most = |beside: &[u32]| {
             let powers = beside.iter().zip(sides).filter(|(e, _)| **e > 0);
             powers.fold(Rational::ONE, |product, (&e, [low, high])| {
@@ -91,7 +100,7 @@ impl MovingPolynomial {
         let mut curvature = vec![Integer::ZERO; sides.len()];
         let mut functions: Vec<Known> = Vec::new();
         let mut sized: Vec<Vec<(Vec<u32>, Integer, Integer)>> = Vec::new();
-        for (f, parts) in self.functions.iter().zip(&parts) {
+        for (f, parts) in self.functions.iter().zip(parts) {
             let mut slack = Integer::ZERO;
             let mut own = Vec::new();
             for ((beside, _), model) in f.iter().zip(parts) {
@@ -129,7 +138,7 @@ impl MovingPolynomial {
                 }
             }
         }
-        Some(Part { functions, curvature })
+        Part { functions, curvature }
     }
 
     /// Whether a term is kept: one of at most the first degree, or not much smaller than the greatest.
@@ -162,12 +171,12 @@ impl MovingPolynomial {
     pub(super) fn keeps_count(
         &self,
         sides: &[[Rational; 2]],
+        models: &[Vec<MultiTaylorModel>],
         known: (&[Sign], i64),
         closing: (Closing, usize),
         budget: &Budget,
     ) -> Result<bool, Exhausted> {
-        checkpoint(1000);
-        let Some(part) = self.part(sides) else { return Ok(false) };
+        let part = self.part_of(sides, models);
         Ok(part.proved(sides, &self.inside, self.coefficients(), known, closing, budget)?.is_ok())
     }
 
