@@ -7,8 +7,8 @@ use crate::answer::Answer;
 use crate::error::{Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::boxes::{
-    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, Family, LargestFactor, MOST_PARAMETERS, Side,
-    ToleranceProblem, ray,
+    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, Family, LargestFactor, MOST_PARAMETERS, Side, ToleranceProblem,
+    ray,
 };
 use crate::stability::{AtPoint, Range};
 use jurist_algebra::limits::Budget;

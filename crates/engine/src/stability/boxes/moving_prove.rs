@@ -312,9 +312,8 @@ impl Part {
                 Err(hint) => hint,
             };
             let axis = hint.or_else(|| cell.tensor.best_axis());
-            let axis = axis.filter(|_| {
-                nodes + stack.len() < most && !is_blurred(&cell) && !is_clear_but_for_slack(&cell)
-            });
+            let axis =
+                axis.filter(|_| nodes + stack.len() < most && !is_blurred(&cell) && !is_clear_but_for_slack(&cell));
             let Some(axis) = axis else { return Ok(Err(back(cell.sides(&local)))) };
             let [low, high] = cell.halves(axis);
             stack.extend([high, low]);

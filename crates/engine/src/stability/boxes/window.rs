@@ -41,6 +41,11 @@ impl MovingPolynomial {
         otherwise: impl Fn(&Place) -> Option<Seen> + Sync,
     ) -> BoxMap {
         assert_eq!(self.parameters(), 2, "a window has two sides");
+        if self.functions[self.formal_degree() + 1..].iter().any(Vec::is_empty) {
+            // Undefined, a root on the boundary, or degree lost, for all values of both.
+            let nowhere = Seen::Decided(BoxVerdict::Unstable { outside: None });
+            return subdivided(window, goal, budget, |_| Ok(nowhere));
+        }
         let known = Known { p: self, models: Memory::default(), points: Memory::default() };
         subdivided(window, goal, budget, |place| {
             let Window { x, y } = place.window(window);

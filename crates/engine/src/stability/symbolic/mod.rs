@@ -21,8 +21,8 @@ mod set;
 mod statements;
 
 pub(crate) use boundary_zeros::{Bracket, told_apart, zeros_of_functions};
-pub(crate) use count::certain_count;
 pub use conditions::{RealIntervals, SymbolicCondition, SymbolicTest};
+pub(crate) use count::certain_count;
 pub use jury::{Comparison, EnclosedCondition, EnclosedRow, EnclosedTable};
 pub use plane::SymbolicPlane;
 pub use rounded::Rounding;
