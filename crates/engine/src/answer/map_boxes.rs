@@ -166,6 +166,17 @@ impl Problem {
                 if let Some(plane) = self.delayed_plane(budget)? {
                     return Ok(found(plane.boxes(&window_around(self, request)?, &request.undecided, &share)?));
                 }
+                if let Some(family) = self.moving_family(budget)? {
+                    let (window, goal) = (window_around(self, request)?, &request.undecided);
+                    let boxes = match family.is_inside_of_both() {
+                        true => family.boxes(&window, goal, &share, |_| None),
+                        false => {
+                            let plane = self.symbolic_plane(budget)?.expect("one parameter is inside of functions");
+                            family.boxes(&window, goal, &share, plane.at_lower_end(&window))
+                        }
+                    };
+                    return Ok(found(boxes));
+                }
                 if let Some(plane) = self.symbolic_plane(budget)? {
                     return Ok(found(plane.boxes(&window_around(self, request)?, &request.undecided, &share)?));
                 }

@@ -16,7 +16,7 @@ mod substitution;
 pub(crate) use delayed::refused;
 pub use delayed::{BaseDelay, DelayedLoop};
 pub use evaluation::Algebra;
-pub(crate) use over_symbols::{fixed_symbols, moving_symbols, parametric_symbols};
+pub(crate) use over_symbols::{fixed_symbols, moving_symbols};
 pub use question::Question;
 pub use region::{Bound, DECAY, RADIUS, Region};
 pub use resolved::{Free, Problem};

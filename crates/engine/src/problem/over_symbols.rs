@@ -3,8 +3,10 @@
 use super::{Algebra, Problem};
 use crate::error::{Diagnostic, Error};
 use crate::model::{self, Symbol};
+use crate::stability::boxes::MovingPolynomial;
 use crate::stability::{SymbolicPlane, SymbolicPolynomial};
 use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::poly::RationalFunction;
 use jurist_algebra::symbols::{Definition, MovingSymbols, ParametricSymbols, Symbols};
 use std::sync::Arc;
@@ -103,6 +105,23 @@ impl Problem {
     }
 }
 
+impl Problem {
+    /// The loop in all its free names where one of them is inside of functions and there is no dead time.
+    pub(crate) fn moving_family(&self, budget: &Budget) -> Result<Option<MovingPolynomial>, Error> {
+        let algebra = self.algebra_over_symbols(budget)?;
+        let is_moving = algebra.symbols().is_moving() && algebra.symbols().delays().is_empty();
+        let Some(d) = algebra.polynomial().filter(|_| is_moving) else { return Ok(None) };
+        let symbols = parametric_symbols(algebra.symbols())?;
+        // Where the sample time is not positive there is no loop, and where an argument divides by zero no function.
+        let time = algebra.sample_time().into_iter().flat_map(|t| [t.numerator(), t.denominator()]);
+        let below = symbols.arguments().map(RationalFunction::denominator);
+        let poles = d.poles.iter().chain(time).chain(below).cloned().collect();
+        let d = CharacteristicPolynomial { poles, ..d.clone() };
+        let free = self.free().len();
+        Ok(Some(budget.enter(|| MovingPolynomial::new(&d, free, symbols, self.shape()))?))
+    }
+}
+
 /// The table of symbols that do not depend on a kept name; their arguments are in symbols alone.
 pub(crate) fn fixed_symbols(symbols: &model::Symbols) -> Result<Symbols, Error> {
     let mut table = Symbols::new();
@@ -119,7 +138,7 @@ pub(crate) fn moving_symbols(symbols: &model::Symbols) -> Result<MovingSymbols, 
 }
 
 /// The table of symbols where several names are kept, on which they may depend.
-pub(crate) fn parametric_symbols(symbols: &model::Symbols) -> Result<ParametricSymbols, Error> {
+fn parametric_symbols(symbols: &model::Symbols) -> Result<ParametricSymbols, Error> {
     Ok(ParametricSymbols::new(definitions(symbols)?))
 }
 

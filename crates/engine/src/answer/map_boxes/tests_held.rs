@@ -2,6 +2,7 @@
 
 use super::tests::{boxes, load, number, slices_are_stable_sets};
 use super::*;
+use crate::answer::Verdict;
 use crate::stability::plane::boxes::{BoxVerdict, PlaneBox};
 
 #[test]
@@ -66,15 +67,49 @@ fn a_root_that_stays_on_the_circle_leaves_nothing_stable() {
 }
 
 #[test]
-fn two_parameters_inside_of_functions_are_refused() {
-    let model = load(include_str!("../../../../../examples/dc-servo.toml"));
-    let side = Range::between(Some(number("0.001")), Some(number("0.1")));
-    let request = BoxRequest::new([side.clone(), side], number("1/2"));
-    let problem = model.ask().free("T").free("T_m").plane_problem().unwrap();
-    match problem.map_by(MapMethod::Auto, &request, 6, &Budget::unlimited()) {
-        Err(Error::Refused(list)) => {
-            assert_eq!(list.diagnostics()[0].message, "'T' and 'T_m' are both inside of functions, as behind a hold");
+fn a_root_that_stays_on_the_circle_leaves_nothing_stable_where_functions_have_parameters() {
+    for text in ["(z - 1)*(z - exp(-a)*K)", "(z - 1)*(z - exp(-a)*K*exp(-K))"] {
+        let text = format!("time = 'discrete'\n[parameters]\nK = {{}}\na = {{}}\n[loop]\ncharacteristic = '{text}'");
+        let map = boxes(&load(&text), [("K", "1/2", "1"), ("a", "0", "1")], "0.2");
+        assert_eq!(map.areas.unstable, map.window.area(), "{text}");
+    }
+}
+
+#[test]
+fn slices_of_a_map_of_two_parameters_inside_of_functions_are_stable_sets() {
+    let model = load(include_str!("../../../../../examples/drive-hold.toml"));
+    let (constant, time) = (("L_a", "0.002", "0.2"), ("T", "0.0001", "0.001"));
+    slices_are_stable_sets(&model, [constant, time], "0.2", &["0.0004"]);
+    slices_are_stable_sets(&model, [time, constant], "0.2", &["0.01"]);
+}
+
+/// Points at random in decided boxes, counted by the loop's own polynomial there.
+#[test]
+fn points_of_boxes_have_their_root_count() {
+    let model = load(include_str!("../../../../../examples/drive-hold.toml"));
+    for names in [["K_pwm", "L_a"], ["L_a", "T"]] {
+        let ends = |name: &str| match name {
+            "K_pwm" => ("10", "900"),
+            "L_a" => ("0.002", "0.2"),
+            _ => ("0.0001", "0.001"),
+        };
+        let axes = names.map(|name| (name, ends(name).0, ends(name).1));
+        let map = boxes(&model, axes, "0.1");
+        let mut seen = [0, 0];
+        for (k, b) in map.boxes.iter().enumerate() {
+            let inner = |[low, high]: &[Rational; 2], share: usize| {
+                low + &(&(high - low) * &Rational::new((share as i64).into(), 101.into()))
+            };
+            let point = [inner(&b.window.x, 1 + k * 37 % 100), inner(&b.window.y, 1 + k * 53 % 100)];
+            let question = model.ask().set_all(names.iter().map(|n| (*n).to_owned()).zip(point));
+            let found = question.verdict(&Budget::unlimited()).unwrap();
+            match b.verdict {
+                BoxVerdict::Undecided => continue,
+                BoxVerdict::Stable => assert_eq!(found.value().verdict, Verdict::Stable, "{b:?}"),
+                BoxVerdict::Unstable { .. } => assert_ne!(found.value().verdict, Verdict::Stable, "{b:?}"),
+            }
+            seen[usize::from(b.verdict == BoxVerdict::Stable)] += 1;
         }
-        other => panic!("{other:?}"),
+        assert!(seen.iter().all(|n| *n > 5), "{names:?} {seen:?}");
     }
 }

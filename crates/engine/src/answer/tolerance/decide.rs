@@ -5,16 +5,15 @@ use super::required::{nearer, worse};
 use super::{ToleranceAnswer, ToleranceRequest, WorstEnd};
 use crate::answer::Answer;
 use crate::error::{Diagnostic, Error};
-use crate::problem::{Problem, parametric_symbols};
+use crate::problem::Problem;
 use crate::stability::boxes::{
-    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, Family, LargestFactor, MOST_PARAMETERS, MovingPolynomial, Side,
-    ToleranceProblem, ray,
+    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, Family, LargestFactor, MOST_PARAMETERS, Side, ToleranceProblem,
+    ray,
 };
 use crate::stability::{AtPoint, Range};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{RationalFunction, RealAlgebraic};
+use jurist_algebra::poly::RealAlgebraic;
 use std::sync::Arc;
 
 /// The part of the time that may be spent on the exact end of the worst line.
@@ -36,15 +35,8 @@ impl Problem {
             let decision = BoxDecision::NotStable { witness: None };
             return Ok(self.answered(sides, AtPoint::Undefined, decision));
         };
-        if algebra.symbols().is_moving() && algebra.symbols().delays().is_empty() {
+        if let Some(p) = self.moving_family(budget)? {
             refuse_beside_functions(request)?;
-            let symbols = parametric_symbols(algebra.symbols())?;
-            // Where the sample time is not positive there is no loop, and where an argument divides by zero no function.
-            let time = algebra.sample_time().into_iter().flat_map(|t| [t.numerator(), t.denominator()]);
-            let below = symbols.arguments().map(RationalFunction::denominator);
-            let poles = d.poles.iter().chain(time).chain(below).cloned().collect();
-            let d = CharacteristicPolynomial { poles, ..d.clone() };
-            let p = budget.enter(|| MovingPolynomial::new(&d, sides.len(), symbols, self.shape()))?;
             return self.tolerance_of(&p, &Truth::of_points(self), sides, request, budget);
         }
         let truth = Truth::of(self, budget)?;

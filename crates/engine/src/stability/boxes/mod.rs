@@ -26,6 +26,7 @@ mod tangent;
 mod tensor;
 mod tree;
 mod volume;
+mod window;
 
 pub use exact::{CriticalCell, ExactProof, Place};
 pub use factor::{BoxDecision, LargestFactor, ToleranceProblem, Witness};

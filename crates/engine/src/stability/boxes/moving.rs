@@ -116,23 +116,37 @@ impl MovingPolynomial {
 
     /// All functions at series of the parameters.
     fn series_at(&self, parameters: &[Series]) -> Option<Vec<Series>> {
-        let parts = self.parts_at(parameters)?;
-        let whole = |(f, parts): (&Vec<(Vec<u32>, MultiPoly)>, Vec<Series>)| {
+        Some(self.series_of(parameters, &self.parts_at(parameters)?))
+    }
+
+    /// The functions from their parts.
+    fn series_of(&self, parameters: &[Series], parts: &[Vec<Series>]) -> Vec<Series> {
+        let whole = |(f, parts): (&Vec<(Vec<u32>, MultiPoly)>, &Vec<Series>)| {
             let zero = Series::constant(&Ball::zero(POINT_BITS), parameters[0].terms());
             f.iter().zip(parts).fold(zero, |sum, ((beside, _), part)| {
                 let powers = beside.iter().zip(parameters).filter(|(e, _)| **e > 0);
-                sum.add(&powers.fold(part, |product, (&e, x)| product.mul(&x.power(u64::from(e)))))
+                sum.add(&powers.fold(part.clone(), |product, (&e, x)| product.mul(&x.power(u64::from(e)))))
             })
         };
-        Some(self.functions.iter().zip(parts).map(whole).collect())
+        self.functions.iter().zip(parts).map(whole).collect()
     }
 
     /// The middles of all functions at a point, in units of the last place.
     fn numbers(&self, point: &[Rational]) -> Option<Vec<Integer>> {
         checkpoint(1000);
-        let series: Vec<Series> =
-            point.iter().map(|x| Series::constant(&Ball::from_rational(x, POINT_BITS), 1)).collect();
-        Some(self.series_at(&series)?.iter().map(|s| s.coefficients()[0].middle_units()).collect())
+        Some(self.series_at(&constants(point))?.iter().map(|s| s.coefficients()[0].middle_units()).collect())
+    }
+
+    /// What the functions have at a point that is inside of functions: parts that other parameters do not change.
+    pub(super) fn parts_at_point(&self, point: &[Rational]) -> Option<Vec<Vec<Series>>> {
+        checkpoint(1000);
+        self.parts_at(&constants(point))
+    }
+
+    /// All functions at a point, enclosed, from these parts.
+    pub(super) fn enclosed(&self, point: &[Rational], parts: &[Vec<Series>]) -> Vec<Ball> {
+        let found = self.series_of(&constants(point), parts);
+        found.iter().map(|s| s.coefficients()[0].clone()).collect()
     }
 
     /// Whether the loop is stable at a point; `None` where that is not seen, as where exponents are very large.
@@ -193,6 +207,10 @@ impl MovingPolynomial {
         }
         Bundle { width: n, degrees: vec![1; self.parameters], terms: terms.into_iter().collect() }.pair()
     }
+}
+
+fn constants(point: &[Rational]) -> Vec<Series> {
+    point.iter().map(|x| Series::constant(&Ball::from_rational(x, POINT_BITS), 1)).collect()
 }
 
 impl Family for MovingPolynomial {

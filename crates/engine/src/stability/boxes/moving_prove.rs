@@ -64,6 +64,11 @@ struct Part {
 impl MovingPolynomial {
     /// What is known in a part; `None` where something may not be defined.
     fn part(&self, sides: &[[Rational; 2]]) -> Option<Part> {
+        Some(self.part_of(sides, &self.models(sides)?))
+    }
+
+    /// The parts of all functions over sides of what is inside of functions: other sides do not change them.
+    pub(super) fn models(&self, sides: &[[Rational; 2]]) -> Option<Vec<Vec<MultiTaylorModel>>> {
         let count = self.inside.len();
         let lines: Vec<(Ball, Ball)> = self
             .inside
@@ -80,7 +85,11 @@ impl MovingPolynomial {
         for (&i, model) in self.inside.iter().zip(moving) {
             parameters[i] = model;
         }
-        let parts = self.parts_at(&parameters)?;
+        self.parts_at(&parameters)
+    }
+
+    /// What is known in a part, from the functions' models.
+    fn part_of(&self, sides: &[[Rational; 2]], parts: &[Vec<MultiTaylorModel>]) -> Part {
         let most = |beside: &[u32]| {
             let powers = beside.iter().zip(sides).filter(|(e, _)| **e > 0);
             powers.fold(Rational::ONE, |product, (&e, [low, high])| {
@@ -91,7 +100,7 @@ impl MovingPolynomial {
         let mut curvature = vec![Integer::ZERO; sides.len()];
         let mut functions: Vec<Known> = Vec::new();
         let mut sized: Vec<Vec<(Vec<u32>, Integer, Integer)>> = Vec::new();
-        for (f, parts) in self.functions.iter().zip(&parts) {
+        for (f, parts) in self.functions.iter().zip(parts) {
             let mut slack = Integer::ZERO;
             let mut own = Vec::new();
             for ((beside, _), model) in f.iter().zip(parts) {
@@ -129,7 +138,7 @@ impl MovingPolynomial {
                 }
             }
         }
-        Some(Part { functions, curvature })
+        Part { functions, curvature }
     }
 
     /// Whether a term is kept: one of at most the first degree, or not much smaller than the greatest.
@@ -158,6 +167,19 @@ impl MovingPolynomial {
         KEPT_BITS.into_iter().find(fits).unwrap_or(KEPT_BITS[KEPT_BITS.len() - 1])
     }
 
+    /// Whether no root comes to the boundary in a box, taken as one part, and nothing that must not vanish changes its sign.
+    pub(super) fn keeps_count(
+        &self,
+        sides: &[[Rational; 2]],
+        models: &[Vec<MultiTaylorModel>],
+        known: (&[Sign], i64),
+        closing: (Closing, usize),
+        budget: &Budget,
+    ) -> Result<bool, Exhausted> {
+        let part = self.part_of(sides, models);
+        Ok(part.proved(sides, &self.inside, self.coefficients(), known, closing, budget)?.is_ok())
+    }
+
     /// Decides one box with at most so many parts, cells of them closed in this way.
     pub(super) fn proved(
         &self,
@@ -177,7 +199,14 @@ impl MovingPolynomial {
             let mut last = sides.clone();
             let curvature = match &part {
                 None => None,
-                Some(part) => match part.proved(&sides, &self.inside, self.coefficients(), known, closing, budget)? {
+                Some(part) => match part.proved(
+                    &sides,
+                    &self.inside,
+                    self.coefficients(),
+                    known,
+                    (closing, CELLS_IN_PART),
+                    budget,
+                )? {
                     Ok(count) => {
                         proved += count;
                         continue;
@@ -223,14 +252,14 @@ impl MovingPolynomial {
 }
 
 impl Part {
-    /// The number of cells that prove the part; else the cell in which that is not seen.
+    /// The number of cells, of at most so many, that prove the part; else the cell in which that is not seen.
     fn proved(
         &self,
         sides: &[[Rational; 2]],
         inside: &[usize],
         coefficients: usize,
         (reference, scale): (&[Sign], i64),
-        closing: Closing,
+        (closing, most): (Closing, usize),
         budget: &Budget,
     ) -> Result<Result<usize, Vec<[Rational; 2]>>, Exhausted> {
         let mut local = sides.to_vec();
@@ -259,7 +288,7 @@ impl Part {
                 if if sign.is_gt() { low > error } else { high < -error } {
                     continue;
                 }
-                let axis = cell.tensor.best_axis().filter(|_| !is_blurred(&cell) && cells < CELLS_IN_PART);
+                let axis = cell.tensor.best_axis().filter(|_| !is_blurred(&cell) && cells < most);
                 let Some(axis) = axis else { return Ok(Err(back(cell.sides(&local)))) };
                 stack.extend(cell.halves(axis));
             }
@@ -283,9 +312,8 @@ impl Part {
                 Err(hint) => hint,
             };
             let axis = hint.or_else(|| cell.tensor.best_axis());
-            let axis = axis.filter(|_| {
-                nodes + stack.len() < CELLS_IN_PART && !is_blurred(&cell) && !is_clear_but_for_slack(&cell)
-            });
+            let axis =
+                axis.filter(|_| nodes + stack.len() < most && !is_blurred(&cell) && !is_clear_but_for_slack(&cell));
             let Some(axis) = axis else { return Ok(Err(back(cell.sides(&local)))) };
             let [low, high] = cell.halves(axis);
             stack.extend([high, low]);

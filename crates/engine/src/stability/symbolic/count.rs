@@ -81,7 +81,7 @@ fn plus(a: RootCount, b: RootCount) -> RootCount {
 
 /// The count that all polynomials with coefficients in the balls have, if no root of any of them is on the boundary, no two are
 /// mirror images in it, and none is at infinity: no root then crosses the boundary between any two of them.
-pub(super) fn certain_count(coefficients: &[Ball], region: Shape) -> Option<RootCount> {
+pub(crate) fn certain_count(coefficients: &[Ball], region: Shape) -> Option<RootCount> {
     let n = coefficients.len() - 1;
     let bits = coefficients[0].bits();
     let certain = |b: &Ball| !b.contains_zero();

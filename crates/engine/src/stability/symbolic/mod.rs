@@ -22,6 +22,7 @@ mod statements;
 
 pub(crate) use boundary_zeros::{Bracket, told_apart, zeros_of_functions};
 pub use conditions::{RealIntervals, SymbolicCondition, SymbolicTest};
+pub(crate) use count::certain_count;
 pub use jury::{Comparison, EnclosedCondition, EnclosedRow, EnclosedTable};
 pub use plane::SymbolicPlane;
 pub use rounded::Rounding;

@@ -133,6 +133,16 @@ impl SymbolicPlane {
         }
     }
 
+    /// What is seen of boxes at the lower end of the parameter that symbols depend on, where functions vanish in ways that only
+    /// their series from that end tell; nothing of others.
+    pub(crate) fn at_lower_end(&self, window: &Window) -> impl Fn(&Place) -> Option<Seen> + Sync {
+        let tiles = match &self.table {
+            Table::Moving { symbols, axis } if !self.is_never_stable => Some(Tiles::new(self, window, symbols, *axis)),
+            _ => None,
+        };
+        move |place| tiles.as_ref().filter(|tiles| place.at[tiles.axis] == 0).map(|tiles| tiles.look(place))
+    }
+
     /// The function over a window where symbols are numbers.
     fn over_numbers(&self, window: &Window, symbols: &Symbols) -> PlaneFunction {
         let (coefficients, poles) = self.in_shares(window, &[0, 1]);
