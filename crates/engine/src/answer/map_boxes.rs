@@ -5,7 +5,7 @@ use crate::error::{Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::Range;
 use crate::stability::plane::boxes::{BoxMap, Window, stability_boxes};
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
 
@@ -67,7 +67,7 @@ impl BoxRequest {
 /// A window of two parameters cut into boxes.
 ///
 /// ```
-/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::limits::{Budget, Exhausted};
 /// use jurist_algebra::number::Rational;
 /// use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes};
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
@@ -94,12 +94,14 @@ pub struct MapBoxes {
     pub goal: Rational,
     /// The boxes.
     pub boxes: BoxMap,
+    /// Why there is no exact map, where that was looked for first.
+    pub no_exact_map: Option<Exhausted>,
 }
 
 /// A map by either method.
 ///
 /// ```
-/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::limits::{Budget, Exhausted};
 /// use jurist_algebra::number::Rational;
 /// use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes};
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
@@ -132,7 +134,7 @@ impl Problem {
 
     /// The stable region in the plane of the two free parameters by a method of choice.
     ///
-    /// Loops with dead time or with other functions, as behind a hold, have boxes only.
+    /// Loops with dead time, and those with functions, as behind a hold, that one of the parameters is inside of, have boxes only.
     ///
     /// Cost: of the exact decomposition that of [`Problem::map`]; of boxes
     /// ([ZettlerGarloff1998](jurist_algebra::bibliography#zettlergarloff1998)) about `1/h` of side `h` along each
@@ -156,17 +158,28 @@ impl Problem {
                 Ok(MapOrBoxes::Exact(Box::new(map)))
             };
             let share = || budget.share(SUBDIVISION.0, SUBDIVISION.1);
-            let found = |boxes: BoxMap| {
-                let value = MapBoxes { goal: request.undecided.clone(), boxes };
+            let found = |boxes: BoxMap, no_exact_map: Option<Exhausted>| {
+                let value = MapBoxes { goal: request.undecided.clone(), boxes, no_exact_map };
                 MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value)))
             };
             if method != MapMethod::Exact {
-                let share = share();
                 if let Some(plane) = self.delayed_plane(budget)? {
-                    return Ok(found(plane.boxes(&window_of(self, request)?, &request.undecided, &share)?));
+                    return Ok(found(plane.boxes(&window_of(self, request)?, &request.undecided, &share())?, None));
+                }
+                let mut no_exact_map = None;
+                let has_symbols = !self.algebra_over_symbols(budget)?.symbols().is_empty();
+                if method == MapMethod::Auto && has_symbols && self.is_outside_of_functions(budget)? {
+                    // Without a window there are no boxes to leave time for.
+                    let has_window = window_of(self, request).is_ok();
+                    let part = if has_window { &budget.share(1, 2) } else { budget };
+                    match exact(part) {
+                        Err(Error::Stopped(stopped)) if has_window => no_exact_map = Some(stopped),
+                        answered => return answered,
+                    }
                 }
                 if let Some(plane) = self.symbolic_plane(budget)? {
-                    return Ok(found(plane.boxes(&window_of(self, request)?, &request.undecided, &share)?));
+                    let boxes = plane.boxes(&window_of(self, request)?, &request.undecided, &share())?;
+                    return Ok(found(boxes, no_exact_map));
                 }
             }
             let window = match (method, window_of(self, request)) {
@@ -179,13 +192,14 @@ impl Problem {
                 // Without a window, or undefined everywhere: that needs no boxes.
                 return exact(budget);
             };
+            let mut no_exact_map = None;
             if method == MapMethod::Auto {
                 match exact(&budget.share(1, 2)) {
-                    Err(Error::Stopped(_)) => {}
+                    Err(Error::Stopped(stopped)) => no_exact_map = Some(stopped),
                     answered => return answered,
                 }
             }
-            Ok(found(stability_boxes(p, &window, self.shape(), &request.undecided, &share())?))
+            Ok(found(stability_boxes(p, &window, self.shape(), &request.undecided, &share())?, no_exact_map))
         })?
     }
 }

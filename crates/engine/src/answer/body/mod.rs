@@ -7,7 +7,7 @@ pub use extent::{Extreme, Extremes, Stretch, StretchEnd};
 use super::{Answer, Map};
 use crate::error::{Diagnostic, Error};
 use crate::problem::{Problem, Question};
-use crate::stability::AlgebraicInterval;
+use crate::stability::RealInterval;
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Rational, evenly_spaced};
 use std::sync::Arc;
@@ -88,7 +88,7 @@ pub struct BodySlice {
     /// The map, the same as that of a question with this value set; stopped where the budget ended before.
     pub map: Result<Answer<Map>, Exhausted>,
     /// How far its regions together reach in either parameter; `None` without a region and without a map.
-    pub extent: Option<[AlgebraicInterval; 2]>,
+    pub extent: Option<[RealInterval; 2]>,
 }
 
 impl BodySlice {

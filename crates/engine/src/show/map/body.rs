@@ -1,13 +1,12 @@
 //! Slices of the stable region in three parameters, for people.
 
-use super::super::intervals::{heading, set_lines, undecided_text};
+use super::super::intervals::{extent_line, heading, undecided_text};
 use super::super::layout::{Columns, short, visible};
 use super::super::real;
 use super::super::region::goal_or_stable;
 use super::text::{axis_text, mechanism, never_stable_text, place};
 use crate::answer::{Answer, Body, BodySlice, Extreme, Extremes, Stretch, StretchEnd};
 use crate::problem::Problem;
-use crate::stability::{AlgebraicInterval, IntervalSet};
 use jurist_algebra::number::to_decimal;
 
 /// Digits in the table of slices.
@@ -54,7 +53,7 @@ impl Answer<Body> {
                     cells.push(map.value().decomposition.regions.len().to_string());
                     cells.extend(match (&slice.extent, map.value().never_stable_cause) {
                         (Some(extent), _) => {
-                            [(x, &extent[0]), (y, &extent[1])].map(|(axis, i)| span(&axis.name, i)).to_vec()
+                            [(x, &extent[0]), (y, &extent[1])].map(|(axis, i)| extent_line(&axis.name, i, TABLE_DIGITS)).to_vec()
                         }
                         (None, Some(cause)) => vec![format!("{goal} nowhere{}", never_stable_text(cause))],
                         (None, None) => vec![format!("{goal} nowhere")],
@@ -180,8 +179,4 @@ fn points_text(problem: &Problem) -> String {
         "stable" => "stable points".to_owned(),
         goal => format!("points with {goal}"),
     }
-}
-
-fn span(name: &str, extent: &AlgebraicInterval) -> String {
-    set_lines(name, &IntervalSet::from_iter([extent.clone()]), TABLE_DIGITS).remove(0)
 }

@@ -20,6 +20,7 @@ mod rows;
 mod set;
 mod statements;
 
+pub(crate) use basis::zeros_of_all;
 pub(crate) use boundary_zeros::{Bracket, told_apart, zeros_of_functions};
 pub use conditions::{RealIntervals, SymbolicCondition, SymbolicTest};
 pub use jury::{Comparison, EnclosedCondition, EnclosedRow, EnclosedTable};
@@ -116,6 +117,19 @@ impl SymbolicPolynomial {
             poles,
             usual: Rational::ONE,
         }
+    }
+
+    /// From a polynomial without denominators whose coefficients are numbered as in this type, what the leading coefficient vanishes
+    /// with, and the polynomials at whose zeros the loop is undefined.
+    pub(crate) fn from_parts(
+        symbols: &Arc<Symbols>,
+        polynomial: Poly<MultiPoly>,
+        degree_loss: MultiPoly,
+        formal_degree: usize,
+        poles: Vec<MultiPoly>,
+    ) -> Self {
+        let symbols = Table::Fixed(Arc::clone(symbols));
+        SymbolicPolynomial { symbols, polynomial, degree_loss, formal_degree, poles, usual: Rational::ONE }
     }
 
     /// With a usual value of the parameter: where nothing else bounds it, it is looked at up to a multiple of that.
