@@ -1,7 +1,7 @@
 //! The document `jurist/map-boxes/1`.
 
-use super::schema_name;
 use super::map::variables;
+use super::schema_name;
 use super::{Answered, Curve, Exact, MapQuestion};
 use crate::answer::{self, Answer};
 use crate::problem::Problem;

@@ -387,9 +387,10 @@ impl Regions {
             never_stable: map.never_stable,
             never_stable_cause: map.never_stable.then(|| answer.never_stable_cause.map(str::to_owned)),
             curves: map.curves.iter().map(|curve| Curve::new(curve, &variables(problem))).collect(),
-            constants: problem.evaluated().filter(|_| map.has_symbols()).map(|algebra| {
-                algebra.symbols().definitions().into_iter().collect()
-            }),
+            constants: problem
+                .evaluated()
+                .filter(|_| map.has_symbols())
+                .map(|algebra| algebra.symbols().definitions().into_iter().collect()),
             strips: map.strips.iter().map(|s| Strip::new(s, map, problem.axes()[0], digits)).collect(),
             regions: map.regions.iter().enumerate().map(region).collect(),
             required: answer.required.as_ref().map(|found| RequiredInPlane::new(found, digits)),

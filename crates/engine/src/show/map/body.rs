@@ -52,9 +52,9 @@ impl Answer<Body> {
                 Ok(map) => {
                     cells.push(map.value().decomposition.regions.len().to_string());
                     cells.extend(match (&slice.extent, map.value().never_stable_cause) {
-                        (Some(extent), _) => {
-                            [(x, &extent[0]), (y, &extent[1])].map(|(axis, i)| extent_line(&axis.name, i, TABLE_DIGITS)).to_vec()
-                        }
+                        (Some(extent), _) => [(x, &extent[0]), (y, &extent[1])]
+                            .map(|(axis, i)| extent_line(&axis.name, i, TABLE_DIGITS))
+                            .to_vec(),
                         (None, Some(cause)) => vec![format!("{goal} nowhere{}", never_stable_text(cause))],
                         (None, None) => vec![format!("{goal} nowhere")],
                     });

@@ -167,13 +167,7 @@ impl PlanePolynomial {
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out, and where the sign of a constant is not found.
-    pub fn count_at(
-        &self,
-        x: &Rational,
-        y: &Rational,
-        region: Shape,
-        budget: &Budget,
-    ) -> Result<AtPoint, Exhausted> {
+    pub fn count_at(&self, x: &Rational, y: &Rational, region: Shape, budget: &Budget) -> Result<AtPoint, Exhausted> {
         Ok(self.ground.counts(self, x, std::slice::from_ref(y), region, budget)?.swap_remove(0))
     }
 
@@ -301,7 +295,7 @@ fn is_number(p: &MultiPoly) -> bool {
 }
 
 /// Without a factor in which no parameter occurs: of a polynomial that does not vanish it does not either.
-fn without_number(p: &MultiPoly) -> MultiPoly {
+pub(super) fn without_number(p: &MultiPoly) -> MultiPoly {
     if p.variables().iter().all(|&i| i <= Y) {
         return p.clone();
     }

@@ -4,8 +4,8 @@ use super::curves::Curve;
 use super::decompose::{Branch, Strip, branches_at};
 use super::ground::Ground;
 use super::integers::Integers;
-use crate::stability::{Range, RealInterval};
 use crate::stability::interval_set::real_cells;
+use crate::stability::{Range, RealInterval};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::real::Real;
@@ -241,7 +241,13 @@ impl Wall<'_> {
     }
 
     /// Whether no curve meets the horizontal segment.
-    pub fn is_clear(&self, left: &Rational, right: &Rational, y: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
+    pub fn is_clear(
+        &self,
+        left: &Rational,
+        right: &Rational,
+        y: &Rational,
+        budget: &Budget,
+    ) -> Result<bool, Exhausted> {
         for curve in self.curves {
             if !self.ground.is_clear(&curve.polynomial, [left, right], y, budget)? {
                 return Ok(false);

@@ -176,4 +176,3 @@ fn computed(
     };
     Ok(parts.into_iter().filter(|q| q.degree() > 0).collect())
 }
-

@@ -137,13 +137,7 @@ impl Search<'_> {
         Ok(found)
     }
 
-    fn limit_of_cell(
-        &self,
-        strip: usize,
-        cell: usize,
-        wall: &Real,
-        greatest: bool,
-    ) -> Result<Limit, Exhausted> {
+    fn limit_of_cell(&self, strip: usize, cell: usize, wall: &Real, greatest: bool) -> Result<Limit, Exhausted> {
         let end = if greatest { &self.domain[0].upper } else { &self.domain[0].lower };
         let at_domain = end.is_some() && *end == wall.exact();
         let on_wall = &self.strips[strip].lines[usize::from(greatest)];

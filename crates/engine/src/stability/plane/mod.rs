@@ -9,6 +9,7 @@ mod ground;
 mod integers;
 mod layers;
 mod limit;
+mod nodes;
 mod over_symbols;
 mod projection;
 mod query;

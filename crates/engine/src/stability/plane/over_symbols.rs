@@ -3,29 +3,30 @@
 use super::curves::{Curve, PlanePolynomial, X, Y};
 use super::glue::{Links, Wall};
 use super::ground::{Beside, Ground, Projected, put};
+use super::nodes::Nodes;
 use super::touching::links_over_symbols;
-use crate::stability::symbolic::zeros_of_all;
-use crate::stability::{AtPoint, End, HalfSizePair, Range, Shape, SymbolicPolynomial, symbolic_stable_set};
+use crate::stability::symbolic::{zeros_beside_double_ones, zeros_of_all, zeros_of_resultant};
+use crate::stability::{AtPoint, End, Range, Shape, SymbolicPolynomial, symbolic_stable_set};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
-use jurist_algebra::number::{Enclosure, Rational, Sign};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, resultant_formal, subresultant_chain};
+use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, resultant_formal};
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::{Function, SymbolicPoly, Symbols, common_scale};
+use jurist_algebra::symbols::{Function, SymbolicPoly, Symbols, common_scale, merged};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Resultants that may have more terms are not expanded: the map is then not found. Up to here one takes some seconds.
-const MOST_TERMS: u64 = 60_000;
+/// Resultants that may have more terms are not expanded.
+const MOST_TERMS: u64 = 30_000;
 
 /// The polynomials in symbols that are numbers, as variables from 2 on.
 #[derive(Debug)]
 pub(super) struct OverSymbols {
-    symbols: Arc<Symbols>,
+    pub symbols: Arc<Symbols>,
 }
 
 /// A polynomial in one parameter and symbols as the table of these expects it: the parameter is variable 0.
-fn in_one(f: &MultiPoly, parameter: usize) -> MultiPoly {
+pub(super) fn in_one(f: &MultiPoly, parameter: usize) -> MultiPoly {
     f.map_variables(|i| if i == parameter { 0 } else { i.saturating_sub(1) })
 }
 
@@ -51,28 +52,35 @@ impl OverSymbols {
         )
     }
 
-    /// One of the polynomials in `x`, expanded, without factors that are known to be repeated, and these factors.
+    /// One of the polynomials in `x`, expanded, without factors that are known to be repeated, and these factors; `None` where it is
+    /// too long.
     fn projected(
         &self,
         wanted: Projected<'_>,
         curves: &[Curve],
-        nodes: &[MultiPoly],
+        node: Option<&MultiPoly>,
         budget: &Budget,
-    ) -> Result<Vec<SymbolicPoly>, Exhausted> {
+    ) -> Result<Option<Vec<SymbolicPoly>>, Exhausted> {
         budget.check()?;
         let curve = |i: usize| curves[i].polynomial.as_poly_in(Y);
         let expanded = match wanted {
             Projected::Leading(i) => curve(i).leading().cloned().unwrap_or_default(),
             Projected::AtEdge(i, y) => put(&curves[i].polynomial, Y, y),
-            Projected::Discriminant(i) => resultant(&curve(i), &curve(i).derivative(), budget)?,
-            Projected::Resultant(i, j) => resultant(&curve(i), &curve(j), budget)?,
+            Projected::Discriminant(_) | Projected::Resultant(..) => {
+                let [f, g] = operands(wanted, curves);
+                match resultant(&f, &g, budget)? {
+                    Some(found) => found,
+                    None => return Ok(None),
+                }
+            }
         };
         if expanded.is_zero() {
-            return Err(coincide());
+            // The curve is the edge itself.
+            return if let Projected::AtEdge(..) = wanted { Ok(Some(Vec::new())) } else { Err(coincide()) };
         }
         let mut rest = expanded.primitive_over_integers();
         let mut parts = Vec::new();
-        for node in nodes {
+        if let Some(node) = node {
             let before = rest.terms().len();
             while let Some(quotient) = budget.enter(|| rest.div_exact(node))? {
                 rest = quotient;
@@ -83,7 +91,27 @@ impl OverSymbols {
         }
         parts.push(rest);
         let part = |f: &MultiPoly| SymbolicPoly::new(&in_one(f, X), &self.symbols, budget)?.ok_or_else(coincide);
-        parts.iter().map(part).collect()
+        parts.iter().map(part).collect::<Result<Vec<_>, Exhausted>>().map(Some)
+    }
+
+    /// The zeros of one of the polynomials in `x` that is not expanded.
+    fn zeros_unexpanded(
+        &self,
+        wanted: Projected<'_>,
+        curves: &[Curve],
+        nodes: &Nodes,
+        range: &Range,
+        budget: &Budget,
+    ) -> Result<Vec<Real>, Exhausted> {
+        let [a, b] = operands(wanted, curves).map(|f| f.coeffs().iter().map(|c| in_one(c, X)).collect::<Vec<_>>());
+        let double = match wanted {
+            Projected::Discriminant(i) => nodes.on(&curves[i], self, range, budget)?,
+            _ => Vec::new(),
+        };
+        match double.is_empty() {
+            true => zeros_of_resultant(a, b, &self.symbols, range, budget),
+            false => zeros_beside_double_ones(a, b, double, &self.symbols, range, budget),
+        }
     }
 
     /// Whether one of the polynomials in `x` has a zero between two numbers at which it has none.
@@ -94,9 +122,11 @@ impl OverSymbols {
         [left, right]: [&Rational; 2],
         budget: &Budget,
     ) -> Result<bool, Exhausted> {
-        for part in self.projected(wanted, curves, &[], budget)? {
+        let Some(parts) = self.projected(wanted, curves, None, budget)? else { return Ok(false) };
+        for part in parts {
             let sign = |x: &Rational| -> Result<Sign, Exhausted> {
-                let other = self.symbols.sign(&put(part.rest(), 0, x).map_variables(|i| i.saturating_sub(1)), budget)?;
+                let other =
+                    self.symbols.sign(&put(part.rest(), 0, x).map_variables(|i| i.saturating_sub(1)), budget)?;
                 Ok(if part.algebraic().poly().sign_at(x).is_lt() { other.reverse() } else { other })
             };
             if sign(left)? != sign(right)? {
@@ -111,6 +141,12 @@ impl OverSymbols {
         f.coeffs().iter().map(|c| self.horner(c, X, x)).collect()
     }
 
+    /// The value at a point that is enclosed.
+    pub(super) fn value(&self, f: &MultiPoly, x: &Ball, y: &Ball) -> Ball {
+        let zero = Ball::zero(y.bits());
+        self.over(&f.as_poly_in(Y), x).iter().rev().fold(zero, |sum, c| sum.mul(y).add(c))
+    }
+
     /// The values of a polynomial in one parameter on an interval.
     fn horner(&self, f: &MultiPoly, parameter: usize, at: &Ball) -> Ball {
         let zero = Ball::zero(at.bits());
@@ -119,53 +155,42 @@ impl OverSymbols {
     }
 }
 
-/// The resultant in `y` for the degrees.
-fn resultant(f: &Poly<MultiPoly>, g: &Poly<MultiPoly>, budget: &Budget) -> Result<MultiPoly, Exhausted> {
+/// The polynomials in `y` whose resultant a discriminant or a resultant is. The discriminant is that of `f'` and `n f - y f'`, both of
+/// degree `n - 1`: the leading coefficient is then no factor of it.
+fn operands(wanted: Projected<'_>, curves: &[Curve]) -> [Poly<MultiPoly>; 2] {
+    let curve = |i: usize| curves[i].polynomial.as_poly_in(Y);
+    match wanted {
+        Projected::Resultant(i, j) => [curve(i), curve(j)],
+        Projected::Leading(i) | Projected::AtEdge(i, _) | Projected::Discriminant(i) => {
+            let f = curve(i);
+            let n = f.degree().unwrap_or(0);
+            let other = (0..n).map(|k| f.coeff(k).scaled_by(&Integer::from((n - k) as u64))).collect();
+            [f.derivative(), Poly::new(other)]
+        }
+    }
+}
+
+/// The resultant in `y`, for the higher one of both degrees of the polynomials of a discriminant; `None` where it may have too many
+/// terms.
+pub(super) fn resultant(
+    f: &Poly<MultiPoly>,
+    g: &Poly<MultiPoly>,
+    budget: &Budget,
+) -> Result<Option<MultiPoly>, Exhausted> {
     let (m, n) = (f.degree().unwrap_or(0), g.degree().unwrap_or(0));
     if m == 0 && n == 0 {
-        return Ok(MultiPoly::one());
+        return Ok(Some(MultiPoly::one()));
     }
     let terms = Function::resultant(f.coeffs().to_vec(), g.coeffs().to_vec()).expanded_size();
     if terms > MOST_TERMS {
-        let reached = format!("a resultant of two boundary curves with up to {terms} terms in the parameter and the constants");
-        return Err(Exhausted::new(format!("terms ({MOST_TERMS})"), reached));
+        return Ok(None);
     }
-    resultant_formal(f, m, g, n, budget)
+    resultant_formal(f, m, g, n, budget).map(Some)
 }
 
 /// Curves that are different polynomials in symbols and the same ones with the numbers these stand for.
 fn coincide() -> Exhausted {
     Exhausted::new("identities of constants", "boundary curves have a part in common that only their values show")
-}
-
-/// The polynomial in `x` at whose zeros the half-size pair may have two common roots over one point, where the curve of complex pairs
-/// crosses itself: its discriminant is divisible by the square of it.
-fn nodes(p: &PlanePolynomial, region: Shape, budget: &Budget) -> Result<Vec<MultiPoly>, Exhausted> {
-    if p.formal_degree() < 4 {
-        return Ok(Vec::new());
-    }
-    let pair = HalfSizePair::new(p.cleared(), p.formal_degree(), region);
-    let (a, b) = if pair.a.degree() >= pair.b.degree() { (pair.a, pair.b) } else { (pair.b, pair.a) };
-    if b.is_zero() {
-        return Ok(Vec::new());
-    }
-    let linear = match b.degree() {
-        Some(1) => Some(b),
-        _ => subresultant_chain(&a, &b, budget)?.into_iter().rev().find(|s| s.degree() == Some(1)),
-    };
-    let Some(linear) = linear else { return Ok(Vec::new()) };
-    let [first, second] = [0, 1].map(|k| linear.coeff(k).as_poly_in(Y));
-    if first.is_zero() || second.is_zero() {
-        return Ok(Vec::new());
-    }
-    let found = match resultant(&first, &second, budget) {
-        Ok(found) => found,
-        // Then there are others that are as long.
-        Err(stopped) if stopped.budget.starts_with("terms") => return Ok(Vec::new()),
-        Err(stopped) => return Err(stopped),
-    };
-    let is_of_use = found.degree_in(X) > 0;
-    Ok(if is_of_use { vec![found.primitive_over_integers()] } else { Vec::new() })
 }
 
 /// The numbers before the powers of the parameters, as the table of symbols expects them.
@@ -213,12 +238,20 @@ impl Ground for OverSymbols {
         (range, region): (&Range, Shape),
         budget: &Budget,
     ) -> Result<Vec<Real>, Exhausted> {
-        let nodes = nodes(p, region, budget)?;
-        let found: Result<Vec<Vec<SymbolicPoly>>, Exhausted> =
-            parallel_map(wanted, |wanted| self.projected(*wanted, curves, &nodes, budget));
-        let found = found?.into_iter().flatten().collect();
+        let nodes = Nodes::of(p, region, budget)?;
+        let found: Result<Vec<Option<Vec<SymbolicPoly>>>, Exhausted> =
+            parallel_map(wanted, |wanted| self.projected(*wanted, curves, nodes.expanded(), budget));
+        let found = found?;
         budget.step("isolating critical values");
-        zeros_of_all(found, &self.symbols, range, budget)
+        let long: Vec<Projected<'_>> =
+            wanted.iter().zip(&found).filter(|(_, found)| found.is_none()).map(|(wanted, _)| *wanted).collect();
+        let lists: Result<Vec<Vec<Real>>, Exhausted> =
+            parallel_map(long, |wanted| self.zeros_unexpanded(wanted, curves, &nodes, range, budget));
+        let mut all = zeros_of_all(found.into_iter().flatten().flatten().collect(), &self.symbols, range, budget)?;
+        for list in lists? {
+            all = merged(all, list, budget)?;
+        }
+        Ok(all)
     }
 
     fn counts(
@@ -290,7 +323,8 @@ impl Ground for OverSymbols {
     }
 
     fn rounded(&self, f: &MultiPoly, bits: u64) -> MultiPoly {
-        let round = |(powers, c): ([u32; 2], MultiPoly)| (powers.to_vec(), self.symbols.enclose(&c, bits).middle_units());
+        let round =
+            |(powers, c): ([u32; 2], MultiPoly)| (powers.to_vec(), self.symbols.enclose(&c, bits).middle_units());
         MultiPoly::from_terms(coefficients(f).map(round))
     }
 }

@@ -43,12 +43,7 @@ impl StabilityMap {
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
-    pub fn branches(
-        &self,
-        x: &Rational,
-        y_domain: &Range,
-        budget: &Budget,
-    ) -> Result<Vec<(Real, Branch)>, Exhausted> {
+    pub fn branches(&self, x: &Rational, y_domain: &Range, budget: &Budget) -> Result<Vec<(Real, Branch)>, Exhausted> {
         branches_at(&*self.ground, &self.curves, x, y_domain, budget)
     }
 
@@ -57,7 +52,12 @@ impl StabilityMap {
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
-    pub fn slice(&self, x: &Rational, y_domain: &Range, budget: &Budget) -> Result<Option<Vec<RealInterval>>, Exhausted> {
+    pub fn slice(
+        &self,
+        x: &Rational,
+        y_domain: &Range,
+        budget: &Budget,
+    ) -> Result<Option<Vec<RealInterval>>, Exhausted> {
         let Some(strip) = self.strips.iter().find(|s| s.x.contains(x)) else { return Ok(None) };
         let values: Vec<Real> = self.branches(x, y_domain, budget)?.into_iter().map(|b| b.0).collect();
         let intervals = real_cells(y_domain, &values).into_iter().zip(&strip.cells).filter(|(_, cell)| cell.stable);

@@ -33,7 +33,8 @@ impl Condition {
         }
     }
 
-    fn roots(&self, range: &Range, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+    /// The zeros in a range, ascending.
+    pub fn roots(&self, range: &Range, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
         let (lower, upper) = (range.lower.as_ref(), range.upper.as_ref());
         let p = match self {
             Condition::Symbolic(p) => return p.real_roots_in(lower, upper, budget),
