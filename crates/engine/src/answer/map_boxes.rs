@@ -12,6 +12,10 @@ use std::sync::Arc;
 /// The part of the time that boxes may take, so that some is left to write them.
 const SUBDIVISION: (u32, u32) = (9, 10);
 
+/// An exact map over symbols is tried first where the curve of complex pairs has no more terms. Up to here it takes some ten seconds at
+/// most (4400 terms: the drive of `examples/drive-hold.toml`), beyond soon minutes.
+const MOST_TERMS: u64 = 6000;
+
 /// How a map is made.
 ///
 /// ```
@@ -25,7 +29,7 @@ pub enum MapMethod {
     /// Boxes of a window, proved stable, proved unstable or left undecided.
     Boxes,
     /// The exact decomposition; boxes when it is not finished after half of a limited time and the
-    /// window is bounded.
+    /// window is bounded, and of a bounded window also where a loop over transcendental constants has a long boundary.
     #[default]
     Auto,
 }
@@ -172,7 +176,10 @@ impl Problem {
                     // Without a window there are no boxes to leave time for.
                     let has_window = window_of(self, request).is_ok();
                     let part = if has_window { &budget.share(1, 2) } else { budget };
-                    match exact(part) {
+                    let size = self.plane_over_symbols(budget)?.map_or(0, |p| p.size(self.shape()));
+                    let attempt =
+                        if has_window && size > MOST_TERMS { Err(too_long(size).into()) } else { exact(part) };
+                    match attempt {
                         Err(Error::Stopped(stopped)) if has_window => no_exact_map = Some(stopped),
                         answered => return answered,
                     }
@@ -202,6 +209,11 @@ impl Problem {
             Ok(found(stability_boxes(p, &window, self.shape(), &request.undecided, &share())?, no_exact_map))
         })?
     }
+}
+
+fn too_long(terms: u64) -> Exhausted {
+    let reached = format!("the curve of complex pairs, with up to {terms} terms in the parameters and the constants");
+    Exhausted::new(format!("terms of a map by '--method auto' ({MOST_TERMS})"), reached)
 }
 
 /// The part of the domain that the boxes are to cover.

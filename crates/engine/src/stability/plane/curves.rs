@@ -8,7 +8,7 @@ use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly};
-use jurist_algebra::symbols::Symbols;
+use jurist_algebra::symbols::{Function, Symbols};
 use std::sync::Arc;
 
 /// The numbers of the two parameters as variables of a [`MultiPoly`].
@@ -140,6 +140,18 @@ impl PlanePolynomial {
             }
         }
         out
+    }
+
+    /// A bound of the number of terms of the curve of complex pairs, from the degrees of what it is made of.
+    ///
+    /// Cost: that of the half-size pair.
+    pub(crate) fn size(&self, region: Shape) -> u64 {
+        if self.formal_degree < 2 {
+            return 1;
+        }
+        let pair = HalfSizePair::new(&self.polynomial, self.formal_degree, region);
+        let all = |p: &Poly<MultiPoly>, degree: usize| (0..=degree).map(|k| p.coeff(k)).collect();
+        Function::resultant(all(&pair.a, pair.degree_a), all(&pair.b, pair.degree_b)).expanded_size()
     }
 
     /// The exact root count at a point of a loop without symbols.
