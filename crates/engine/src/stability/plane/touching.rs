@@ -22,7 +22,7 @@ const BITS: [u64; 3] = [64, 128, 256];
 ///   of odd order, from which the curve goes on to the other side;
 /// * of two such curves whose branches change places, or which are known to have one common zero on the wall and have it there;
 /// * of a curve with two branches on both sides that is known to have a double zero there, and no third one in the box;
-/// * in a box that reaches to an edge of the domain, or to infinity, of curves with one branch on one side only: it leaves there.
+/// * in a box that reaches to one edge of the domain, or to infinity, of curves with one branch on one side only: it leaves there.
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out, and where none of this shows.
@@ -33,6 +33,10 @@ pub(super) fn links_over_symbols(
     budget: &Budget,
 ) -> Result<Links, Exhausted> {
     let mut links = Links::new();
+    if !wall.strips[0].lines[1].is_empty() {
+        // A curve that contains the whole wall separates the strips.
+        return Ok(links);
+    }
     let mut open = pairs.to_vec();
     for bits in BITS {
         let near = Near::new(wall, bits, budget)?;
@@ -74,8 +78,16 @@ impl<'a> Near<'a> {
         let sides = branches.each_ref().map(|list| list.iter().map(|b| b.0.clone()).collect::<Vec<Real>>());
         let mut clear = Vec::new();
         for y in wall.gaps(&sides, budget)? {
-            if wall.is_clear(&left, &right, &y, budget)? {
-                clear.push(((cell_of(&sides[0], &y), cell_of(&sides[1], &y)), y));
+            let cells = (cell_of(&sides[0], &y), cell_of(&sides[1], &y));
+            // On the wall there may be a point of a curve that has no branch beside it, at this height, and at few others.
+            let step = Rational::dyadic(&1.into(), bits / 4);
+            for height in [y.clone(), &y + &step, &y - &step] {
+                let is_same = wall.y_domain.contains(&height)
+                    && cells == (cell_of(&sides[0], &height), cell_of(&sides[1], &height));
+                if is_same && wall.is_clear(&left, &right, &height, budget)? {
+                    clear.push((cells, height));
+                    break;
+                }
             }
         }
         Ok(Near { wall, x: [left, right], branches, clear })
@@ -103,8 +115,10 @@ impl<'a> Near<'a> {
                 counts.entry(branch.curve).or_default()[side] += 1;
             }
         }
-        let (Some((_, below)), Some((_, above))) = (below, above) else {
-            return Ok(counts.values().all(|[l, r]| l + r <= 1));
+        let (below, above) = match (below, above) {
+            (None, None) => return Ok(false),
+            (Some((_, below)), Some((_, above))) => (below, above),
+            _ => return Ok(counts.values().all(|[l, r]| l + r <= 1)),
         };
         for (&curve, [l, r]) in &counts {
             let is_one = l + r <= 2 || (*l.max(r) == 2 && self.is_double(ground, curve, [below, above], budget)?);
