@@ -55,7 +55,8 @@ pub enum MapMethod {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct BoxRequest {
-    /// Of either parameter; the domain is the window where an end is left out.
+    /// Of either parameter; the domain is the window where an end is left out. Of a loop that has only boxes an end that neither says is as
+    /// far from the nominal value as the other one, or as 0.
     pub windows: [Range; 2],
     /// The share of the window's area that may stay undecided.
     pub undecided: Rational,
@@ -168,13 +169,13 @@ impl Problem {
             };
             if method != MapMethod::Exact {
                 if let Some(plane) = self.delayed_plane(budget)? {
-                    return Ok(found(plane.boxes(&window_of(self, request)?, &request.undecided, &share())?, None));
+                    return Ok(found(plane.boxes(&window_around(self, request)?, &request.undecided, &share())?, None));
                 }
                 let mut no_exact_map = None;
                 let has_symbols = !self.algebra_over_symbols(budget)?.symbols().is_empty();
                 if method == MapMethod::Auto && has_symbols && self.is_outside_of_functions(budget)? {
                     // Without a window there are no boxes to leave time for.
-                    let has_window = window_of(self, request).is_ok();
+                    let has_window = window_around(self, request).is_ok();
                     let part = if has_window { &budget.share(1, 2) } else { budget };
                     let size = self.plane_over_symbols(budget)?.map_or(0, |p| p.size(self.shape()));
                     let attempt =
@@ -185,7 +186,7 @@ impl Problem {
                     }
                 }
                 if let Some(plane) = self.symbolic_plane(budget)? {
-                    let boxes = plane.boxes(&window_of(self, request)?, &request.undecided, &share())?;
+                    let boxes = plane.boxes(&window_around(self, request)?, &request.undecided, &share())?;
                     return Ok(found(boxes, no_exact_map));
                 }
             }
@@ -214,6 +215,25 @@ impl Problem {
 fn too_long(terms: u64) -> Exhausted {
     let reached = format!("the curve of complex pairs, with up to {terms} terms in the parameters and the constants");
     Exhausted::new(format!("terms of a map by '--method auto' ({MOST_TERMS})"), reached)
+}
+
+/// [`window_of`], where there is nothing but boxes: a side without an end reaches as far from the nominal value as the other end, or 0, or one.
+fn window_around(question: &Problem, request: &BoxRequest) -> Result<Window, Error> {
+    let mut wanted = request.clone();
+    for (range, axis) in wanted.windows.iter_mut().zip(question.free()) {
+        let lower = range.lower.clone().max(axis.domain.lower.clone());
+        let upper = range.upper.iter().chain(&axis.domain.upper).min().cloned();
+        let Some(nominal) = &axis.nominal else { continue };
+        let reach = match (&lower, &upper) {
+            (Some(lower), None) => nominal - lower,
+            (None, Some(upper)) => upper - nominal,
+            _ => nominal.abs(),
+        };
+        let reach = if reach.sign().is_gt() { reach } else { Rational::ONE };
+        range.lower = Some(lower.unwrap_or_else(|| nominal - &reach));
+        range.upper = Some(upper.unwrap_or_else(|| nominal + &reach));
+    }
+    window_of(question, &wanted)
 }
 
 /// The part of the domain that the boxes are to cover.

@@ -27,6 +27,7 @@ pub use conditions::{RealIntervals, SymbolicCondition, SymbolicTest};
 pub(crate) use deflated::{zeros_beside_double_ones, zeros_of_resultant};
 pub use jury::{Comparison, EnclosedCondition, EnclosedRow, EnclosedTable};
 pub use plane::SymbolicPlane;
+pub use rounded::Rounding;
 pub use rows::SymbolicRow;
 pub use set::symbolic_stable_set;
 
