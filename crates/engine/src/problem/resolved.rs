@@ -160,7 +160,7 @@ impl Problem {
         let message = "this is asked of rational loops only yet, and the loop has functions, as behind a hold";
         let list: Vec<String> =
             algebra.symbols().definitions().iter().take(4).map(|(name, text)| format!("{name} = {text}")).collect();
-        let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, locus, map by boxes, tolerance, jury in a parameter outside of functions and at a point, report";
+        let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, locus, map (by boxes where a parameter is inside of functions), tolerance, jury in a parameter outside of functions and at a point, report";
         Err(Diagnostic::error("E-function", message).help(format!("{help}; it contains {}", list.join(", "))).into())
     }
 

@@ -271,7 +271,7 @@ impl Asked<'_> {
     fn by_boxes(&self, error: Error, value: &Rational) -> Error {
         let Error::Refused(refused) = &error else { return error };
         let ([x, y], "E-function" | "E-dead-time") = (self.question.free_names(), refused.code()) else { return error };
-        let message = "slices are exact maps, of rational loops only, and this one has functions, as behind a hold";
+        let message = "slices are exact maps, and a parameter is inside of functions of this loop, as behind a hold";
         let one = format!("map -x {x}=LO..HI -y {y}=LO..HI --set {}={value}", self.name);
         let help = format!("boxes decide one slice at a time, with windows of both axes: '{one}'");
         Diagnostic::error("E-function", message).help(help).into()

@@ -1,10 +1,11 @@
 //! Whether cells on either side of a wall touch, where the wall is a zero of a polynomial over symbols.
 
-use super::curves::Y;
+use super::curves::{X, Y};
 use super::decompose::Branch;
 use super::glue::{Links, Wall, cell_of, separates};
-use super::ground::Projected;
+use super::ground::{Ground, Projected, put};
 use super::over_symbols::OverSymbols;
+use crate::stability::Range;
 use jurist_algebra::ball::{Ball, common_root};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
@@ -22,7 +23,8 @@ const BITS: [u64; 3] = [64, 128, 256];
 ///   of odd order, from which the curve goes on to the other side;
 /// * of two such curves whose branches change places, or which are known to have one common zero on the wall and have it there;
 /// * of a curve with two branches on both sides that is known to have a double zero there, and no third one in the box;
-/// * in a box that reaches to one edge of the domain, or to infinity, of curves with one branch on one side only: it leaves there.
+/// * in a box that reaches to one edge of the domain, or to infinity, of curves with one branch on one side only: it leaves there; and of
+///   any curves where these are seen not to meet a rational wall in the box.
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out, and where none of this shows.
@@ -118,7 +120,10 @@ impl<'a> Near<'a> {
         let (below, above) = match (below, above) {
             (None, None) => return Ok(false),
             (Some((_, below)), Some((_, above))) => (below, above),
-            _ => return Ok(counts.values().all(|[l, r]| l + r <= 1)),
+            (below, above) => {
+                let leave = counts.values().all(|[l, r]| l + r <= 1);
+                return Ok(leave || self.is_empty(ground, [below, above].map(|end| end.map(|(_, y)| y)), budget)?);
+            }
         };
         for (&curve, [l, r]) in &counts {
             let is_one = l + r <= 2 || (*l.max(r) == 2 && self.is_double(ground, curve, [below, above], budget)?);
@@ -133,6 +138,25 @@ impl<'a> Near<'a> {
             let other = |side: usize| inside(side).iter().position(|(_, branch)| branch.curve == pair[1]);
             let changes_places = single && (order(0) < other(0)) != (order(1) < other(1));
             if !changes_places && !self.meet(ground, [pair[0], pair[1]], [below, above], budget)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether the wall is a rational number, and no curve meets it between two heights.
+    fn is_empty(
+        &self,
+        ground: &OverSymbols,
+        [below, above]: [Option<&Rational>; 2],
+        budget: &Budget,
+    ) -> Result<bool, Exhausted> {
+        let Some(x) = self.wall.value.exact() else { return Ok(false) };
+        let Range { lower, upper } = self.wall.y_domain;
+        let between = [below.or(lower.as_ref()), above.or(upper.as_ref())];
+        for curve in self.wall.curves.iter().filter(|c| c.polynomial.degree_in(Y) > 0) {
+            let zeros = ground.zeros(&put(&curve.polynomial, X, &x), Y, between, budget)?;
+            if zeros.is_none_or(|zeros| !zeros.is_empty()) {
                 return Ok(false);
             }
         }
