@@ -200,8 +200,11 @@ fn characteristic(coefficients: Vec<RationalFunction>) -> CharacteristicPolynomi
     CharacteristicPolynomial { variables, coefficients, formal_degree, poles, monic: false }
 }
 
+/// What cells say, the cells of regions, and the curves on the walls of strips.
+type MapShape = (Vec<Vec<(bool, usize, usize)>>, Vec<Vec<(usize, usize)>>, Vec<[Vec<usize>; 2]>);
+
 /// What does not depend on the scale of the axes.
-fn shape(m: &StabilityMap) -> (Vec<Vec<(bool, usize, usize)>>, Vec<Vec<(usize, usize)>>, Vec<[Vec<usize>; 2]>) {
+fn shape(m: &StabilityMap) -> MapShape {
     let cells = m.strips.iter().map(|s| s.cells.iter().map(|c| (c.stable, c.outside, c.on)).collect()).collect();
     let lines = m.strips.iter().map(|s| s.lines.clone()).collect();
     (cells, m.regions.iter().map(|r| r.cells.clone()).collect(), lines)
@@ -258,8 +261,8 @@ fn coefficients_of(list: &[&str]) -> Vec<RationalFunction> {
     let sum = list.iter().enumerate().map(power).collect::<Vec<_>>().join(" + ");
     let model = load(&format!("time = 'discrete'\n{parameters}[loop]\ncharacteristic = '{sum}'\n"));
     let problem = model.ask().free("x").free("y").plane_problem().unwrap();
-    let found = problem.algebra(&Budget::unlimited()).unwrap().polynomial().unwrap().coefficients.clone();
-    found
+    let algebra = problem.algebra(&Budget::unlimited()).unwrap();
+    algebra.polynomial().unwrap().coefficients.clone()
 }
 
 #[test]

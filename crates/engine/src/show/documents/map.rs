@@ -14,8 +14,8 @@ use crate::show::real::JSON_NUMBER_DIGITS;
 use crate::show::region::{boundary_point, causes_text};
 use crate::stability::plane::{self, StabilityMap, StableRegion};
 use jurist_algebra::limits::Exhausted;
-use jurist_algebra::number::{self, Integer, enclosed_decimal};
-use jurist_algebra::poly::MultiPoly;
+use jurist_algebra::number::{self, enclosed_decimal};
+use jurist_algebra::poly::{Monomial, MultiPoly};
 use jurist_algebra::real::Real;
 use serde::{Deserialize, Serialize};
 
@@ -137,17 +137,20 @@ impl Coefficient {
 impl Curve {
     /// Of a curve whose symbols, variables from 2 on, have names in this list of all variables.
     pub(super) fn new(curve: &plane::Curve, variables: &[String]) -> Self {
-        let mut terms: Vec<((u32, u32), Vec<(Vec<u32>, Integer)>)> = Vec::new();
-        for (m, c) in curve.polynomial.terms() {
-            let powers = (m.exponent(0), m.exponent(1));
-            let term = (m.with_exponent(0, 0).with_exponent(1, 0).exponents().to_vec(), c.clone());
-            match terms.iter_mut().find(|(known, _)| *known == powers) {
-                Some((_, parts)) => parts.push(term),
-                None => terms.push((powers, vec![term])),
+        let powers = |m: &Monomial| (m.exponent(0), m.exponent(1));
+        let mut all: Vec<(u32, u32)> = Vec::new();
+        for (m, _) in curve.polynomial.terms() {
+            if !all.contains(&powers(m)) {
+                all.push(powers(m));
             }
         }
-        let text = |parts| Coefficient(MultiPoly::from_terms(parts).display(variables).to_string());
-        let terms = terms.into_iter().map(|((i, j), parts)| (i, j, text(parts))).collect();
+        let coefficient = |of: (u32, u32)| {
+            let own = curve.polynomial.terms().iter().filter(|(m, _)| powers(m) == of);
+            let constant = |m: &Monomial| m.with_exponent(0, 0).with_exponent(1, 0).exponents().to_vec();
+            let number = MultiPoly::from_terms(own.map(|(m, c)| (constant(m), c.clone())));
+            Coefficient(number.display(variables).to_string())
+        };
+        let terms = all.into_iter().map(|of| (of.0, of.1, coefficient(of))).collect();
         Curve { name: curve.causes.to_string(), terms }
     }
 }

@@ -102,7 +102,7 @@ impl Answer<Body> {
             let (word, name) = (["least", "greatest"][side], &axes[parameter].name);
             let at = self.reached_at(&extreme.slices);
             let Some(value) = &extreme.value else { return vec![format!("no {word} {name}"), String::new(), at] };
-            let decimal = real::rounded(&value.clone().into(), digits).decimal;
+            let decimal = real::rounded(value, digits).decimal;
             let mut cells = vec![format!("{word} {name}"), decimal, at];
             // On several slices the same value has several frequencies and places.
             if let (Some(limit), [_]) = (&extreme.limit, extreme.slices.as_slice()) {
