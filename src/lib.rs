@@ -79,9 +79,9 @@ pub use jurist_engine::show::documents;
 pub use jurist_engine::show::notation::Notation;
 pub use jurist_engine::stability::{
     AlgebraicInterval, Boundary, Cause, Causes, ClassicalTest, ComplexPair, Condition, End, HalfSizePair, IntervalSet,
-    JuryTable, ParametricPolynomial, Range, RootCount, RouthTable, Shape, StableInterval, StableSet, UndecidedBracket,
-    boundary_polynomials, classical_test, count_roots, is_hurwitz_routh, is_schur_jury, is_stable, jury_table,
-    routh_table, stable_set,
+    JuryTable, ParametricPolynomial, Range, RealInterval, RootCount, RouthTable, Shape, StableInterval, StableSet,
+    UndecidedBracket, boundary_polynomials, classical_test, count_roots, is_hurwitz_routh, is_schur_jury, is_stable,
+    jury_table, routh_table, stable_set,
 };
 // Budgets.
 pub use jurist_algebra::limits::{Budget, Exhausted, Progress};

@@ -61,6 +61,7 @@ mod maps {
     mod body_program;
     mod boxes;
     mod cases;
+    mod held;
     mod laws;
     mod methods;
     mod program;

@@ -4,11 +4,12 @@ use super::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{MultiPoly, RationalFunction, RealAlgebraic};
+use jurist_algebra::poly::{MultiPoly, RationalFunction};
+use jurist_algebra::real::Real;
 use jurist_engine::stability::plane::{
     Limit, PlanePolynomial, RegionLimits, StabilityMap, region_limits, stability_map,
 };
-use jurist_engine::stability::{AlgebraicInterval, AtPoint, Range, Shape};
+use jurist_engine::stability::{AlgebraicInterval, AtPoint, IntervalSet, Range, RealInterval, Shape};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -42,7 +43,7 @@ pub fn square(f: &RationalFunction) -> RationalFunction {
 }
 
 /// A small polynomial in `x` and `y` with few terms.
-fn coefficient() -> impl Strategy<Value = MultiPoly> {
+pub fn coefficient() -> impl Strategy<Value = MultiPoly> {
     let term = ((0u32..=2, 0u32..=2), -6i64..=6).prop_map(|((i, j), c)| (vec![i, j], c.into()));
     vec(term, 1..=3).prop_map(MultiPoly::from_terms)
 }
@@ -73,9 +74,15 @@ pub fn limits(m: &StabilityMap, p: &PlanePolynomial, domain: &[Range; 2], region
 }
 
 /// Both ends to eight digits.
-pub fn ends(r: &AlgebraicInterval) -> (Option<String>, Option<String>) {
-    let text = |e: &Option<RealAlgebraic>| e.as_ref().map(|e| e.decimal(8));
+pub fn ends(r: &RealInterval) -> (Option<String>, Option<String>) {
+    let text = |e: &Option<Real>| e.as_ref().map(|e| e.decimal(8));
     (text(&r.lower), text(&r.upper))
+}
+
+/// A slice of a map of a loop without transcendental constants, as a set.
+pub fn algebraic(slice: &[RealInterval]) -> IntervalSet {
+    let end = |end: &Option<Real>| end.as_ref().map(|end| end.algebraic().expect("an algebraic number").clone());
+    slice.iter().map(|i| AlgebraicInterval { lower: end(&i.lower), upper: end(&i.upper) }).collect()
 }
 
 pub fn some(a: &str, b: &str) -> (Option<String>, Option<String>) {

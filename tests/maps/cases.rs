@@ -196,7 +196,7 @@ fn curves_that_coincide_carry_both_causes() {
     assert_eq!(m.regions.len(), 1);
     assert_eq!(m.curves.iter().filter(|c| c.causes.to_string().starts_with("z=1+z=-1")).count(), 1);
     let slice = m.slice(&number("1/3"), &Range::all(), &Budget::unlimited()).unwrap().unwrap();
-    assert_eq!(ends(&slice.intervals()[0]), some("0.33333333", "2.3333333"));
+    assert_eq!(ends(&slice[0]), some("0.33333333", "2.3333333"));
     assert_eq!(ends(&m.regions[0].x), (None, None));
 }
 

@@ -100,8 +100,8 @@ fn on_a_line_the_map_says_what_the_set_of_one_parameter_says() {
         let slice = all.slice(&number(value), &answer.problem().axes()[1].domain, &budget).unwrap().unwrap();
         // Ends of cells that go on in the next one are no ends of the set.
         let mut ends: Vec<Real> = Vec::new();
-        for end in slice.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
-            let end = Real::from(end.clone());
+        for end in slice.iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
+            let end = end.clone();
             match ends.last() {
                 Some(last) if last.is_same(&end) => drop(ends.pop()),
                 _ => ends.push(end),

@@ -242,7 +242,7 @@ proptest! {
         let within = |x: &Rational, [low, high]: &[Rational; 2]| {
             let slice = map.value().decomposition.slice(x, &Range::all(), &Budget::unlimited()).unwrap();
             // Walls between strips have no slice.
-            slice.is_none_or(|set| set.intervals().iter().any(|i| {
+            slice.is_none_or(|set| set.iter().any(|i| {
                 i.lower.as_ref().is_none_or(|e| e.compare_rational(low).is_lt())
                     && i.upper.as_ref().is_none_or(|e| e.compare_rational(high).is_gt())
             }))

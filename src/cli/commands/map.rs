@@ -180,6 +180,10 @@ fn required(
     asked: &Requirements,
     context: &Context,
 ) -> Result<MapOrBoxes, EngineError> {
+    if !asked.list.is_empty() {
+        // What is required is decided of rational loops only; that is said before the map is made.
+        problem.algebra(&context.budget)?;
+    }
     match problem.map_by(method, boxes, digits, &context.budget)? {
         MapOrBoxes::Exact(answer) if !asked.list.is_empty() => {
             let answer = answer.with_requirements(&asked.list, asked.at.as_deref(), &context.budget)?;

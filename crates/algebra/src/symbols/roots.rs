@@ -7,7 +7,7 @@ use crate::limits::{Budget, Exhausted};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::multivariate::is_square_free_in;
 use crate::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
-use crate::real::{Real, Transcendental, rational_between};
+use crate::real::{Real, Transcendental};
 use std::sync::Arc;
 
 /// Bits of the first attempt.
@@ -268,6 +268,27 @@ fn positive_roots(
     Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "isolating real roots"))
 }
 
+/// A number with few bits between two numbers, the smaller one first; `None` where they are equal. The simplest fraction between
+/// numbers that agree to hundreds of bits would take as many divisions.
+fn short_between(a: &Real, b: &Real, budget: &Budget) -> Result<Option<Rational>, Exhausted> {
+    if a.compare(b, budget)?.is_ge() {
+        return Ok(None);
+    }
+    let (mut a, mut b) = (a.clone(), b.clone());
+    loop {
+        let (lo, hi) = (a.enclosure().1, b.enclosure().0);
+        let gap = &hi - &lo;
+        if gap.sign().is_gt() {
+            let bits = (gap.denominator().bit_length() + 2).saturating_sub(gap.numerator().bit_length());
+            let (unit, middle) = (Rational::dyadic(&Integer::ONE, bits), lo.midpoint(&hi));
+            let scaled = &middle / &unit;
+            return Ok(Some(Rational::from(scaled.floor()) * unit));
+        }
+        budget.check()?;
+        (a, b) = budget.enter(|| (a.refined_further(), b.refined_further()))?;
+    }
+}
+
 struct Attempt<'a> {
     bits: u64,
     near: &'a Rational,
@@ -373,7 +394,7 @@ impl Attempt<'_> {
         let before = before.map(real).or_else(|| self.far.cloned().map(Real::from));
         let sample = match before {
             None => Some(after.rational_above()),
-            Some(before) => rational_between(&after, &before, self.budget)?,
+            Some(before) => short_between(&after, &before, self.budget)?,
         };
         Ok(sample.and_then(|x| band.sign_at(&x)))
     }

@@ -1,6 +1,6 @@
 //! The page of slices: the map of each, and a slider that shows one of them.
 
-use super::map::{CERTAIN, SCRIPT, data, fields, style};
+use super::map::{SCRIPT, certain, data, fields, style};
 use super::{document, escaped};
 use crate::figures::map::{MapContents, MapFigure, common_legend, slice_name};
 use jurist_algebra::limits::Budget;
@@ -90,7 +90,7 @@ pub fn body_page(
          there (with Shift in larger steps), or enter exact values: 110, 1e-4, 1/3.</p>\n\
          <h2>Slices</h2>\n{table}<ul class=\"small\">\n{sentences}</ul>\n\
          <h2>What is certain</h2>\n<p class=\"small\">Each slice is exact, and so is every limit in the table and below it, rounded. Of \
-         values of {z_name} between two slices nothing is said but what stands there. {CERTAIN}</p>\n\
+         values of {z_name} between two slices nothing is said but what stands there. {certain}</p>\n\
          <script type=\"application/json\" id=\"data\">{data}</script>\n<script>\n{SCRIPT}</script>\n",
         title = escaped(&title),
         x_name = escaped(&x.name),
@@ -102,6 +102,7 @@ pub fn body_page(
         others = escaped(&others),
         fields = fields(x, y),
         table = table(answer, first),
+        certain = certain(slices.iter().filter_map(|slice| slice.map.as_ref().ok())),
     );
     Ok(document(&title, &format!("{}{SLICES_STYLE}", style()), &body, true))
 }

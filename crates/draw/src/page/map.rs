@@ -4,21 +4,27 @@ use super::{document, escaped};
 use crate::figures::dark_style;
 use crate::figures::map::{FrequencyPoint, MapContents, MapFigure, Role, Wall, frequency_unit, mechanism_words};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::Integer;
-use jurist_algebra::poly::{Monomial, RealAlgebraic};
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::Monomial;
+use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::error::Error;
 use jurist_engine::problem::Free;
 use jurist_engine::show::documents::Exact;
 use jurist_engine::show::layout::{named_values, short};
 use jurist_engine::show::region::goal_or_stable;
-use jurist_engine::stability::plane::{Curve, Strip};
+use jurist_engine::stability::plane::Strip;
 use serde_json::{Value, json};
 
 /// What of a page of maps is exact.
-pub(super) const CERTAIN: &str = "The picture is drawn in floating point. The verdict, the number of roots and the values of one \
+const CERTAIN: &str = "The picture is drawn in floating point. The verdict, the number of roots and the values of one \
     parameter at which the verdict changes (rounded to four digits) are not: they hold for exactly the numbers shown in the two \
     fields, which this page looks up with integers of any size in strips and cells that were computed and proved by exact algebra. A \
+    point on a boundary is not stable.";
+/// The same of a loop with constants that are not rational.
+const CERTAIN_TO_BITS: &str = "The picture is drawn in floating point. The strips and cells, and with them the verdicts and the numbers \
+    of roots, were computed and proved with exact constants, such as exp(-T/T_m). This page looks up the numbers shown in the two \
+    fields with these constants rounded to more than a hundred digits: nearer than that to a boundary it may take one side for the other. A \
     point on a boundary is not stable.";
 const STYLE: &str = include_str!("page.css");
 pub(super) const SCRIPT: &str = include_str!("page.js");
@@ -54,7 +60,7 @@ pub fn map_page(
          <p class=\"small screen\">Move the pointer, tap, use the arrow keys (with Shift in larger steps), or enter exact \
          values: 110, 1e-4, 1/3.</p>\n\
          <h2>What is certain</h2>\n\
-         <p class=\"small\">{CERTAIN}</p>\n\
+         <p class=\"small\">{certain}</p>\n\
          <h2>Limits</h2>\n<pre>{text}</pre>\n\
          <script type=\"application/json\" id=\"data\">{data}</script>\n<script>\n{SCRIPT}</script>\n",
         title = escaped(&title),
@@ -65,8 +71,15 @@ pub fn map_page(
         narrow = figures[1].figure.svg(),
         fields = fields(x, y),
         text = escaped(text),
+        certain = certain(std::iter::once(answer)),
     );
     Ok(document(&title, &style(), &body, true))
+}
+
+/// What of a page of these maps is exact.
+pub(super) fn certain<'a>(mut answers: impl Iterator<Item = &'a Answer<Map>>) -> &'static str {
+    let has_symbols = answers.any(|answer| answer.value().decomposition.has_symbols());
+    if has_symbols { CERTAIN_TO_BITS } else { CERTAIN }
 }
 
 /// The style of pages of maps.
@@ -123,31 +136,41 @@ pub(super) fn data(
         "never": map.never_stable,
         "axes": [axis(0), axis(1)],
         "plots": figures.iter().map(plot).collect::<Vec<_>>(),
-        "curves": map.curves.iter().map(|c| curve(c, answer)).collect::<Vec<_>>(),
+        "curves": (0..map.curves.len()).map(|k| curve(k, answer)).collect::<Vec<_>>(),
         "strips": strips,
         "walls": walls.flat_map(|(w, f)| wall(w, f)).collect::<Vec<_>>(),
     }))
 }
 
-fn curve(curve: &Curve, answer: &Answer<Map>) -> Value {
+/// Bits after the point of coefficients that are not rational, and of walls that are not algebraic.
+const BITS: u64 = 640;
+
+fn curve(number: usize, answer: &Answer<Map>) -> Value {
+    let map = &answer.value().decomposition;
+    let polynomial = map.rounded_curve(number, BITS);
     let term = |(m, c): &(Monomial, Integer)| json!([m.exponent(0), m.exponent(1), c.to_string()]);
     json!({
-        "words": mechanism_words(&curve.causes, answer),
-        "terms": curve.polynomial.terms().iter().map(term).collect::<Vec<_>>(),
+        "words": mechanism_words(&map.curves[number].causes, answer),
+        "terms": polynomial.terms().iter().map(term).collect::<Vec<_>>(),
     })
 }
 
 fn strip(strip: &Strip, answer: &Answer<Map>, budget: &Budget) -> Result<Value, Error> {
-    let end = |value: &Option<RealAlgebraic>| {
+    let end = |value: &Option<Real>| {
         value.as_ref().map_or(Value::Null, |value| {
-            let (lo, hi) = value.enclosure();
-            let polynomial = Exact::coefficients(value.polynomial());
+            let polynomial = value.algebraic().map(|x| Exact::coefficients(x.polynomial()));
+            // Without a polynomial the page knows what is outside of the enclosure only.
+            let known = match polynomial {
+                Some(_) => value.clone(),
+                None => value.refined(&Rational::dyadic(&Integer::ONE, BITS)),
+            };
+            let (lo, hi) = known.enclosure();
             json!({ "enclosure": [lo.to_string(), hi.to_string()], "polynomial": polynomial })
         })
     };
     let cells: Vec<Value> = strip.cells.iter().map(|c| json!([u8::from(c.stable), c.outside])).collect();
     // On a wall that a user can type the cells are others than beside it.
-    let wall = strip.x.upper.as_ref().and_then(RealAlgebraic::exact);
+    let wall = strip.x.upper.as_ref().and_then(Real::exact);
     let fibre = wall.map(|x| answer.fibre(&x, budget)).transpose()?.flatten();
     let fibre = fibre.map(|cells| cells.iter().map(|c| json!([u8::from(c.0), c.1])).collect::<Vec<_>>());
     Ok(json!({ "lower": end(&strip.x.lower), "upper": end(&strip.x.upper), "cells": cells, "wall": fibre }))

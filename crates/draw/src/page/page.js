@@ -33,7 +33,7 @@
     for (let k = c.length - 1; k >= 0; k--) { s = s * q[0] + c[k] * p; p *= q[1]; }
     return sign(s);
   }
-  const end = e => e && { lo: rational(e.enclosure[0]), hi: rational(e.enclosure[1]), poly: e.polynomial.map(BigInt) };
+  const end = e => e && { lo: rational(e.enclosure[0]), hi: rational(e.enclosure[1]), poly: e.polynomial && e.polynomial.map(BigInt) };
   let strips = [], curves = [];
   function load(k) {
     [now, data] = [k, slices[k]];
@@ -48,6 +48,8 @@
     if (compare(e.lo, e.hi) === 0) return compare(e.lo, q);
     if (compare(q, e.lo) <= 0) return 1;
     if (compare(q, e.hi) >= 0) return -1;
+    // A number without a polynomial is known as narrowly as the page needs.
+    if (!e.poly) return 0;
     const s = signAt(e.poly, q);
     return s === 0 ? 0 : s === signAt(e.poly, e.hi) ? -1 : 1;
   }

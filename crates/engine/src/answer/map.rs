@@ -114,7 +114,7 @@ impl Problem {
 
     /// The exact decomposition alone.
     pub(super) fn decomposed(&self, budget: &Budget) -> Result<StabilityMap, Error> {
-        Ok(match self.plane(budget)? {
+        Ok(match self.plane_over_symbols(budget)? {
             None => StabilityMap::never_stable(),
             Some(p) => stability_map(p, &self.domains(), self.shape(), budget)?,
         })
@@ -127,7 +127,7 @@ impl Problem {
         digits: usize,
         budget: &Budget,
     ) -> Result<Answer<Map>, Error> {
-        let never_stable_cause = match self.plane(budget)? {
+        let never_stable_cause = match self.plane_over_symbols(budget)? {
             _ if !decomposition.never_stable => None,
             None => Some("undefined"),
             Some(p) => vanishing_boundary(p, self.shape(), budget)?.map(crate::stability::Cause::name),

@@ -5,12 +5,16 @@ use crate::error::{Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::Range;
 use crate::stability::plane::boxes::{BoxMap, Window, stability_boxes};
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
 
 /// The part of the time that boxes may take, so that some is left to write them.
 const SUBDIVISION: (u32, u32) = (9, 10);
+
+/// An exact map over symbols is tried first where the curve of complex pairs has no more terms. Up to here it takes some ten seconds at
+/// most (4400 terms: the drive of `examples/drive-hold.toml`), beyond soon minutes.
+const MOST_TERMS: u64 = 6000;
 
 /// How a map is made.
 ///
@@ -25,7 +29,7 @@ pub enum MapMethod {
     /// Boxes of a window, proved stable, proved unstable or left undecided.
     Boxes,
     /// The exact decomposition; boxes when it is not finished after half of a limited time and the
-    /// window is bounded.
+    /// window is bounded, and of a bounded window also where a loop over transcendental constants has a long boundary.
     #[default]
     Auto,
 }
@@ -68,7 +72,7 @@ impl BoxRequest {
 /// A window of two parameters cut into boxes.
 ///
 /// ```
-/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::limits::{Budget, Exhausted};
 /// use jurist_algebra::number::Rational;
 /// use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes};
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
@@ -95,12 +99,14 @@ pub struct MapBoxes {
     pub goal: Rational,
     /// The boxes.
     pub boxes: BoxMap,
+    /// Why there is no exact map, where that was looked for first.
+    pub no_exact_map: Option<Exhausted>,
 }
 
 /// A map by either method.
 ///
 /// ```
-/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::limits::{Budget, Exhausted};
 /// use jurist_algebra::number::Rational;
 /// use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes};
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
@@ -133,7 +139,7 @@ impl Problem {
 
     /// The stable region in the plane of the two free parameters by a method of choice.
     ///
-    /// Loops with dead time or with other functions, as behind a hold, have boxes only.
+    /// Loops with dead time, and those with functions, as behind a hold, that one of the parameters is inside of, have boxes only.
     ///
     /// Cost: of the exact decomposition that of [`Problem::map`]; of boxes
     /// ([ZettlerGarloff1998](jurist_algebra::bibliography#zettlergarloff1998)) about `1/h` of side `h` along each
@@ -157,28 +163,42 @@ impl Problem {
                 Ok(MapOrBoxes::Exact(Box::new(map)))
             };
             let share = || budget.share(SUBDIVISION.0, SUBDIVISION.1);
-            let found = |boxes: BoxMap| {
-                let value = MapBoxes { goal: request.undecided.clone(), boxes };
+            let found = |boxes: BoxMap, no_exact_map: Option<Exhausted>| {
+                let value = MapBoxes { goal: request.undecided.clone(), boxes, no_exact_map };
                 MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value)))
             };
             if method != MapMethod::Exact {
-                let share = share();
                 if let Some(plane) = self.delayed_plane(budget)? {
-                    return Ok(found(plane.boxes(&window_around(self, request)?, &request.undecided, &share)?));
+                    return Ok(found(plane.boxes(&window_around(self, request)?, &request.undecided, &share())?, None));
+                }
+                let mut no_exact_map = None;
+                let has_symbols = !self.algebra_over_symbols(budget)?.symbols().is_empty();
+                if method == MapMethod::Auto && has_symbols && self.is_outside_of_functions(budget)? {
+                    // Without a window there are no boxes to leave time for.
+                    let has_window = window_around(self, request).is_ok();
+                    let part = if has_window { &budget.share(1, 2) } else { budget };
+                    let size = self.plane_over_symbols(budget)?.map_or(0, |p| p.size(self.shape()));
+                    let attempt =
+                        if has_window && size > MOST_TERMS { Err(too_long(size).into()) } else { exact(part) };
+                    match attempt {
+                        Err(Error::Stopped(stopped)) if has_window => no_exact_map = Some(stopped),
+                        answered => return answered,
+                    }
                 }
                 if let Some(family) = self.moving_family(budget)? {
                     let (window, goal) = (window_around(self, request)?, &request.undecided);
                     let boxes = match family.is_inside_of_both() {
-                        true => family.boxes(&window, goal, &share, |_| None),
+                        true => family.boxes(&window, goal, &share(), |_| None),
                         false => {
                             let plane = self.symbolic_plane(budget)?.expect("one parameter is inside of functions");
-                            family.boxes(&window, goal, &share, plane.at_lower_end(&window))
+                            family.boxes(&window, goal, &share(), plane.at_lower_end(&window))
                         }
                     };
-                    return Ok(found(boxes));
+                    return Ok(found(boxes, no_exact_map));
                 }
                 if let Some(plane) = self.symbolic_plane(budget)? {
-                    return Ok(found(plane.boxes(&window_around(self, request)?, &request.undecided, &share)?));
+                    let boxes = plane.boxes(&window_around(self, request)?, &request.undecided, &share())?;
+                    return Ok(found(boxes, no_exact_map));
                 }
             }
             let window = match (method, window_of(self, request)) {
@@ -191,15 +211,21 @@ impl Problem {
                 // Without a window, or undefined everywhere: that needs no boxes.
                 return exact(budget);
             };
+            let mut no_exact_map = None;
             if method == MapMethod::Auto {
                 match exact(&budget.share(1, 2)) {
-                    Err(Error::Stopped(_)) => {}
+                    Err(Error::Stopped(stopped)) => no_exact_map = Some(stopped),
                     answered => return answered,
                 }
             }
-            Ok(found(stability_boxes(p, &window, self.shape(), &request.undecided, &share())?))
+            Ok(found(stability_boxes(p, &window, self.shape(), &request.undecided, &share())?, no_exact_map))
         })?
     }
+}
+
+fn too_long(terms: u64) -> Exhausted {
+    let reached = format!("the curve of complex pairs, with up to {terms} terms in the parameters and the constants");
+    Exhausted::new(format!("terms of a map by '--method auto' ({MOST_TERMS})"), reached)
 }
 
 /// [`window_of`], where there is nothing but boxes: a side without an end reaches as far from the nominal value as the other end, or 0, or one.

@@ -4,10 +4,11 @@ use super::{Answer, Frequency, Map};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::stability::plane::{Limit, multi_value, region_limits};
-use crate::stability::{AlgebraicInterval, AtPoint, End, Shape, StableSet, end_at, stable_set};
+use crate::stability::{AtPoint, End, RealInterval, Shape, StableSet, end_at};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, RealAlgebraic};
+use jurist_algebra::poly::{Domain, MultiPoly};
+use jurist_algebra::real::Real;
 use std::sync::Arc;
 
 /// An extreme value of a region, with the frequency of the complex pair that limits it there.
@@ -86,7 +87,7 @@ impl Answer<Map> {
     /// What limits each region, places and frequencies to about so many digits.
     pub(super) fn region_extents(&self, digits: usize, budget: &Budget) -> Result<Vec<RegionExtent>, Exhausted> {
         let problem = &self.problem;
-        let Ok(Some(p)) = problem.plane(budget) else { return Ok(Vec::new()) };
+        let Ok(Some(p)) = problem.plane_over_symbols(budget) else { return Ok(Vec::new()) };
         let found = region_limits(&self.value.decomposition, p, &problem.domains(), problem.shape(), digits, budget)?;
         // log2(10) < 10/3
         let bits = (digits as u64 + 2) * 10 / 3 + 8;
@@ -112,10 +113,14 @@ impl Answer<Map> {
         budget: &Budget,
     ) -> Result<Option<(End, Option<Frequency>)>, Error> {
         budget.enter(|| {
+            if self.value.decomposition.has_symbols() {
+                return self.wall_over_symbols(x, number, bits, budget);
+            }
             let line = self.problem.line(0, x, budget)?;
             let domain = &line.parameter().domain;
             let branches = self.value.decomposition.branches(x, domain, budget)?;
             let (Some(p), Some((value, _))) = (line.parametric(budget)?, branches.get(number)) else { return Ok(None) };
+            let Some(value) = value.algebraic() else { return Ok(None) };
             let end = end_at(p, value, domain, line.shape(), &budget.silent())?;
             Ok(end.map(|end| {
                 let frequency = line.frequency(&end, bits);
@@ -124,8 +129,43 @@ impl Answer<Map> {
         })?
     }
 
+    /// The same where the loop has symbols: the wall is an end of the stable set on the line.
+    fn wall_over_symbols(
+        &self,
+        x: &Rational,
+        number: usize,
+        bits: u64,
+        budget: &Budget,
+    ) -> Result<Option<(End, Option<Frequency>)>, Error> {
+        let map = &self.value.decomposition;
+        let domain = &self.problem.free()[1].domain;
+        let Some(strip) = map.strips.iter().find(|s| s.x.contains(x)) else { return Ok(None) };
+        let is_stable = |k: usize| strip.cells.get(k).is_some_and(|cell| cell.stable);
+        let (cell, side) = match [is_stable(number), is_stable(number + 1)] {
+            [true, false] => (number, 1),
+            [false, true] => (number + 1, 0),
+            _ => return Ok(None),
+        };
+        let branches = map.branches(x, domain, budget)?;
+        let value = |k: Option<usize>, edge: &Option<Rational>| {
+            let branch = k.and_then(|k| branches.get(k)).map(|b| b.0.clone());
+            branch.or_else(|| edge.clone().map(Real::from))
+        };
+        let inside =
+            RealInterval { lower: value(cell.checked_sub(1), &domain.lower), upper: value(Some(cell), &domain.upper) };
+        let inside = inside.sample(budget)?;
+        let line = self.slice(0, x, budget)?;
+        let around = line.value().intervals().iter().find(|i| i.contains(&inside));
+        let end = around.and_then(|i| [&i.lower, &i.upper][side].clone());
+        Ok(end.map(|end| {
+            let frequency = line.problem().frequency(&end, bits);
+            (end, frequency)
+        }))
+    }
+
     /// The cells on the vertical line at a rational `x`, from below, also where it is a wall between strips: whether
-    /// the loop is stable, and how many roots are outside. `None` where a curve contains the line.
+    /// the loop is stable, and how many roots are outside. `None` where a curve contains the line, and of a loop over symbols, where
+    /// equal branches are not recognised on a wall.
     ///
     /// Cost: the zeros of the boundary curves on one line are isolated, and one root count is made for each cell
     /// between them.
@@ -135,24 +175,27 @@ impl Answer<Map> {
     pub fn fibre(&self, x: &Rational, budget: &Budget) -> Result<Option<Vec<(bool, usize)>>, Error> {
         budget.enter(|| {
             let map = &self.value.decomposition;
+            if map.has_symbols() {
+                return Ok(None);
+            }
             let Some(p) = self.problem.plane(budget)? else { return Ok(None) };
             if map.curves.iter().any(|c| c.polynomial.substitute(0, x).0.is_zero()) {
                 return Ok(None);
             }
             let domain = &self.problem.free()[1].domain;
-            let mut ends: Vec<Option<RealAlgebraic>> = vec![domain.lower.clone().map(RealAlgebraic::from_rational)];
+            let mut ends: Vec<Option<Real>> = vec![domain.lower.clone().map(Real::from)];
             for (value, _) in map.branches(x, domain, budget)? {
                 // Branches of several curves may meet on a wall.
-                if !ends.last().is_some_and(|last| last.as_ref().is_some_and(|l| l.compare(&value).is_eq())) {
+                if !ends.last().is_some_and(|last| last.as_ref().is_some_and(|l| l.is_same(&value))) {
                     ends.push(Some(value));
                 }
             }
-            ends.push(domain.upper.clone().map(RealAlgebraic::from_rational));
+            ends.push(domain.upper.clone().map(Real::from));
             let mut cells = Vec::with_capacity(ends.len());
             for pair in ends.windows(2) {
                 budget.check()?;
-                let cell = AlgebraicInterval { lower: pair[0].clone(), upper: pair[1].clone() };
-                cells.push(match p.at(x, &cell.sample(), self.problem.shape()) {
+                let cell = RealInterval { lower: pair[0].clone(), upper: pair[1].clone() };
+                cells.push(match p.at(x, &cell.sample(budget)?, self.problem.shape()) {
                     AtPoint::Defined { count, infinite } => {
                         (infinite == 0 && count.inside == p.formal_degree(), count.outside + infinite)
                     }
@@ -166,19 +209,17 @@ impl Answer<Map> {
     /// The exact stable set on a line through the map: one parameter (0 for `x`) has a value, also that of a wall between
     /// strips.
     ///
-    /// Cost: that of [`stable_set`] on the line; the model is not evaluated again.
+    /// Cost: that of [`Problem::stable_set`] on the line; the model is not evaluated again.
     ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out.
     pub fn slice(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Answer<StableSet>, Error> {
         budget.enter(|| {
             let line = Arc::new(self.problem.on_line(fixed, value, budget)?);
-            let inside = self.problem.free()[fixed].domain.contains(value);
-            let set = match line.parametric(budget)?.filter(|_| inside) {
-                None => StableSet::default(),
-                Some(p) => stable_set(p, &line.parameter().domain, line.shape(), budget)?,
-            };
-            Ok(Answer::new(line, set))
+            if !self.problem.free()[fixed].domain.contains(value) {
+                return Ok(Answer::new(line, StableSet::default()));
+            }
+            line.stable_set(budget)
         })?
     }
 }

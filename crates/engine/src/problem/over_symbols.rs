@@ -63,6 +63,36 @@ impl Problem {
 }
 
 impl Problem {
+    /// What the symbols of a loop with two free parameters stand for, neither of which is inside of a function.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`]; `E-dead-time`; `E-function` where functions depend on a parameter.
+    pub(super) fn symbols_outside(&self, budget: &Budget) -> Result<Symbols, Error> {
+        let symbols = self.algebra_over_symbols(budget)?.symbols();
+        if !symbols.delays().is_empty() {
+            return Err(super::delayed::not_known());
+        }
+        let inside = parameters_inside(symbols);
+        if let Some(axis) = [0, 1].into_iter().find(|axis| inside.contains(axis)) {
+            let name = &self.free()[axis].name;
+            let message = format!("'{name}' is inside of functions, as behind a hold: there is no exact map");
+            let help = format!("maps with '{name}' are made of boxes: '--method boxes' with windows of both axes");
+            return Err(Diagnostic::error("E-function", message).help(help).into());
+        }
+        fixed_symbols(symbols)
+    }
+
+    /// Whether an exact map can be asked for of a loop with functions, as behind a hold: neither parameter is inside of one, and
+    /// there is no dead time.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`].
+    pub(crate) fn is_outside_of_functions(&self, budget: &Budget) -> Result<bool, Error> {
+        let symbols = self.algebra_over_symbols(budget)?.symbols();
+        let inside = parameters_inside(symbols);
+        Ok(symbols.delays().is_empty() && !inside.contains(&0) && !inside.contains(&1))
+    }
+
     /// The polynomial in the two free parameters over the constants of the model, of which some may be functions of one of the two;
     /// `None` where the loop is rational, and where it is undefined for all values.
     ///
@@ -81,8 +111,7 @@ impl Problem {
         if !symbols.delays().is_empty() {
             return Err(super::delayed::not_known());
         }
-        let arguments = symbols.iter().filter_map(|symbol| symbol.definition());
-        let inside: Vec<usize> = arguments.flat_map(|d| d.arguments()).flat_map(RationalFunction::variables).collect();
+        let inside = parameters_inside(symbols);
         let plane = match [0, 1].map(|axis| inside.contains(&axis)) {
             [true, true] => {
                 let [x, y] = [0, 1].map(|i| &self.free()[i].name);
@@ -120,6 +149,12 @@ impl Problem {
         let free = self.free().len();
         Ok(Some(budget.enter(|| MovingPolynomial::new(&d, free, symbols, self.shape()))?))
     }
+}
+
+/// The variables in the arguments of the symbols.
+fn parameters_inside(symbols: &model::Symbols) -> Vec<usize> {
+    let arguments = symbols.iter().filter_map(|symbol| symbol.definition());
+    arguments.flat_map(|d| d.arguments()).flat_map(RationalFunction::variables).collect()
 }
 
 /// The table of symbols that do not depend on a kept name; their arguments are in symbols alone.

@@ -160,7 +160,7 @@ impl Problem {
         let message = "this is asked of rational loops only yet, and the loop has functions, as behind a hold";
         let list: Vec<String> =
             algebra.symbols().definitions().iter().take(4).map(|(name, text)| format!("{name} = {text}")).collect();
-        let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, locus, map by boxes, tolerance, jury in a parameter outside of functions and at a point, report";
+        let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, locus, map (by boxes where a parameter is inside of functions), tolerance, jury in a parameter outside of functions and at a point, report";
         Err(Diagnostic::error("E-function", message).help(format!("{help}; it contains {}", list.join(", "))).into())
     }
 
@@ -253,6 +253,30 @@ impl Problem {
         Ok(self.plane.get_or_init(|| algebra.polynomial().map(PlanePolynomial::new)).as_ref())
     }
 
+    /// The polynomial in the two free parameters, also of a loop with functions, as behind a hold, if neither parameter is inside of
+    /// one; `None` where the loop is undefined for all values.
+    ///
+    /// Cost: that of [`Problem::plane`].
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`]; `E-dead-time`; `E-function` where functions depend on a parameter.
+    ///
+    /// # Panics
+    /// Unless two parameters are free.
+    pub fn plane_over_symbols(&self, budget: &Budget) -> Result<Option<&PlanePolynomial>, Error> {
+        assert_eq!(self.free.len(), 2, "two parameters are free");
+        if let Some(plane) = self.plane.get() {
+            return Ok(plane.as_ref());
+        }
+        let algebra = self.algebra_over_symbols(budget)?;
+        if algebra.symbols().is_empty() {
+            return self.plane(budget);
+        }
+        let symbols = Arc::new(self.symbols_outside(budget)?);
+        let over = |d| PlanePolynomial::over_symbols(d, &symbols);
+        Ok(self.plane.get_or_init(|| algebra.polynomial().map(over)).as_ref())
+    }
+
     /// Numerator and denominator of the sample time in the one free parameter; `None` in continuous time, without a sample
     /// time, and before the algebra is computed.
     pub fn sample_time(&self) -> Option<(UniPoly, UniPoly)> {
@@ -280,6 +304,9 @@ impl Problem {
     /// # Panics
     /// Unless two parameters are free.
     pub fn on_line(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Error> {
+        if !self.algebra_over_symbols(budget)?.symbols().is_empty() {
+            return self.on_line_over_symbols(fixed, value, budget);
+        }
         let algebra = self.algebra(budget)?.on_line(fixed, value);
         self.line_with(algebra, fixed, value, budget)
     }
@@ -307,6 +334,22 @@ impl Problem {
         let algebra = budget.enter(|| algebra.on_ray(name, base, step))?;
         let free = vec![Free { name: name.to_owned(), unit: None, nominal: None, domain }];
         let problem = Problem::new(Arc::clone(&self.model), self.set.clone(), free, self.region.clone(), Vec::new());
+        problem.algebra.get_or_init(|| algebra);
+        Ok(problem)
+    }
+
+    /// The same of a loop with functions that do not depend on what is free.
+    fn on_line_over_symbols(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Error> {
+        let left = &self.free[1 - fixed];
+        let (mut base, mut step) = ([Rational::ZERO, Rational::ZERO], [Rational::ZERO, Rational::ZERO]);
+        base[fixed] = value.clone();
+        step[1 - fixed] = Rational::ONE;
+        let algebra = self.algebra_over_symbols(budget)?;
+        let algebra = budget.enter(|| algebra.on_ray(&left.name, &base, &step))?;
+        let mut set = self.set.clone();
+        set.push((self.free[fixed].name.clone(), value.clone()));
+        let free = vec![left.clone()];
+        let problem = Problem::new(Arc::clone(&self.model), set, free, self.region.clone(), Vec::new());
         problem.algebra.get_or_init(|| algebra);
         Ok(problem)
     }

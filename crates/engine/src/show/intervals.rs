@@ -5,7 +5,7 @@ use super::margins::margin;
 use super::{real, region};
 use crate::answer::Answer;
 use crate::problem::Problem;
-use crate::stability::{Cause, End, IntervalSet, Range, RealIntervals, StableSet, UndecidedBracket};
+use crate::stability::{Cause, End, IntervalSet, Range, RealInterval, RealIntervals, StableSet, UndecidedBracket};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, parse_number, to_decimal};
 use jurist_algebra::poly::RealAlgebraic;
@@ -82,6 +82,11 @@ pub fn domain_text(name: &str, range: &Range) -> String {
 pub fn set_lines(name: &str, set: &IntervalSet, digits: usize) -> Vec<String> {
     let real = |end: &Option<RealAlgebraic>| end.clone().map(Real::from);
     lines(name, set.intervals().iter().map(|i| [real(&i.lower), real(&i.upper)]).collect(), digits)
+}
+
+/// The same for one interval with ends of any kind.
+pub fn extent_line(name: &str, extent: &RealInterval, digits: usize) -> String {
+    lines(name, vec![[extent.lower.clone(), extent.upper.clone()]], digits).remove(0)
 }
 
 /// The same for a stable set.

@@ -1,8 +1,9 @@
-//! Finite unions of open intervals with algebraic ends.
+//! Open intervals, and finite unions of those with algebraic ends.
 
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in, rational_between};
+use jurist_algebra::real::{self, Real};
 use std::cmp::Ordering;
 
 /// An open interval with rational ends, either of which may be infinite (`None`).
@@ -56,6 +57,21 @@ pub struct AlgebraicInterval {
     pub lower: Option<RealAlgebraic>,
     /// The upper end, excluded.
     pub upper: Option<RealAlgebraic>,
+}
+
+/// An open interval whose ends are real numbers of any kind; `None` is an infinite end.
+///
+/// ```
+/// use jurist_engine::stability::RealInterval;
+/// let positive = RealInterval { lower: Some(jurist_algebra::number::Rational::ZERO.into()), upper: None };
+/// assert!(positive.contains(&1.into()) && !positive.contains(&0.into()));
+/// ```
+#[derive(Clone, Debug)]
+pub struct RealInterval {
+    /// The lower end, excluded.
+    pub lower: Option<Real>,
+    /// The upper end, excluded.
+    pub upper: Option<Real>,
 }
 
 /// A union of disjoint open intervals, in ascending order. Two may share an end, which is then not
@@ -168,6 +184,46 @@ impl AlgebraicInterval {
             (None, None) => Rational::ZERO,
         }
     }
+}
+
+impl RealInterval {
+    /// Whether the value lies strictly between the ends.
+    ///
+    /// Cost: that of comparing it with both.
+    pub fn contains(&self, value: &Rational) -> bool {
+        self.lower.as_ref().is_none_or(|l| l.compare_rational(value).is_lt())
+            && self.upper.as_ref().is_none_or(|u| u.compare_rational(value).is_gt())
+    }
+
+    /// A rational number inside.
+    ///
+    /// Cost: as of [`AlgebraicInterval::sample`].
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out, and where some thousand bits do not tell the ends apart.
+    ///
+    /// # Panics
+    /// When the ends are equal.
+    pub fn sample(&self, budget: &Budget) -> Result<Rational, Exhausted> {
+        match (&self.lower, &self.upper) {
+            (Some(l), Some(u)) => Ok(real::rational_between(l, u, budget)?.expect("the ends differ")),
+            (Some(l), None) => budget.enter(|| l.rational_above()),
+            (None, Some(u)) => budget.enter(|| u.rational_below()),
+            (None, None) => Ok(Rational::ZERO),
+        }
+    }
+}
+
+/// The open cells that points (ascending, distinct, inside the range) cut the range into.
+pub(super) fn real_cells(range: &Range, points: &[Real]) -> Vec<RealInterval> {
+    if range.is_empty() {
+        return Vec::new();
+    }
+    let ends = std::iter::once(range.lower.clone().map(Real::from))
+        .chain(points.iter().cloned().map(Some))
+        .chain(std::iter::once(range.upper.clone().map(Real::from)));
+    let ends: Vec<_> = ends.collect();
+    ends.windows(2).map(|w| RealInterval { lower: w[0].clone(), upper: w[1].clone() }).collect()
 }
 
 /// The open cells that the points (ascending, distinct, inside the range) cut the range into.

@@ -28,7 +28,7 @@ pub use cause::{Cause, Causes};
 pub use conditions::{ClassicalTest, Condition, Inequality, ScaledPoly, Table, classical_test, row_name, solve};
 pub use half_size::HalfSizePair;
 pub(crate) use interval_set::zeros_in;
-pub use interval_set::{AlgebraicInterval, IntervalSet, Range};
+pub use interval_set::{AlgebraicInterval, IntervalSet, Range, RealInterval};
 pub use jury::{JuryRow, JuryTable, UNDIVIDED_ORDER, is_schur_jury, jury_table, jury_table_with};
 pub use pair_location::ComplexPair;
 use pair_location::complex_pair_at;

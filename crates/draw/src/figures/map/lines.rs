@@ -1,9 +1,8 @@
 //! The walls as lines: branches joined from strip to strip, and the vertical lines among the curves.
 
 use super::super::COLOURS;
-use super::trace::{MapTrace, approximate};
+use super::trace::{MapTrace, approximate_real};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::RealAlgebraic;
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::show::region::boundary_point;
 use jurist_engine::stability::plane::{Cell, StabilityMap};
@@ -139,19 +138,19 @@ pub(super) fn walls(answer: &Answer<Map>, map: &StabilityMap, trace: &MapTrace) 
 /// The vertical lines among the curves: where stable cells touch them, and elsewhere.
 fn vertical_walls(answer: &Answer<Map>, map: &StabilityMap, trace: &MapTrace) -> Vec<Wall> {
     let mut out = Vec::new();
-    for (curve, c) in map.curves.iter().enumerate().filter(|(_, c)| c.polynomial.degree_in(1) == 0) {
-        let Some(line) = c.polynomial.to_univariate(0) else { continue };
+    for curve in (0..map.curves.len()).filter(|&k| map.curves[k].polynomial.degree_in(1) == 0) {
         for (k, strip) in map.strips.iter().enumerate() {
-            let shown = |value: &Option<RealAlgebraic>| {
-                let value = value.as_ref().filter(|v| v.sign_of(&line).is_eq())?;
-                Some(trace.windows[0].place(approximate(value))).filter(|u| (0.0..=1.0).contains(u))
+            let shown = |side: usize| {
+                let value = [&strip.x.lower, &strip.x.upper][side].as_ref();
+                let value = value.filter(|_| strip.lines[side].contains(&curve))?;
+                Some(trace.windows[0].place(approximate_real(value))).filter(|u| (0.0..=1.0).contains(u))
             };
             if k == 0
-                && let Some(u) = shown(&strip.x.lower)
+                && let Some(u) = shown(0)
             {
                 out.extend(pieces(answer, map, trace, (curve, u), None, Some(k)));
             }
-            if let Some(u) = shown(&strip.x.upper) {
+            if let Some(u) = shown(1) {
                 let right = (k + 1 < map.strips.len()).then_some(k + 1);
                 out.extend(pieces(answer, map, trace, (curve, u), Some(k), right));
             }

@@ -3,7 +3,6 @@
 use super::window::AxisWindow;
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::poly::algebraic::simplest_between;
 use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, Map};
@@ -134,7 +133,7 @@ impl Tracer<'_> {
         if beyond {
             return None;
         }
-        let u = window.place(approximate(wall)).clamp(0.0, 1.0);
+        let u = window.place(approximate_real(wall)).clamp(0.0, 1.0);
         let aside = if right { u - CLOSEST } else { u + CLOSEST };
         let mut step = Rational::from_f64((window.value(aside) - window.value(u)).abs())?;
         let half = Rational::dyadic(&jurist_algebra::number::Integer::ONE, 1);
@@ -172,7 +171,7 @@ impl Tracer<'_> {
         let window = &self.windows[1];
         let branches = self.map.branches(x, self.y_domain, self.budget)?;
         let width = (&window.upper - &window.lower) * Rational::dyadic(&jurist_algebra::number::Integer::ONE, 14);
-        let place = |value: &RealAlgebraic| {
+        let place = |value: &Real| {
             let fine = if window.logarithmic { value.refined_to_digits(DIGITS) } else { value.refined(&width) };
             let (lo, hi) = fine.enclosure();
             window.place(lo.midpoint(&hi).to_f64_approximate())
@@ -185,11 +184,6 @@ impl Tracer<'_> {
 fn steep(a: &TracedLine, b: &TracedLine) -> bool {
     let near = |v: f64| v.clamp(-0.02, 1.02);
     a.v.iter().zip(&b.v).any(|(a, b)| (near(*a) - near(*b)).abs() > STEP)
-}
-
-/// The nearest floating-point number, about.
-pub(super) fn approximate(value: &RealAlgebraic) -> f64 {
-    approximate_real(&value.clone().into())
 }
 
 /// The nearest floating-point number, about.

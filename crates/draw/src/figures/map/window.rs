@@ -2,12 +2,12 @@
 
 use super::super::axes::{Axis, Scale};
 use super::super::engineering::unit_text;
-use super::trace::{approximate, approximate_real};
+use super::trace::approximate_real;
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::problem::Free;
 use jurist_engine::show::layout::visible;
-use jurist_engine::stability::{AlgebraicInterval, Range};
+use jurist_engine::stability::{Range, RealInterval};
 
 /// A positive range of values is drawn on a logarithmic axis from this ratio on.
 const LOGARITHMIC_RATIO: f64 = 100.0;
@@ -100,8 +100,8 @@ pub fn common_windows(
 fn shown_values(answer: &Answer<Map>, parameter: usize, values: &mut Vec<f64>) -> [bool; 2] {
     let axis = &answer.problem().free()[parameter];
     let regions = &answer.value().decomposition.regions;
-    let extents: Vec<&AlgebraicInterval> = regions.iter().map(|r| if parameter == 0 { &r.x } else { &r.y }).collect();
-    values.extend(extents.iter().flat_map(|e| [&e.lower, &e.upper]).flatten().map(approximate));
+    let extents: Vec<&RealInterval> = regions.iter().map(|r| if parameter == 0 { &r.x } else { &r.y }).collect();
+    values.extend(extents.iter().flat_map(|e| [&e.lower, &e.upper]).flatten().map(approximate_real));
     values.extend(axis.nominal.as_ref().map(Rational::to_f64_approximate));
     for (_, set) in answer.value().slices.iter().filter(|(line, _)| line.parameter().name == axis.name) {
         let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
@@ -125,7 +125,7 @@ fn shown_values(answer: &Answer<Map>, parameter: usize, values: &mut Vec<f64>) -
 fn values_without_regions(answer: &Answer<Map>, parameter: usize) -> Vec<f64> {
     let map = &answer.value().decomposition;
     if parameter == 0 {
-        map.strips.iter().flat_map(|s| [&s.x.lower, &s.x.upper]).flatten().map(approximate).collect()
+        map.strips.iter().flat_map(|s| [&s.x.lower, &s.x.upper]).flatten().map(approximate_real).collect()
     } else {
         map.strips.iter().flat_map(|s| &s.cells).map(|c| c.sample.to_f64_approximate()).collect()
     }

@@ -3,11 +3,11 @@
 use super::{Asked, BodySlice};
 use crate::answer::MapLimit;
 use crate::error::Error;
-use crate::stability::AlgebraicInterval;
+use crate::stability::RealInterval;
 use crate::stability::plane::StableRegion;
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 
 /// An extreme value of a parameter over the slices.
@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 #[non_exhaustive]
 pub struct Extreme {
     /// The value; `None` where a region is unbounded.
-    pub value: Option<RealAlgebraic>,
+    pub value: Option<Real>,
     /// The numbers of the slices that reach it.
     pub slices: Vec<usize>,
     /// What limits the first of them there; `None` where that is not known, and of what is unbounded.
@@ -72,40 +72,45 @@ impl StretchEnd {
 }
 
 /// Of several regions the least and the greatest value of either parameter.
-pub(super) fn of_regions(regions: &[StableRegion]) -> Option<[AlgebraicInterval; 2]> {
-    let hull = |parts: Vec<&AlgebraicInterval>| AlgebraicInterval {
+pub(super) fn of_regions(regions: &[StableRegion]) -> Option<[RealInterval; 2]> {
+    let hull = |parts: Vec<&RealInterval>| RealInterval {
         lower: outermost(parts.iter().map(|i| i.lower.as_ref()), Ordering::Less),
         upper: outermost(parts.iter().map(|i| i.upper.as_ref()), Ordering::Greater),
     };
-    let of = |side: fn(&StableRegion) -> &AlgebraicInterval| hull(regions.iter().map(side).collect());
+    let of = |side: fn(&StableRegion) -> &RealInterval| hull(regions.iter().map(side).collect());
     (!regions.is_empty()).then(|| [of(|r| &r.x), of(|r| &r.y)])
 }
 
+/// The order of two ends; those that are the same to some thousand bits count as one.
+fn order(a: &Real, b: &Real) -> Ordering {
+    a.compare(b, &Budget::unlimited()).unwrap_or(Ordering::Equal)
+}
+
 /// The least or greatest end; `None` where one is infinite.
-fn outermost<'a>(ends: impl Iterator<Item = Option<&'a RealAlgebraic>>, wanted: Ordering) -> Option<RealAlgebraic> {
-    let all: Vec<&RealAlgebraic> = ends.collect::<Option<_>>()?;
-    let further = |a: &'a RealAlgebraic, b: &'a RealAlgebraic| if b.compare(a) == wanted { b } else { a };
+fn outermost<'a>(ends: impl Iterator<Item = Option<&'a Real>>, wanted: Ordering) -> Option<Real> {
+    let all: Vec<&Real> = ends.collect::<Option<_>>()?;
+    let further = |a: &'a Real, b: &'a Real| if order(b, a) == wanted { b } else { a };
     all.into_iter().reduce(further).cloned()
 }
 
 impl Extremes {
     /// Over the slices that are decided.
     pub(super) fn of(slices: &[BodySlice]) -> Option<Extremes> {
-        let known: Vec<(usize, &[AlgebraicInterval; 2])> =
+        let known: Vec<(usize, &[RealInterval; 2])> =
             slices.iter().enumerate().filter_map(|(k, s)| Some((k, s.extent.as_ref()?))).collect();
         if known.is_empty() {
             return None;
         }
         let extreme = |parameter: usize, side: usize| {
-            let end = |extent: &[AlgebraicInterval; 2]| match side {
+            let end = |extent: &[RealInterval; 2]| match side {
                 0 => extent[parameter].lower.clone(),
                 _ => extent[parameter].upper.clone(),
             };
-            let ends: Vec<(usize, Option<RealAlgebraic>)> = known.iter().map(|(k, e)| (*k, end(e))).collect();
+            let ends: Vec<(usize, Option<Real>)> = known.iter().map(|(k, e)| (*k, end(e))).collect();
             let value = outermost(ends.iter().map(|e| e.1.as_ref()), [Ordering::Less, Ordering::Greater][side]);
-            let reaches = |end: &Option<RealAlgebraic>| match (end, &value) {
+            let reaches = |end: &Option<Real>| match (end, &value) {
                 (None, None) => true,
-                (Some(a), Some(b)) => a.compare(b).is_eq(),
+                (Some(a), Some(b)) => order(a, b).is_eq(),
                 _ => false,
             };
             let reached: Vec<usize> = ends.iter().filter(|(_, end)| reaches(end)).map(|(k, _)| *k).collect();
@@ -117,10 +122,10 @@ impl Extremes {
 }
 
 /// What limits the region of a slice that reaches a value.
-fn limit_at(slice: &BodySlice, parameter: usize, side: usize, value: &RealAlgebraic) -> Option<MapLimit> {
+fn limit_at(slice: &BodySlice, parameter: usize, side: usize, value: &Real) -> Option<MapLimit> {
     let limits = slice.map.as_ref().ok()?.value().limits();
     let ends = limits.iter().filter_map(|extent| extent.ends[parameter][side].as_ref());
-    ends.into_iter().find(|end| end.limit.value.compare(value).is_eq()).cloned()
+    ends.into_iter().find(|end| order(&end.limit.value, value).is_eq()).cloned()
 }
 
 impl Asked<'_> {

@@ -7,7 +7,7 @@ pub use extent::{Extreme, Extremes, Stretch, StretchEnd};
 use super::{Answer, Map};
 use crate::error::{Diagnostic, Error};
 use crate::problem::{Problem, Question};
-use crate::stability::AlgebraicInterval;
+use crate::stability::RealInterval;
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Rational, evenly_spaced};
 use std::sync::Arc;
@@ -88,7 +88,7 @@ pub struct BodySlice {
     /// The map, the same as that of a question with this value set; stopped where the budget ended before.
     pub map: Result<Answer<Map>, Exhausted>,
     /// How far its regions together reach in either parameter; `None` without a region and without a map.
-    pub extent: Option<[AlgebraicInterval; 2]>,
+    pub extent: Option<[RealInterval; 2]>,
 }
 
 impl BodySlice {
@@ -271,7 +271,7 @@ impl Asked<'_> {
     fn by_boxes(&self, error: Error, value: &Rational) -> Error {
         let Error::Refused(refused) = &error else { return error };
         let ([x, y], "E-function" | "E-dead-time") = (self.question.free_names(), refused.code()) else { return error };
-        let message = "slices are exact maps, of rational loops only, and this one has functions, as behind a hold";
+        let message = "slices are exact maps, and a parameter is inside of functions of this loop, as behind a hold";
         let one = format!("map -x {x}=LO..HI -y {y}=LO..HI --set {}={value}", self.name);
         let help = format!("boxes decide one slice at a time, with windows of both axes: '{one}'");
         Diagnostic::error("E-function", message).help(help).into()

@@ -20,7 +20,7 @@ pub(super) fn boxes(model: &Model, [x, y]: [Side; 2], undecided: &str) -> BoxMap
     let side = |(_, low, high): Side| Range::between(Some(number(low)), Some(number(high)));
     let request = BoxRequest::new([side(x), side(y)], number(undecided));
     let problem = model.ask().free(x.0).free(y.0).plane_problem().unwrap();
-    match problem.map_by(MapMethod::Auto, &request, 6, &Budget::unlimited()).unwrap() {
+    match problem.map_by(MapMethod::Boxes, &request, 6, &Budget::unlimited()).unwrap() {
         MapOrBoxes::Boxes(answer) => answer.into_value().boxes,
         MapOrBoxes::Exact(_) => panic!("boxes were expected"),
     }

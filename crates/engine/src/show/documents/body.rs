@@ -7,8 +7,8 @@ use super::schema_name;
 use super::undecided::{Answered, Undecided};
 use crate::answer::{self, Answer};
 use crate::problem::Problem;
-use crate::stability::AlgebraicInterval;
-use jurist_algebra::poly::RealAlgebraic;
+use crate::stability::RealInterval;
+use jurist_algebra::real::Real;
 use serde::{Deserialize, Serialize};
 
 schema_name!(BodyName, "jurist/body/1");
@@ -127,8 +127,8 @@ impl Answer<answer::Body> {
     pub fn json(&self, digits: usize) -> Body {
         let (problem, body) = (self.problem(), self.value());
         let third = &problem.free()[2];
-        let bounds = |interval: &AlgebraicInterval| {
-            let end = |value: &Option<RealAlgebraic>| value.clone().map(|value| PlainEnd::new(value, digits));
+        let bounds = |interval: &RealInterval| {
+            let end = |value: &Option<Real>| value.clone().map(|value| PlainEnd::new(value, digits));
             Bounds { lower: end(&interval.lower), upper: end(&interval.upper) }
         };
         let slice = |slice: &answer::BodySlice| BodySlice {

@@ -1,5 +1,6 @@
 //! The document `jurist/map-boxes/1`.
 
+use super::map::variables;
 use super::schema_name;
 use super::{Answered, Curve, Exact, MapQuestion};
 use crate::answer::{self, Answer};
@@ -40,6 +41,9 @@ pub struct SubdividedWindow {
     pub boxes: Vec<PlaneBox>,
     /// The budget that ran out before the goal was reached; `null` where none did.
     pub stopped: Option<String>,
+    /// Why there is no exact map, where that was looked for first; left out where it was not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub no_exact_map: Option<String>,
 }
 
 /// No boxes.
@@ -120,10 +124,10 @@ impl From<&boxes::PlaneBox> for PlaneBox {
 impl MapBoxes {
     /// The document, also of an answer that the budget did not allow.
     pub fn new(problem: &Problem, answer: Result<&answer::MapBoxes, &Exhausted>) -> Self {
-        let known = |answer::MapBoxes { goal, boxes: map }: &answer::MapBoxes| SubdividedWindow {
+        let known = |answer::MapBoxes { goal, boxes: map, no_exact_map }: &answer::MapBoxes| SubdividedWindow {
             window: (&map.window).into(),
             goal: goal.into(),
-            curves: map.curves.iter().map(Curve::from).collect(),
+            curves: map.curves.iter().map(|curve| Curve::new(curve, &variables(problem))).collect(),
             areas: Areas {
                 window: (&map.window.area()).into(),
                 stable: (&map.areas.stable).into(),
@@ -132,6 +136,7 @@ impl MapBoxes {
             },
             boxes: map.boxes.iter().map(PlaneBox::from).collect(),
             stopped: map.stopped.clone(),
+            no_exact_map: no_exact_map.as_ref().map(Exhausted::to_string),
         };
         MapBoxes { schema: MapBoxesName::V1, question: MapQuestion::new(problem), answer: Answered::of(answer, known) }
     }

@@ -15,7 +15,8 @@ use crate::show::region::{boundary_point, causes_text};
 use crate::stability::plane::{self, StabilityMap, StableRegion};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{self, enclosed_decimal};
-use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::poly::{Monomial, MultiPoly};
+use jurist_algebra::real::Real;
 use serde::{Deserialize, Serialize};
 
 schema_name!(MapName, "jurist/map/1");
@@ -81,6 +82,9 @@ pub struct Regions {
     pub never_stable_cause: Option<Option<String>>,
     /// The curves on which stability can change.
     pub curves: Vec<Curve>,
+    /// What the names in the coefficients of the curves stand for; left out where these are integers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub constants: Option<Named<String>>,
     /// The open strips from left to right.
     pub strips: Vec<Strip>,
     /// The connected stable regions.
@@ -114,15 +118,47 @@ pub struct Curve {
     pub terms: Vec<CurveTerm>,
 }
 
-/// The powers of x and y, and the integer before them.
-pub type CurveTerm = (u32, u32, Exact);
+/// The powers of x and y, and what is before them.
+pub type CurveTerm = (u32, u32, Coefficient);
 
-impl From<&plane::Curve> for Curve {
-    fn from(curve: &plane::Curve) -> Self {
-        let terms = curve.polynomial.terms().iter();
-        let terms = terms.map(|(m, c)| (m.exponent(0), m.exponent(1), c.into())).collect();
+/// An integer, or a polynomial in the document's `constants` with integer coefficients: `2*X1^2 - X1 + 1`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub struct Coefficient(String);
+
+impl Coefficient {
+    /// The text.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl Curve {
+    /// Of a curve whose symbols, variables from 2 on, have names in this list of all variables.
+    pub(super) fn new(curve: &plane::Curve, variables: &[String]) -> Self {
+        let powers = |m: &Monomial| (m.exponent(0), m.exponent(1));
+        let mut all: Vec<(u32, u32)> = Vec::new();
+        for (m, _) in curve.polynomial.terms() {
+            if !all.contains(&powers(m)) {
+                all.push(powers(m));
+            }
+        }
+        let coefficient = |of: (u32, u32)| {
+            let own = curve.polynomial.terms().iter().filter(|(m, _)| powers(m) == of);
+            let constant = |m: &Monomial| m.with_exponent(0, 0).with_exponent(1, 0).exponents().to_vec();
+            let number = MultiPoly::from_terms(own.map(|(m, c)| (constant(m), c.clone())));
+            Coefficient(number.display(variables).to_string())
+        };
+        let terms = all.into_iter().map(|of| (of.0, of.1, coefficient(of))).collect();
         Curve { name: curve.causes.to_string(), terms }
     }
+}
+
+/// The names of all variables of the curves of a map.
+pub(super) fn variables(problem: &Problem) -> Vec<String> {
+    let polynomial = problem.evaluated().and_then(|algebra| algebra.polynomial());
+    polynomial.map(|d| d.variables.clone()).unwrap_or_default()
 }
 
 /// An open strip of the domain.
@@ -273,14 +309,17 @@ impl MapQuestion {
 
 impl Strip {
     fn new(strip: &plane::Strip, map: &StabilityMap, x: &Free, digits: usize) -> Self {
-        let wall = |value: &RealAlgebraic| Wall {
-            number: Number::new(&value.clone().into(), digits),
-            cause: wall_cause(map, x, value),
-            frequency: FrequencyOfPair::default(),
-            closed: false,
+        let wall = |side: usize| {
+            let value = [&strip.x.lower, &strip.x.upper][side].as_ref()?;
+            Some(Wall {
+                number: Number::new(value, digits),
+                cause: wall_cause(map, x, value, &strip.lines[side]),
+                frequency: FrequencyOfPair::default(),
+                closed: false,
+            })
         };
         Strip {
-            x: Bounds { lower: strip.x.lower.as_ref().map(wall), upper: strip.x.upper.as_ref().map(wall) },
+            x: Bounds { lower: wall(0), upper: wall(1) },
             sample: (&strip.sample).into(),
             cells: strip.cells.iter().map(Cell::from).collect(),
         }
@@ -316,7 +355,7 @@ impl RegionEnd {
     /// The end of a parameter with its limit where that is known; `None` where there is no end.
     pub(super) fn new(
         limit: Option<&MapLimit>,
-        value: Option<&RealAlgebraic>,
+        value: Option<&Real>,
         parameter: usize,
         problem: &Problem,
         digits: usize,
@@ -332,7 +371,7 @@ impl RegionLimit {
     fn new(limit: &MapLimit, parameter: usize, problem: &Problem, digits: usize) -> Self {
         let place = |at: &[number::Enclosure; 2]| Place::new(&at[1 - parameter], digits);
         RegionLimit {
-            number: Number::new(&limit.limit.value.clone().into(), digits),
+            number: Number::new(&limit.limit.value, digits),
             cause: limit.limit.causes.to_string(),
             boundary: boundary_point(problem).map(|_| causes_text(&limit.limit.causes, problem)),
             frequency: FrequencyOfPair::new(digits.min(JSON_NUMBER_DIGITS), |_| limit.frequency.clone()),
@@ -350,7 +389,11 @@ impl Regions {
         Regions {
             never_stable: map.never_stable,
             never_stable_cause: map.never_stable.then(|| answer.never_stable_cause.map(str::to_owned)),
-            curves: map.curves.iter().map(Curve::from).collect(),
+            curves: map.curves.iter().map(|curve| Curve::new(curve, &variables(problem))).collect(),
+            constants: problem
+                .evaluated()
+                .filter(|_| map.has_symbols())
+                .map(|algebra| algebra.symbols().definitions().into_iter().collect()),
             strips: map.strips.iter().map(|s| Strip::new(s, map, problem.axes()[0], digits)).collect(),
             regions: map.regions.iter().enumerate().map(region).collect(),
             required: answer.required.as_ref().map(|found| RequiredInPlane::new(found, digits)),

@@ -5,7 +5,7 @@ use super::map::{Branch, Curve};
 use super::number::Exact;
 use super::requirements::RequirementAsked;
 use crate::response::{RequiredMap, RequiredRegions};
-use crate::stability::AlgebraicInterval;
+use crate::stability::RealInterval;
 use crate::stability::plane::{self, StableRegion};
 use serde::{Deserialize, Serialize};
 
@@ -75,7 +75,7 @@ pub struct RequiredRegion {
     pub y: Bounds<PlainEnd>,
 }
 
-fn bounds(interval: &AlgebraicInterval, digits: usize) -> Bounds<PlainEnd> {
+fn bounds(interval: &RealInterval, digits: usize) -> Bounds<PlainEnd> {
     let [lower, upper] =
         [&interval.lower, &interval.upper].map(|end| end.as_ref().map(|value| PlainEnd::new(value.clone(), digits)));
     Bounds { lower, upper }
@@ -119,7 +119,7 @@ impl RequiredInPlane {
         RequiredInPlane {
             at: found.at.clone(),
             requirements: found.requirements.iter().map(Into::into).collect(),
-            curves: all.curves.iter().map(Curve::from).collect(),
+            curves: all.curves.iter().map(|curve| Curve::new(curve, &[])).collect(),
             strips: all.strips.iter().enumerate().map(strip).collect(),
             sets: found.regions.iter().map(|r| RequiredSetOfRegions::new(r, digits)).collect(),
         }

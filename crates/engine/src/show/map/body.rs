@@ -1,13 +1,12 @@
 //! Slices of the stable region in three parameters, for people.
 
-use super::super::intervals::{heading, set_lines, undecided_text};
+use super::super::intervals::{extent_line, heading, undecided_text};
 use super::super::layout::{Columns, short, visible};
 use super::super::real;
 use super::super::region::goal_or_stable;
 use super::text::{axis_text, mechanism, never_stable_text, place};
 use crate::answer::{Answer, Body, BodySlice, Extreme, Extremes, Stretch, StretchEnd};
 use crate::problem::Problem;
-use crate::stability::{AlgebraicInterval, IntervalSet};
 use jurist_algebra::number::to_decimal;
 
 /// Digits in the table of slices.
@@ -53,9 +52,9 @@ impl Answer<Body> {
                 Ok(map) => {
                     cells.push(map.value().decomposition.regions.len().to_string());
                     cells.extend(match (&slice.extent, map.value().never_stable_cause) {
-                        (Some(extent), _) => {
-                            [(x, &extent[0]), (y, &extent[1])].map(|(axis, i)| span(&axis.name, i)).to_vec()
-                        }
+                        (Some(extent), _) => [(x, &extent[0]), (y, &extent[1])]
+                            .map(|(axis, i)| extent_line(&axis.name, i, TABLE_DIGITS))
+                            .to_vec(),
                         (None, Some(cause)) => vec![format!("{goal} nowhere{}", never_stable_text(cause))],
                         (None, None) => vec![format!("{goal} nowhere")],
                     });
@@ -103,7 +102,7 @@ impl Answer<Body> {
             let (word, name) = (["least", "greatest"][side], &axes[parameter].name);
             let at = self.reached_at(&extreme.slices);
             let Some(value) = &extreme.value else { return vec![format!("no {word} {name}"), String::new(), at] };
-            let decimal = real::rounded(&value.clone().into(), digits).decimal;
+            let decimal = real::rounded(value, digits).decimal;
             let mut cells = vec![format!("{word} {name}"), decimal, at];
             // On several slices the same value has several frequencies and places.
             if let (Some(limit), [_]) = (&extreme.limit, extreme.slices.as_slice()) {
@@ -180,8 +179,4 @@ fn points_text(problem: &Problem) -> String {
         "stable" => "stable points".to_owned(),
         goal => format!("points with {goal}"),
     }
-}
-
-fn span(name: &str, extent: &AlgebraicInterval) -> String {
-    set_lines(name, &IntervalSet::from_iter([extent.clone()]), TABLE_DIGITS).remove(0)
 }

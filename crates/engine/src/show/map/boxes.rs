@@ -22,7 +22,12 @@ pub fn map_boxes_text(problem: &Problem, answer: Result<&MapBoxes, &Exhausted>, 
     let mut out = format!("{}\n{} against {}, by boxes: ", heading(problem), axis_text(x), axis_text(y));
     match answer {
         Err(stopped) => out.push_str(&format!("{}\n", undecided_text(stopped))),
-        Ok(answer) => boxes_text(&mut out, &answer.boxes, &goal_or_stable(problem), [&x.name, &y.name], digits),
+        Ok(answer) => {
+            boxes_text(&mut out, &answer.boxes, &goal_or_stable(problem), [&x.name, &y.name], digits);
+            if let Some(stopped) = &answer.no_exact_map {
+                out.push_str(&format!("    no exact map: {stopped}\n"));
+            }
+        }
     }
     out
 }

@@ -1,9 +1,8 @@
 //! Where requirements are met in a map, for people.
 
-use super::super::intervals::set_lines;
+use super::super::intervals::extent_line;
 use crate::problem::Problem;
 use crate::response::{RequiredMap, RequiredRegions, Requirement};
-use crate::stability::IntervalSet;
 
 /// What is required, and how far each region reaches.
 pub(super) fn required_text(found: &RequiredMap, problem: &Problem, digits: usize) -> String {
@@ -32,7 +31,7 @@ fn set_text(set: &RequiredRegions, found: &RequiredMap, problem: &Problem, digit
             .axes()
             .into_iter()
             .zip([&region.x, &region.y])
-            .flat_map(|(axis, extent)| set_lines(&axis.name, &IntervalSet::from_iter([extent.clone()]), digits));
+            .map(|(axis, extent)| extent_line(&axis.name, extent, digits));
         out.push_str(&format!("        {}\n", extents.collect::<Vec<_>>().join("   ")));
     }
     out

@@ -1,6 +1,6 @@
 //! The answer for people: each region, how far it reaches, and what limits it there.
 
-use super::super::intervals::{domain_text, heading, set_lines, stable_lines, undecided_text};
+use super::super::intervals::{domain_text, extent_line, heading, stable_lines, undecided_text};
 use super::super::layout::{Columns, named_values, short, visible};
 use super::super::real;
 use super::super::region::{causes_text, goal_or_stable};
@@ -8,7 +8,7 @@ use super::required::required_text;
 use crate::answer::{Answer, Map, MapLimit, RegionExtent};
 use crate::problem::{Free, Problem};
 use crate::stability::plane::{Branch, StabilityMap, StableRegion};
-use crate::stability::{AlgebraicInterval, Cause, IntervalSet};
+use crate::stability::{Cause, RealInterval};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Enclosure, Integer, enclosed_decimal, to_decimal};
 use jurist_algebra::poly::algebraic::simplest_between;
@@ -96,9 +96,7 @@ fn region_text(
     };
     let extents = [&region.x, &region.y];
     for (axis, extent) in axes.into_iter().zip(extents) {
-        for line in set_lines(&axis.name, &IntervalSet::from_iter([extent.clone()]), digits) {
-            out.push_str(&format!("    {line}\n"));
-        }
+        out.push_str(&format!("    {}\n", extent_line(&axis.name, extent, digits)));
     }
     let mut columns = Columns::new("    ");
     for (k, axis) in axes.iter().enumerate() {
@@ -109,11 +107,11 @@ fn region_text(
             let cells = match (limit, end) {
                 (_, None) => vec![format!("no {word} {}", axis.name)],
                 (None, Some(value)) => {
-                    vec![format!("{word} {}", axis.name), real::rounded(&value.clone().into(), digits).decimal]
+                    vec![format!("{word} {}", axis.name), real::rounded(value, digits).decimal]
                 }
                 (Some(limit), Some(value)) => vec![
                     format!("{word} {}", axis.name),
-                    real::rounded(&value.clone().into(), digits).decimal,
+                    real::rounded(value, digits).decimal,
                     mechanism(limit, problem),
                     place(limit, k, axes),
                 ],
@@ -179,7 +177,7 @@ pub(super) fn place(limit: &MapLimit, parameter: usize, axes: [&Free; 2]) -> Str
 /// What is below and above, from which `x` to which.
 fn walls(region: &StableRegion, map: &StabilityMap, problem: &Problem) -> String {
     let axes = problem.axes();
-    let mut rows: Vec<(AlgebraicInterval, [String; 2])> = Vec::new();
+    let mut rows: Vec<(RealInterval, [String; 2])> = Vec::new();
     for (strip, cell) in &region.cells {
         let cell = &map.strips[*strip].cells[*cell];
         let side = |b: &Option<Branch>, domain: bool| match b {
@@ -190,8 +188,9 @@ fn walls(region: &StableRegion, map: &StabilityMap, problem: &Problem) -> String
         let sides =
             [side(&cell.lower, axes[1].domain.lower.is_some()), side(&cell.upper, axes[1].domain.upper.is_some())];
         let x = &map.strips[*strip].x;
-        let continues = |last: &AlgebraicInterval| match (&last.upper, &x.lower) {
-            (Some(a), Some(b)) => a.compare(b).is_eq(),
+        // Neighbouring strips share the wall.
+        let continues = |last: &RealInterval| match (&last.upper, &x.lower) {
+            (Some(a), Some(b)) => a.is_same(b),
             _ => false,
         };
         match rows.iter_mut().find(|r| r.1 == sides && continues(&r.0)) {
@@ -201,7 +200,7 @@ fn walls(region: &StableRegion, map: &StabilityMap, problem: &Problem) -> String
     }
     let mut columns = Columns::new("    ");
     for (x, [below, above]) in rows {
-        let range = set_lines(&axes[0].name, &IntervalSet::from_iter([x]), FREQUENCY_DIGITS).remove(0);
+        let range = extent_line(&axes[0].name, &x, FREQUENCY_DIGITS);
         columns.row([range, format!("below: {below}"), format!("above: {above}")]);
     }
     columns.to_string()

@@ -1,14 +1,19 @@
 //! Which stable cells of neighbouring strips are parts of one region.
 
 use super::curves::Curve;
-use super::decompose::{Strip, at_y, branches_at, in_y};
-use super::sturm_at::SturmAt;
-use crate::stability::Range;
-use crate::stability::interval_set::cells;
+use super::decompose::{Branch, Strip, branches_at};
+use super::ground::Ground;
+use super::integers::Integers;
+use crate::stability::interval_set::real_cells;
+use crate::stability::{Range, RealInterval};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
+use jurist_algebra::real::Real;
+use jurist_algebra::symbols::merged;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Branches that agree to so many bits are taken for one where a height between two is looked for.
+const SAME_BITS: u64 = 640;
 
 /// A horizontal segment through the wall between a strip and the next one that meets no curve.
 #[derive(Clone, Debug)]
@@ -21,7 +26,7 @@ pub(crate) struct Join {
     pub y: Rational,
 }
 
-/// Segments that join the stable cells of each region: one less than it has cells.
+/// Segments that join the stable cells of each region, of a loop without symbols: one less than it has cells.
 ///
 /// Cost: that of gluing once more.
 ///
@@ -33,7 +38,7 @@ pub(crate) fn joins(
     y_domain: &Range,
     budget: &Budget,
 ) -> Result<Vec<Join>, Exhausted> {
-    Ok(glued(curves, strips, y_domain, false, budget)?.1)
+    Ok(glued(&Integers, curves, strips, y_domain, false, budget)?.1)
 }
 
 /// The stable cells grouped into connected regions, each group ascending.
@@ -41,16 +46,16 @@ pub(crate) fn joins(
 /// Two neighbouring cells of one strip are parts of one region where `across` is asked for: then curves inside a region
 /// are no boundaries of it. Two cells on either side of a wall are parts of one region when a horizontal segment leads from one
 /// to the other without meeting a curve: that is proved by root counts. They do not touch there when a segment that meets no curve
-/// leads to the wall and beyond it between them. Where a few trials settle not all pairs, one height is taken in every piece of the wall, found by Sturm's theorem
-/// over the wall's algebraic number.
+/// leads to the wall and beyond it between them. Where a few trials settle not all pairs, it is decided otherwise ([`Ground::links`]).
 pub(super) fn glue_stable_cells(
+    ground: &dyn Ground,
     curves: &[Curve],
     strips: &[Strip],
     y_domain: &Range,
     across: bool,
     budget: &Budget,
 ) -> Result<Groups, Exhausted> {
-    Ok(glued(curves, strips, y_domain, across, budget)?.0)
+    Ok(glued(ground, curves, strips, y_domain, across, budget)?.0)
 }
 
 /// The cells of each region.
@@ -58,6 +63,7 @@ type Groups = Vec<Vec<(usize, usize)>>;
 
 /// The regions, and the segments by which they were found to be connected.
 fn glued(
+    ground: &dyn Ground,
     curves: &[Curve],
     strips: &[Strip],
     y_domain: &Range,
@@ -79,7 +85,6 @@ fn glued(
             }
         }
     }
-    let polynomials: Vec<Poly<UniPoly>> = curves.iter().map(|c| in_y(&c.polynomial)).collect();
     let index = |cell: (usize, usize)| stable.binary_search(&cell).ok();
     let mut joins = Vec::new();
     for (s, pair) in strips.windows(2).enumerate() {
@@ -101,7 +106,7 @@ fn glued(
                 }
             }
         };
-        let search = Wall { curves, polynomials: &polynomials, strips: pair, value: wall, y_domain };
+        let search = Wall { ground, curves, strips: pair, value: wall, y_domain };
         for bits in [8, 16, 32] {
             let pairs = open(&parent, &heights);
             if pairs.is_empty() {
@@ -112,8 +117,9 @@ fn glued(
                 join(&mut parent, link);
             }
         }
-        if !open(&parent, &heights).is_empty() {
-            for link in search.all_links(budget)? {
+        let pairs = open(&parent, &heights);
+        if !pairs.is_empty() {
+            for link in ground.links(&search, &pairs, budget)? {
                 join(&mut parent, link);
             }
         }
@@ -133,7 +139,7 @@ fn glued(
 
 /// Whether a clear height in these cells on the left and on the right shows that a pair of cells does not touch at the wall: it is
 /// above the one and below the other, on the whole way to the wall.
-fn separates(height: (usize, usize), pair: (usize, usize)) -> bool {
+pub(super) fn separates(height: (usize, usize), pair: (usize, usize)) -> bool {
     (height.0 > pair.0 && height.1 < pair.1) || (height.0 < pair.0 && height.1 > pair.1)
 }
 
@@ -145,29 +151,25 @@ fn root(parent: &[usize], mut i: usize) -> usize {
 }
 
 /// The cells that are joined, by their numbers in the two strips, and the segment: its ends and its height.
-type Links = BTreeMap<(usize, usize), [Rational; 3]>;
+pub(crate) type Links = BTreeMap<(usize, usize), [Rational; 3]>;
 
 /// The wall between two strips.
-struct Wall<'a> {
-    curves: &'a [Curve],
-    polynomials: &'a [Poly<UniPoly>],
-    strips: &'a [Strip],
-    value: &'a RealAlgebraic,
-    y_domain: &'a Range,
+pub(crate) struct Wall<'a> {
+    pub ground: &'a dyn Ground,
+    pub curves: &'a [Curve],
+    pub strips: &'a [Strip],
+    pub value: &'a Real,
+    pub y_domain: &'a Range,
 }
 
 impl Wall<'_> {
     /// Clear heights, as their cells on the left and on the right, that connect or separate one of the given pairs of cells: one is
     /// tried in each gap between the branches close to the wall.
-    fn nearby_links(&self, bits: u64, pairs: &[(usize, usize)], budget: &Budget) -> Result<Links, Exhausted> {
+    pub fn nearby_links(&self, bits: u64, pairs: &[(usize, usize)], budget: &Budget) -> Result<Links, Exhausted> {
         let (left, right) = self.either_side(bits);
-        let sides = [self.branches(&left, budget)?, self.branches(&right, budget)?];
-        let mut merged: Vec<RealAlgebraic> = sides.iter().flatten().cloned().collect();
-        merged.sort_by(|a, b| a.compare(b));
-        merged.dedup_by(|a, b| a.compare(b).is_eq());
+        let sides = [self.values(&left, budget)?, self.values(&right, budget)?];
         let mut links = Links::new();
-        for gap in cells(self.y_domain, &merged) {
-            let y = gap.sample();
+        for y in self.gaps(&sides, budget)? {
             let link = (cell_of(&sides[0], &y), cell_of(&sides[1], &y));
             let helps = pairs.contains(&link) || pairs.iter().any(|pair| separates(link, *pair));
             if helps && !links.contains_key(&link) && self.is_clear(&left, &right, &y, budget)? {
@@ -177,37 +179,55 @@ impl Wall<'_> {
         Ok(links)
     }
 
-    /// All pairs of a cell on the left and a cell on the right that touch along a piece of the wall:
-    /// one height in each piece between the distinct roots of the curves on the wall, and a segment
-    /// at that height short enough to meet no curve.
-    fn all_links(&self, budget: &Budget) -> Result<Links, Exhausted> {
-        let product = self.polynomials.iter().fold(Poly::one(), |p, f| p.times(f));
-        let mut links = Links::new();
-        let (lower, upper) = (self.y_domain.lower.as_ref(), self.y_domain.upper.as_ref());
-        // A curve that contains the whole wall separates the strips.
-        let Some(sturm) = SturmAt::new(&product, self.value, lower, upper, budget)? else { return Ok(links) };
-        for y in sturm.points_between_roots(budget)? {
-            let mut bits = 8u64;
-            loop {
-                budget.check()?;
-                let (left, right) = self.either_side(bits);
-                if self.is_clear(&left, &right, &y, budget)? {
-                    let cell = |x: &Rational| Ok(cell_of(&self.branches(x, budget)?, &y));
-                    links.insert((cell(&left)?, cell(&right)?), [left, right, y]);
-                    break;
-                }
-                bits *= 2;
-            }
+    /// A height in each gap between the branches on either side.
+    pub fn gaps(&self, sides: &[Vec<Real>; 2], budget: &Budget) -> Result<Vec<Rational>, Exhausted> {
+        let all = sides.iter().flatten();
+        if all.clone().any(|value| value.algebraic().is_none()) {
+            return self.gaps_between_enclosures(all, budget);
         }
-        Ok(links)
+        let both = merged(sides[0].clone(), sides[1].clone(), budget)?;
+        real_cells(self.y_domain, &both).iter().map(|gap| gap.sample(budget)).collect()
     }
 
-    fn branches(&self, x: &Rational, budget: &Budget) -> Result<Vec<RealAlgebraic>, Exhausted> {
-        Ok(branches_at(self.curves, x, self.y_domain, budget)?.into_iter().map(|b| b.0).collect())
+    /// The same where equal numbers are not recognised as such: those that are very near count as one.
+    fn gaps_between_enclosures<'r>(
+        &self,
+        values: impl Iterator<Item = &'r Real>,
+        budget: &Budget,
+    ) -> Result<Vec<Rational>, Exhausted> {
+        let width = Rational::dyadic(&Integer::ONE, SAME_BITS);
+        let mut places = budget.enter(|| values.map(|v| v.refined(&width).enclosure()).collect::<Vec<_>>())?;
+        places.sort();
+        let mut heights = Vec::with_capacity(places.len() + 1);
+        let mut below: Option<Rational> = self.y_domain.lower.clone();
+        for (lo, hi) in places {
+            if below.as_ref().is_none_or(|below| *below < lo) {
+                let gap = RealInterval { lower: below.clone().map(Real::from), upper: Some(lo.into()) };
+                heights.push(gap.sample(budget)?);
+            }
+            below = Some(below.map_or_else(|| hi.clone(), |below| below.max(hi.clone())));
+        }
+        let gap = RealInterval { lower: below.map(Real::from), upper: self.y_domain.upper.clone().map(Real::from) };
+        heights.push(gap.sample(budget)?);
+        Ok(heights)
+    }
+
+    /// The branches over an `x`, from below.
+    pub fn branches(&self, x: &Rational, budget: &Budget) -> Result<Vec<(Real, Branch)>, Exhausted> {
+        branches_at(self.ground, self.curves, x, self.y_domain, budget)
+    }
+
+    fn values(&self, x: &Rational, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+        Ok(self.branches(x, budget)?.into_iter().map(|b| b.0).collect())
+    }
+
+    /// The number of the cell over an `x` that holds a height, which is not one of a curve.
+    pub fn cell_at(&self, x: &Rational, y: &Rational, budget: &Budget) -> Result<usize, Exhausted> {
+        Ok(cell_of(&self.values(x, budget)?, y))
     }
 
     /// Rationals close to the wall in the strip on either side.
-    fn either_side(&self, bits: u64) -> (Rational, Rational) {
+    pub fn either_side(&self, bits: u64) -> (Rational, Rational) {
         let half = Rational::dyadic(&Integer::ONE, 1);
         let mut step = Rational::dyadic(&Integer::ONE, bits);
         loop {
@@ -221,14 +241,15 @@ impl Wall<'_> {
     }
 
     /// Whether no curve meets the horizontal segment.
-    fn is_clear(&self, left: &Rational, right: &Rational, y: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
-        for f in self.polynomials {
-            let Some(restricted) = SquareFree::part_of(&at_y(f, y)) else { return Ok(false) };
-            let touches = |x: &Rational| restricted.poly().sign_at(x).is_eq();
-            if touches(left)
-                || touches(right)
-                || !isolate_real_roots_in(&restricted, Some(left), Some(right), budget)?.is_empty()
-            {
+    pub fn is_clear(
+        &self,
+        left: &Rational,
+        right: &Rational,
+        y: &Rational,
+        budget: &Budget,
+    ) -> Result<bool, Exhausted> {
+        for curve in self.curves {
+            if !self.ground.is_clear(&curve.polynomial, [left, right], y, budget)? {
                 return Ok(false);
             }
         }
@@ -237,7 +258,7 @@ impl Wall<'_> {
 }
 
 /// The number of the cell that holds a height: how many branches are below.
-fn cell_of(branches: &[RealAlgebraic], y: &Rational) -> usize {
+pub(super) fn cell_of(branches: &[Real], y: &Rational) -> usize {
     branches.iter().take_while(|v| v.compare_rational(y).is_lt()).count()
 }
 
@@ -260,12 +281,11 @@ mod tests {
             .enumerate()
             .flat_map(|(s, strip)| (0..strip.cells.len()).filter(|&c| strip.cells[c].stable).map(move |c| (s, c)))
             .collect();
-        let polynomials: Vec<Poly<UniPoly>> = curves.iter().map(|c| in_y(&c.polynomial)).collect();
         let mut groups: Vec<Vec<(usize, usize)>> = stable.iter().map(|&cell| vec![cell]).collect();
         for (s, pair) in strips.windows(2).enumerate() {
             let value = pair[0].x.upper.as_ref().unwrap();
-            let wall = Wall { curves, polynomials: &polynomials, strips: pair, value, y_domain };
-            for (left, right) in wall.all_links(budget).unwrap().into_keys() {
+            let wall = Wall { ground: &Integers, curves, strips: pair, value, y_domain };
+            for (left, right) in Integers.links(&wall, &[], budget).unwrap().into_keys() {
                 let place = |cell| groups.iter().position(|g: &Vec<(usize, usize)>| g.contains(&cell));
                 if let (Some(a), Some(b)) = (place((s, left)), place((s + 1, right)))
                     && a != b
@@ -308,7 +328,7 @@ mod tests {
             let domain = [Range::all(), Range::all()];
             let curves = boundary_curves(p, problem.shape(), &budget).unwrap().unwrap();
             let strips = decompose(p, &curves, &domain, problem.shape(), &budget).unwrap();
-            let found = glue_stable_cells(&curves, &strips, &domain[1], false, &budget).unwrap();
+            let found = glue_stable_cells(&Integers, &curves, &strips, &domain[1], false, &budget).unwrap();
             assert_eq!(found, glued_exactly(&curves, &strips, &domain[1], &budget), "{text}");
             several += usize::from(found.len() > 1);
         }

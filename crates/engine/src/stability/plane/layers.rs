@@ -7,6 +7,7 @@ use crate::stability::{Range, Shape};
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::MultiPoly;
+use std::sync::Arc;
 
 /// Which of several things a stable point meets.
 type Met<'a> = dyn Fn(&[Rational; 2]) -> Result<Vec<bool>, Exhausted> + Sync + 'a;
@@ -51,7 +52,7 @@ pub(crate) fn layers(
     let mut out = Vec::with_capacity(asked.sets.len());
     for set in asked.sets {
         let strips = restricted(&strips, &met, set);
-        let groups = glue_stable_cells(&curves, &strips, &domain[1], true, budget)?;
+        let groups = glue_stable_cells(&**p.ground(), &curves, &strips, &domain[1], true, budget)?;
         let mut regions: Vec<StableRegion> = groups.into_iter().map(|cells| region_of(&strips, cells)).collect();
         let mut map_exchanged = Vec::new();
         if !regions.is_empty() {
@@ -65,9 +66,10 @@ pub(crate) fn layers(
                 }
             };
             map_exchanged = restricted(&other, &other_met, set);
-            let groups = glue_stable_cells(&swapped_curves, &map_exchanged, &domain[0], true, budget)?;
+            let groups = glue_stable_cells(&**p.ground(), &swapped_curves, &map_exchanged, &domain[0], true, budget)?;
             for r in &mut regions {
-                let place = place_in_exchanged(r, &curves, &strips, &swapped_curves, &map_exchanged, domain, budget)?;
+                let (curves, strips) = ([curves.as_slice(), &swapped_curves], [strips.as_slice(), &map_exchanged]);
+                let place = place_in_exchanged(&**p.ground(), r, curves, strips, domain, budget)?;
                 let group = groups.iter().find(|g| g.contains(&place)).expect("the point is in a cell of the set");
                 r.y = region_of(&map_exchanged, group.clone()).x;
                 r.exchanged_cells.clone_from(group);
@@ -75,7 +77,14 @@ pub(crate) fn layers(
             exchanged = Some((other, other_met));
         }
         let curves = curves.clone();
-        out.push(StabilityMap { curves, strips, regions, exchanged: map_exchanged, never_stable: false });
+        out.push(StabilityMap {
+            curves,
+            strips,
+            regions,
+            exchanged: map_exchanged,
+            never_stable: false,
+            ground: Arc::clone(p.ground()),
+        });
     }
     Ok(out)
 }

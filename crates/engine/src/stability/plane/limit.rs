@@ -1,13 +1,13 @@
 //! Where a stable region ends in either parameter, and what limits it there.
 
-use super::curves::{Curve, PlanePolynomial};
-use super::decompose::{StabilityMap, Strip, at_y, branches_at, in_y, swapped_curve};
-use crate::stability::{
-    AlgebraicInterval, Cause, Causes, ComplexPair, End, HalfSizePair, Range, Shape, complex_pair_at, end_at,
-};
+use super::curves::{Curve, PlanePolynomial, exchanged};
+use super::decompose::{StabilityMap, Strip, branches_at, in_y, swapped_curve};
+use super::ground::Beside;
+use crate::stability::{Cause, Causes, ComplexPair, End, HalfSizePair, Range, RealInterval, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{MultiPoly, Poly, RealAlgebraic, SquareFree, isolate_real_roots_in};
+use jurist_algebra::poly::{MultiPoly, Poly};
+use jurist_algebra::real::Real;
 
 /// Bits of nearness to the end in the first attempt, and in the last.
 const FIRST_BITS: u64 = 8;
@@ -17,7 +17,7 @@ const LAST_BITS: u64 = 512;
 #[derive(Clone, Debug)]
 pub struct Limit {
     /// The exact value.
-    pub value: RealAlgebraic,
+    pub value: Real,
     /// The mechanisms of the walls that meet there.
     pub causes: Causes,
     /// Enclosures of the places, `x` first: one for each cell that ends there. None where the region ends along
@@ -58,8 +58,7 @@ pub fn region_limits(
     budget.step("limits of the regions");
     let budget = &budget.silent();
     let pair = HalfSizePair::new(p.polynomial(), p.formal_degree().max(1), region);
-    let swap = |f: &MultiPoly| f.map_variables(|i| 1 - i);
-    let swapped_pair = [pair.a.map(swap), pair.b.map(swap)];
+    let swapped_pair = [pair.a.map(exchanged), pair.b.map(exchanged)];
     let (swapped, swapped_curves) = (p.swapped(), map.curves.iter().map(swapped_curve).collect::<Vec<_>>());
     let swapped_domain = [domain[1].clone(), domain[0].clone()];
     let along_x =
@@ -101,13 +100,15 @@ struct Search<'a> {
 
 /// The end of a cell: a vertical line from `near`, inside the strip, to `far`, on or just beyond the wall.
 struct Approach<'a> {
-    wall: &'a RealAlgebraic,
+    wall: &'a Real,
     near: Rational,
     far: Rational,
-    below: Option<RealAlgebraic>,
-    above: Option<RealAlgebraic>,
+    below: Option<Real>,
+    above: Option<Real>,
     /// The curves below and above.
     sides: [Option<usize>; 2],
+    /// Points of the cells below and above, where those are stable too.
+    beyond: [Option<Rational>; 2],
 }
 
 impl Search<'_> {
@@ -136,18 +137,11 @@ impl Search<'_> {
         Ok(found)
     }
 
-    fn limit_of_cell(
-        &self,
-        strip: usize,
-        cell: usize,
-        wall: &RealAlgebraic,
-        greatest: bool,
-    ) -> Result<Limit, Exhausted> {
+    fn limit_of_cell(&self, strip: usize, cell: usize, wall: &Real, greatest: bool) -> Result<Limit, Exhausted> {
         let end = if greatest { &self.domain[0].upper } else { &self.domain[0].lower };
         let at_domain = end.is_some() && *end == wall.exact();
-        let vertical = |c: &Curve| in_y(&c.polynomial).is_constant();
-        let lines: Vec<bool> =
-            self.curves.iter().map(|c| vertical(c) && wall.sign_of(&in_y(&c.polynomial).coeff(0)).is_eq()).collect();
+        let on_wall = &self.strips[strip].lines[usize::from(greatest)];
+        let lines: Vec<bool> = (0..self.curves.len()).map(|k| on_wall.contains(&k)).collect();
         let along_line = at_domain || lines.contains(&true);
         let mut limit = Limit {
             value: wall.clone(),
@@ -208,7 +202,7 @@ impl Search<'_> {
         &self,
         strip: usize,
         cell: usize,
-        wall: &'w RealAlgebraic,
+        wall: &'w Real,
         greatest: bool,
         bits: u64,
     ) -> Result<Approach<'w>, Exhausted> {
@@ -222,41 +216,53 @@ impl Search<'_> {
             }
             bits += 2;
         };
-        let branches = branches_at(self.curves, &near, &self.domain[1], self.budget)?;
+        let branches = branches_at(&**self.p.ground(), self.curves, &near, &self.domain[1], self.budget)?;
         let beside = |i: Option<usize>| i.and_then(|i| branches.get(i));
         let (below, above) = (beside(cell.checked_sub(1)), beside(Some(cell)));
         let sides = [below.map(|b| b.1.curve), above.map(|b| b.1.curve)];
-        let edge = |end: &Option<Rational>| end.clone().map(RealAlgebraic::from_rational);
-        let value = |b: Option<&(RealAlgebraic, _)>, end| b.map(|b| b.0.clone()).or_else(|| edge(end));
+        let edge = |end: &Option<Rational>| end.clone().map(Real::from);
+        let value = |b: Option<&(Real, _)>, end| b.map(|b| b.0.clone()).or_else(|| edge(end));
+        let point = |cell: Option<usize>| -> Result<Option<Rational>, Exhausted> {
+            let Some(cell) = cell.filter(|&k| self.strips[strip].cells.get(k).is_some_and(|c| c.stable)) else {
+                return Ok(None);
+            };
+            let lower = value(beside(cell.checked_sub(1)), &self.domain[1].lower);
+            let upper = value(beside(Some(cell)), &self.domain[1].upper);
+            RealInterval { lower, upper }.sample(self.budget).map(Some)
+        };
+        let beyond = [point(cell.checked_sub(1))?, point(Some(cell + 1))?];
         let (below, above) = (value(below, &self.domain[1].lower), value(above, &self.domain[1].upper));
-        Ok(Approach { wall, near, far, below, above, sides })
+        Ok(Approach { wall, near, far, below, above, sides, beyond })
+    }
+
+    /// A point of the cell on the near line.
+    fn inside(&self, approach: &Approach<'_>) -> Result<Rational, Exhausted> {
+        RealInterval { lower: approach.below.clone(), upper: approach.above.clone() }.sample(self.budget)
     }
 
     /// Where a line or the domain's edge ends the region: what `intervals` says on a horizontal line from
     /// the cell to the wall that no other curve meets.
     fn end_on_line(&self, approach: &Approach<'_>, lines: &[bool]) -> Result<Option<End>, Exhausted> {
-        let middle = AlgebraicInterval { lower: approach.below.clone(), upper: approach.above.clone() }.sample();
+        let middle = self.inside(approach)?;
         for (curve, _) in self.curves.iter().zip(lines).filter(|(_, line)| !**line) {
             if !self.is_clear(curve, &middle, approach)? {
                 return Ok(None);
             }
         }
-        let Some(p) = self.p.swapped().at_x(&middle) else { return Ok(None) };
-        end_at(&p, approach.wall, &self.domain[0], self.region, self.budget)
+        let swapped = self.p.swapped();
+        let mut walls = [None, None];
+        walls[usize::from(approach.near < approach.far)] = Some(approach.wall);
+        let inside = approach.near.clone();
+        let beside = Beside { walls, only_pair: [false; 2], inside, beyond: [None, None] };
+        let ends = swapped.ground().ends(&swapped, &middle, &beside, (&self.domain[0], self.region), self.budget)?;
+        Ok(ends.into_iter().next())
     }
 
     /// Whether a curve does not meet a horizontal line between the near point and the wall.
     fn is_clear(&self, curve: &Curve, y: &Rational, approach: &Approach<'_>) -> Result<bool, Exhausted> {
-        let Some(restricted) = SquareFree::part_of(&at_y(&in_y(&curve.polynomial), y)) else { return Ok(false) };
-        let (lo, hi) = if approach.near < approach.far {
-            (&approach.near, &approach.far)
-        } else {
-            (&approach.far, &approach.near)
-        };
-        let touches = |x: &Rational| restricted.poly().sign_at(x).is_eq();
-        Ok(!touches(lo)
-            && !touches(hi)
-            && (lo == hi || isolate_real_roots_in(&restricted, Some(lo), Some(hi), self.budget)?.is_empty()))
+        let mut ends = [&approach.near, &approach.far];
+        ends.sort();
+        self.p.ground().is_clear(&curve.polynomial, ends, y, self.budget)
     }
 
     /// An interval of the other parameter that holds the ends of both walls of the cell: their values at
@@ -289,24 +295,13 @@ impl Search<'_> {
 
     /// The walls of the cell at the near point, with what happens on them.
     fn walls_beside(&self, approach: &Approach<'_>) -> Result<Vec<End>, Exhausted> {
-        let mut ends = Vec::new();
-        let Some(p) = self.p.at_x(&approach.near) else { return Ok(ends) };
-        for (value, curve) in [&approach.below, &approach.above].into_iter().zip(approach.sides) {
-            let (Some(value), Some(curve)) = (value, curve) else { continue };
-            let causes = &self.curves[curve].causes;
-            if causes.iter().eq([Cause::ComplexPair]) {
-                // Away from all other curves nothing else can happen.
-                let pair = complex_pair_at(&p, value, self.region, self.budget)?;
-                let mut causes = Causes::default();
-                if pair.is_some() {
-                    causes.insert(Cause::ComplexPair);
-                }
-                ends.push(End { value: value.clone().into(), causes, pair });
-            } else {
-                ends.extend(end_at(&p, value, &self.domain[1], self.region, self.budget)?);
-            }
-        }
-        Ok(ends)
+        let curve = |side: usize| approach.sides[side].map(|curve| &self.curves[curve]);
+        let only_pair =
+            [0, 1].map(|side| curve(side).is_some_and(|curve| curve.causes.iter().eq([Cause::ComplexPair])));
+        let value = |side: usize| curve(side).and([&approach.below, &approach.above][side].as_ref());
+        let inside = self.inside(approach)?;
+        let beside = Beside { walls: [value(0), value(1)], only_pair, inside, beyond: approach.beyond.clone() };
+        self.p.ground().ends(self.p, &approach.near, &beside, (&self.domain[1], self.region), self.budget)
     }
 
     /// The half-size root of a pair, followed from the near point to the end: it stays between two values
@@ -325,16 +320,24 @@ impl Search<'_> {
         let working = 4 * bits + 4 * wanted + 256;
         let excluded = |t: &Rational| {
             self.pair.iter().any(|f| {
-                let value = value_on_box(f, t, x, y, working);
+                let value = self.value_on_box(f, t, x, y, working);
                 value.lower().sign().is_gt() || value.upper().sign().is_lt()
             })
         };
         (excluded(&lo) && excluded(&hi)).then(|| Enclosure::new(lo, hi))
     }
+
+    /// All values of `f(t; x, y)` on a box.
+    fn value_on_box(&self, f: &Poly<MultiPoly>, t: &Rational, x: &Enclosure, y: &Enclosure, bits: u64) -> Enclosure {
+        let zero = Enclosure::from_rational(Rational::ZERO);
+        let t = Enclosure::from_rational(t.clone());
+        let value = |c: &MultiPoly| self.p.ground().enclose(c, x, y, bits);
+        f.coeffs().iter().rev().fold(zero, |sum, c| sum.mul(&t, bits).add(&value(c), bits))
+    }
 }
 
 /// Rationals `low <= below < above <= high`, not much farther apart than the numbers.
-fn apart(below: &RealAlgebraic, above: &RealAlgebraic) -> (Rational, Rational) {
+fn apart(below: &Real, above: &Real) -> (Rational, Rational) {
     let (mut a, mut b) = (below.clone(), above.clone());
     let half = Rational::dyadic(&Integer::ONE, 1);
     let mut width = Rational::ONE;
@@ -359,13 +362,6 @@ fn lower_frequency(a: Option<Enclosure>, b: Option<Enclosure>) -> Option<Enclosu
         (Some(a), Some(b)) => Some(if a.lower() >= b.lower() { a } else { b }),
         (a, b) => a.or(b),
     }
-}
-
-/// All values of `f(t; x, y)` on a box.
-fn value_on_box(f: &Poly<MultiPoly>, t: &Rational, x: &Enclosure, y: &Enclosure, bits: u64) -> Enclosure {
-    let zero = Enclosure::from_rational(Rational::ZERO);
-    let t = Enclosure::from_rational(t.clone());
-    f.coeffs().iter().rev().fold(zero, |sum, c| sum.mul(&t, bits).add(&multi_value(c, x, y, bits), bits))
 }
 
 /// All values of a polynomial in two variables on a box, by Horner's rule in both.

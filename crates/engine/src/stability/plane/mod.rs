@@ -5,11 +5,16 @@ mod certified;
 mod curves;
 mod decompose;
 mod glue;
+mod ground;
+mod integers;
 mod layers;
 mod limit;
+mod nodes;
+mod over_symbols;
 mod projection;
 mod query;
 mod sturm_at;
+mod touching;
 
 pub(crate) use certified::{at_height, critical_polynomials, over};
 pub use curves::{Curve, PlanePolynomial, boundary_curves, vanishing_boundary};

@@ -1,13 +1,25 @@
 //! Looking things up in a finished decomposition.
 
 use super::decompose::{Branch, StabilityMap, branches_at, locate};
-use crate::stability::interval_set::cells;
-use crate::stability::{IntervalSet, Range};
+use crate::stability::interval_set::real_cells;
+use crate::stability::{Range, RealInterval};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::poly::MultiPoly;
+use jurist_algebra::real::Real;
 
 impl StabilityMap {
+    /// Whether the coefficients of the curves contain symbols.
+    pub fn has_symbols(&self) -> bool {
+        self.curves.iter().any(|c| c.polynomial.variables().iter().any(|&i| i > 1))
+    }
+
+    /// The polynomial of a curve with integer coefficients, for pictures: as it is, or, where its coefficients contain symbols, times
+    /// `2^bits` and rounded.
+    pub fn rounded_curve(&self, number: usize, bits: u64) -> MultiPoly {
+        self.ground.rounded(&self.curves[number].polynomial, bits)
+    }
+
     /// The numbers of the strip and the cell that hold a point of the domain; `None` outside, on a
     /// boundary curve, on a wall between strips, and where there are no strips.
     ///
@@ -23,7 +35,7 @@ impl StabilityMap {
         if !y_domain.contains(y) {
             return Ok(None);
         }
-        locate(&self.curves, &self.strips, x, y, y_domain, budget)
+        locate(&*self.ground, &self.curves, &self.strips, x, y, y_domain, budget)
     }
 
     /// The branches of all curves over a rational `x`, from below, with their values in the domain of `y`. Inside
@@ -31,13 +43,8 @@ impl StabilityMap {
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
-    pub fn branches(
-        &self,
-        x: &Rational,
-        y_domain: &Range,
-        budget: &Budget,
-    ) -> Result<Vec<(RealAlgebraic, Branch)>, Exhausted> {
-        branches_at(&self.curves, x, y_domain, budget)
+    pub fn branches(&self, x: &Rational, y_domain: &Range, budget: &Budget) -> Result<Vec<(Real, Branch)>, Exhausted> {
+        branches_at(&*self.ground, &self.curves, x, y_domain, budget)
     }
 
     /// The open intervals of `y` that are stable at a rational `x`, cut at every boundary curve; `None`
@@ -45,11 +52,15 @@ impl StabilityMap {
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
-    pub fn slice(&self, x: &Rational, y_domain: &Range, budget: &Budget) -> Result<Option<IntervalSet>, Exhausted> {
+    pub fn slice(
+        &self,
+        x: &Rational,
+        y_domain: &Range,
+        budget: &Budget,
+    ) -> Result<Option<Vec<RealInterval>>, Exhausted> {
         let Some(strip) = self.strips.iter().find(|s| s.x.contains(x)) else { return Ok(None) };
-        let values: Vec<RealAlgebraic> =
-            branches_at(&self.curves, x, y_domain, budget)?.into_iter().map(|b| b.0).collect();
-        let intervals = cells(y_domain, &values).into_iter().zip(&strip.cells).filter(|(_, cell)| cell.stable);
+        let values: Vec<Real> = self.branches(x, y_domain, budget)?.into_iter().map(|b| b.0).collect();
+        let intervals = real_cells(y_domain, &values).into_iter().zip(&strip.cells).filter(|(_, cell)| cell.stable);
         Ok(Some(intervals.map(|(interval, _)| interval).collect()))
     }
 }

@@ -1,10 +1,10 @@
 //! What cuts the range of a parameter: polynomials whose coefficients are numbers over symbols, and their zeros.
 
 use crate::stability::{Cause, Range};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::multivariate::are_coprime_in;
-use jurist_algebra::poly::{Domain, MultiPoly, isolate_real_roots_in};
+use jurist_algebra::poly::{Domain, MultiPoly, SquareFree, isolate_real_roots_in};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{EnclosedPoly, SymbolicPoly, Symbols, enclosed_roots, merged};
 use std::sync::Arc;
@@ -33,7 +33,8 @@ impl Condition {
         }
     }
 
-    fn roots(&self, range: &Range, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+    /// The zeros in a range, ascending.
+    pub fn roots(&self, range: &Range, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
         let (lower, upper) = (range.lower.as_ref(), range.upper.as_ref());
         let p = match self {
             Condition::Symbolic(p) => return p.real_roots_in(lower, upper, budget),
@@ -138,6 +139,46 @@ impl Split {
         let part_of = |value: &Real| from.iter().filter(|(_, root)| root.is_same(value)).map(|(k, _)| *k).collect();
         Ok(all.into_iter().map(|value| Zero { parts: part_of(&value), value }).collect())
     }
+}
+
+/// The zeros of all these polynomials in a range, ascending, each once.
+///
+/// Cost: tests for common factors of each pair, greatest common divisors where there are some, and the zeros of the factors.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out, and where some thousand bits do not tell zeros apart.
+pub(crate) fn zeros_of_all(
+    polynomials: Vec<SymbolicPoly>,
+    symbols: &Arc<Symbols>,
+    range: &Range,
+    budget: &Budget,
+) -> Result<Vec<Real>, Exhausted> {
+    let (lower, upper) = (range.lower.as_ref(), range.upper.as_ref());
+    let mut rests: Vec<MultiPoly> = Vec::with_capacity(polynomials.len());
+    let mut algebraic: Vec<SquareFree> = Vec::new();
+    for p in polynomials {
+        if !algebraic.contains(p.algebraic()) {
+            algebraic.push(p.algebraic().clone());
+        }
+        if !rests.contains(p.rest()) {
+            rests.push(p.rest().clone());
+        }
+    }
+    let basis = budget.enter(|| coprime(&rests, &[0]))?;
+    let of_basis = |part: &MultiPoly| -> Result<Vec<Real>, Exhausted> {
+        let part = SymbolicPoly::new(part, symbols, budget)?.expect("a factor of what is not zero");
+        part.real_roots_in(lower, upper, budget)
+    };
+    let mut lists: Vec<Result<Vec<Real>, Exhausted>> = parallel_map(&basis, of_basis);
+    for p in &algebraic {
+        let roots = isolate_real_roots_in(p, lower, upper, budget)?;
+        lists.push(Ok(roots.into_iter().map(Real::from).collect()));
+    }
+    let mut all = Vec::new();
+    for list in lists {
+        all = merged(all, list?, budget)?;
+    }
+    Ok(all)
 }
 
 /// Square-free, pairwise coprime polynomials of which all given ones, square-free themselves, are products, as far as factors

@@ -8,6 +8,7 @@ mod basis;
 mod boundary_zeros;
 mod conditions;
 mod count;
+mod deflated;
 mod interpolation;
 mod jury;
 mod minors;
@@ -20,9 +21,11 @@ mod rows;
 mod set;
 mod statements;
 
+pub(crate) use basis::zeros_of_all;
 pub(crate) use boundary_zeros::{Bracket, told_apart, zeros_of_functions};
 pub use conditions::{RealIntervals, SymbolicCondition, SymbolicTest};
 pub(crate) use count::certain_count;
+pub(crate) use deflated::{zeros_beside_double_ones, zeros_of_resultant};
 pub use jury::{Comparison, EnclosedCondition, EnclosedRow, EnclosedTable};
 pub use plane::SymbolicPlane;
 pub use rounded::Rounding;
@@ -118,6 +121,19 @@ impl SymbolicPolynomial {
             poles,
             usual: Rational::ONE,
         }
+    }
+
+    /// From a polynomial without denominators whose coefficients are numbered as in this type, what the leading coefficient vanishes
+    /// with, and the polynomials at whose zeros the loop is undefined.
+    pub(crate) fn from_parts(
+        symbols: &Arc<Symbols>,
+        polynomial: Poly<MultiPoly>,
+        degree_loss: MultiPoly,
+        formal_degree: usize,
+        poles: Vec<MultiPoly>,
+    ) -> Self {
+        let symbols = Table::Fixed(Arc::clone(symbols));
+        SymbolicPolynomial { symbols, polynomial, degree_loss, formal_degree, poles, usual: Rational::ONE }
     }
 
     /// With a usual value of the parameter: where nothing else bounds it, it is looked at up to a multiple of that.

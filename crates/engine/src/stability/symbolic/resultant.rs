@@ -34,6 +34,8 @@ pub(super) struct PairResultant {
     high: usize,
     /// The parameter is about a power of two with this exponent where the loop changes.
     scale: i64,
+    /// What it is a resultant of.
+    name: &'static str,
 }
 
 impl PairResultant {
@@ -42,7 +44,8 @@ impl PairResultant {
     /// At the value 0 of the parameter the resultant is zero at least as many times as the pair has common roots there, since
     /// so much less is the rank of Sylvester's matrix. As many coefficients are zero, then; that the next one is not is seen
     /// from its enclosure. The same holds for the coefficients of the highest powers of the parameter, infinity being a root
-    /// where both polynomials of the pair lose degree.
+    /// where both polynomials of the pair lose degree. Other such ends follow from the degrees of the coefficients, if these fall or
+    /// rise with the power of the unknown: in each product of the determinant the powers have the same sum.
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out, and where coefficients seem to be zero for no such reason.
@@ -52,26 +55,30 @@ impl PairResultant {
             list.iter().map(|p| p.as_poly_in(0).coeffs().iter().map(part).collect()).collect()
         };
         let (a, b) = (split(&pair.a), split(&pair.b));
-        let degree = |list: &[Vec<MultiPoly>]| list.iter().map(Vec::len).max().unwrap_or(1).max(1) - 1;
-        let (in_a, in_b) = (degree(&a), degree(&b));
-        let high = (a.len() - 1) * in_b + (b.len() - 1) * in_a;
+        let [least, greatest] = [false, true].map(|is_high| Face::of(&a, &b, is_high));
+        let high = usize::try_from(greatest.bound).unwrap_or(0);
         let (pair, symbols) = (Arc::clone(pair), Arc::clone(symbols));
-        let mut out = PairResultant { a, b, pair, symbols, low: 0, high, scale: 0 };
+        let name = "resultant of the half-size pair";
+        let mut out = PairResultant { a, b, pair, symbols, low: 0, high, scale: 0, name };
         out.scale = budget.enter(|| likely_scale(out.a.iter().chain(&out.b), &out.symbols, FIRST_BITS))?;
         let (mut bits, mut known) = (FIRST_BITS, None);
         while bits <= MOST_BITS {
             let all = budget.enter(|| out.coefficients(bits))?;
             let ends = (all.iter().position(|c| !c.contains_zero()), all.iter().rposition(|c| !c.contains_zero()));
             if let (Some(first), Some(last)) = ends {
-                if first == 0 && last == high {
-                    return Ok(out);
-                }
-                // Asked for once it is known that it matters.
+                let is_known = |below: usize, above: usize| {
+                    first as i64 == -least.bound + below as i64 && last as i64 + above as i64 == greatest.bound
+                };
+                // Common roots are asked for once it is known that it matters.
                 let (below, above) = match known {
                     Some(known) => known,
-                    None => *known.insert((out.common_at_zero(budget)?, out.common_at_infinity(in_a, in_b, budget)?)),
+                    None if is_known(0, 0) => (0, 0),
+                    None => {
+                        let common = |face: &Face| out.common_on(face, budget);
+                        *known.insert((common(&least)?, common(&greatest)?))
+                    }
                 };
-                if first == below && last + above == high {
+                if is_known(below, above) {
                     return Ok(PairResultant { low: first, high: last, ..out });
                 }
             }
@@ -80,18 +87,26 @@ impl PairResultant {
         Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "zeros among the coefficients of the resultant"))
     }
 
-    /// How many roots the pair has in common where the parameter is 0.
-    fn common_at_zero(&self, budget: &Budget) -> Result<usize, Exhausted> {
-        let first = |list: &[Vec<MultiPoly>]| list.iter().map(|c| c.first().cloned().unwrap_or_default()).collect();
-        common_degree(first(&self.a), first(&self.b), &self.symbols, self.pair.region, budget)
+    /// The same of two other polynomials in an unknown, given by all coefficients for their formal degrees: numbers over the parameter
+    /// and the symbols, as in [`Pair`].
+    ///
+    /// # Errors
+    /// As [`PairResultant::new`].
+    pub fn of_curves(
+        a: Vec<MultiPoly>,
+        b: Vec<MultiPoly>,
+        symbols: &Arc<Symbols>,
+        budget: &Budget,
+    ) -> Result<PairResultant, Exhausted> {
+        // Whether 0 is a common root is asked first, which it often is.
+        let pair = Arc::new(Pair { a, b, region: Shape::LeftHalfPlane });
+        Ok(PairResultant { name: "resultant of boundary curves", ..PairResultant::new(&pair, symbols, budget)? })
     }
 
-    /// How many roots the coefficients of the highest powers of the parameter have in common.
-    fn common_at_infinity(&self, in_a: usize, in_b: usize, budget: &Budget) -> Result<usize, Exhausted> {
-        let last = |list: &[Vec<MultiPoly>], degree: usize| {
-            list.iter().map(|c| c.get(degree).cloned().unwrap_or_default()).collect()
-        };
-        common_degree(last(&self.a, in_a), last(&self.b, in_b), &self.symbols, self.pair.region, budget)
+    /// How many roots the polynomials of a face have in common: so many coefficients of the resultant are zero at its end.
+    fn common_on(&self, face: &Face, budget: &Budget) -> Result<usize, Exhausted> {
+        let [a, b] = [(&self.a, face.ends[0]), (&self.b, face.ends[1])].map(|(list, end)| face.polynomial(list, end));
+        common_degree(a, b, &self.symbols, self.pair.region, budget)
     }
 
     /// All coefficients.
@@ -123,7 +138,54 @@ impl EnclosedPoly for PairResultant {
     fn origin(&self) -> Origin {
         let symbols =
             (0..self.symbols.len()).map(|i| (self.symbols.names()[i].clone(), self.symbols.definition_text(i)));
-        Origin::Function { function: "resultant of the half-size pair".to_owned(), details: symbols.collect() }
+        Origin::Function { function: self.name.to_owned(), details: symbols.collect() }
+    }
+}
+
+/// The slopes with which the degrees of coefficients may fall with the power of the unknown.
+const SLOPES: std::ops::RangeInclusive<i64> = -4..=4;
+
+/// A bound of the degree of the resultant in the parameter, and how it follows: where the degrees of the coefficients of the powers `i` and
+/// `j` of both polynomials, of formal degrees `m` and `n`, are at most `A - w i` and `B - w j`, it is `n A + m B - w m n`, and the
+/// coefficient of that power is the resultant of the polynomials made of the extreme coefficients. The same with the signs of all
+/// degrees changed for the least power.
+struct Face {
+    is_high: bool,
+    slope: i64,
+    /// `A` and `B`.
+    ends: [i64; 2],
+    bound: i64,
+}
+
+impl Face {
+    /// The one with the least bound.
+    fn of(a: &[Vec<MultiPoly>], b: &[Vec<MultiPoly>], is_high: bool) -> Face {
+        let (m, n) = (a.len() as i64 - 1, b.len() as i64 - 1);
+        let own = |c: &Vec<MultiPoly>| match is_high {
+            true => c.iter().rposition(|p| !p.is_zero()).map(|k| k as i64),
+            false => c.iter().position(|p| !p.is_zero()).map(|k| -(k as i64)),
+        };
+        let with = |slope: i64| {
+            let end = |list: &[Vec<MultiPoly>]| {
+                let all = list.iter().enumerate().filter_map(|(i, c)| Some(own(c)? + slope * i as i64));
+                all.max().unwrap_or(0)
+            };
+            let ends = [end(a), end(b)];
+            Face { is_high, slope, ends, bound: n * ends[0] + m * ends[1] - slope * m * n }
+        };
+        // That without a slope where others are no better.
+        let all = std::iter::once(0).chain(SLOPES).map(with);
+        all.reduce(|best, face| if face.bound < best.bound { face } else { best }).expect("there are slopes")
+    }
+
+    /// The extreme coefficients.
+    fn polynomial(&self, list: &[Vec<MultiPoly>], end: i64) -> Vec<MultiPoly> {
+        let coefficient = |(i, c): (usize, &Vec<MultiPoly>)| {
+            let power = end - self.slope * i as i64;
+            let power = usize::try_from(if self.is_high { power } else { -power });
+            power.ok().and_then(|power| c.get(power).cloned()).unwrap_or_default()
+        };
+        list.iter().enumerate().map(coefficient).collect()
     }
 }
 

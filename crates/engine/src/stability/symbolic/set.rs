@@ -5,10 +5,10 @@ use super::moving::moving_stable_set;
 use super::pair::{Common, CommonRoots, Pair, Values};
 use super::resultant::PairResultant;
 use super::{MOST_EXPANDED, SymbolicPolynomial, Table};
-use crate::stability::{AtPoint, Cause, Causes, End, Range, Shape, StableInterval, StableSet};
+use crate::stability::{AtPoint, Cause, Causes, End, Range, RealInterval, Shape, StableInterval, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::real::{Real, rational_between};
+use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Function, SymbolicPoly, Symbols};
 use std::sync::Arc;
 
@@ -160,12 +160,7 @@ fn boundaries(
 
 /// A rational number inside of a cell.
 pub(super) fn sample(cell: &[Option<Real>], budget: &Budget) -> Result<Rational, Exhausted> {
-    match cell {
-        [Some(lower), Some(upper)] => Ok(rational_between(lower, upper, budget)?.expect("the ends differ")),
-        [Some(lower), None] => budget.enter(|| lower.rational_above()),
-        [None, Some(upper)] => budget.enter(|| upper.rational_below()),
-        _ => Ok(Rational::ZERO),
-    }
+    RealInterval { lower: cell[0].clone(), upper: cell[1].clone() }.sample(budget)
 }
 
 /// Finds out what happens at an end of a stable cell.
