@@ -126,8 +126,11 @@ impl Forms {
     /// The function itself and the two forms that are best around a value of the parameter.
     pub fn best_around(mut self, symbols: &MovingSymbols, x: &Rational, terms: usize) -> Forms {
         if let Some(costs) = self.costs(symbols, x, terms) {
-            let mut forms: Vec<(usize, Form)> = std::mem::take(&mut self.list).into_iter().enumerate().collect();
-            forms[1..].sort_by_key(|(i, _)| costs[*i]);
+            let mut forms: Vec<(i64, Form)> = costs.into_iter().zip(std::mem::take(&mut self.list)).collect();
+            forms[1..].sort_by_key(|(cost, _)| *cost);
+            forms.truncate(KEPT);
+            let best = (0..forms.len()).min_by_key(|&i| forms[i].0).unwrap_or(0);
+            self.best_of_octave = Mutex::new([((exponent(x), x.is_negative()), best)].into());
             self.list = forms.into_iter().map(|(_, form)| form).collect();
         }
         self.list.truncate(KEPT);

@@ -197,7 +197,7 @@ impl MovingSymbols {
         budget: &Budget,
     ) -> Result<Zeros, Exhausted> {
         let mut found = Zeros::default();
-        let mut brackets: Vec<(Rational, Rational)> = Vec::new();
+        let mut brackets: Vec<(Rational, Rational, u32)> = Vec::new();
         let mut start = lower.clone();
         let at_lower = self.vanishing(f, lower, budget)?;
         if at_lower != Some(false) {
@@ -261,7 +261,7 @@ impl MovingSymbols {
                 for (lo, hi, look, middle) in looks {
                     match (look, middle) {
                         (Look::None, _) => {}
-                        (Look::One, _) => brackets.push((lo, hi)),
+                        (Look::One { halvings }, _) => brackets.push((lo, hi, halvings)),
                         (Look::Unknown, Some(middle)) => {
                             again(lo, middle.clone());
                             again(middle.clone(), hi);
@@ -276,13 +276,14 @@ impl MovingSymbols {
         found.undecided.sort();
         found.undecided = joined(found.undecided);
         let shared = Arc::new(f.clone());
-        for (lo, hi) in brackets {
-            let place = Enclosure::new(lo, hi);
+        for (lo, hi, halvings) in brackets {
+            let monotone = (&hi - &lo) * Rational::from(2).pow(halvings.into()).expect("two is not zero");
             let root = MovingRoot {
                 symbols: Arc::clone(self),
                 function: Arc::clone(&shared),
                 scheme: Arc::clone(&scheme),
-                place: place.clone(),
+                place: Enclosure::new(lo, hi),
+                monotone,
                 rising: OnceLock::new(),
             };
             found.zeros.push(self.known(root, f, budget)?);
@@ -314,7 +315,7 @@ impl MovingSymbols {
 
     /// The zero as a number: a rational one where it is a short fraction.
     fn known(&self, root: MovingRoot, f: &Function, budget: &Budget) -> Result<Real, Exhausted> {
-        let width = root.place.upper() - root.place.lower();
+        let width = &root.monotone;
         let bits = SHORT_BITS + 8 + width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
         let place = budget.enter(|| root.enclose(bits, None))?;
         // The zero may be an end of its place, or all of it.

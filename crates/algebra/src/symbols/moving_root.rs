@@ -16,6 +16,8 @@ pub(super) struct MovingRoot {
     pub function: Arc<Function>,
     pub scheme: Arc<Scheme>,
     pub place: Enclosure,
+    /// The width of an interval around the place on which the function is monotone.
+    pub monotone: Rational,
     /// Whether the function is negative below the zero, once it was asked.
     pub rising: OnceLock<bool>,
 }
@@ -29,8 +31,7 @@ impl Enclosing for MovingRoot {
         let known = known.unwrap_or(&self.place);
         let (mut lo, mut hi) = (known.lower().clone(), known.upper().clone());
         let target = Rational::dyadic(&Integer::ONE, bits);
-        let mut curvature = self.place.upper() - self.place.lower();
-        curvature = Rational::from(FIRST_CURVATURE).checked_div(&curvature).unwrap_or(Rational::ONE);
+        let mut curvature = Rational::from(FIRST_CURVATURE).checked_div(&self.monotone).unwrap_or(Rational::ONE);
         let mut working = bits + 96;
         let rising = *self.rising.get_or_init(|| self.rises());
         while &hi - &lo > target {
@@ -104,16 +105,12 @@ impl MovingRoot {
         point.sub(&step).intersection(whole)
     }
 
-    /// Whether the function is negative below the zero.
+    /// Whether the function is negative below the zero, which is not an end of its place.
     fn rises(&self) -> bool {
         let mut working = FIRST_BITS;
         loop {
-            let below = self.symbols.sign_at(&self.scheme, self.place.lower(), working);
-            let above = self.symbols.sign_at(&self.scheme, self.place.upper(), working);
-            if let (Some(a), Some(b)) = (below, above)
-                && a != b
-            {
-                return b.is_gt();
+            if let Some(below) = self.symbols.sign_at(&self.scheme, self.place.lower(), working) {
+                return below.is_lt();
             }
             working *= 2;
         }

@@ -12,6 +12,9 @@ const DISC: (u64, u64) = (5, 4);
 /// Pieces are halved so often at most.
 const MOST_HALVINGS: usize = 7;
 
+/// A place of a zero is halved so often at most: what is left out is mostly larger by then.
+const MOST_NARROWINGS: u32 = 48;
+
 /// The radius of the disc divided by the width of the interval.
 pub(super) fn disc_radius() -> Rational {
     Rational::new(Integer::from(DISC.0), Integer::from(2 * DISC.1))
@@ -21,8 +24,10 @@ pub(super) fn disc_radius() -> Rational {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Look {
     None,
-    /// One zero, with a derivative that is not zero on the interval.
-    One,
+    /// One zero, which is not an end, with a derivative that is not zero on an interval that was halved so often since.
+    One {
+        halvings: u32,
+    },
     Unknown,
     /// Nothing, and no more of a shorter interval: the numbers would have too many bits.
     Hopeless,
@@ -64,12 +69,48 @@ impl Piece {
     /// Cost: `O(n^2)` sums of balls for each piece, `n` the number of terms.
     pub fn judged(&self, sign_at: &dyn Fn(&Rational) -> Option<Sign>) -> Vec<(Rational, Rational, Look)> {
         let mut found: Vec<(Rational, Rational, Look)> = Vec::new();
-        self.judge(MOST_HALVINGS, sign_at, &mut |piece, look| match found.last_mut() {
-            Some((_, hi, Look::Unknown)) if look == Look::Unknown => *hi = piece.hi.clone(),
-            Some((_, hi, Look::None)) if look == Look::None => *hi = piece.hi.clone(),
-            _ => found.push((piece.lo.clone(), piece.hi.clone(), look)),
+        let mut add = |lo: Rational, hi: Rational, look: Look| match found.last_mut() {
+            Some((_, end, last)) if look == *last && !matches!(look, Look::One { .. }) => *end = hi,
+            _ if lo == hi => {}
+            _ => found.push((lo, hi, look)),
+        };
+        self.judge(MOST_HALVINGS, sign_at, &mut |piece, look| {
+            let Look::One { .. } = look else { return add(piece.lo.clone(), piece.hi.clone(), look) };
+            let (lo, hi, halvings) = piece.narrowed();
+            add(piece.lo.clone(), lo.clone(), Look::None);
+            add(lo, hi.clone(), Look::One { halvings });
+            add(hi, piece.hi.clone(), Look::None);
         });
         found
+    }
+
+    /// The place of the one zero, halved as often as the polynomial tells the sign in the middle, and how often that was.
+    fn narrowed(&self) -> (Rational, Rational, u32) {
+        let is_rising = self.polynomial[1].sign() == Some(Sign::Greater);
+        // From `from/2^halvings` to `(from + 2)/2^halvings`.
+        let (mut from, mut halvings) = (-Integer::ONE, 0);
+        while halvings < MOST_NARROWINGS {
+            let middle = &from + Integer::ONE;
+            let Some(sign) = self.sign_at(&middle, halvings) else { break };
+            from = &from + &from;
+            if sign.is_gt() != is_rising {
+                from += Integer::from(2);
+            }
+            halvings += 1;
+        }
+        let width = (&self.hi - &self.lo) * Rational::dyadic(&Integer::ONE, halvings.into());
+        let before = from + (Integer::ONE << u64::from(halvings));
+        let lo = &self.lo + &(&width * &Rational::dyadic(&before, 1));
+        let hi = &lo + &width;
+        (lo, hi, halvings)
+    }
+
+    /// The sign at `y = n/2^exponent`, where the polynomial tells it.
+    fn sign_at(&self, n: &Integer, exponent: u32) -> Option<Sign> {
+        let zero = Ball::zero(self.polynomial[0].bits());
+        let terms = self.polynomial.iter().rev();
+        let sum = terms.fold(zero, |sum, c| sum.scaled(n).shifted(-i64::from(exponent)).add(c));
+        sum.widened(&self.rest).sign().filter(|s| s.is_ne())
     }
 
     fn judge(&self, halvings: usize, sign_at: &dyn Fn(&Rational) -> Option<Sign>, add: &mut dyn FnMut(&Piece, Look)) {
@@ -95,20 +136,12 @@ impl Piece {
         if self.polynomial[1].least_magnitude_units() <= weighted(2, |k| k as u64, &self.rest_of_slope) {
             return Look::Unknown;
         }
-        let sign = |is_upper: bool, x: &Rational| self.sign_at_end(is_upper).or_else(|| sign_at(x));
-        match (sign(false, &self.lo), sign(true, &self.hi)) {
-            (Some(a), Some(b)) if a != b => Look::One,
+        let sign = |y: i64, x: &Rational| self.sign_at(&Integer::from(y), 0).or_else(|| sign_at(x));
+        match (sign(-1, &self.lo), sign(1, &self.hi)) {
+            (Some(a), Some(b)) if a != b => Look::One { halvings: 0 },
             (Some(_), Some(_)) => Look::None,
             _ => Look::Unknown,
         }
-    }
-
-    /// The sign at an end, where the polynomial tells it.
-    fn sign_at_end(&self, is_upper: bool) -> Option<Sign> {
-        let zero = Ball::zero(self.polynomial[0].bits());
-        let terms = self.polynomial.iter().enumerate();
-        let sum = terms.fold(zero, |sum, (k, c)| if is_upper || k % 2 == 0 { sum.add(c) } else { sum.sub(c) });
-        sum.widened(&self.rest).sign().filter(|s| s.is_ne())
     }
 
     /// `y = (u - 1)/2` and `y = (u + 1)/2`.
@@ -169,6 +202,24 @@ mod tests {
         assert_eq!(piece.judged(&|_| None), [(lo, hi, Look::None)]);
     }
 
+    /// `exp(p) (p - 150/101)`: what is left out over so short an interval tells many binary digits of the zero.
+    #[test]
+    fn the_polynomial_says_where_its_zero_is() {
+        let (lo, hi, zero) = (number("1"), number("2"), number("150/101"));
+        let p = parameter(&lo, &hi, 12);
+        let piece = of_model(&p.exp().mul(&p.sub(&p.constant(&Ball::from_rational(&zero, BITS)))), &lo, &hi);
+        let found = piece.judged(&|_| None);
+        let [(_, below, Look::None), (a, b, Look::One { halvings }), (above, _, Look::None)] = &found[..] else {
+            panic!("{found:?}")
+        };
+        assert!(below == a && b == above && *a < zero && zero < *b);
+        assert!(*halvings > 20 && (b - a) * Rational::from(2).pow(i64::from(*halvings)).unwrap() <= &hi - &lo);
+        // The zero is the middle: no more is known.
+        let middle = number("3/2");
+        let piece = of_model(&p.sub(&p.constant(&Ball::from_rational(&middle, BITS))), &lo, &hi);
+        assert_eq!(piece.judged(&|_| None), [(lo, hi, Look::One { halvings: 0 })]);
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(40))]
 
@@ -190,12 +241,17 @@ mod tests {
                 let inside = [&a, &b].into_iter().filter(|x| *lo < **x && **x < *hi).count();
                 match look {
                     Look::None => prop_assert!(inside == 0 && *lo != a && *lo != b && *hi != a && *hi != b),
-                    Look::One => prop_assert_eq!(inside, 1),
+                    Look::One { halvings } => {
+                        prop_assert_eq!(inside, 1);
+                        let wide = Rational::from(2).pow(i64::from(*halvings)).unwrap() * (hi - lo);
+                        prop_assert!(wide <= Rational::from(width));
+                    }
                     _ => {}
                 }
             }
-            // Zeros that are apart are found.
-            if (&a - &b).abs() > number("1/2") && width < 4 {
+            // Zeros that are apart, and none an end of a piece, are found.
+            let is_inside = [&a, &b].iter().all(|x| !x.is_integer());
+            if is_inside && (&a - &b).abs() > number("1/2") && width < 4 {
                 prop_assert!(found.iter().all(|(_, _, look)| *look != Look::Unknown), "{:?}", found);
             }
         }

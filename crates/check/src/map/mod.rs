@@ -1,5 +1,6 @@
 //! The stable regions in the plane of two parameters.
 
+mod bounds;
 mod isolation;
 mod residues;
 mod resultant;

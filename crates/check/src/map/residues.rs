@@ -1,10 +1,19 @@
-//! Arithmetic modulo numbers of 62 bits, in Montgomery's form.
+//! Arithmetic modulo numbers of 60 bits, in Montgomery's form: a sum of sixteen products is reduced at once.
 //!
 //! The moduli are most likely prime, and nothing rests on it: an inverse is tested when it is taken, and where there is
 //! none another modulus is used.
 
 use crate::number::Z;
 use num_traits::{Signed, ToPrimitive};
+
+/// Coefficients that are summed at a time: with what is above them, products of residues as many as are reduced at once.
+const BLOCK: usize = 15;
+
+/// A fraction of residues; nothing is said of whether the lower one has an inverse.
+pub(super) struct Quotient {
+    pub above: u64,
+    pub below: u64,
+}
 
 /// A modulus. Residues `x` stand for `x/2^64`.
 pub(super) struct Modulus {
@@ -16,7 +25,7 @@ pub(super) struct Modulus {
 }
 
 impl Modulus {
-    /// Of an odd number below `2^62`.
+    /// Of an odd number below `2^60`.
     pub fn new(value: u64) -> Self {
         // Newton's iteration doubles the digits that are right.
         let inverse = (0..6).fold(1u64, |x, _| x.wrapping_mul(2u64.wrapping_sub(value.wrapping_mul(x))));
@@ -24,9 +33,9 @@ impl Modulus {
         Modulus { value, inverse: inverse.wrapping_neg(), square: square as u64 }
     }
 
-    /// The greatest odd number below a bound, and above `2^61`, that passes Fermat's test.
+    /// The greatest odd number below a bound, and above `2^59`, that passes Fermat's test.
     pub fn below(bound: u64) -> Option<Self> {
-        let odd = (1 << 61..bound).rev().filter(|p| p % 2 == 1).map(Modulus::new);
+        let odd = (1 << 59..bound).rev().filter(|p| p % 2 == 1).map(Modulus::new);
         odd.into_iter().find(|m| m.power(m.of_u64(2), m.value - 1) == m.of_u64(1))
     }
 
@@ -82,24 +91,37 @@ impl Modulus {
         (self.times(x, inverse) == self.of_u64(1)).then_some(inverse)
     }
 
-    pub fn value_at(&self, p: &[u64], x: u64) -> u64 {
-        p.iter().rev().fold(0, |sum, c| self.plus(self.times(sum, x), *c))
+    /// The powers of a number that [`Self::value_at`] needs.
+    pub fn powers(&self, x: u64) -> [u64; BLOCK + 1] {
+        let mut powers = [self.of_u64(1); BLOCK + 1];
+        for k in 1..=BLOCK {
+            powers[k] = self.times(powers[k - 1], x);
+        }
+        powers
+    }
+
+    /// The value of a polynomial at the number with these powers. Horner's rule, many coefficients at a time.
+    pub fn value_at(&self, p: &[u64], powers: &[u64; BLOCK + 1]) -> u64 {
+        p.chunks(BLOCK).rev().fold(0, |higher, block| {
+            let sum = block.iter().zip(powers).map(|(c, x)| u128::from(*c) * u128::from(*x)).sum::<u128>();
+            self.reduced(sum + u128::from(higher) * u128::from(powers[BLOCK]))
+        })
     }
 
     /// The resultant of two polynomials whose leading coefficients are not zero: by Euclid's algorithm without divisions,
-    /// what the multiples make too much divided out at the end.
-    pub fn resultant(&self, mut a: Vec<u64>, mut b: Vec<u64>) -> Option<u64> {
+    /// what the multiples make too much below the line.
+    pub fn resultant(&self, a: &mut Vec<u64>, b: &mut Vec<u64>) -> Option<Quotient> {
         let both_odd = |a: &[u64], b: &[u64]| a.len().is_multiple_of(2) && b.len().is_multiple_of(2);
         let (mut top, mut bottom, mut negative) = (self.of_u64(1), self.of_u64(1), false);
         if a.len() < b.len() {
-            negative = both_odd(&a, &b);
-            std::mem::swap(&mut a, &mut b);
+            negative = both_odd(a, b);
+            std::mem::swap(a, b);
         }
         while b.len() > 1 {
             let (m, n, lead) = (a.len() - 1, b.len() - 1, b[b.len() - 1]);
-            negative ^= both_odd(&a, &b);
+            negative ^= both_odd(a, b);
             if m == n + 1 {
-                self.reduce_by_two(&mut a, &b);
+                self.reduce_by_two(a, b);
             } else {
                 for shift in (0..=m - n).rev() {
                     let first = a.pop()?;
@@ -116,16 +138,30 @@ impl Modulus {
             }
             if a.is_empty() {
                 // A remainder of zero tells something only where all that was multiplied with has an inverse.
-                return self.inverse(self.times(bottom, lead)).map(|_| 0);
+                return Some(Quotient { above: 0, below: self.times(bottom, lead) });
             }
             // With r the remainder of lead^s a: Res(a, b) lead^(s n) = (-1)^(m n) lead^(m - deg r) Res(b, r).
             top = self.times(top, self.power(lead, (m + 1 - a.len()) as u64));
             bottom = self.times(bottom, self.power(lead, ((m - n + 1) * n) as u64));
-            std::mem::swap(&mut a, &mut b);
+            std::mem::swap(a, b);
         }
         top = self.times(top, self.power(b[0], a.len() as u64 - 1));
-        let result = self.times(top, self.inverse(bottom)?);
-        Some(if negative { self.minus(0, result) } else { result })
+        Some(Quotient { above: if negative { self.minus(0, top) } else { top }, below: bottom })
+    }
+
+    /// The quotient of two polynomials; `None` if there is none, or the divisor's leading coefficient has no inverse.
+    pub fn divided(&self, a: &[u64], b: &[u64]) -> Option<Vec<u64>> {
+        let n = b.len() - 1;
+        let inverse = self.inverse(b[n])?;
+        let mut rest = a.to_vec();
+        let mut quotient = vec![0; a.len().checked_sub(n)?];
+        for (k, c) in quotient.iter_mut().enumerate().rev() {
+            *c = self.times(rest[k + n], inverse);
+            for (r, b) in rest[k..].iter_mut().zip(b) {
+                *r = self.minus(*r, self.times(*c, *b));
+            }
+        }
+        rest[..n].iter().all(|r| *r == 0).then_some(quotient)
     }
 
     /// The remainder of `lead^2 a` by `b`, one degree less and with this leading coefficient: the usual case. A sum of three products
@@ -180,16 +216,43 @@ mod tests {
     fn a_remainder_of_zero_by_a_divisor_of_zero_tells_nothing() {
         let m = Modulus::new(15);
         let of = |c: &[u64]| c.iter().map(|&c| m.of_u64(c)).collect::<Vec<u64>>();
+        let resultant = |a: &[u64], b: &[u64]| {
+            let found = m.resultant(&mut of(a), &mut of(b))?;
+            Some(m.number(m.times(found.above, m.inverse(found.below)?)))
+        };
         // Modulo 15: 3 (5 x^2) is zero, and so is the remainder by 3 x, whatever they are.
-        assert_eq!(m.resultant(of(&[0, 0, 5]), of(&[0, 3])), None);
-        assert_eq!(m.resultant(of(&[2, 1]), of(&[1, 1])).map(|r| m.number(r)), Some(14));
-        assert_eq!(m.resultant(of(&[0, 1, 1]), of(&[0, 1])).map(|r| m.number(r)), Some(0));
+        assert_eq!(resultant(&[0, 0, 5], &[0, 3]), None);
+        assert_eq!(resultant(&[2, 1], &[1, 1]), Some(14));
+        assert_eq!(resultant(&[0, 1, 1], &[0, 1]), Some(0));
+    }
+
+    #[test]
+    fn values_and_quotients_are_those_of_polynomials() {
+        let m = Modulus::below(1 << 60).unwrap();
+        let x = m.of_u64(3);
+        for length in 1..40u64 {
+            let p: Vec<u64> = (0..length).map(|k| m.minus(0, m.of_u64(k * k + 1))).collect();
+            let plainly = p.iter().rev().fold(0, |sum, c| m.plus(m.times(sum, x), *c));
+            assert_eq!(m.value_at(&p, &m.powers(x)), plainly);
+            // (y^2 - 3) p over p, and with one more.
+            let b = [m.minus(0, x), 0, m.of_u64(1)];
+            let mut product = vec![0; p.len() + 2];
+            for (i, c) in p.iter().enumerate() {
+                for (j, b) in b.iter().enumerate() {
+                    product[i + j] = m.plus(product[i + j], m.times(*c, *b));
+                }
+            }
+            assert_eq!(m.divided(&product, &b), Some(p));
+            product[0] = m.plus(product[0], m.of_u64(1));
+            assert_eq!(m.divided(&product, &b), None);
+        }
+        assert_eq!(m.divided(&[1], &[1, 1]), None);
     }
 
     #[test]
     fn residues_are_those_of_integers() {
-        let m = Modulus::below(1 << 62).unwrap();
-        assert_eq!(m.value, (1 << 62) - 57); // the greatest prime there
+        let m = Modulus::below(1 << 60).unwrap();
+        assert_eq!(m.value, (1 << 60) - 93); // the greatest prime there
         let (x, y) = (123_456_789_012_345_678u64, 987_654_321_098_765_432u64);
         let (a, b) = (m.of_u64(x), m.of_u64(y));
         let by_128 = |z: u128| (z % u128::from(m.value)) as u64;

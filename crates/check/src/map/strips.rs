@@ -1,7 +1,7 @@
 //! Strips of two parameters, their cells, and what joins cells of neighbouring strips.
 
 use super::isolation::{Place, is_in_stretch, merged, roots};
-use super::resultant::resultant;
+use super::resultant::is_product;
 use crate::boxes::at;
 use crate::clock::Clock;
 use crate::coefficient::at_point;
@@ -40,7 +40,7 @@ fn at_y(f: &[Uni], y: &Q, clock: &Clock) -> Result<Uni, String> {
 
 /// That all polynomials at whose zeros curves may meet, turn, leave or end are products of the given ones.
 pub(super) fn covered(curves: &[Curve], x_factors: &[Uni], y_domain: &Domain, clock: &Clock) -> Result<(), String> {
-    let is_product = |what: String, p: &Uni| -> Result<(), String> {
+    let divided_by_all = |p: &Uni| -> Result<bool, String> {
         let mut rest = p.primitive();
         for f in x_factors {
             while rest.degree() > 0
@@ -49,27 +49,32 @@ pub(super) fn covered(curves: &[Curve], x_factors: &[Uni], y_domain: &Domain, cl
                 rest = quotient;
             }
         }
-        if rest.0.len() == 1 { Ok(()) } else { Err(format!("{what} is not a product of the factors in x")) }
+        Ok(rest.0.len() == 1)
+    };
+    let primitive: Vec<Uni> = x_factors.iter().map(Uni::primitive).collect();
+    let is_resultant = |f: &Curve, g: &Curve| is_product(f, g, &primitive, clock);
+    let need = |what: String, is_product: bool| -> Result<(), String> {
+        if is_product { Ok(()) } else { Err(format!("{what} is not a product of the factors in x")) }
     };
     for (i, f) in curves.iter().enumerate() {
         let Some(lead) = f.last() else { return Err("a factor is zero".into()) };
-        is_product(format!("the leading coefficient of factor {i}"), lead)?;
+        need(format!("the leading coefficient of factor {i}"), divided_by_all(lead)?)?;
         if f.len() == 1 {
             continue;
         }
         if f.len() > 2 {
             let derivative: Curve = f.iter().zip(0..).skip(1).map(|(c, k)| c.scaled(&Z::from(k))).collect();
-            is_product(format!("the discriminant of factor {i}"), &resultant(f, &derivative, clock)?)?;
+            need(format!("the discriminant of factor {i}"), is_resultant(f, &derivative)?)?;
         }
         for end in [&y_domain.0, &y_domain.1].into_iter().flatten() {
             let value = at_y(f, end, clock)?;
             // A curve that contains the edge is there for every x.
             if !value.is_zero() {
-                is_product(format!("factor {i} on the edge {end}"), &value)?;
+                need(format!("factor {i} on the edge {end}"), divided_by_all(&value)?)?;
             }
         }
         for (j, g) in curves.iter().enumerate().take(i).filter(|(_, g)| g.len() > 1) {
-            is_product(format!("the resultant of the factors {j} and {i}"), &resultant(f, g, clock)?)?;
+            need(format!("the resultant of the factors {j} and {i}"), is_resultant(f, g)?)?;
         }
     }
     Ok(())

@@ -17,7 +17,7 @@ use jurist_engine::error::Error;
 use jurist_engine::model::Time;
 use jurist_engine::problem::Problem;
 use jurist_engine::show::layout::{short, visible};
-use jurist_engine::stability::{Cause, End, ParametricPolynomial, StableSet, SymbolicPolynomial};
+use jurist_engine::stability::{Cause, End, ParametricPolynomial, Rounding, StableSet, SymbolicPolynomial};
 pub use range::locus_range;
 
 use marks::Ends;
@@ -67,7 +67,7 @@ pub struct DrawnLocus {
 /// The characteristic polynomial, exact or with constants rounded far beyond what is seen.
 enum Polynomial<'p> {
     Exact(Option<&'p ParametricPolynomial>),
-    Rounded(Option<SymbolicPolynomial>),
+    Rounded(Option<Rounding>),
 }
 
 impl Polynomial<'_> {
@@ -75,14 +75,14 @@ impl Polynomial<'_> {
         if problem.algebra_over_symbols(budget)?.symbols().is_empty() {
             return Ok(Polynomial::Exact(problem.parametric(budget)?));
         }
-        Ok(Polynomial::Rounded(problem.symbolic(budget)?))
+        Ok(Polynomial::Rounded(problem.symbolic(budget)?.map(SymbolicPolynomial::rounding)))
     }
 
     /// At a value of the parameter; `None` where it is undefined.
     fn at(&self, value: &Rational) -> Option<UniPoly> {
         match self {
             Polynomial::Exact(p) => p.filter(|p| !p.is_undefined_at(value)).map(|p| p.specialised(value)),
-            Polynomial::Rounded(p) => p.as_ref()?.rounded_at(value),
+            Polynomial::Rounded(p) => p.as_ref()?.at(value),
         }
     }
 
@@ -90,7 +90,7 @@ impl Polynomial<'_> {
     fn whole(&self) -> Option<Cow<'_, Poly<UniPoly>>> {
         match self {
             Polynomial::Exact(p) => p.map(|p| Cow::Borrowed(p.polynomial())),
-            Polynomial::Rounded(p) => p.as_ref()?.rounded().map(Cow::Owned),
+            Polynomial::Rounded(p) => p.as_ref()?.whole().map(Cow::Owned),
         }
     }
 }

@@ -96,19 +96,26 @@ fn range(margins: &Margins) -> (f64, f64) {
     }
 }
 
-/// The open loop's value at an angle or a frequency: exact at the nearest binary number, then rounded.
-fn value(margins: &Margins, rate: f64) -> Option<(f64, f64)> {
-    let exact = |v: f64| Rational::from_f64(v);
-    let (x, factor) = match margins.open_loop.shape() {
+/// The open loop's values at angles or frequencies: exact at the nearest binary number, then rounded. `None` at a pole.
+fn values(margins: &Margins, rates: &[f64]) -> Vec<Option<(f64, f64)>> {
+    let shape = margins.open_loop.shape();
+    let place = |&rate: &f64| match shape {
         // 2 - 4 sin^2(theta/2) keeps the digits near z = 1.
-        stability::Shape::UnitDisc => {
-            let half = (rate / 2.0).sin();
-            (Rational::from(2) - exact(4.0 * half * half)?, rate.sin())
-        }
-        stability::Shape::LeftHalfPlane => (-exact(rate * rate)?, rate),
+        stability::Shape::UnitDisc => Rational::from(2) - finite(4.0 * (rate / 2.0).sin().powi(2)),
+        stability::Shape::LeftHalfPlane => -finite(rate * rate),
     };
-    let (real, imaginary) = margins.open_loop.value_at(&x, BITS)?;
-    Some((middle(&real), middle(&imaginary) * factor))
+    let places: Vec<Rational> = rates.iter().map(place).collect();
+    let factors = rates.iter().map(|&rate| if shape == stability::Shape::UnitDisc { rate.sin() } else { rate });
+    let found = margins.open_loop.values_at(&places, BITS);
+    let rounded = found.iter().zip(factors).map(|(value, factor)| {
+        let (real, imaginary) = value.as_ref()?;
+        Some((middle(real), middle(imaginary) * factor)).filter(|v| v.0.is_finite() && v.1.is_finite())
+    });
+    rounded.collect()
+}
+
+fn finite(x: f64) -> Rational {
+    Rational::from_f64(x).expect("frequencies are finite")
 }
 
 /// The open loop over the frequencies that matter.
@@ -123,10 +130,8 @@ pub fn frequency_response(margins: &Margins) -> FrequencyResponse {
     rates.sort_by(f64::total_cmp);
     rates.dedup();
     let mut points: Vec<ResponsePoint> = Vec::with_capacity(rates.len());
-    for rate in rates {
-        let Some((real, imaginary)) = value(margins, rate).filter(|v| v.0.is_finite() && v.1.is_finite()) else {
-            continue;
-        };
+    for (rate, value) in rates.iter().zip(values(margins, &rates)) {
+        let Some((real, imaginary)) = value else { continue };
         let mut phase = imaginary.atan2(real).to_degrees();
         if let Some(last) = points.last() {
             phase += 360.0 * ((last.phase - phase) / 360.0).round();

@@ -33,6 +33,9 @@ pub fn limit_text(x: Option<&Real>, digits: usize) -> String {
     x.map_or_else(|| "none".into(), |x| real::rounded(x, digits).decimal)
 }
 
+/// Digits of the numbers of which a change is computed.
+pub(super) const CHANGE_DIGITS: usize = 20;
+
 /// By how many percent a number is above another, to three digits; `None` where it is the same, or the other is 0.
 ///
 /// ```
@@ -44,7 +47,7 @@ pub fn limit_text(x: Option<&Real>, digits: usize) -> String {
 /// ```
 pub fn percent_change(now: &Real, base: &Real) -> Option<String> {
     let middle = |x: &Real| {
-        let (lo, hi) = x.refined_to_digits(20).enclosure();
+        let (lo, hi) = x.refined_to_digits(CHANGE_DIGITS).enclosure();
         lo.midpoint(&hi)
     };
     let ratio = middle(now).checked_div(&middle(base))?;

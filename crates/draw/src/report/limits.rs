@@ -3,6 +3,7 @@
 use super::around_nominal;
 use super::part::{Part, Parts, Work};
 use crate::page::{Table, math, paragraph};
+use jurist_algebra::limits::{join, parallel_map};
 use jurist_algebra::number::{Rational, parse_number, to_decimal};
 use jurist_engine::answer::{Answer, PointVerdict};
 use jurist_engine::problem::{Problem, Question};
@@ -22,19 +23,38 @@ pub(super) struct Limits {
     pub name: String,
     /// Its stable set, the others at their values.
     pub set: Part<Answer<StableSet>>,
+    shown: Shown,
+}
+
+/// The ends of a stable set as its document has them: many parts of a report speak of them, and to find their frequencies is work.
+#[derive(Default)]
+struct Shown {
+    /// With [`DIGITS`] digits.
+    exact: Vec<End>,
+    /// With [`PLACES`] digits.
+    rounded: Vec<End>,
+    /// How near those around the nominal value are, in decibels either way; infinite where there is none.
+    nearest: f64,
+}
+
+impl Shown {
+    fn of(answer: &Answer<StableSet>) -> Shown {
+        let (exact, rounded) = join(|| ends(answer, DIGITS), || ends(answer, PLACES));
+        let nearest = nearest(answer, &rounded);
+        Shown { exact, rounded, nearest }
+    }
 }
 
 /// The stable set of every parameter that is not set.
 pub(super) fn find(question: &Question, parts: &Parts<'_>) -> Vec<Limits> {
     let names = question.model().parameters().iter().map(|p| p.name.clone());
-    names
-        .filter(|name| !question.values_set().contains_key(name))
-        .map(|name| {
-            let question = question.clone().free(&name);
-            let set = parts.part(&format!("limits of {name}"), Work::Any, |budget| question.stable_set(budget));
-            Limits { name, set }
-        })
-        .collect()
+    let names: Vec<String> = names.filter(|name| !question.values_set().contains_key(name)).collect();
+    parallel_map(names, |name: String| {
+        let question = question.clone().free(&name);
+        let set = parts.part(&format!("limits of {name}"), Work::Any, |budget| question.stable_set(budget));
+        let shown = set.as_ref().map_or_else(|_| Shown::default(), Shown::of);
+        Limits { name, set, shown }
+    })
 }
 
 /// `stable: all 6 roots are inside the unit circle`, or why nothing is known.
@@ -76,7 +96,10 @@ fn of_parameter(limits: &Limits) -> String {
     };
     let unit = free.unit.as_deref().map(|u| format!(" ({u})")).unwrap_or_default();
     let sentence = format!("{nominal}{domain}: {stable}{unit}.");
-    heading + &paragraph(&math(&sentence)) + &table(answer).map(|t| t.html()).unwrap_or_default() + &undecided(answer)
+    heading
+        + &paragraph(&math(&sentence))
+        + &table(limits, answer.problem()).map(|t| t.html()).unwrap_or_default()
+        + &undecided(answer)
 }
 
 fn undecided(answer: &Answer<StableSet>) -> String {
@@ -91,7 +114,7 @@ fn undecided(answer: &Answer<StableSet>) -> String {
 }
 
 /// The ends of an answer as its document has them.
-pub(super) fn ends(answer: &Answer<StableSet>, digits: usize) -> Vec<End> {
+fn ends(answer: &Answer<StableSet>, digits: usize) -> Vec<End> {
     let Intervals { answer: Answered::Known(known), .. } = answer.json(digits) else { return Vec::new() };
     let mut ends: Vec<End> = known.stable.into_iter().flat_map(|i| [i.lower, i.upper]).flatten().collect();
     // Two intervals that touch share an end.
@@ -99,16 +122,15 @@ pub(super) fn ends(answer: &Answer<StableSet>, digits: usize) -> Vec<End> {
     ends
 }
 
-fn table(answer: &Answer<StableSet>) -> Option<Table> {
-    let problem = answer.problem();
-    let (exact, rounded) = (ends(answer, DIGITS), ends(answer, PLACES));
+fn table(limits: &Limits, problem: &Problem) -> Option<Table> {
+    let Shown { exact, rounded, .. } = &limits.shown;
     if exact.is_empty() {
         return None;
     }
     let nominal = problem.parameter().nominal.as_ref().map(short).unwrap_or_default();
     let margin = if nominal.is_empty() { "margin".to_owned() } else { format!("margin from nominal {nominal}") };
     let mut table = Table::new("Limits", &["limit", "what happens there", "frequency", &margin]);
-    for (end, places) in exact.iter().zip(&rounded) {
+    for (end, places) in exact.iter().zip(rounded) {
         let fraction = end.number.exact.as_ref().filter(|f| {
             let same = parse_number(f.as_str()).ok() == parse_number(&end.number.decimal).ok();
             !same && f.as_str().len() <= 24
@@ -175,33 +197,35 @@ fn margin_text(end: &End, problem: &Problem) -> Option<String> {
 
 /// How near the limits around the nominal value are, in decibels either way; infinite where there is none. Only the order
 /// of parameters follows from it.
-pub(super) fn nearest(answer: &Answer<StableSet>) -> f64 {
+fn nearest(answer: &Answer<StableSet>, rounded: &[End]) -> f64 {
     let Some(interval) = around_nominal(answer) else { return f64::INFINITY };
     let around = [&interval.lower, &interval.upper];
-    let all = ends(answer, PLACES);
     let values: Vec<String> = around.into_iter().flatten().map(|e| super::limit_text(Some(&e.value), PLACES)).collect();
-    let near = all.iter().filter(|e| !is_domain(e) && values.contains(&e.number.decimal));
+    let near = rounded.iter().filter(|e| !is_domain(e) && values.contains(&e.number.decimal));
     near.filter_map(|e| e.margin_db.as_ref()?.as_f64()).map(f64::abs).fold(f64::INFINITY, f64::min)
 }
 
 /// The parameters by how near their limits are, the nearest first.
+fn ordered(limits: &[Limits]) -> Vec<(&Limits, &Answer<StableSet>)> {
+    let mut known: Vec<_> = limits.iter().filter_map(|l| Some((l, l.set.as_ref().ok()?))).collect();
+    known.sort_by(|a, b| a.0.shown.nearest.total_cmp(&b.0.shown.nearest));
+    known
+}
+
+/// The stable sets of the parameters by how near their limits are, the nearest first.
 pub(super) fn by_margin(limits: &[Limits]) -> Vec<&Answer<StableSet>> {
-    let mut known: Vec<(f64, &Answer<StableSet>)> =
-        limits.iter().filter_map(|l| l.set.as_ref().ok()).map(|answer| (nearest(answer), answer)).collect();
-    known.sort_by(|a, b| a.0.total_cmp(&b.0));
-    known.into_iter().map(|(_, answer)| answer).collect()
+    ordered(limits).into_iter().map(|(_, answer)| answer).collect()
 }
 
 /// `nearest limit: T < 0.000496939 (4.969395 × nominal)`: plain text for the head of the page.
 pub(super) fn nearest_sentence(limits: &[Limits]) -> Option<String> {
-    let answer = *by_margin(limits).first()?;
-    let decibels = nearest(answer);
-    if !decibels.is_finite() {
+    let (known, answer) = *ordered(limits).first()?;
+    let Shown { exact, rounded, nearest } = &known.shown;
+    if !nearest.is_finite() {
         return None;
     }
-    let (exact, rounded) = (ends(answer, DIGITS), ends(answer, PLACES));
     let is_nearest =
-        |e: &&End| e.margin_db.as_ref().and_then(|m| m.as_f64()).is_some_and(|m| m.abs() == decibels && !is_domain(e));
+        |e: &&End| e.margin_db.as_ref().and_then(|m| m.as_f64()).is_some_and(|m| m.abs() == *nearest && !is_domain(e));
     let places = rounded.iter().find(is_nearest)?;
     let at = rounded.iter().position(|e| e == places)?;
     let free = answer.problem().parameter();

@@ -1,5 +1,6 @@
 //! What moves the limits: every one computed again, exactly, with one number a tenth smaller or larger.
 
+use super::limit::CHANGE_DIGITS;
 use super::limits::Limits;
 use super::part::{Missing, Part, Parts, Work};
 use super::{around_nominal, limit_text, percent_change};
@@ -47,9 +48,13 @@ fn binds(end: Option<&End>) -> bool {
     end.is_some_and(|e| e.causes.is_limit())
 }
 
+/// Refined once for all that is printed of it.
+fn value(end: &Option<End>) -> Option<Real> {
+    end.as_ref().map(|e| e.value.refined_to_digits(CHANGE_DIGITS))
+}
+
 fn ends(answer: &Answer<StableSet>) -> Ends {
-    let value = |end: &Option<End>| end.as_ref().map(|e| e.value.clone());
-    around_nominal(answer).map(|i| [value(&i.lower), value(&i.upper)])
+    around_nominal(answer).map(|i| [&i.lower, &i.upper].map(value))
 }
 
 pub(super) fn section(question: &Question, limits: &[Limits], parts: &Parts<'_>) -> String {
@@ -178,7 +183,7 @@ impl Near {
                 reached = next.clone();
             }
         }
-        Ok(Some(found.map(|end| end.map(|end| end.value))))
+        Ok(Some(found.each_ref().map(value)))
     }
 }
 

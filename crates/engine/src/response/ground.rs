@@ -36,8 +36,8 @@ pub(crate) trait Ground: Clone + fmt::Debug + Send + Sync {
     /// The quotient of two polynomials at a number that is not rational; neither is zero there.
     fn quotient_at(&self, a: &Poly<Self::Number>, b: &Poly<Self::Number>, x: &Real) -> Value;
 
-    /// The value of a polynomial at a rational number, with some bits.
-    fn enclose(&self, p: &Poly<Self::Number>, x: &Rational, bits: u64) -> Enclosure;
+    /// The values of a polynomial at rational numbers, with some bits; its coefficients are enclosed once.
+    fn values(&self, p: &Poly<Self::Number>, bits: u64) -> impl Fn(&Rational) -> Enclosure;
 
     /// Whether all roots are inside of the boundary.
     fn is_stable(&self, p: &Poly<Self::Number>, shape: Shape, budget: &Budget) -> Result<bool, Exhausted>;
@@ -139,8 +139,8 @@ impl Ground for Integers {
         Value::quotient(a, b, x.algebraic().expect("zeros of polynomials with integer coefficients are algebraic"))
     }
 
-    fn enclose(&self, p: &UniPoly, x: &Rational, _: u64) -> Enclosure {
-        Enclosure::from_rational(p.eval_rational(x))
+    fn values(&self, p: &UniPoly, _: u64) -> impl Fn(&Rational) -> Enclosure {
+        |x| Enclosure::from_rational(p.eval_rational(x))
     }
 
     fn is_stable(&self, p: &UniPoly, shape: Shape, budget: &Budget) -> Result<bool, Exhausted> {
@@ -176,9 +176,8 @@ const MOST_BITS: u64 = 1 << 13;
 impl Constants {
     /// The value at a ball.
     fn at_ball(&self, p: &Poly<MultiPoly>, x: &Ball) -> Ball {
-        let bits = x.bits();
-        let coefficients = p.coeffs().iter().rev();
-        coefficients.fold(Ball::zero(bits), |sum, c| sum.mul(x).add(&self.0.enclose(c, bits)))
+        let coefficients: Vec<Ball> = p.coeffs().iter().map(|c| self.0.enclose(c, x.bits())).collect();
+        horner(&coefficients, x)
     }
 
     fn at_real(&self, p: &Poly<MultiPoly>, x: &Real, bits: u64) -> Ball {
@@ -204,6 +203,11 @@ impl Constants {
         };
         SymbolicPolynomial::new(&d, free, &self.0)
     }
+}
+
+/// The value of the polynomial with these coefficients, from the constant term up.
+fn horner(coefficients: &[Ball], x: &Ball) -> Ball {
+    coefficients.iter().rev().fold(Ball::zero(x.bits()), |sum, c| sum.mul(x).add(c))
 }
 
 impl Ground for Constants {
@@ -255,8 +259,9 @@ impl Ground for Constants {
         }))
     }
 
-    fn enclose(&self, p: &Poly<MultiPoly>, x: &Rational, bits: u64) -> Enclosure {
-        self.at_ball(p, &Ball::from_rational(x, bits)).to_enclosure()
+    fn values(&self, p: &Poly<MultiPoly>, bits: u64) -> impl Fn(&Rational) -> Enclosure {
+        let coefficients: Vec<Ball> = p.coeffs().iter().map(|c| self.0.enclose(c, bits)).collect();
+        move |x| horner(&coefficients, &Ball::from_rational(x, bits)).to_enclosure()
     }
 
     fn is_stable(&self, p: &Poly<MultiPoly>, shape: Shape, budget: &Budget) -> Result<bool, Exhausted> {

@@ -169,7 +169,7 @@ impl OpenLoop {
     /// The coefficients of `D0` and of `N` from the constant term up, with an absolute error of at most about `2^-bits`.
     pub fn coefficients(&self, bits: u64) -> [Vec<Rational>; 2] {
         fn middles<G: Ground>(ground: &G, p: &Poly<G::Number>, bits: u64) -> Vec<Rational> {
-            let value = |c: &G::Number| ground.enclose(&Poly::constant(c.clone()), &Rational::ZERO, bits);
+            let value = |c: &G::Number| ground.values(&Poly::constant(c.clone()), bits)(&Rational::ZERO);
             p.coeffs().iter().map(value).map(|e| e.lower().midpoint(e.upper())).collect()
         }
         with_parts!(self, parts => [&parts.denominator, &parts.numerator].map(|p| middles(&parts.ground, p, bits)))
@@ -207,25 +207,34 @@ impl OpenLoop {
     /// # Ok::<(), jurist_engine::error::Error>(())
     /// ```
     pub fn value_at(&self, x: &Rational, bits: u64) -> Option<(Enclosure, Enclosure)> {
-        let (real, imaginary) = self.rational_value_at(x, bits)?;
-        let Some(tau) = &self.dead_time else { return Some((real, imaginary)) };
+        self.values_at(std::slice::from_ref(x), bits).pop()?
+    }
+
+    /// [`Self::value_at`] at many points; constants are enclosed once.
+    pub fn values_at(&self, points: &[Rational], bits: u64) -> Vec<Option<(Enclosure, Enclosure)>> {
+        with_parts!(self, parts => {
+            let reduced = &parts.reduced;
+            let [below, twice_real, imaginary] = [&reduced.denominator_squared, &reduced.twice_real, &reduced.imaginary]
+                .map(|p| parts.ground.values(p, bits));
+            let value = |x: &Rational| {
+                let below = below(x);
+                let real = twice_real(x).div(&below.add(&below, bits), bits)?;
+                Some(self.delayed(x, real, imaginary(x).div(&below, bits)?, bits))
+            };
+            points.iter().map(value).collect()
+        })
+    }
+
+    /// A value multiplied by that of the dead time.
+    fn delayed(&self, x: &Rational, real: Enclosure, imaginary: Enclosure, bits: u64) -> (Enclosure, Enclosure) {
+        let Some(tau) = &self.dead_time else { return (real, imaginary) };
         let rate = Enclosure::from_rational(-x).sqrt(bits);
         let turned = rate.mul(&Enclosure::from_rational(tau.clone()), bits);
         let (cos, sin) = cos_sin(&Ball::from_enclosure(&turned, bits));
         let (cos, sin) = (cos.to_enclosure(), sin.to_enclosure());
         let over_rate = sin.div(&rate, bits).unwrap_or_else(|| Enclosure::from_rational(tau.clone()));
         let along = real.mul(&cos, bits).add(&imaginary.mul(&rate, bits).mul(&sin, bits), bits);
-        Some((along, imaginary.mul(&cos, bits).sub(&real.mul(&over_rate, bits), bits)))
-    }
-
-    fn rational_value_at(&self, x: &Rational, bits: u64) -> Option<(Enclosure, Enclosure)> {
-        with_parts!(self, parts => {
-            let value = |p| parts.ground.enclose(p, x, bits);
-            let r = &parts.reduced;
-            let below = value(&r.denominator_squared);
-            let real = value(&r.twice_real).div(&below.add(&below, bits), bits)?;
-            Some((real, value(&r.imaginary).div(&below, bits)?))
-        })
+        (along, imaginary.mul(&cos, bits).sub(&real.mul(&over_rate, bits), bits))
     }
 
     pub(crate) fn over(&self) -> &Over {

@@ -38,8 +38,8 @@ pub use routh::{RouthTable, is_hurwitz_routh, routh_table};
 pub use stable_set::{Cells, End, StableInterval, StableSet, UndecidedBracket, end_at, stable_set};
 pub(crate) use symbolic::{Bracket, told_apart, zeros_of_functions};
 pub use symbolic::{
-    Comparison, EnclosedCondition, EnclosedRow, EnclosedTable, RealIntervals, SymbolicCondition, SymbolicPlane,
-    SymbolicPolynomial, SymbolicRow, SymbolicTest, symbolic_stable_set,
+    Comparison, EnclosedCondition, EnclosedRow, EnclosedTable, RealIntervals, Rounding, SymbolicCondition,
+    SymbolicPlane, SymbolicPolynomial, SymbolicRow, SymbolicTest, symbolic_stable_set,
 };
 
 /// Where the roots of the characteristic polynomial of a stable loop lie.

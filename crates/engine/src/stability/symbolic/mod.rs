@@ -24,6 +24,7 @@ pub(crate) use boundary_zeros::{Bracket, told_apart, zeros_of_functions};
 pub use conditions::{RealIntervals, SymbolicCondition, SymbolicTest};
 pub use jury::{Comparison, EnclosedCondition, EnclosedRow, EnclosedTable};
 pub use plane::SymbolicPlane;
+pub use rounded::Rounding;
 pub use rows::SymbolicRow;
 pub use set::symbolic_stable_set;
 

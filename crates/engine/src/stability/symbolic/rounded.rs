@@ -1,17 +1,60 @@
 //! Polynomials over symbols with rounded coefficients, for pictures.
 
 use super::{SymbolicPolynomial, Table};
+use jurist_algebra::ball::Ball;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{MultiPoly, Poly, UniPoly};
-use jurist_algebra::symbols::common_scale;
+use jurist_algebra::symbols::{Symbols, common_scale};
 use std::sync::Arc;
 
 /// Bits after the point.
 const BITS: u64 = 320;
 
-impl SymbolicPolynomial {
+/// A polynomial over symbols that is asked for at many values of its parameter.
+#[derive(Debug)]
+pub struct Rounding {
+    polynomial: SymbolicPolynomial,
+    /// The coefficients and the poles by powers of the parameter, where no symbol depends on it.
+    enclosed: Option<[Vec<Vec<Ball>>; 2]>,
+}
+
+impl Rounding {
     /// The polynomial at a value of the parameter, times a power of two and rounded to integers: for its roots in floating point,
     /// not for verdicts. `None` where the loop is undefined, or so near to that that it cannot be told.
+    ///
+    /// Cost: a product for each coefficient; an enclosure of each where symbols depend on the parameter.
+    pub fn at(&self, value: &Rational) -> Option<UniPoly> {
+        let [coefficients, poles] = match &self.enclosed {
+            Some(enclosed) => {
+                let x = Ball::from_rational(value, BITS);
+                let horner = |c: &Vec<Ball>| c.iter().rev().fold(Ball::zero(BITS), |sum, c| sum.mul(&x).add(c));
+                enclosed.each_ref().map(|list| list.iter().map(horner).collect::<Vec<Ball>>())
+            }
+            None => {
+                let symbols = self.polynomial.table_at(value)?;
+                let list = |list: &[MultiPoly]| {
+                    common_scale(list, value).iter().map(|c| symbols.enclose(c, BITS)).collect::<Vec<Ball>>()
+                };
+                [self.polynomial.polynomial.coeffs(), &self.polynomial.poles].map(list)
+            }
+        };
+        if poles.iter().any(Ball::contains_zero) {
+            return None;
+        }
+        Some(UniPoly::new(coefficients.iter().map(Ball::middle_units).collect()))
+    }
+
+    /// The polynomial with its coefficients as polynomials in the parameter, times a power of two and rounded to integers: for
+    /// pictures. `None` where symbols depend on the parameter.
+    pub fn whole(&self) -> Option<Poly<UniPoly>> {
+        let [coefficients, _] = self.enclosed.as_ref()?;
+        let in_parameter = |c: &Vec<Ball>| UniPoly::new(c.iter().map(Ball::middle_units).collect());
+        Some(Poly::new(coefficients.iter().map(in_parameter).collect()))
+    }
+}
+
+impl SymbolicPolynomial {
+    /// The polynomial, to be rounded at many values of its parameter.
     ///
     /// ```
     /// use jurist_algebra::limits::Budget;
@@ -22,34 +65,64 @@ impl SymbolicPolynomial {
     ///     .characteristic("z - exp(-1) + K")
     ///     .build()?;
     /// let problem = model.ask().free("K").problem()?;
-    /// let p = problem.symbolic(&Budget::unlimited())?.unwrap().rounded_at(&1.into()).unwrap();
+    /// let p = problem.symbolic(&Budget::unlimited())?.unwrap().rounding().at(&1.into()).unwrap();
     /// let root = -p.coeff(0).to_f64_approximate() / p.coeff(1).to_f64_approximate();
     /// assert!((root - ((-1f64).exp() - 1.0)).abs() < 1e-15);
     /// # Ok::<(), jurist_engine::error::Error>(())
     /// ```
     ///
-    /// Cost: an enclosure of each coefficient.
-    pub fn rounded_at(&self, value: &Rational) -> Option<UniPoly> {
-        let symbols = match &self.symbols {
-            Table::Fixed(symbols) => Arc::clone(symbols),
-            Table::Moving(symbols) => Arc::new(symbols.at(value)?),
+    /// Cost: an enclosure of each coefficient, where no symbol depends on the parameter.
+    pub fn rounding(self) -> Rounding {
+        let enclosed = match &self.symbols {
+            Table::Fixed(symbols) => {
+                let number = |c: &MultiPoly| symbols.enclose(&c.map_variables(|i| i.saturating_sub(1)), BITS);
+                let powers = |c: &MultiPoly| c.as_poly_in(0).coeffs().iter().map(number).collect();
+                let list = |list: &[MultiPoly]| list.iter().map(powers).collect();
+                Some([self.polynomial.coeffs(), &self.poles].map(list))
+            }
+            Table::Moving(_) => None,
         };
-        let number = |p: &MultiPoly| p.substitute(0, value).0.map_variables(|i| i.saturating_sub(1));
-        if self.poles.iter().any(|pole| symbols.enclose(&number(pole), BITS).contains_zero()) {
-            return None;
-        }
-        let coefficients = common_scale(self.polynomial.coeffs(), value);
-        Some(UniPoly::new(coefficients.iter().map(|c| symbols.enclose(c, BITS).middle_units()).collect()))
+        Rounding { polynomial: self, enclosed }
     }
 
-    /// The polynomial with its coefficients as polynomials in the parameter, times a power of two and rounded to integers: for
-    /// pictures. `None` where symbols depend on the parameter.
-    ///
-    /// Cost: an enclosure of each coefficient.
-    pub fn rounded(&self) -> Option<Poly<UniPoly>> {
-        let Table::Fixed(symbols) = &self.symbols else { return None };
-        let number = |c: &MultiPoly| symbols.enclose(&c.map_variables(|i| i.saturating_sub(1)), BITS).middle_units();
-        let in_parameter = |c: &MultiPoly| UniPoly::new(c.as_poly_in(0).coeffs().iter().map(number).collect());
-        Some(Poly::new(self.polynomial.coeffs().iter().map(in_parameter).collect()))
+    fn table_at(&self, value: &Rational) -> Option<Arc<Symbols>> {
+        match &self.symbols {
+            Table::Fixed(symbols) => Some(Arc::clone(symbols)),
+            Table::Moving(symbols) => Some(Arc::new(symbols.at(value)?)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Model, ParameterBuilder, Time};
+    use jurist_algebra::limits::Budget;
+
+    /// The loop `z - exp(-T) + K/3` with one of its parameters free, the other at its value.
+    fn rounding(free: &str, others: &[(&str, i64)]) -> Rounding {
+        let parameters = ["K", "T"].map(|name| ParameterBuilder::new(name).nominal("1"));
+        let builder = Model::builder(Time::Discrete).characteristic("z - exp(-T) + K/3");
+        let (model, _) = parameters.into_iter().fold(builder, |b, p| b.parameter(p)).build().unwrap();
+        let values = others.iter().map(|(name, value)| ((*name).to_owned(), Rational::from(*value)));
+        let problem = model.ask().set_all(values).free(free).problem().unwrap();
+        problem.symbolic(&Budget::unlimited()).unwrap().unwrap().rounding()
+    }
+
+    #[test]
+    fn a_parameter_inside_or_outside_of_functions_gives_the_same_roots() {
+        let root = |p: &UniPoly| -p.coeff(0).to_f64_approximate() / p.coeff(1).to_f64_approximate();
+        for (k, t) in [(1, 1), (-7, 3), (5, 0)] {
+            let expected = (-(t as f64)).exp() - k as f64 / 3.0;
+            let of_gain = rounding("K", &[("T", t)]);
+            let of_time = rounding("T", &[("K", k)]);
+            assert!(of_time.whole().is_none());
+            for found in [of_gain.at(&k.into()).unwrap(), of_time.at(&t.into()).unwrap()] {
+                assert!((root(&found) - expected).abs() < 1e-15, "{k} {t} {found:?}");
+            }
+            let whole = of_gain.whole().unwrap();
+            let at = UniPoly::new(whole.coeffs().iter().map(|c| c.eval(&k.into())).collect());
+            assert!((root(&at) - expected).abs() < 1e-15, "{k} {t} {at:?}");
+        }
     }
 }
