@@ -66,7 +66,33 @@ fn a_map_of_a_loop_with_dead_time_is_made_of_boxes() {
     let boxes = document["boxes"].as_array().unwrap();
     let with = |verdict: &str| boxes.iter().filter(|b| b["verdict"] == verdict).count();
     assert!(with("stable") > 0 && with("unstable") > 0, "{}", boxes.len());
-    // Where there is no window there are no boxes.
-    let run = jurist(&["map", "examples/dead-time-pi.toml", "-x", "K_c", "-y", "theta"]);
-    assert!(run.stderr.contains("boxes need a window of 'K_c' with two ends"), "{}", run.stderr);
+}
+
+#[test]
+fn boxes_without_a_window_are_around_the_nominal_point() {
+    let run = jurist(&["map", "examples/dead-time-pi.toml", "-x", "K_c", "-y", "theta=1..8", "--undecided", "0.5"]);
+    assert!(run.stdout.contains("by boxes: 0 < K_c < "), "{}{}", run.stdout, run.stderr);
+    assert!(run.stderr.contains("chosen by '-x K_c=LO..HI'"), "{}", run.stderr);
+    let page = std::env::temp_dir().join(format!("jurist-boxes-{}.html", std::process::id()));
+    let name = page.to_str().unwrap();
+    let run = jurist(&[
+        "map",
+        "examples/dead-time-pi.toml",
+        "-x",
+        "K_c",
+        "-y",
+        "theta=1..8",
+        "--undecided",
+        "0.5",
+        "-o",
+        name,
+    ]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let html = std::fs::read_to_string(&page).unwrap();
+    std::fs::remove_file(&page).unwrap();
+    assert!(html.contains("\n    stable: ") && !html.contains("\\n"), "lines of text are lines");
+    // Without a nominal value there are none.
+    let text = "time = 'continuous'\n[parameters]\nK = { min = 0 }\nL = { min = 0, max = 1 }\n[loop]\ncharacteristic = 's + K*exp(-L*s)'\n";
+    let run = jurist_with_input(&["map", "-", "-x", "K", "-y", "L"], text.as_bytes());
+    assert!(run.stderr.contains("boxes need a window of 'K' with two ends"), "{}", run.stderr);
 }

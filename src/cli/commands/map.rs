@@ -118,9 +118,12 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let places = digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1);
     let answer = match decided(required(&problem, method, &boxes, places, &asked, context))? {
         Ok(MapOrBoxes::Exact(answer)) => *answer,
-        Ok(MapOrBoxes::Boxes(boxes)) => {
+        Ok(MapOrBoxes::Boxes(found)) => {
             context.warn(None, problem.warnings());
-            return map_boxes::answer(&boxes, &options.output, context);
+            if let Some(line) = map_boxes::window_note(&found, &boxes) {
+                note(&line);
+            }
+            return map_boxes::answer(&found, &options.output, context);
         }
         Err(stopped) => {
             let by_boxes = problem.ends_in_boxes(method, &boxes);

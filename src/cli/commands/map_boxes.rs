@@ -101,6 +101,18 @@ impl MethodOptions {
     }
 }
 
+/// That nobody said what the boxes are to cover, and how to.
+pub(super) fn window_note(found: &Answer<MapBoxes>, request: &BoxRequest) -> Option<String> {
+    let axes = found.problem().axes().into_iter().zip(&request.windows).zip(["-x", "-y"]);
+    let open = axes.filter(|((axis, wanted), _)| {
+        let ends = [(&wanted.lower, &axis.domain.lower), (&wanted.upper, &axis.domain.upper)];
+        ends.into_iter().any(|(wanted, domain)| wanted.is_none() && domain.is_none())
+    });
+    let options: Vec<String> = open.map(|((axis, _), option)| format!("{option} {}=LO..HI", axis.name)).collect();
+    let text = "note: the boxes are around the nominal point; what they cover is chosen by";
+    (!options.is_empty()).then(|| format!("{text} '{}'", options.join(" ")))
+}
+
 /// Width and height of the picture.
 const SIZE: (f64, f64) = (860.0, 600.0);
 

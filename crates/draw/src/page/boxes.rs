@@ -17,7 +17,7 @@ pub fn map_boxes_page(answer: &Answer<MapBoxes>, figure: &Figure, digits: usize)
         "<div class=\"figure\">{}</div>\n<pre>{}</pre>\n\
          <p>Every verdict is proved for the whole box; positions in the picture are drawn in floating point.</p>\n",
         figure.svg(),
-        escaped(&answer.text(digits)),
+        answer.text(digits).lines().map(escaped).collect::<Vec<_>>().join("\n"),
     );
     let dark = dark_style(".figure");
     let style = format!(

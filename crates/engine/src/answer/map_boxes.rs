@@ -51,7 +51,8 @@ pub enum MapMethod {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct BoxRequest {
-    /// Of either parameter; the domain is the window where an end is left out.
+    /// Of either parameter; the domain is the window where an end is left out. Of a loop that has only boxes an end that neither says is as
+    /// far from the nominal value as the other one, or as 0.
     pub windows: [Range; 2],
     /// The share of the window's area that may stay undecided.
     pub undecided: Rational,
@@ -163,10 +164,10 @@ impl Problem {
             if method != MapMethod::Exact {
                 let share = share();
                 if let Some(plane) = self.delayed_plane(budget)? {
-                    return Ok(found(plane.boxes(&window_of(self, request)?, &request.undecided, &share)?));
+                    return Ok(found(plane.boxes(&window_around(self, request)?, &request.undecided, &share)?));
                 }
                 if let Some(plane) = self.symbolic_plane(budget)? {
-                    return Ok(found(plane.boxes(&window_of(self, request)?, &request.undecided, &share)?));
+                    return Ok(found(plane.boxes(&window_around(self, request)?, &request.undecided, &share)?));
                 }
             }
             let window = match (method, window_of(self, request)) {
@@ -188,6 +189,25 @@ impl Problem {
             Ok(found(stability_boxes(p, &window, self.shape(), &request.undecided, &share())?))
         })?
     }
+}
+
+/// [`window_of`], where there is nothing but boxes: a side without an end reaches as far from the nominal value as the other end, or 0, or one.
+fn window_around(question: &Problem, request: &BoxRequest) -> Result<Window, Error> {
+    let mut wanted = request.clone();
+    for (range, axis) in wanted.windows.iter_mut().zip(question.free()) {
+        let lower = range.lower.clone().max(axis.domain.lower.clone());
+        let upper = range.upper.iter().chain(&axis.domain.upper).min().cloned();
+        let Some(nominal) = &axis.nominal else { continue };
+        let reach = match (&lower, &upper) {
+            (Some(lower), None) => nominal - lower,
+            (None, Some(upper)) => upper - nominal,
+            _ => nominal.abs(),
+        };
+        let reach = if reach.sign().is_gt() { reach } else { Rational::ONE };
+        range.lower = Some(lower.unwrap_or_else(|| nominal - &reach));
+        range.upper = Some(upper.unwrap_or_else(|| nominal + &reach));
+    }
+    window_of(question, &wanted)
 }
 
 /// The part of the domain that the boxes are to cover.
