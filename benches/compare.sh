@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 if [ -z "${BENCH_LOOP:-}" ]; then
-    cargo build --release --quiet --example bench_loop
+    cargo build --release --quiet -p jurist-benches --example bench_loop
     BENCH_LOOP=target/release/examples/bench_loop
 fi
 echo "jurist:"

@@ -1,13 +1,13 @@
 #!/bin/sh
 # Real root isolation beside PARI/GP, family by family in one run, one thread: milliseconds and ratios.
-# Usage: benches/compare_roots.sh  (needs gp and a built example: cargo build --release --example bench_roots)
+# Usage: benches/compare_roots.sh  (needs gp and a built example: cargo build --release -p jurist-benches --example bench_roots)
 set -eu
 cd "$(dirname "$0")/.."
-cargo build --release --quiet --example bench_roots
+cargo build --release --quiet -p jurist-benches --example bench_roots
 ours=$(mktemp)
 theirs=$(mktemp)
 trap 'rm -f "$ours" "$theirs"' EXIT
-RAYON_NUM_THREADS=1 cargo run --release --quiet --example bench_roots >"$ours"
+RAYON_NUM_THREADS=1 cargo run --release --quiet -p jurist-benches --example bench_roots >"$ours"
 gp -q -f benches/pari/roots.gp </dev/null >"$theirs" 2>/dev/null
 printf '%-20s %6s %12s %12s %8s\n' family roots 'PARI ms' 'ours ms' ratio
 awk '

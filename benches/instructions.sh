@@ -3,7 +3,7 @@
 # them beside the recorded ones; `benches/instructions.sh record` writes the record.
 set -eu
 cd "$(dirname "$0")/.."
-cargo build --release --quiet --example instructions
+cargo build --release --quiet -p jurist-benches --example instructions
 record=benches/instructions.txt
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

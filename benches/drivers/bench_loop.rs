@@ -4,7 +4,7 @@
 //! roots of the critical constraint in `K` at `T = 1e-4` and in `T` at `K = 110`, refined to a relative
 //! width of `2^-128`; the critical constraint in both parameters.
 //!
-//! `cargo run --release --example bench_loop [SECONDS_PER_FIGURE] [STEPS]`: one thread with `RAYON_NUM_THREADS=1`;
+//! `cargo run --release -p jurist-benches --example bench_loop [SECONDS_PER_FIGURE] [STEPS]`: one thread with `RAYON_NUM_THREADS=1`;
 //! with `STEPS` the parts of the limits are shown too. `BENCH_ORDER=n` leaves out all other orders.
 
 use families::RELATIVE_BITS;

@@ -1,7 +1,7 @@
 //! Times real root isolation on the families of the comparison with PARI/GP: square-free part,
 //! rational roots, isolation and refinement to a relative width of `2^-128`, one thread.
 //!
-//! `cargo run --release --example bench_roots [part of a name]`; the random families are read from
+//! `cargo run --release -p jurist-benches --example bench_roots [part of a name]`; the random families are read from
 //! `benches/data/random.txt`, which PARI wrote.
 
 use families::RELATIVE_BITS;

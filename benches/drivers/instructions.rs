@@ -1,7 +1,7 @@
 //! One job, run a fixed number of times, for counting instructions: `benches/instructions.sh` runs it
 //! under callgrind and compares with `benches/instructions.txt`.
 //!
-//! `cargo run --release --example instructions JOB`, where JOB is one of those listed without it.
+//! `cargo run --release -p jurist-benches --example instructions JOB`, where JOB is one of those listed without it.
 
 #[path = "../families/mod.rs"]
 mod families;

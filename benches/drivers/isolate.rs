@@ -2,7 +2,7 @@
 //! constant term up, separated by blanks. Prints degree, number of roots and the median time in
 //! milliseconds of square-free part, isolation and refinement to a relative width of `2^-128`.
 //!
-//! `cargo run --release --example isolate FILE`
+//! `cargo run --release -p jurist-benches --example isolate FILE`
 
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Integer;

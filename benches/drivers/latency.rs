@@ -1,4 +1,4 @@
-//! How long kernels go on after they are cancelled, in milliseconds: `cargo run --release --example latency`.
+//! How long kernels go on after they are cancelled, in milliseconds: `cargo run --release -p jurist-benches --example latency`.
 //!
 //! Each job would take hours; another thread cancels it at some moment, several times.
 

@@ -1,4 +1,4 @@
-//! What a question costs in this process, in milliseconds: `cargo run --release --example question [REPETITIONS]`.
+//! What a question costs in this process, in milliseconds: `cargo run --release -p jurist-benches --example question [REPETITIONS]`.
 //!
 //! Columns, the least of all repetitions: the stable set of a parameter; the same with its document as JSON. The Python package is measured against this:
 //! `python/tests/overhead.py` asks the same questions there.

@@ -1,4 +1,4 @@
-//! Boxes by the number of their parameters: `cargo run --release --example tolerances`.
+//! Boxes by the number of their parameters: `cargo run --release -p jurist-benches --example tolerances`.
 //!
 //! The drive's components with 20 % each, and random loops of order 5 whose matrices move with each parameter along one
 //! direction. Of each: the proof of the box of half the largest factor, the bracket of the largest factor to a millionth, and
@@ -165,7 +165,7 @@ fn question(name: &str, family: &Family, factor: &str) {
 
 /// An example of the repository with the tolerances that stand in it.
 fn example(name: &str) -> Family {
-    let path = format!("{}/examples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../../examples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).expect("an example");
     let (model, _) = Model::from_toml(&Source::new(path, text)).expect("a model");
     let request = jurist_engine::answer::ToleranceRequest::of_model(&model);

@@ -1,6 +1,6 @@
 """The questions of `tolerances --questions` asked of codac: `pip install codac`, then
 
-    cargo run --release --example tolerances -- --questions | python benches/peers/codac_tolerances.py [SECONDS]
+    cargo run --release -p jurist-benches --example tolerances -- --questions | python benches/peers/codac_tolerances.py [SECONDS]
 
 Whether the pair (E, O) has a common zero over a box of frequency and parameters: contraction and bisection, in floating
 point and without a certificate, against the proof by Bernstein coefficients. Both are library calls; both get polynomials.

@@ -771,8 +771,9 @@ def floor_shift(x, bits):
 
 def times(x, y, bits):
     spend(1, x[1].bit_length(), y[1].bit_length())
-    corners = [a * b for a in x for b in y]
-    return floor_shift((min(corners), max(corners)), bits)
+    (a, b), (c, d) = x, y
+    corners = a * c, a * d, b * c, b * d
+    return min(corners) >> bits, -(-max(corners) >> bits)
 
 def scaled_by(x, k):
     return (x[0] * k, x[1] * k) if k >= 0 else (x[1] * k, x[0] * k)
@@ -818,9 +819,9 @@ def first_row(monic, t, bits):
         need(s <= 4096, "a symbol is too large to be enclosed")
     m = [[enclosed(x / 2 ** s, bits) for x in row] for row in m]
     term = [[(int(i == j) << bits,) * 2 for j in range(d)] for i in range(d)]
-    total, k, bound = term, 0, Fraction(1)
-    while bound >= Fraction(1, 2 ** bits):  # of the sums of rows of a term
-        k, bound = k + 1, bound / (4 * (k + 1))
+    total, k, least, bound = term, 0, norm.denominator // norm.numerator if norm else 1 << bits, 1
+    while bound <= 1 << bits:  # one over a bound of the sums of rows of a term: few terms where M is small
+        k, bound = k + 1, bound * least * (k + 1)
         term = [[(lo // k, -(-hi // k)) for lo, hi in row] for row in product_of(term, m, bits)]
         total = [[added(x, y) for x, y in zip(*rows)] for rows in zip(total, term)]
     total = [[(lo - 2, hi + 2) for lo, hi in row] for row in total]  # the remainder is below a unit
@@ -1891,8 +1892,8 @@ def arc(x, bits):
 
 def over(x, y, bits):
     need(y[0] > 0 or y[1] < 0, "a divisor is not shown to be other than zero")
-    ends = [Fraction(a << bits, b) for a in x for b in y]
-    return min(ends) // 1, -(-max(ends) // 1)
+    pairs = [(a << bits, b) for a in x for b in y]
+    return min(a // b for a, b in pairs), max(-(-a // b) for a, b in pairs)
 
 def root_of(x):
     """The square root of a positive number over 2^bits, given with 2 bits."""

@@ -1,6 +1,6 @@
 """What a call of the package costs over the engine alone.
 
-python overhead.py [PROGRAM]; the program is that of `cargo build --release --example question`. Both are asked the same in turn, and the
+python overhead.py [PROGRAM]; the program is that of `cargo build --release -p jurist-benches --example question`. Both are asked the same in turn, and the
 least time of each counts: what else the machine does only makes it longer.
 """
 

@@ -9,6 +9,8 @@ use jurist_algebra::number::Rational;
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};
 use jurist_engine::stability::Range;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::time::Duration;
 
 const LIMITS: Limits = Limits::within(Duration::MAX);
@@ -48,28 +50,43 @@ fn cells(certificate: &Json) -> Option<Vec<(Rational, Rational, usize)>> {
     list.iter().map(cell).collect()
 }
 
-/// Whether the engine says the same of all cells: by the limits in a domain a little larger than the cell, and the roots in the middle.
-fn is_true(model: &str, certificate: &Json) -> bool {
-    let budget = Budget::unlimited();
+/// Cells with what the engine says of them: most changes of a certificate leave most cells as they are.
+type Known = RefCell<BTreeMap<String, bool>>;
+
+/// Whether the engine says the same of all cells.
+fn is_true(model: &str, certificate: &Json, known: &Known) -> bool {
     let Some(cells) = cells(certificate) else { return false };
-    let Some(Json::Object(set)) = certificate.get("statement").and_then(|s| s.get("set")) else { return false };
-    cells.iter().all(|(a, b, right)| {
-        let asked = || {
-            let value = |json: &Json| if let Json::Text(text) = json { number(text) } else { Rational::ZERO };
-            set.iter().fold(read(model).ask(), |ask, (name, json)| ask.set(name, value(json)))
-        };
-        let tiny = (b - a) * number("1/1000000000000000000");
-        let domain = Range::between(Some(a - &tiny), Some(b + &tiny));
-        let found = asked().free("K").domain("K", domain).stable_set(&budget).expect(model);
-        let middle = (a + b) * number("1/2");
-        let verdict = asked().set("K", middle).verdict(&budget).expect(model);
-        let is_whole = match found.value().intervals() {
-            [] => *right > 0,
-            [one] => *right == 0 && one.contains(a) && one.contains(b),
-            _ => false,
-        };
-        is_whole && verdict.value().delayed.is_some_and(|roots| roots.right == Some(*right) && roots.on == 0)
+    let Some(set) = certificate.get("statement").and_then(|s| s.get("set")) else { return false };
+    cells.iter().all(|cell| {
+        let name = format!("{cell:?} {}", set.to_text());
+        let before = known.borrow().get(&name).copied();
+        before.unwrap_or_else(|| {
+            let found = is_true_of_cell(model, set, cell);
+            known.borrow_mut().insert(name, found);
+            found
+        })
     })
+}
+
+/// By the limits in a domain a little larger than the cell, and the roots in the middle.
+fn is_true_of_cell(model: &str, set: &Json, (a, b, right): &(Rational, Rational, usize)) -> bool {
+    let budget = Budget::unlimited();
+    let Json::Object(set) = set else { return false };
+    let asked = || {
+        let value = |json: &Json| if let Json::Text(text) = json { number(text) } else { Rational::ZERO };
+        set.iter().fold(read(model).ask(), |ask, (name, json)| ask.set(name, value(json)))
+    };
+    let tiny = (b - a) * number("1/1000000000000000000");
+    let domain = Range::between(Some(a - &tiny), Some(b + &tiny));
+    let found = asked().free("K").domain("K", domain).stable_set(&budget).expect(model);
+    let middle = (a + b) * number("1/2");
+    let verdict = asked().set("K", middle).verdict(&budget).expect(model);
+    let is_whole = match found.value().intervals() {
+        [] => *right > 0,
+        [one] => *right == 0 && one.contains(a) && one.contains(b),
+        _ => false,
+    };
+    is_whole && verdict.value().delayed.is_some_and(|roots| roots.right == Some(*right) && roots.on == 0)
 }
 
 #[test]
@@ -79,7 +96,7 @@ fn root_counts_beside_dead_time_are_certified() {
         let certificate = emitted(&model, "K");
         assert!(certificate.contains("jurist/certificate/6"), "{function}");
         accept(&model, &certificate);
-        assert!(is_true(&model, &Json::parse(&certificate).unwrap()), "{function}\n{certificate}");
+        assert!(is_true(&model, &Json::parse(&certificate).unwrap(), &Known::default()), "{function}\n{certificate}");
     }
 }
 
@@ -121,7 +138,7 @@ fn certificates_of_many_loops_are_accepted() {
         (seed >> 33) % most
     };
     let mut certified = 0;
-    for k in 0..30 {
+    for k in 0..21 {
         let order = 1 + k % 3;
         let mut polynomial = |degree: usize| -> String {
             let terms = (0..=degree).map(|j| format!("{}/4*s^{j}", next(17) as i64 - 4));
@@ -133,14 +150,15 @@ fn certificates_of_many_loops_are_accepted() {
         accept(&model, &certificate);
         certified += 1;
     }
-    assert!(certified > 20, "{certified}");
+    assert!(certified > 14, "{certified}");
 }
 
 #[test]
 fn no_mutation_of_a_certificate_of_cells_proves_what_is_wrong() {
     for function in [FUNCTIONS[3], FUNCTIONS[9]] {
         let model = written(function);
-        reject_or_find_true(&model, &emitted(&model, "K"), 40, |changed| is_true(&model, changed));
+        let known = Known::default();
+        reject_or_find_true(&model, &emitted(&model, "K"), 40, |changed| is_true(&model, changed, &known));
     }
 }
 
@@ -164,13 +182,13 @@ fn wrong_cells_are_rejected() {
         };
         accept(&model, &text(&found));
         for k in 0..found.len() {
-            for change in [1, 2] {
-                let mut other = found.clone();
-                other[k].2 += change;
-                reject(&model, &text(&other), Step::Stable);
-            }
+            // The cells before it are as they are; those after it would not be looked at.
+            let mut other = found[..=k].to_vec();
+            other[k].2 += 1;
+            reject(&model, &text(&other), Step::Stable);
             let alone = |cell: (Rational, Rational, usize)| text(&[cell]);
             let (a, b, right) = found[k].clone();
+            reject(&model, &alone((a.clone(), b.clone(), right + 2)), Step::Stable);
             if k > 0 {
                 // Over a gap that is wider where roots meet.
                 let over = &found[k - 1].1 - (a.abs() + &least) * &millionth;

@@ -1,5 +1,6 @@
 //! `--certificate`, `--smt2`, `jurist verify` and `crates/check/check.py` as programs.
 
+use crate::helpers::certificates::python::is_there;
 use crate::helpers::model::path;
 use crate::helpers::program::{Run, jurist, jurist_with_input};
 use crate::helpers::random::Random;
@@ -37,23 +38,22 @@ impl Drop for Folder {
 /// `crates/check/check.py` as a program that takes its time: no test may fail because the machine is busy.
 const PATIENT: &str = "import sys
 sys.path.insert(0, 'crates/check')
-sys.dont_write_bytecode = True
 import check
 check.SECONDS = 1e9
 check.main()
 ";
 
-/// `crates/check/check.py`, where Python is there.
+/// `crates/check/check.py`, where Python is there; it is compiled once, beside what cargo builds.
 fn python(model: &str, certificate: &str) -> Option<Run> {
-    if Command::new("python3").args(["-c", "import tomllib"]).output().is_ok_and(|o| o.status.success()) {
+    is_there().then(|| {
         let mut command = Command::new("python3");
-        let output = command.args(["-c", PATIENT, model, certificate]).current_dir(path("")).output().unwrap();
+        command.args(["-c", PATIENT, model, certificate]).current_dir(path(""));
+        command.env_remove("PYTHONDONTWRITEBYTECODE").env("PYTHONPYCACHEPREFIX", env!("CARGO_TARGET_TMPDIR"));
+        let output = command.output().unwrap();
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
         let (stdout, stderr) = (text(&output.stdout), text(&output.stderr));
-        return Some(Run { status: output.status.code().expect("no signal"), stdout, stderr });
-    }
-    println!("skipped: python3 with tomllib is not there");
-    None
+        Run { status: output.status.code().expect("no signal"), stdout, stderr }
+    })
 }
 
 fn assert_proved(model: &str, certificate: &str, sentence: &str) {

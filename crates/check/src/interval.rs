@@ -3,7 +3,7 @@
 use super::clock::Clock;
 use super::number::{Q, Z};
 use num_bigint::Sign;
-use num_traits::{One, Signed, Zero};
+use num_traits::{Euclid, One, Signed, Zero};
 
 /// `lo <= x 2^bits <= hi`, where `bits` is known from the context.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -14,6 +14,11 @@ pub(super) struct Interval {
 
 fn up(x: Z, bits: usize) -> Z {
     -((-x) >> bits)
+}
+
+/// The quotient by a positive divisor, rounded down. A rational number would cost a common divisor.
+fn floor(x: &Z, divisor: &Z) -> Z {
+    x.div_euclid(divisor)
 }
 
 impl Interval {
@@ -27,8 +32,7 @@ impl Interval {
     }
 
     pub fn rational(q: &Q, bits: usize) -> Self {
-        let scaled = q * Q::from(Z::one() << bits);
-        Interval { lo: scaled.floor().to_integer(), hi: scaled.ceil().to_integer() }
+        Interval { lo: q.numer() << bits, hi: q.numer() << bits }.over(q.denom())
     }
 
     pub fn plus(&self, other: &Self) -> Self {
@@ -73,14 +77,21 @@ impl Interval {
 
     /// The quotient; `None` where the divisor may be zero.
     pub fn divided(&self, other: &Self, bits: usize) -> Option<Self> {
-        if !other.lo.is_positive() && !other.hi.is_negative() {
+        if other.hi.is_negative() {
+            return self.negated().divided(&other.negated(), bits);
+        }
+        if !other.lo.is_positive() {
             return None;
         }
-        let one = Q::from(Z::one() << bits);
-        let ends = |x: &Z| [Q::new(x.clone(), other.lo.clone()) * &one, Q::new(x.clone(), other.hi.clone()) * &one];
-        let all: Vec<Q> = ends(&self.lo).into_iter().chain(ends(&self.hi)).collect();
-        let (lo, hi) = (all.iter().min()?.floor().to_integer(), all.iter().max()?.ceil().to_integer());
-        Some(Interval { lo, hi })
+        let ends = |x: &Z| [floor(&(x << bits), &other.lo), floor(&(x << bits), &other.hi)];
+        let below = ends(&self.lo).into_iter().min()?;
+        let above = ends(&-&self.hi).into_iter().min()?;
+        Some(Interval { lo: below, hi: -above })
+    }
+
+    /// Divided by a positive integer.
+    fn over(&self, n: &Z) -> Self {
+        Interval { lo: floor(&self.lo, n), hi: -floor(&-&self.hi, n) }
     }
 
     /// The sign, if all numbers in it have one.
@@ -162,25 +173,22 @@ fn attempt(monic: &[Q], t: &Q, bits: usize, clock: &Clock) -> Result<Vec<Interva
         (0..d).map(|i| (0..d).map(|j| if i == j { one.clone() } else { Interval::zero() }).collect()).collect();
     let mut term = sum.clone();
     let mut k = 0_usize;
-    // Row sums of |M^k|/k! are at most 1/(4^k k!).
-    let mut bound = Q::one();
-    while bound >= Q::new(Z::one(), Z::one() << bits) {
+    // Row sums of |M| are at most 1/least, those of |M^k|/k! at most 1/(least^k k!): few terms where M is small.
+    let least = if norm.is_zero() { Z::one() << bits } else { norm.recip().floor().to_integer() };
+    let (mut bound, unit) = (Z::one(), Z::one() << bits);
+    while bound <= unit {
         k += 1;
-        bound *= &quarter / Q::from(Z::from(k));
+        let divisor = Z::from(k);
+        bound *= &least * &divisor;
         term = product(&term, &m, bits, clock)?;
-        let divisor = Interval::integer(&Z::from(k), bits);
-        for row in &mut term {
-            for x in row.iter_mut() {
-                *x = x.divided(&divisor, bits).ok_or("internal: a count is zero")?;
-            }
-        }
+        term.iter_mut().flatten().for_each(|x| *x = x.over(&divisor));
         for (row, more) in sum.iter_mut().zip(&term) {
             for (x, y) in row.iter_mut().zip(more) {
                 *x = x.plus(y);
             }
         }
     }
-    // What is left out: at most twice the bound, which is below a unit.
+    // What is left out: at most twice one over the bound, which is less than a unit.
     for x in sum.iter_mut().flatten() {
         x.lo -= 2;
         x.hi += 2;

@@ -2,6 +2,7 @@
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::OnceLock;
 
 /// Reads one JSON list `[model, certificate]` per line, writes `[accepted, sentence]`.
 const DRIVER: &str = "import sys, json
@@ -12,6 +13,19 @@ for line in sys.stdin:
     print(json.dumps(check.judge(*json.loads(line))), flush=True)
 ";
 
+/// Whether there is a Python with `tomllib`; where there is none, a line says so.
+pub fn is_there() -> bool {
+    static FOUND: OnceLock<bool> = OnceLock::new();
+    *FOUND.get_or_init(|| {
+        let there = Command::new("python3").args(["-c", "import tomllib"]).stderr(Stdio::null()).status();
+        let there = there.is_ok_and(|s| s.success());
+        if !there {
+            println!("skipped: python3 with tomllib is not there");
+        }
+        there
+    })
+}
+
 /// A running checker.
 pub struct Python {
     child: Child,
@@ -20,20 +34,14 @@ pub struct Python {
 }
 
 impl Python {
-    /// `None`, with a line that says so, where there is no Python with `tomllib`.
-    pub fn start() -> Option<Python> {
-        let there = Command::new("python3").args(["-c", "import tomllib"]).stderr(Stdio::null()).status();
-        if !there.is_ok_and(|s| s.success()) {
-            println!("skipped: python3 with tomllib is not there");
-            return None;
-        }
+    pub fn start() -> Python {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/crates/check");
         let mut command = Command::new("python3");
         command.args(["-c", DRIVER, folder]).stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = command.spawn().expect("python3 is there");
         let input = child.stdin.take();
         let output = BufReader::new(child.stdout.take().expect("piped"));
-        Some(Python { child, input, output })
+        Python { child, input, output }
     }
 
     /// The proved statement, or why the certificate is rejected.
