@@ -55,6 +55,10 @@ export async function opened(url, { width = 1200, height = 900, mobile = false, 
     async open(to, w = width, h = height) {
       await browser.open(to, w, h, 1, mobile);
       await page.answered();
+      // Nothing waits for an answer either in the moment before the first map is asked for.
+      const asked = '(() => { const e = document.getElementById("map-sentence"); return !e?.offsetParent || e.textContent !== "…"; })()';
+      await page.until(asked, "the first map");
+      await page.answered();
     },
     /** Until there is nothing more to answer, but for a map that takes minutes. */
     answered: ({ map = true } = {}) =>
