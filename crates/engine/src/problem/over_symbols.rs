@@ -116,7 +116,8 @@ impl Problem {
             [true, true] => {
                 let [x, y] = [0, 1].map(|i| &self.free()[i].name);
                 let message = format!("'{x}' and '{y}' are both inside of functions, as behind a hold");
-                let help = "this plane has functions of one parameter: 'Problem::map_by' makes boxes where both are inside";
+                let help =
+                    "this plane has functions of one parameter: 'Problem::map_by' makes boxes where both are inside";
                 return Err(Diagnostic::error("E-function", message).help(help).into());
             }
             [false, false] => SymbolicPlane::new(polynomial, self.shape(), &Arc::new(fixed_symbols(symbols)?)),
