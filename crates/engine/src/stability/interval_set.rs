@@ -216,26 +216,26 @@ impl RealInterval {
 
 /// The open cells that points (ascending, distinct, inside the range) cut the range into.
 pub(super) fn real_cells(range: &Range, points: &[Real]) -> Vec<RealInterval> {
-    if range.is_empty() {
-        return Vec::new();
-    }
-    let ends = std::iter::once(range.lower.clone().map(Real::from))
-        .chain(points.iter().cloned().map(Some))
-        .chain(std::iter::once(range.upper.clone().map(Real::from)));
-    let ends: Vec<_> = ends.collect();
-    ends.windows(2).map(|w| RealInterval { lower: w[0].clone(), upper: w[1].clone() }).collect()
+    cells_between(range, points, |lower, upper| RealInterval { lower, upper })
 }
 
-/// The open cells that the points (ascending, distinct, inside the range) cut the range into.
+/// The same of algebraic points.
 pub(super) fn cells(range: &Range, points: &[RealAlgebraic]) -> Vec<AlgebraicInterval> {
+    cells_between(range, points, |lower, upper| AlgebraicInterval { lower, upper })
+}
+
+fn cells_between<E: Clone + From<Rational>, C>(
+    range: &Range,
+    points: &[E],
+    cell: impl Fn(Option<E>, Option<E>) -> C,
+) -> Vec<C> {
     if range.is_empty() {
         return Vec::new();
     }
-    let ends = std::iter::once(range.lower.clone().map(RealAlgebraic::from_rational))
-        .chain(points.iter().cloned().map(Some))
-        .chain(std::iter::once(range.upper.clone().map(RealAlgebraic::from_rational)));
-    let ends: Vec<_> = ends.collect();
-    ends.windows(2).map(|w| AlgebraicInterval { lower: w[0].clone(), upper: w[1].clone() }).collect()
+    let [lower, upper] = [&range.lower, &range.upper].map(|end| end.clone().map(E::from));
+    let inner = points.iter().cloned().map(Some);
+    let ends: Vec<_> = std::iter::once(lower).chain(inner).chain(std::iter::once(upper)).collect();
+    ends.windows(2).map(|w| cell(w[0].clone(), w[1].clone())).collect()
 }
 
 /// The distinct zeros of a polynomial inside a range, ascending; none for the zero polynomial.

@@ -92,11 +92,11 @@ impl Nodes {
                 zeros_of_all(vec![f], symbols, range, budget)?
             }
             None => {
-                let [a, b] = known.linear.each_ref().map(|c| {
+                let pair = known.linear.each_ref().map(|c| {
                     let in_y = c.as_poly_in(Y);
                     in_y.coeffs().iter().map(|c| in_one(c, X)).collect::<Vec<_>>()
                 });
-                zeros_of_resultant(a, b, symbols, range, budget)?
+                zeros_of_resultant(pair, Vec::new(), symbols, range, budget)?
             }
         };
         let mut double = Vec::new();

@@ -5,7 +5,7 @@ use super::glue::{Links, Wall};
 use super::ground::{Beside, Ground, Projected, put};
 use super::nodes::Nodes;
 use super::touching::links_over_symbols;
-use crate::stability::symbolic::{zeros_beside_double_ones, zeros_of_all, zeros_of_resultant};
+use crate::stability::symbolic::{zeros_of_all, zeros_of_resultant};
 use crate::stability::{AtPoint, End, Range, Shape, SymbolicPolynomial, symbolic_stable_set};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
@@ -133,15 +133,12 @@ impl OverSymbols {
         range: &Range,
         budget: &Budget,
     ) -> Result<Vec<Real>, Exhausted> {
-        let [a, b] = operands(wanted, curves).map(|f| f.coeffs().iter().map(|c| in_one(c, X)).collect::<Vec<_>>());
+        let pair = operands(wanted, curves).map(|f| f.coeffs().iter().map(|c| in_one(c, X)).collect::<Vec<_>>());
         let double = match wanted {
             Projected::Discriminant(i) => nodes.on(&curves[i], self, range, budget)?,
             _ => Vec::new(),
         };
-        match double.is_empty() {
-            true => zeros_of_resultant(a, b, &self.symbols, range, budget),
-            false => zeros_beside_double_ones(a, b, double, &self.symbols, range, budget),
-        }
+        zeros_of_resultant(pair, double, &self.symbols, range, budget)
     }
 
     /// Whether one of the polynomials in `x` has a zero between two numbers at which it has none.

@@ -12,36 +12,24 @@ use jurist_algebra::symbols::{EnclosedPoly, Symbols, merged};
 use std::sync::Arc;
 
 /// The zeros in a range of the resultant of two polynomials in an unknown, by all coefficients for their formal degrees, which are
-/// polynomials in the parameter (variable 0) and symbols. Its zeros must be simple: else the search ends by itself, with an error.
+/// polynomials in the parameter (variable 0) and symbols. Some numbers are known to be double zeros at least, and are among what is
+/// returned; the others must be simple: else the search ends by itself, with an error.
 ///
 /// Cost: values of the resultant at as many numbers as its degree, with more and more bits.
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out, and where zeros are not told apart with some thousand bits.
 pub(crate) fn zeros_of_resultant(
-    a: Vec<MultiPoly>,
-    b: Vec<MultiPoly>,
-    symbols: &Arc<Symbols>,
-    range: &Range,
-    budget: &Budget,
-) -> Result<Vec<Real>, Exhausted> {
-    let resultant = PairResultant::of_curves(a, b, symbols, budget)?;
-    Condition::Enclosed(Arc::new(resultant)).roots(range, budget)
-}
-
-/// The same where some numbers are known to be double zeros: these, and the others.
-///
-/// # Errors
-/// As [`zeros_of_resultant`].
-pub(crate) fn zeros_beside_double_ones(
-    a: Vec<MultiPoly>,
-    b: Vec<MultiPoly>,
+    [a, b]: [Vec<MultiPoly>; 2],
     double: Vec<Real>,
     symbols: &Arc<Symbols>,
     range: &Range,
     budget: &Budget,
 ) -> Result<Vec<Real>, Exhausted> {
     let of = PairResultant::of_curves(a, b, symbols, budget)?;
+    if double.is_empty() {
+        return Condition::Enclosed(Arc::new(of)).roots(range, budget);
+    }
     let deflated = Deflated { of, double: double.clone() };
     let others = Condition::Enclosed(Arc::new(deflated)).roots(range, budget)?;
     merged(others, double, budget)

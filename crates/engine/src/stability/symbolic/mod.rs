@@ -25,7 +25,7 @@ pub(crate) use basis::zeros_of_all;
 pub(crate) use boundary_zeros::{Bracket, told_apart, zeros_of_functions};
 pub use conditions::{RealIntervals, SymbolicCondition, SymbolicTest};
 pub(crate) use count::certain_count;
-pub(crate) use deflated::{zeros_beside_double_ones, zeros_of_resultant};
+pub(crate) use deflated::zeros_of_resultant;
 pub use jury::{Comparison, EnclosedCondition, EnclosedRow, EnclosedTable};
 pub use plane::SymbolicPlane;
 pub use rounded::Rounding;
