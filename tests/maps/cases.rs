@@ -242,3 +242,21 @@ fn an_extreme_value_at_infinity_of_the_other_parameter() {
     assert_eq!(said(&all[0].x[1]), says("3", "z=-1"));
     assert!(all[0].x[1].as_ref().unwrap().at[0][1].contains(&number("0")));
 }
+
+/// Found by a law, seldom: the simplest points above 5 of the line y = 0 were the corners of other curves.
+#[test]
+fn a_line_ends_a_region_wherever_other_curves_end_in_it() {
+    // s^2 - y s + x - 5 - 5 x y: stable for y < 0 and x > 5/(1 - 5 y), which ends in the line y = 0 for x > 5.
+    let least = &(&x() - &c("5")) - &(&c("5") * &(&x() * &y()));
+    let p = polynomial(vec![least.clone(), &c("0") - &y(), c("1")]);
+    let m = map(&p, &plane(), Shape::LeftHalfPlane);
+    let greatest = |m, p| limits(m, p, &plane(), Shape::LeftHalfPlane)[0].y[1].clone().unwrap();
+    let limit = greatest(&m, &p);
+    assert_eq!((limit.causes.to_string().as_str(), limit.along_line), ("complex pair", true));
+    // Between 5 and 6 + 7 y only.
+    let most = &(&x() - &c("6")) - &(&c("-7") * &y());
+    let p = polynomial(vec![&least * &(&c("0") - &most), &c("0") - &y(), c("1")]);
+    let m = map(&p, &plane(), Shape::LeftHalfPlane);
+    let limit = greatest(&m, &p);
+    assert_eq!((limit.causes.to_string().as_str(), limit.along_line), ("complex pair", true));
+}

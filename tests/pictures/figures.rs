@@ -293,7 +293,7 @@ fn pictures_show_every_certified_crossing_and_contradict_no_certified_answer() {
             assert!(said.contains(value), "{name}, {parameter}: {} in {said}", crossing.label);
             labels += 1;
         }
-        for sample in drawn.locus.samples().step_by(120) {
+        for sample in drawn.locus.samples().step_by(300) {
             // At a crossing itself the roots are on the boundary.
             let value = sample.parameter.to_f64_approximate();
             if drawn.crossings.iter().any(|c| (c.parameter - value).abs() <= 1e-9 * value.abs()) {

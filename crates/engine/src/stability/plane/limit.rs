@@ -153,16 +153,19 @@ impl Search<'_> {
         // Roots on a line do not depend on the other parameter; a pair's constraint may be that of a double root.
         let on_lines = self.curves.iter().zip(&lines).filter(|(_, line)| **line).flat_map(|(c, _)| c.causes.iter());
         let on_lines: Vec<Cause> = on_lines.filter(|cause| *cause != Cause::ComplexPair).collect();
+        // As many places of the wall as other curves can end in, at least one.
+        let corners = 1 + self.curves.iter().map(|c| c.polynomial.degree_in(1)).sum::<u32>();
         let mut bits = FIRST_BITS;
         loop {
             self.budget.check()?;
             let approach = self.approach(strip, cell, wall, greatest, bits)?;
-            if along_line && let Some(end) = self.end_on_line(&approach, &lines)? {
+            let last = bits >= LAST_BITS;
+            let rounds = if last { corners.ilog2() + 2 } else { 2 };
+            if along_line && let Some(end) = self.end_on_line(&approach, &lines, rounds)? {
                 limit.causes = end.causes;
                 limit.along_line = true;
                 return Ok(limit);
             }
-            let last = bits >= LAST_BITS;
             let place = self.place(&approach)?.filter(|y| last || self.is_fine(y));
             if let Some(y) = place {
                 let ends = self.walls_beside(&approach)?;
@@ -241,20 +244,44 @@ impl Search<'_> {
     }
 
     /// Where a line or the domain's edge ends the region: what `intervals` says on a horizontal line from
-    /// the cell to the wall that no other curve meets.
-    fn end_on_line(&self, approach: &Approach<'_>, lines: &[bool]) -> Result<Option<End>, Exhausted> {
-        let middle = self.inside(approach)?;
+    /// the cell to the wall that no other curve meets. Another curve may end in the wall right there, so that lines halfway
+    /// between those tried and the walls of the cell are tried too, as often as is said.
+    fn end_on_line(&self, approach: &Approach<'_>, lines: &[bool], rounds: u32) -> Result<Option<End>, Exhausted> {
+        let mut tried = vec![approach.below.clone(), approach.above.clone()];
+        for _ in 0..rounds {
+            let mut next = Vec::with_capacity(2 * tried.len());
+            for k in 1..tried.len() {
+                let (lower, upper) = (tried[k - 1].clone(), tried[k].clone());
+                let middle = RealInterval { lower: lower.clone(), upper }.sample(self.budget)?;
+                if self.is_clear_beside(lines, &middle, approach)? {
+                    return self.end_at(&middle, approach);
+                }
+                next.extend([lower, Some(middle.into())]);
+            }
+            next.push(approach.above.clone());
+            tried = next;
+        }
+        Ok(None)
+    }
+
+    /// Whether no curve that is not part of the wall meets a horizontal line between the near point and the wall.
+    fn is_clear_beside(&self, lines: &[bool], y: &Rational, approach: &Approach<'_>) -> Result<bool, Exhausted> {
         for (curve, _) in self.curves.iter().zip(lines).filter(|(_, line)| !**line) {
-            if !self.is_clear(curve, &middle, approach)? {
-                return Ok(None);
+            if !self.is_clear(curve, y, approach)? {
+                return Ok(false);
             }
         }
+        Ok(true)
+    }
+
+    /// What happens on the wall at the end of a horizontal line that is clear.
+    fn end_at(&self, y: &Rational, approach: &Approach<'_>) -> Result<Option<End>, Exhausted> {
         let swapped = self.p.swapped();
         let mut walls = [None, None];
         walls[usize::from(approach.near < approach.far)] = Some(approach.wall);
         let inside = approach.near.clone();
         let beside = Beside { walls, only_pair: [false; 2], inside, beyond: [None, None] };
-        let ends = swapped.ground().ends(&swapped, &middle, &beside, (&self.domain[0], self.region), self.budget)?;
+        let ends = swapped.ground().ends(&swapped, y, &beside, (&self.domain[0], self.region), self.budget)?;
         Ok(ends.into_iter().next())
     }
 
