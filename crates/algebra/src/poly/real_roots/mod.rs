@@ -3,12 +3,14 @@
 //! [`isolate_real_roots`] gives every real root of a [`SquareFree`] polynomial as a
 //! [`RealAlgebraic`](crate::poly::algebraic::RealAlgebraic), rational roots exactly.
 
+mod all_values;
 mod bounds;
 mod bracket;
 mod deflated;
 mod descartes;
 mod fixed;
 mod isolate;
+mod linear_factors;
 mod rational_roots;
 mod refinement;
 mod separated;

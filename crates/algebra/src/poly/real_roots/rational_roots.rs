@@ -1,6 +1,8 @@
 //! Rational roots, exactly: roots modulo a small prime, lifted until only one fraction fits.
 
+use super::all_values::AllResidues;
 use super::bounds::root_bound_bits;
+use super::linear_factors::without_linear_factors;
 use super::small_residues::{has_no_rational_root, power, residues};
 use super::square_free::SquareFree;
 use crate::limits::{Budget, Exhausted, checkpoint};
@@ -17,9 +19,6 @@ const LARGE_PRIME: u64 = 1_073_741_789;
 /// So many coefficients are multiplied by powers before a sum is reduced.
 const CHUNK: usize = 8;
 
-/// Products of so few linear factors are made one factor after the other.
-const FEW_FACTORS: usize = 8;
-
 /// All rational roots, ascending, and the polynomial without their linear factors.
 ///
 /// A rational root is a root modulo every prime that does not divide the leading coefficient `c`;
@@ -35,33 +34,36 @@ pub fn rational_roots(p: &SquareFree, budget: &Budget) -> Result<(Vec<Rational>,
 
 /// The same within the budget that holds on the thread.
 pub(super) fn without_rational_roots(p: &SquareFree) -> (Vec<Rational>, SquareFree) {
-    let mut roots = Vec::new();
-    let mut rest = p.poly().clone();
-    if rest.coeffs().first().is_some_and(Integer::is_zero) {
-        roots.push(Rational::ZERO);
-        rest = UniPoly::new(rest.into_coeffs().split_off(1));
+    let coeffs = p.poly().coeffs();
+    let at_zero = coeffs.first().is_some_and(Integer::is_zero);
+    if !at_zero && (coeffs.len() < 2 || (coeffs.len() > 2 && has_no_rational_root(p.poly()))) {
+        return (Vec::new(), p.clone());
     }
-    if rest.coeffs().len() > 2 && !has_no_rational_root(&rest) {
-        let (prime, residues) = choose_prime(&rest);
-        let (small, residues) = small_roots(&rest, prime, residues);
-        let product = product_of_linear(&small);
-        let residues = match rest.div_exact_poly(&product) {
-            Some(quotient) => {
-                rest = quotient;
-                roots.extend(small);
-                residues
+    let mut roots = Vec::new();
+    let mut rest = UniPoly::new(coeffs[usize::from(at_zero)..].to_vec());
+    roots.extend(at_zero.then_some(Rational::ZERO));
+    if rest.coeffs().len() > 2 && !(at_zero && has_no_rational_root(&rest)) {
+        let (prime, candidates) = choose_prime(&rest);
+        let (small, mut others) = small_roots(&rest, prime, candidates);
+        if !small.is_empty() {
+            let numbers: Vec<Rational> = small.iter().map(|(x, _)| x.clone()).collect();
+            let (quotient, is_root) = without_linear_factors(&rest, &numbers);
+            rest = quotient;
+            for ((x, candidate), is_root) in small.into_iter().zip(is_root) {
+                // A residue may have misled.
+                if is_root { roots.push(x) } else { others.push(candidate) }
             }
-            // A residue has misled: one by one.
-            None => choose_prime(&rest).1,
-        };
-        let mut lift = Lift::new(rest.clone(), prime);
-        for r in residues {
-            if rest.coeffs().len() <= 2 {
-                break;
-            }
-            if let Some((root, quotient)) = lift.rational_root(r, &rest) {
-                roots.push(root);
-                rest = quotient;
+        }
+        if !others.is_empty() && rest.coeffs().len() > 2 {
+            let mut lift = Lift::new(rest.clone(), prime);
+            for candidate in others {
+                if rest.coeffs().len() <= 2 {
+                    break;
+                }
+                if let Some((root, quotient)) = lift.rational_root(candidate, &rest) {
+                    roots.push(root);
+                    rest = quotient;
+                }
             }
         }
     }
@@ -73,11 +75,18 @@ pub(super) fn without_rational_roots(p: &SquareFree) -> (Vec<Rational>, SquareFr
     (roots, SquareFree::known(rest))
 }
 
+/// A simple root modulo a prime, and the value of the derivative there.
+#[derive(Clone, Copy)]
+struct Candidate {
+    residue: u64,
+    slope: u64,
+}
+
 /// Of the simple roots modulo a small prime those that lift to a rational number which is small
 /// (determined modulo the square of the prime) and very likely a root, as it is one modulo a larger
-/// prime; and the other residues.
-fn small_roots(p: &UniPoly, prime: u64, candidates: Vec<u64>) -> (Vec<Rational>, Vec<u64>) {
-    if prime >= 1 << 15 {
+/// prime; and the others.
+fn small_roots(p: &UniPoly, prime: u64, candidates: Vec<Candidate>) -> (Vec<(Rational, Candidate)>, Vec<Candidate>) {
+    if candidates.is_empty() || prime >= 1 << 15 {
         // Products of residues would not fit.
         return (Vec::new(), candidates);
     }
@@ -89,46 +98,24 @@ fn small_roots(p: &UniPoly, prime: u64, candidates: Vec<u64>) -> (Vec<Rational>,
         return (Vec::new(), candidates);
     }
     let lead_lift = lead.mod_u64(modulus);
-    let slopes = residues(&p.derivative(), prime);
     let inverse_big = power(lead.mod_u64(big), big - 2, big);
     let (mut roots, mut others) = (Vec::new(), Vec::new());
-    for r in candidates {
+    for candidate in candidates {
         // p(r) = 0 and p'(r) != 0 modulo the prime: one step of Newton's.
+        let r = candidate.residue;
         let value = value_modulo(&at_lift, r, modulus);
-        let inverse = power(value_modulo(&slopes, r, prime), prime - 2, prime);
+        let inverse = power(candidate.slope, prime - 2, prime);
         let x = (r + modulus - value * inverse % modulus) % modulus;
         let y = x * lead_lift % modulus;
         let y = if 2 * y > modulus { y as i64 - modulus as i64 } else { y as i64 };
         let x = (y.rem_euclid(big as i64) as u64) * inverse_big % big;
         if value_modulo(&at_big, x, big) == 0 {
-            roots.push(Rational::new(Integer::from(y), lead.clone()));
+            roots.push((Rational::new(Integer::from(y), lead.clone()), candidate));
         } else {
-            others.push(r);
+            others.push(candidate);
         }
     }
     (roots, others)
-}
-
-/// The product of the linear polynomials with given roots, halves first.
-fn product_of_linear(roots: &[Rational]) -> UniPoly {
-    match roots {
-        few if few.len() <= FEW_FACTORS => {
-            let mut product = vec![Integer::ONE];
-            for x in few {
-                let (n, d) = (x.numerator(), x.denominator());
-                product.push(Integer::ZERO);
-                for k in (0..product.len()).rev() {
-                    let below = if k > 0 { &product[k - 1] * &d } else { Integer::ZERO };
-                    product[k] = below - &product[k] * &n;
-                }
-            }
-            UniPoly::new(product)
-        }
-        _ => {
-            let (a, b) = roots.split_at(roots.len() / 2);
-            &product_of_linear(a) * &product_of_linear(b)
-        }
-    }
 }
 
 /// The primitive linear polynomial with a given root.
@@ -138,9 +125,8 @@ pub(crate) fn linear(root: &Rational) -> UniPoly {
 
 /// A prime not dividing the leading coefficient modulo which all roots are simple, and those
 /// roots: the best of a few.
-fn choose_prime(p: &UniPoly) -> (u64, Vec<u64>) {
-    let derivative = p.derivative();
-    let mut best: Option<(u64, Vec<u64>)> = None;
+fn choose_prime(p: &UniPoly) -> (u64, Vec<Candidate>) {
+    let mut best: Option<(u64, Vec<Candidate>)> = None;
     let mut good = 0;
     let mut prime = (p.coeffs().len() as u64).max(40);
     // A square-free polynomial has simple roots modulo all primes but the divisors of its
@@ -151,16 +137,7 @@ fn choose_prime(p: &UniPoly) -> (u64, Vec<u64>) {
         if f.len() < p.coeffs().len() {
             continue;
         }
-        let value = |f: &[u64], x: u64| value_modulo(f, x, prime);
-        let is_root = |x: &u64| {
-            checkpoint(f.len() as u64 / 4 + 1);
-            value(&f, *x) == 0
-        };
-        let roots: Vec<u64> = (0..prime).filter(is_root).collect();
-        let df = residues(&derivative, prime);
-        if roots.iter().any(|&x| value(&df, x) == 0) {
-            continue;
-        }
+        let Some(roots) = simple_roots(&f, prime) else { continue };
         good += 1;
         if best.as_ref().is_none_or(|(_, b)| roots.len() < b.len()) {
             best = Some((prime, roots));
@@ -172,6 +149,31 @@ fn choose_prime(p: &UniPoly) -> (u64, Vec<u64>) {
             return found;
         }
     }
+}
+
+/// The roots modulo a prime, given the residues of the coefficients; `None` if one is not simple.
+fn simple_roots(f: &[u64], prime: u64) -> Option<Vec<Candidate>> {
+    let slopes = || f.iter().zip(0..).skip(1).map(|(c, k)| c * (k % prime) % prime).collect::<Vec<u64>>();
+    let candidates: Vec<Candidate> = match AllResidues::new(prime) {
+        Some(all) => {
+            let values = all.values(f);
+            if values.iter().all(|&value| value != 0) {
+                return Some(Vec::new());
+            }
+            let pairs = all.residues().zip(all.values(&slopes())).zip(values).filter(|(_, value)| *value == 0);
+            pairs.map(|((residue, slope), _)| Candidate { residue, slope: slope.into() }).collect()
+        }
+        None => {
+            let slopes = slopes();
+            let is_root = |x: &u64| {
+                checkpoint(f.len() as u64 / 4 + 1);
+                value_modulo(f, *x, prime) == 0
+            };
+            let slope = |x: u64| Candidate { residue: x, slope: value_modulo(&slopes, x, prime) };
+            (0..prime).filter(is_root).map(slope).collect()
+        }
+    };
+    candidates.iter().all(|c| c.slope != 0).then_some(candidates)
 }
 
 /// The value modulo a number below 2^30.
@@ -229,21 +231,14 @@ impl Lift {
         &self.levels[k]
     }
 
-    /// The rational root of `rest`, if there is one, that is `residue` modulo the prime.
-    fn rational_root(&mut self, residue: u64, rest: &UniPoly) -> Option<(Rational, UniPoly)> {
+    /// The rational root of `rest`, if there is one, that is the residue modulo the prime.
+    fn rational_root(&mut self, candidate: Candidate, rest: &UniPoly) -> Option<(Rational, UniPoly)> {
         let lead = self.original.leading().expect("not zero").clone();
         let (enough, prime) = (self.enough.clone(), self.prime);
-        let slope = self
-            .original
-            .derivative()
-            .coeffs()
-            .iter()
-            .rev()
-            .fold(0, |acc, c| (acc * residue + c.mod_u64(prime)) % prime);
-        let mut x = Integer::from(residue);
+        let mut x = Integer::from(candidate.residue);
         // The inverse of the derivative at the previous x; right for the present one modulo the
         // modulus before the last, so that one step of Newton's makes it good enough.
-        let mut inverse = Integer::from(power(slope, prime - 2, prime));
+        let mut inverse = Integer::from(power(candidate.slope, prime - 2, prime));
         for k in 0.. {
             let level = self.level(k);
             let m = &level.modulus;

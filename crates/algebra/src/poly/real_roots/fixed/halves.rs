@@ -5,7 +5,7 @@ use super::super::bracket::Bracket;
 use super::super::sign_variations::descartes_sign_variations;
 use super::piece::{Cell, Piece, binomial_row};
 use super::refine::Half;
-use super::search::{Found, search};
+use super::search::{Found, first_precision, search};
 use crate::number::Integer;
 use crate::poly::UniPoly;
 use std::rc::Rc;
@@ -50,14 +50,15 @@ fn positive_brackets(p: UniPoly, relative: u64, binomials: &mut Option<Rc<Vec<In
         let lengths = (half.coeffs[0].bit_length() as i64, half.coeffs[n].bit_length() as i64);
         let scale = (2 * (lengths.0 - lengths.1) + n as i64).div_euclid(2 * n as i64);
         let mut direct = Piece::new(Rc::clone(&half.coeffs), scale, Rc::clone(&row));
-        for found in search(&mut direct, most) {
+        let (first, first_reversed) = direct.bernstein_of_both(first_precision(most));
+        for found in search(&mut direct, most, first) {
             out.push(direct_bracket(&found, scale));
         }
         let left = most - out.len().min(most);
         if left > 0 {
             let coeffs = half.coeffs.iter().rev().cloned().collect();
             let mut reversed = Piece::new(coeffs, -scale, row);
-            for found in search(&mut reversed, left).iter().rev() {
+            for found in search(&mut reversed, left, first_reversed).iter().rev() {
                 let bracket = reversed_bracket(found, scale, bound, positive_at_infinity, &mut half);
                 out.push(bracket);
             }

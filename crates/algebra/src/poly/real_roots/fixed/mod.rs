@@ -25,6 +25,7 @@ use crate::poly::UniPoly;
 use crate::poly::algebraic::RealAlgebraic;
 use std::sync::Arc;
 
+pub(super) use limbs::write_shifted;
 pub(super) use refine::refine_bracket;
 
 /// All distinct real roots, ascending, with pairwise disjoint enclosures, those of irrational roots at

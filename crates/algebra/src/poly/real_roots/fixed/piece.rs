@@ -3,7 +3,7 @@
 
 use super::evaluate::Evaluator;
 use super::limbs::{max_bits, rescale, write_shifted};
-use super::triangle::{HEADROOM, fitting_width, shift_by_one, sum_differences, summing_width};
+use super::triangle::{HEADROOM, fitting_width, shift_by_one, sum_differences, sum_from_both_ends, summing_width};
 use crate::limits::checkpoint;
 use crate::number::{Integer, Sign};
 use std::rc::Rc;
@@ -116,24 +116,17 @@ impl Piece {
     pub fn bernstein(&self, cell: &Cell, precision: u64, hint: Option<i64>) -> Bernstein {
         let n = self.degree() as u64;
         let top = self.top_bits();
-        // Units lost: at most (2 n + 5) 2^n, see `differences_at`.
-        let lost = n + u64::from(u64::BITS - (2 * n + 5).leading_zeros());
+        let at_zero = cell.lo.is_zero();
+        let lost = if at_zero { self.lost_at_zero() } else { n + u64::from(u64::BITS - (2 * n + 5).leading_zeros()) };
         let mut fraction = precision as i64 + lost as i64 + 4 - hint.unwrap_or(top);
         loop {
             checkpoint(32 * n);
-            let g = if cell.lo.is_zero() {
+            let g = if at_zero {
                 self.differences_at_zero(cell.bits - cell.log_width, fraction)
             } else {
                 self.differences_at(cell, fraction, top)
             };
-            // Sums of at most 2^n terms, a sign and a bit for the units lost.
-            let room = g.iter().map(Integer::bit_length).max().unwrap_or(0) + n + 2;
-            let limbs = summing_width(room.div_ceil(64) as usize);
-            let mut exact = vec![0; g.len() * limbs];
-            for (c, place) in g.iter().zip(exact.chunks_exact_mut(limbs)) {
-                write_shifted(c, 0, place);
-            }
-            // Errors grow by 2^n at most.
+            let (mut exact, limbs) = self.laid_out(&g);
             sum_differences(&mut exact, limbs);
             let height = max_bits(&exact, limbs);
             let certain = height.saturating_sub(lost);
@@ -144,6 +137,66 @@ impl Piece {
         }
     }
 
+    /// The Bernstein coefficients on the unit interval, and those of the reversal (of the coefficients and the sign
+    /// of `scale`) there, with `precision` certain bits of the largest of each.
+    ///
+    /// With `a_i / C(n, i)` for numbers, the left side of the triangle of their sums has the former, the right side the latter:
+    /// as Bernstein coefficients from 0 to infinity they are divided at 1.
+    pub fn bernstein_of_both(&self, precision: u64) -> (Bernstein, Bernstein) {
+        let n = self.degree() as u64;
+        let lost = self.lost_at_zero();
+        let mut fraction = precision as i64 + lost as i64 + 4 - self.least_height();
+        loop {
+            checkpoint(32 * n);
+            let g = self.differences_at_zero(0, fraction);
+            let (mut work, limbs) = self.laid_out(&g);
+            let (mut left, mut right) = (vec![0; work.len()], vec![0; work.len()]);
+            sum_from_both_ends(&mut work, limbs, &mut left, &mut right);
+            let heights = (max_bits(&left, limbs), max_bits(&right, limbs));
+            let certain = heights.0.min(heights.1).saturating_sub(lost);
+            if certain + 8 >= precision {
+                let direct = stored(&left, limbs, heights.0, lost, fraction, precision);
+                let mut reversed = stored(&right, limbs, heights.1, lost, fraction, precision);
+                reversed.scale -= self.scale * n as i64;
+                return (direct, reversed);
+            }
+            // The bound was rounded.
+            fraction += (precision - certain) as i64 + if certain == 0 { fraction.abs() } else { 0 };
+        }
+    }
+
+    /// The bits of the units that sums lose at 0: differences are less than a unit wrong, and `2^n` of them are summed at most.
+    fn lost_at_zero(&self) -> u64 {
+        self.degree() as u64
+    }
+
+    /// A number that the logarithm of the largest coefficient, here as of the reversal, hardly falls below: differences
+    /// of order `i` are `2^i` times as large at most.
+    fn least_height(&self) -> i64 {
+        let n = self.degree();
+        let terms = || self.coeffs.iter().zip(self.binomials.iter()).enumerate().filter(|(_, (c, _))| !c.is_zero());
+        let height = |i: usize, c: &Integer, b: &Integer, order: usize| {
+            c.bit_length() as i64 + self.scale * i as i64 - b.bit_length() as i64 - order as i64
+        };
+        let direct = terms().map(|(i, (c, b))| height(i, c, b, i)).max();
+        let reversed = terms().map(|(i, (c, b))| height(i, c, b, n - i)).max();
+        direct.min(reversed).unwrap_or(0)
+    }
+
+    /// Differences in as many limbs as hold their sums.
+    fn laid_out(&self, g: &[Integer]) -> (Vec<u64>, usize) {
+        // A sum holds no difference more often than the binomial coefficient says; and there is a sign.
+        let bits = |(c, b): (&Integer, &Integer)| c.bit_length() + b.bit_length();
+        let most = g.iter().zip(self.binomials.iter()).map(bits).max().unwrap_or(0);
+        let room = most + u64::from(usize::BITS - g.len().leading_zeros()) + 1;
+        let limbs = summing_width(room.div_ceil(64) as usize);
+        let mut flat = vec![0; g.len() * limbs];
+        for (c, place) in g.iter().zip(flat.chunks_exact_mut(limbs)) {
+            write_shifted(c, 0, place);
+        }
+        (flat, limbs)
+    }
+
     /// A bound of the logarithm of the coefficients of `p(2^scale t)`.
     fn top_bits(&self) -> i64 {
         let bits = |(i, c): (usize, &Integer)| c.bit_length() as i64 + self.scale * i as i64;
@@ -151,14 +204,14 @@ impl Piece {
     }
 
     /// `2^fraction` times the forward differences of the Bernstein coefficients on `[0, 2^-depth]`,
-    /// each less than 2 units wrong.
+    /// each less than a unit wrong.
     fn differences_at_zero(&self, depth: u64, fraction: i64) -> Vec<Integer> {
         let per_power = self.scale - depth as i64;
         let terms = self.coeffs.iter().zip(self.binomials.iter()).enumerate();
         terms.map(|(i, (c, b))| divided(&shifted(c, fraction + per_power * i as i64), b)).collect()
     }
 
-    /// The same on a cell away from 0, up to `2 (n + 1) + 3` units wrong.
+    /// The same on a cell away from 0, up to `2 (n + 1) + 3` units wrong, so that sums lose `(2 n + 5) 2^n`.
     ///
     /// With the cell `[c, c + w]`, `w <= c`: `p(c (1 + s))` has the coefficients `a_i c^i` shifted by one,
     /// by additions alone; then `s = (w / c) t`.

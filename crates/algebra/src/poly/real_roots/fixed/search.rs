@@ -69,18 +69,23 @@ fn bits_for(variations: usize) -> u64 {
     BITS_BASE + BITS_PER_VARIATION * variations as u64
 }
 
-/// Cells with exactly one root each, ascending, of all roots in the unit interval.
+/// The bits of the first coefficients of a polynomial with so many sign variations along the positive axis: most have
+/// fewer in the unit interval.
+pub fn first_precision(most: usize) -> u64 {
+    bits_for(most.min(FEW_VARIATIONS))
+}
+
+/// Cells with exactly one root each, ascending, of all roots in the unit interval, given the coefficients there in
+/// [`first_precision`].
 ///
 /// A cell whose Bernstein coefficients have no sign variation holds no root, with one it holds
 /// exactly one [LaneRiesenfeld1981](crate::bibliography#laneriesenfeld1981). The polynomial must be square-free and without rational roots.
-pub fn search(piece: &mut Piece, most: usize) -> Vec<Found> {
+pub fn search(piece: &mut Piece, most: usize, mut bernstein: Bernstein) -> Vec<Found> {
     let mut found = Vec::new();
     let mut stack = Vec::new();
     let cell = Cell::unit();
     let ends = (piece.positive_at(&Integer::ZERO, 0), piece.positive_at(&Integer::ONE, 0));
-    // Most polynomials have fewer variations here than along the whole axis.
-    let mut precision = bits_for(most).min(bits_for(FEW_VARIATIONS));
-    let mut bernstein = piece.bernstein(&cell, precision, None);
+    let mut precision = first_precision(most);
     let mut variations = counted(&bernstein, ends);
     let wanted = bits_for(variations.most.min(most));
     if variations.most > FEW_VARIATIONS && wanted > precision {

@@ -129,6 +129,78 @@ pub fn sum_differences(flat: &mut [u64], limbs: usize) {
     running_sums(flat, limbs, (1..n).rev().map(|start| start - 1..n));
 }
 
+/// Sums of neighbours, again and again: the first ones of all stages, and the last ones, each from the first stage on.
+/// They must fit; what is in between may overflow.
+pub fn sum_from_both_ends(work: &mut [u64], limbs: usize, first: &mut [u64], last: &mut [u64]) {
+    let n = work.len() / limbs;
+    if n < COUNTED_ROW {
+        checkpoint((n * n * limbs / 16) as u64);
+    }
+    macro_rules! by_width {
+        ($($l:literal),*) => {
+            match limbs {
+                $($l => sum_from_both_ends_fixed::<$l>(
+                    work.as_chunks_mut().0,
+                    first.as_chunks_mut().0,
+                    last.as_chunks_mut().0,
+                ),)*
+                _ => sum_from_both_ends_any(work, limbs, first, last),
+            }
+        };
+    }
+    by_width!(2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20, 24, 28, 32);
+}
+
+fn sum_from_both_ends_fixed<const L: usize>(
+    work: &mut [[u64; L]],
+    first: &mut [[u64; L]],
+    last: &mut [[u64; L]],
+) {
+    let n = work.len() - 1;
+    (first[0], last[0]) = (work[0], work[n]);
+    let mut stage = 0;
+    while stage + 2 <= n {
+        let m = n - stage;
+        if n >= COUNTED_ROW {
+            checkpoint((m * L / 4) as u64);
+        }
+        // Two stages in one sweep.
+        let mut before = work[1];
+        let mut sum = add(&work[0], &before);
+        first[stage + 1] = sum;
+        for j in 2..=m {
+            let x = work[j];
+            let next = add(&before, &x);
+            work[j - 2] = add(&sum, &next);
+            (before, sum) = (x, next);
+        }
+        last[stage + 1] = sum;
+        stage += 2;
+        (first[stage], last[stage]) = (work[0], work[m - 2]);
+    }
+    if stage < n {
+        let sum = add(&work[0], &work[1]);
+        (first[n], last[n]) = (sum, sum);
+    }
+}
+
+fn sum_from_both_ends_any(work: &mut [u64], limbs: usize, first: &mut [u64], last: &mut [u64]) {
+    let n = work.len() / limbs - 1;
+    let at = |i: usize| i * limbs..(i + 1) * limbs;
+    for stage in 0..=n {
+        let m = n - stage;
+        if n >= COUNTED_ROW {
+            checkpoint((m * limbs / 4) as u64);
+        }
+        first[at(stage)].copy_from_slice(&work[at(0)]);
+        last[at(stage)].copy_from_slice(&work[at(m)]);
+        for i in 0..m {
+            let (low, high) = work.split_at_mut((i + 1) * limbs);
+            add_assign(&mut low[i * limbs..], &high[..limbs]);
+        }
+    }
+}
+
 /// The coefficients of `p(x + 1)` from those of `p`, both from the leading one down (Horner's rule).
 pub fn shift_by_one(flat: &mut [u64], limbs: usize) {
     let n = flat.len() / limbs;
@@ -223,6 +295,24 @@ mod tests {
             flat[6 * limbs..].fill(u64::MAX);
             sum_differences(&mut flat, limbs);
             assert!(flat[..6 * limbs].iter().all(|&x| x == 0) && flat[6 * limbs..].iter().all(|&x| x == u64::MAX));
+        }
+    }
+
+    /// The first ones are what [`sum_differences`] makes of the numbers, the last ones what it makes of them backwards.
+    #[test]
+    fn sums_from_both_ends_are_those_of_differences() {
+        for limbs in [2, 3, 8, 16, 33] {
+            for n in [1usize, 2, 3, 4, 9, 40, 131] {
+                let numbers: Vec<u64> =
+                    (1..=n * limbs).map(|k| (k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15)).collect();
+                let mut expected_first = numbers.clone();
+                sum_differences(&mut expected_first, limbs);
+                let mut expected_last: Vec<u64> = numbers.chunks_exact(limbs).rev().flatten().copied().collect();
+                sum_differences(&mut expected_last, limbs);
+                let (mut first, mut last) = (vec![0; n * limbs], vec![0; n * limbs]);
+                sum_from_both_ends(&mut numbers.clone(), limbs, &mut first, &mut last);
+                assert!(first == expected_first && last == expected_last, "{n} numbers of {limbs} limbs");
+            }
         }
     }
 
