@@ -6,7 +6,7 @@ use jurist_algebra::matrix::{RationalMatrix, characteristic_polynomial_multimodu
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::modular::gcd::primitive_gcd_modular;
 use jurist_algebra::poly::modular::multimodular_resultant::{
-    resultant_multimodular, resultant_multimodular_integers, resultant_multimodular_multivariate,
+    resultant_by_minors, resultant_multimodular, resultant_multimodular_integers, resultant_multimodular_multivariate,
 };
 use jurist_algebra::poly::modular::square_free_resultant::square_free_decomposition;
 use jurist_algebra::poly::multivariate::strategies::multi_poly;
@@ -92,6 +92,19 @@ proptest! {
         let expected = resultant_formal_subresultant(&a, n, &b, m, &Budget::unlimited()).unwrap();
         let got = resultant_multimodular_multivariate(&a, n, &b, m).unwrap();
         prop_assert_eq!(&got, &expected);
+        prop_assert_eq!(resultant_formal(&a, n, &b, m, &Budget::unlimited()).unwrap(), expected);
+    }
+
+    #[test]
+    fn resultants_by_minors(
+        (a, n) in with_formal_degree(multi_poly(2, 2, 4).boxed(), 5), (b, m) in with_formal_degree(multi_poly(2, 2, 4).boxed(), 5)
+    ) {
+        let expected = resultant_formal_subresultant(&a, n, &b, m, &Budget::unlimited()).unwrap();
+        let long = a.coeffs().iter().chain(b.coeffs()).any(|c| c.height_bits() > 32);
+        match resultant_by_minors(&a, n, &b, m) {
+            Some(got) => prop_assert_eq!(got, expected.clone()),
+            None => prop_assert!(n.min(m) == 0 || long),
+        }
         prop_assert_eq!(resultant_formal(&a, n, &b, m, &Budget::unlimited()).unwrap(), expected);
     }
 
@@ -217,6 +230,53 @@ fn sizes_zero_and_one() {
     let pole = RationalMatrix::from_fn(1, 1, |_, _| RationalFunction::variable(0).recip().unwrap());
     let (p, d) = characteristic_polynomial_multimodular(&pole, &Budget::unlimited()).unwrap().unwrap();
     assert_eq!((p.coeffs()[0].clone(), d), (MultiPoly::from(-1), MultiPoly::variable(0)));
+}
+
+/// Zero and equal polynomials, lost degrees, a common content, degrees out of order, and coefficients of all widths up to those
+/// that have no room.
+#[test]
+fn small_determinants_of_singular_pairs() {
+    let (k, t) = (MultiPoly::variable(0), MultiPoly::variable(1));
+    let number = |c: i64| MultiPoly::from(c);
+    let kt = &(&k * &t) - &number(3);
+    let a = Poly::new(vec![kt.clone(), &k + &t, number(-2), &t * &t]);
+    let b = Poly::new(vec![&k - &number(1), t.clone(), number(7)]);
+    let zero = Poly::new(Vec::new());
+    let content = |p: &Poly<MultiPoly>| p.map(|c| c * &kt);
+    let expected = |a: &Poly<MultiPoly>, n, b: &Poly<MultiPoly>, m| {
+        resultant_formal_subresultant(a, n, b, m, &Budget::unlimited()).unwrap()
+    };
+    let (ca, cb) = (content(&a), content(&b));
+    let cases = [
+        (&a, 3, &b, 2),
+        (&b, 2, &a, 3),
+        (&a, 3, &a, 3),
+        (&zero, 3, &b, 2),
+        (&a, 3, &zero, 1),
+        (&zero, 2, &zero, 2),
+        (&a, 4, &b, 2),
+        (&a, 3, &b, 4),
+        (&a, 5, &b, 5),
+        (&ca, 3, &cb, 2),
+        (&ca, 3, &b, 3),
+    ];
+    for (a, n, b, m) in cases {
+        assert_eq!(resultant_by_minors(a, n, b, m), Some(expected(a, n, b, m)), "{a:?} {n} {b:?} {m}");
+    }
+    // At the ends of words: 2^62 and its neighbours, 2^63, 2^64, and longer.
+    for bits in [30, 31, 61, 62, 63, 64, 80] {
+        for add in [-1, 0, 1] {
+            let c = MultiPoly::from((Integer::ONE << bits) + Integer::from(add));
+            let a = Poly::new(vec![c.clone(), &k * &c, c.negated()]);
+            let b = Poly::new(vec![c.negated(), &t * &c, &k + &c]);
+            assert_eq!(resultant_by_minors(&a, 2, &b, 2), Some(expected(&a, 2, &b, 2)), "2^{bits} + {add}");
+        }
+    }
+    let long = Poly::new(vec![MultiPoly::from(Integer::ONE << 600), k]);
+    assert_eq!(resultant_by_minors(&long, 1, &b, 2), None);
+    assert_eq!(resultant_formal(&long, 1, &b, 2, &Budget::unlimited()).unwrap(), expected(&long, 1, &b, 2));
+    assert_eq!(resultant_by_minors(&Poly::one(), 0, &b, 2), None);
+    assert_eq!(resultant_by_minors(&a, 7, &b, 2), None);
 }
 
 #[test]

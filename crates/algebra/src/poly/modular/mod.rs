@@ -6,6 +6,7 @@ pub mod gcd;
 pub mod gcd_by_values;
 pub mod grid;
 pub mod kronecker;
+mod minors;
 pub mod multimodular_resultant;
 pub mod prime_field;
 pub mod resultant;

@@ -1,5 +1,5 @@
 //! Resultants over the integers and over their polynomials by evaluation, interpolation and Chinese
-//! remainders, and where that pays.
+//! remainders, or as small determinants, and where which pays.
 
 use super::resultant::DensePair;
 use crate::number::Integer;
@@ -17,6 +17,21 @@ const MAX_POINTS: usize = 1 << 24;
 
 static ZERO: Integer = Integer::ZERO;
 
+/// The least exponents and the numbers of exponents of the variables, and the coefficients.
+type Coefficients = (Vec<(usize, usize)>, Vec<Integer>);
+
+/// By minors or modulo primes.
+fn fastest(pair: &DensePair<'_>) -> Coefficients {
+    match pair.resultant_by_minors_if_fast() {
+        Some(coefficients) => (from_zero(pair), coefficients),
+        None => pair.resultant(),
+    }
+}
+
+fn from_zero(pair: &DensePair<'_>) -> Vec<(usize, usize)> {
+    pair.lengths().into_iter().map(|length| (0, length)).collect()
+}
+
 /// For integer coefficients; `None` where the subresultant sequence is expected to be faster.
 pub(in crate::poly) fn over_integers(a: &UniPoly, n: usize, b: &UniPoly, m: usize) -> Option<Integer> {
     (n + m >= MULTIMODULAR_MIN_DEGREES).then(|| resultant_multimodular_integers(a, n, b, m))
@@ -24,7 +39,11 @@ pub(in crate::poly) fn over_integers(a: &UniPoly, n: usize, b: &UniPoly, m: usiz
 
 /// For coefficients in one variable.
 pub(in crate::poly) fn over_univariate(a: &Poly<UniPoly>, n: usize, b: &Poly<UniPoly>, m: usize) -> Option<UniPoly> {
-    (n + m >= MULTIMODULAR_MIN_DEGREES).then(|| resultant_multimodular(a, n, b, m))
+    (n + m >= MULTIMODULAR_MIN_DEGREES).then(|| {
+        let pair = dense(a, n, b, m);
+        let (ranges, coefficients) = fastest(&pair);
+        Poly::new(coefficients).shifted_up(ranges[0].0)
+    })
 }
 
 /// For coefficients in several variables.
@@ -40,7 +59,7 @@ pub(in crate::poly) fn over_multivariate(
     let terms: usize = a.coeffs().iter().chain(b.coeffs()).map(|c| c.terms().len()).sum();
     let limit = terms.saturating_mul(POINTS_PER_TERM).min(MAX_POINTS);
     let layout = Layout::new(a, n, b, m, limit)?;
-    Some(layout.resultant(a, n, b, m))
+    layout.with_pair(a, n, b, m, |pair| Some(fastest(pair)))
 }
 
 /// The resultant of integer polynomials for formal degrees modulo primes.
@@ -95,7 +114,26 @@ pub fn resultant_multimodular_multivariate(
     b: &Poly<MultiPoly>,
     m: usize,
 ) -> Option<MultiPoly> {
-    Some(Layout::new(a, n, b, m, MAX_POINTS)?.resultant(a, n, b, m))
+    Layout::new(a, n, b, m, MAX_POINTS)?.with_pair(a, n, b, m, |pair| Some(pair.resultant()))
+}
+
+/// The same as the determinant of a small matrix, in machine words; `None` when a degree is 0 or above 6, or the resultant
+/// may have more than 8 words.
+///
+/// ```
+/// use jurist_algebra::poly::modular::multimodular_resultant::resultant_by_minors;
+/// use jurist_algebra::poly::{Domain, MultiPoly, Poly};
+/// let (k, t) = (MultiPoly::variable(0), MultiPoly::variable(1));
+/// let a = Poly::new(vec![t.clone(), MultiPoly::zero(), MultiPoly::one()]); // x^2 + T
+/// let b = Poly::new(vec![k.clone(), MultiPoly::one()]); // x + K
+/// assert_eq!(resultant_by_minors(&a, 2, &b, 1), Some(&(&k * &k) + &t));
+/// ```
+///
+/// # Panics
+/// When a formal degree is below the degree.
+pub fn resultant_by_minors(a: &Poly<MultiPoly>, n: usize, b: &Poly<MultiPoly>, m: usize) -> Option<MultiPoly> {
+    let layout = Layout::new(a, n, b, m, MAX_POINTS)?;
+    layout.with_pair(a, n, b, m, |pair| Some((from_zero(pair), pair.resultant_by_minors()?)))
 }
 
 /// All zeros, and where the second polynomial begins.
@@ -141,7 +179,15 @@ impl Layout {
         (coefficients <= limit.max(n + m + 2) && points <= limit).then_some(layout)
     }
 
-    fn resultant(&self, a: &Poly<MultiPoly>, n: usize, b: &Poly<MultiPoly>, m: usize) -> MultiPoly {
+    /// The resultant by a method that may not serve.
+    fn with_pair(
+        &self,
+        a: &Poly<MultiPoly>,
+        n: usize,
+        b: &Poly<MultiPoly>,
+        m: usize,
+        by: impl Fn(&DensePair<'_>) -> Option<Coefficients>,
+    ) -> Option<MultiPoly> {
         let (mut coefficients, at_b) =
             room(a.coeffs().len(), n, b.coeffs().len(), m, self.terms.iter().product::<usize>());
         let rows = n + m + 2;
@@ -158,7 +204,7 @@ impl Layout {
             }
         }
         let pair = DensePair { degrees: (n, m), terms: self.terms.clone(), coefficients };
-        let (ranges, values) = pair.resultant();
+        let (ranges, values) = by(&pair)?;
         let mut exponents = vec![0u32; self.variables.last().map_or(0, |last| last + 1)];
         let mut terms = Vec::new();
         for (place, c) in values.into_iter().enumerate().filter(|(_, c)| !c.is_zero()) {
@@ -170,6 +216,6 @@ impl Layout {
             terms.push((Monomial::new(&exponents), c));
         }
         terms.reverse();
-        MultiPoly::from_descending(terms)
+        Some(MultiPoly::from_descending(terms))
     }
 }

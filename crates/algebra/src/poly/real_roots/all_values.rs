@@ -49,6 +49,14 @@ impl AllResidues {
         self.powers.iter().map(|&x| u64::from(x)).chain([0])
     }
 
+    /// The powers of `g^exponent`, for an exponent below the order.
+    fn powers_by(&self, exponent: usize) -> impl Iterator<Item = u32> {
+        let next = move |k: &usize| {
+            Some(if k + exponent < self.powers.len() { k + exponent } else { k + exponent - self.powers.len() })
+        };
+        std::iter::successors(Some(0), next).map(|k| self.powers[k])
+    }
+
     /// The values of the polynomial with such coefficients, all below the prime, at all residues.
     pub fn values(&self, coefficients: &[u64]) -> Vec<u32> {
         let (s, order) = (self.outer, self.powers.len());
@@ -64,19 +72,19 @@ impl AllResidues {
         let reduce = |sum: &u64| (sum % self.prime) as u32;
         let mut values = vec![0u32; order + 1];
         // Row m of the second step: g^(s m j2), m and j2 below t.
-        let step: Vec<u32> = (0..t * t).map(|k| self.powers[s * (k / t) * (k % t) % order]).collect();
+        let step: Vec<u32> = (0..t).flat_map(|m| self.powers_by(s * m).take(t)).collect();
         let mut sums = vec![0u64; t];
         let mut twisted = vec![0u32; t];
         for k in 0..s {
             sums.fill(0);
-            for (j, row) in folded.chunks_exact(t).enumerate() {
-                let factor = u64::from(self.powers[t * j * k % order]);
+            for (row, factor) in folded.chunks_exact(t).zip(self.powers_by(t * k)) {
+                let factor = u64::from(factor);
                 for (sum, &c) in sums.iter_mut().zip(row) {
                     *sum += u64::from(c) * factor;
                 }
             }
-            for (j, (place, sum)) in twisted.iter_mut().zip(&sums).enumerate() {
-                *place = reduce(&(u64::from(reduce(sum)) * u64::from(self.powers[k * j % order])));
+            for ((place, sum), factor) in twisted.iter_mut().zip(&sums).zip(self.powers_by(k)) {
+                *place = reduce(&(u64::from(reduce(sum)) * u64::from(factor)));
             }
             for (m, row) in step.chunks_exact(t).enumerate() {
                 let sum: u64 = row.iter().zip(&twisted).map(|(&a, &b)| u64::from(a) * u64::from(b)).sum();
@@ -116,7 +124,14 @@ mod tests {
         assert!(AllResidues::new(107).is_none() && AllResidues::new(1_048_583).is_none());
         for prime in [2, 3, 5, 7, 11, 13, 41, 43, 101, 103, 211, 257, 1009] {
             let all = AllResidues::new(prime).unwrap();
-            assert_eq!({ let mut r: Vec<u64> = all.residues().collect(); r.sort(); r }, (0..prime).collect::<Vec<_>>());
+            assert_eq!(
+                {
+                    let mut r: Vec<u64> = all.residues().collect();
+                    r.sort();
+                    r
+                },
+                (0..prime).collect::<Vec<_>>()
+            );
             for count in [0, 1, 2, 5, prime as usize - 1, prime as usize, 2 * prime as usize + 3] {
                 let mut next = || {
                     state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -139,7 +154,11 @@ mod tests {
         let c = vec![prime - 1; prime as usize - 1];
         for (x, value) in all.residues().zip(all.values(&c)) {
             // -(1 + x + ... + x^(p - 2)): 1 at 1, 0 at the other units, -1 at 0.
-            let expected = match x { 0 => prime - 1, 1 => 1, _ => 0 };
+            let expected = match x {
+                0 => prime - 1,
+                1 => 1,
+                _ => 0,
+            };
             assert_eq!(u64::from(value), expected, "{x}");
         }
     }

@@ -4,6 +4,7 @@ use super::fixed::write_shifted;
 use crate::limits::checkpoint;
 use crate::number::{Integer, Rational};
 use crate::poly::UniPoly;
+use std::cmp::Ordering;
 
 /// The widths are fitted to what is left after so many factors.
 const FACTORS_PER_FIT: usize = 4;
@@ -14,6 +15,7 @@ const MOST_BITS: u32 = 60;
 /// A linear factor `denominator x - numerator`.
 struct Factor {
     numerator: i64,
+    denominator: u64,
     /// The odd part of the denominator.
     odd: u64,
     /// The inverse of that modulo `2^64`.
@@ -33,7 +35,13 @@ impl Factor {
         let odd = denominator >> twos;
         // Newton's iteration doubles the number of correct bits: 3, 6, ..., 96.
         let inverse = (0..5).fold(odd, |x, _| x.wrapping_mul(2u64.wrapping_sub(odd.wrapping_mul(x))));
-        (bits <= MOST_BITS).then_some(Factor { numerator, odd, inverse, twos, bits })
+        (bits <= MOST_BITS).then_some(Factor { numerator, denominator, odd, inverse, twos, bits })
+    }
+
+    /// The order of the magnitudes of the roots.
+    fn compare_size(&self, other: &Factor) -> Ordering {
+        let cross = |x: &Factor, y: &Factor| u128::from(x.numerator.unsigned_abs()) * u128::from(y.denominator);
+        cross(self, other).cmp(&cross(other, self))
     }
 
     /// `(c + numerator q) / denominator` modulo a power of two, all of one length; `false` when the power of two in the
@@ -143,7 +151,8 @@ impl Flat {
             width = to;
             if k == last {
                 // The remainder.
-                return factor.step(&c[..width], &q[..width], &mut out[..width]) && out[..width].iter().all(|&x| x == 0);
+                return factor.step(&c[..width], &q[..width], &mut out[..width])
+                    && out[..width].iter().all(|&x| x == 0);
             }
             while !factor.step(&c[..width], &q[..width], &mut out[..width]) || !room.fits(out[width - 1]) {
                 if width == stride {
@@ -184,7 +193,7 @@ impl Flat {
 pub(super) fn without_linear_factors(p: &UniPoly, numbers: &[Rational]) -> (UniPoly, Vec<bool>) {
     let mut factors: Vec<(usize, Factor)> =
         numbers.iter().enumerate().filter_map(|(k, x)| Some((k, Factor::new(x)?))).collect();
-    factors.sort_by(|(i, _), (j, _)| numbers[*j].abs().cmp(&numbers[*i].abs()));
+    factors.sort_by(|(_, f), (_, g)| g.compare_size(f));
     let mut is_root = vec![false; numbers.len()];
     let room = Room { bits: factors.iter().map(|(_, f)| f.bits).max().unwrap_or(0) };
     let mut rest = Flat::new(p, room);
@@ -199,4 +208,78 @@ pub(super) fn without_linear_factors(p: &UniPoly, numbers: &[Rational]) -> (UniP
         }
     }
     (rest.polynomial(), is_root)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::poly::real_roots::linear;
+
+    fn rational(n: i64, d: i64) -> Rational {
+        Rational::new(n.into(), d.into())
+    }
+
+    /// Every set of roots of a list of awkward ones, times a polynomial without any: all are found, others are not, and what is
+    /// left is that polynomial.
+    #[test]
+    fn quotients_are_those_of_long_division() {
+        let edge = (1i64 << 60) - 1;
+        let list = [
+            rational(0, 1),
+            rational(1, 1),
+            rational(-1, 1),
+            rational(7, 12),
+            rational(-5, 3),
+            rational(3, 64),
+            rational(edge, 1),
+            rational(-edge, 2),
+            rational(1, edge),
+        ];
+        let others = [rational(2, 1), rational(1, 2), rational(-7, 12), rational(1, 3), rational(-edge, 1)];
+        let cofactors = [
+            UniPoly::from_i64(&[1]),
+            UniPoly::from_i64(&[1, 0, 1]),
+            UniPoly::from_i64(&[-3, 0, 0, 1 << 62]),
+            UniPoly::new(vec![Integer::from(10).pow(300), Integer::ZERO, -Integer::from(7).pow(200)]),
+        ];
+        for cofactor in &cofactors {
+            for subset in 0..1usize << list.len() {
+                let roots: Vec<Rational> =
+                    (0..list.len()).filter(|k| subset >> k & 1 == 1).map(|k| list[k].clone()).collect();
+                let p = roots.iter().fold(cofactor.clone(), |p, x| &p * &linear(x));
+                let numbers: Vec<Rational> = roots.iter().chain(&others).cloned().collect();
+                let (rest, is_root) = without_linear_factors(&p, &numbers);
+                assert_eq!(&rest, cofactor, "{roots:?}");
+                assert!(is_root.iter().enumerate().all(|(k, &is_root)| is_root == (k < roots.len())), "{roots:?}");
+            }
+        }
+    }
+
+    /// Coefficients of all lengths, and factors that do not divide.
+    #[test]
+    fn widths_grow_and_shrink() {
+        let binomial = &UniPoly::monomial(Integer::ONE, 64) - &UniPoly::from_i64(&[1]);
+        let (rest, is_root) = without_linear_factors(&binomial, &[rational(1, 1), rational(-1, 1), rational(3, 1)]);
+        assert_eq!((&rest * &UniPoly::from_i64(&[-1, 0, 1]), is_root), (binomial, vec![true, true, false]));
+        let roots: Vec<Rational> = (1..=60).map(|k| rational(k, 1)).collect();
+        let product = roots.iter().fold(UniPoly::from_i64(&[1]), |p, x| &p * &linear(x));
+        assert_eq!(without_linear_factors(&product, &roots), (UniPoly::from_i64(&[1]), vec![true; 60]));
+        // A number that is given twice is a root once.
+        assert_eq!(without_linear_factors(&product, &[rational(5, 1), rational(5, 1)]).1, [true, false]);
+        // Coefficients that are long all over.
+        let large = Integer::from(10).pow(40);
+        let p = &UniPoly::new(vec![large.clone(), -&large, large.clone()]) * &UniPoly::from_i64(&[1, 1]);
+        assert_eq!(without_linear_factors(&p, &[rational(-1, 1)]).1, [true]);
+    }
+
+    #[test]
+    fn constants_and_numbers_that_are_too_long_stay() {
+        let one = UniPoly::from_i64(&[5]);
+        assert_eq!(without_linear_factors(&one, &[rational(5, 1)]), (one, vec![false]));
+        let long = Rational::from(Integer::from(10).pow(30));
+        let p = linear(&long);
+        assert_eq!(without_linear_factors(&p, &[long]), (p, vec![false]));
+        let p = UniPoly::from_i64(&[-6, 2]);
+        assert_eq!(without_linear_factors(&p, &[rational(3, 1)]), (UniPoly::from_i64(&[2]), vec![true]));
+    }
 }

@@ -60,7 +60,7 @@ pub(super) fn without_rational_roots(p: &SquareFree) -> (Vec<Rational>, SquareFr
                 if rest.coeffs().len() <= 2 {
                     break;
                 }
-                if let Some((root, quotient)) = lift.rational_root(candidate, &rest) {
+                if let Some((root, quotient)) = lift.rational_root(candidate.residue, &rest) {
                     roots.push(root);
                     rest = quotient;
                 }
@@ -201,6 +201,8 @@ fn next_prime(mut n: u64) -> u64 {
 /// The state of the lifting: the polynomial modulo the prime squared again and again.
 struct Lift {
     original: UniPoly,
+    /// Its derivative modulo the prime.
+    derivative: Vec<u64>,
     prime: u64,
     /// Above `2 |c| B`.
     enough: Integer,
@@ -216,7 +218,8 @@ impl Lift {
     fn new(original: UniPoly, prime: u64) -> Lift {
         let lead = original.leading().expect("not zero").abs();
         let bound = root_bound_bits(&original).max(0).unsigned_abs();
-        Lift { enough: &lead << (bound + 1), original, prime, levels: Vec::new() }
+        let derivative = residues(&original.derivative(), prime);
+        Lift { enough: &lead << (bound + 1), original, derivative, prime, levels: Vec::new() }
     }
 
     fn level(&mut self, k: usize) -> &Level {
@@ -232,13 +235,14 @@ impl Lift {
     }
 
     /// The rational root of `rest`, if there is one, that is the residue modulo the prime.
-    fn rational_root(&mut self, candidate: Candidate, rest: &UniPoly) -> Option<(Rational, UniPoly)> {
+    fn rational_root(&mut self, residue: u64, rest: &UniPoly) -> Option<(Rational, UniPoly)> {
         let lead = self.original.leading().expect("not zero").clone();
         let (enough, prime) = (self.enough.clone(), self.prime);
-        let mut x = Integer::from(candidate.residue);
+        let slope = self.derivative.iter().rev().fold(0, |acc, c| (acc * residue + c) % prime);
+        let mut x = Integer::from(residue);
         // The inverse of the derivative at the previous x; right for the present one modulo the
         // modulus before the last, so that one step of Newton's makes it good enough.
-        let mut inverse = Integer::from(power(candidate.slope, prime - 2, prime));
+        let mut inverse = Integer::from(power(slope, prime - 2, prime));
         for k in 0.. {
             let level = self.level(k);
             let m = &level.modulus;

@@ -271,3 +271,47 @@ fn stored(exact: &[u64], width: usize, height: u64, lost: u64, fraction: i64, pr
     let height = max_bits(&flat, limbs);
     Bernstein { flat, limbs, error, height, scale: drop - fraction }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Coefficients of both ends from one triangle, against those of each from its own, for polynomials whose largest
+    /// coefficients are at any place.
+    #[test]
+    fn coefficients_of_both_halves_are_those_of_each() {
+        let mut state = 11u64;
+        let mut next = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            state >> 33
+        };
+        for case in 0..60 {
+            let n = 2 + case % 40;
+            let coeffs: Vec<Integer> = (0..=n)
+                .map(|i| {
+                    let c = (Integer::from(next() as i64 - (1 << 30)) << (next() % 200)) + Integer::ONE;
+                    if i > 0 && i < n && next() % 4 == 0 { Integer::ZERO } else { c }
+                })
+                .collect();
+            let (scale, precision) = (next() as i64 % 9 - 4, 60 + next() % 100);
+            let row = Rc::new(binomial_row(n));
+            let piece = Piece::new(coeffs.clone().into(), scale, Rc::clone(&row));
+            let reversed = Piece::new(coeffs.into_iter().rev().collect(), -scale, row);
+            let both = piece.bernstein_of_both(precision);
+            for (got, of) in [(both.0, piece), (both.1, reversed)] {
+                assert!(got.precision() + 9 >= precision, "{} of {precision} bits", got.precision());
+                let want = of.bernstein(&Cell::unit(), precision + 20, None);
+                let numbers = |b: &Bernstein, scale: i64| -> Vec<Integer> {
+                    let shift = (b.scale - scale) as u64;
+                    b.flat.chunks_exact(b.limbs).map(|c| Integer::from_twos_complement(c) << shift).collect()
+                };
+                let least = got.scale.min(want.scale);
+                let unit = |b: &Bernstein| Integer::from(b.error) << (b.scale - least) as u64;
+                let error = unit(&got) + unit(&want);
+                for (x, y) in numbers(&got, least).into_iter().zip(numbers(&want, least)) {
+                    assert!((x - y).abs() <= error, "degree {n}, scale {scale}");
+                }
+            }
+        }
+    }
+}

@@ -151,11 +151,7 @@ pub fn sum_from_both_ends(work: &mut [u64], limbs: usize, first: &mut [u64], las
     by_width!(2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20, 24, 28, 32);
 }
 
-fn sum_from_both_ends_fixed<const L: usize>(
-    work: &mut [[u64; L]],
-    first: &mut [[u64; L]],
-    last: &mut [[u64; L]],
-) {
+fn sum_from_both_ends_fixed<const L: usize>(work: &mut [[u64; L]], first: &mut [[u64; L]], last: &mut [[u64; L]]) {
     let n = work.len() - 1;
     (first[0], last[0]) = (work[0], work[n]);
     let mut stage = 0;
