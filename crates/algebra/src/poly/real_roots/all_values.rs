@@ -3,8 +3,9 @@
 use super::small_residues::power;
 use crate::limits::checkpoint;
 
-/// Below this, sums of as many products of residues as there are residues fit a word.
-const PRIME_LIMIT: u64 = 1 << 20;
+/// Below the end sums of as many products of residues as there are residues fit a word; below the start Horner's rule at
+/// each residue is as fast: all roots of Chebyshev's polynomial of degree 50 took 205 us with the transform, 200 us without.
+const PRIMES: std::ops::Range<u64> = 100..1 << 20;
 
 /// The greatest quotient of the factors of `p - 1`: beyond, Horner's rule at each residue is hardly slower.
 const MOST_UNEVEN: usize = 16;
@@ -23,9 +24,9 @@ pub(super) struct AllResidues {
 }
 
 impl AllResidues {
-    /// `None` when the prime is too large, or `p - 1` has no two factors of about the same size.
+    /// `None` when the prime is too small or too large, or `p - 1` has no two factors of about the same size.
     pub fn new(prime: u64) -> Option<AllResidues> {
-        if prime >= PRIME_LIMIT {
+        if !PRIMES.contains(&prime) {
             return None;
         }
         let order = prime as usize - 1;
@@ -121,17 +122,12 @@ mod tests {
     fn values_are_those_of_horner() {
         let mut state = 9u64;
         // 106 is twice a prime.
-        assert!(AllResidues::new(107).is_none() && AllResidues::new(1_048_583).is_none());
-        for prime in [2, 3, 5, 7, 11, 13, 41, 43, 101, 103, 211, 257, 1009] {
+        assert!([97, 107, 1_048_583].into_iter().all(|prime| AllResidues::new(prime).is_none()));
+        for prime in [101, 103, 109, 127, 211, 257, 1009] {
             let all = AllResidues::new(prime).unwrap();
-            assert_eq!(
-                {
-                    let mut r: Vec<u64> = all.residues().collect();
-                    r.sort();
-                    r
-                },
-                (0..prime).collect::<Vec<_>>()
-            );
+            let mut residues: Vec<u64> = all.residues().collect();
+            residues.sort_unstable();
+            assert!(residues.into_iter().eq(0..prime));
             for count in [0, 1, 2, 5, prime as usize - 1, prime as usize, 2 * prime as usize + 3] {
                 let mut next = || {
                     state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
