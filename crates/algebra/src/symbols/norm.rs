@@ -3,7 +3,7 @@
 use super::{Definition, Function, Symbols};
 use crate::limits::{Budget, Exhausted};
 use crate::number::Integer;
-use crate::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly, resultant_formal};
+use crate::poly::{Domain, MultiPoly, Poly, UniPoly, resultant_formal};
 
 /// A symbol stays where a polynomial without it may have more terms.
 const MOST_TERMS: u64 = 30_000;
@@ -83,6 +83,7 @@ impl Symbols {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::poly::RationalFunction;
 
     #[test]
     fn symbols_made_of_others_are_eliminated_before_them() {

@@ -75,8 +75,8 @@ impl<R: Domain> HalfSizePair<R> {
     ///
     /// Cost: over `Z[p]` with coefficients of degree `d`, remainder sequences of `O(n^2)` products of residues at
     /// up to `(n - 1) d + 1` points, modulo as many primes of word size as a bound of the coefficients asks for,
-    /// and interpolation; over a domain where [`Domain::resultant_fast`] knows no such way, one sequence of
-    /// subresultants: `O(n^2)` operations.
+    /// and interpolation, or at low order a determinant expanded by minors; over a domain where
+    /// [`Domain::resultant_fast`] knows no such way, one sequence of subresultants: `O(n^2)` operations.
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.

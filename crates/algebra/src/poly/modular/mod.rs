@@ -1,5 +1,5 @@
-//! Fast ways for polynomials over the integers through their residues modulo primes that fit a machine word, chosen in
-//! one place for the integers as a [`Domain`](super::Domain).
+//! Fast ways for polynomials over the integers through their residues modulo primes that fit a machine word, or modulo a
+//! power of two, chosen in one place for the integers as a [`Domain`](super::Domain).
 
 pub mod chinese;
 pub mod gcd;

@@ -289,3 +289,27 @@ fn divide_out(p: &UniPoly, root: &Rational) -> Option<UniPoly> {
     let plausible = lead.divisible_by(&root.denominator()) && constant.divisible_by(&root.numerator());
     if plausible { p.div_exact_poly(&linear(root)) } else { None }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The long ones are lifted when the short ones have been divided out.
+    #[test]
+    fn short_and_long_roots_together() {
+        let long = Integer::from(10).pow(15);
+        let mut roots = vec![
+            Rational::from(-3),
+            Rational::ZERO,
+            Rational::new(2.into(), 7.into()),
+            Rational::from(&long + &Integer::ONE),
+            Rational::new(long, 7.into()),
+            Rational::new(Integer::ONE, Integer::from(10).pow(25)),
+        ];
+        roots.sort();
+        let irrational = UniPoly::from_i64(&[-2, 0, 1]);
+        let p = roots.iter().fold(irrational.clone(), |p, x| &p * &linear(x));
+        let p = SquareFree::new(p).expect("the roots are simple");
+        assert_eq!(rational_roots(&p, &Budget::unlimited()).unwrap(), (roots, SquareFree::known(irrational)));
+    }
+}
