@@ -1,6 +1,6 @@
 //! Answers about loops with dead time.
 
-use super::verdict::{PointVerdict, Verdict};
+use super::verdict::PointVerdict;
 use crate::error::Error;
 use crate::problem::{BaseDelay, DelayedLoop, Problem, refused};
 use crate::stability::dead_time::{
@@ -25,14 +25,9 @@ pub(super) fn verdict(problem: &Problem, delayed: &DelayedLoop, budget: &Budget)
         None => None,
     };
     let Some(count) = count else {
-        return Ok(PointVerdict::with_dead_time(Verdict::Unstable, degree, 0, None));
+        return Ok(PointVerdict::with_dead_time(degree, 0, None));
     };
-    let verdict = match (count.right, count.on) {
-        (Some(0), 0) => Verdict::Stable,
-        (Some(0), _) => Verdict::Marginal,
-        _ => Verdict::Unstable,
-    };
-    Ok(PointVerdict::with_dead_time(verdict, degree, count.on, count.right))
+    Ok(PointVerdict::with_dead_time(degree, count.on, count.right))
 }
 
 fn not_counted(reason: NotCounted) -> Error {

@@ -165,7 +165,7 @@ fn still(side: &Side) -> Side {
 /// A point that is not stable, and the least factor whose box holds it.
 fn beyond(witness: &Witness, sides: &[Side], degree: usize) -> Value {
     let (count, infinite) = match &witness.at {
-        AtPoint::Undefined => (RootCount::default(), 0),
+        AtPoint::Undefined | AtPoint::Delayed { .. } => (RootCount::default(), 0),
         AtPoint::Zero => (RootCount::default(), degree),
         AtPoint::Defined { count, infinite } => (*count, *infinite),
     };

@@ -3,7 +3,7 @@
 //! Each symbol whose arguments are fixed is one more side of the box, as wide as its enclosure: what is proved for all values in it holds for the true
 //! one. A point that is not stable is counted once more with the true constants.
 
-use crate::answer::Verdict;
+use crate::answer::{DelayedRoots, Verdict};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::stability::AtPoint;
@@ -76,8 +76,14 @@ impl<'a> Truth<'a> {
         let question = problem.model().ask().within(problem.region().clone()).set_all(problem.set().to_vec());
         let verdict = match question.set_all(names.zip(point.iter().cloned())).verdict(budget) {
             Err(Error::Undefined(_)) => return Ok(AtPoint::Undefined),
+            Err(Error::Refused(refused)) => {
+                return budget.enter(|| p.counted_beside(point))?.ok_or(Error::Refused(refused));
+            }
             verdict => verdict?.into_value(),
         };
+        if let Some(DelayedRoots { on, right }) = verdict.delayed {
+            return Ok(AtPoint::Delayed { on, right });
+        }
         Ok(match (verdict.verdict, verdict.count) {
             (Verdict::Undefined, _) | (_, None) => AtPoint::Undefined,
             (_, Some(count)) => AtPoint::Defined { count, infinite: verdict.infinite },
@@ -91,7 +97,10 @@ impl<'a> Truth<'a> {
         }
         let mut point = witness.point;
         point.truncate(self.problem.free().len());
-        let at = self.at(p, &point, budget)?;
+        let at = match self.at(p, &point, budget) {
+            Err(Error::Refused(_)) => return Ok(None),
+            at => at?,
+        };
         let degree = self.problem.algebra_over_symbols(budget)?.formal_degree();
         Ok((!at.is_stable(degree)).then(|| Witness::new(point, at)))
     }

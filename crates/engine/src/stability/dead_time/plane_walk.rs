@@ -37,11 +37,14 @@ pub(crate) struct PlaneFunction {
     unit: Integer,
     degrees: [u32; 2],
     order: usize,
+    shortest: [i64; 2],
 }
 
 /// A box is given up where steps would be so many halvings shorter than the frequency, or than the bound of all frequencies
 /// at zero.
 const SHORTEST: [i64; 2] = [24, 256];
+/// The same of one point, which no cut brings away from the limit.
+const SHORTEST_AT_A_POINT: [i64; 2] = [72, 256];
 const SCALE: u64 = 96;
 
 const OMEGA: usize = 2;
@@ -87,7 +90,12 @@ impl PlaneFunction {
             second.iter().map(|p| p.degree_in(axis)).max().unwrap_or(0).max(own)
         });
         let slack = UniPoly::new(shares.slack.clone());
-        PlaneFunction { shares, slack, first, second, unit, degrees, order }
+        PlaneFunction { shares, slack, first, second, unit, degrees, order, shortest: SHORTEST }
+    }
+
+    /// The same of a function that is the same everywhere.
+    pub fn of_point(shares: Shares) -> PlaneFunction {
+        PlaneFunction { shortest: SHORTEST_AT_A_POINT, ..PlaneFunction::new(shares) }
     }
 
     /// Walks along the axis, or tells where to cut.
@@ -200,6 +208,7 @@ impl<'f> Walk<'f> {
 
     fn follow(&self, bound: u64) -> Seen {
         let end = Rational::from(&(&Integer::ONE << bound));
+        let [shortest, least] = self.function.shortest;
         let mut at = Dyadic::zero();
         let mut step = Step(bound as i64 - 4);
         let mut direction: Option<(i64, i64)> = None;
@@ -212,7 +221,7 @@ impl<'f> Walk<'f> {
                     at = at.plus(step, 0);
                     step = Step(step.0 + 1);
                 }
-                Cone::TooLong if step.0 > at.floor_log2().map_or(bound as i64 - SHORTEST[1], |e| e - SHORTEST[0]) => {
+                Cone::TooLong if step.0 > at.floor_log2().map_or(bound as i64 - least, |e| e - shortest) => {
                     step = Step(step.0 - 1);
                 }
                 Cone::TooLong => return Seen::Cut(self.longer()),
