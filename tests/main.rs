@@ -70,6 +70,7 @@ mod maps {
 
 /// Any number of parameters: boxes of tolerances.
 mod tolerances {
+    mod dead_time;
     mod degenerate;
     mod held;
     mod hostile;

@@ -7,7 +7,7 @@ use crate::answer::{DelayedRoots, Verdict};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::stability::AtPoint;
-use crate::stability::boxes::{BoxDecision, Family, LargestFactor, Side, Witness};
+use crate::stability::boxes::{BoxDecision, Family, LargestFactor, Side, Witness, corners};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
@@ -63,6 +63,9 @@ impl<'a> Truth<'a> {
         if self.is_exact {
             return Ok(budget.enter(|| p.at(point))?);
         }
+        if let Some(at) = budget.enter(|| p.counted_beside(point))? {
+            return Ok(at);
+        }
         let problem = self.problem;
         let time = problem.algebra_over_symbols(budget)?.sample_time();
         if let Some(time) = time.filter(|time| time.variables().iter().all(|v| *v < point.len())) {
@@ -76,9 +79,6 @@ impl<'a> Truth<'a> {
         let question = problem.model().ask().within(problem.region().clone()).set_all(problem.set().to_vec());
         let verdict = match question.set_all(names.zip(point.iter().cloned())).verdict(budget) {
             Err(Error::Undefined(_)) => return Ok(AtPoint::Undefined),
-            Err(Error::Refused(refused)) => {
-                return budget.enter(|| p.counted_beside(point))?.ok_or(Error::Refused(refused));
-            }
             verdict => verdict?.into_value(),
         };
         if let Some(DelayedRoots { on, right }) = verdict.delayed {
@@ -120,10 +120,24 @@ impl<'a> Truth<'a> {
             BoxDecision::NotStable { witness: None } => close(),
             BoxDecision::Undecided { why, mut cell } => {
                 cell.truncate(self.problem.free().len());
-                BoxDecision::Undecided { why, cell }
+                match self.corner_of(p, &cell, budget)? {
+                    Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
+                    None => BoxDecision::Undecided { why, cell },
+                }
             }
             stable => stable,
         })
+    }
+
+    /// A corner of a cell of a loop with dead time that is not stable: roots that are on the axis there are told by the verdict alone.
+    fn corner_of(&self, p: &impl Family, cell: &[[Rational; 2]], budget: &Budget) -> Result<Option<Witness>, Error> {
+        let has_dead_time = !self.problem.algebra_over_symbols(budget)?.symbols().delays().is_empty();
+        for point in corners(cell).filter(|_| has_dead_time) {
+            if let Some(found) = self.confirmed(p, Witness::new(point, AtPoint::Undefined), budget)? {
+                return Ok(Some(found));
+            }
+        }
+        Ok(None)
     }
 
     /// The bracket with the true constants, for the parameters alone.

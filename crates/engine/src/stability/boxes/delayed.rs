@@ -4,7 +4,7 @@
 //! [`delayed_prove`](super::delayed_prove).
 
 use super::delayed_rounded::{RoundedLoop, on_line};
-use super::family::{Family, Gradient, Path};
+use super::family::{Family, Gradient, Path, ROUGH_BITS};
 use super::line::{on_line as polynomials_on_line, rational_zero};
 use super::polynomial::without_squares;
 use super::prove::Outcome;
@@ -18,6 +18,12 @@ use std::collections::BTreeMap;
 
 /// Binary digits to which floating point tells where a line leaves the stable set.
 const DIGITS: u64 = 44;
+
+/// An end that is not counted as lost is moved by these shares of it, powers of two.
+const WIDENED: [u64; 5] = [43, 40, 36, 32, 26];
+
+/// The bracket of a limit is not narrower than two to minus this of the way to it.
+const LEAST_GAP: u64 = 30;
 
 /// A part of the coefficients of one power of `s` and one dead time: the exponents of parameters outside of dead times, with a polynomial in
 /// those inside.
@@ -182,6 +188,10 @@ impl Family for DelayedFunction {
         self.seen_at(point) == Some(true)
     }
 
+    fn least_gap(&self) -> Rational {
+        Rational::dyadic(&Integer::ONE, LEAST_GAP)
+    }
+
     fn counted_beside(&self, point: &[Rational]) -> Option<AtPoint> {
         self.counted_at(point)
     }
@@ -235,7 +245,10 @@ impl DelayedLine<'_> {
     /// The stretch between a place that seems good and one that does not, narrowed to at most so many binary digits.
     fn narrowed_approximate(&self, [mut lo, mut hi]: [f64; 2], bits: u64) -> [f64; 2] {
         let [base, step] = &self.rounded;
-        let share = 0.5f64.powi(bits.min(DIGITS) as i32);
+        // Where the line moves little, its places are told apart less well.
+        let moved = base.iter().zip(step).map(|(b, s)| (s * hi).abs() / (b + s * hi).abs().max((s * hi).abs()));
+        let moved = moved.fold(0.0, f64::max).max(0.5f64.powi(DIGITS as i32 / 2));
+        let share = 0.5f64.powi(bits as i32).max(0.5f64.powi(DIGITS as i32) / moved);
         let mut halvings = 0;
         while hi - lo > hi * share && hi > f64::MIN_POSITIVE {
             if halvings % 6 == 4 {
@@ -285,8 +298,16 @@ impl Path for DelayedLine<'_> {
 
     fn narrowed(&self, lo: Rational, hi: Rational, bits: u64) -> Option<(Rational, Rational)> {
         let [near, far] = self.narrowed_approximate([&lo, &hi].map(Rational::to_f64_approximate), bits);
-        let (near, far) = (Rational::from_f64(near)?, Rational::from_f64(far)?);
-        Some((near.max(lo), far.min(hi)))
+        let (near, far) = (Rational::from_f64(near)?.max(lo), Rational::from_f64(far)?.min(hi));
+        if bits <= ROUGH_BITS {
+            return Some((near, far));
+        }
+        // As much farther as rounding was off.
+        let beyond = std::iter::once(far.clone()).chain(
+            WIDENED.iter().map(|&bits| &far * &(&Rational::ONE + &Rational::dyadic(&Integer::ONE, bits))),
+        );
+        let counted = beyond.clone().find(|t| self.p.seen_at(&self.point(t)) == Some(false));
+        Some((near, counted.unwrap_or(far)))
     }
 
     fn gradient(&self, lo: &Rational, hi: &Rational) -> Option<Gradient> {

@@ -22,16 +22,16 @@ use std::collections::BTreeMap;
 const BITS: u64 = 128;
 
 /// A box is cut into so many parts at most.
-const MOST_PARTS: usize = 6000;
+const MOST_PARTS: usize = 2500;
 
 /// Taylor models have about so many coefficients.
 const MODEL_TERMS: usize = 45;
 
 /// A tensor of a part has at most so many coefficients for each polynomial.
-const TENSOR_TERMS: usize = 1 << 12;
+const TENSOR_TERMS: usize = 1 << 13;
 
 /// Terms smaller than the greatest by so many bits are left out; where that leaves too many, by fewer.
-const KEPT_BITS: [u64; 6] = [40, 32, 24, 16, 8, 3];
+const KEPT_BITS: [u64; 9] = [72, 64, 56, 48, 40, 32, 24, 16, 8];
 
 /// Cells in one part.
 const CELLS_IN_PART: usize = 300;

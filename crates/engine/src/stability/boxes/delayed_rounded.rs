@@ -6,10 +6,14 @@ use jurist_algebra::poly::{MultiPoly, RationalFunction};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Steps along the imaginary axis after which a count is given up.
-const MOST_STEPS: usize = 20_000;
+const MOST_STEPS: usize = 4000;
 
 /// A step turns the function by at most so much.
 const LARGEST_TURN: f64 = 0.7;
+
+/// A neutral loop whose delayed highest power has more than this share of the undelayed one is taken for lost: it has roots of every
+/// frequency near the axis.
+const LARGEST_DELAYED_SHARE: f64 = 0.98;
 
 /// Steps of Newton's method.
 const NEWTON_STEPS: usize = 30;
@@ -245,6 +249,9 @@ impl RoundedPoint {
         let sums: Vec<f64> = (0..n).map(sum).collect();
         let rest = sum(n) - top;
         let lower = |w: f64| sums.iter().enumerate().map(|(j, c)| c * w.powi(j as i32 - n as i32)).sum::<f64>();
+        if rest > LARGEST_DELAYED_SHARE * top {
+            return None;
+        }
         (-60..200).map(|e| 2f64.powi(e)).find(|w| lower(*w) + rest < top)
     }
 

@@ -36,7 +36,7 @@ pub trait Family {
     /// Whether the loop is stable at a point, as far as [`Family::at`] knows.
     fn is_stable_at(&self, point: &[Rational]) -> bool;
 
-    /// The roots at a point at which the model's own verdict is refused.
+    /// The exact root count at a point, where it is known without the model.
     fn counted_beside(&self, _point: &[Rational]) -> Option<AtPoint> {
         None
     }
@@ -49,6 +49,11 @@ pub trait Family {
 
     /// The gradients at a point of what is to become small where stability is lost.
     fn pulls(&self, point: &[Rational], scale: i64) -> Vec<Vec<Rational>>;
+
+    /// The bracket of a limit is not asked to be narrower than this share of the way to it: near zero the limit itself says little of that.
+    fn least_gap(&self) -> Rational {
+        Rational::ZERO
+    }
 
     /// Whether the last side is that of a number whose sign does not matter to the roots.
     fn is_mirrored(&self) -> bool {

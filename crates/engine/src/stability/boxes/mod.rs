@@ -38,6 +38,7 @@ pub use factor::{BoxDecision, LargestFactor, ToleranceProblem, Witness};
 pub(crate) use family::Family;
 pub(crate) use line::on_line;
 pub use moving::MovingPolynomial;
+pub(crate) use parts::corners;
 pub use polynomial::BoxPolynomial;
 pub use prove::{BoxProof, MOST_COEFFICIENTS};
 pub(crate) use search::ray;

@@ -133,7 +133,7 @@ pub(super) fn middle(sides: &[[Rational; 2]]) -> Vec<Rational> {
 }
 
 /// The corners of a box, not too many.
-pub(super) fn corners(sides: &[[Rational; 2]]) -> impl Iterator<Item = Vec<Rational>> + '_ {
+pub(crate) fn corners(sides: &[[Rational; 2]]) -> impl Iterator<Item = Vec<Rational>> + '_ {
     let wide: Vec<usize> = (0..sides.len()).filter(|&i| sides[i][0] < sides[i][1]).take(6).collect();
     (0..1usize << wide.len()).map(move |mask| {
         let upper = |i: usize| wide.iter().position(|w| *w == i).is_some_and(|bit| mask >> bit & 1 == 1);

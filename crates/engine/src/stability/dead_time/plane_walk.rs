@@ -38,6 +38,7 @@ pub(crate) struct PlaneFunction {
     degrees: [u32; 2],
     order: usize,
     shortest: [i64; 2],
+    most_steps: usize,
 }
 
 /// A box is given up where steps would be so many halvings shorter than the frequency, or than the bound of all frequencies
@@ -45,6 +46,7 @@ pub(crate) struct PlaneFunction {
 const SHORTEST: [i64; 2] = [24, 256];
 /// The same of one point, which no cut brings away from the limit.
 const SHORTEST_AT_A_POINT: [i64; 2] = [72, 256];
+const MOST_STEPS_AT_A_POINT: usize = 1 << 14;
 const SCALE: u64 = 96;
 
 const OMEGA: usize = 2;
@@ -90,12 +92,13 @@ impl PlaneFunction {
             second.iter().map(|p| p.degree_in(axis)).max().unwrap_or(0).max(own)
         });
         let slack = UniPoly::new(shares.slack.clone());
-        PlaneFunction { shares, slack, first, second, unit, degrees, order, shortest: SHORTEST }
+        PlaneFunction { shares, slack, first, second, unit, degrees, order, shortest: SHORTEST, most_steps: usize::MAX }
     }
 
     /// The same of a function that is the same everywhere.
     pub fn of_point(shares: Shares) -> PlaneFunction {
-        PlaneFunction { shortest: SHORTEST_AT_A_POINT, ..PlaneFunction::new(shares) }
+        let (shortest, most_steps) = (SHORTEST_AT_A_POINT, MOST_STEPS_AT_A_POINT);
+        PlaneFunction { shortest, most_steps, ..PlaneFunction::new(shares) }
     }
 
     /// Walks along the axis, or tells where to cut.
@@ -212,7 +215,12 @@ impl<'f> Walk<'f> {
         let mut at = Dyadic::zero();
         let mut step = Step(bound as i64 - 4);
         let mut direction: Option<(i64, i64)> = None;
+        let mut steps = 0;
         while at.rational() < end {
+            steps += 1;
+            if steps > self.function.most_steps {
+                return Seen::Cut(self.longer());
+            }
             match self.cone(&at.plus(step, 1), step) {
                 Cone::Turned(next) => {
                     let (first, last) = direction.unwrap_or((next, next));
