@@ -80,9 +80,7 @@ fn a_first_order_process_has_the_factor_of_its_formula() {
     let factor = answer.value().factor.as_ref().unwrap();
     let at = |factor: &Rational| {
         let sides = sides(&answer, &["K", "T", "theta"], factor);
-        (0..8usize).all(|mask| {
-            first_order_is_stable([0, 1, 2].map(|i| sides[i][mask >> i & 1].to_f64_approximate()))
-        })
+        (0..8usize).all(|mask| first_order_is_stable([0, 1, 2].map(|i| sides[i][mask >> i & 1].to_f64_approximate())))
     };
     assert!(at(&(&factor.lower * &number("0.999999"))) && !at(&(factor.upper.as_ref().unwrap() * &number("1.000001"))));
     let worst = answer.value().worst.as_ref().expect("the end of the line");
@@ -161,7 +159,10 @@ fn a_dead_time_may_be_zero_at_an_edge_of_the_box() {
     // Without dead time the oscillator is not damped.
     let oscillator = asked(&example("delayed-oscillator"), &[("tau", "100%")], "1e-3");
     let BoxDecision::NotStable { witness: Some(witness) } = &oscillator.value().decision else { panic!("a witness") };
-    assert_eq!((witness.point.as_slice(), verdict_at(&oscillator, &witness.point).unwrap()), ([Rational::ZERO].as_slice(), Verdict::Marginal));
+    assert_eq!(
+        (witness.point.as_slice(), verdict_at(&oscillator, &witness.point).unwrap()),
+        ([Rational::ZERO].as_slice(), Verdict::Marginal)
+    );
 }
 
 /// Roots are to the right in the middle of the box alone, between two windows of the dead time.
@@ -184,7 +185,11 @@ fn two_dead_times_vary_each_on_its_own() {
     assert!(answer.value().decision.is_stable());
     let factor = answer.value().factor.as_ref().unwrap();
     // (1 + f/4)^2 = pi/2.
-    assert!(factor.lower > number("1.01325") && factor.upper.as_ref().unwrap() < &number("1.01326"), "{}", factor.lower);
+    assert!(
+        factor.lower > number("1.01325") && factor.upper.as_ref().unwrap() < &number("1.01326"),
+        "{}",
+        factor.lower
+    );
     // Dead times without a common divisor are counted all the same.
     let point = ["0.5", "0.5", "1.234567", "1.7654321"].map(number);
     assert!(matches!(verdict_at(&answer, &point), Err(Error::Refused(_))));
@@ -244,9 +249,8 @@ fn a_limit_holds_for_all_values_of_the_others() {
     let request = request(&[("T", "20%"), ("theta", "20%")], "1e-5").limit("K");
     let answer = first_order().ask().tolerance(&request, &Budget::unlimited()).unwrap();
     let [lower, upper] = answer.value().limit.as_ref().unwrap().sides.clone().map(|side| side.unwrap());
-    let stable_for_all = |k: f64| {
-        [0.8, 1.2].iter().all(|t| [0.4, 0.6].iter().all(|theta| first_order_is_stable([k, *t, *theta])))
-    };
+    let stable_for_all =
+        |k: f64| [0.8, 1.2].iter().all(|t| [0.4, 0.6].iter().all(|theta| first_order_is_stable([k, *t, *theta])));
     let (safe, beyond) = (upper.safe.to_f64_approximate(), upper.unsafe_at.unwrap().to_f64_approximate());
     assert!(stable_for_all(safe) && !stable_for_all(beyond * 1.000_001) && beyond - safe < 1e-4, "{safe} {beyond}");
     // K = -1: a root at s = 0, whatever the others are.

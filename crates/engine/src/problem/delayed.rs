@@ -38,7 +38,7 @@ pub enum BaseDelay {
 
 /// The refusal of a question that is not known of loops with dead time.
 pub(crate) fn not_known() -> Error {
-    let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, map by boxes, report";
+    let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, map by boxes, tolerance, report";
     refused("this cannot be asked of a loop with dead time yet", help)
 }
 

@@ -38,7 +38,9 @@ impl Problem {
                     let mut own = vec![0u32; usual.len()];
                     for (variable, &e) in monomial.exponents().iter().enumerate().filter(|(_, e)| **e > 0) {
                         match time_of(variable) {
-                            Some(time) => total = &total + &(time * &RationalFunction::from(Rational::from(i64::from(e)))),
+                            Some(time) => {
+                                total = &total + &(time * &RationalFunction::from(Rational::from(i64::from(e))))
+                            }
                             None => own[variable] += e,
                         }
                     }

@@ -44,7 +44,9 @@ impl Problem {
             let gap = |factor: &Rational| {
                 let moved = &unit * factor;
                 let share = value(factor).abs().checked_div(&moved).unwrap_or(Rational::ONE);
-                (&request.gap * &share).max(p.least_gap()).min(request.gap.clone())
+                // The domain's own end is reached.
+                let least = if most.as_ref() == Some(factor) { Rational::ZERO } else { p.least_gap() };
+                (&request.gap * &share).max(least).min(request.gap.clone())
             };
             let factor = boxes.bracket(boxes.searched(budget)?, None, &gap, most.as_ref(), budget)?;
             let mut factor = truth.factor(p, factor, budget)?;

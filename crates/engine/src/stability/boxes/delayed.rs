@@ -266,7 +266,11 @@ impl DelayedLine<'_> {
             if middle <= lo || middle >= hi {
                 break;
             }
-            if self.at_approximate(middle).0 { lo = middle } else { hi = middle }
+            if self.at_approximate(middle).0 {
+                lo = middle
+            } else {
+                hi = middle
+            }
             halvings += 1;
         }
         [lo, hi]
@@ -302,10 +306,15 @@ impl Path for DelayedLine<'_> {
         if bits <= ROUGH_BITS {
             return Some((near, far));
         }
+        // A dead time may be zero: the line is good up to there.
+        let times = self.p.times.iter().filter_map(|time| {
+            let [f, _] = polynomials_on_line([time.numerator(), &MultiPoly::one()], &self.base, &self.step);
+            rational_zero(&f, &near, &far)
+        });
+        let near = times.min().filter(|t| self.is_good(t)).unwrap_or(near);
         // As much farther as rounding was off.
-        let beyond = std::iter::once(far.clone()).chain(
-            WIDENED.iter().map(|&bits| &far * &(&Rational::ONE + &Rational::dyadic(&Integer::ONE, bits))),
-        );
+        let beyond = std::iter::once(far.clone())
+            .chain(WIDENED.iter().map(|&bits| &far * &(&Rational::ONE + &Rational::dyadic(&Integer::ONE, bits))));
         let counted = beyond.clone().find(|t| self.p.seen_at(&self.point(t)) == Some(false));
         Some((near, counted.unwrap_or(far)))
     }

@@ -79,6 +79,10 @@ impl DelayedFunction {
                 return Ok(outcome);
             }
         }
+        // A corner is looked at in no time, and is where the limit often is.
+        if let Some(corner) = corners(whole).find_map(|point| self.refuted(point, reference)) {
+            return Ok(corner);
+        }
         let mut boxes = vec![whole.to_vec()];
         let mut stack = Vec::new();
         while let Some(sides) = boxes.pop() {
@@ -97,6 +101,12 @@ impl DelayedFunction {
         self.parts_proved(stack, (reference, scale), cells.min(MOST_PARTS), budget)
     }
 
+    /// A point that is not stable.
+    fn refuted(&self, point: Vec<Rational>, reference: &[Sign]) -> Option<Outcome> {
+        let is_lost = self.seems_lost_at(&point, reference) && self.seen_at(&point) == Some(false);
+        is_lost.then_some(Outcome::Refuted(point))
+    }
+
     fn parts_proved(
         &self,
         mut stack: Vec<Sides>,
@@ -104,10 +114,6 @@ impl DelayedFunction {
         most: usize,
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
-        let refuted = |point: Vec<Rational>| {
-            let is_lost = self.seems_lost_at(&point, reference) && self.seen_at(&point) == Some(false);
-            is_lost.then_some(Outcome::Refuted(point))
-        };
         let (mut parts, mut proved) = (0, 0);
         while let Some(sides) = stack.pop() {
             budget.check()?;
@@ -123,7 +129,7 @@ impl DelayedFunction {
                 Err(cell) => parameters(cell),
             };
             let mut points = [simplest_point(&last), middle(&last)].into_iter().chain(corners(&last));
-            let lost = if part.is_vague { None } else { points.find_map(refuted) };
+            let lost = if part.is_vague { None } else { points.find_map(|point| self.refuted(point, reference)) };
             drop(points);
             if let Some(outcome) = lost {
                 return Ok(outcome);
@@ -149,7 +155,10 @@ impl DelayedFunction {
         }
         let is_negative = |point: &Vec<Rational>| time.eval(point).is_some_and(|x| x.is_negative());
         let refuted = corners(sides).find(|point| is_negative(point) && self.seen_at(point) == Some(false));
-        let open = || Outcome::Open { why: "a dead time that may be negative, or less than that of the highest power of s", cell: sides.to_vec() };
+        let open = || Outcome::Open {
+            why: "a dead time that may be negative, or less than that of the highest power of s",
+            cell: sides.to_vec(),
+        };
         Some(refuted.map_or_else(open, Outcome::Refuted))
     }
 
@@ -282,7 +291,12 @@ impl DelayedFunction {
     }
 
     /// The number of cells that prove a part; else the cell in which that is not seen.
-    fn part_proved(&self, part: &Part, sides: &[[Rational; 2]], budget: &Budget) -> Result<Result<usize, Sides>, Exhausted> {
+    fn part_proved(
+        &self,
+        part: &Part,
+        sides: &[[Rational; 2]],
+        budget: &Budget,
+    ) -> Result<Result<usize, Sides>, Exhausted> {
         let m = sides.len() - 1;
         let axes: Vec<usize> = self.inside.iter().copied().chain([m]).collect();
         let mut local = sides.to_vec();

@@ -185,8 +185,7 @@ impl RoundedLoop {
             let point = self.at(&x);
             let (value, by_w) = (point.value(w).0, point.by_frequency(w));
             let moving = step.iter().enumerate().filter(|(_, s)| **s != 0.0);
-            let by_t =
-                moving.fold(Complex(0.0, 0.0), |sum, (i, s)| sum.plus(self.by_parameter(&x, w, i).scaled(*s)));
+            let by_t = moving.fold(Complex(0.0, 0.0), |sum, (i, s)| sum.plus(self.by_parameter(&x, w, i).scaled(*s)));
             let determinant = by_t.across(by_w);
             let (dw, dt) = (-by_t.across(value) / determinant, value.across(by_w) / determinant);
             if !dw.is_finite() || !dt.is_finite() {

@@ -34,9 +34,8 @@ pub(super) fn pruned(
     (most, kept_bits): (usize, &[u64]),
 ) -> Vec<Known> {
     let largest = |own: &[Term]| own.iter().map(|term| &term.size).max().cloned().unwrap_or(Integer::ZERO);
-    let stays = |term: &Term, least: &Integer| {
-        inside.iter().map(|&i| term.exponents[i]).sum::<u32>() < 2 || term.size > *least
-    };
+    let stays =
+        |term: &Term, least: &Integer| inside.iter().map(|&i| term.exponents[i]).sum::<u32>() < 2 || term.size > *least;
     let fits = |bits: &u64| {
         let mut degrees: Vec<u32> = Vec::new();
         for own in &sized {
