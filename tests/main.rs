@@ -7,6 +7,7 @@ mod helpers;
 mod laws {
     mod cancelled;
     mod dead_time;
+    mod disguised;
     mod fast_algebra;
     mod fast_isolation;
     mod fuzz_corpus;

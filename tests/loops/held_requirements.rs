@@ -143,3 +143,19 @@ fn the_program_says_for_which_gains_the_margin_is_there() {
     assert_eq!(document["stable"][0]["upper"]["requirement"], "phase_margin");
     assert!(document.get("undecided").is_none(), "{document}");
 }
+
+/// The gain 0, through which nothing comes back, is the simplest number between both limits.
+#[test]
+fn a_sample_at_which_nothing_comes_back_has_all_margins() {
+    let model = load(
+        "time = 'continuous'\n[parameters]\nK = { nominal = 1 }\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+         [[block]]\ninput = 'r - y'\noutput = 'u'\ntransfer = 'K'\n\
+         [[block]]\ninput = 'u'\noutput = 'y'\ntransfer = '100/(s^2 + 10*sqrt(2)*s + 100)^2'\n",
+    );
+    let requirement = Requirement::gain_margin(&number("2")).unwrap();
+    let problem = model.ask().free("K").problem().unwrap();
+    let set = problem.required_set(&[requirement], None, &Budget::unlimited()).unwrap().into_value();
+    let [interval] = set.intervals.as_slice() else { panic!("{set:?}") };
+    let ends = [&interval.lower, &interval.upper].map(|end| end.as_ref().unwrap().value().exact());
+    assert_eq!(ends, [Some(number("-50")), Some(number("100"))]);
+}

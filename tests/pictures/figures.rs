@@ -245,7 +245,10 @@ fn the_block_model_gives_the_circuit_and_the_matrix_model_the_sampled_loop() {
 fn pictures(mut see: impl FnMut(&str, &Model, &str, &DrawnLocus)) {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let mut names: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    // Of the drive with filters the one of order 8: twelve roots as fixed-point numbers take half of the time of all others.
+    let is_long = |name: &str| ["drive-filters-4", "drive-filters-6"].contains(&name);
     names.retain(|p| p.extension().is_some_and(|e| e == "toml"));
+    names.retain(|p| p.file_stem().is_some_and(|name| !is_long(&name.to_string_lossy())));
     names.sort();
     assert!(names.len() > 10);
     let budget = Budget::unlimited();

@@ -146,4 +146,10 @@ fn mistakes_of_beginners_have_remedies() {
     assert!(run.stderr.contains("UTF-16") && run.stderr.contains("Set-Content"), "{}", run.stderr);
     let run = jurist_with_input(&["verdict", "-"], good.replacen("r - y", "r + y", 1).as_bytes());
     assert!(run.stdout.contains("a real root beyond z = 1: is a sign of the feedback missing?"), "{}", run.stdout);
+    // So with a plant behind a hold, where the numbers are transcendental.
+    let held = good.replacen("\"0.1/(z-0.9)\"", "\"1/(s+1)\"\ndiscretize = { method = \"zoh\", T = 0.1 }", 1);
+    let [wrong, right] = [("r - y", "r + y"), ("r - y", "r - y")]
+        .map(|(from, to)| jurist_with_input(&["verdict", "-"], held.replacen(from, to, 1).as_bytes()));
+    assert!(wrong.stdout.contains("a real root beyond z = 1: is a sign"), "{held}: {}{}", wrong.stdout, wrong.stderr);
+    assert!(right.status == 0 && !right.stdout.contains("is a sign"), "{}", right.stdout);
 }

@@ -9,6 +9,7 @@
 //! [`MultiPoly::map_variables`] renames.
 
 mod beyond;
+mod common;
 mod definition;
 mod dominated;
 mod forms;
@@ -16,6 +17,7 @@ mod function;
 mod horner;
 mod moving;
 mod moving_root;
+mod norm;
 mod normal_form;
 mod pieces;
 mod rational_series;

@@ -6,12 +6,18 @@ use crate::ball::Ball;
 use crate::limits::{Budget, Exhausted};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::multivariate::is_square_free_in;
-use crate::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
+use crate::poly::real_roots::isolate_real_roots;
+use crate::poly::{
+    Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in, simplest_between,
+};
 use crate::real::{Real, Transcendental};
 use std::sync::Arc;
 
 /// Bits of the first attempt.
 const FIRST_BITS: u64 = 128;
+
+/// A rational number of so few bits in an interval as narrow is hardly there by chance.
+const CANDIDATE_BITS: u64 = 96;
 
 /// Bits after which roots are not told apart.
 const MOST_BITS: u64 = 1 << 13;
@@ -118,12 +124,37 @@ impl SymbolicPoly {
         let exact = isolate_real_roots_in(&self.algebraic, lower, upper, budget)?;
         let exact = exact.into_iter().map(Real::from).collect();
         let others = real_roots(&self.rest, &self.symbols, lower, upper, budget)?;
-        merged(exact, others, budget)
+        merged(exact, self.algebraic_where_known(others, budget)?, budget)
+    }
+
+    /// Roots of the factor with symbols as algebraic numbers, where the symbols are.
+    fn algebraic_where_known(&self, roots: Vec<Real>, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+        if roots.iter().all(|root| root.exact().is_some()) {
+            return Ok(roots);
+        }
+        let Some(norm) = self.symbols.norm_in_unknown(&self.rest, budget)? else { return Ok(roots) };
+        let Some(norm) = budget.enter(|| SquareFree::part_of(&norm))? else { return Ok(roots) };
+        let candidates: Vec<Real> = isolate_real_roots(&norm, budget)?.into_iter().map(Real::from).collect();
+        let identified = |root: Real| {
+            let mut at = root;
+            loop {
+                // Each root is one of the candidates.
+                let (lo, hi) = at.enclosure();
+                let inside = |x: &&Real| x.compare_rational(&lo).is_ge() && x.compare_rational(&hi).is_le();
+                let mut near = candidates.iter().filter(inside);
+                if let (Some(found), None) = (near.next(), near.next()) {
+                    return Ok(found.clone());
+                }
+                budget.check()?;
+                at = budget.enter(|| at.refined_further())?;
+            }
+        };
+        roots.into_iter().map(identified).collect()
     }
 }
 
 /// A polynomial in symbols as the table numbers them, without the unknown.
-fn of_symbols(p: &MultiPoly) -> MultiPoly {
+pub(super) fn of_symbols(p: &MultiPoly) -> MultiPoly {
     p.map_variables(|i| i.saturating_sub(1))
 }
 
@@ -216,21 +247,36 @@ pub fn enclosed_roots(
         let (lo, hi) = if mirrored { (-hi, -lo) } else { (lo, hi) };
         let place = Enclosure::new(lo, hi);
         let root = SymbolicRoot { of: Arc::clone(p), place: place.clone() };
-        Real::from(Transcendental::within(root, place))
+        rational_or(Transcendental::within(root, place), &**p, budget)
     };
     let mut out = Vec::new();
     if lower.is_none_or(Rational::is_negative) {
         let near = upper.filter(|u| u.is_negative()).map(|u| -u);
         let far = lower.map(|l| -l);
         let found = positive_roots(&**p, true, near.as_ref(), far.as_ref(), budget)?;
-        out.extend(found.into_iter().rev().map(|b| real(b, true)));
+        for bracket in found.into_iter().rev() {
+            out.push(real(bracket, true)?);
+        }
     }
     if upper.is_none_or(|u| u.sign().is_gt()) {
         let near = lower.filter(|l| l.sign().is_gt());
-        let found = positive_roots(&**p, false, near, upper, budget)?;
-        out.extend(found.into_iter().map(|b| real(b, false)));
+        for bracket in positive_roots(&**p, false, near, upper, budget)? {
+            out.push(real(bracket, false)?);
+        }
     }
     Ok(out)
+}
+
+/// The root as a rational number where it is one of few digits: polynomials over constants have such roots for reasons that only the
+/// constants' values show, as `sqrt(2)^2 = 2`.
+fn rational_or(root: Transcendental, p: &dyn EnclosedPoly, budget: &Budget) -> Result<Real, Exhausted> {
+    let near = budget.enter(|| root.refined(&Rational::dyadic(&Integer::ONE, CANDIDATE_BITS)))?;
+    let (lo, hi) = near.enclosure();
+    let bits = |x: &Rational| x.numerator().bit_length() + x.denominator().bit_length();
+    match simplest_between(&lo, &hi).filter(|x| bits(x) <= CANDIDATE_BITS) {
+        Some(x) if p.vanishes_at(&x, budget)? => Ok(Real::from(x)),
+        _ => Ok(Real::from(near)),
+    }
 }
 
 /// Brackets of the positive roots between `near` (0 where missing) and `far` (unbounded where missing), of `p(x)` or

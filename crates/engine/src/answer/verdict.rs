@@ -172,7 +172,14 @@ impl Problem {
                 budget.step("counting the roots");
                 match self.symbolic(budget)? {
                     None => AtPoint::Undefined,
-                    Some(p) => p.at(&Rational::ZERO, self.shape(), budget)?,
+                    Some(p) => {
+                        drifts = match p.has_odd_real_roots_beyond(&Rational::ZERO, self.shape(), budget) {
+                            // It is no more than a remark.
+                            Err(stopped) if stopped.budget.starts_with("precision") => false,
+                            found => found?,
+                        };
+                        p.at(&Rational::ZERO, self.shape(), budget)?
+                    }
                 }
             } else {
                 match self.parametric(budget)? {

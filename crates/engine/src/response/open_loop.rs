@@ -105,6 +105,15 @@ impl OpenLoop {
     /// # Panics
     /// When a parameter is free.
     pub fn of(problem: &Problem, at: Option<&str>, budget: &Budget) -> Result<OpenLoop, Error> {
+        let open_loop = OpenLoop::of_any(problem, at, budget)?;
+        if open_loop.over.is_open() {
+            return Err(nothing_comes_back(&open_loop.cut));
+        }
+        Ok(open_loop)
+    }
+
+    /// The same, also where nothing comes back, as at one value of a gain.
+    pub(super) fn of_any(problem: &Problem, at: Option<&str>, budget: &Budget) -> Result<OpenLoop, Error> {
         assert!(problem.free().is_empty(), "every parameter has a value");
         let model = problem.model();
         let cut = match (model.cut(at), at) {
@@ -126,11 +135,7 @@ impl OpenLoop {
                 (over, sample_time.and_then(|t| t.as_constant()))
             }
         };
-        let open_loop = OpenLoop { cut, shape, sample_time, over, dead_time };
-        if open_loop.over.is_open() {
-            return Err(nothing_comes_back(&open_loop.cut));
-        }
-        Ok(open_loop)
+        Ok(OpenLoop { cut, shape, sample_time, over, dead_time })
     }
 
     /// From its polynomials.

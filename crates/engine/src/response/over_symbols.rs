@@ -271,7 +271,7 @@ impl<'a> SymbolicFamily<'a> {
         budget: &Budget,
     ) -> Result<Vec<&'static str>, Error> {
         let problem = self.problem.with_value(value);
-        let open_loop = OpenLoop::of(&problem, self.at, budget)?;
+        let open_loop = OpenLoop::of_any(&problem, self.at, budget)?;
         let closed = UniPoly::zero();
         let mut here = AtPoint::new(Some(&open_loop), &closed, self.problem.shape());
         let mut out = Vec::new();

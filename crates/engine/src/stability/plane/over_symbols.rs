@@ -10,9 +10,9 @@ use crate::stability::{AtPoint, End, Range, Shape, SymbolicPolynomial, symbolic_
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly, resultant_formal};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, resultant_formal};
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::{Definition, Function, SymbolicPoly, Symbols, common_scale, merged};
+use jurist_algebra::symbols::{Function, SymbolicPoly, Symbols, common_scale, merged};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -96,32 +96,6 @@ impl OverSymbols {
     /// A polynomial in `x` as one over symbols.
     fn over_symbols(&self, f: &MultiPoly, budget: &Budget) -> Result<SymbolicPoly, Exhausted> {
         SymbolicPoly::new(&in_one(f, X), &self.symbols, budget)?.ok_or_else(coincide)
-    }
-
-    /// A polynomial that is zero wherever this one is, without the symbols that are algebraic numbers: its norm over them. Zeros that
-    /// coincide because of what these numbers are, as over a square root, have a common factor then.
-    fn norm(&self, f: &MultiPoly, budget: &Budget) -> Result<MultiPoly, Exhausted> {
-        let mut norm = f.clone();
-        for i in 0..self.symbols.len() {
-            let variable = i + 2;
-            let minimal = match self.symbols.definition(i) {
-                Definition::Algebraic(x) => x.polynomial().clone(),
-                Definition::Root(x) => match x.as_constant() {
-                    Some(x) => UniPoly::new(vec![-x.numerator(), Integer::ZERO, x.denominator()]),
-                    None => continue,
-                },
-                _ => continue,
-            };
-            let own = norm.as_poly_in(variable);
-            if own.degree().unwrap_or(0) == 0 {
-                continue;
-            }
-            let found = resultant(&own, &minimal.map(|c| MultiPoly::constant(c.clone())), budget)?;
-            if let Some(found) = found.filter(|found| !found.is_zero()) {
-                norm = found.primitive_over_integers();
-            }
-        }
-        Ok(norm)
     }
 
     /// The zeros of one of the polynomials in `x` that is not expanded.
@@ -269,7 +243,7 @@ impl Ground for OverSymbols {
         let nodes = Nodes::of(p, region, budget)?;
         let found: Result<Vec<Option<Vec<SymbolicPoly>>>, Exhausted> = parallel_map(wanted, |wanted| {
             let Some(parts) = self.projected(*wanted, curves, nodes.expanded(), budget)? else { return Ok(None) };
-            let part = |f: &MultiPoly| self.over_symbols(&self.norm(f, budget)?, budget);
+            let part = |f: &MultiPoly| self.over_symbols(&self.symbols.norm(f, 2, budget)?, budget);
             parts.iter().map(part).collect::<Result<Vec<_>, Exhausted>>().map(Some)
         });
         let found = found?;

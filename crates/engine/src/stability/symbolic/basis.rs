@@ -73,10 +73,61 @@ impl Boundary {
     }
 }
 
+/// How common and repeated zeros of conditions are found.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Way {
+    /// By factors over the symbols as variables; resultants with more terms are not expanded, and have simple zeros.
+    Expanding(u64),
+    /// By Euclid's algorithm over the numbers that the symbols stand for: zeros may coincide because of what these numbers are.
+    OverNumbers,
+}
+
+impl Way {
+    /// Asks in one way after the other, as long as zeros are not told apart: resultants with more than `most` terms are first not expanded.
+    pub fn in_order<R>(
+        symbols: &Symbols,
+        most: u64,
+        ask: impl Fn(Way) -> Result<R, Exhausted>,
+    ) -> Result<R, Exhausted> {
+        let ways = [Way::Expanding(most), Way::Expanding(u64::MAX), Way::OverNumbers];
+        // Zeros are algebraic numbers where all constants are, which only an expanded polynomial tells.
+        let first = usize::from(symbols.are_algebraic());
+        let mut stopped = None;
+        for &way in &ways[first..] {
+            match ask(way) {
+                Err(precision) if precision.budget.starts_with("precision") => stopped = stopped.or(Some(precision)),
+                found => return found,
+            }
+        }
+        Err(stopped.expect("each way has ended"))
+    }
+
+    /// How many terms of a resultant are expanded.
+    pub fn most_expanded(self) -> u64 {
+        if let Way::Expanding(most) = self { most } else { u64::MAX }
+    }
+
+    /// The conditions split in this way; those of [`Way::OverNumbers`] are square-free, and all expanded.
+    pub fn split(
+        self,
+        expanded: Vec<(Cause, SymbolicPoly)>,
+        enclosed: Vec<(Cause, Arc<dyn Unexpanded>)>,
+        symbols: &Arc<Symbols>,
+        budget: &Budget,
+    ) -> Result<Split, Exhausted> {
+        match self {
+            Way::Expanding(_) => Split::new(expanded, enclosed, symbols, budget),
+            Way::OverNumbers => Split::over_numbers(expanded, symbols, budget),
+        }
+    }
+}
+
 /// The boundary conditions, and the pairwise coprime polynomials they are made of.
 pub(super) struct Split {
     pub boundaries: Vec<Boundary>,
     basis: Vec<Condition>,
+    /// Whether the basis has the boundaries' factors without symbols too.
+    is_whole: bool,
 }
 
 /// A zero of the boundary polynomials, and from which polynomial of the basis it comes.
@@ -87,7 +138,7 @@ pub(super) struct Zero {
 
 impl Split {
     /// Conditions as products of pairwise coprime polynomials; those that are not expanded stand for themselves, as the last ones.
-    pub fn new(
+    fn new(
         expanded: Vec<(Cause, SymbolicPoly)>,
         enclosed: Vec<(Cause, Arc<dyn Unexpanded>)>,
         symbols: &Arc<Symbols>,
@@ -118,14 +169,41 @@ impl Split {
             });
             basis.push(Condition::Enclosed(condition));
         }
-        Ok(Split { boundaries, basis })
+        Ok(Split { boundaries, basis, is_whole: false })
+    }
+
+    /// The same where two polynomials may have a zero in common without a common factor over the symbols as variables.
+    fn over_numbers(
+        expanded: Vec<(Cause, SymbolicPoly)>,
+        symbols: &Arc<Symbols>,
+        budget: &Budget,
+    ) -> Result<Split, Exhausted> {
+        let whole = |p: &SymbolicPoly| p.rest().times(&MultiPoly::from_univariate(p.algebraic().poly(), 0));
+        let polynomials: Vec<MultiPoly> = expanded.iter().map(|(_, p)| whole(p)).collect();
+        let parts = symbols.coprime_basis(&polynomials, budget)?;
+        let mut boundaries = Vec::with_capacity(expanded.len());
+        for ((cause, polynomial), own) in expanded.into_iter().zip(&polynomials) {
+            let mut divisors = Vec::new();
+            for (k, part) in parts.iter().enumerate() {
+                if symbols.have_common_zero(own, part, budget)? {
+                    divisors.push(k);
+                }
+            }
+            boundaries.push(Boundary { cause, condition: Condition::Symbolic(polynomial), parts: divisors });
+        }
+        let of_part = |part: &MultiPoly| {
+            let part = SymbolicPoly::new(part, symbols, budget)?.expect("a factor of what is not zero");
+            Ok(Condition::Symbolic(part))
+        };
+        let basis = parts.iter().map(of_part).collect::<Result<_, Exhausted>>()?;
+        Ok(Split { boundaries, basis, is_whole: true })
     }
 
     /// All zeros in the range, ascending.
     pub fn zeros(&self, range: &Range, budget: &Budget) -> Result<Vec<Zero>, Exhausted> {
         let (lower, upper) = (range.lower.as_ref(), range.upper.as_ref());
         let mut all: Vec<Real> = Vec::new();
-        for boundary in &self.boundaries {
+        for boundary in self.boundaries.iter().filter(|_| !self.is_whole) {
             let Condition::Symbolic(polynomial) = &boundary.condition else { continue };
             let roots = isolate_real_roots_in(polynomial.algebraic(), lower, upper, budget)?;
             all = merged(all, roots.into_iter().map(Real::from).collect(), budget)?;

@@ -1,6 +1,6 @@
 //! The classical conditions of a loop over symbols, each solved for the parameter.
 
-use super::basis::{Boundary, Split, Unexpanded};
+use super::basis::{Boundary, Split, Unexpanded, Way};
 use super::jury::Comparison;
 use super::minors::{EnclosedMinor, Minor};
 use super::rows::{Asked, EnclosedRows, SymbolicRow, enclosed_rows, plus, shown, times};
@@ -131,28 +131,24 @@ impl SymbolicPolynomial {
         digits: usize,
         budget: &Budget,
     ) -> Result<SymbolicTest, Exhausted> {
-        match self.classical_test_with(range, region, digits, MOST_EXPANDED, budget) {
-            // Zeros that coincide show in expanded determinants.
-            Err(stopped) if stopped.budget.starts_with("precision") => {
-                self.classical_test_with(range, region, digits, u64::MAX, budget)
-            }
-            found => found,
-        }
+        let Table::Fixed(symbols) = &self.symbols else { panic!("symbols depend on the parameter") };
+        // Zeros that coincide show in expanded determinants.
+        Way::in_order(symbols, MOST_EXPANDED, |way| self.classical_test_with(range, region, digits, way, budget))
     }
 
-    /// The same as [`SymbolicPolynomial::classical_test`]; determinants with no more than `most` terms are expanded.
+    /// The same as [`SymbolicPolynomial::classical_test`], in one way.
     pub(super) fn classical_test_with(
         &self,
         range: &Range,
         region: Shape,
         digits: usize,
-        most: u64,
+        way: Way,
         budget: &Budget,
     ) -> Result<SymbolicTest, Exhausted> {
         let Table::Fixed(symbols) = &self.symbols else { panic!("symbols depend on the parameter") };
         budget.step("the conditions");
         let conditions = self.stated_conditions(symbols, region, budget)?;
-        let (solved, degrees) = solved(self, &conditions, symbols, range, most, budget)?;
+        let (solved, degrees) = solved(self, &conditions, symbols, range, way, budget)?;
         budget.step("the table");
         let divisors = conditions.divisors.iter().map(|of| of.iter().map(|&f| degrees[f]).sum()).collect();
         let asked = Asked { region, rows: conditions.rows, divisors, digits };
@@ -227,7 +223,8 @@ struct Cutting {
     degrees: Vec<usize>,
 }
 
-fn cutting(functions: &[Minor], symbols: &Arc<Symbols>, most: u64, budget: &Budget) -> Result<Cutting, Exhausted> {
+fn cutting(functions: &[Minor], symbols: &Arc<Symbols>, way: Way, budget: &Budget) -> Result<Cutting, Exhausted> {
+    let most = way.most_expanded();
     let short = |f: &Minor| f.expanded_size() <= most;
     let most = if functions.iter().all(short) || seem_simple(functions, most, budget)? { most } else { u64::MAX };
     let mut expanded = Vec::new();
@@ -244,8 +241,11 @@ fn cutting(functions: &[Minor], symbols: &Arc<Symbols>, most: u64, budget: &Budg
             enclosed.push((Cause::Undecided, Arc::new(minor)));
             continue;
         }
-        let polynomial = f.expanded(budget)?;
+        let mut polynomial = f.expanded(budget)?;
         degrees.push(degree(&polynomial, symbols, budget)?);
+        if let Way::OverNumbers = way {
+            polynomial = symbols.square_free_part(&polynomial, budget)?;
+        }
         match SymbolicPoly::new(&polynomial, symbols, budget)? {
             Some(polynomial) => {
                 places.push(Some((false, expanded.len())));
@@ -255,7 +255,7 @@ fn cutting(functions: &[Minor], symbols: &Arc<Symbols>, most: u64, budget: &Budg
         }
     }
     let first_enclosed = expanded.len();
-    let split = Split::new(expanded, enclosed, symbols, budget)?;
+    let split = way.split(expanded, enclosed, symbols, budget)?;
     let index = |(is_enclosed, at): (bool, usize)| if is_enclosed { first_enclosed + at } else { at };
     Ok(Cutting { split, places: places.into_iter().map(|place| place.map(index)).collect(), degrees })
 }
@@ -310,7 +310,7 @@ fn solved(
     conditions: &Conditions,
     symbols: &Arc<Symbols>,
     range: &Range,
-    most: u64,
+    way: Way,
     budget: &Budget,
 ) -> Result<(Solutions, Vec<usize>), Exhausted> {
     let functions = &conditions.functions;
@@ -320,7 +320,7 @@ fn solved(
         // A polynomial without conditions is stable where it is not zero.
         all.push(Minor::of(p.polynomial.coeff(0)));
     }
-    let Cutting { split, places, degrees } = cutting(&all, symbols, most, budget)?;
+    let Cutting { split, places, degrees } = cutting(&all, symbols, way, budget)?;
     budget.step("isolating the zeros of the conditions");
     let zeros = split.zeros(range, budget)?;
     let vanishing = |zero| split.boundaries.iter().map(|b: &Boundary| b.has(zero, budget)).collect();

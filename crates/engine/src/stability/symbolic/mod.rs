@@ -196,6 +196,39 @@ impl SymbolicPolynomial {
         count::at_point(coefficients, self.formal_degree, &symbols, region, budget)
     }
 
+    /// Whether an odd number of real roots lies beyond the point where the real axis leaves the region to the right, at a value
+    /// of the parameter where the loop is defined.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out, and where a sign is not found.
+    pub fn has_odd_real_roots_beyond(
+        &self,
+        value: &Rational,
+        region: Shape,
+        budget: &Budget,
+    ) -> Result<bool, Exhausted> {
+        let symbols = match &self.symbols {
+            Table::Fixed(symbols) => Arc::clone(symbols),
+            Table::Moving(symbols) => match symbols.at(value) {
+                Some(symbols) => Arc::new(symbols),
+                None => return Ok(false),
+            },
+        };
+        let coefficients = budget.enter(|| common_scale(self.polynomial.coeffs(), value))?;
+        let at_end = match region {
+            Shape::UnitDisc => coefficients.iter().fold(MultiPoly::zero(), |sum, c| sum.plus(c)),
+            Shape::LeftHalfPlane => coefficients.first().cloned().unwrap_or_default(),
+        };
+        let at_end = symbols.sign(&at_end, budget)?;
+        for lead in coefficients.iter().rev() {
+            let lead = symbols.sign(lead, budget)?;
+            if lead.is_ne() {
+                return Ok(at_end.is_ne() && at_end != lead);
+            }
+        }
+        Ok(false)
+    }
+
     /// The boundary conditions; `None` where one of them holds for every value of the parameter because it is zero, or the
     /// degree is not reached. The resultant is expanded where it has no more than `most` terms.
     fn conditions(&self, region: Shape, most: u64, budget: &Budget) -> Result<Option<Vec<Condition>>, Exhausted> {

@@ -1,6 +1,6 @@
 //! The exact set of stable parameter values of a loop with transcendental constants.
 
-use super::basis::{Boundary, Split, Unexpanded, Zero};
+use super::basis::{Boundary, Split, Unexpanded, Way, Zero};
 use super::moving::moving_stable_set;
 use super::pair::{Common, CommonRoots, Pair, Values};
 use super::resultant::PairResultant;
@@ -35,25 +35,20 @@ pub fn symbolic_stable_set(
         Table::Fixed(symbols) => symbols,
         Table::Moving(symbols) => return moving_stable_set(p, symbols, range, region, budget),
     };
-    match set_over(p, symbols, range, region, MOST_EXPANDED, budget) {
-        // Zeros that coincide, or a resultant that is zero, show in its expansion.
-        Err(stopped) if stopped.budget.starts_with("precision") => {
-            set_over(p, symbols, range, region, u64::MAX, budget)
-        }
-        found => found,
-    }
+    // Zeros that coincide, or a resultant that is zero, show in its expansion.
+    Way::in_order(symbols, MOST_EXPANDED, |way| set_over(p, symbols, range, region, way, budget))
 }
 
-/// The stable set; resultants with no more than `most` terms are expanded.
+/// The stable set, found in one way.
 pub(super) fn set_over(
     p: &SymbolicPolynomial,
     symbols: &Arc<Symbols>,
     range: &Range,
     region: Shape,
-    most: u64,
+    way: Way,
     budget: &Budget,
 ) -> Result<StableSet, Exhausted> {
-    let Some(split) = boundaries(p, symbols, region, most, budget)? else {
+    let Some(split) = boundaries(p, symbols, region, way, budget)? else {
         return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
     };
     budget.step("isolating the boundaries' zeros");
@@ -136,16 +131,19 @@ fn boundaries(
     p: &SymbolicPolynomial,
     symbols: &Arc<Symbols>,
     region: Shape,
-    most: u64,
+    way: Way,
     budget: &Budget,
 ) -> Result<Option<Split>, Exhausted> {
-    let Some(conditions) = p.conditions(region, most, budget)? else { return Ok(None) };
+    let Some(conditions) = p.conditions(region, way.most_expanded(), budget)? else { return Ok(None) };
     let mut expanded: Vec<(Cause, SymbolicPoly)> = Vec::new();
     let mut enclosed: Vec<(Cause, Arc<dyn Unexpanded>)> = Vec::new();
     for (cause, function) in conditions {
         budget.check()?;
         match function {
-            Function::Polynomial(polynomial) => {
+            Function::Polynomial(mut polynomial) => {
+                if let Way::OverNumbers = way {
+                    polynomial = symbols.square_free_part(&polynomial, budget)?;
+                }
                 let Some(polynomial) = SymbolicPoly::new(&polynomial, symbols, budget)? else { return Ok(None) };
                 expanded.push((cause, polynomial));
             }
@@ -155,7 +153,7 @@ fn boundaries(
             }
         }
     }
-    Split::new(expanded, enclosed, symbols, budget).map(Some)
+    way.split(expanded, enclosed, symbols, budget).map(Some)
 }
 
 /// A rational number inside of a cell.

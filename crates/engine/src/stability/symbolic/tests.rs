@@ -1,4 +1,5 @@
 use super::basis::Unexpanded;
+use super::basis::Way;
 use super::set::set_over;
 use super::*;
 use crate::stability::{End, Range, RootCount, StableSet};
@@ -259,7 +260,9 @@ fn limits_by_enclosed_resultants_are_those_by_expanded_ones() {
     for order in [2, 3, 4, 4, 5, 6] {
         let p = random_loop(order, &mut seed);
         let Table::Fixed(symbols) = &p.symbols else { unreachable!() };
-        let by = |most| set_over(&p, symbols, &Range::all(), Shape::UnitDisc, most, &Budget::unlimited()).unwrap();
+        let by = |most| {
+            set_over(&p, symbols, &Range::all(), Shape::UnitDisc, Way::Expanding(most), &Budget::unlimited()).unwrap()
+        };
         let (enclosed, expanded) = (by(0), by(u64::MAX));
         assert_eq!(ends(&enclosed, 25), ends(&expanded, 25), "order {order}");
         limits += ends(&enclosed, 3).len();
@@ -281,7 +284,9 @@ fn zeros_at_either_end_of_an_enclosed_resultant_are_known() {
     let pair = Arc::new(pair::Pair::of(&p.pair(Shape::UnitDisc)));
     let resultant = resultant::PairResultant::new(&pair, symbols, &Budget::unlimited()).unwrap();
     assert!(resultant.vanishes_at_zero());
-    let by = |most| set_over(&p, symbols, &Range::all(), Shape::UnitDisc, most, &Budget::unlimited()).unwrap();
+    let by = |most| {
+        set_over(&p, symbols, &Range::all(), Shape::UnitDisc, Way::Expanding(most), &Budget::unlimited()).unwrap()
+    };
     assert_eq!(ends(&by(0), 25), ends(&by(u64::MAX), 25));
     assert!(!by(0).is_empty());
 }

@@ -1,3 +1,4 @@
+use super::basis::Way;
 use super::{RealIntervals, SymbolicPolynomial, SymbolicTest};
 use crate::model::{Model, ParameterBuilder, Time};
 use crate::stability::{IntervalSet, ParametricPolynomial, Range, Shape, Table, classical_test, symbolic_stable_set};
@@ -26,7 +27,7 @@ fn region(time: Time) -> Shape {
 
 fn test_of(characteristic: &str, time: Time, most: u64) -> SymbolicTest {
     let p = polynomial(characteristic, time);
-    p.classical_test_with(&Range::all(), region(time), 20, most, &Budget::unlimited()).unwrap()
+    p.classical_test_with(&Range::all(), region(time), 20, Way::Expanding(most), &Budget::unlimited()).unwrap()
 }
 
 /// `exp(-1)`.
@@ -90,7 +91,7 @@ fn conditions_are_those_of_the_exact_table_in_a_scaled_parameter() {
             symbols.insert("X", Definition::exponential(-1));
             let p = SymbolicPolynomial::new(&d, 1, &Arc::new(symbols));
             for most in [0, u64::MAX] {
-                let test = p.classical_test_with(&range, region, 20, most, &budget).unwrap();
+                let test = p.classical_test_with(&range, region, 20, Way::Expanding(most), &budget).unwrap();
                 assert_eq!(test.conditions.len(), exact.conditions.len());
                 for (found, condition) in test.conditions.iter().zip(&exact.conditions) {
                     assert_eq!(found.name, condition.name);
@@ -213,4 +214,16 @@ fn zeros_in_common_are_one_end() {
     let real = |end: &Option<crate::stability::End>| end.as_ref().map(|end| end.value.clone());
     let intervals = set.intervals().iter().map(|i| [real(&i.lower), real(&i.upper)]).collect();
     assert!(test.intersection.agree(&RealIntervals { intervals }, 200) && !test.intersection.intervals.is_empty());
+}
+
+/// Zeros that are double, and in common, because `sqrt(2)^2` is 2.
+#[test]
+fn zeros_in_common_by_what_the_constants_are_are_one_end() {
+    let p = polynomial("z^2 - 2*sqrt(2)*K*z + 2*K^2", Time::Discrete);
+    let test = p.classical_test(&Range::all(), Shape::UnitDisc, 20, &Budget::unlimited()).unwrap();
+    let [all] = &test.intersection.intervals[..] else { panic!("one interval") };
+    let ends = all.each_ref().map(|end| end.as_ref().unwrap().decimal(12));
+    assert_eq!(ends, ["-0.707106781187", "0.707106781187"]);
+    // The first condition touches zero.
+    assert_eq!(test.conditions[0].solution.intervals.len(), 2);
 }
