@@ -216,10 +216,10 @@ fn multiples_and_quotients_of_parameters_are_dead_times() {
 #[test]
 fn a_lost_degree_ends_the_factor() {
     let model = function("T = { nominal = 1 }\nK = { nominal = 0.5 }", "T*s + 1 + K*exp(-s)");
-    let answer = asked(&model, &[("T", "10%"), ("K", "1%")], "1e-3");
+    let answer = asked(&model, &[("T", "10%")], "1e-2");
     assert!(answer.value().decision.is_stable());
     let factor = answer.value().factor.as_ref().unwrap();
-    assert!(factor.lower > number("9.98") && factor.lower < number("10"), "{}", factor.lower);
+    assert!(factor.lower > number("9.8") && factor.lower < number("10"), "{}", factor.lower);
     assert!(factor.upper.as_ref().is_none_or(|upper| *upper >= number("9.99")));
 }
 
@@ -227,10 +227,10 @@ fn a_lost_degree_ends_the_factor() {
 #[test]
 fn a_loop_of_neutral_type_ends_with_its_difference_operator() {
     let model = function("K = { nominal = 0.5 }\nx = { nominal = 1 }", "s + K*s*exp(-x*s) + 1");
-    let answer = asked(&model, &[("K", "10%"), ("x", "10%")], "1e-3");
+    let answer = asked(&model, &[("K", "10%")], "1e-2");
     assert!(answer.value().decision.is_stable());
     let factor = answer.value().factor.as_ref().unwrap();
-    assert!(factor.lower < number("10"), "{}", factor.lower);
+    assert!(number("8") < factor.lower && factor.lower < number("10"), "{}", factor.lower);
     assert!(factor.witness.iter().all(|witness| verdict_at(&answer, &witness.point).unwrap() != Verdict::Stable));
 }
 

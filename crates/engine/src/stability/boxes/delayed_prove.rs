@@ -39,6 +39,9 @@ const CELLS_IN_PART: usize = 300;
 /// Nothing is known of `exp(-i w tau)` but its modulus where its argument is farther from that in the middle, in quarters.
 const FARTHEST: i64 = 6;
 
+/// A part is not halved more often along one parameter.
+const MOST_HALVINGS: u64 = 40;
+
 /// Parts of the parameters alone, cut where the highest power of `s` may not outweigh the others.
 const MOST_BOXES: usize = 64;
 
@@ -98,7 +101,7 @@ impl DelayedFunction {
             };
             boxes.extend(halved(sides, axis));
         }
-        self.parts_proved(stack, (reference, scale), cells.min(MOST_PARTS), budget)
+        self.parts_proved(stack, whole, (reference, scale), cells.min(MOST_PARTS), budget)
     }
 
     /// A point that is not stable.
@@ -110,10 +113,12 @@ impl DelayedFunction {
     fn parts_proved(
         &self,
         mut stack: Vec<Sides>,
+        whole: &[[Rational; 2]],
         (reference, scale): (&[Sign], i64),
         most: usize,
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
+        let narrowest = Rational::dyadic(&Integer::ONE, MOST_HALVINGS);
         let (mut parts, mut proved) = (0, 0);
         while let Some(sides) = stack.pop() {
             budget.check()?;
@@ -135,7 +140,9 @@ impl DelayedFunction {
                 return Ok(outcome);
             }
             let why = (parts + stack.len() > most).then_some("too many cells");
-            let axes = (0..sides.len()).filter(|&i| sides[i][0] < sides[i][1]);
+            let width = |[low, high]: &[Rational; 2]| high - low;
+            let least = |i: usize| whole.get(i).map_or(Rational::ZERO, |side| width(side) * narrowest.clone());
+            let axes = (0..sides.len()).filter(|&i| width(&sides[i]) > least(i));
             let axis = axes.max_by(|&i, &j| (&part.scores[i], j).cmp(&(&part.scores[j], i)));
             let Some(axis) = axis.filter(|&i| why.is_none() && !part.scores[i].is_zero()) else {
                 return Ok(Outcome::Open { why: why.unwrap_or("a cell too small"), cell: last });

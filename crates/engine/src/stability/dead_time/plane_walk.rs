@@ -140,7 +140,9 @@ impl PlaneFunction {
         let least = top.abs() - spread - slack(self.order);
         let mut sums: Vec<Rational> = (0..self.order).map(slack).chain([Rational::ZERO]).collect();
         for (k, part) in sizes.iter().enumerate() {
-            for (j, (middle, spread)) in part.iter().enumerate().filter(|(j, _)| (k, *j) != (0, self.order)) {
+            // Beyond the order all coefficients are zero.
+            let own = part.iter().enumerate().take(self.order + 1);
+            for (j, (middle, spread)) in own.filter(|(j, _)| (k, *j) != (0, self.order)) {
                 sums[j] += middle.abs() + spread;
             }
         }
