@@ -260,7 +260,7 @@ fn a_limit_holds_for_all_values_of_the_others() {
 
 #[test]
 fn what_is_not_asked_of_dead_time_is_refused() {
-    let all = request(&[("T", "5%")], "1e-3");
+    let all = request(&[("T", "5%"), ("K", "5%")], "1e-3");
     for request in [all.clone().exact(), all.clone().volume(number("0.01"))] {
         match first_order().ask().tolerance(&request, &Budget::unlimited()) {
             Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, "E-tolerance"),
