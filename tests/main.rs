@@ -71,6 +71,7 @@ mod maps {
 
 /// Any number of parameters: boxes of tolerances.
 mod tolerances {
+    mod dead_time;
     mod degenerate;
     mod held;
     mod hostile;

@@ -44,7 +44,7 @@ fn at(p: &PlanePolynomial, x: &Rational, y: &Rational, region: Shape) -> (bool, 
         AtPoint::Defined { count, infinite } => {
             (infinite == 0 && count.inside == p.formal_degree(), Some(count.outside + infinite))
         }
-        AtPoint::Undefined | AtPoint::Zero => (false, None),
+        AtPoint::Undefined | AtPoint::Zero | AtPoint::Delayed { .. } => (false, None),
     }
 }
 

@@ -38,7 +38,9 @@ const MOST_SAMPLES: usize = 20_000;
 /// [`Error::Stopped`] when the budget runs out.
 pub fn tolerance_figure(answer: &Answer<ToleranceAnswer>, budget: &Budget) -> Result<Figure, Error> {
     let mut parts: Vec<Figure> = bars(answer).into_iter().collect();
-    if let Some(worst) = &answer.value().worst {
+    // Of a loop with dead time there is no locus.
+    let has_dead_time = !answer.problem().algebra_over_symbols(budget)?.symbols().delays().is_empty();
+    if let Some(worst) = answer.value().worst.as_ref().filter(|_| !has_dead_time) {
         let end = worst.end.value.refined_to_digits(6).enclosure().1;
         let is_rational = worst.problem.algebra_over_symbols(budget)?.symbols().is_empty();
         let beyond = if is_rational { Rational::new(6.into(), 5.into()) } else { Rational::new(17.into(), 16.into()) };

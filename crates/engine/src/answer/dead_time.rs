@@ -1,6 +1,6 @@
 //! Answers about loops with dead time.
 
-use super::verdict::{PointVerdict, Verdict};
+use super::verdict::PointVerdict;
 use crate::error::Error;
 use crate::problem::{BaseDelay, DelayedLoop, Problem, refused};
 use crate::stability::dead_time::{
@@ -25,14 +25,9 @@ pub(super) fn verdict(problem: &Problem, delayed: &DelayedLoop, budget: &Budget)
         None => None,
     };
     let Some(count) = count else {
-        return Ok(PointVerdict::with_dead_time(Verdict::Unstable, degree, 0, None));
+        return Ok(PointVerdict::with_dead_time(degree, 0, None));
     };
-    let verdict = match (count.right, count.on) {
-        (Some(0), 0) => Verdict::Stable,
-        (Some(0), _) => Verdict::Marginal,
-        _ => Verdict::Unstable,
-    };
-    Ok(PointVerdict::with_dead_time(verdict, degree, count.on, count.right))
+    Ok(PointVerdict::with_dead_time(degree, count.on, count.right))
 }
 
 fn not_counted(reason: NotCounted) -> Error {
@@ -54,14 +49,20 @@ pub(super) fn stable_set(problem: &Problem, delayed: &DelayedLoop, budget: &Budg
     }
     let from_the_axis = delayed.decay().is_zero();
     match delayed.delay() {
-        BaseDelay::Line { slope, offset } if from_the_axis && delayed.degree_in_parameter() == 0 => {
+        BaseDelay::Line { slope, offset }
+            if from_the_axis && delayed.degree_in_parameter() == 0 && slope.sign().is_gt() =>
+        {
             windows(delayed, domain, slope, offset, budget)
         }
         BaseDelay::Line { slope, offset } => {
             // A dead time is not negative, whatever the domain says.
             let zero = -offset / slope;
-            let lower = domain.lower.as_ref().map_or(zero.clone(), |l| l.clone().max(zero.clone()));
-            let domain = Range { lower: Some(lower), upper: domain.upper.clone() };
+            let Range { mut lower, mut upper } = domain.clone();
+            match slope.sign().is_gt() {
+                true => lower = Some(lower.map_or(zero.clone(), |lower| lower.max(zero))),
+                false => upper = Some(upper.map_or(zero.clone(), |upper| upper.min(zero))),
+            }
+            let domain = Range { lower, upper };
             anywhere(problem, delayed, &domain, budget)
         }
         BaseDelay::Number(_) => match delayed.gain_loop().filter(|_| from_the_axis) {

@@ -199,7 +199,7 @@ impl Answer<Map> {
                     AtPoint::Defined { count, infinite } => {
                         (infinite == 0 && count.inside == p.formal_degree(), count.outside + infinite)
                     }
-                    AtPoint::Undefined | AtPoint::Zero => (false, p.formal_degree()),
+                    AtPoint::Undefined | AtPoint::Zero | AtPoint::Delayed { .. } => (false, p.formal_degree()),
                 });
             }
             Ok(Some(cells))

@@ -96,7 +96,12 @@ pub struct DelayedRoots {
 
 impl PointVerdict {
     /// The verdict on a loop with dead time.
-    pub(super) fn with_dead_time(verdict: Verdict, degree: usize, on: usize, right: Option<usize>) -> PointVerdict {
+    pub(super) fn with_dead_time(degree: usize, on: usize, right: Option<usize>) -> PointVerdict {
+        let verdict = match (right, on) {
+            (Some(0), 0) => Verdict::Stable,
+            (Some(0), _) => Verdict::Marginal,
+            _ => Verdict::Unstable,
+        };
         let delayed = Some(DelayedRoots { on, right });
         PointVerdict { verdict, undefined: None, degree, count: None, infinite: 0, delayed, drifts: false }
     }
@@ -104,6 +109,7 @@ impl PointVerdict {
     /// The verdict where the polynomial of this formal degree has these roots.
     pub(crate) fn of(at: AtPoint, degree: usize) -> PointVerdict {
         let (verdict, count, infinite) = match at {
+            AtPoint::Delayed { on, right } => return PointVerdict::with_dead_time(degree, on, right),
             AtPoint::Undefined => (Verdict::Undefined, None, 0),
             AtPoint::Zero => (Verdict::Unstable, Some(RootCount::default()), degree),
             AtPoint::Defined { count, infinite } => {

@@ -27,9 +27,9 @@ pub struct DelayedLoop {
 pub enum BaseDelay {
     /// A positive number.
     Number(Rational),
-    /// `slope p + offset` in the free parameter, with a positive slope.
+    /// `slope p + offset` in the free parameter.
     Line {
-        /// The slope.
+        /// The slope, not zero.
         slope: Rational,
         /// The value at zero.
         offset: Rational,
@@ -38,7 +38,7 @@ pub enum BaseDelay {
 
 /// The refusal of a question that is not known of loops with dead time.
 pub(crate) fn not_known() -> Error {
-    let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, map by boxes, report";
+    let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, map by boxes, tolerance, report";
     refused("this cannot be asked of a loop with dead time yet", help)
 }
 
@@ -241,10 +241,10 @@ fn base_delay(delays: &[(usize, RationalFunction)]) -> Result<(BaseDelay, Vec<us
         (n.degree() == Some(1)).then(|| (over(n.coeff(1)), over(n.coeff(0))))
     };
     match line() {
-        Some((slope, offset)) if slope.sign().is_gt() => Ok((BaseDelay::Line { slope, offset }, powers)),
-        _ => {
-            let help = "the parameter may enter a dead time as a*p + b with a positive number a";
-            Err(refused("the dead time is not a rising straight line in the free parameter", help))
+        Some((slope, offset)) => Ok((BaseDelay::Line { slope, offset }, powers)),
+        None => {
+            let help = "the parameter may enter a dead time as a*p + b with numbers a and b";
+            Err(refused("the dead time is not a straight line in the free parameter", help))
         }
     }
 }

@@ -5,6 +5,7 @@
 
 mod by_samples;
 mod delayed;
+mod delayed_family;
 mod delayed_plane;
 mod evaluation;
 mod over_symbols;

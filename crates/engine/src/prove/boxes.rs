@@ -45,7 +45,7 @@ impl Answer<ToleranceAnswer> {
         budget.step("certificate");
         let (problem, value) = (self.problem(), self.value());
         refuse_requirements(problem)?;
-        if problem.delayed(budget)?.is_some() || is_held(problem, budget)? {
+        if is_held(problem, budget)? {
             return Err(no_certificate("no certificate of a box: the loop has constants that are not rational"));
         }
         let witness = value.factor.as_ref().and_then(|factor| factor.witness.as_ref()).or(match &value.decision {
@@ -165,7 +165,7 @@ fn still(side: &Side) -> Side {
 /// A point that is not stable, and the least factor whose box holds it.
 fn beyond(witness: &Witness, sides: &[Side], degree: usize) -> Value {
     let (count, infinite) = match &witness.at {
-        AtPoint::Undefined => (RootCount::default(), 0),
+        AtPoint::Undefined | AtPoint::Delayed { .. } => (RootCount::default(), 0),
         AtPoint::Zero => (RootCount::default(), degree),
         AtPoint::Defined { count, infinite } => (*count, *infinite),
     };

@@ -43,7 +43,7 @@ pub(super) fn of_set(answer: &Answer<StableSet>, delayed: &DelayedLoop, budget: 
     let BaseDelay::Line { slope, offset } = delayed.delay() else {
         return gain::of_set(answer, delayed, budget);
     };
-    if !offset.is_zero() || delayed.degree_in_parameter() > 0 || !delayed.poles().is_empty() {
+    if !offset.is_zero() || slope.is_negative() || delayed.degree_in_parameter() > 0 || !delayed.poles().is_empty() {
         return Err(no_certificate("no certificate: the dead time is not a multiple of the parameter"));
     }
     if !answer.value().undecided().is_empty() {

@@ -190,6 +190,11 @@ impl Shown<'_> {
                 format!(", {n} {} outside just beyond", if n == 1 { "root" } else { "roots" })
             }
             AtPoint::Defined { count, .. } if count.on > 0 => format!(", {} on the boundary there", count.on),
+            AtPoint::Delayed { right: Some(n @ 1..), .. } => {
+                format!(", {n} {} to the right just beyond", if *n == 1 { "root" } else { "roots" })
+            }
+            AtPoint::Delayed { on: 1.., right: Some(0) } => ", on the boundary there".to_owned(),
+            AtPoint::Delayed { right: None, .. } => ", infinitely many roots to the right just beyond".to_owned(),
             AtPoint::Undefined => ", undefined there".to_owned(),
             _ => String::new(),
         }

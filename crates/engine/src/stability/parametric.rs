@@ -41,12 +41,23 @@ pub enum AtPoint {
         /// How many degrees are lost.
         infinite: usize,
     },
+    /// A loop with dead time, whose roots to the left are infinitely many.
+    Delayed {
+        /// Roots on the imaginary axis.
+        on: usize,
+        /// Roots to the right of it; `None` where infinitely many lie there or come as near to it as one likes.
+        right: Option<usize>,
+    },
 }
 
 impl AtPoint {
     /// Whether all roots of a polynomial of this degree are inside.
     pub fn is_stable(&self, degree: usize) -> bool {
-        matches!(self, AtPoint::Defined { count, infinite: 0 } if count.inside == degree)
+        match self {
+            AtPoint::Defined { count, infinite: 0 } => count.inside == degree,
+            AtPoint::Delayed { on, right } => (*on, *right) == (0, Some(0)),
+            _ => false,
+        }
     }
 }
 

@@ -35,6 +35,15 @@ impl Problem {
             let decision = BoxDecision::NotStable { witness: None };
             return Ok(self.answered(sides, AtPoint::Undefined, decision));
         };
+        if !algebra.symbols().delays().is_empty() {
+            refuse_beside_functions(request)?;
+            let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
+            let Some(p) = self.delayed_family(&nominal, budget)? else {
+                let decision = BoxDecision::NotStable { witness: None };
+                return Ok(self.answered(sides, AtPoint::Zero, decision));
+            };
+            return self.tolerance_of(&p, &Truth::of_points(self), sides, request, budget);
+        }
         if let Some(p) = self.moving_family(budget)? {
             refuse_beside_functions(request)?;
             return self.tolerance_of(&p, &Truth::of_points(self), sides, request, budget);

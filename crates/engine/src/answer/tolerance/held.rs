@@ -3,11 +3,11 @@
 //! Each symbol whose arguments are fixed is one more side of the box, as wide as its enclosure: what is proved for all values in it holds for the true
 //! one. A point that is not stable is counted once more with the true constants.
 
-use crate::answer::Verdict;
+use crate::answer::{DelayedRoots, Verdict};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::stability::AtPoint;
-use crate::stability::boxes::{BoxDecision, Family, LargestFactor, Side, Witness};
+use crate::stability::boxes::{BoxDecision, Family, LargestFactor, Side, Witness, corners};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
@@ -63,6 +63,9 @@ impl<'a> Truth<'a> {
         if self.is_exact {
             return Ok(budget.enter(|| p.at(point))?);
         }
+        if let Some(at) = budget.enter(|| p.counted_beside(point))? {
+            return Ok(at);
+        }
         let problem = self.problem;
         let time = problem.algebra_over_symbols(budget)?.sample_time();
         if let Some(time) = time.filter(|time| time.variables().iter().all(|v| *v < point.len())) {
@@ -78,6 +81,9 @@ impl<'a> Truth<'a> {
             Err(Error::Undefined(_)) => return Ok(AtPoint::Undefined),
             verdict => verdict?.into_value(),
         };
+        if let Some(DelayedRoots { on, right }) = verdict.delayed {
+            return Ok(AtPoint::Delayed { on, right });
+        }
         Ok(match (verdict.verdict, verdict.count) {
             (Verdict::Undefined, _) | (_, None) => AtPoint::Undefined,
             (_, Some(count)) => AtPoint::Defined { count, infinite: verdict.infinite },
@@ -91,7 +97,10 @@ impl<'a> Truth<'a> {
         }
         let mut point = witness.point;
         point.truncate(self.problem.free().len());
-        let at = self.at(p, &point, budget)?;
+        let at = match self.at(p, &point, budget) {
+            Err(Error::Refused(_)) => return Ok(None),
+            at => at?,
+        };
         let degree = self.problem.algebra_over_symbols(budget)?.formal_degree();
         Ok((!at.is_stable(degree)).then(|| Witness::new(point, at)))
     }
@@ -111,10 +120,24 @@ impl<'a> Truth<'a> {
             BoxDecision::NotStable { witness: None } => close(),
             BoxDecision::Undecided { why, mut cell } => {
                 cell.truncate(self.problem.free().len());
-                BoxDecision::Undecided { why, cell }
+                match self.corner_of(p, &cell, budget)? {
+                    Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
+                    None => BoxDecision::Undecided { why, cell },
+                }
             }
             stable => stable,
         })
+    }
+
+    /// A corner of a cell of a loop with dead time that is not stable: roots that are on the axis there are told by the verdict alone.
+    fn corner_of(&self, p: &impl Family, cell: &[[Rational; 2]], budget: &Budget) -> Result<Option<Witness>, Error> {
+        let has_dead_time = !self.problem.algebra_over_symbols(budget)?.symbols().delays().is_empty();
+        for point in corners(cell).filter(|_| has_dead_time) {
+            if let Some(found) = self.confirmed(p, Witness::new(point, AtPoint::Undefined), budget)? {
+                return Ok(Some(found));
+            }
+        }
+        Ok(None)
     }
 
     /// The bracket with the true constants, for the parameters alone.

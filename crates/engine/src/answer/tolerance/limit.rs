@@ -4,6 +4,7 @@ use super::held::Truth;
 use super::{LimitSide, ToleranceLimit, ToleranceRequest};
 use crate::error::Error;
 use crate::problem::Problem;
+use crate::stability::AtPoint;
 use crate::stability::boxes::{Family, Side, ToleranceProblem};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -43,10 +44,17 @@ impl Problem {
             let gap = |factor: &Rational| {
                 let moved = &unit * factor;
                 let share = value(factor).abs().checked_div(&moved).unwrap_or(Rational::ONE);
-                (&request.gap * &share).min(request.gap.clone())
+                // The domain's own end is reached.
+                let least = if most.as_ref() == Some(factor) { Rational::ZERO } else { p.least_gap() };
+                (&request.gap * &share).max(least).min(request.gap.clone())
             };
             let factor = boxes.bracket(boxes.searched(budget)?, None, &gap, most.as_ref(), budget)?;
-            let factor = truth.factor(p, factor, budget)?;
+            let mut factor = truth.factor(p, factor, budget)?;
+            let is_undefined = factor.witness.as_ref().is_some_and(|witness| matches!(witness.at, AtPoint::Undefined));
+            if is_undefined && most.as_ref().is_some_and(|most| factor.lower >= *most) {
+                // Beyond the domain there is no loop, as with a negative dead time.
+                (factor.upper, factor.direction, factor.shares, factor.witness) = (None, None, None, None);
+            }
             let worst = self.worst_end(&own, &factor, budget)?.map(|(worst, _)| worst);
             *slot = Some(LimitSide {
                 safe: value(&factor.lower),

@@ -36,6 +36,11 @@ pub trait Family {
     /// Whether the loop is stable at a point, as far as [`Family::at`] knows.
     fn is_stable_at(&self, point: &[Rational]) -> bool;
 
+    /// The exact root count at a point, where it is known without the model.
+    fn counted_beside(&self, _point: &[Rational]) -> Option<AtPoint> {
+        None
+    }
+
     /// The signs of what must not vanish at a point, and the scale of frequencies there; `None` where one vanishes.
     fn signs_at(&self, point: &[Rational]) -> Option<(Vec<Sign>, i64)>;
 
@@ -44,6 +49,11 @@ pub trait Family {
 
     /// The gradients at a point of what is to become small where stability is lost.
     fn pulls(&self, point: &[Rational], scale: i64) -> Vec<Vec<Rational>>;
+
+    /// The bracket of a limit is not asked to be narrower than this share of the way to it: near zero the limit itself says little of that.
+    fn least_gap(&self) -> Rational {
+        Rational::ZERO
+    }
 
     /// Whether the last side is that of a number whose sign does not matter to the roots.
     fn is_mirrored(&self) -> bool {
@@ -102,6 +112,11 @@ pub trait Path {
         self.is_good(t)
     }
 
+    /// Whether `t` is taken for good where the crossing is to be known to so many bits.
+    fn is_good_for(&self, t: &Rational, bits: u64) -> bool {
+        if bits <= ROUGH_BITS { self.seems_good(t) } else { self.is_good(t) }
+    }
+
     /// Whether the loop is stable at `t` itself.
     fn is_stable(&self, t: &Rational) -> bool;
 
@@ -116,7 +131,7 @@ pub trait Path {
     /// A stretch `(lo, hi)` in which stability is lost, of width at most `hi / 2^bits`: `lo` is good, `hi` is not; up to
     /// [`ROUGH_BITS`] by rounded numbers only. Looked for up to `limit`; `None` where nothing is found.
     fn crossing(&self, limit: Option<&Rational>, bits: u64) -> Option<(Rational, Rational)> {
-        let is_good = |t: &Rational| if bits <= ROUGH_BITS { self.seems_good(t) } else { self.is_good(t) };
+        let is_good = |t: &Rational| self.is_good_for(t, bits);
         let (mut lo, mut hi) = (Rational::ZERO, None);
         match limit {
             Some(limit) => {

@@ -6,6 +6,9 @@
 //! values are not affine in it ([ZettlerGarloff1998](jurist_algebra::bibliography#zettlergarloff1998),
 //! [Farouki2012](jurist_algebra::bibliography#farouki2012)).
 
+mod delayed;
+mod delayed_prove;
+mod delayed_rounded;
 mod determinants;
 mod exact;
 mod factor;
@@ -15,6 +18,7 @@ mod line;
 mod moving;
 mod moving_prove;
 mod multiplier;
+mod parts;
 mod polynomial;
 mod prove;
 mod rough;
@@ -28,11 +32,13 @@ mod tree;
 mod volume;
 mod window;
 
+pub use delayed::DelayedFunction;
 pub use exact::{CriticalCell, ExactProof, Place};
 pub use factor::{BoxDecision, LargestFactor, ToleranceProblem, Witness};
 pub(crate) use family::Family;
 pub(crate) use line::on_line;
 pub use moving::MovingPolynomial;
+pub(crate) use parts::corners;
 pub use polynomial::BoxPolynomial;
 pub use prove::{BoxProof, MOST_COEFFICIENTS};
 pub(crate) use search::ray;

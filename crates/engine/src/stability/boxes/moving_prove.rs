@@ -7,15 +7,14 @@
 //! wide is halved along the parameter in which the coefficients are farthest from straight.
 
 use super::moving::MovingPolynomial;
+use super::parts::{Known, Term, bundle, closed, corners, extent, is_blurred, middle, pruned};
 use super::polynomial::Bundle;
 use super::prove::{BoxProof, Cell, Closing, Outcome, simplest_point};
-use super::separate::separating_vector;
 use super::tensor::{FrequencyScale, Tensor};
 use super::tree::Tree;
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Integer, Rational, Sign};
-use std::collections::BTreeMap;
 
 /// Bits after the point of coefficients in a part of the box.
 const BITS: u64 = 192;
@@ -46,12 +45,6 @@ const CUT_BITS: u64 = 8;
 
 /// After so many parts in which nothing was proved a point of the present one is tested.
 const TESTED_EVERY: usize = 8;
-
-/// A polynomial in the coordinates of a part, up to a bound.
-struct Known {
-    terms: BTreeMap<Vec<u32>, Integer>,
-    slack: Integer,
-}
 
 /// What is known of a loop in a part of a box: coordinates of what is inside of functions go from -1 to 1.
 struct Part {
@@ -98,8 +91,8 @@ impl MovingPolynomial {
             })
         };
         let mut curvature = vec![Integer::ZERO; sides.len()];
-        let mut functions: Vec<Known> = Vec::new();
-        let mut sized: Vec<Vec<(Vec<u32>, Integer, Integer)>> = Vec::new();
+        let mut slacks: Vec<Integer> = Vec::new();
+        let mut sized: Vec<Vec<Term>> = Vec::new();
         for (f, parts) in self.functions.iter().zip(parts) {
             let mut slack = Integer::ZERO;
             let mut own = Vec::new();
@@ -112,11 +105,11 @@ impl MovingPolynomial {
                     for (&i, &e) in self.inside.iter().zip(exponents) {
                         all[i] = e;
                     }
-                    own.push((all, c.clone(), size(c)));
+                    own.push(Term { exponents: all, coefficient: c.clone(), size: size(c) });
                 }
             }
-            let largest = own.iter().map(|(.., size)| size).max().cloned().unwrap_or(Integer::ONE);
-            for (exponents, _, size) in &own {
+            let largest = own.iter().map(|term| &term.size).max().cloned().unwrap_or(Integer::ONE);
+            for Term { exponents, size, .. } in &own {
                 let total: u32 = self.inside.iter().map(|&i| exponents[i]).sum();
                 for &i in self.inside.iter().filter(|_| total > 1) {
                     let share = (&(size * &Integer::from(u64::from(exponents[i]))) << BITS).div_mod_floor(&largest).0;
@@ -124,47 +117,10 @@ impl MovingPolynomial {
                 }
             }
             sized.push(own);
-            functions.push(Known { terms: BTreeMap::new(), slack });
+            slacks.push(slack);
         }
-        let bits = self.kept_bits(&sized);
-        for (known, own) in functions.iter_mut().zip(sized) {
-            let largest = own.iter().map(|(.., size)| size).max().cloned().unwrap_or(Integer::ZERO);
-            let least = &largest >> bits;
-            for (exponents, c, size) in own {
-                if self.stays(&exponents, &size, &least) {
-                    known.terms.insert(exponents, c);
-                } else {
-                    known.slack += &size;
-                }
-            }
-        }
+        let functions = pruned(sized, slacks, &self.inside, self.formal_degree() / 2 + 1, (TENSOR_TERMS, &KEPT_BITS));
         Part { functions, curvature }
-    }
-
-    /// Whether a term is kept: one of at most the first degree, or not much smaller than the greatest.
-    fn stays(&self, exponents: &[u32], size: &Integer, least: &Integer) -> bool {
-        self.inside.iter().map(|&i| exponents[i]).sum::<u32>() < 2 || size > least
-    }
-
-    /// By how many bits terms may be smaller than the greatest, so that tensors are not too large.
-    fn kept_bits(&self, sized: &[Vec<(Vec<u32>, Integer, Integer)>]) -> u64 {
-        let frequencies = self.formal_degree() / 2 + 1;
-        let fits = |bits: &u64| {
-            let mut degrees: Vec<u32> = Vec::new();
-            for own in sized {
-                let largest = own.iter().map(|(.., size)| size).max().cloned().unwrap_or(Integer::ZERO);
-                let least = &largest >> *bits;
-                for (exponents, _, size) in own {
-                    if self.stays(exponents, size, &least) {
-                        degrees.resize(exponents.len(), 0);
-                        degrees.iter_mut().zip(exponents).for_each(|(d, e)| *d = (*d).max(*e));
-                    }
-                }
-            }
-            let terms = degrees.iter().try_fold(frequencies, |n, &d| n.checked_mul(d as usize + 1));
-            terms.is_some_and(|n| n <= TENSOR_TERMS)
-        };
-        KEPT_BITS.into_iter().find(fits).unwrap_or(KEPT_BITS[KEPT_BITS.len() - 1])
     }
 
     /// Whether no root comes to the boundary in a box, taken as one part, and nothing that must not vanish changes its sign.
@@ -299,62 +255,8 @@ impl Part {
         let slack: Vec<Integer> = slack.terms[0].1.iter().map(Integer::abs).collect();
         let pair = bundle(own, sides.len()).pair();
         let (tensor, _) = Tensor::of_pair_within(&pair, &slack, &local, FrequencyScale(2 * scale));
-        let mut stack = vec![Cell::whole(tensor)];
-        let (mut nodes, mut leaves) = (0, 0);
-        while let Some(cell) = stack.pop() {
-            budget.check()?;
-            nodes += 1;
-            let hint = match closing(&cell, nodes) {
-                Ok(_) => {
-                    leaves += 1;
-                    continue;
-                }
-                Err(hint) => hint,
-            };
-            let axis = hint.or_else(|| cell.tensor.best_axis());
-            let axis =
-                axis.filter(|_| nodes + stack.len() < most && !is_blurred(&cell) && !is_clear_but_for_slack(&cell));
-            let Some(axis) = axis else { return Ok(Err(back(cell.sides(&local)))) };
-            let [low, high] = cell.halves(axis);
-            stack.extend([high, low]);
-        }
-        Ok(Ok(leaves))
+        Ok(closed(tensor, closing, most, budget)?.map_err(|cell| back(cell.sides(&local))))
     }
-}
-
-/// Whether the values of a cell vary no more than they are off: halving it does not help.
-fn is_blurred(cell: &Cell) -> bool {
-    let off = |plane: usize| cell.tensor.slack.get(plane).and_then(|s| s.iter().max()).map_or(0, |s| 4 * s);
-    (0..cell.tensor.planes.len()).all(|plane| {
-        let (low, high) = cell.tensor.range(plane);
-        high - low <= off(plane)
-    })
-}
-
-/// Whether the coefficients themselves prove a pair's cell, and only not what they are off by.
-fn is_clear_but_for_slack(cell: &Cell) -> bool {
-    let [x, y] = cell.tensor.planes.as_slice() else { return false };
-    separating_vector(x, y, cell.tensor.error).is_some()
-}
-
-/// The polynomials without their bounds.
-fn bundle(list: &[Known], parameters: usize) -> Bundle {
-    let mut terms: BTreeMap<&Vec<u32>, Vec<Integer>> = BTreeMap::new();
-    let mut degrees = vec![0; parameters];
-    for (k, f) in list.iter().enumerate() {
-        for (exponents, c) in &f.terms {
-            degrees.iter_mut().zip(exponents).for_each(|(d, &e)| *d = (*d).max(e as usize));
-            terms.entry(exponents).or_insert_with(|| vec![Integer::ZERO; list.len()])[k] = c.clone();
-        }
-    }
-    let terms = terms.into_iter().map(|(exponents, c)| (exponents.clone(), c)).collect();
-    Bundle { width: list.len(), degrees, terms }
-}
-
-/// How wide a side is for its distance from zero.
-fn extent([low, high]: &[Rational; 2]) -> Rational {
-    let size = low.abs().max(high.abs());
-    (high - low).checked_div(&size).unwrap_or(Rational::ZERO)
 }
 
 /// Where a side is cut: in the middle, of the octaves where it spans several.
@@ -383,19 +285,6 @@ fn size_of(x: &Rational) -> i64 {
 fn model_degree(variables: usize) -> usize {
     let terms = |degree: usize| (1..=variables).fold(1, |n, i| n * (degree + i) / i);
     (2..=MODEL_DEGREE).rev().find(|&degree| terms(degree) <= MODEL_TERMS).unwrap_or(2)
-}
-
-fn middle(sides: &[[Rational; 2]]) -> Vec<Rational> {
-    sides.iter().map(|[low, high]| low.midpoint(high)).collect()
-}
-
-/// The corners of a box, not too many.
-fn corners(sides: &[[Rational; 2]]) -> impl Iterator<Item = Vec<Rational>> + '_ {
-    let wide: Vec<usize> = (0..sides.len()).filter(|&i| sides[i][0] < sides[i][1]).take(6).collect();
-    (0..1usize << wide.len()).map(move |mask| {
-        let upper = |i: usize| wide.iter().position(|w| *w == i).is_some_and(|bit| mask >> bit & 1 == 1);
-        sides.iter().enumerate().map(|(i, side)| side[usize::from(upper(i))].clone()).collect()
-    })
 }
 
 #[cfg(test)]

@@ -216,7 +216,7 @@ fn halved_bounds(slack: Vec<Vec<i128>>) -> [Vec<Vec<i128>>; 2] {
 }
 
 /// The factor of all coefficients that [`expand`] gives.
-fn common_factor(bundle: &Bundle, sides: &[[Rational; 2]]) -> Integer {
+pub(super) fn common_factor(bundle: &Bundle, sides: &[[Rational; 2]]) -> Integer {
     let one = |(&degree, [low, high]): (&usize, &[Rational; 2])| {
         let q = low.denominator().lcm(&high.denominator());
         &common_binomial(degree) * &q.pow(degree as u64)

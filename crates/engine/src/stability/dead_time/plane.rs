@@ -1,7 +1,7 @@
 //! Two parameters of a loop with dead time: boxes, each proved stable, proved not stable, or left undecided.
 
 use super::plane_walk::{PlaneFunction, Shares};
-use crate::stability::plane::boxes::{BoxMap, Window, subdivided};
+use crate::stability::plane::boxes::{BoxMap, BoxVerdict, Place, Seen, Window, subdivided};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly};
@@ -110,6 +110,16 @@ impl PlaneLoop {
     pub fn boxes(&self, window: &Window, goal: &Rational, budget: &Budget) -> Result<BoxMap, Exhausted> {
         let function = budget.enter(|| PlaneFunction::new(self.in_shares(window)))?;
         Ok(subdivided(window, goal, budget, |place| Ok(function.look(place))))
+    }
+
+    /// The verdict on a loop that depends on neither parameter, by one walk along the imaginary axis; `None` where that does not tell.
+    pub(crate) fn verdict(&self) -> Option<BoxVerdict> {
+        let side = [Rational::ZERO, Rational::ONE];
+        let shares = self.in_shares(&Window { x: side.clone(), y: side });
+        match PlaneFunction::of_point(shares).look(&Place::whole()) {
+            Seen::Decided(verdict) => Some(verdict),
+            Seen::Cut(_) => None,
+        }
     }
 }
 

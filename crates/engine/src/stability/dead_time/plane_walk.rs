@@ -37,11 +37,16 @@ pub(crate) struct PlaneFunction {
     unit: Integer,
     degrees: [u32; 2],
     order: usize,
+    shortest: [i64; 2],
+    most_steps: usize,
 }
 
 /// A box is given up where steps would be so many halvings shorter than the frequency, or than the bound of all frequencies
 /// at zero.
 const SHORTEST: [i64; 2] = [24, 256];
+/// The same of one point, which no cut brings away from the limit.
+const SHORTEST_AT_A_POINT: [i64; 2] = [72, 256];
+const MOST_STEPS_AT_A_POINT: usize = 1 << 14;
 const SCALE: u64 = 96;
 
 const OMEGA: usize = 2;
@@ -87,7 +92,13 @@ impl PlaneFunction {
             second.iter().map(|p| p.degree_in(axis)).max().unwrap_or(0).max(own)
         });
         let slack = UniPoly::new(shares.slack.clone());
-        PlaneFunction { shares, slack, first, second, unit, degrees, order }
+        PlaneFunction { shares, slack, first, second, unit, degrees, order, shortest: SHORTEST, most_steps: usize::MAX }
+    }
+
+    /// The same of a function that is the same everywhere.
+    pub fn of_point(shares: Shares) -> PlaneFunction {
+        let (shortest, most_steps) = (SHORTEST_AT_A_POINT, MOST_STEPS_AT_A_POINT);
+        PlaneFunction { shortest, most_steps, ..PlaneFunction::new(shares) }
     }
 
     /// Walks along the axis, or tells where to cut.
@@ -129,7 +140,9 @@ impl PlaneFunction {
         let least = top.abs() - spread - slack(self.order);
         let mut sums: Vec<Rational> = (0..self.order).map(slack).chain([Rational::ZERO]).collect();
         for (k, part) in sizes.iter().enumerate() {
-            for (j, (middle, spread)) in part.iter().enumerate().filter(|(j, _)| (k, *j) != (0, self.order)) {
+            // Beyond the order all coefficients are zero.
+            let own = part.iter().enumerate().take(self.order + 1);
+            for (j, (middle, spread)) in own.filter(|(j, _)| (k, *j) != (0, self.order)) {
                 sums[j] += middle.abs() + spread;
             }
         }
@@ -200,10 +213,16 @@ impl<'f> Walk<'f> {
 
     fn follow(&self, bound: u64) -> Seen {
         let end = Rational::from(&(&Integer::ONE << bound));
+        let [shortest, least] = self.function.shortest;
         let mut at = Dyadic::zero();
         let mut step = Step(bound as i64 - 4);
         let mut direction: Option<(i64, i64)> = None;
+        let mut steps = 0;
         while at.rational() < end {
+            steps += 1;
+            if steps > self.function.most_steps {
+                return Seen::Cut(self.longer());
+            }
             match self.cone(&at.plus(step, 1), step) {
                 Cone::Turned(next) => {
                     let (first, last) = direction.unwrap_or((next, next));
@@ -212,7 +231,7 @@ impl<'f> Walk<'f> {
                     at = at.plus(step, 0);
                     step = Step(step.0 + 1);
                 }
-                Cone::TooLong if step.0 > at.floor_log2().map_or(bound as i64 - SHORTEST[1], |e| e - SHORTEST[0]) => {
+                Cone::TooLong if step.0 > at.floor_log2().map_or(bound as i64 - least, |e| e - shortest) => {
                     step = Step(step.0 - 1);
                 }
                 Cone::TooLong => return Seen::Cut(self.longer()),

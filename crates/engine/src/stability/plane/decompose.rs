@@ -305,7 +305,7 @@ fn cells_at(
                 (infinite == 0 && count.inside == p.formal_degree(), count.outside + infinite, count.on)
             }
             // Not in an open cell: these points lie on curves.
-            AtPoint::Undefined | AtPoint::Zero => (false, 0, 0),
+            AtPoint::Undefined | AtPoint::Zero | AtPoint::Delayed { .. } => (false, 0, 0),
         };
         let branch = |i: usize| branches.get(i).map(|b| b.1);
         out.push(Cell { lower: i.checked_sub(1).and_then(branch), upper: branch(i), sample, stable, outside, on });

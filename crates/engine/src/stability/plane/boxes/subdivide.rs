@@ -273,7 +273,7 @@ impl Search<'_> {
         let verdict = match self.p.at(&x, &y, self.region) {
             AtPoint::Defined { count, infinite: 0 } if count.inside == self.p.formal_degree() => BoxVerdict::Stable,
             AtPoint::Defined { count, infinite } => BoxVerdict::Unstable { outside: Some(count.outside + infinite) },
-            AtPoint::Undefined | AtPoint::Zero => BoxVerdict::Unstable { outside: None },
+            AtPoint::Undefined | AtPoint::Zero | AtPoint::Delayed { .. } => BoxVerdict::Unstable { outside: None },
         };
         Tested::Decided(place, verdict)
     }
