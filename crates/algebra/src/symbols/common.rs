@@ -4,10 +4,13 @@
 //! With the symbols as variables `(K - sqrt(2))^2` has no repeated factor once it is expanded and `sqrt(2)^2` written as 2. Euclid's
 //! algorithm over the numbers themselves finds it: a coefficient is zero where [`Symbols::is_zero`] proves it.
 
-use super::Symbols;
 use super::roots::of_symbols;
+use super::{Definition, Symbols};
 use crate::limits::{Budget, Exhausted};
 use crate::poly::{Domain, MultiPoly, Poly};
+
+/// Polynomials with more terms are given up: over several symbols that are not square roots nothing keeps them short.
+const MOST_TERMS: usize = 4000;
 
 impl Symbols {
     /// A polynomial with the same zeros, all of them simple. Zero for zero.
@@ -94,7 +97,7 @@ impl Symbols {
         Ok(MultiPoly::from_poly_in(&self.trimmed(quotient, budget)?, 0))
     }
 
-    /// Without leading coefficients that are zero, and without a common divisor of the others.
+    /// Without leading coefficients that are zero, and without a common divisor of the others as far as it is found fast.
     fn trimmed(&self, p: Poly<MultiPoly>, budget: &Budget) -> Result<Poly<MultiPoly>, Exhausted> {
         let mut coefficients = p.into_coeffs();
         while let Some(lead) = coefficients.last()
@@ -102,18 +105,47 @@ impl Symbols {
         {
             coefficients.pop();
         }
+        let p = MultiPoly::from_poly_in(&Poly::new(coefficients), 0);
         budget.enter(|| {
-            let content = coefficients.iter().fold(MultiPoly::zero(), |g, c| g.gcd(c));
+            let p = self.with_low_powers(&p).primitive_over_integers();
+            if p.terms().len() > MOST_TERMS {
+                let reached = "common factors over numbers that are long";
+                return Err(Exhausted::new(format!("precision ({MOST_TERMS} terms)"), reached));
+            }
+            let is_simple = p.variables().len() <= 2;
+            let p = p.as_poly_in(0);
+            if !is_simple {
+                return Ok(p);
+            }
             // A divisor that is zero would have made the leading coefficient zero.
-            Poly::new(coefficients).div_exact_scalar(&content).unwrap_or_else(Poly::zero)
-        })
+            let content = p.coeffs().iter().fold(MultiPoly::zero(), |g, c| g.gcd(c));
+            Ok(p.div_exact_scalar(&content).unwrap_or_else(Poly::zero))
+        })?
+    }
+
+    /// A positive multiple in which square roots of rational numbers occur to the first power only.
+    fn with_low_powers(&self, p: &MultiPoly) -> MultiPoly {
+        let mut p = p.clone();
+        for i in 0..self.len() {
+            let Definition::Root(square) = self.definition(i) else { continue };
+            let Some(square) = square.as_constant().filter(|_| p.degree_in(i + 1) > 1) else { continue };
+            let [n, d] = [square.numerator(), square.denominator()];
+            let own = p.as_poly_in(i + 1);
+            let most = own.degree().unwrap_or(0) / 2;
+            let mut low = [MultiPoly::zero(), MultiPoly::zero()];
+            for (k, c) in own.coeffs().iter().enumerate() {
+                let factor = n.pow(k as u64 / 2) * d.pow((most - k / 2) as u64);
+                low[k % 2] = low[k % 2].plus(&c.scaled_by(&factor));
+            }
+            p = MultiPoly::from_poly_in(&Poly::new(low.to_vec()), i + 1);
+        }
+        p
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::symbols::Definition;
 
     /// With `sqrt(2)`, `sqrt(3)` and `sqrt(6)` as the variables 1 to 3.
     fn table() -> Symbols {
