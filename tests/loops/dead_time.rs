@@ -96,3 +96,42 @@ fn boxes_without_a_window_are_around_the_nominal_point() {
     let run = jurist_with_input(&["map", "-", "-x", "K", "-y", "L"], text.as_bytes());
     assert!(run.stderr.contains("boxes need a window of 'K' with two ends"), "{}", run.stderr);
 }
+
+/// The dead time `b - a p` falls with the parameter: its windows are those of the dead time itself, mirrored, with or without ends of the
+/// domain, and so are causes, frequencies and directions.
+#[test]
+fn windows_of_a_dead_time_that_falls_are_mirrored() {
+    let set = |function: &str, domain: &str| {
+        let model = format!("time = 'continuous'\n[parameters]\np = {{}}\n[loop]\ncharacteristic = '{function}'\n");
+        let run =
+            jurist_with_input(&["intervals", "-", "--domain", domain, "--json", "--digits", "20"], model.as_bytes());
+        serde_json::from_str::<Value>(&run.stdout).unwrap_or_else(|e| panic!("{function}: {e}: {}", run.stderr))
+    };
+    let number = |end: &Value| end["decimal"].as_str().map(|x| x.parse::<f64>().unwrap());
+    for (before, domain, mirrored, windows) in [
+        ("s^2 + 1 + 0.2*", "p=0..20", "p=-10..10", 2),
+        ("s^2 + 1 + 0.2*", "p=..17/2", "p=23/4..", 1),
+        ("s^2 + 1 + 0.2*", "p=5..", "p=..15/2", 2),
+        ("s + 1 + 3*", "p=..", "p=..", 1),
+        ("s + 1 + 3*", "p=2..5", "p=15/2..9", 0),
+    ] {
+        let rising = set(&format!("{before}exp(-p*s)"), domain);
+        let falling = set(&format!("{before}exp(-(20 - 2*p)*s)"), mirrored);
+        let [a, b] = [&rising, &falling].map(|document| document["stable"].as_array().unwrap());
+        assert_eq!((a.len(), b.len()), (windows, windows), "{before} {domain}: {rising} {falling}");
+        for (x, y) in a.iter().zip(b.iter().rev()) {
+            for (x, y) in [(&x["lower"], &y["upper"]), (&x["upper"], &y["lower"])] {
+                let off = (20.0 - 2.0 * number(y).unwrap() - number(x).unwrap()).abs();
+                assert!(off < 1e-15 * 20.0, "{x} {y}");
+                assert_eq!((&x["cause"], &x["kind"]), (&y["cause"], &y["kind"]));
+                assert_eq!(x["frequency_enclosure"], y["frequency_enclosure"]);
+                let opposite = match x["over"]["direction"].as_str() {
+                    Some("+") => Some("-"),
+                    Some("-") => Some("+"),
+                    other => other,
+                };
+                assert_eq!(opposite, y["over"]["direction"].as_str());
+            }
+        }
+    }
+}

@@ -42,6 +42,8 @@ impl Symbols {
 
     /// Polynomials without a common zero that have the zeros of all given ones, which are square-free.
     ///
+    /// Cost: as of [`Symbols::square_free_part`] for each pair.
+    ///
     /// # Errors
     /// As [`Symbols::square_free_part`].
     pub fn coprime_basis(&self, polynomials: &[MultiPoly], budget: &Budget) -> Result<Vec<MultiPoly>, Exhausted> {
@@ -68,7 +70,9 @@ impl Symbols {
         Ok(basis)
     }
 
-    /// Whether two polynomials have a common zero.
+    /// Whether two polynomials have a common zero, complex ones included.
+    ///
+    /// Cost: as of [`Symbols::square_free_part`].
     ///
     /// # Errors
     /// As [`Symbols::square_free_part`].
@@ -109,6 +113,7 @@ impl Symbols {
         budget.enter(|| {
             let p = self.with_low_powers(&p).primitive_over_integers();
             if p.terms().len() > MOST_TERMS {
+                // As where bits do not suffice: it is not told whether zeros are apart.
                 let reached = "common factors over numbers that are long";
                 return Err(Exhausted::new(format!("precision ({MOST_TERMS} terms)"), reached));
             }

@@ -15,7 +15,7 @@ impl Symbols {
     ///
     /// A symbol stays without which the polynomial would be too long, or zero.
     ///
-    /// Cost: a resultant with the polynomial of each such symbol.
+    /// Cost: a resultant with the polynomial of each such symbol ([Loos1983](crate::bibliography#loos1983)).
     ///
     /// ```
     /// use jurist_algebra::limits::Budget;

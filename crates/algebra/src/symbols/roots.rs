@@ -230,7 +230,8 @@ fn real_roots(
 }
 
 /// The real roots strictly between two numbers of a polynomial with enclosed coefficients, ascending. Its first and last
-/// coefficients must not be zero, and its roots must be simple: else the search ends by itself, with an error.
+/// coefficients must not be zero, and its roots must be simple: else the search ends by itself, with an error. A root that is a rational
+/// number of few digits is given as that.
 ///
 /// Cost: enclosures of the coefficients, and the real roots of the two polynomials with their lower and their upper ends, with
 /// more and more bits until they part.

@@ -49,9 +49,7 @@ pub(super) fn stable_set(problem: &Problem, delayed: &DelayedLoop, budget: &Budg
     }
     let from_the_axis = delayed.decay().is_zero();
     match delayed.delay() {
-        BaseDelay::Line { slope, offset }
-            if from_the_axis && delayed.degree_in_parameter() == 0 && slope.sign().is_gt() =>
-        {
+        BaseDelay::Line { slope, offset } if from_the_axis && delayed.degree_in_parameter() == 0 => {
             windows(delayed, domain, slope, offset, budget)
         }
         BaseDelay::Line { slope, offset } => {
@@ -118,7 +116,10 @@ impl Enclosing for SwitchTime {
         loop {
             let tau = self.crossing.dead_time(self.turns, working);
             let at = |x: &Rational| (x - &self.offset) / &self.slope;
-            let (lo, hi) = (at(tau.lower()), at(tau.upper()));
+            let (mut lo, mut hi) = (at(tau.lower()), at(tau.upper()));
+            if self.slope.is_negative() {
+                (lo, hi) = (hi, lo);
+            }
             if &hi - &lo <= goal {
                 return Enclosure::new(lo, hi);
             }
@@ -131,10 +132,10 @@ impl Enclosing for SwitchTime {
             omega_squared: self.crossing.omega_squared(),
             theta: self.crossing.theta(64),
             turns: self.turns,
+            // As the parameter grows.
             leaves: match self.crossing.motion() {
-                Ordering::Greater => Some(true),
-                Ordering::Less => Some(false),
                 Ordering::Equal => None,
+                motion => Some(motion.is_gt() != self.slope.is_negative()),
             },
         }
     }
@@ -185,7 +186,7 @@ fn domain_end_of_loop(family: &FamilyLoop, value: &Rational, decay: bool, budget
     Ok(end)
 }
 
-/// A dead time that is free: all its windows.
+/// A dead time that is free: all its windows, ascending in the parameter, in which it may fall.
 fn windows(
     delayed: &DelayedLoop,
     domain: &Range,
@@ -196,9 +197,11 @@ fn windows(
     let Some(p) = delayed.quasi_polynomial() else { return Ok(StableSet::default()) };
     // A dead time is not negative, whatever the domain says.
     let to_tau = |x: &Rational| x * slope + offset;
+    let falls = slope.is_negative();
+    let (near, far) = if falls { (&domain.upper, &domain.lower) } else { (&domain.lower, &domain.upper) };
     let zero = Rational::ZERO;
-    let lower = domain.lower.as_ref().map_or(zero.clone(), |x| to_tau(x).max(zero));
-    let upper = domain.upper.as_ref().map(to_tau);
+    let lower = near.as_ref().map_or(zero.clone(), |x| to_tau(x).max(zero));
+    let upper = far.as_ref().map(to_tau);
     if upper.as_ref().is_some_and(|upper| *upper <= lower) {
         return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
     }
@@ -211,7 +214,7 @@ fn windows(
         let message = "roots touch the imaginary axis at infinitely many dead times, and cross it nowhere";
         return Err(refused(
             message,
-            "give the domain an upper end, --domain NAME=0..10: the touches below it are listed",
+            "give the domain two ends, --domain NAME=0..10: the touches between them are listed",
         ));
     }
     let to_parameter = |tau: &Rational| (tau - offset) / slope;
@@ -232,7 +235,11 @@ fn windows(
         ends.push(Some(End::new(Transcendental::new(time), causes, pair)));
     }
     ends.push(upper.as_ref().map(|upper| domain_end(&to_parameter(upper))));
-    let stable: Vec<bool> = right.iter().map(|&count| count == 0).collect();
+    let mut stable: Vec<bool> = right.iter().map(|&count| count == 0).collect();
+    if falls {
+        ends.reverse();
+        stable.reverse();
+    }
     Ok(StableSet::from_intervals(intervals(ends, &stable), Vec::new()))
 }
 

@@ -7,6 +7,7 @@ mod by_samples;
 mod delayed;
 mod delayed_family;
 mod delayed_plane;
+mod delayed_terms;
 mod evaluation;
 mod over_symbols;
 mod question;

@@ -120,6 +120,9 @@ pub fn resultant_multimodular_multivariate(
 /// The same as the determinant of a small matrix, in machine words; `None` when a degree is 0 or above 6, or the resultant
 /// may have more than 8 words.
 ///
+/// Cost: with `n` the higher degree `n 2^(n - 1)` products of polynomials in words
+/// ([DiazTocaGonzalezVega2004](crate::bibliography#diaztocagonzalezvega2004)).
+///
 /// ```
 /// use jurist_algebra::poly::modular::multimodular_resultant::resultant_by_minors;
 /// use jurist_algebra::poly::{Domain, MultiPoly, Poly};

@@ -171,6 +171,14 @@ impl SymbolicPolynomial {
         HalfSizePair::new(&self.polynomial, self.formal_degree, region)
     }
 
+    /// What the symbols stand for at a value of the parameter; `None` where one has no value.
+    fn symbols_at(&self, value: &Rational) -> Option<Arc<Symbols>> {
+        match &self.symbols {
+            Table::Fixed(symbols) => Some(Arc::clone(symbols)),
+            Table::Moving(symbols) => symbols.at(value).map(Arc::new),
+        }
+    }
+
     /// The exact root count at a value of the parameter.
     ///
     /// Cost: enclosures of the coefficients with more and more bits until the boundary is left aside for certain, and
@@ -179,13 +187,7 @@ impl SymbolicPolynomial {
     /// # Errors
     /// [`Exhausted`] when the budget runs out, and where the sign of a constant is not found.
     pub fn at(&self, value: &Rational, region: Shape, budget: &Budget) -> Result<AtPoint, Exhausted> {
-        let symbols = match &self.symbols {
-            Table::Fixed(symbols) => Arc::clone(symbols),
-            Table::Moving(symbols) => match symbols.at(value) {
-                Some(symbols) => Arc::new(symbols),
-                None => return Ok(AtPoint::Undefined),
-            },
-        };
+        let Some(symbols) = self.symbols_at(value) else { return Ok(AtPoint::Undefined) };
         let number = |p: &MultiPoly| p.substitute(0, value).0.map_variables(|i| i.saturating_sub(1));
         for pole in &self.poles {
             if symbols.is_zero(&number(pole), budget)? {
@@ -197,7 +199,9 @@ impl SymbolicPolynomial {
     }
 
     /// Whether an odd number of real roots lies beyond the point where the real axis leaves the region to the right, at a value
-    /// of the parameter where the loop is defined.
+    /// of the parameter where the loop is defined: the signs there and beyond all roots tell.
+    ///
+    /// Cost: the signs of two numbers.
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out, and where a sign is not found.
@@ -207,13 +211,7 @@ impl SymbolicPolynomial {
         region: Shape,
         budget: &Budget,
     ) -> Result<bool, Exhausted> {
-        let symbols = match &self.symbols {
-            Table::Fixed(symbols) => Arc::clone(symbols),
-            Table::Moving(symbols) => match symbols.at(value) {
-                Some(symbols) => Arc::new(symbols),
-                None => return Ok(false),
-            },
-        };
+        let Some(symbols) = self.symbols_at(value) else { return Ok(false) };
         let coefficients = budget.enter(|| common_scale(self.polynomial.coeffs(), value))?;
         let at_end = match region {
             Shape::UnitDisc => coefficients.iter().fold(MultiPoly::zero(), |sum, c| sum.plus(c)),

@@ -1,0 +1,81 @@
+//! The characteristic function of a loop with dead time in several parameters, sorted by its dead times.
+
+use super::delayed::{cleared, refused};
+use super::resolved::Problem;
+use crate::error::Error;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+
+/// Dead times with the coefficients of the powers of `s`, and what must not vanish.
+pub(super) struct DelayedTerms<T> {
+    pub terms: Vec<(T, Vec<MultiPoly>)>,
+    pub poles: Vec<MultiPoly>,
+}
+
+/// A characteristic polynomial over delays, and the dead time that each of these variables stands for.
+pub(super) type OverDelays<'a> = (&'a CharacteristicPolynomial, Vec<(usize, RationalFunction)>);
+
+impl Problem {
+    /// The characteristic polynomial of a loop with dead time; `None` for any other loop, and where it is undefined for all values.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`]; `E-dead-time` for a decay rate, which cannot be asked of `what`, and for other functions
+    /// beside dead time.
+    pub(super) fn over_delays(&self, what: &str, budget: &Budget) -> Result<Option<OverDelays<'_>>, Error> {
+        let algebra = self.algebra_over_symbols(budget)?;
+        let delays = algebra.symbols().delays();
+        let Some(polynomial) = algebra.polynomial().filter(|_| !delays.is_empty()) else { return Ok(None) };
+        if self.region().bound() != super::Region::of(self.time()).bound() {
+            let message = format!("a decay rate cannot be asked of {what} in a loop with dead time yet");
+            return Err(refused(message, "ask for one parameter: 'intervals --param NAME --decay S'"));
+        }
+        if algebra.symbols().iter().count() > delays.len() {
+            let help = "write the values of exp, sqrt, sin, cos, tan and pi as numbers";
+            return Err(refused("beside dead time the loop contains other functions that are not rational", help));
+        }
+        Ok(Some((polynomial, delays)))
+    }
+}
+
+impl<T: Clone + Default + PartialEq> DelayedTerms<T> {
+    /// Sorts the terms of a polynomial in so many parameters; `time_of` is the dead time of a variable that stands for a delay, and
+    /// `add` adds one so many times to a sum.
+    ///
+    /// # Errors
+    /// `E-dead-time` where the loop divides by a delay.
+    pub fn of<'t>(
+        polynomial: &CharacteristicPolynomial,
+        parameters: usize,
+        time_of: impl Fn(usize) -> Option<&'t T>,
+        add: impl Fn(&mut T, &T, u32),
+    ) -> Result<DelayedTerms<T>, Error>
+    where
+        T: 't,
+    {
+        let (scaled, common) = cleared(&polynomial.coefficients, |v| time_of(v).is_some())?;
+        let mut terms: Vec<(T, Vec<MultiPoly>)> = Vec::new();
+        for (j, f) in scaled.iter().enumerate() {
+            for (monomial, c) in f.numerator().terms() {
+                let mut total = T::default();
+                let mut own = vec![0u32; parameters];
+                for (variable, &e) in monomial.exponents().iter().enumerate().filter(|(_, e)| **e > 0) {
+                    match time_of(variable) {
+                        Some(time) => add(&mut total, time, e),
+                        None => own[variable] += e,
+                    }
+                }
+                let at = terms.iter().position(|(time, _)| *time == total).unwrap_or_else(|| {
+                    terms.push((total, vec![MultiPoly::zero(); scaled.len()]));
+                    terms.len() - 1
+                });
+                terms[at].1[j] = terms[at].1[j].plus(&MultiPoly::from_terms([(own, c.clone())]));
+            }
+        }
+        // What contains a delay is an operator, and has no zeros among the parameters.
+        let is_pole = |p: &&MultiPoly| !p.is_constant() && p.variables().iter().all(|v| *v < parameters);
+        let mut poles: Vec<MultiPoly> = polynomial.poles.iter().filter(is_pole).cloned().collect();
+        poles.extend((!common.is_constant()).then_some(common));
+        Ok(DelayedTerms { terms, poles })
+    }
+}
