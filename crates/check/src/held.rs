@@ -37,7 +37,7 @@ pub(super) fn characteristic(
     let given = Step::Characteristic.of(polynomials(given, "'characteristic'", read))?;
     let polynomials: Vec<Multi> = given.iter().map(|c| c.polynomial.clone()).collect();
     Step::Characteristic.of(same(&polynomials, &in_disc(&coefficients, extent), clock))?;
-    debug_assert_eq!(given.len(), degree + 1);
+    assert_eq!(given.len(), degree + 1);
     Ok((given, poles.into_iter().map(|p| Over::new(p, table)).collect()))
 }
 

@@ -197,7 +197,7 @@ pub struct Diagnostics {
 impl Diagnostics {
     /// An error about `source`, or about no text.
     pub fn new(source: Option<Arc<Source>>, diagnostics: Vec<Diagnostic>) -> Self {
-        debug_assert!(!diagnostics.is_empty());
+        assert!(!diagnostics.is_empty());
         Diagnostics { source, diagnostics }
     }
 

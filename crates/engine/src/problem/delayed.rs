@@ -76,7 +76,7 @@ impl DelayedLoop {
             for (j, f) in scaled.iter().enumerate() {
                 // Numerator over an integer: numbers are put in only now.
                 let bottom = f.denominator().as_constant().expect("the common denominator is divided out");
-                debug_assert!(bottom.is_one(), "a numerator takes the integers");
+                assert!(bottom.is_one(), "a numerator takes the integers");
                 for (monomial, c) in f.numerator().terms() {
                     let (mut k, mut exponent) = (0usize, 0usize);
                     for (variable, &e) in monomial.exponents().iter().enumerate() {

@@ -295,7 +295,7 @@ pub(in crate::model) fn solve(
                 continue;
             }
             let factor = row[k].clone();
-            debug_assert!(i != k);
+            assert!(i != k);
             for (f, p) in row.iter_mut().zip(&pivot_row).filter(|(_, p)| !p.is_zero()) {
                 count_work(&factor, p);
                 *f = &*f - &(&factor * p);

@@ -44,7 +44,7 @@ pub(in crate::model) fn fraction(e: &Expression, variable: &str, scope: &mut Sco
 /// An expression that is a polynomial in the variable.
 pub(in crate::model) fn polynomial(e: &Expression, variable: &str, scope: &mut Scope<'_>) -> Result<ZPoly, Failure> {
     let Fraction { numerator, denominator } = evaluate(e, &mut InVariable { scope, variable, rational: false })?;
-    debug_assert!(denominator.is_one());
+    assert!(denominator.is_one());
     Ok(numerator)
 }
 

@@ -84,7 +84,7 @@ impl Symbols {
                 }
                 (_, meaning) => merged.intern_again(meaning)?,
             };
-            debug_assert_eq!(images.len(), first + i);
+            assert_eq!(images.len(), first + i);
             images.push(image);
         }
         merged.nonzero.dedup();

@@ -142,7 +142,7 @@ impl<'p> Walk<'p> {
         let top = self.p.difference().coeff(0);
         let bound = self.bound();
         let (start, order, negative) = self.start(at_zero, &bound)?;
-        debug_assert_eq!(order, at_zero);
+        assert_eq!(order, at_zero);
         let first = if negative { 2 } else { 0 };
         let mut direction = first + order as i64;
         let mut at = start;

@@ -231,7 +231,7 @@ fn find_lines(ground: &dyn Ground, curves: &[Curve], strips: &mut [Strip], budge
         let sign = |x: &Rational| ground.sign(&put(&curve.polynomial, X, x), budget);
         let signs = strips.iter().map(|s| sign(&s.sample)).collect::<Result<Vec<_>, Exhausted>>()?;
         for (k, pair) in signs.windows(2).enumerate().filter(|(_, pair)| pair[0] != pair[1]) {
-            debug_assert!(pair.iter().all(|sign| !sign.is_eq()));
+            assert!(pair.iter().all(|sign| !sign.is_eq()));
             strips[k].lines[1].push(number);
             strips[k + 1].lines[0].push(number);
         }

@@ -196,7 +196,7 @@ impl Examiner<'_> {
     }
 
     fn common_root(&self, value: &Real) -> Result<Common, Exhausted> {
-        debug_assert!(self.p.formal_degree >= 2);
+        assert!(self.p.formal_degree >= 2);
         match &self.common {
             Some(common) => common.at(value, self.budget),
             None => Ok(Common::Unknown),
