@@ -137,3 +137,39 @@ fn what_boxes_cannot_treat_is_refused() {
     let exact = refused("s + K + exp(-tau*s)", MapMethod::Exact);
     assert_eq!(exact, "this cannot be asked of a loop with dead time yet");
 }
+
+#[test]
+fn debug_times() {
+    let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/");
+    for (name, x, y) in [
+        ("chatter", ("k_c", "0", "3"), ("T", "0", "12")),
+        ("dead-time-pid", ("K", "0", "10"), ("theta", "0", "10")),
+        ("neutral-loop", ("K", "0", "1"), ("tau", "0", "2")),
+    ] {
+        let model = load(&std::fs::read_to_string(format!("{examples}{name}.toml")).unwrap());
+        let start = std::time::Instant::now();
+        let side = |(_, low, high): Side| Range::between(Some(number(low)), Some(number(high)));
+        let request = BoxRequest::new([side(x), side(y)], number("0.02"));
+        let problem = model.ask().free(x.0).free(y.0).plane_problem().unwrap();
+        let budget = Budget::with_timeout(std::time::Duration::from_secs(20));
+        match problem.map_by(MapMethod::Boxes, &request, 6, &budget).unwrap() {
+            MapOrBoxes::Boxes(answer) => {
+                let map = answer.into_value().boxes;
+                let share = |a: &Rational| 100.0 * a.to_f64_approximate() / map.window.area().to_f64_approximate();
+                let n = |v: fn(&BoxVerdict) -> bool| map.boxes.iter().filter(|b| v(&b.verdict)).count();
+                eprintln!(
+                    "{name}: {:?} stable {:.2} ({}) unstable {:.2} ({}) undecided {:.2} ({}) {:?}",
+                    start.elapsed(),
+                    share(&map.areas.stable),
+                    n(|v| *v == BoxVerdict::Stable),
+                    share(&map.areas.unstable),
+                    n(|v| matches!(v, BoxVerdict::Unstable { .. })),
+                    share(&map.areas.undecided),
+                    n(|v| *v == BoxVerdict::Undecided),
+                    map.stopped
+                );
+            }
+            MapOrBoxes::Exact(_) => panic!("boxes were expected"),
+        }
+    }
+}

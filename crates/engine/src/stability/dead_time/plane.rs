@@ -1,7 +1,7 @@
 //! Two parameters of a loop with dead time: boxes, each proved stable, proved not stable, or left undecided.
 
-use super::plane_walk::{PlaneFunction, Shares};
-use crate::stability::plane::boxes::{BoxMap, BoxVerdict, Place, Seen, Window, subdivided};
+use super::plane_function::{PlaneFunction, Shares};
+use crate::stability::plane::boxes::{BoxMap, BoxVerdict, Place, Seen, Window, subdivided_with};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly};
@@ -83,7 +83,7 @@ impl PlaneLoop {
         PlaneLoop { terms, times, poles }
     }
 
-    fn in_shares(&self, window: &Window) -> Shares {
+    pub(super) fn in_shares(&self, window: &Window) -> Shares {
         let flat: Vec<MultiPoly> = self.terms.iter().flat_map(|(_, part)| part).cloned().collect();
         let mut shares = in_shares(&flat, window).into_iter();
         let exact = |p: MultiPoly| (p, Integer::ZERO);
@@ -109,16 +109,16 @@ impl PlaneLoop {
     /// [`Exhausted`] when the budget runs out before there is a box.
     pub fn boxes(&self, window: &Window, goal: &Rational, budget: &Budget) -> Result<BoxMap, Exhausted> {
         let function = budget.enter(|| PlaneFunction::new(self.in_shares(window)))?;
-        Ok(subdivided(window, goal, budget, |place| Ok(function.look(place))))
+        Ok(subdivided_with(window, goal, budget, |place, known| Ok(function.look(place, known))))
     }
 
     /// The verdict on a loop that depends on neither parameter, by one walk along the imaginary axis; `None` where that does not tell.
     pub(crate) fn verdict(&self) -> Option<BoxVerdict> {
         let side = [Rational::ZERO, Rational::ONE];
         let shares = self.in_shares(&Window { x: side.clone(), y: side });
-        match PlaneFunction::of_point(shares).look(&Place::whole()) {
-            Seen::Decided(verdict) => Some(verdict),
-            Seen::Cut(_) => None,
+        match PlaneFunction::of_point(shares).look(&Place::whole(), None) {
+            (Seen::Decided(verdict), _) => Some(verdict),
+            (Seen::Cut(_), _) => None,
         }
     }
 }

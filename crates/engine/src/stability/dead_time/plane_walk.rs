@@ -1,187 +1,33 @@
 //! A walk along the imaginary axis for a whole box of two parameters at once.
 
 use super::dyadic::{Dyadic, Step};
+use super::headings::{Headings, LENGTH, Piece, Right, SPAN, TURN, heading, joined, roots_right};
 use super::plane::DeadTime;
+use super::plane_function::{PlaneFunction, middle, upper};
 use super::turn::{Fixed, turned};
-use crate::stability::plane::boxes::{BoxVerdict, Place, Seen};
+use crate::stability::plane::boxes::Place;
 use jurist_algebra::limits::checkpoint;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, UniPoly};
+use jurist_algebra::poly::{MultiPoly, UniPoly};
 
-/// A function over the shares `u` (0), `v` (1) of a window, both in `[0, 1]`.
-#[derive(Debug)]
-pub(crate) struct Shares {
-    /// The coefficients of the powers of `s` for each dead time.
-    pub parts: Vec<Vec<MultiPoly>>,
-    /// By how much the coefficient of each power of `s` is off at most, in the first part; none are where it is empty.
-    pub slack: Vec<Integer>,
-    /// The axis to cut where that is too much.
-    pub slack_axis: usize,
-    /// The loop is undefined where one of these vanishes, each known up to a bound.
-    pub poles: Vec<(MultiPoly, Integer)>,
-    /// The dead time of each part; none for the first.
-    pub delays: Vec<DeadTime>,
-    /// The loop has no meaning where one of these is negative.
-    pub times: Vec<DeadTime>,
-}
-
-/// The function with its derivatives, also over the frequency (2); those of order `n` are multiplied by `unit^n`.
-#[derive(Debug)]
-pub(crate) struct PlaneFunction {
-    shares: Shares,
-    slack: UniPoly,
-    /// `f`, then its derivatives by frequency, `u` and `v`: both parts of the factor of the turn of each part.
-    first: [Vec<[MultiPoly; 2]>; 4],
-    /// The second derivatives `ww`, `wu`, `wv`, `uu`, `uv`, `vv`: the sums of the moduli of all terms.
-    second: [MultiPoly; 6],
-    unit: Integer,
-    degrees: [u32; 2],
-    order: usize,
-    shortest: [i64; 2],
-    most_steps: usize,
-}
-
-/// A box is given up where steps would be so many halvings shorter than the frequency, or than the bound of all frequencies
-/// at zero.
-const SHORTEST: [i64; 2] = [24, 256];
-/// The same of one point, which no cut brings away from the limit.
-const SHORTEST_AT_A_POINT: [i64; 2] = [72, 256];
-const MOST_STEPS_AT_A_POINT: usize = 1 << 14;
 const SCALE: u64 = 96;
 
-const OMEGA: usize = 2;
-
-impl PlaneFunction {
-    /// Cost: a product for each dead time and each term of the derivatives.
-    pub fn new(shares: Shares) -> PlaneFunction {
-        let Shares { parts, delays, .. } = &shares;
-        // What is known of a coefficient may be its bound alone.
-        let is_used = |j: usize, c: &MultiPoly| !c.is_zero() || shares.slack.get(j).is_some_and(|x| !x.is_zero());
-        let degree = |part: &Vec<MultiPoly>| part.iter().enumerate().rposition(|(j, c)| is_used(j, c));
-        let order = parts.iter().filter_map(degree).max().unwrap_or(0);
-        let numbers = delays.iter().flat_map(|time| [&time.offset, &time.slopes[0], &time.slopes[1]]);
-        let unit = numbers.fold(Integer::ONE, |l, x| l.lcm(&x.denominator()));
-        let whole = |x: &Rational| (x * &Rational::from(&unit)).numerator();
-        let omega = MultiPoly::variable(OMEGA);
-        // The turn exp(-i w tau) has the derivatives -i times these.
-        let rates: Vec<[MultiPoly; 3]> = delays
-            .iter()
-            .map(|DeadTime { offset, slopes: [a, b] }| {
-                let delay = &MultiPoly::constant(whole(offset))
-                    + &(&MultiPoly::variable(0).scaled_by(&whole(a)) + &MultiPoly::variable(1).scaled_by(&whole(b)));
-                [delay, omega.scaled_by(&whole(a)), omega.scaled_by(&whole(b))]
-            })
-            .collect();
-        let variables = [OMEGA, 0, 1];
-        let derived = |set: &[[MultiPoly; 2]], which: usize| -> Vec<[MultiPoly; 2]> {
-            let one = |([re, im], rates): (&[MultiPoly; 2], &[MultiPoly; 3])| {
-                let by = |p: &MultiPoly| p.derivative(variables[which]).scaled_by(&unit);
-                [&by(re) + &(&rates[which] * im), &by(im) - &(&rates[which] * re)]
-            };
-            set.iter().zip(&rates).map(one).collect()
-        };
-        let zeroth: Vec<[MultiPoly; 2]> = parts.iter().map(|part| on_axis(part)).collect();
-        let [w, u, v] = [0, 1, 2].map(|which| derived(&zeroth, which));
-        let second = [(&w, 0), (&w, 1), (&w, 2), (&u, 1), (&u, 2), (&v, 2)].map(|(set, which)| {
-            let terms = derived(set, which).into_iter().flatten();
-            terms.fold(MultiPoly::zero(), |sum, p| &sum + &absolute(&p))
-        });
-        let first = [zeroth, w, u, v];
-        let degrees = [0, 1].map(|axis| {
-            let own = first.iter().flatten().flatten().map(|p| p.degree_in(axis)).max().unwrap_or(0);
-            second.iter().map(|p| p.degree_in(axis)).max().unwrap_or(0).max(own)
-        });
-        let slack = UniPoly::new(shares.slack.clone());
-        PlaneFunction { shares, slack, first, second, unit, degrees, order, shortest: SHORTEST, most_steps: usize::MAX }
-    }
-
-    /// The same of a function that is the same everywhere.
-    pub fn of_point(shares: Shares) -> PlaneFunction {
-        let (shortest, most_steps) = (SHORTEST_AT_A_POINT, MOST_STEPS_AT_A_POINT);
-        PlaneFunction { shortest, most_steps, ..PlaneFunction::new(shares) }
-    }
-
-    /// Walks along the axis, or tells where to cut.
-    pub fn look(&self, place: &Place) -> Seen {
-        let wider = place.wider();
-        let ranges = |list: &[DeadTime]| -> Vec<[Rational; 2]> { list.iter().map(|time| range(time, place)).collect() };
-        let own = ranges(&self.shares.times);
-        if self.shares.parts.is_empty() || own.iter().any(|[_, most]| !most.sign().is_gt()) {
-            // No loop has a negative dead time.
-            return Seen::Decided(BoxVerdict::Unstable { outside: None });
-        }
-        if own.iter().chain(&ranges(&self.shares.delays)).any(|[least, _]| least.is_negative()) {
-            return Seen::Cut(wider);
-        }
-        for (pole, slack) in &self.shares.poles {
-            let (middle, spread) = self.spread(pole, place);
-            if middle.abs() <= spread + Rational::from(slack) {
-                return Seen::Cut(wider);
-            }
-        }
-        let Some(bound) = self.bound(place) else { return Seen::Cut(wider) };
-        Walk::new(self, place).follow(bound)
-    }
-
-    /// The value in the middle of a box, and a bound of how far others in the box are from it: a monomial of numbers that
-    /// are not negative is convex.
-    fn spread(&self, p: &MultiPoly, place: &Place) -> (Rational, Rational) {
-        let (middle, upper) = ([0, 1].map(|i| middle(place, i).rational()), [0, 1].map(|i| upper(place, i).rational()));
-        let moduli = absolute(p);
-        (p.eval(&middle), moduli.eval(&upper) - moduli.eval(&middle))
-    }
-
-    /// A power of two beyond which the highest undelayed power of `s` outweighs all other terms in the whole box.
-    fn bound(&self, place: &Place) -> Option<u64> {
-        let sizes: Vec<Vec<(Rational, Rational)>> =
-            self.shares.parts.iter().map(|part| part.iter().map(|c| self.spread(c, place)).collect()).collect();
-        let (top, spread) = sizes[0].get(self.order)?;
-        let slack = |j: usize| Rational::from(&self.slack.coeff(j));
-        let least = top.abs() - spread - slack(self.order);
-        let mut sums: Vec<Rational> = (0..self.order).map(slack).chain([Rational::ZERO]).collect();
-        for (k, part) in sizes.iter().enumerate() {
-            // Beyond the order all coefficients are zero.
-            let own = part.iter().enumerate().take(self.order + 1);
-            for (j, (middle, spread)) in own.filter(|(j, _)| (k, *j) != (0, self.order)) {
-                sums[j] += middle.abs() + spread;
-            }
-        }
-        if sums[self.order] >= least {
-            return None;
-        }
-        let mut e = 0u64;
-        loop {
-            let r = Rational::from(&(&Integer::ONE << e));
-            let rest = sums.iter().rev().fold(Rational::ZERO, |sum, c| sum * &r + c);
-            let power = Rational::from(&(&Integer::ONE << (e * self.order as u64)));
-            if rest < &least * &power {
-                return Some(e);
-            }
-            e += 1;
-        }
-    }
-
-    /// A polynomial in the frequency alone, times `2^shift`, at shares of the window.
-    fn collapsed(&self, p: &MultiPoly, at: &[Dyadic; 2]) -> UniPoly {
-        let mut coefficients = vec![Integer::ZERO; p.degree_in(OMEGA) as usize + 1];
-        for (monomial, c) in p.terms() {
-            let mut term = c.clone();
-            for (axis, share) in at.iter().enumerate() {
-                let e = monomial.exponent(axis);
-                term = (term * share.m.pow(u64::from(e))) << (share.e * u64::from(self.degrees[axis] - e));
-            }
-            coefficients[monomial.exponent(OMEGA) as usize] += term;
-        }
-        UniPoly::new(coefficients)
-    }
-
-    fn shift(&self, at: &[Dyadic; 2]) -> u64 {
-        (0..2).map(|axis| at[axis].e * u64::from(self.degrees[axis])).sum()
-    }
+/// What is known of the way for all points of a box, and so of its parts.
+#[derive(Debug)]
+pub(crate) struct Known {
+    /// A power of two beyond which the highest power of `s` without delay outweighs the rest.
+    pub(super) bound: u64,
+    /// Whether that power has a negative coefficient.
+    pub(super) is_negative: bool,
+    /// Whether the loop is defined in the whole box.
+    pub(super) is_defined: bool,
+    pub(super) pieces: Vec<Piece>,
+    pub(super) steps: usize,
+    pub(super) blocked: bool,
 }
 
 /// One box: everything as a function of the frequency.
-struct Walk<'f> {
+pub(super) struct Walk<'f> {
     function: &'f PlaneFunction,
     /// In the middle of the box, times `2^middle`.
     first: [Vec<[UniPoly; 2]>; 4],
@@ -193,10 +39,15 @@ struct Walk<'f> {
     delays: Vec<Rational>,
     /// Half the lengths of the box are two to these powers.
     halves: [i64; 2],
+    pieces: Vec<Piece>,
+    /// How much either parameter moves the function where it may vanish: where nothing at all is known, and where its slope is.
+    votes: [[i128; 2]; 2],
+    pub steps: usize,
+    is_lost_before: bool,
 }
 
 impl<'f> Walk<'f> {
-    fn new(function: &'f PlaneFunction, place: &Place) -> Walk<'f> {
+    pub fn new(function: &'f PlaneFunction, place: &Place) -> Walk<'f> {
         let (middle, upper) = ([0, 1].map(|i| middle(place, i)), [0, 1].map(|i| upper(place, i)));
         let first = function.first.each_ref().map(|set| {
             let both = |pair: &[MultiPoly; 2]| pair.each_ref().map(|p| function.collapsed(p, &middle));
@@ -208,66 +59,111 @@ impl<'f> Walk<'f> {
         let delays = function.shares.delays.iter().map(delay).collect();
         let halves = place.halvings.map(|h| -i64::from(h) - 1);
         let (shift, over) = (function.shift(&middle), function.shift(&upper));
-        Walk { function, first, middle: shift, second, upper: over, delays, halves }
+        let (pieces, votes) = (Vec::new(), [[0; 2]; 2]);
+        Walk {
+            function,
+            first,
+            middle: shift,
+            second,
+            upper: over,
+            delays,
+            halves,
+            pieces,
+            votes,
+            steps: 0,
+            is_lost_before: false,
+        }
     }
 
-    fn follow(&self, bound: u64) -> Seen {
-        let end = Rational::from(&(&Integer::ONE << bound));
-        let [shortest, least] = self.function.shortest;
-        let mut at = Dyadic::zero();
-        let mut step = Step(bound as i64 - 4);
-        let mut direction: Option<(i64, i64)> = None;
-        let mut steps = 0;
-        while at.rational() < end {
-            steps += 1;
-            if steps > self.function.most_steps {
-                return Seen::Cut(self.longer());
-            }
-            match self.cone(&at.plus(step, 1), step) {
-                Cone::Turned(next) => {
-                    let (first, last) = direction.unwrap_or((next, next));
-                    let Some(turned) = nearer(last, next) else { return Seen::Cut(self.longer()) };
-                    direction = Some((first, turned));
-                    at = at.plus(step, 0);
-                    step = Step(step.0 + 1);
+    /// From zero to a bound; `None` where that takes too many steps.
+    pub fn whole(&mut self, bound: u64) -> Option<()> {
+        let end = Dyadic { m: &Integer::ONE << bound, e: 0 };
+        self.along(Dyadic::zero(), Step(bound as i64 - 4), &end, bound)
+    }
+
+    /// Where a larger box was open.
+    pub fn again(&mut self, known: &Known) -> Option<()> {
+        for piece in &known.pieces {
+            match piece {
+                Piece::Open { at, to, step, .. } if !self.is_lost() => {
+                    self.along(at.clone(), *step, to, known.bound)?
                 }
-                Cone::TooLong if step.0 > at.floor_log2().map_or(bound as i64 - least, |e| e - shortest) => {
-                    step = Step(step.0 - 1);
-                }
-                Cone::TooLong => return Seen::Cut(self.longer()),
-                Cone::TooWide(axis) => return Seen::Cut(axis),
+                _ => self.pieces.push(piece.clone()),
             }
         }
-        let (first, last) = direction.expect("there is a first step");
-        let n = self.function.order as i64;
-        // The value at zero is real: 0 or 2 quarter turns.
-        let value = self.value_at_zero();
-        let Some(first) = nearer(first, value) else { return Seen::Cut(self.longer()) };
-        let top = &self.first[0][0][if n % 2 == 0 { 0 } else { 1 }];
-        let negative = top.coeff(n as usize).is_negative() != (n % 4 >= 2);
-        let highest = (n + if negative { 2 } else { 0 }).rem_euclid(4);
-        let Some(last) = nearer(last, highest) else { return Seen::Cut(self.longer()) };
-        let twice = n - (last - first);
-        assert!(twice >= 0 && twice % 2 == 0, "the argument grows by whole half turns");
-        Seen::Decided(match twice / 2 {
-            0 => BoxVerdict::Stable,
-            right => BoxVerdict::Unstable { outside: Some(right as usize) },
-        })
+        Some(())
     }
 
-    fn longer(&self) -> usize {
-        usize::from(self.halves[1] > self.halves[0])
+    /// Whether there is a stretch on which nothing is known: then the rest of the way is of no use to this box.
+    fn is_lost(&self) -> bool {
+        let open = self.pieces.iter().rev().map_while(|piece| match piece {
+            Piece::Open { slopes, .. } => Some(slopes),
+            Piece::Clear { .. } => None,
+        });
+        self.is_lost_before || open.fold(Headings::MAX, |all, own| all & own) == 0
     }
 
-    /// The direction of the function at zero.
-    fn value_at_zero(&self) -> i64 {
-        let value = self.first[0].iter().fold(Integer::ZERO, |sum, [re, _]| sum + re.coeff(0));
-        if value.is_negative() { 2 } else { 0 }
+    pub fn right(&self, known: &Known) -> Option<Right> {
+        roots_right(&self.pieces, self.function.order, known.is_negative)
     }
 
-    /// What the function does on a step, for all points of the box: where it stays within 41.9 degrees of its value in the
-    /// middle of both, the quarter turn that is within 47 degrees of that. Neighbouring steps are then less than half a turn apart.
-    fn cone(&self, omega: &Dyadic, step: Step) -> Cone {
+    pub fn into_pieces(self) -> Vec<Piece> {
+        joined(self.pieces)
+    }
+
+    /// The axis to cut.
+    pub fn wider(&self) -> usize {
+        match self.votes.iter().find(|[u, v]| u != v) {
+            Some([u, v]) => usize::from(v > u),
+            None => usize::from(self.halves[1] > self.halves[0]),
+        }
+    }
+
+    fn along(&mut self, from: Dyadic, step: Step, end: &Dyadic, bound: u64) -> Option<()> {
+        let [shortest, least] = self.function.shortest;
+        let (mut at, mut step) = (from, step);
+        let last = end.rational();
+        while at.rational() < last {
+            while at.plus(step, 0).rational() > last {
+                step = Step(step.0 - 1);
+            }
+            self.steps += 1;
+            if self.steps > self.function.most_steps {
+                return None;
+            }
+            let local = self.local(&at.plus(step, 1), step);
+            let may_be_shorter = step.0 > at.floor_log2().map_or(bound as i64 - least, |e| e - shortest);
+            let next = at.plus(step, 0);
+            match local.look() {
+                Look::TooLong if may_be_shorter => {
+                    step = Step(step.0 - 1);
+                    continue;
+                }
+                Look::Clear(k) => self.pieces.push(Piece::Clear { first: k, last: k }),
+                seen => {
+                    let slopes = if let Look::Open(slopes) = seen { slopes } else { local.slopes() };
+                    let votes = &mut self.votes[usize::from(slopes != 0)];
+                    let own = local.shares(slopes, self.function.shares.slack_axis);
+                    *votes = [votes[0] + own[0], votes[1] + own[1]];
+                    self.pieces.push(Piece::Open { at, to: next.clone(), step, slopes });
+                    if self.is_lost() {
+                        if next.rational() < last {
+                            self.pieces.push(Piece::Open { at: next, to: end.clone(), step, slopes: 0 });
+                        }
+                        self.is_lost_before = true;
+                        return Some(());
+                    }
+                }
+            }
+            at = next;
+            // Where the next step is no longer, it is halved.
+            step = Step(step.0 + 1);
+        }
+        Some(())
+    }
+
+    /// What the function does on a step, for all points of the box.
+    fn local(&self, omega: &Dyadic, step: Step) -> Local {
         checkpoint(512);
         let guarded = SCALE + 8;
         let omega_exact = omega.rational();
@@ -283,85 +179,153 @@ impl<'f> Walk<'f> {
                 sum.plus(&Fixed { re, im, error: Integer::ONE }.times(turn, guarded))
             })
         });
-        // |f - f(m)| <= |f_w| h + |f_u| a + |f_v| b + half of the second derivatives times h, a, b; everything times unit^2.
+        // f = f(m) + f_w dw + f_u du + f_v dv + half of the second derivatives times products of these; everything times unit^2.
         let (h, [a, b]) = (step.0 - 1, self.halves);
         let far = omega.plus(step, 1);
         let [ww, wu, wv, uu, uv, vv] = self.second.each_ref().map(|p| scaled(p, &far, self.upper) + Integer::ONE);
         let unit = &self.function.unit;
-        let first = |x: &Fixed, power: i64| shifted_up(&x.at_most(), power) * unit;
-        let (u_part, v_part) = (first(&by_u, a), first(&by_v, b));
-        let sides =
-            &(&u_part + &v_part) + &(shifted_up(&uu, 2 * a - 1) + shifted_up(&uv, a + b) + shifted_up(&vv, 2 * b - 1));
-        let slack = (scaled(&self.function.slack, &far, 0) + Integer::ONE) * unit * unit;
-        let along = first(&by_omega, h) + shifted_up(&ww, 2 * h - 1) + shifted_up(&wu, h + a) + shifted_up(&wv, h + b);
-        let two_thirds = &(value.at_least() * unit * unit) << 1;
-        let three = Integer::from(3);
-        if &slack * &three >= two_thirds {
-            return Cone::TooWide(self.function.shares.slack_axis);
-        }
-        let sides = sides + slack;
-        if &sides * &three >= two_thirds {
-            // The step may be long, but no shorter one will do about its middle.
-            return Cone::TooWide(usize::from(v_part > u_part));
-        }
-        if (sides + along) * three >= two_thirds {
-            return Cone::TooLong;
-        }
-        let (wide, high) = (value.re.abs(), value.im.abs());
-        let largest = if wide > high { &wide } else { &high };
-        if (&value.error << 5) > *largest {
-            // The quarter turn next to the value may be more than 47 degrees away from it.
-            return Cone::TooWide(self.longer());
-        }
-        Cone::Turned(match (wide > high, value.re.is_negative(), value.im.is_negative()) {
-            (true, false, _) => 0,
-            (false, _, false) => 1,
-            (true, true, _) => 2,
-            (false, _, true) => 3,
-        })
+        let square = unit * unit;
+        let slack = |p: &UniPoly| (scaled(p, &far, 0) + Integer::ONE) * &square;
+        let [bend, by_sides] = [
+            shifted_up(&ww, 2 * h),
+            shifted_up(&wu, h + a) + shifted_up(&wv, h + b) + shifted_up(&slack(&self.function.slack_slope), h),
+        ];
+        let sides = shifted_up(&uu, 2 * a - 1) + shifted_up(&uv, a + b) + shifted_up(&vv, 2 * b - 1);
+        let vectors =
+            [times(&value, &square, 0), times(&by_omega, unit, h), times(&by_u, unit, a), times(&by_v, unit, b)];
+        Local::new(vectors, [sides, slack(&self.function.slack), by_sides, bend])
     }
 }
 
-enum Cone {
-    /// The quarter turn next to the value.
-    Turned(i64),
+/// The function about the middle of a step and a box, all in one unit.
+struct Local {
+    value: Vector,
+    /// The derivatives by frequency and both parameters, times the half lengths.
+    slopes: [Vector; 3],
+    /// Bounds: of what the parameters' second derivatives do with all that is off, the latter alone, and of the change of the derivative by
+    /// frequency through the parameters, and through the frequency. All times half lengths.
+    sides: i128,
+    slack: i128,
+    by_sides: i128,
+    bend: i128,
+}
+
+struct Vector {
+    re: i128,
+    im: i128,
+    /// Of either part.
+    error: i128,
+}
+
+/// What is seen of a step.
+enum Look {
+    /// The function stays in the half plane about a heading.
+    Clear(i64),
+    /// Shorter steps show more.
     TooLong,
-    /// The function is too near to zero, or the box too wide along an axis.
-    TooWide(usize),
+    /// No shorter step would show more than that the derivative stays in half planes about these headings.
+    Open(Headings),
 }
 
-/// The representative of a quarter turn that is next to another one; `None` where they are opposite.
-fn nearer(last: i64, next: i64) -> Option<i64> {
-    match (next - last).rem_euclid(4) {
-        0 => Some(last),
-        1 => Some(last + 1),
-        3 => Some(last - 1),
-        _ => None,
+/// Bits of all that is compared.
+const BITS: u64 = 100;
+/// A step is halved where more than one part in two to this power of the value in its middle would be left if it were short: else the
+/// ends of open stretches would be looked for with steps without end.
+const WORTH: u32 = 3;
+
+impl Local {
+    fn new(vectors: [[Integer; 3]; 4], bounds: [Integer; 4]) -> Local {
+        let longest = vectors.iter().flatten().chain(&bounds).map(Integer::bit_length).max().unwrap_or(0);
+        let down = longest.saturating_sub(BITS);
+        let floor = |x: &Integer| short(&(x >> down));
+        let vector = |[re, im, error]: &[Integer; 3]| Vector { re: floor(re), im: floor(im), error: floor(error) + 2 };
+        let [value, slopes @ ..] = vectors.each_ref().map(vector);
+        let [sides, slack, by_sides, bend] = bounds.each_ref().map(|x| floor(x) + 1);
+        Local { value, slopes, sides: sides + slack, slack, by_sides, bend }
+    }
+
+    fn look(&self) -> Look {
+        // Of the headings with the value in their half plane the one that leaves most.
+        let (mut best, mut is_point_clear) = ((0, i128::MIN), false);
+        for k in 0..TURN {
+            let value = self.value.at_least(k);
+            if value <= 0 {
+                continue;
+            }
+            let [w, u, v] = self.slopes.each_ref().map(|slope| slope.at_most(k));
+            let at_middle = value - u - v - LENGTH * self.sides;
+            is_point_clear |= at_middle << WORTH > value;
+            let left = at_middle - w - LENGTH * (self.by_sides + self.bend / 2 + 1);
+            if left > best.1 {
+                best = (k, left);
+            }
+        }
+        if best.1 > 0 {
+            return Look::Clear(best.0);
+        }
+        if is_point_clear {
+            return Look::TooLong;
+        }
+        let slopes = self.slopes();
+        // A step so short that it is straight.
+        let straight = (0..TURN).any(|k| {
+            let along = self.slopes[0].at_least(k);
+            (along - LENGTH * self.by_sides) << WORTH > along.max(0)
+        });
+        if slopes == 0 && straight { Look::TooLong } else { Look::Open(slopes) }
+    }
+
+    /// The headings about which the derivative by frequency stays in a half plane.
+    fn slopes(&self) -> Headings {
+        let is_along = |k: &i64| self.slopes[0].at_least(*k) > LENGTH * (self.by_sides + self.bend);
+        (0..TURN).filter(is_along).fold(0, |all, k| all | 1 << k)
+    }
+
+    /// By how much either parameter moves the function, in parts of 1024: across its way, where that is known. What is off whatever they
+    /// are is the part of one of them.
+    fn shares(&self, slopes: Headings, slack_axis: usize) -> [i128; 2] {
+        let [u, v] = [1, 2].map(|i| match slopes {
+            0 => self.slopes[i].at_most(0).max(self.slopes[i].at_most(TURN / 4)),
+            _ => self.slopes[i].at_most(i64::from(slopes.trailing_zeros()) + TURN / 4),
+        });
+        if LENGTH * self.slack > u + v {
+            return [0, 1].map(|axis| if axis == slack_axis { 1 << 10 } else { 0 });
+        }
+        let share = |x: i128| (x << 10) / (u + v + 1);
+        [share(u), share(v)]
     }
 }
 
-/// The least and the greatest value of a dead time in a box.
-fn range(time: &DeadTime, place: &Place) -> [Rational; 2] {
-    let mut ends = [time.offset.clone(), time.offset.clone()];
-    for axis in 0..2 {
-        let (upper, slope) = (upper(place, axis).rational(), &time.slopes[axis]);
-        let lower = &upper - &Rational::dyadic(&Integer::ONE, u64::from(place.halvings[axis]));
-        let (a, b) = (lower * slope, upper * slope);
-        let (least, most) = if a <= b { (a, b) } else { (b, a) };
-        ends[0] += least;
-        ends[1] += most;
+impl Vector {
+    fn along(&self, k: i64) -> i128 {
+        let [re, im] = heading(k);
+        re * self.re + im * self.im
     }
-    ends
+
+    fn at_least(&self, k: i64) -> i128 {
+        self.along(k) - SPAN * self.error
+    }
+
+    fn at_most(&self, k: i64) -> i128 {
+        self.along(k).abs() + SPAN * self.error
+    }
 }
 
-/// The middle of a box on an axis, as a share of the window.
-fn middle(place: &Place, axis: usize) -> Dyadic {
-    Dyadic { m: Integer::from(2 * place.at[axis] + 1), e: u64::from(place.halvings[axis]) + 1 }
+/// A vector times `unit 2^power`, with the error of its parts.
+fn times(x: &Fixed, unit: &Integer, power: i64) -> [Integer; 3] {
+    let by = power.unsigned_abs();
+    let floor = |x: &Integer| if power >= 0 { x * unit << by } else { x * unit >> by };
+    [floor(&x.re), floor(&x.im), floor(&x.error) + Integer::from(2)]
 }
 
-/// The upper end of a box on an axis, as a share of the window.
-fn upper(place: &Place, axis: usize) -> Dyadic {
-    Dyadic { m: Integer::from(place.at[axis] + 1), e: u64::from(place.halvings[axis]) }
+/// An integer of less than 128 bits.
+fn short(x: &Integer) -> i128 {
+    let modulus = match x.as_limbs() {
+        [] => 0,
+        [low] => i128::from(*low),
+        [low, high, ..] => i128::from(*low) | i128::from(*high) << 64,
+    };
+    if x.is_negative() { -modulus } else { modulus }
 }
 
 /// The value of a polynomial times `2^shift`, in units of `2^-SCALE`, rounded down.
@@ -381,26 +345,4 @@ fn scaled(p: &UniPoly, omega: &Dyadic, shift: u64) -> Integer {
 fn shifted_up(x: &Integer, power: i64) -> Integer {
     let by = power.unsigned_abs();
     if power >= 0 { x << by } else { -(-x >> by) }
-}
-
-fn absolute(p: &MultiPoly) -> MultiPoly {
-    let terms = p.terms().iter().map(|(m, c)| (m.exponents().to_vec(), c.abs()));
-    MultiPoly::from_terms(terms)
-}
-
-/// `P(i omega)` as real and imaginary part.
-fn on_axis(coefficients: &[MultiPoly]) -> [MultiPoly; 2] {
-    let (mut re, mut im) = (MultiPoly::zero(), MultiPoly::zero());
-    let mut power = MultiPoly::one();
-    for (j, c) in coefficients.iter().enumerate() {
-        let term = c * &power;
-        match j % 4 {
-            0 => re = &re + &term,
-            1 => im = &im + &term,
-            2 => re = &re - &term,
-            _ => im = &im - &term,
-        }
-        power = &power * &MultiPoly::variable(OMEGA);
-    }
-    [re, im]
 }

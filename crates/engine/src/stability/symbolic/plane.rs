@@ -1,8 +1,8 @@
 //! Two parameters of a loop over symbols: boxes, each proved stable, proved not stable, or left undecided.
 
 use crate::stability::Shape;
-use crate::stability::dead_time::{PlaneFunction, Shares, in_shares_of};
-use crate::stability::plane::boxes::{BoxMap, BoxVerdict, Place, Seen, Window, subdivided};
+use crate::stability::dead_time::{Known, PlaneFunction, Shares, in_shares_of};
+use crate::stability::plane::boxes::{BoxMap, BoxVerdict, Place, Seen, Window, subdivided, subdivided_with};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
@@ -124,11 +124,11 @@ impl SymbolicPlane {
         match &self.table {
             Table::Fixed(symbols) => {
                 let function = budget.enter(|| self.over_numbers(window, symbols))?;
-                Ok(subdivided(window, goal, budget, |place| Ok(function.look(place))))
+                Ok(subdivided_with(window, goal, budget, |place, known| Ok(function.look(place, known))))
             }
             Table::Moving { symbols, axis } => {
                 let tiles = budget.enter(|| Tiles::new(self, window, symbols, *axis))?;
-                Ok(subdivided(window, goal, budget, |place| Ok(tiles.look(place))))
+                Ok(subdivided_with(window, goal, budget, |place, known| Ok(tiles.look(place, known))))
             }
         }
     }
@@ -140,7 +140,7 @@ impl SymbolicPlane {
             Table::Moving { symbols, axis } if !self.is_never_stable => Some(Tiles::new(self, window, symbols, *axis)),
             _ => None,
         };
-        move |place| tiles.as_ref().filter(|tiles| place.at[tiles.axis] == 0).map(|tiles| tiles.look(place))
+        move |place| tiles.as_ref().filter(|tiles| place.at[tiles.axis] == 0).map(|tiles| tiles.look(place, None).0)
     }
 
     /// The function over a window where symbols are numbers.
@@ -244,22 +244,25 @@ impl<'a> Tiles<'a> {
         Tiles { symbols, axis, side, lists, known: Mutex::default() }
     }
 
-    fn look(&self, place: &Place) -> Seen {
+    /// What is known of a box is told only for the same tile.
+    fn look(&self, place: &Place, known: Option<&(u32, Known)>) -> (Seen, Option<(u32, Known)>) {
         let (at, halvings) = (place.at[self.axis], place.halvings[self.axis]);
         let level = halvings - halvings % HALVINGS;
         let tile = at >> (halvings - level);
-        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = known().get(&(level, tile)).cloned();
+        let tiles = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = tiles().get(&(level, tile)).cloned();
         let function = found.unwrap_or_else(|| {
             let built = self.tile(level, tile).map(Arc::new);
-            known().insert((level, tile), built.clone());
+            tiles().insert((level, tile), built.clone());
             built
         });
-        let Some(function) = function else { return Seen::Cut(self.axis) };
+        let Some(function) = function else { return (Seen::Cut(self.axis), None) };
         let mut inner = *place;
         inner.halvings[self.axis] = halvings - level;
         inner.at[self.axis] = at - (tile << (halvings - level));
-        function.look(&inner)
+        let known = known.filter(|(own, _)| *own == level).map(|(_, known)| known);
+        let (seen, known) = function.look(&inner, known);
+        (seen, known.map(|known| (level, known)))
     }
 
     fn tile(&self, level: u32, at: u64) -> Option<PlaneFunction> {

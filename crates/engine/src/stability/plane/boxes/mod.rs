@@ -8,7 +8,7 @@ use super::curves::Curve;
 use crate::stability::Range;
 use jurist_algebra::number::Rational;
 
-pub(crate) use places::{Place, Seen, subdivided};
+pub(crate) use places::{Place, Seen, subdivided, subdivided_with};
 pub use subdivide::stability_boxes;
 
 /// A bounded rectangle of two parameters.

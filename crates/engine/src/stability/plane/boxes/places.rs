@@ -3,6 +3,7 @@
 use super::{BoxMap, BoxVerdict, PlaneBox, Window};
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Integer, Rational};
+use std::sync::Arc;
 
 /// A box of a window: the `at`-th of `2^halvings` equal parts on either axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +20,11 @@ pub(crate) enum Seen {
     /// Nothing: it is to be halved along an axis.
     Cut(usize),
 }
+
+/// A box, and what was found out of one that holds it.
+type Node<K> = (Place, Option<Arc<K>>);
+/// What its test found.
+type Tested<K> = (Node<K>, Result<(Seen, Option<K>), Exhausted>);
 
 /// Boxes are looked at together in groups of this size; between groups the budget is asked.
 const GROUP: usize = 32;
@@ -72,37 +78,53 @@ pub(crate) fn subdivided(
     budget: &Budget,
     look: impl Fn(&Place) -> Result<Seen, Exhausted> + Sync,
 ) -> BoxMap {
+    subdivided_with(window, goal, budget, |place, _: Option<&()>| Ok((look(place)?, None)))
+}
+
+/// The same where a test of a box is told what that of the last box that held it found out.
+pub(crate) fn subdivided_with<K: Send + Sync>(
+    window: &Window,
+    goal: &Rational,
+    budget: &Budget,
+    look: impl Fn(&Place, Option<&K>) -> Result<(Seen, Option<K>), Exhausted> + Sync,
+) -> BoxMap {
     budget.step("subdividing the window");
     let mut decided: Vec<PlaneBox> = Vec::new();
-    let mut frontier = vec![Place::whole()];
+    let mut frontier: Vec<Node<K>> = vec![(Place::whole(), None)];
     let mut stopped = None;
-    let looked = |place: Place| -> (Place, Result<Seen, Exhausted>) {
-        (place, budget.enter(|| look(&place)).and_then(|seen| seen))
+    let looked = |(place, known): Node<K>| -> Tested<K> {
+        let seen = budget.enter(|| look(&place, known.as_deref())).and_then(|seen| seen);
+        ((place, known), seen)
     };
     loop {
-        let open = frontier.iter().fold(Rational::ZERO, |sum, place| sum + place.share());
+        let open = frontier.iter().fold(Rational::ZERO, |sum, (place, _)| sum + place.share());
         let has_begun = !decided.is_empty() || frontier.len() > 1;
         if stopped.is_some() || frontier.is_empty() || (has_begun && open <= *goal) {
             break;
         }
-        if frontier.len() > MAX_UNDECIDED || frontier.iter().any(|p| p.halvings.iter().any(|h| *h >= MAX_HALVINGS)) {
+        if frontier.len() > MAX_UNDECIDED || frontier.iter().any(|(p, _)| p.halvings.iter().any(|h| *h >= MAX_HALVINGS))
+        {
             stopped = Some(format!("boxes ({} undecided)", frontier.len()));
             break;
         }
         // The largest first: what is left at last is about as large everywhere.
-        let halvings = |place: &Place| place.halvings[0] + place.halvings[1];
+        let halvings = |(place, _): &Node<K>| place.halvings[0] + place.halvings[1];
         let fewest = frontier.iter().map(halvings).min().unwrap_or(0);
-        let (largest, mut next): (Vec<Place>, Vec<Place>) = frontier.into_iter().partition(|p| halvings(p) == fewest);
+        let (largest, mut next): (Vec<Node<K>>, Vec<Node<K>>) =
+            frontier.into_iter().partition(|node| halvings(node) == fewest);
         let mut rest = largest.into_iter();
         while stopped.is_none() && rest.len() > 0 {
-            let group: Vec<Place> = rest.by_ref().take(GROUP).collect();
-            let all: Vec<(Place, Result<Seen, Exhausted>)> = parallel_map(group, looked);
-            for (place, seen) in all {
+            let group: Vec<Node<K>> = rest.by_ref().take(GROUP).collect();
+            let tested: Vec<Tested<K>> = parallel_map(group, looked);
+            for ((place, known), seen) in tested {
                 match seen {
-                    Ok(Seen::Decided(verdict)) => decided.push(PlaneBox { window: place.window(window), verdict }),
-                    Ok(Seen::Cut(axis)) => next.extend(place.halves(axis)),
+                    Ok((Seen::Decided(verdict), _)) => decided.push(PlaneBox { window: place.window(window), verdict }),
+                    Ok((Seen::Cut(axis), known)) => {
+                        let known = known.map(Arc::new);
+                        next.extend(place.halves(axis).map(|half| (half, known.clone())));
+                    }
                     Err(exhausted) => {
-                        next.push(place);
+                        next.push((place, known));
                         stopped = Some(exhausted.budget);
                     }
                 }
@@ -112,7 +134,7 @@ pub(crate) fn subdivided(
         next.extend(rest);
         frontier = next;
     }
-    let undecided = |place: Place| PlaneBox { window: place.window(window), verdict: BoxVerdict::Undecided };
+    let undecided = |(place, _): Node<K>| PlaneBox { window: place.window(window), verdict: BoxVerdict::Undecided };
     decided.extend(frontier.into_iter().map(undecided));
     super::subdivide::finished(window.clone(), Vec::new(), decided, stopped)
 }
