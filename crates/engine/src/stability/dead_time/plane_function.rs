@@ -29,6 +29,8 @@ pub(crate) struct Shares {
 #[derive(Debug)]
 pub(crate) struct PlaneFunction {
     pub(super) shares: Shares,
+    /// The sum of the moduli of all terms of each part on the axis.
+    pub(super) moduli: Vec<MultiPoly>,
     pub(super) slack: UniPoly,
     pub(super) slack_slope: UniPoly,
     /// `f`, then its derivatives by frequency, `u` and `v`: both parts of the factor of the turn of each part.
@@ -80,6 +82,7 @@ impl PlaneFunction {
             set.iter().zip(&rates).map(one).collect()
         };
         let zeroth: Vec<[MultiPoly; 2]> = parts.iter().map(|part| on_axis(part)).collect();
+        let moduli = zeroth.iter().map(|[re, im]| &absolute(re) + &absolute(im)).collect();
         let [w, u, v] = [0, 1, 2].map(|which| derived(&zeroth, which));
         let second = [(&w, 0), (&w, 1), (&w, 2), (&u, 1), (&u, 2), (&v, 2)].map(|(set, which)| {
             let terms = derived(set, which).into_iter().flatten();
@@ -92,7 +95,7 @@ impl PlaneFunction {
         });
         let slack = UniPoly::new(shares.slack.clone());
         let (slack_slope, shortest, most_steps) = (slack.derivative(), SHORTEST, usize::MAX);
-        PlaneFunction { shares, slack, slack_slope, first, second, unit, degrees, order, shortest, most_steps }
+        PlaneFunction { shares, moduli, slack, slack_slope, first, second, unit, degrees, order, shortest, most_steps }
     }
 
     /// The same of a function that is the same everywhere.
@@ -127,7 +130,12 @@ impl PlaneFunction {
         if own.iter().chain(&ranges(&self.shares.delays)).any(|[least, _]| least.is_negative()) {
             return Err(Seen::Cut(wider));
         }
-        let Some((bound, is_negative)) = self.bound(place) else { return Err(Seen::Cut(wider)) };
+        let Some((bound, is_negative)) = self.bound(place) else {
+            return Err(match self.has_chain_on_the_right(place) {
+                true => Seen::Decided(BoxVerdict::Unstable { outside: None }),
+                false => Seen::Cut(self.axis_of_top().unwrap_or(wider)),
+            });
+        };
         let mut walk = Walk::new(self, place);
         if walk.whole(bound).is_none() {
             return Err(Seen::Cut(walk.wider()));
@@ -163,6 +171,30 @@ impl PlaneFunction {
             _ => Seen::Cut(axis),
         };
         (seen, Known { steps: walk.steps, blocked: right.is_none(), pieces: walk.into_pieces(), ..known })
+    }
+
+    /// Whether one delayed highest power of `s`, the only one, outweighs that without delay, which is not zero: infinitely many roots are near the
+    /// line `Re s = log |P_k/P_0|/tau` on the right for all parameters of the box
+    /// ([BellmanCooke1963](jurist_algebra::bibliography#bellmancooke1963), chapter 12).
+    fn has_chain_on_the_right(&self, place: &Place) -> bool {
+        let mut delayed = self.shares.parts.iter().zip(&self.shares.delays).skip(1);
+        let mut tops = delayed.by_ref().filter_map(|(part, time)| Some((part.get(self.order)?, time)));
+        let (Some((top, time)), None, Some(own)) =
+            (tops.find(|(top, _)| !top.is_zero()), tops.find(|(top, _)| !top.is_zero()), self.shares.parts[0].get(self.order))
+        else {
+            return false;
+        };
+        let ((middle, spread), (own_middle, own_spread)) = (self.spread(top, place), self.spread(own, place));
+        let is_delayed = range(time, place)[0].sign().is_gt();
+        let is_there = own_middle.abs() > own_spread;
+        is_delayed && is_there && middle.abs() - spread > own_middle.abs() + own_spread
+    }
+
+    /// The axis on which the coefficients of the highest power of `s` depend, where it is one.
+    fn axis_of_top(&self) -> Option<usize> {
+        let tops = || self.shares.parts.iter().filter_map(|part| part.get(self.order));
+        let depends = [0, 1].map(|axis| tops().any(|top| top.degree_in(axis) > 0));
+        (depends[0] != depends[1]).then_some(usize::from(depends[1]))
     }
 
     fn is_defined(&self, place: &Place) -> bool {

@@ -35,6 +35,8 @@ pub(super) struct Walk<'f> {
     /// At its upper corner, times `2^upper`: the second derivatives.
     second: [UniPoly; 6],
     upper: u64,
+    /// The moduli of the parts, in the middle and at the upper corner.
+    moduli: [Vec<UniPoly>; 2],
     /// The dead times in the middle of the box.
     delays: Vec<Rational>,
     /// Half the lengths of the box are two to these powers.
@@ -54,6 +56,7 @@ impl<'f> Walk<'f> {
             set.iter().map(both).collect::<Vec<_>>()
         });
         let second = function.second.each_ref().map(|p| function.collapsed(p, &upper));
+        let moduli = [&middle, &upper].map(|at| function.moduli.iter().map(|p| function.collapsed(p, at)).collect());
         let [u, v] = [0, 1].map(|i| middle[i].rational());
         let delay = |time: &DeadTime| &time.offset + &(&time.slopes[0] * &u) + &time.slopes[1] * &v;
         let delays = function.shares.delays.iter().map(delay).collect();
@@ -66,6 +69,7 @@ impl<'f> Walk<'f> {
             middle: shift,
             second,
             upper: over,
+            moduli,
             delays,
             halves,
             pieces,
@@ -134,7 +138,11 @@ impl<'f> Walk<'f> {
             let local = self.local(&at.plus(step, 1), step);
             let may_be_shorter = step.0 > at.floor_log2().map_or(bound as i64 - least, |e| e - shortest);
             let next = at.plus(step, 0);
-            match local.look() {
+            let look = match local.look() {
+                Look::Clear(k) => Look::Clear(k),
+                other => self.outweighed(&at.plus(step, 1), step).unwrap_or(other),
+            };
+            match look {
                 Look::TooLong if may_be_shorter => {
                     step = Step(step.0 - 1);
                     continue;
@@ -160,6 +168,35 @@ impl<'f> Walk<'f> {
             step = Step(step.0 + 1);
         }
         Some(())
+    }
+
+    /// What is seen of a step where the part without delay outweighs the others, whatever the dead times are.
+    fn outweighed(&self, omega: &Dyadic, step: Step) -> Option<Look> {
+        if self.first[0].len() < 2 {
+            return None;
+        }
+        let far = omega.plus(step, 1);
+        let [inner, outer] = [(0, self.middle), (1, self.upper)].map(|(which, shift)| {
+            move |at: &Dyadic| self.moduli[which].iter().map(|p| scaled(p, at, shift)).fold(Integer::ZERO, |sum, x| sum + x)
+        });
+        let parts = self.first[0].iter().map(|[re, im]| {
+            let (re, im) = (scaled(re, omega, self.middle), scaled(im, omega, self.middle));
+            Fixed { re, im, error: Integer::ONE }
+        });
+        let parts: Vec<Fixed> = parts.collect();
+        let delayed = parts[1..].iter().fold(Integer::ZERO, |sum, part| sum + part.at_most());
+        // A sum of monomials of numbers that are not negative is convex: nowhere is it farther from its middle than at the upper end.
+        let (at_middle, roundings) = (inner(omega), Integer::from(2 * parts.len() as i64 + 2));
+        let slack = scaled(&self.function.slack, &far, 0) + Integer::ONE;
+        let rest = |at: &Dyadic| &delayed + &(outer(at) - &at_middle) + &roundings + &slack;
+        let Fixed { re, im, error } = &parts[0];
+        let vectors = [[re.clone(), im.clone(), error.clone()], NONE, NONE, NONE];
+        let local = |rest: Integer| Local::new(vectors.clone(), [rest, Integer::ZERO, Integer::ZERO, Integer::ZERO]);
+        match (local(rest(&far)).look(), local(rest(omega)).look()) {
+            (Look::Clear(k), _) => Some(Look::Clear(k)),
+            (_, Look::Clear(_)) => Some(Look::TooLong),
+            _ => None,
+        }
     }
 
     /// What the function does on a step, for all points of the box.
@@ -196,6 +233,8 @@ impl<'f> Walk<'f> {
         Local::new(vectors, [sides, slack(&self.function.slack), by_sides, bend])
     }
 }
+
+const NONE: [Integer; 3] = [Integer::ZERO, Integer::ZERO, Integer::ZERO];
 
 /// The function about the middle of a step and a box, all in one unit.
 struct Local {
