@@ -157,6 +157,17 @@ fn debug_times() {
                 let map = answer.into_value().boxes;
                 let share = |a: &Rational| 100.0 * a.to_f64_approximate() / map.window.area().to_f64_approximate();
                 let n = |v: fn(&BoxVerdict) -> bool| map.boxes.iter().filter(|b| v(&b.verdict)).count();
+                if name == "neutral-loop" {
+                    let mut h = std::collections::BTreeMap::<(i64, i64), (usize, f64, std::collections::BTreeSet<String>)>::new();
+                    for b in map.boxes.iter().filter(|b| b.verdict == BoxVerdict::Undecided) {
+                        let f = |r: &Rational| r.to_f64_approximate();
+                        let e = h.entry(((f(&b.window.x[0]) * 16.0) as i64, (f(&b.window.y[0]) * 4.0) as i64)).or_default();
+                        e.0 += 1;
+                        e.1 += f(&b.window.area()) * 50.0;
+                        e.2.insert(format!("{:?}", (1.0 / f(&(&b.window.x[1] - &b.window.x[0])), 2.0 / f(&(&b.window.y[1] - &b.window.y[0])))));
+                    }
+                    for x in h { eprintln!("{x:?}"); }
+                }
                 eprintln!(
                     "{name}: {:?} stable {:.2} ({}) unstable {:.2} ({}) undecided {:.2} ({}) {:?}",
                     start.elapsed(),

@@ -323,9 +323,10 @@ impl Local {
     /// By how much either parameter moves the function, in parts of 1024: across its way, where that is known. What is off whatever they
     /// are is the part of one of them.
     fn shares(&self, slopes: Headings, slack_axis: usize) -> [i128; 2] {
+        let along = (0..TURN).max_by_key(|&k| self.slopes[0].along(k)).unwrap_or(0);
         let [u, v] = [1, 2].map(|i| match slopes {
             0 => self.slopes[i].at_most(0).max(self.slopes[i].at_most(TURN / 4)),
-            _ => self.slopes[i].at_most(i64::from(slopes.trailing_zeros()) + TURN / 4),
+            _ => self.slopes[i].at_most(along + TURN / 4),
         });
         if LENGTH * self.slack > u + v {
             return [0, 1].map(|axis| if axis == slack_axis { 1 << 10 } else { 0 });
