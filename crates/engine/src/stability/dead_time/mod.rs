@@ -37,6 +37,8 @@ mod tests_cells;
 mod tests_family;
 #[cfg(test)]
 mod tests_gain;
+#[cfg(test)]
+mod tests_plane;
 mod trigonometric;
 mod turn;
 mod windows;

@@ -141,11 +141,7 @@ impl PlaneFunction {
             return Err(Seen::Cut(walk.wider()));
         }
         let is_defined = self.is_defined(place);
-        Ok(self.seen(
-            walk,
-            place,
-            Known { bound, is_negative, is_defined, pieces: Vec::new(), steps: 0, blocked: false },
-        ))
+        Ok(self.seen(walk, place, Known { bound, is_negative, is_defined, pieces: Vec::new() }))
     }
 
     /// The same of a part of a box of which something is known.
@@ -155,7 +151,7 @@ impl PlaneFunction {
             return Err(Seen::Cut(walk.wider()));
         }
         let is_defined = known.is_defined || self.is_defined(place);
-        Ok(self.seen(walk, place, Known { is_defined, pieces: Vec::new(), steps: 0, ..*known }))
+        Ok(self.seen(walk, place, Known { is_defined, pieces: Vec::new(), ..*known }))
     }
 
     fn seen(&self, walk: Walk, place: &Place, known: Known) -> (Seen, Known) {
@@ -170,7 +166,7 @@ impl PlaneFunction {
             Some(Right { least: 0, most: 0 }) => Seen::Cut(place.wider()),
             _ => Seen::Cut(axis),
         };
-        (seen, Known { steps: walk.steps, blocked: right.is_none(), pieces: walk.into_pieces(), ..known })
+        (seen, Known { pieces: walk.into_pieces(), ..known })
     }
 
     /// Whether one delayed highest power of `s`, the only one, outweighs that without delay, which is not zero: infinitely many roots are near the
@@ -179,9 +175,11 @@ impl PlaneFunction {
     fn has_chain_on_the_right(&self, place: &Place) -> bool {
         let mut delayed = self.shares.parts.iter().zip(&self.shares.delays).skip(1);
         let mut tops = delayed.by_ref().filter_map(|(part, time)| Some((part.get(self.order)?, time)));
-        let (Some((top, time)), None, Some(own)) =
-            (tops.find(|(top, _)| !top.is_zero()), tops.find(|(top, _)| !top.is_zero()), self.shares.parts[0].get(self.order))
-        else {
+        let (Some((top, time)), None, Some(own)) = (
+            tops.find(|(top, _)| !top.is_zero()),
+            tops.find(|(top, _)| !top.is_zero()),
+            self.shares.parts[0].get(self.order),
+        ) else {
             return false;
         };
         let ((middle, spread), (own_middle, own_spread)) = (self.spread(top, place), self.spread(own, place));
@@ -214,7 +212,7 @@ impl PlaneFunction {
 
     /// A power of two beyond which the highest undelayed power of `s` outweighs all other terms in the whole box, and whether its
     /// coefficient is negative.
-    fn bound(&self, place: &Place) -> Option<(u64, bool)> {
+    pub(super) fn bound(&self, place: &Place) -> Option<(u64, bool)> {
         let sizes: Vec<Vec<(Rational, Rational)>> =
             self.shares.parts.iter().map(|part| part.iter().map(|c| self.spread(c, place)).collect()).collect();
         let (top, spread) = sizes[0].get(self.order)?;
