@@ -99,11 +99,13 @@ impl PlaneLoop {
 
     /// Cuts a window into boxes until the share of the undecided area is at most `goal` (0 to 1).
     ///
-    /// A box is decided by one walk along the imaginary axis on which the function stays away from zero for all values of
-    /// both parameters: then the number of roots to the right is the same at all of them, and the walk counts it
-    /// at the middle. A budget that runs out leaves more of the window undecided.
+    /// A box is walked over along the imaginary axis, for all values of both parameters. Where the function stays in half planes
+    /// no root is on the axis. Where it may be zero, but its derivative by frequency stays in one, the number of roots to the right is
+    /// known up to a pair. The box is stable where that number is zero, unstable where it is positive for certain: curves of further roots
+    /// may pass through it. A budget that runs out leaves more of the window undecided.
     ///
-    /// Cost: an evaluation of the function and its first derivatives for each step of each walk.
+    /// Cost: an evaluation of the function and its first derivatives for each step of each walk; of a half only steps about the frequencies
+    /// that were open for the whole.
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out before there is a box.

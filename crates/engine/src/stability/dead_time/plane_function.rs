@@ -123,7 +123,7 @@ impl PlaneFunction {
         let wider = place.wider();
         let ranges = |list: &[DeadTime]| -> Vec<[Rational; 2]> { list.iter().map(|time| range(time, place)).collect() };
         let own = ranges(&self.shares.times);
-        if self.shares.parts.is_empty() || own.iter().any(|[_, most]| !most.sign().is_gt()) {
+        if self.shares.parts.is_empty() || own.iter().any(|[least, most]| least.is_negative() && !most.sign().is_gt()) {
             // No loop has a negative dead time.
             return Err(Seen::Decided(BoxVerdict::Unstable { outside: None }));
         }
@@ -210,35 +210,39 @@ impl PlaneFunction {
         (p.eval(&middle), moduli.eval(&upper) - moduli.eval(&middle))
     }
 
-    /// A power of two beyond which the highest undelayed power of `s` outweighs all other terms in the whole box, and whether its
-    /// coefficient is negative.
+    /// A power of two beyond which the highest power of `s` without delay outweighs all that may point against it on the axis, in
+    /// the whole box, and whether its coefficient is negative.
+    ///
+    /// Terms of its own part two powers apart are in line with it, those one power apart across. Over its power of the frequency
+    /// what is compared rises on its side, and falls on the other: one look at a frequency is for all beyond.
     pub(super) fn bound(&self, place: &Place) -> Option<(u64, bool)> {
         let sizes: Vec<Vec<(Rational, Rational)>> =
             self.shares.parts.iter().map(|part| part.iter().map(|c| self.spread(c, place)).collect()).collect();
-        let (top, spread) = sizes[0].get(self.order)?;
+        let n = self.order;
+        let (top, spread) = sizes[0].get(n)?;
         let slack = |j: usize| Rational::from(&self.slack.coeff(j));
-        let least = top.abs() - spread - slack(self.order);
-        let mut sums: Vec<Rational> = (0..self.order).map(slack).chain([Rational::ZERO]).collect();
-        for (k, part) in sizes.iter().enumerate() {
-            // Beyond the order all coefficients are zero.
-            let own = part.iter().enumerate().take(self.order + 1);
-            for (j, (middle, spread)) in own.filter(|(j, _)| (k, *j) != (0, self.order)) {
-                sums[j] += middle.abs() + spread;
-            }
-        }
-        if sums[self.order] >= least {
+        let least = top.abs() - spread - slack(n);
+        let most =
+            |k: usize, j: usize| sizes[k].get(j).map_or(Rational::ZERO, |(middle, spread)| middle.abs() + spread);
+        let delayed_tops = (1..sizes.len()).fold(Rational::ZERO, |sum, k| sum + most(k, n));
+        if delayed_tops >= least {
             return None;
         }
-        let mut e = 0u64;
-        loop {
-            let r = Rational::from(&(&Integer::ONE << e));
-            let rest = sums.iter().rev().fold(Rational::ZERO, |sum, c| sum * &r + c);
-            let power = Rational::from(&(&Integer::ONE << (e * self.order as u64)));
-            if rest < &least * &power {
-                return Some((e, top.is_negative()));
-            }
-            e += 1;
-        }
+        let outweighs = |e: u64| {
+            let power = |j: usize| Rational::from(&(&Integer::ONE << (e * j as u64)));
+            let in_line = (0..n).filter(|j| j % 2 == n % 2);
+            let own = in_line.fold(&least * &power(n), |left, j| left - (most(0, j) + slack(j)) * power(j));
+            let modulus = |k: usize| {
+                let part = |parity: usize| {
+                    let terms = (0..=n).filter(|j| j % 2 == parity);
+                    terms.fold(Rational::ZERO, |sum, j| sum + most(k, j) * power(j))
+                };
+                let (long, short) = (part(0).max(part(1)), part(0).min(part(1)));
+                if long.is_zero() { long } else { &long + &short * &short / (&long + &long) }
+            };
+            (1..sizes.len()).fold(Rational::ZERO, |sum, k| sum + modulus(k)) < own
+        };
+        (0..).find(|e| outweighs(*e)).map(|e| (e, top.is_negative()))
     }
 
     /// A polynomial in the frequency alone, times `2^shift`, at shares of the window.

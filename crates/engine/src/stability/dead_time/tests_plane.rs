@@ -252,6 +252,15 @@ fn a_box_with_a_pole_is_never_stable_and_may_be_unstable() {
     case.agrees(&map, 20);
 }
 
+#[test]
+fn a_dead_time_that_is_zero_everywhere_is_no_negative_one() {
+    // s + x + y, with a dead time of zero beside.
+    let terms = [(DeadTime::default(), vec![polynomial([0, 1, 1]), polynomial([1, 0, 0])])];
+    let plane = PlaneLoop::new(terms.into(), vec![DeadTime::default()], Vec::new());
+    let map = plane.boxes(&window([0, 1], [1, 2]), &"1/10".parse().unwrap(), &Budget::unlimited()).unwrap();
+    assert_eq!(map.areas.stable, map.window.area());
+}
+
 fn coefficient() -> impl Strategy<Value = [i64; 3]> {
     [-3i64..=3, -2i64..=2, -2i64..=2]
 }
@@ -265,6 +274,7 @@ proptest! {
         second in prop::collection::vec(coefficient(), 1..3),
         time in [0i64..=1, 0i64..=1, 0i64..=2],
     ) {
+        prop_assume!(time != [0; 3]);
         let mut first = first;
         first.push([4, 0, 1]);
         let case = case(&first, &second, time);
