@@ -354,7 +354,7 @@ impl Vector {
 /// A vector times `unit 2^power`, with the error of its parts.
 fn times(x: &Fixed, unit: &Integer, power: i64) -> [Integer; 3] {
     let by = power.unsigned_abs();
-    let floor = |x: &Integer| if power >= 0 { x * unit << by } else { x * unit >> by };
+    let floor = |x: &Integer| if power >= 0 { (x * unit) << by } else { (x * unit) >> by };
     [floor(&x.re), floor(&x.im), floor(&x.error) + Integer::from(2)]
 }
 
