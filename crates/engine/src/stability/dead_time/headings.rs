@@ -2,10 +2,11 @@
 //!
 //! Of a function `f(w; x, y)` on a box of parameters the axis is cut into pieces. On a clear piece `f` stays in an open half plane about a
 //! heading, for all parameters of the box: so no root is on the axis there. On an open piece that is not seen; but its derivative by
-//! `w` may stay in an open half plane about a heading. At fixed parameters `f` then moves one way along that heading, so that its
-//! argument changes by less than half a turn on the whole stretch between two clear pieces, unless `f` vanishes: a root on
-//! the axis. Both ends of the stretch being in known half planes, two changes are left, a whole turn from each other:
-//! zero is passed on the left or on the right. Where all but one of them are known, so are all.
+//! `w` may stay in an open half plane about a heading. At fixed parameters `f` then moves one way along that heading on the whole stretch
+//! between two clear pieces, so that it stays on one side of the line across it through zero, or passes that line once: on the
+//! left of zero or on the right, unless `f` vanishes, a root on the axis. Both ends of the stretch being in known half planes, few changes of
+//! the heading are left, whole turns from each other; each heading about which the derivative stays leaves its own, and only
+//! those count that all of them leave.
 //!
 //! So the number of roots to the right of the axis is known up to a pair for each such stretch, for all parameters of the box
 //! that have no root on the axis. Where its lower bound is positive, every point of the box has a root to the right of the axis or on it,
@@ -79,7 +80,7 @@ pub(super) fn roots_right(pieces: &[Piece], degree: usize, is_negative: bool) ->
             Piece::Clear { first, last } => {
                 way = Some(match way {
                     None => Way::begun(*first, slopes)?,
-                    Some(way) => way.to(*first, slopes.is_some())?,
+                    Some(way) => way.to(*first, slopes)?,
                 });
                 slopes = None;
                 way.as_mut()?.now += last - first;
@@ -91,6 +92,36 @@ pub(super) fn roots_right(pieces: &[Piece], degree: usize, is_negative: bool) ->
     let right = |turned: i64| (full - turned).div_euclid(HALF);
     let least = right(way.now + TURN * way.doubts - way.start[0]);
     Some(Right { least, most: right(way.now - way.start[1]) })
+}
+
+/// The least and the greatest change of the heading on an open stretch, from one heading to another; `None` where there is none, so that
+/// at all parameters a root is on the axis.
+fn change(from: i64, to: i64, slopes: Headings) -> Option<[i64; 2]> {
+    let mut common: Option<Vec<i64>> = None;
+    for k in (0..TURN).filter(|k| slopes & (1 << k) != 0) {
+        // With the way's heading as 0: behind the line are the values from 4 to 12, before it those from -4 to 4. A heading less than a quarter
+        // from one behind is between 0 and 16, from one before between -8 and 8.
+        let behind = |h: i64| Some((h - k).rem_euclid(TURN)).filter(|h| *h != 0);
+        let before = |h: i64| Some((h - k + HALF).rem_euclid(TURN)).filter(|h| *h != 0).map(|h| h - HALF);
+        let mut own: Vec<i64> = Vec::new();
+        let stays = [(behind(from), behind(to)), (before(from), before(to))];
+        own.extend(stays.into_iter().filter_map(|(from, to)| Some(to? - from?)));
+        if let (Some(from), Some(to)) = (behind(from), before(to)) {
+            own.extend([to - from, to - from + TURN]);
+        }
+        common = Some(match common {
+            None => own,
+            Some(known) => known.into_iter().filter(|change| own.contains(change)).collect(),
+        });
+    }
+    let common = common?;
+    Some([*common.iter().min()?, *common.iter().max()?])
+}
+
+/// The headings that are also those of the mirror image of a way, gone in the other direction.
+fn symmetric(slopes: Headings) -> Headings {
+    let has = |k: i64| slopes & (1 << k.rem_euclid(TURN)) != 0;
+    (0..TURN).filter(|&k| has(k) && has(HALF - k)).fold(0, |all, k| all | 1 << k)
 }
 
 /// The way so far, in headings without the whole turns taken off.
@@ -106,35 +137,32 @@ struct Way {
 impl Way {
     /// The first clear piece, after an open one where slopes are given.
     fn begun(first: i64, slopes: Option<Headings>) -> Option<Way> {
-        let below = first.div_euclid(HALF) * HALF;
         let start = match slopes {
             // The real value at zero is in the half plane, hence on the nearer side.
             None => [(first + HALF / 2).div_euclid(HALF) * HALF; 2],
-            // The way back from minus the frequency is the mirror image: together they are one stretch where the slope of both is within a half
-            // plane about one heading, which is then imaginary. Half of its change is less than a quarter turn.
-            Some(slopes) if slopes & (1 << QUARTER | 1 << (HALF + QUARTER)) != 0 => {
-                [below, if below == first { below } else { below + HALF }]
+            // The way from minus the frequency is the mirror image: together they are one stretch, half of whose change is that from zero on.
+            Some(slopes) => {
+                let [least, most] = change(-first, first, symmetric(slopes))?;
+                [first - most / 2, first - least / 2]
             }
-            Some(_) => return None,
         };
         Some(Way { start, now: first, doubts: 0 })
     }
 
-    /// Goes on to a heading, by an open stretch or at once.
-    fn to(mut self, next: i64, is_open: bool) -> Option<Way> {
-        let turn = (next - self.now).rem_euclid(TURN);
-        if is_open && turn != 0 {
-            // One of two changes of less than a whole turn.
-            self.doubts += 1;
-            self.now += turn - TURN;
-        } else {
-            // Two half planes that have a value in common are not opposite.
-            self.now += match turn {
-                HALF => return None,
-                turn if turn < HALF => turn,
-                turn => turn - TURN,
-            };
+    /// Goes on to a heading, by an open stretch where slopes are given.
+    fn to(mut self, next: i64, slopes: Option<Headings>) -> Option<Way> {
+        if let Some(slopes) = slopes {
+            let [least, most] = change(self.now, next, slopes)?;
+            self.now += least;
+            self.doubts += (most - least) / TURN;
+            return Some(self);
         }
+        // Two half planes that have a value in common are not opposite.
+        self.now += match (next - self.now).rem_euclid(TURN) {
+            HALF => return None,
+            turn if turn < HALF => turn,
+            turn => turn - TURN,
+        };
         Some(self)
     }
 }
@@ -152,4 +180,96 @@ pub(super) fn joined(pieces: Vec<Piece>) -> Vec<Piece> {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// By how much the heading of a way about zero changes, in parts of a turn, and the headings at its ends: the angles of the
+    /// points are followed by steps of less than half a turn.
+    fn angles(way: &[[i64; 2]]) -> Option<[f64; 2]> {
+        let angle = |[x, y]: [i64; 2]| (y as f64).atan2(x as f64) / std::f64::consts::TAU;
+        let mut now = angle(way[0]);
+        for pair in way.windows(2) {
+            let ([ax, ay], [bx, by]) = (pair[0], pair[1]);
+            // A straight step does not pass zero, and turns by less than half a turn to the side of the cross product.
+            let (cross, dot) = (ax * by - ay * bx, ax * bx + ay * by);
+            if cross == 0 && dot <= 0 {
+                return None;
+            }
+            now += (cross as f64).atan2(dot as f64) / std::f64::consts::TAU;
+        }
+        Some([angle(way[0]), now])
+    }
+
+    /// The headings less than a quarter turn from an angle, with their whole turns.
+    fn near(at: f64) -> Vec<i64> {
+        let of = |k: i64| {
+            let [re, im] = heading(k);
+            (im as f64).atan2(re as f64) / std::f64::consts::TAU + (k.div_euclid(TURN) as f64)
+        };
+        let lifted = |k: i64| if of(k) < (k as f64) / TURN as f64 - 0.5 { of(k) + 1.0 } else { of(k) };
+        (-40..40).filter(|&k| (lifted(k) - at).abs() < 0.249).collect()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
+
+        /// Ways that go one way along a heading, and anyhow across it: their change of heading is one of those that are left.
+        #[test]
+        fn ways_change_as_they_may(
+            turned in 0i64..16, steps in prop::collection::vec((1i64..9, -40i64..=40), 1..7), start in (-20i64..=0, -40i64..=40),
+        ) {
+            let [c, s] = heading(turned).map(|x| x as i64);
+            let mut point = [start.0, start.1];
+            let mut way = vec![point];
+            for (along, across) in &steps {
+                point = [point[0] + along, point[1] + across];
+                way.push(point);
+            }
+            let way: Vec<[i64; 2]> = way.iter().map(|[x, y]| [c * x - s * y, s * x + c * y]).collect();
+            prop_assume!(way.iter().all(|p| *p != [0, 0]));
+            let Some([from, to]) = angles(&way) else { return Ok(()) };
+            let is_along = |k: &i64| {
+                let [c, s] = heading(*k).map(|x| x as i64);
+                way.windows(2).all(|w| c * (w[1][0] - w[0][0]) + s * (w[1][1] - w[0][1]) > 0)
+            };
+            let slopes = (0..TURN).filter(is_along).fold(0, |all, k| all | 1 << k);
+            prop_assert!(slopes & (1 << turned) != 0);
+            for some in [slopes, 1 << turned] {
+                for a in near(from) {
+                    for b in near(to) {
+                        let [least, most] = change(a, b, some).expect("this one");
+                        prop_assert!(least <= b - a && b - a <= most, "{} in {} to {}: {:?}", b - a, least, most, way);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Down and up again while it goes on slowly: the way of a whole turn but little that a single heading leaves.
+    #[test]
+    fn a_way_about_zero_may_be_almost_a_turn() {
+        assert_eq!(change(12, 12, 1), Some([-16, 0]));
+        assert_eq!(change(4, 4, 1), Some([0, 16]));
+        assert_eq!(change(8, 0, 1), Some([-8, 8]));
+        // Less is left by several, which hold the way to its direction.
+        assert_eq!((change(4, 4, 1 << 4), change(4, 4, 1 << 4 | 1)), (Some([0, 0]), Some([0, 0])));
+        assert_eq!((change(2, 4, 1 << 2), change(2, 4, 1 | 1 << 2)), (Some([2, 2]), Some([2, 2])));
+        assert_eq!(change(0, 8, 1), None);
+    }
+
+    /// A real value at zero that is not known, and a derivative towards the imaginary axis.
+    #[test]
+    fn ways_begin_on_either_side_of_zero() {
+        let start = |first, slopes| Way::begun(first, Some(slopes)).map(|way| way.start);
+        assert_eq!(start(2, 1 << 4), Some([0, 8]));
+        assert_eq!(start(10, 1 << 4), Some([0, 8]));
+        assert_eq!(start(10, 1 << 12), Some([8, 16]));
+        assert_eq!(start(4, 0b111 << 3), Some([0, 8]));
+        assert_eq!(start(0, 0b111 << 3), Some([0, 8]));
+        assert_eq!(start(2, 1 << 3), None);
+    }
 }
