@@ -5,6 +5,7 @@ use jurist_algebra::number::Rational;
 use jurist_check::{BoxJudge, JudgedBox, Limits};
 use jurist_engine::answer::{Answer, MapBoxes};
 use jurist_engine::error::{Diagnostic, Error};
+use jurist_engine::problem::Problem;
 use jurist_engine::stability::plane::boxes::{BoxVerdict, PlaneBox, Window};
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -14,11 +15,14 @@ use std::time::Duration;
 const ORDER: usize = 6;
 const BITS: usize = 256;
 
-/// No more boxes are claimed: what the slower checker does in some 20 s.
-const MOST_LEAVES: usize = 3000;
+/// So much of what the answer decides may stay unknown: this power of two less than what may stay undecided in the answer.
+const LEFT_BITS: u64 = 3;
 
-/// No box is halved more often than this beyond the smallest of the answer.
-const FURTHER_HALVINGS: usize = 6;
+/// More work is not done, counted by the judge: the slower checker takes half a minute at most for what comes out.
+const MOST_WORK: u64 = 40_000_000_000;
+
+/// No box is halved more often.
+const MOST_HALVINGS: usize = 60;
 
 /// A certificate of a map by boxes, and how much of the window it speaks of.
 ///
@@ -82,18 +86,27 @@ enum Node {
 /// [`Error::Refused`] (`E-no-certificate`) for models with requirements, a region whose bound is free, dead time, and what else the check does
 /// not read.
 pub fn certify_boxes(answer: &Answer<MapBoxes>, budget: &Budget) -> Result<CertifiedBoxes, Error> {
-    answer.problem().refuse_boxes_certificate(budget)?;
     budget.step("certificate");
-    let model = &answer.problem().model().source().text;
-    let draft = answer.certificate_of_tree("?", ORDER, BITS)?;
+    let (problem, window) = (answer.problem(), &answer.value().boxes.window);
+    let judge = judge(problem, window, budget)?;
+    let (tree, [stable, unstable]) = Search::new(answer, &judge).tree(budget);
+    Ok(CertifiedBoxes { text: problem.boxes_certificate(window, &tree, ORDER, BITS)?, stable, unstable })
+}
+
+/// What the check sees of a window.
+///
+/// # Errors
+/// Those of [`certify_boxes`], which are known before there is a map.
+pub(crate) fn judge(problem: &Problem, window: &Window, budget: &Budget) -> Result<BoxJudge, Error> {
+    problem.refuse_boxes_certificate(budget)?;
+    let draft = problem.boxes_certificate(window, "?", ORDER, BITS)?;
     // Reading a model is counted work; between boxes the budget is asked.
-    let judge = BoxJudge::new(model, &draft, &Limits::within(Duration::MAX)).map_err(|rejection| {
+    let judge = BoxJudge::new(&problem.model().source().text, &draft, &Limits::within(Duration::MAX));
+    judge.map_err(|rejection| {
         Diagnostic::error("E-no-certificate", format!("no certificate of this map by boxes: {}", rejection.reason))
             .help("the checkers read the model themselves; the answer is printed without '--certificate'")
-    })?;
-    let (tree, shares) = Search::new(answer, &judge).tree(budget);
-    let [stable, unstable] = shares;
-    Ok(CertifiedBoxes { text: answer.certificate_of_tree(&tree, ORDER, BITS)?, stable, unstable })
+            .into()
+    })
 }
 
 struct Search<'a> {
@@ -101,7 +114,6 @@ struct Search<'a> {
     judge: &'a BoxJudge,
     /// The share of the window that is decided, and may yet be left unknown.
     goal: Rational,
-    most_halvings: usize,
     nodes: Vec<Node>,
     /// By the number of halvings.
     open: VecDeque<Open>,
@@ -110,9 +122,6 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(answer: &'a Answer<MapBoxes>, judge: &'a BoxJudge) -> Self {
         let map = &answer.value().boxes;
-        let least = map.boxes.iter().map(|b| b.window.area()).min().expect("boxes tile the window");
-        let ratio = map.window.area().checked_div(&least).expect("a box is not empty");
-        let deepest = ratio.floor().bit_length() as usize;
         let whole = Open {
             node: 0,
             halvings: 0,
@@ -123,8 +132,7 @@ impl<'a> Search<'a> {
         Search {
             boxes: &map.boxes,
             judge,
-            goal: answer.value().goal.clone(),
-            most_halvings: deepest + FURTHER_HALVINGS,
+            goal: &answer.value().goal * &Rational::dyadic(&1.into(), LEFT_BITS),
             nodes: vec![Node::Leaf('?')],
             open: VecDeque::from([whole]),
         }
@@ -136,7 +144,7 @@ impl<'a> Search<'a> {
         let mut leaves = 0;
         // What is decided, and waits.
         let mut waiting = self.decided_share();
-        while waiting > self.goal && leaves < MOST_LEAVES && budget.check().is_ok() {
+        while waiting > self.goal && self.judge.work() < MOST_WORK && budget.check().is_ok() {
             let Some(mut open) = self.open.pop_front() else { break };
             let share = Rational::dyadic(&1.into(), open.halvings as u64);
             let axis = match &open.wanted {
@@ -148,12 +156,13 @@ impl<'a> Search<'a> {
                     budget.advance(leaves as u64, (leaves + self.open.len()) as u64);
                     continue;
                 }
-                Wanted::All(_) if open.halvings >= self.most_halvings => continue,
+                Wanted::All(_) if open.halvings >= MOST_HALVINGS => continue,
                 Wanted::All(_) => self.judge.axis(&open.judged),
                 Wanted::Each(boxes) => self.cut(&open.window, boxes),
             };
             self.halve(open, axis);
         }
+        eprintln!("WORK {} leaves {}", self.judge.work() as f64/1e9, leaves);
         (self.text(), shares)
     }
 

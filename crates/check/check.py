@@ -2217,7 +2217,39 @@ class OverBoxes:
             found.append(total)
         return found
 
-STEPS = (0, 1, -1, 2, -2, 3, -3)  # eighths of a turn
+AXES = (1, 0), (0, 1), (-1, 0), (0, -1)  # directions, by quarters of a turn
+
+def quarter_of(x, y):
+    """The number of the quarter a direction is in, which begins with an axis."""
+    return 0 if x > 0 <= y else 1 if x <= 0 < y else 2 if x < 0 else 3
+
+def turn(d, to):
+    """How many quarters further another direction is, by less than half a turn; None if that is opposite."""
+    quarters, side = quarter_of(*to) - quarter_of(*d), d[0] * to[1] - d[1] * to[0]
+    if side == 0:
+        return 0 if d[0] * to[0] + d[1] * to[1] > 0 else None
+    return quarters % 4 if side > 0 else -(-quarters % 4)
+
+def across(x, y, side):
+    """Across a vector, on the side where another one is, in short numbers."""
+    long = max(size([x, y]) - 12, 0)
+    x, y = x >> long, y >> long
+    return () if x == y == 0 else ((-y, x),) if side[1] * x > side[0] * y else ((y, -x),)
+
+def holds(d, e, o):
+    """Whether the values of a pair, given by coefficients, are in the half plane around a direction."""
+    if 0 in d:
+        return all(sign_of(f) == (1 if sum(d) > 0 else -1) for f in (o if d[0] == 0 else e))
+    return all(sign_of(summed(multiplied(f, d[0]), g, d[1])) > 0 for f, g in zip(e, o))
+
+def half_plane(last, e, o):
+    """One that all values are in: around an axis, or across the ways on which they change most; None if that is not found."""
+    k = len(e) // 2
+    for d in (*last, *AXES):
+        if holds(d, e, o):
+            return d
+    ways = [(e[k][0][i], o[k][0][i]) for i in (1, 2)] + [[c[-1][0][0] - c[0][0][0] for c in (e, o)]]
+    return next((d for x, y in ways for d in across(x, y, (e[k][0][0], o[k][0][0])) if holds(d, e, o)), None)
 
 def roots_to_the_right(p, models):
     """Of p_0 + p_1 s + ..., none on the axis and the degree not lost, at every point of a box; None where that is not shown.
@@ -2238,22 +2270,17 @@ def roots_to_the_right(p, models):
     if extra > 0:
         pair = [[halved(c, extra) for c in part] for part in pair]
 
-    def holds(e, o, label):
-        """Whether the vector is in the half plane around so many eighths of a turn."""
-        f = (e, None, o)[label % 4] if label % 4 in (0, 2) else summed(e, o) if label % 4 == 1 else summed(o, e, -1)
-        return sign_of(f) == (1 if label < 4 else -1)
-
-    label, turns, todo, seen = 0 if first > 0 else 4, 0, [(*pair, 0)], 0
+    direction, turns, todo, seen = AXES[0 if first > 0 else 2], 0, [(*pair, 0)], 0
     while todo:
         e, o, halvings = todo.pop()
         seen += 1
         spend(8 * (n + 1), models.bits)
-        step = next((s for s in STEPS if all(holds(f, g, (label + s) % 8) for f, g in zip(e, o))), None)
-        if step is not None:
-            label, turns = (label + step) % 8, turns + step
+        found = half_plane([direction], e, o)
+        if found and turn(direction, found) is not None:
+            turns, direction = turns + turn(direction, found), found
             continue
         # Where not even one point of the axis is told from a root there is nothing to halve for.
-        if not all(any(holds(e[i], o[i], l) for l in range(8)) for i in (0, -1)) or halvings >= 64 or seen >= 2000:
+        if not all(half_plane([], [e[i]], [o[i]]) for i in (0, -1)) or halvings >= 64 or seen >= 2000:
             return None
         spend((k + 1) ** 2 * len(e[0][0]) // 4, models.bits)
         lower, upper = [], []
@@ -2266,11 +2293,10 @@ def roots_to_the_right(p, models):
             lower.append(low)
             upper.append(high[::-1])
         todo += [(*upper, halvings + 1), (*lower, halvings + 1)]
-    end = (2 * n + (0 if last > 0 else 4)) % 8
-    step = next((s for s in STEPS if (label + s) % 8 == end), None)
-    if step is None or (2 * n - turns - step) % 4 or 2 * n < turns + step:
+    step = turn(direction, AXES[(n + (0 if last > 0 else 2)) % 4])
+    if step is None or (n - turns - step) % 2 or n < turns + step:
         return None
-    return (2 * n - turns - step) // 4
+    return (n - turns - step) // 2
 
 def size_of_roots(p):
     """The exponent of a power of two."""
@@ -2342,6 +2368,7 @@ def check_boxes(model, document, statement, values, discrete, extent):
         places.append(range(len(functions), len(functions) + len(ways)))
         functions += ways
     judge = Judge(OverBoxes(functions, sources, models), n, places, models)
+    where = ", ".join(f"{name} from {low} to {high}" for name, (low, high) in zip(names, sides))
     stack, shares = [(sides, None, False, 0)], {"+": Fraction(0), "-": Fraction(0), "?": Fraction(0)}
     for letter in tree:
         need(stack, "tree: something follows it")
@@ -2356,7 +2383,6 @@ def check_boxes(model, document, statement, values, discrete, extent):
             shown = not undefined and judge.shows(sides, known, is_own, letter == "+")
             need(shown, f"stable: a leaf {letter} is not shown, {' x '.join(f'[{a}, {b}]' for a, b in sides)}")
     need(not stack, "tree: it ends too early")
-    where = ", ".join(f"{name} from {low} to {high}" for name, (low, high) in zip(names, (items(e, rational) for e in window.values())))
     where += "".join(f", {name} = {x}" for name, x in values.items())
     stable, unstable = (f"{int(1000 * shares[letter]) / 10} %" for letter in "+-")
     return (f"in {statement['time']} time, {statement['region']}, {where}: stable in the boxes + of the tree and nowhere in its boxes -, "

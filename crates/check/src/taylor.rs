@@ -86,9 +86,9 @@ impl Taylor {
         self.constant().abs() + self.variation()
     }
 
-    /// How much the terms that are linear in either coordinate change.
-    pub fn slopes(&self) -> [Z; 2] {
-        [1, 2].map(|k| self.c.get(k).map(Z::abs).unwrap_or_default())
+    /// The coefficient of a coordinate.
+    pub fn linear(&self, axis: usize) -> Z {
+        self.c.get(1 + axis).cloned().unwrap_or_default()
     }
 
     /// Whether it is positive, or negative, at every point.

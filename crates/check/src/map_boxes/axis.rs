@@ -4,14 +4,14 @@ use crate::clock::Clock;
 use crate::number::Z;
 use crate::taylor::{Precision, Taylor};
 use crate::univariate::gcd;
-use num_traits::One;
+use num_traits::{One, ToPrimitive};
 
 /// The axis is cut into no more parts for one box, and halved no more often.
 const MAX_PARTS: usize = 2000;
 const MAX_HALVINGS: usize = 64;
 
-/// Eighths of a turn, in the order in which a half plane around another direction is looked for.
-const STEPS: [i64; 7] = [0, 1, -1, 2, -2, 3, -3];
+/// Bits of the numbers of a direction.
+const DIRECTION_BITS: u64 = 12;
 
 /// A part of the axis: Bernstein coefficients of `E` and of `O`.
 struct Part {
@@ -19,20 +19,70 @@ struct Part {
     halvings: usize,
 }
 
-/// A half plane around the direction of so many eighths of a turn: the values of `(E, O)` that are in it for certain.
-fn holds([e, o]: [&Taylor; 2], label: i64) -> bool {
-    let is_positive = |x: &Taylor| x.sign() == Some(true);
-    let is_negative = |x: &Taylor| x.sign() == Some(false);
-    match label {
-        0 => is_positive(e),
-        1 => is_positive(&e.plus(o)),
-        2 => is_positive(o),
-        3 => is_negative(&e.minus(o)),
-        4 => is_negative(e),
-        5 => is_negative(&e.plus(o)),
-        6 => is_negative(o),
-        _ => is_positive(&e.minus(o)),
+/// The direction of the middle of a half plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Direction([i64; 2]);
+
+/// Those along the axes, by quarters of a turn.
+const AXES: [Direction; 4] = [Direction([1, 0]), Direction([0, 1]), Direction([-1, 0]), Direction([0, -1])];
+
+impl Direction {
+    /// Across a vector, on the side where another one is; the numbers are shortened.
+    fn across([x, y]: [Z; 2], side: [Z; 2]) -> Option<Self> {
+        let long = x.bits().max(y.bits()).saturating_sub(DIRECTION_BITS);
+        let short = |x: &Z| (x >> long).to_i64();
+        let [x, y] = [short(&x)?, short(&y)?];
+        let is_beyond = side[1].clone() * x > side[0].clone() * y;
+        ([x, y] != [0, 0]).then_some(Direction(if is_beyond { [-y, x] } else { [y, -x] }))
     }
+
+    /// The number of the quarter it is in, which begins with an axis.
+    fn quarter(self) -> i64 {
+        match self.0 {
+            [x, y] if x > 0 && y >= 0 => 0,
+            [x, y] if x <= 0 && y > 0 => 1,
+            [x, _] if x < 0 => 2,
+            _ => 3,
+        }
+    }
+
+    /// How many quarters further another direction is, by less than half a turn; `None` if that is opposite.
+    fn turn_to(self, other: Self) -> Option<i64> {
+        let ([a, b], [c, d]) = (self.0, other.0);
+        let quarters = other.quarter() - self.quarter();
+        match ((a * d - b * c).signum(), a * c + b * d > 0) {
+            (0, false) => None,
+            (0, true) => Some(0),
+            (1, _) => Some(quarters.rem_euclid(4)),
+            _ => Some(-(-quarters).rem_euclid(4)),
+        }
+    }
+
+    /// Whether all values of the pair, given by coefficients, are in the half plane.
+    fn holds(self, e: &[Taylor], o: &[Taylor]) -> bool {
+        let [a, b] = self.0;
+        e.iter().zip(o).all(|(e, o)| match (a, b) {
+            (_, 0) => e.sign() == Some(a > 0),
+            (0, _) => o.sign() == Some(b > 0),
+            _ => e.scaled(&Z::from(a)).plus(&o.scaled(&Z::from(b))).sign() == Some(true),
+        })
+    }
+}
+
+/// A half plane that all values are in: along an axis, or across the ways on which they change most, if one is found.
+fn half_plane(last: Option<Direction>, e: &[Taylor], o: &[Taylor]) -> Option<Direction> {
+    let k = e.len() / 2;
+    let middle = || [e[k].constant(), o[k].constant()];
+    let chord = || {
+        let along = |c: &[Taylor]| c[c.len() - 1].constant() - c[0].constant();
+        [along(e), along(o)]
+    };
+    let across = |way: usize| {
+        let way = if way < 2 { [e[k].linear(way), o[k].linear(way)] } else { chord() };
+        Direction::across(way, middle())
+    };
+    let mut all = last.into_iter().chain(AXES).chain((0..3).filter_map(across));
+    all.find(|direction| direction.holds(e, o))
 }
 
 /// The number of roots to the right of `p_0 + p_1 s + ...`, none of them on the axis and the degree not lost, if that is shown for all points
@@ -43,32 +93,31 @@ fn holds([e, o]: [&Taylor; 2], label: i64) -> bool {
 pub(super) fn right(p: &[Taylor], precision: &Precision, clock: &Clock) -> Result<Option<usize>, String> {
     let n = p.len() - 1;
     let [Some(first), Some(last)] = [p[0].sign(), p[n].sign()] else { return Ok(None) };
-    let mut label = if first { 0 } else { 4 };
+    let mut direction = AXES[if first { 0 } else { 2 }];
     let mut turns = 0;
     let mut parts = vec![Part { pair: scaled_pair(p, scale(p), precision), halvings: 0 }];
     let mut looked_at = 0;
     while let Some(part) = parts.pop() {
         looked_at += 1;
-        clock.spend(12 * (n + 1) * (precision.order + 1) * (precision.order + 2), precision.bits as u64, 0)?;
+        clock.spend(8 * (n + 1) * (precision.order + 1) * (precision.order + 2), precision.bits as u64, 0)?;
         let [e, o] = &part.pair;
-        let is_in = |label: i64| e.iter().zip(o).all(|(e, o)| holds([e, o], label));
-        if let Some(step) = STEPS.into_iter().find(|step| is_in((label + step).rem_euclid(8))) {
-            label = (label + step).rem_euclid(8);
-            turns += step;
+        if let Some(next) = half_plane(Some(direction), e, o)
+            && let Some(turn) = direction.turn_to(next)
+        {
+            (direction, turns) = (next, turns + turn);
             continue;
         }
         // Where not even one point of the axis is told from a root there is nothing to halve for.
-        let is_seen = |k: usize| (0..8).any(|label| holds([&e[k], &o[k]], label));
+        let is_seen = |k: usize| half_plane(None, &e[k..=k], &o[k..=k]).is_some();
         if !is_seen(0) || !is_seen(e.len() - 1) || part.halvings >= MAX_HALVINGS || looked_at >= MAX_PARTS {
             return Ok(None);
         }
         let [low, high] = halves(part);
         parts.extend([high, low]);
     }
-    let end = (2 * n as i64 + if last { 0 } else { 4 }).rem_euclid(8);
-    let step = STEPS.into_iter().find(|step| (label + step).rem_euclid(8) == end);
-    let four_times = step.map(|step| 2 * n as i64 - turns - step);
-    Ok(four_times.filter(|k| k % 4 == 0).and_then(|k| usize::try_from(k / 4).ok()))
+    let end = AXES[(n + if last { 0 } else { 2 }) % 4];
+    let twice = direction.turn_to(end).map(|turn| n as i64 - turns - turn);
+    Ok(twice.filter(|k| k % 2 == 0).and_then(|k| usize::try_from(k / 2).ok()))
 }
 
 /// The exponent of a power of two that is about the size of the roots.

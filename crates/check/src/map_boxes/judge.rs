@@ -11,7 +11,7 @@ use crate::over_box::{FIRST, in_half_plane, in_region, with_sources};
 use crate::over_symbols::primitive;
 use crate::taylor::{Precision, Taylor};
 use crate::{Limits, Rejection, Step};
-use num_traits::One;
+use num_traits::{One, Signed};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -174,6 +174,11 @@ impl BoxJudge {
         Ok(())
     }
 
+    /// How much has been done, in units of about a nanosecond. It is counted, not timed: the same for the same boxes.
+    pub fn work(&self) -> u64 {
+        self.clock.work()
+    }
+
     /// Whether the loop is shown to be stable at every point of the closed box, or, with `stable` false, at none.
     ///
     /// Cost: the functions over the box, where those of a larger box are not enough; for each part of the imaginary axis, halved until it
@@ -235,9 +240,9 @@ impl BoxJudge {
                 let mut sums = [0.0; 2];
                 for f in &known[..self.coefficients] {
                     let size = f.magnitude().max(Z::one());
-                    for (sum, slope) in sums.iter_mut().zip(f.slopes()) {
+                    for (axis, sum) in sums.iter_mut().enumerate() {
                         // Shares in thousandths, for a choice and no proof.
-                        let share = u32::try_from(slope * 1000 / &size).unwrap_or(u32::MAX);
+                        let share = u32::try_from(f.linear(axis).abs() * 1000 / &size).unwrap_or(u32::MAX);
                         *sum += f64::from(share);
                     }
                 }

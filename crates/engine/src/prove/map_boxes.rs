@@ -3,16 +3,17 @@
 use super::statement::{about, number, object, region, set};
 use super::text::to_text;
 use super::{no_certificate, refuse_requirements};
-use crate::answer::{Answer, MapBoxes};
 use crate::error::Error;
 use crate::problem::{Bound, Problem};
+use crate::stability::plane::boxes::Window;
 use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
 
 /// The schema of certificates of maps by boxes.
 const SCHEMA: &str = "jurist/certificate/7";
 
-impl Answer<MapBoxes> {
-    /// A certificate that says of the window what a tree says of its boxes; the checkers show each of them by Taylor models of a total degree
+impl Problem {
+    /// A certificate that says of a window what a tree says of its boxes; the checkers show each of them by Taylor models of a total degree
     /// `order`, in fixed point with so many bits. It proves nothing where the tree says more than they see: who makes one asks
     /// `jurist_check::BoxJudge`. The package `jurist` does that in `certify_boxes`.
     ///
@@ -22,19 +23,15 @@ impl Answer<MapBoxes> {
     /// Cost: that of writing it.
     ///
     /// ```
-    /// use jurist_algebra::limits::Budget;
-    /// use jurist_algebra::number::Rational;
     /// use jurist_check::{Limits, check};
-    /// use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes};
     /// use jurist_engine::model::Model;
     /// use jurist_engine::stability::Range;
+    /// use jurist_engine::stability::plane::boxes::Window;
     /// let drive = Model::drive();
     /// let side = |low: &str, high: &str| Range::between(low.parse().ok(), high.parse().ok());
-    /// let request = BoxRequest::new([side("1/20000", "1/10000"), side("50", "100")], Rational::ONE);
+    /// let window = Window::new(&side("1/20000", "1/10000"), &side("50", "100")).unwrap();
     /// let problem = drive.ask().free("T").free("K_pwm").plane_problem()?;
-    /// let map = problem.map_by(MapMethod::Boxes, &request, 6, &Budget::unlimited())?;
-    /// let MapOrBoxes::Boxes(boxes) = map else { panic!("boxes were asked for") };
-    /// let certificate = |tree: &str| boxes.certificate_of_tree(tree, 6, 256).unwrap();
+    /// let certificate = |tree: &str| problem.boxes_certificate(&window, tree, 6, 256).unwrap();
     /// let proves = |tree: &str| check(&drive.source().text, &certificate(tree), &Limits::default()).is_ok();
     /// assert!(proves("y++") && proves("x?+") && !proves("-") && !proves("x+-"));
     /// # Ok::<(), jurist_engine::error::Error>(())
@@ -42,40 +39,33 @@ impl Answer<MapBoxes> {
     ///
     /// # Errors
     /// [`Error::Refused`] (`E-no-certificate`) for models with requirements, and a region whose bound is free.
-    pub fn certificate_of_tree(&self, tree: &str, order: usize, bits: usize) -> Result<String, Error> {
-        let (problem, window) = (self.problem(), &self.value().boxes.window);
-        refuse_requirements(problem)?;
-        refuse_free_bound(problem)?;
-        let [x, y] = problem.free() else { unreachable!("two parameters are free") };
-        let side = |ends: &[jurist_algebra::number::Rational; 2]| ends.iter().map(number).collect();
+    ///
+    /// # Panics
+    /// Unless two parameters are free.
+    pub fn boxes_certificate(&self, window: &Window, tree: &str, order: usize, bits: usize) -> Result<String, Error> {
+        refuse_requirements(self)?;
+        refuse_free_bound(self)?;
+        let [x, y] = self.free() else { panic!("a map is of two parameters") };
+        let side = |ends: &[Rational; 2]| ends.iter().map(number).collect();
         let statement = object([
             ("kind", "boxes".into()),
-            ("time", problem.time().name().into()),
+            ("time", self.time().name().into()),
             ("x", x.name.as_str().into()),
             ("y", y.name.as_str().into()),
-            ("set", set(problem.set())),
-            ("region", region(problem.region())),
+            ("set", set(self.set())),
+            ("region", region(self.region())),
             ("window", object([("x", side(&window.x)), ("y", side(&window.y))])),
             ("tree", tree.into()),
         ]);
         Ok(to_text(&object([
             ("schema", SCHEMA.into()),
-            ("model", about(problem)),
+            ("model", about(self)),
             ("statement", statement),
             ("order", order.into()),
             ("bits", bits.into()),
         ])))
     }
-}
 
-fn refuse_free_bound(problem: &Problem) -> Result<(), Error> {
-    match problem.region().bound() {
-        Bound::Free => Err(no_certificate("no certificate of a map on which the bound of the region is free")),
-        Bound::Number(_) => Ok(()),
-    }
-}
-
-impl Problem {
     /// Refuses problems whose map by boxes has no certificate, before it is made.
     ///
     /// Cost: that of [`Problem::algebra_over_symbols`].
@@ -89,5 +79,12 @@ impl Problem {
             true => Ok(()),
             false => Err(no_certificate("no certificate of a map by boxes: the loop has dead time")),
         }
+    }
+}
+
+fn refuse_free_bound(problem: &Problem) -> Result<(), Error> {
+    match problem.region().bound() {
+        Bound::Free => Err(no_certificate("no certificate of a map on which the bound of the region is free")),
+        Bound::Number(_) => Ok(()),
     }
 }
