@@ -122,20 +122,18 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(answer: &'a Answer<MapBoxes>, judge: &'a BoxJudge) -> Self {
         let map = &answer.value().boxes;
-        let whole = Open {
-            node: 0,
-            halvings: 0,
-            window: map.window.clone(),
-            judged: judge.whole(),
-            wanted: Wanted::Each((0..map.boxes.len()).collect()),
-        };
-        Search {
+        let mut search = Search {
             boxes: &map.boxes,
             judge,
             goal: &answer.value().goal * &Rational::dyadic(&1.into(), LEFT_BITS),
             nodes: vec![Node::Leaf('?')],
-            open: VecDeque::from([whole]),
+            open: VecDeque::new(),
+        };
+        if let Some(wanted) = search.wanted((0..map.boxes.len()).collect()) {
+            let (window, judged) = (map.window.clone(), judge.whole());
+            search.open.push_back(Open { node: 0, halvings: 0, window, judged, wanted });
         }
+        search
     }
 
     /// The tree as text, and the shares that are stable and not stable in it.
@@ -162,16 +160,28 @@ impl<'a> Search<'a> {
             };
             self.halve(open, axis);
         }
-        eprintln!("WORK {} leaves {}", self.judge.work() as f64/1e9, leaves);
         (self.text(), shares)
     }
 
     /// The share of the window that the answer decides.
     fn decided_share(&self) -> Rational {
-        let area = self.open[0].window.area();
+        let area = self.boxes.iter().fold(Rational::ZERO, |sum, b| sum + b.window.area());
         let decided = self.boxes.iter().filter(|b| b.verdict != BoxVerdict::Undecided);
         let sum = decided.fold(Rational::ZERO, |sum, b| sum + b.window.area());
         sum.checked_div(&area).expect("the window is not empty")
+    }
+
+    /// What these boxes of the answer say; `None` if they say nothing.
+    fn wanted(&self, boxes: Vec<usize>) -> Option<Wanted> {
+        let all = |verdict: fn(BoxVerdict) -> bool| boxes.iter().all(|&b| verdict(self.boxes[b].verdict));
+        if all(|v| v == BoxVerdict::Undecided) {
+            return None;
+        }
+        Some(match (all(|v| v == BoxVerdict::Stable), all(|v| matches!(v, BoxVerdict::Unstable { .. }))) {
+            (true, _) => Wanted::All(true),
+            (_, true) => Wanted::All(false),
+            _ => Wanted::Each(boxes),
+        })
     }
 
     /// An axis in whose middle no box is cut; there is one, since the boxes come from halving.
@@ -205,15 +215,9 @@ impl<'a> Search<'a> {
                         let [low, high] = side(&self.boxes[**b].window, axis);
                         if k == 0 { *low < at } else { *high > at }
                     };
-                    let boxes: Vec<usize> = boxes.iter().filter(overlaps).copied().collect();
-                    let all = |verdict: fn(BoxVerdict) -> bool| boxes.iter().all(|&b| verdict(self.boxes[b].verdict));
-                    if all(|v| v == BoxVerdict::Undecided) {
-                        continue;
-                    }
-                    match (all(|v| v == BoxVerdict::Stable), all(|v| matches!(v, BoxVerdict::Unstable { .. }))) {
-                        (true, _) => Wanted::All(true),
-                        (_, true) => Wanted::All(false),
-                        _ => Wanted::Each(boxes),
+                    match self.wanted(boxes.iter().filter(overlaps).copied().collect()) {
+                        Some(wanted) => wanted,
+                        None => continue,
                     }
                 }
             };

@@ -2345,7 +2345,7 @@ class Judge:
             defined = all(any(sign_of(known[i]) for i in ways) for ways in self.divisors)
             return defined and roots_to_the_right(p, models) == 0
         signs = set(map(sign_of, p))
-        if {1, -1} <= signs or any(not any(c) and not rest for c, rest in p):
+        if {1, -1} <= signs:
             return True  # with all roots to the left all coefficients have one sign
         w = size_of_roots(p)
         return any(roots_to_the_right(q, models) for q in (p, *(moved(p, w + e) for e in (-3, -1))))
@@ -2362,7 +2362,7 @@ def check_boxes(model, document, statement, values, discrete, extent):
     need(is_discrete == discrete, "the model's time is another")
     own = in_region(own, discrete, extent)
     own = cleared(in_half_plane(own)) if discrete else own
-    undefined, n = not all(map(any, divisors)), len(own) - 1
+    nowhere, n = not all(map(any, divisors)) or not all(own), len(own) - 1
     functions, places = list(own), []
     for ways in divisors:
         places.append(range(len(functions), len(functions) + len(ways)))
@@ -2379,8 +2379,8 @@ def check_boxes(model, document, statement, values, discrete, extent):
             continue
         need(letter in shares, "tree: another letter")
         shares[letter] += Fraction(1, 1 << depth)
-        if letter != "?" and not (undefined and letter == "-"):
-            shown = not undefined and judge.shows(sides, known, is_own, letter == "+")
+        if letter != "?" and not (nowhere and letter == "-"):
+            shown = not nowhere and judge.shows(sides, known, is_own, letter == "+")
             need(shown, f"stable: a leaf {letter} is not shown, {' x '.join(f'[{a}, {b}]' for a, b in sides)}")
     need(not stack, "tree: it ends too early")
     where += "".join(f", {name} = {x}" for name, x in values.items())

@@ -38,7 +38,12 @@ enum Source<F> {
     Pi,
     Of(Function, F),
     /// The matrices [`HeldMatrix`] of a hold, row by row.
-    Hold { a: Vec<Vec<F>>, time: F, share: Q, matrices: Vec<HeldMatrix> },
+    Hold {
+        a: Vec<Vec<F>>,
+        time: F,
+        share: Q,
+        matrices: Vec<HeldMatrix>,
+    },
 }
 
 /// A matrix of a block behind a hold, with `A`, the sample time `T` and the share `f` of it by which the input comes late. With

@@ -273,9 +273,7 @@ mod tests {
     fn value(t: &Taylor, [u, v]: [f64; 2]) -> (f64, f64) {
         let p = precision();
         let unit = 2f64.powi(-96);
-        let term = |(c, [i, j]): (&Z, &[usize; 2])| {
-            c.to_f64().unwrap() * unit * u.powi(*i as i32) * v.powi(*j as i32)
-        };
+        let term = |(c, [i, j]): (&Z, &[usize; 2])| c.to_f64().unwrap() * unit * u.powi(*i as i32) * v.powi(*j as i32);
         (t.c.iter().zip(&p.exponents).map(term).sum(), t.rest.to_f64().unwrap() * unit)
     }
 

@@ -3,6 +3,7 @@
 use super::map_body;
 use super::map_boxes::{self, MethodOptions};
 use super::{Context, decided};
+use crate::certified_boxes::certify_boxes;
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, question};
@@ -11,7 +12,6 @@ use crate::cli::picture::{WRITES, pdf, png, write};
 use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::check_certificate;
-use crate::certified_boxes::certify_boxes;
 use clap::Args;
 use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
 use jurist_draw::page::map_page;

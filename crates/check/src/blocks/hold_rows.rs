@@ -3,9 +3,9 @@
 use super::{Diagram, Matrices, Row, Rule, Values};
 use crate::clock::Clock;
 use crate::hold::{self, Held, Hold, MovingHold};
-use crate::over_symbols::substituted;
 use crate::multivariate::{Fraction, Multi};
 use crate::number::Q;
+use crate::over_symbols::substituted;
 use crate::toml::Toml;
 use num_traits::{One, Signed, Zero};
 use std::ops::Range;

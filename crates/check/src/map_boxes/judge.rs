@@ -49,8 +49,8 @@ pub struct BoxJudge {
     coefficients: usize,
     /// Places of those divisors that one list has.
     divisors: Vec<std::ops::Range<usize>>,
-    /// Whether a divisor is zero everywhere.
-    is_undefined: bool,
+    /// Whether a divisor, or a coefficient, is zero everywhere: then no point is stable.
+    is_nowhere: bool,
 }
 
 /// A box of the window, and what is known of the functions over it.
@@ -93,6 +93,7 @@ impl BoxJudge {
         let mut all = primitive(if own_is_discrete { in_half_plane(&in_this_region) } else { in_this_region });
         let coefficients = all.len();
         let is_undefined = own.divisors.iter().any(|parts| parts.iter().all(Multi::is_zero));
+        let is_nowhere = is_undefined || all.iter().any(Multi::is_zero);
         let mut divisors = Vec::with_capacity(own.divisors.len());
         for parts in own.divisors.into_iter().filter(|parts| !parts.iter().any(is_number)) {
             divisors.push(all.len()..all.len() + parts.len());
@@ -100,7 +101,7 @@ impl BoxJudge {
         }
         let functions = Functions::new(&all);
         let precision = Precision::new(parts.order, parts.bits);
-        Ok(BoxJudge { statement, precision, clock, sources, functions, coefficients, divisors, is_undefined })
+        Ok(BoxJudge { statement, precision, clock, sources, functions, coefficients, divisors, is_nowhere })
     }
 
     pub(super) fn statement(&self) -> &Statement {
@@ -188,7 +189,7 @@ impl BoxJudge {
     }
 
     pub(super) fn shown(&self, of: &mut JudgedBox, stable: bool) -> Result<bool, String> {
-        if self.is_undefined {
+        if self.is_nowhere {
             return Ok(!stable);
         }
         if let Some((known, is_own)) = &of.known {
@@ -212,9 +213,9 @@ impl BoxJudge {
             let is_defined = |list: &std::ops::Range<usize>| known[list.clone()].iter().any(|f| f.sign().is_some());
             return Ok(self.divisors.iter().all(is_defined) && self.right(p)? == Some(0));
         }
-        // All roots to the left make all coefficients of one sign, and none zero.
+        // All roots to the left make all coefficients of one sign.
         let signs: Vec<bool> = p.iter().filter_map(Taylor::sign).collect();
-        if signs.contains(&true) && signs.contains(&false) || p.contains(&Taylor::zero()) {
+        if signs.contains(&true) && signs.contains(&false) {
             return Ok(true);
         }
         if self.right(p)?.is_some_and(|count| count > 0) {
