@@ -147,7 +147,7 @@ fn boxes_of_examples_are_certified() {
 fn functions_of_parameters_and_constants_are_certified() {
     for (time, characteristic) in [
         ("continuous", "(s + 1)*(s^2 + sqrt(2)*b*s + b^2) + a*b^2"),
-        ("continuous", "s^2 + sqrt(a + 3)*s + b/cos(a/2)"),
+        ("continuous", "s^2 + sqrt(a + 3)*s + (b - 1)/cos(a/2)"),
         ("discrete", "z^2 - 2*exp(-b)*cos(3*b)*z + exp(-2*b) + a*(z + sin(b)/pi + tan(b/4))"),
         ("discrete", "z + a/(b - exp(-3))"),
     ] {
