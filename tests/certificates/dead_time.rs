@@ -89,7 +89,7 @@ fn no_mutation_of_a_dead_time_certificate_changes_what_is_proved() {
         let original = Json::parse(&emitted(&model, "tau")).expect("JSON");
         let proved = check(&model, &original.to_text(), &LIMITS).expect(function).statement;
         let (mut tried, mut accepted) = (0, 0);
-        for mutant in mutations(&original) {
+        for mutant in mutations(&original).one_in(1) {
             tried += 1;
             let text = mutant.to_text();
             let found = check(&model, &text, &LIMITS);

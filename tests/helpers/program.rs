@@ -54,10 +54,10 @@ fn output_with_input(command: &mut Command, input: &[u8]) -> Output {
     child.wait_with_output().expect("the program ends")
 }
 
-/// The first answer from `run`, given 1 second, then 2, 4 and so on: a machine may be as slow as it likes, and where there
+/// The first answer from `run`, given an eighth of a second, then twice as much and so on: a machine may be as slow as it likes, and where there
 /// is never an answer, the test never ends.
 pub fn given_time<T>(run: impl Fn(&str) -> Option<T>) -> T {
-    (0..).find_map(|doublings| run(&(1u64 << doublings).to_string())).expect("at some time")
+    (0..).find_map(|doublings| run(&(f64::from(1u32 << doublings) / 8.0).to_string())).expect("at some time")
 }
 
 /// Runs the program and reads its JSON, which fits its schema.

@@ -89,9 +89,9 @@ fn auto_falls_back_on_boxes() {
     std::fs::write(&file, filtered_drive(24)).unwrap();
     let path = file.to_str().unwrap();
     let window = ["-x", "T=0..0.02", "-y", "K_pwm=0..600"];
-    let exact_only = jurist(&[&["map", path][..], &window, &["--timeout", "1", "--method", "exact"]].concat());
+    let exact_only = jurist(&[&["map", path][..], &window, &["--timeout", "0.25", "--method", "exact"]].concat());
     assert_eq!(exact_only.status, 3);
-    let no_window = jurist(&["map", path, "-x", "T", "-y", "K_pwm", "--timeout", "1"]);
+    let no_window = jurist(&["map", path, "-x", "T", "-y", "K_pwm", "--timeout", "0.25"]);
     assert_eq!(no_window.status, 3);
     // The hint is missing where a single step outlasts the time and the program is ended.
     assert!(no_window.stderr.contains("undecided"), "{}", no_window.stderr);

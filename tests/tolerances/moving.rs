@@ -244,7 +244,7 @@ fn what_is_not_asked_of_functions_is_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 6, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 4, ..ProptestConfig::default() })]
 
     /// Lags of the second order, real or oscillating, with all constants, gain and sample time uncertain.
     #[test]

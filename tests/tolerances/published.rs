@@ -75,9 +75,7 @@ fn de_gaston_and_safonov_1988() {
     assert!(matches!(asked(&model, &printed).value().decision, BoxDecision::NotStable { witness: Some(_) }));
 }
 
-/// `.ci/run` asks the optimised program the same.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "a minute without optimisation")]
 fn vicino_tesi_and_milanese_1990() {
     let answer = of_example("vicino-tesi-milanese");
     confirm(&answer, "6.27463433653790895");

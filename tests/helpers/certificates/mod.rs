@@ -133,69 +133,86 @@ fn at<'j>(json: &'j mut Json, path: &[&str]) -> Option<&'j mut Json> {
     })
 }
 
-/// All documents that differ in one value: numbers changed in several ways, labels turned, entries left out, doubled and
+/// A place in a document, by positions.
+type Path = Vec<usize>;
+
+/// All documents that differ from one in one value: numbers changed in several ways, labels turned, entries left out, doubled and
 /// swapped, keys left out.
-pub fn mutations(original: &Json) -> Vec<Json> {
-    let mut out = Vec::new();
-    if let Json::Object(pairs) = original {
-        for (i, (key, value)) in pairs.iter().enumerate() {
-            for changed in mutations_of(value) {
-                let mut copy = pairs.clone();
-                copy[i] = (key.clone(), changed);
-                out.push(Json::Object(copy));
-            }
-        }
-    }
-    out
+pub struct Mutations<'j> {
+    original: &'j Json,
+    /// Where, and what stands there instead.
+    changes: Vec<(Path, Json)>,
 }
 
-fn mutations_of(value: &Json) -> Vec<Json> {
+impl Mutations<'_> {
+    /// One in so many of the documents, each made when its turn comes.
+    pub fn one_in(&self, every: usize) -> impl Iterator<Item = Json> {
+        self.changes.iter().step_by(every).map(|(path, value)| {
+            let mut copy = self.original.clone();
+            *inside(&mut copy, path) = value.clone();
+            copy
+        })
+    }
+}
+
+pub fn mutations(original: &Json) -> Mutations<'_> {
+    let mut changes = Vec::new();
+    if let Json::Object(pairs) = original {
+        for (i, (_, value)) in pairs.iter().enumerate() {
+            list_changes(value, &mut vec![i], &mut changes);
+        }
+    }
+    Mutations { original, changes }
+}
+
+fn inside<'j>(json: &'j mut Json, path: &[usize]) -> &'j mut Json {
+    path.iter().fold(json, |json, &i| match json {
+        Json::List(items) => &mut items[i],
+        Json::Object(pairs) => &mut pairs[i].1,
+        _ => unreachable!("paths lead through lists and objects"),
+    })
+}
+
+fn list_changes(value: &Json, path: &mut Path, changes: &mut Vec<(Path, Json)>) {
+    let mut here = |path: &Path, value: Json| changes.push((path.clone(), value));
     match value {
-        Json::Null => vec![Json::Text("0".into())],
-        Json::Bool(b) => vec![Json::Bool(!b)],
-        Json::Count(n) => vec![Json::Count(n + 1), Json::Count(n.wrapping_sub(1).min(9))],
+        Json::Null => here(path, Json::Text("0".into())),
+        Json::Bool(b) => here(path, Json::Bool(!b)),
+        Json::Count(n) => [n + 1, n.wrapping_sub(1).min(9)].into_iter().for_each(|n| here(path, Json::Count(n))),
         Json::Text(text) => {
             let mut out = vec![format!("-{text}"), format!("1{text}"), format!("{text}0"), "0".into(), "1/7".into()];
             if let Ok(q) = parse_number(text) {
                 out.extend([1, -1].map(|d| (&q + &jurist_algebra::number::Rational::from(d)).to_string()));
             }
-            out.into_iter().filter(|t| t != text).map(Json::Text).collect()
+            out.into_iter().filter(|t| t != text).for_each(|t| here(path, Json::Text(t)));
         }
         Json::List(items) => {
-            let mut out = Vec::new();
             for (i, item) in items.iter().enumerate() {
-                for changed in mutations_of(item) {
-                    let mut copy = items.clone();
-                    copy[i] = changed;
-                    out.push(Json::List(copy));
-                }
+                path.push(i);
+                list_changes(item, path, changes);
+                path.pop();
                 let mut without = items.clone();
                 without.remove(i);
-                out.push(Json::List(without));
+                changes.push((path.clone(), Json::List(without)));
                 let mut doubled = items.clone();
                 doubled.insert(i, item.clone());
-                out.push(Json::List(doubled));
+                changes.push((path.clone(), Json::List(doubled)));
                 if i > 0 && items[i] != items[i - 1] {
                     let mut swapped = items.clone();
                     swapped.swap(i, i - 1);
-                    out.push(Json::List(swapped));
+                    changes.push((path.clone(), Json::List(swapped)));
                 }
             }
-            out
         }
         Json::Object(pairs) => {
-            let mut out = Vec::new();
-            for (i, (key, value)) in pairs.iter().enumerate() {
-                for changed in mutations_of(value) {
-                    let mut copy = pairs.clone();
-                    copy[i] = (key.clone(), changed);
-                    out.push(Json::Object(copy));
-                }
+            for (i, (_, value)) in pairs.iter().enumerate() {
+                path.push(i);
+                list_changes(value, path, changes);
+                path.pop();
                 let mut without = pairs.clone();
                 without.remove(i);
-                out.push(Json::Object(without));
+                changes.push((path.clone(), Json::Object(without)));
             }
-            out
         }
     }
 }

@@ -25,7 +25,12 @@ impl Fixed {
     }
 
     pub fn to_f64(&self, bits: u64) -> Complex<f64> {
-        let part = |v: &Integer| Rational::dyadic(v, bits).to_f64_approximate();
+        let part = |v: &Integer| {
+            let drop = v.bit_length().saturating_sub(64);
+            // In two steps, as the power alone may be too small for a number.
+            let half = ((drop as f64 - bits as f64) / 2.0).floor();
+            (v >> drop).to_f64_approximate() * half.exp2() * (drop as f64 - bits as f64 - half).exp2()
+        };
         Complex::new(part(&self.re), part(&self.im))
     }
 

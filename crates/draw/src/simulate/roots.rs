@@ -27,8 +27,8 @@ pub struct ApproximateRoot {
 /// All complex roots of `p`, by real and then imaginary part; none for a constant.
 ///
 /// Multiplicities are exact (square-free decomposition); the simple roots of each factor come from
-/// Aberth's iteration [Aberth1973](jurist_algebra::bibliography#aberth1973), started at the radii of the Newton polygon [Bini1996](jurist_algebra::bibliography#bini1996), in fixed
-/// point with as many bits as it takes, so that a cluster such as four roots within 1e-3 of z = 1
+/// Aberth's iteration [Aberth1973](jurist_algebra::bibliography#aberth1973), started at the radii of the Newton polygon [Bini1996](jurist_algebra::bibliography#bini1996), first in
+/// floating point and then in fixed point with as many bits as it takes, so that a cluster such as four roots within 1e-3 of z = 1
 /// is resolved. Real roots have imaginary part exactly 0. O(d^2) products per sweep.
 ///
 /// ```
@@ -64,7 +64,9 @@ fn simple_roots(p: &UniPoly) -> Vec<(Complex<f64>, f64)> {
         return vec![(Complex::new(root.to_f64_approximate(), 0.0), 0.0)];
     }
     let mut bits = FIRST_BITS;
-    let mut roots: Vec<Fixed> = starting_points(p).into_iter().map(|z| Fixed::from_f64(z, bits)).collect();
+    let start = starting_points(p);
+    let start = in_floating_point(p, &start).unwrap_or(start);
+    let mut roots: Vec<Fixed> = start.into_iter().map(|z| Fixed::from_f64(z, bits)).collect();
     loop {
         iterate(p, &mut roots, bits);
         let discs: Vec<(Complex<f64>, f64)> = roots.iter().map(|z| (z.to_f64(bits), radius(p, z, bits))).collect();
@@ -98,12 +100,7 @@ fn iterate(p: &UniPoly, roots: &mut [Fixed], bits: u64) {
                 roots[i].im += &Integer::ONE << (bits - 20);
                 continue;
             };
-            let mut sum = Fixed::zero();
-            for j in (0..roots.len()).filter(|&j| j != i) {
-                if let Some(term) = one.over(&roots[i].minus(&roots[j]), bits) {
-                    sum = sum.plus(&term);
-                }
-            }
+            let sum = repulsion(roots, i, bits);
             let factor = one.minus(&newton.times(&sum, bits));
             let correction = newton.over(&factor, bits).unwrap_or(newton);
             settled[i] = correction.size() <= still;
@@ -113,6 +110,51 @@ fn iterate(p: &UniPoly, roots: &mut [Fixed], bits: u64) {
             break;
         }
     }
+}
+
+/// The sum of `1 / (z_i - z_j)`. It only makes the method converge fast: its rounding moves no root.
+fn repulsion(roots: &[Fixed], i: usize, bits: u64) -> Fixed {
+    let others = || (0..roots.len()).filter(|&j| j != i).map(|j| roots[i].minus(&roots[j])).filter(|d| !d.is_zero());
+    let rounded: Complex<f64> = others().map(|d| d.to_f64(bits).inv()).sum();
+    if rounded.is_finite() {
+        return Fixed::from_f64(rounded, bits);
+    }
+    let one = Fixed::one(bits);
+    others().filter_map(|d| one.over(&d, bits)).fold(Fixed::zero(), |sum, term| sum.plus(&term))
+}
+
+/// The same iteration in floating point, for points nearer to the roots; `None` where numbers become too large or too small, or two points
+/// the same.
+fn in_floating_point(p: &UniPoly, start: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
+    let largest = p.coeffs().iter().map(Integer::bit_length).max().unwrap_or(0);
+    let coefficients: Vec<f64> = p.coeffs().iter().map(|c| Rational::dyadic(c, largest).to_f64_approximate()).collect();
+    if p.coeffs().iter().zip(&coefficients).any(|(c, rounded)| !c.is_zero() && !rounded.is_normal()) {
+        return None;
+    }
+    let mut z = start.to_vec();
+    for _ in 0..60 {
+        let mut farthest = 0.0f64;
+        for i in 0..z.len() {
+            let (mut value, mut slope) = (Complex::<f64>::ZERO, Complex::<f64>::ZERO);
+            for c in coefficients.iter().rev() {
+                slope = slope * z[i] + value;
+                value = value * z[i] + c;
+            }
+            let newton = value / slope;
+            let sum: Complex<f64> = (0..z.len()).filter(|&j| j != i).map(|j| (z[i] - z[j]).inv()).sum();
+            let correction: Complex<f64> = newton / (Complex::<f64>::ONE - newton * sum);
+            if !correction.is_finite() {
+                return None;
+            }
+            z[i] -= correction;
+            farthest = farthest.max(correction.norm() / z[i].norm());
+        }
+        if farthest < 1e-12 {
+            break;
+        }
+    }
+    let apart = (1..z.len()).all(|i| (0..i).all(|j| z[i] != z[j]));
+    (apart && z.iter().all(|z| z.is_finite())).then_some(z)
 }
 
 /// The polynomial and its derivative at `z`, by Horner's rule.

@@ -1,13 +1,14 @@
 //! The stable region in two parameters by boxes, and the choice between that and the exact decomposition.
 
 use super::{Answer, Map};
-use crate::error::{Diagnostic, Error};
+use crate::error::Error;
 use crate::problem::Problem;
 use crate::stability::Range;
-use crate::stability::plane::boxes::{BoxMap, Window, stability_boxes};
+use crate::stability::plane::boxes::{BoxMap, stability_boxes};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
+use window::{window_around, window_of};
 
 /// The part of the time that boxes may take, so that some is left to write them.
 const SUBDIVISION: (u32, u32) = (9, 10);
@@ -56,7 +57,7 @@ pub enum MapMethod {
 #[non_exhaustive]
 pub struct BoxRequest {
     /// Of either parameter; the domain is the window where an end is left out. Of a loop that has only boxes an end that neither says is as
-    /// far from the nominal value as the other one, or as 0.
+    /// far from the nominal value as the other one, or as 0; an upper one farther, until the loop is unstable there, where it is soon.
     pub windows: [Range; 2],
     /// The share of the window's area that may stay undecided.
     pub undecided: Rational,
@@ -169,13 +170,17 @@ impl Problem {
             };
             if method != MapMethod::Exact {
                 if let Some(plane) = self.delayed_plane(budget)? {
-                    return Ok(found(plane.boxes(&window_around(self, request)?, &request.undecided, &share())?, None));
+                    return Ok(found(
+                        plane.boxes(&window_around(self, request, budget)?, &request.undecided, &share())?,
+                        None,
+                    ));
                 }
                 let mut no_exact_map = None;
                 let has_symbols = !self.algebra_over_symbols(budget)?.symbols().is_empty();
+                let window = if has_symbols { window_around(self, request, budget) } else { window_of(self, request) };
                 if method == MapMethod::Auto && has_symbols && self.is_outside_of_functions(budget)? {
                     // Without a window there are no boxes to leave time for.
-                    let has_window = window_around(self, request).is_ok();
+                    let has_window = window.is_ok();
                     let part = if has_window { &budget.share(1, 2) } else { budget };
                     let size = self.plane_over_symbols(budget)?.map_or(0, |p| p.size(self.shape()));
                     let attempt =
@@ -186,7 +191,7 @@ impl Problem {
                     }
                 }
                 if let Some(family) = self.moving_family(budget)? {
-                    let (window, goal) = (window_around(self, request)?, &request.undecided);
+                    let (window, goal) = (window?, &request.undecided);
                     let boxes = match family.is_inside_of_both() {
                         true => family.boxes(&window, goal, &share(), |_| None),
                         false => {
@@ -197,7 +202,7 @@ impl Problem {
                     return Ok(found(boxes, no_exact_map));
                 }
                 if let Some(plane) = self.symbolic_plane(budget)? {
-                    let boxes = plane.boxes(&window_around(self, request)?, &request.undecided, &share())?;
+                    let boxes = plane.boxes(&window?, &request.undecided, &share())?;
                     return Ok(found(boxes, no_exact_map));
                 }
             }
@@ -228,54 +233,7 @@ fn too_long(terms: u64) -> Exhausted {
     Exhausted::new(format!("terms of a map by '--method auto' ({MOST_TERMS})"), reached)
 }
 
-/// [`window_of`], where there is nothing but boxes: a side without an end reaches as far from the nominal value as the other end, or 0, or one.
-fn window_around(question: &Problem, request: &BoxRequest) -> Result<Window, Error> {
-    let mut wanted = request.clone();
-    for (range, axis) in wanted.windows.iter_mut().zip(question.free()) {
-        let lower = range.lower.clone().max(axis.domain.lower.clone());
-        let upper = range.upper.iter().chain(&axis.domain.upper).min().cloned();
-        let Some(nominal) = &axis.nominal else { continue };
-        let reach = match (&lower, &upper) {
-            (Some(lower), None) => nominal - lower,
-            (None, Some(upper)) => upper - nominal,
-            _ => nominal.abs(),
-        };
-        let reach = if reach.sign().is_gt() { reach } else { Rational::ONE };
-        range.lower = Some(lower.unwrap_or_else(|| nominal - &reach));
-        range.upper = Some(upper.unwrap_or_else(|| nominal + &reach));
-    }
-    window_of(question, &wanted)
-}
-
-/// The part of the domain that the boxes are to cover.
-fn window_of(question: &Problem, request: &BoxRequest) -> Result<Window, Error> {
-    let side = |k: usize| {
-        let (domain, wanted) = (&question.free()[k].domain, &request.windows[k]);
-        let lower = wanted.lower.clone().max(domain.lower.clone());
-        let upper = match (&wanted.upper, &domain.upper) {
-            (Some(a), Some(b)) => Some(a.min(b).clone()),
-            (a, b) => a.clone().or_else(|| b.clone()),
-        };
-        Range::between(lower, upper)
-    };
-    let sides = [side(0), side(1)];
-    for (range, axis) in sides.iter().zip(question.free()) {
-        if range.lower.is_none() || range.upper.is_none() {
-            return Err(Diagnostic::error("E-usage", format!("boxes need a window of '{}' with two ends", axis.name))
-                .help(format!("say which values are to be covered, such as '-x {}=0..1'", axis.name))
-                .into());
-        }
-        if range.is_empty() {
-            return Err(Diagnostic::error(
-                "E-empty-domain",
-                format!("the window of '{}' is outside its domain", axis.name),
-            )
-            .help("boxes cover the part of the window that is in the domain")
-            .into());
-        }
-    }
-    Ok(Window::new(&sides[0], &sides[1]).expect("both sides are bounded and not empty"))
-}
+mod window;
 
 #[cfg(test)]
 mod tests;

@@ -8,7 +8,7 @@ use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
 
 /// Bits of the search.
-const BITS: u64 = 256;
+const BITS: u64 = 128;
 /// Arcs of a search are halved so often at most,
 const ARCS: u64 = 14;
 /// and only while no more of them are open: beside few roots near the edge.

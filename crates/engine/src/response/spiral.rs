@@ -190,14 +190,17 @@ impl OnSpiral {
 
     /// Function and derivatives at the middle of a range of angles and values.
     pub fn at_middle(&self, angles: &[Rational; 2], values: &Values, bits: u64) -> Jet {
-        let middle = angles[0].midpoint(&angles[1]);
-        self.jet(&[middle.clone(), middle], &Values::of(&values.middle), &self.constants(bits))
+        let with = self.constants(bits);
+        let z = self.point(&angles[0].midpoint(&angles[1]), &with);
+        self.jet(&z, &Values::of(&values.middle), &with)
     }
 
     /// Whether the function vanishes at most once in a box of angles (in parts of pi) and values: its derivatives are
     /// independent, whatever they are inside, which makes it one to one on a convex set.
     pub fn is_one_to_one(&self, angles: &[Rational; 2], values: &Values, bits: u64) -> bool {
-        let Jet { by_angle, by_parameter, .. } = self.jet(angles, values, &self.constants(bits));
+        let with = self.constants(bits);
+        let z = self.around(&self.point(&angles[0].midpoint(&angles[1]), &with), angles, &with);
+        let Jet { by_angle, by_parameter, .. } = self.jet(&z, values, &with);
         let determinant = by_angle.re.mul(&by_parameter.im).sub(&by_angle.im.mul(&by_parameter.re));
         !determinant.contains_zero()
     }
@@ -209,24 +212,23 @@ impl OnSpiral {
         Constants { bits, pi: Ball::from_enclosure(&Enclosure::pi(bits + 4), bits), decay }
     }
 
-    /// `z` for all angles of a range, in parts of pi.
-    fn point(&self, [from, to]: &[Rational; 2], with: &Constants) -> Complex {
-        let angle = |t: &Rational| Ball::from_rational(t, with.bits).mul(&with.pi);
-        let middle = angle(&from.midpoint(to));
-        let size = exp(&with.decay.mul(&middle).neg());
-        let (cos, sin) = cos_sin(&middle);
-        let z = Complex { re: size.mul(&cos), im: size.mul(&sin) };
-        if from == to {
-            return z;
-        }
+    /// `z` at an angle, in parts of pi.
+    fn point(&self, angle: &Rational, with: &Constants) -> Complex {
+        let angle = Ball::from_rational(angle, with.bits).mul(&with.pi);
+        let size = exp(&with.decay.mul(&angle).neg());
+        let (cos, sin) = cos_sin(&angle);
+        Complex { re: size.mul(&cos), im: size.mul(&sin) }
+    }
+
+    /// `z` for all angles of a range, from that in the middle.
+    fn around(&self, z: &Complex, [from, to]: &[Rational; 2], with: &Constants) -> Complex {
         // |dz/dphi| = |z| |-c + j| <= 1 + c.
-        let half = angle(&(to - from)).shifted(-1);
+        let half = Ball::from_rational(&(to - from), with.bits).mul(&with.pi).shifted(-1);
         let radius = half.mul(&with.decay.add(&Ball::from_integer(&Integer::ONE, with.bits))).magnitude_units();
         Complex { re: z.re.widened(&radius), im: z.im.widened(&radius) }
     }
 
-    fn jet(&self, angles: &[Rational; 2], values: &Values, with: &Constants) -> Jet {
-        let z = self.point(angles, with);
+    fn jet(&self, z: &Complex, values: &Values, with: &Constants) -> Jet {
         let k = Ball::between(&values.whole[0], &values.whole[1], with.bits);
         let at = |c: &UniPoly| {
             let number = |c: &Integer| Ball::from_integer(c, with.bits);
@@ -234,7 +236,7 @@ impl OnSpiral {
         };
         let horner = |c: &[Ball]| {
             c.iter().rev().fold(Complex::zero(with.bits), |sum, c| {
-                let product = sum.times(&z);
+                let product = sum.times(z);
                 Complex { re: product.re.add(c), im: product.im }
             })
         };
@@ -249,9 +251,9 @@ impl OnSpiral {
 
     /// The function on an arc: by its value in the middle and its derivatives on the whole.
     fn on(&self, angles: &[Rational; 2], values: &Values, with: &Constants) -> Complex {
-        let middle = angles[0].midpoint(&angles[1]);
-        let value = self.jet(&[middle.clone(), middle], &Values::of(&values.middle), with).value;
-        let whole = self.jet(angles, values, with);
+        let z = self.point(&angles[0].midpoint(&angles[1]), with);
+        let value = self.jet(&z, &Values::of(&values.middle), with).value;
+        let whole = self.jet(&self.around(&z, angles, with), values, with);
         let side = |from: &Rational, to: &Rational| {
             let half = (to - from) * Rational::dyadic(&Integer::ONE, 1);
             Ball::between(&-&half, &half, with.bits)

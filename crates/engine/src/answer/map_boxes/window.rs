@@ -1,0 +1,142 @@
+//! What boxes are to cover.
+
+use super::BoxRequest;
+use crate::answer::Verdict;
+use crate::error::{Diagnostic, Error};
+use crate::problem::Problem;
+use crate::stability::Range;
+use crate::stability::plane::boxes::Window;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
+
+/// A window that nobody asked for is doubled so often at most, to show where the loop becomes unstable.
+const DOUBLINGS: u32 = 5;
+
+/// [`window_of`], where there is nothing but boxes: a side without an end reaches as far from the nominal value as the other end, or 0, or
+/// one, and upwards twice as far and so on until the loop is unstable there while all else is nominal, where it ever is.
+///
+/// Cost: a few verdicts.
+///
+/// # Errors
+/// As [`window_of`], and [`Error::Stopped`] when the budget runs out.
+pub(super) fn window_around(question: &Problem, request: &BoxRequest, budget: &Budget) -> Result<Window, Error> {
+    let mut wanted = request.clone();
+    for (k, (range, axis)) in wanted.windows.iter_mut().zip(question.free()).enumerate() {
+        let lower = range.lower.clone().max(axis.domain.lower.clone());
+        let upper = range.upper.iter().chain(&axis.domain.upper).min().cloned();
+        let Some(nominal) = &axis.nominal else { continue };
+        let reach = match (&lower, &upper) {
+            (Some(lower), None) => nominal - lower,
+            (None, Some(upper)) => upper - nominal,
+            _ => nominal.abs(),
+        };
+        let reach = if reach.sign().is_gt() { reach } else { Rational::ONE };
+        range.lower = Some(lower.unwrap_or_else(|| nominal - &reach));
+        range.upper = Some(match upper {
+            Some(upper) => upper,
+            None => nominal + reach_of_stability(question, k, reach, budget)?,
+        });
+    }
+    window_of(question, &wanted)
+}
+
+/// How far a window is to reach from the nominal value of an axis.
+fn reach_of_stability(
+    question: &Problem,
+    axis: usize,
+    least: Rational,
+    budget: &Budget,
+) -> Result<Rational, Exhausted> {
+    let Some(nominal) = question.free().iter().map(|free| free.nominal.clone()).collect::<Option<Vec<_>>>() else {
+        return Ok(least);
+    };
+    let is_stable = |reach: &Rational| {
+        let mut point = nominal.clone();
+        point[axis] = &point[axis] + reach;
+        let names = question.free().iter().map(|free| free.name.clone());
+        let asked = question.model().ask().within(question.region().clone()).set_all(question.set().to_vec());
+        match asked.set_all(names.zip(point)).verdict(budget) {
+            Ok(answer) => Ok(answer.value().verdict == Verdict::Stable),
+            Err(Error::Stopped(_)) => budget.check().map(|()| false),
+            Err(_) => Ok(false),
+        }
+    };
+    if !is_stable(&Rational::ZERO)? {
+        return Ok(least);
+    }
+    let mut reach = least.clone();
+    for _ in 0..=DOUBLINGS {
+        if !is_stable(&reach)? {
+            return Ok(reach);
+        }
+        reach = &reach + &reach;
+    }
+    Ok(least)
+}
+
+/// The part of the domain that the boxes are to cover.
+pub(super) fn window_of(question: &Problem, request: &BoxRequest) -> Result<Window, Error> {
+    let side = |k: usize| {
+        let (domain, wanted) = (&question.free()[k].domain, &request.windows[k]);
+        let lower = wanted.lower.clone().max(domain.lower.clone());
+        let upper = match (&wanted.upper, &domain.upper) {
+            (Some(a), Some(b)) => Some(a.min(b).clone()),
+            (a, b) => a.clone().or_else(|| b.clone()),
+        };
+        Range::between(lower, upper)
+    };
+    let sides = [side(0), side(1)];
+    for (range, axis) in sides.iter().zip(question.free()) {
+        if range.lower.is_none() || range.upper.is_none() {
+            return Err(Diagnostic::error("E-usage", format!("boxes need a window of '{}' with two ends", axis.name))
+                .help(format!("say which values are to be covered, such as '-x {}=0..1'", axis.name))
+                .into());
+        }
+        if range.is_empty() {
+            return Err(Diagnostic::error(
+                "E-empty-domain",
+                format!("the window of '{}' is outside its domain", axis.name),
+            )
+            .help("boxes cover the part of the window that is in the domain")
+            .into());
+        }
+    }
+    Ok(Window::new(&sides[0], &sides[1]).expect("both sides are bounded and not empty"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Model, ParameterBuilder, Time};
+
+    fn question(characteristic: &str, parameters: &[(&str, &str)]) -> std::sync::Arc<Problem> {
+        let builder = parameters.iter().fold(Model::builder(Time::Continuous), |builder, (name, nominal)| {
+            builder.parameter(ParameterBuilder::new(*name).nominal(*nominal))
+        });
+        let (model, _) = builder.characteristic(characteristic).build().unwrap();
+        parameters.iter().fold(model.ask(), |ask, (name, _)| ask.free(*name)).plane_problem().unwrap()
+    }
+
+    fn window(question: &Problem, wanted: [Range; 2]) -> Window {
+        window_around(question, &BoxRequest::new(wanted, Rational::ONE), &Budget::unlimited()).unwrap()
+    }
+
+    /// `s + K exp(-theta s)` is stable for `0 < K theta < pi/2`.
+    #[test]
+    fn windows_show_where_the_loop_becomes_unstable() {
+        let n = |n: i64| Rational::from(n);
+        let loop_with = |gain, delay| question("s + K*exp(-theta*s)", &[("K", gain), ("theta", delay)]);
+        let slow = loop_with("1/2", "1/5");
+        let Window { x, y } = window(&slow, [Range::all(), Range::all()]);
+        // 0.5 + 8 is the first of 1, 1.5, 2.5, ... beyond 7.85, and 0.2 + 3.2 that of 0.4, 0.6, ... beyond 3.14.
+        assert_eq!((x.as_slice(), &y[1]), ([n(0), "17/2".parse().unwrap()].as_slice(), &"17/5".parse().unwrap()));
+        // What is asked for is kept, and so is what nothing is seen beyond.
+        let asked = Range::between(Some(n(0)), Some(n(1)));
+        let Window { x, y } = window(&slow, [asked, Range::between(None, Some(n(2)))]);
+        assert_eq!((&x[1], &y[1]), (&n(1), &n(2)));
+        let never = window(&loop_with("1/1000", "1/1000"), [Range::all(), Range::all()]);
+        assert_eq!(never.x[1], "1/500".parse().unwrap());
+        let unstable = window(&loop_with("2", "1"), [Range::all(), Range::all()]);
+        assert_eq!((&unstable.x[1], &unstable.y[1]), (&n(4), &n(2)));
+    }
+}
