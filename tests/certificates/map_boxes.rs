@@ -324,7 +324,7 @@ fn changed_certificates_are_rejected_or_true() {
         let (certificate, _) = emitted(&text, sides, "0.4");
         let (original, tree) = (Json::parse(&certificate).unwrap(), tree_of(&certificate));
         assert!(is_true(&text, &original));
-        let mut changes: Vec<String> = mutations(&original).iter().map(Json::to_text).collect();
+        let mut changes: Vec<String> = mutations(&original).one_in(1).map(|json| json.to_text()).collect();
         // A letter, or a part of the tree, in the place of another.
         for _ in 0..100 {
             let (at, from) = (random.below(tree.len()), random.below(tree.len()));
