@@ -111,7 +111,7 @@ mod tests {
 
     fn question(characteristic: &str, parameters: &[(&str, &str)]) -> std::sync::Arc<Problem> {
         let builder = parameters.iter().fold(Model::builder(Time::Continuous), |builder, (name, nominal)| {
-            builder.parameter(ParameterBuilder::new(*name).nominal(*nominal))
+            builder.parameter(ParameterBuilder::new(name).nominal(nominal))
         });
         let (model, _) = builder.characteristic(characteristic).build().unwrap();
         parameters.iter().fold(model.ask(), |ask, (name, _)| ask.free(*name)).plane_problem().unwrap()
