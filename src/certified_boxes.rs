@@ -149,7 +149,7 @@ impl<'a> Search<'a> {
                 Wanted::All(stable) if self.judge.shows(&mut open.judged, *stable) => {
                     self.nodes[open.node] = Node::Leaf(if *stable { '+' } else { '-' });
                     shares[usize::from(!stable)] += &share;
-                    waiting = waiting - share;
+                    waiting -= &share;
                     leaves += 1;
                     budget.advance(leaves as u64, (leaves + self.open.len()) as u64);
                     continue;

@@ -69,7 +69,7 @@ impl MethodOptions {
     pub fn method_certified(&self, problem: &Problem, budget: &Budget) -> Result<MapMethod, Error> {
         let exact = problem.refuse_map_certificate(budget);
         match (self.method, exact) {
-            (MethodName::Exact, Err(refusal)) => Err(refusal.into()),
+            (MethodName::Exact, Err(refusal)) => Err(refusal),
             (MethodName::Exact, Ok(())) => Ok(MapMethod::Exact),
             (MethodName::Auto, Ok(())) => Ok(MapMethod::Auto),
             (MethodName::Boxes, _) | (MethodName::Auto, Err(EngineError::Refused(_))) => {
@@ -78,7 +78,7 @@ impl MethodOptions {
                 judge(problem, &Window::new(&side, &side).expect("not empty"), budget)?;
                 Ok(MapMethod::Boxes)
             }
-            (MethodName::Auto, Err(stopped)) => Err(stopped.into()),
+            (MethodName::Auto, Err(stopped)) => Err(stopped),
         }
     }
 
