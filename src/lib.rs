@@ -96,8 +96,10 @@ pub use jurist_algebra::poly::{
 };
 pub use jurist_algebra::real::Real;
 // Certificates, checked by code of their own.
+pub use certified_boxes::{CertifiedBoxes, certify_boxes};
 pub use jurist_check::{Limits, Proved, Rejection, Step, check};
 
+mod certified_boxes;
 #[cfg(feature = "commands")]
 pub mod cli;
 

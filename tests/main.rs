@@ -93,6 +93,7 @@ mod certificates {
     mod gain;
     mod held;
     mod map_attacks;
+    mod map_boxes;
     mod maps;
     mod program;
     mod readers;

@@ -325,8 +325,8 @@ def tokens_of(text):
 def no_names(name):
     raise Rejected(f"the name {name:.40} where only numbers may stand")
 
-def evaluate(text, names, inverse, exponential=None):
-    """The value of an expression; `names`, `inverse` and `exponential` are functions."""
+def evaluate(text, names, inverse, functions={}):
+    """The value of an expression; `names` and `inverse` are functions, those that it may call have names."""
     tokens, depth = tokens_of(text)[::-1], 0  # the next token is the last of the list
 
     def accept(*operators):
@@ -373,8 +373,8 @@ def evaluate(text, names, inverse, exponential=None):
         if token[0] in ".0123456789":
             return decimal(token)
         need(is_name(token), f"{token:.40} is not expected in {text[:60]!r}")
-        if exponential and token == "exp" and accept("("):
-            result = exponential(nested(total, names))
+        if token in functions and accept("("):
+            result = functions[token](nested(total, names))
             need(accept(")"), "')' is missing")
             return result
         return names(token)
@@ -388,7 +388,8 @@ class Scope:
 
     exponential = None  # exp(-tau s), where it is read
 
-    def __init__(self, constants, variables):
+    def __init__(self, constants, variables, moving=None):
+        self.moving = moving  # functions, where they are read
         need(len(variables) < 900, "there are too many parameters")  # HIGHEST
         self.matrices = {name: c for name, c in constants.items() if isinstance(c, list)}
         self.divisors, self.constants = [], {name: c for name, c in constants.items() if name not in self.matrices}
@@ -415,6 +416,8 @@ class Scope:
     def value(self, toml, more={}, division_by_z=True):
         """Of an expression or a number; `more` are names of signals, or of the loop's variable."""
         def named(name):
+            if self.moving and name == "pi" and name not in more and name not in self.known:
+                return self.moving.variable("pi")
             need(name in more or name in self.known, f"the name {name:.40} is unknown")
             return more[name] if name in more else self.known[name]
 
@@ -426,7 +429,9 @@ class Scope:
 
         need(isinstance(toml, (str, int)) and not isinstance(toml, bool), "an expression is expected")
         if isinstance(toml, str):
-            return evaluate(toml, named, inverse, self.exponential if "exp" not in self.known and "exp" not in more else None)
+            functions = self.moving.functions if self.moving else {"exp": self.exponential} if self.exponential else {}
+            functions = {name: f for name, f in functions.items() if name not in self.known and name not in more}
+            return evaluate(toml, named, inverse, functions)
         spend(1, toml.bit_length())
         return scalar(number(toml))
 
@@ -556,7 +561,8 @@ class Loop:
         self.z, self.taken, root = model.z, model.taken, model.root
         self.values, self.symbols, self.sample_time = values, symbols, root.get("sample_time")
         self.first = 2 + len(values or [])  # symbols are the variables from here on
-        self.scope = Scope({name: c for name, c in model.constants.items() if name not in variables}, variables)
+        self.moving = symbols if isinstance(symbols, Moving) else None
+        self.scope = Scope({name: c for name, c in model.constants.items() if name not in variables}, variables, self.moving)
         if isinstance(symbols, DeadTime) and self.z == "s":
             self.scope.exponential = lambda f: self.delayed(-f, 1)
         self.unknowns, self.equations, self.degree, self.own = [], [], 0, []
@@ -651,7 +657,9 @@ class Loop:
             need(method in ("zoh", "foh") or not delay, "only a hold has a delay")
             if method in ("zoh", "foh"):
                 need(t and not c, "'discretize' does not fit")
-                if self.values is not None:
+                if self.values is not None and self.moving:
+                    hold = method == "foh", t, self.ratio(delay, t) if delay else Fraction(0)
+                elif self.values is not None:
                     hold = method == "foh", self.number(t), self.number(delay) if delay else Fraction(0)
                     need(hold[1] > 0 and hold[2] >= 0, "the times of a hold are not positive")
             elif method == "tustin" and (c or t):
@@ -707,14 +715,15 @@ class Loop:
         need(den and num.degree(0) <= order <= MAX_ORDER, "a transfer function is improper")
         scope.divisors.append(den.coefficients(0)[order])
         if hold:  # the companion matrix of the denominator
-            below = [self.number(scalar(c)) for c in den.coefficients(0)]
-            need(below[-1], "a held block loses its order")
-            whole = [scalar(c) * of_number(1 / below[-1]) for c in num.coefficients(0)] + [NOTHING] * order
-            below = [c / below[-1] for c in below[:-1]]
+            below = [scalar(c) if self.moving else of_number(self.number(scalar(c))) for c in den.coefficients(0)]
+            need(below[-1].scalar(), "a held block loses its order")
+            inverse = Value({"": below[-1].bottom}, below[-1].scalar())
+            whole = [scalar(c) * inverse for c in num.coefficients(0)] + [NOTHING] * order
+            below = [c * inverse for c in below[:-1]]
             a = [[of_number(Fraction(int(j == i + 1))) for j in range(order)] for i in range(order)]
-            a[-1:] = [[of_number(-c) for c in below]] if order else []
+            a[-1:] = [[-c for c in below]] if order else []
             b = [[of_number(Fraction(int(i == order - 1)))] for i in range(order)]
-            c = [[whole[k] + -(whole[order] * of_number(below[k])) for k in range(order)]]
+            c = [[whole[k] + -(whole[order] * below[k]) for k in range(order)]]
             return self.held(hold, a, b, c, [[whole[order]]], [self.unknown() for _ in range(order)], u, y)
         if "discretize" in block:
             num, den = (sum((c * up ** k * down ** (order - k) for k, c in enumerate(p.coefficients(0))), ZERO)
@@ -738,9 +747,18 @@ class Loop:
         need(not any(top) and not any(bottom) and bottom, "a held block depends on the parameter in its exponential")
         return Fraction(top.get(0, 0)) / Fraction(bottom[0])
 
+    def ratio(self, delay, time):
+        """The delay over the sample time, a number that is not negative."""
+        top, bottom = cleared([p.at(self.values) for p in (delay.scalar() * time.bottom, time.scalar() * delay.bottom)])
+        need(bottom, "a sample time is zero")
+        q = Fraction(top.get(max(bottom), 0), bottom[max(bottom)])
+        need(top * number(q.denominator) == bottom * number(q.numerator) and q >= 0, "a dead time is no multiple of the sample time")
+        return q
+
     def held(self, hold, a, b, c, d, x, u, y):
         """over x[k+1] = state x[k] + sum of matrix B u[k - age], and the states of past inputs."""
-        state, enters, over, past = self.symbols.held([[self.number(e) for e in row] for row in a], *hold, self)
+        a = a if self.moving else [[self.number(e) for e in row] for row in a]
+        state, enters, over, past = self.symbols.held(a, *hold, self)
         p = [[self.unknown() for _ in u] for _ in range(past)]
 
         def aged(age):
@@ -1112,12 +1130,15 @@ def loop_of(text, kept, values, boxed=(), symbols=None):
     need(numbers <= set(model.constants), "the model has no such parameter")
     if numbers:  # given as such; and the model must be right as it is
         [constant(model.constants[name]) for name in numbers]
-        Loop(model, {name: v for v, name in enumerate(model.parameters, 1)})
+        others = {name: v for v, name in enumerate(model.parameters, 1)}
+        Loop(model, others, symbols=Moving(1 + len(others)) if isinstance(symbols, Moving) else None)
     # A constant that is set has another number, and nothing else changes.
     model.constants = model.constants | {name: str(x) for name, x in values.items() if name in numbers}
     values = {name: x for name, x in values.items() if name not in numbers}
     variables = {name: v for v, name in enumerate([*values, *boxed], 2)} | ({} if kept is None else {kept: 1})
     values = list(values.values())
+    if isinstance(symbols, Moving):
+        symbols.next = 2 + len(values) + len(boxed)  # behind all others
     return model, Loop(model, variables, values, Table() if symbols is None else symbols), values
 
 def characteristic_polynomial(text, kept, values, symbols=None):
@@ -1544,10 +1565,12 @@ def follow(tree, whole):
             need(all(c > 0 for c in cell.affine(axes, list(zip(numbers[::2], numbers[1::2])))), "a leaf is not on one side")
     need(at == len(tree), "something follows a tree")
 
-def over_box(text, names, values):
+def over_box(text, names, values, symbols=None):
     """The coefficients in the parameters of a box, which are the variables from 2 on, and lists of polynomials at whose common zeros
     the loop is undefined."""
-    model, loop, values = loop_of(text, None, values, names)
+    model, loop, values = loop_of(text, None, values, names, symbols)
+    if symbols:
+        symbols.given(values)
     divisors = [cleared(divisor.at(values).coefficients(0)) for divisor in loop.scope.divisors]
 
     def system(equations, unknowns):
@@ -1594,6 +1617,17 @@ def at_point(polynomials, point):
     """Polynomials in the parameters of a box, as the coefficients of one in z, times a positive number."""
     return P.of([c.get(0, 0) for c in cleared([p.at(point) for p in polynomials])]).listed(0)
 
+def in_half_plane(d):
+    """(1 - s)^n D((1 + s)/(1 - s))"""
+    n = len(d) - 1
+    p = [ZERO] * (n + 1)
+    for i, c in enumerate(d):
+        row = [1]
+        for j in range(n):
+            row = [x + y if j < i else x - y for x, y in zip([*row, 0], [0, *row])]
+        p = [x + c * number(w) for x, w in zip(p, row)]
+    return p
+
 def beside(given, own):
     """What the model's own polynomial has beside the given one."""
     need(len(given) == len(own) and any(given), "characteristic: not that of the model")
@@ -1628,14 +1662,7 @@ def check_tolerance(model, document, statement, values, discrete, extent):
     read = boxed(len(names))
     own, given = in_region(own, discrete, extent), items(given, read)
     common, given = beside(given, own), cleared(given)
-    n, p = len(given) - 1, given
-    if discrete:  # (1 - s)^n D((1 + s)/(1 - s))
-        p = [ZERO] * (n + 1)
-        for i, c in enumerate(given):
-            row = [1]
-            for j in range(n):
-                row = [x + y if j < i else x - y for x, y in zip([*row, 0], [0, *row])]
-            p = [x + c * number(w) for x, w in zip(p, row)]
+    n, p = len(given) - 1, in_half_plane(given) if discrete else given
     sides, known = at_factor(factor), []
     for item in items(factors, lambda item: parts(item, ["polynomial", "tree"])):
         f = read(item[0]).primitive()
@@ -1866,6 +1893,500 @@ def check_map(model, document, statement, values, discrete, extent):
 
 def domain_of(low, high):
     return f"({'-infinity' if low is None else low}, {'infinity' if high is None else high})"
+
+# ---------------------------------------------------------------- maps by boxes
+
+class TooWide(Exception):
+    """A series does not reach over a box: nothing is shown of it."""
+
+class Models:
+    """Functions of two coordinates from -1 to 1 as pairs: coefficients of a polynomial up to a total degree, by degree, then by the power
+    of the second coordinate, in units of 2^-bits; and a bound of what is left out."""
+
+    def __init__(self, order, bits):
+        self.order, self.bits, self.one = order, bits, 1 << bits
+        self.exponents = [(d - j, j) for d in range(order + 1) for j in range(d + 1)]
+        at = {e: k for k, e in enumerate(self.exponents)}
+        # Where the products of a coefficient with the first others are that are not of too high a degree.
+        self.places = [[at[i + k, j + l] for k, l in self.exponents if i + j + k + l <= order] for i, j in self.exponents]
+        self.degrees = [slice(d * (d + 1) // 2, (d + 1) * (d + 2) // 2) for d in range(order + 1)]
+        # ((u + shift)/2)^n in units of 2^-order, for both axes and shifts.
+        self.ways = {(axis, shift): [[(at[(k, j) if axis == 0 else (i, k)], comb((i, j)[axis], k) * shift ** ((i, j)[axis] - k)
+                                      << order - (i, j)[axis]) for k in range((i, j)[axis] + 1)] for i, j in self.exponents]
+                     for axis in (0, 1) for shift in (-1, 1)}
+
+    def units(self, c, rest=0):
+        return [c, *[0] * (len(self.exponents) - 1)], rest
+
+    def number(self, q):
+        c, over = divmod(q.numerator << self.bits, q.denominator)
+        return self.units(c, int(over > 0))
+
+    def coordinate(self, low, high, axis):
+        (c, rest), (half, more) = self.number((low + high) / 2), self.number((high - low) / 2)
+        c[1 + axis] = half[0]
+        return c, rest + more
+
+    def times(self, f, g):
+        (a, r), (b, s) = f, g
+        spend(len(a), self.bits, self.bits)
+        full = [0] * len(a)
+        for x, places in zip(a, self.places):
+            if x:
+                for y, place in zip(b, places):
+                    if y:
+                        full[place] += x * y
+        own, others = ([sum(map(abs, c[part])) for part in self.degrees] for c in (a, b))
+        left = sum(x * sum(others[self.order + 1 - d:]) for d, x in enumerate(own) if x)
+        left += sum(own) * s + (sum(others) + s) * r
+        return [c >> self.bits for c in full], -(-left >> self.bits) + len(full)
+
+    def quotient(self, f, g):
+        return self.times(f, self.inverse(g))
+
+    def relative(self, f):
+        """f = c (1 + y) with the constant c: 1/c, y, and a bound of |y|^(order + 1) + |y|^(order + 2) + ..., |y| at most 1/2."""
+        c = f[0][0]
+        if 2 * beside_constant(f) > abs(c) or not c:
+            raise TooWide
+        reciprocal = self.units((1 << 2 * self.bits) // c, 1)
+        y = self.times(([0, *f[0][1:]], f[1]), reciprocal)
+        bound, ratio = 2 * self.one, min(abs(y[0][0]) + beside_constant(y), self.one >> 1)
+        for _ in range(self.order + 1):
+            bound = -(-bound * ratio >> self.bits)
+        return reciprocal, y, bound
+
+    def inverse(self, f):
+        reciprocal, y, bound = self.relative(f)
+        total = one = self.units(self.one)
+        for _ in range(self.order):
+            total = summed(one, self.times(total, y), -1)
+        return self.times((total[0], total[1] + bound), reciprocal)
+
+    def root(self, f):
+        _, y, bound = self.relative(f)
+        if f[0][0] <= 0:
+            raise TooWide
+        total = one = self.units(self.one)
+        for k in range(self.order - 1, -1, -1):  # the coefficients of (1 + y)^(1/2), none above one
+            total = summed(one, divided_by(multiplied(self.times(total, y), 1 - 2 * k), 2 * k + 2))
+        return self.times((total[0], total[1] + bound), self.units(isqrt(f[0][0] << self.bits), 1))
+
+    def halves(self, f, axis):
+        spend(len(f[0]), self.bits)
+        out = []
+        for shift in (-1, 1):
+            c = [0] * len(f[0])
+            for x, ways in zip(f[0], self.ways[axis, shift]):
+                if x:
+                    for place, way in ways:
+                        c[place] += x * way
+            out.append(([x >> self.order for x in c], f[1] + len(c)))
+        return out
+
+    def pi(self):
+        def inverse_of_tangent(n):
+            power, total, k = (1 << self.bits + 64) // n, 0, 1
+            while power:
+                total, power, k = total + (power // k if k % 4 == 1 else -(power // k)), power // (n * n), k + 2
+            return total
+        return self.units(16 * inverse_of_tangent(5) - 4 * inverse_of_tangent(239) >> 64, 2)  # Machin
+
+    def product(self, m, k):
+        def entry(row, column):
+            total = self.units(0)
+            for f, g in zip(row, column):
+                if any(f[0]) or f[1]:
+                    total = summed(total, self.times(f, g))
+            return total
+        return [[entry(row, column) for column in zip(*k)] for row in m]
+
+    def exponentials(self, m):
+        """The sums of M^k/k!, M^k/(k + 1)!, M^k/(k + 2)!: of M/2^s, with rows of at most 2^-8, doubled s times."""
+        n = range(len(m))
+        norm, s = max((sum(abs(f[0][0]) + beside_constant(f) for f in row) for row in m), default=0), 0
+        while norm >> s >= self.one >> 8:
+            s += 1
+            if s > 64:
+                raise TooWide
+        m = [[halved(f, s) for f in row] for row in m]
+        term = [[self.units(self.one if i == j else 0) for j in n] for i in n]
+        sums, k, bound = [term, term, each(lambda f: divided_by(f, 2), term)], 0, 1
+        while bound <= self.one:
+            k, bound = k + 1, bound * (k + 1) << 8
+            term = each(lambda f: divided_by(f, k), self.product(term, m))
+            for i, divisor in enumerate((1, k + 1, (k + 1) * (k + 2))):
+                sums[i] = each(summed, sums[i], each(lambda f: divided_by(f, divisor), term))
+        whole, first, second = (each(lambda f: (f[0], f[1] + 2), total) for total in sums)  # what is left out is below a unit
+        for _ in range(s):
+            second = each(lambda f: halved(f, 2), each(summed, each(summed, second, first), self.product(whole, second)))
+            first = each(lambda f: halved(f, 1), each(summed, first, self.product(whole, first)))
+            whole = self.product(whole, whole)
+        return whole, first, second
+
+    def turned(self, f):
+        return self.exponentials([[self.units(0), f], [multiplied(f, -1), self.units(0)]])[0][0]
+
+def beside_constant(f):
+    """A bound of what is beside the constant."""
+    return sum(map(abs, f[0][1:])) + f[1]
+
+def summed(f, g, factor=1):
+    return [x + factor * y for x, y in zip(f[0], g[0])], f[1] + abs(factor) * g[1]
+
+def multiplied(f, k):
+    return [x * k for x in f[0]], f[1] * abs(k)
+
+def divided_by(f, k):
+    return [x // k for x in f[0]], -(-f[1] // k) + len(f[0])
+
+def halved(f, times):
+    return [x >> times for x in f[0]], -(-f[1] >> times) + len(f[0])
+
+def sign_of(f):
+    """At every point of the box, or 0."""
+    c = f[0][0]
+    return 0 if abs(c) <= beside_constant(f) else 1 if c > 0 else -1
+
+def each(function, *matrices):
+    return [[function(*entries) for entries in zip(*rows)] for rows in zip(*matrices)]
+
+class Moving:
+    """Functions in expressions and matrices behind holds, as variables behind the parameters of a box."""
+
+    def __init__(self, first=0):
+        self.next, self.known, self.sources, self.over_a_box = first, [], [], None
+        self.functions = {name: lambda f, name=name: self.variable(name, self.argument(f)) for name in ("sqrt", "exp", "sin", "cos", "tan")}
+
+    @staticmethod
+    def argument(f):
+        need(not f.scalar().degree(0) and not f.bottom.degree(0), "a function of the loop's variable")
+        return f.scalar(), f.bottom
+
+    def variables(self, source, count):
+        for known, first in self.known:
+            if known == source:
+                return first
+        self.known.append((source, self.next))
+        self.next += count
+        return self.next - count
+
+    def variable(self, name, argument=None):
+        return scalar(P({1 << FIELD * self.variables((name, argument), 1): 1}))
+
+    def held(self, a, first_order, time, ratio, loop):
+        """The state matrix, and how inputs enter: their age, matrix, and the share that passes on at once."""
+        samples, share = int(ratio // 1), ratio % 1
+        need(samples <= MAX_ORDER, "a dead time has too many samples")
+        count, n = 2 + first_order + bool(share), len(a)
+        source = "hold", [[self.argument(f) for f in row] for row in a], self.argument(time), share, first_order
+        first = self.variables(source, count * n * n)
+        state, now, *others = ([[P({1 << FIELD * (first + (k * n + i) * n + j): 1}) for j in range(n)] for i in range(n)]
+                               for k in range(count))
+        enters = [(samples, now, Fraction(1) if not share else 1 - share if first_order else Fraction(0))]
+        if first_order:
+            enters.append((samples - 1, others[0], Fraction(0)))
+        if share:
+            enters.append((samples + 1, others[-1], share if first_order else Fraction(1)))
+        return state, enters, ONE, samples + bool(share)
+
+    def given(self, values):
+        """With the values of the parameters that have one."""
+        def quotient(f):
+            return f and cleared([p.at(values) for p in f])
+        for (name, *of), _ in self.known:
+            if name == "hold":
+                of = [[quotient(f) for f in row] for row in of[0]], quotient(of[1]), *of[2:]
+            else:
+                of = [quotient(of[0])]
+            self.sources.append((name, *of))
+
+    def values(self, parameters, models):
+        known = parameters[:]
+
+        def over(quotient):
+            top, bottom = (self.at(p, known, models) for p in quotient)
+            return models.quotient(top, bottom)
+
+        for name, *of in self.sources:
+            if name == "hold":
+                a, time, share, first_order = of
+                known += self.matrices([[over(f) for f in row] for row in a], over(time), share, first_order, models)
+                continue
+            f = over(of[0]) if of[0] else None
+            if name == "pi":
+                known.append(models.pi())
+            elif name == "sqrt":
+                known.append(models.root(f))
+            elif name == "exp":
+                known.append(models.exponentials([[f]])[0][0][0])
+            else:
+                cosine, sine = models.turned(f)
+                known.append(cosine if name == "cos" else sine if name == "sin" else models.quotient(sine, cosine))
+        return known
+
+    @staticmethod
+    def at(p, known, models):
+        total = models.units(0)
+        for e, c in p.items():
+            term, e = models.units(models.one), e >> 2 * FIELD
+            for f in known:
+                for _ in range(e & MASK):
+                    term = models.times(term, f)
+                e >>= FIELD
+            total = summed(total, term, c)
+        return total
+
+    @staticmethod
+    def matrices(a, time, share, first_order, models):
+        """The entries of F = exp(A T), of what enters now, late and early; G is the integral of exp(A t), H that one's over T."""
+        if sign_of(time) <= 0:
+            raise TooWide
+        product = models.product
+
+        def by(q, m):
+            return each(lambda f: divided_by(multiplied(f, q.numerator), q.denominator), m)
+
+        def over(part):
+            span = divided_by(multiplied(time, part.numerator), part.denominator)
+            whole, first, second = models.exponentials(each(lambda f: models.times(f, span), a))
+            first, second = (each(lambda f: models.times(f, span), m) for m in (first, second))
+            return whole, first, by(part, second)
+
+        s0, s1, s2 = over(1 - share)
+        r0, r1, r2 = over(share) if share else (None, None, None)
+        out = [product(s0, r0) if share else s0]
+        if not first_order:
+            out += [s1, product(s0, r1)] if share else [s1]
+        else:
+            now = each(lambda f, g: summed(f, g, -1), s1, s2)
+            if share:
+                now = each(summed, product(s0, each(summed, by(1 - share, r1), r2)), now)
+            out += [now, s2]
+            out += [product(s0, each(lambda f, g: summed(f, g, -1), by(share, r1), r2))] if share else []
+        return [f for m in out for row in m for f in row]
+
+class OverBoxes:
+    """Polynomials in two parameters and what depends on them, over boxes."""
+
+    def __init__(self, polynomials, sources, models):
+        self.sources, self.models, self.monomials, self.powers = sources, models, {}, {}
+        self.rows = []
+        for p in polynomials:
+            row = {}
+            for e, c in p.items():
+                power, monomial = e >> 2 * FIELD & (MASK << FIELD | MASK), e >> 4 * FIELD
+                row.setdefault(self.monomials.setdefault(monomial, len(self.monomials)), []).append(
+                    (self.powers.setdefault(power, len(self.powers)), c))
+            self.rows.append(row)
+
+    def at(self, sides):
+        """The functions, None where a series does not reach over the box."""
+        models = self.models
+        try:
+            values = self.sources.values([models.coordinate(*side, axis) for axis, side in enumerate(sides)], models)
+        except TooWide:
+            return None
+        tables = [[models.units(models.one)] for _ in values]
+
+        def product(e, first):
+            out = None
+            while e:
+                k, table = e & MASK, tables[first]
+                while len(table) <= k:
+                    table.append(models.times(table[-1], values[first]))
+                if k:
+                    out = models.times(out, table[k]) if out else table[k]
+                e, first = e >> FIELD, first + 1
+            return out
+
+        powers = [product(e, 0) or tables[0][0] for e in self.powers]
+        monomials = [product(e, 2) for e in self.monomials]
+        found = []
+        for row in self.rows:
+            total = models.units(0)
+            for k, terms in row.items():
+                spend(len(terms) * len(total[0]) // 10, size(c for _, c in terms), models.bits)
+                coefficients, rest = [0] * len(total[0]), 0
+                for power, c in terms:
+                    f, bound = powers[power]
+                    rest += abs(c) * bound
+                    coefficients = [x + c * y if y else x for x, y in zip(coefficients, f)]
+                factor = coefficients, rest
+                total = summed(total, models.times(factor, monomials[k]) if monomials[k] else factor)
+            found.append(total)
+        return found
+
+AXES = (1, 0), (0, 1), (-1, 0), (0, -1)  # directions, by quarters of a turn
+
+def quarter_of(x, y):
+    """The number of the quarter a direction is in, which begins with an axis."""
+    return 0 if x > 0 <= y else 1 if x <= 0 < y else 2 if x < 0 else 3
+
+def turn(d, to):
+    """How many quarters further another direction is, by less than half a turn; None if that is opposite."""
+    quarters, side = quarter_of(*to) - quarter_of(*d), d[0] * to[1] - d[1] * to[0]
+    if side == 0:
+        return 0 if d[0] * to[0] + d[1] * to[1] > 0 else None
+    return quarters % 4 if side > 0 else -(-quarters % 4)
+
+def across(x, y, side):
+    """Across a vector, on the side where another one is, in short numbers."""
+    long = max(size([x, y]) - 12, 0)
+    x, y = x >> long, y >> long
+    return () if x == y == 0 else ((-y, x),) if side[1] * x > side[0] * y else ((y, -x),)
+
+def holds(d, e, o):
+    """Whether the values of a pair, given by coefficients, are in the half plane around a direction."""
+    if 0 in d:
+        return all(sign_of(f) == (1 if sum(d) > 0 else -1) for f in (o if d[0] == 0 else e))
+    return all(sign_of(summed(multiplied(f, d[0]), g, d[1])) > 0 for f, g in zip(e, o))
+
+def half_plane(last, e, o):
+    """One that all values are in: around an axis, or across the ways on which they change most; None if that is not found."""
+    k = len(e) // 2
+    for d in (*last, *AXES):
+        if holds(d, e, o):
+            return d
+    ways = [(e[k][0][i], o[k][0][i]) for i in (1, 2)] + [[c[-1][0][0] - c[0][0][0] for c in (e, o)]]
+    return next((d for x, y in ways for d in across(x, y, (e[k][0][0], o[k][0][0])) if holds(d, e, o)), None)
+
+def roots_to_the_right(p, models):
+    """Of p_0 + p_1 s + ..., none on the axis and the degree not lost, at every point of a box; None where that is not shown.
+
+    The vector (E, O), p(i w) = E(w^2) + i w O(w^2), is kept within half planes along parts of the axis."""
+    n, k = len(p) - 1, (len(p) - 1) // 2
+    first, last = sign_of(p[0]), sign_of(p[n])
+    if not first or not last:
+        return None
+    w, ways = size_of_roots(p), [comb(k, j) for j in range(k + 1)]
+    common, pair = lcm(*ways), [[], []]
+    for odd in (0, 1):  # Bernstein coefficients of (1 - t)^k E(v) and 2^w (1 - t)^k O(v), v = 4^w t/(1 - t)
+        for j in range(k + 1):
+            shift = w * (2 * j + odd) if w >= 0 else -w * (2 * (k - j) + 1 - odd)
+            c = p[2 * j + odd] if 2 * j + odd <= n else models.units(0)
+            pair[odd].append(multiplied(c, (-1) ** j * (common // ways[j]) << shift))
+    extra = max(size([abs(c[0][0]) + beside_constant(c)]) for part in pair for c in part) - models.bits
+    if extra > 0:
+        pair = [[halved(c, extra) for c in part] for part in pair]
+
+    direction, turns, todo, seen = AXES[0 if first > 0 else 2], 0, [(*pair, 0)], 0
+    while todo:
+        e, o, halvings = todo.pop()
+        seen += 1
+        spend(8 * (n + 1), models.bits)
+        found = half_plane([direction], e, o)
+        if found and turn(direction, found) is not None:
+            turns, direction = turns + turn(direction, found), found
+            continue
+        # Where not even one point of the axis is told from a root there is nothing to halve for.
+        if not all(half_plane([], [e[i]], [o[i]]) for i in (0, -1)) or halvings >= 64 or seen >= 2000:
+            return None
+        spend((k + 1) ** 2 * len(e[0][0]) // 4, models.bits)
+        lower, upper = [], []
+        for level in (e, o):
+            low, high = [], []
+            while level:
+                low.append(level[0])
+                high.append(level[-1])
+                level = [halved(summed(f, g), 1) for f, g in zip(level, level[1:])]
+            lower.append(low)
+            upper.append(high[::-1])
+        todo += [(*upper, halvings + 1), (*lower, halvings + 1)]
+    step = turn(direction, AXES[(n + (0 if last > 0 else 2)) % 4])
+    if step is None or (n - turns - step) % 2 or n < turns + step:
+        return None
+    return (n - turns - step) // 2
+
+def size_of_roots(p):
+    """The exponent of a power of two."""
+    return (size(p[0][0][:1]) - size(p[-1][0][:1])) // (len(p) - 1) if len(p) > 1 else 0
+
+def moved(p, e):
+    """p(s + 2^e), times a positive number."""
+    n = len(p) - 1
+    p = [multiplied(c, 1 << (e * k if e >= 0 else -e * (n - k))) for k, c in enumerate(p)]
+    for i in range(n):
+        for j in range(n - 1, i - 1, -1):
+            p[j] = summed(p[j], p[j + 1])
+    return p
+
+class Judge:
+    """Whether boxes are stable everywhere, or nowhere. What is known of one are the functions over it, and whether they are its own or
+    those of a larger one, halved."""
+
+    def __init__(self, functions, n, divisors, models):
+        self.functions, self.n, self.divisors, self.models = functions, n, divisors, models
+
+    def is_precise(self, known, share):
+        return all(f[1] << share <= beside_constant(f) or f[1] < 1 << 7 for f in known[:self.n + 1])
+
+    def halves(self, sides, known, own, axis):
+        if not known or not own and not self.is_precise(known, 4):
+            known = self.functions.at(sides) or known
+        low, high = sides[axis]
+        middle, parts = (low + high) / 2, [None, None]
+        if known:
+            parts = zip(*(self.models.halves(f, axis) for f in known))
+        for side, part in zip(([low, middle], [middle, high]), parts):
+            yield [side if i == axis else other for i, other in enumerate(sides)], part, False
+
+    def shows(self, sides, known, own, stable):
+        if known and self.decides(known, stable):
+            return True
+        if own or known and self.is_precise(known, 10):
+            return False
+        known = self.functions.at(sides)
+        return bool(known) and self.decides(known, stable)
+
+    def decides(self, known, stable):
+        p, models = list(known[:self.n + 1]), self.models
+        if stable:
+            defined = all(any(sign_of(known[i]) for i in ways) for ways in self.divisors)
+            return defined and roots_to_the_right(p, models) == 0
+        signs = set(map(sign_of, p))
+        if {1, -1} <= signs:
+            return True  # with all roots to the left all coefficients have one sign
+        w = size_of_roots(p)
+        return any(roots_to_the_right(q, models) for q in (p, *(moved(p, w + e) for e in (-3, -1))))
+
+def check_boxes(model, document, statement, values, discrete, extent):
+    _, _, order, bits = parts(document, ["schema", "statement", "order", "bits"], ["model"])
+    *_, x, y, window, tree = parts(statement, ["kind", "time", "set", "region", "x", "y", "window", "tree"])
+    need(extent != "parameter", "the region has no parameter here")
+    need(1 <= count(order) <= 16 and 64 <= count(bits) <= 4096, "order or bits: out of range")
+    names, sides = [name_of(x), name_of(y)], [items(ends, rational) for ends in parts(window, ["x", "y"])]
+    need(all(len(ends) == 2 and ends[0] < ends[1] for ends in sides) and isinstance(tree, str), "the window is empty, or there is no tree")
+    sources, models = Moving(), Models(order, bits)
+    is_discrete, own, divisors = over_box(model, names, values, sources)
+    need(is_discrete == discrete, "the model's time is another")
+    own = in_region(own, discrete, extent)
+    own = cleared(in_half_plane(own)) if discrete else own
+    nowhere, n = not all(map(any, divisors)) or not all(own), len(own) - 1
+    functions, places = list(own), []
+    for ways in divisors:
+        places.append(range(len(functions), len(functions) + len(ways)))
+        functions += ways
+    judge = Judge(OverBoxes(functions, sources, models), n, places, models)
+    where = ", ".join(f"{name} from {low} to {high}" for name, (low, high) in zip(names, sides))
+    stack, shares = [(sides, None, False, 0)], {"+": Fraction(0), "-": Fraction(0), "?": Fraction(0)}
+    for letter in tree:
+        need(stack, "tree: something follows it")
+        sides, known, is_own, depth = stack.pop()
+        if letter in "xy":
+            need(depth < 160, "tree: too deep")
+            stack += [(*half, depth + 1) for half in judge.halves(sides, known, is_own, int(letter == "y"))][::-1]
+            continue
+        need(letter in shares, "tree: another letter")
+        shares[letter] += Fraction(1, 1 << depth)
+        if letter != "?" and not (nowhere and letter == "-"):
+            shown = not nowhere and judge.shows(sides, known, is_own, letter == "+")
+            need(shown, f"stable: a leaf {letter} is not shown, {' x '.join(f'[{a}, {b}]' for a, b in sides)}")
+    need(not stack, "tree: it ends too early")
+    where += "".join(f", {name} = {x}" for name, x in values.items())
+    stable, unstable = (f"{int(1000 * shares[letter]) / 10} %" for letter in "+-")
+    return (f"in {statement['time']} time, {statement['region']}, {where}: stable in the boxes + of the tree and nowhere in its boxes -, "
+            f"at least {stable} and {unstable} of the window")
 
 # ---------------------------------------------------------------- dead time
 
@@ -2268,8 +2789,8 @@ def read(certificate):
     need(isinstance(document, dict) and document.get("schema") in SCHEMAS, "unknown schema")
     return document
 
-SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 7)]
-RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS = SCHEMAS
+SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 8)]
+RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS, OF_MAPS_BY_BOXES = SCHEMAS
 FURTHER = ["bits", "symbols", "modes"]
 
 def table_of(document):
@@ -2285,8 +2806,8 @@ def check(model, certificate):
     document = read(certificate)
     statement = document["statement"]
     kind, time, values, region = (statement[key] for key in ("kind", "time", "set", "region"))
-    kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"], OF_CELLS: ["cells", "verdict"]}.get(document["schema"], ["intervals", "verdict"])
-    need(kind in kinds, "unknown kind of statement")
+    kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"], OF_CELLS: ["cells", "verdict"], OF_MAPS_BY_BOXES: ["boxes"]}
+    need(kind in kinds.get(document["schema"], ["intervals", "verdict"]), "unknown kind of statement")
     need(time in ("discrete", "continuous"), "unknown time")
     discrete = time == "discrete"
     values = {name_of(name): rational(x) for name, x in values.items()}
@@ -2295,6 +2816,8 @@ def check(model, certificate):
     need(not discrete or extent == "parameter" or extent > 0, "the radius is not positive")
     if kind == "tolerance":
         return check_tolerance(model, document, statement, values, discrete, extent)
+    if kind == "boxes":
+        return check_boxes(model, document, statement, values, discrete, extent)
     if kind == "map":
         return check_map(model, document, statement, values, discrete, extent)
     if document["schema"] == OF_CELLS:

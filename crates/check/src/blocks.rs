@@ -13,7 +13,7 @@ use super::characteristic::Form;
 use super::clock::Clock;
 use super::declarations::Declarations;
 use super::expression::{Base, Names, Scope, number};
-use super::hold::Hold;
+use super::hold::{Hold, MovingHold};
 use super::model::{Ports, matrix, names, outputs, sized};
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, Z, shorten};
@@ -39,6 +39,8 @@ struct Substitution {
 enum Rule {
     Quotient(Substitution),
     Hold(Hold),
+    /// A hold whose numbers depend on the parameters of a box.
+    Moving(MovingHold),
     /// Only what is written is looked at.
     Unknown,
 }
@@ -184,7 +186,16 @@ impl Diagram<'_, '_> {
         let substitution = match substitution {
             None | Some(Rule::Unknown) => None,
             Some(Rule::Quotient(substitution)) => Some(substitution),
-            Some(Rule::Hold(hold)) => return self.held(self.realised(&num, &den)?, &hold, &inputs, outputs),
+            Some(Rule::Hold(hold)) => {
+                let matrices = self.realised(&num, &den)?;
+                let of = self.enclosed(&matrices[0], &hold)?;
+                return self.held(matrices, of, &inputs, outputs);
+            }
+            Some(Rule::Moving(hold)) => {
+                let matrices = self.realised(&num, &den)?;
+                let of = self.moving(&matrices[0], hold)?;
+                return self.held(matrices, of, &inputs, outputs);
+            }
         };
         let (num, den, order) = self.substituted(&num, &den, substitution)?;
         self.degree += order;
@@ -313,9 +324,14 @@ impl Diagram<'_, '_> {
         if let Some(d) = &d {
             sized(d, outputs.len(), inputs.len())?;
         }
-        if let Some(Rule::Hold(hold)) = &rule {
+        let of = match &rule {
+            Some(Rule::Hold(hold)) => Some(self.enclosed(&a, hold)?),
+            Some(Rule::Moving(hold)) => Some(self.moving(&a, hold.clone())?),
+            _ => None,
+        };
+        if let Some(of) = of {
             let nothing = || vec![vec![Fraction::number(&Q::zero()); inputs.len()]; outputs.len()];
-            return self.held([a, b, c, d.unwrap_or_else(nothing)], hold, inputs, outputs);
+            return self.held([a, b, c, d.unwrap_or_else(nothing)], of, inputs, outputs);
         }
         let substitution = match rule {
             Some(Rule::Quotient(substitution)) => Some(substitution),

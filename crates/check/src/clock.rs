@@ -80,6 +80,11 @@ impl Clock {
         if self.timer.is_over(work) { Err(out_of_time(self.timeout)) } else { Ok(()) }
     }
 
+    /// The work counted so far.
+    pub fn work(&self) -> u64 {
+        self.work.get()
+    }
+
     /// The reading of a model, by counted work.
     pub fn reading<T>(&self, read: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
         self.limit.set(self.work.get().saturating_add(MODEL_WORK));

@@ -3,6 +3,7 @@
 use super::clock::Clock;
 use super::expression::{Scope, is_name, names_in, number};
 use super::model::{matrix, sized};
+use super::moving::Moving;
 use super::multivariate::Fraction;
 use super::number::{Q, shorten};
 use super::tolerance::tolerance;
@@ -147,8 +148,11 @@ impl<'t> Declarations<'t> {
     }
 
     /// The scope of expressions. All constants are evaluated: one without a value makes the model undefined, used or not.
-    pub fn scope<'c>(&self, meaning: &Meaning<'_>, clock: &'c Clock) -> Result<Scope<'c>, String> {
+    pub fn scope<'c>(&self, meaning: &Meaning<'_>, is_moving: bool, clock: &'c Clock) -> Result<Scope<'c>, String> {
         let mut scope = Scope::new(meaning.variables.clone(), clock);
+        // Behind all others.
+        let last = meaning.variables.values().copied().max().unwrap_or(1).max(meaning.values.len().saturating_sub(1));
+        scope.moving = is_moving.then(|| Moving::new(last + 1));
         for (name, text) in self.constants.iter().filter(|(name, _)| !meaning.variables.contains_key(*name)) {
             let value = match meaning.replaced.get(name) {
                 Some(value) => Fraction::number(value),
@@ -248,7 +252,7 @@ mod tests {
         let two = [("c".to_owned(), Q::from(num_bigint::BigInt::from(2)))];
         let meaning = declared.asked(Some("K"), &[], &two, &clock).unwrap();
         assert_eq!(meaning.variables, BTreeMap::from([("K".to_owned(), 1)]));
-        assert_eq!(declared.scope(&meaning, &clock).unwrap().constants["c"].numerator.degree(1), 0);
+        assert_eq!(declared.scope(&meaning, false, &clock).unwrap().constants["c"].numerator.degree(1), 0);
         for wrong in [declared.asked(Some("c"), &[], &two, &clock), declared.asked(None, &[], &two, &clock)] {
             assert!(wrong.is_err());
         }

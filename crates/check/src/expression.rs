@@ -1,6 +1,7 @@
 //! Expressions: read and evaluated in one pass.
 
 use super::clock::Clock;
+use super::moving::{Function, Moving};
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, decimal, shorten};
 use super::toml::Toml;
@@ -39,6 +40,8 @@ const MAX_MULTIPLE: u32 = 256;
 pub(super) struct Scope<'c> {
     /// Where it is read.
     pub dead_time: Option<DeadTime>,
+    /// Functions and holds, where they are read as further variables.
+    pub moving: Option<Moving>,
     /// Values of constants.
     pub constants: BTreeMap<String, Fraction>,
     /// Constants that are matrices.
@@ -76,6 +79,7 @@ impl<'c> Scope<'c> {
     pub fn new(parameters: BTreeMap<String, usize>, clock: &'c Clock) -> Self {
         Scope {
             dead_time: None,
+            moving: None,
             constants: BTreeMap::new(),
             matrices: BTreeMap::new(),
             parameters,
@@ -355,6 +359,19 @@ impl<'t> Parser<'_, '_, 't> {
         if matches!(self.names, Names::Variable(variable) | Names::Polynomial(variable) if variable == name) {
             return Ok(plain(Fraction::variable(0)));
         }
+        if let (Some(function), false, true) = (Function::named(name), is_known, self.scope.moving.is_some())
+            && self.eat('(')
+        {
+            let argument = self.nested(Self::sum)?;
+            if !self.eat(')') {
+                return Err("')' is missing".into());
+            }
+            if !argument.signals.is_empty() {
+                return Err("a function of a signal".into());
+            }
+            let moving = self.scope.moving.as_mut().ok_or("internal: no functions are read")?;
+            return Ok(plain(moving.of(function, argument.constant)?));
+        }
         if let Names::Signals(signals) = self.names
             && let Some(&i) = signals.get(name)
         {
@@ -363,6 +380,9 @@ impl<'t> Parser<'_, '_, 't> {
         }
         if let Some(&i) = self.scope.parameters.get(name) {
             return Ok(plain(Fraction::variable(i)));
+        }
+        if let ("pi", false, Some(moving)) = (name, is_known, self.scope.moving.as_mut()) {
+            return Ok(plain(moving.pi()));
         }
         let constant = self.scope.constants.get(name);
         constant.cloned().map(plain).ok_or_else(|| format!("unknown name '{}'", shorten(name)))

@@ -24,6 +24,9 @@ pub const SCHEMA_OF_MAPS: &str = "jurist/certificate/5";
 /// The schema of certificates of a gain beside dead time.
 pub const SCHEMA_OF_CELLS: &str = "jurist/certificate/6";
 
+/// The schema of certificates of maps by boxes.
+pub const SCHEMA_OF_MAPS_BY_BOXES: &str = "jurist/certificate/7";
+
 /// Texts longer than this many bytes are refused unread.
 pub const MAX_TEXT: usize = 64 << 20;
 

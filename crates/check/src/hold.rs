@@ -8,6 +8,7 @@
 #![expect(clippy::needless_range_loop, reason = "matrix indices, as in the formulas")]
 
 use super::clock::Clock;
+use super::moving::{HeldMatrix, Moving};
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, power};
 use super::symbols::Table;
@@ -27,6 +28,14 @@ pub(super) struct Hold {
     pub is_first_order: bool,
     pub time: Q,
     pub delay: Q,
+}
+
+/// A hold whose sample time, and whose plant, may depend on the parameters of a box; the delay is a multiple of the sample time.
+#[derive(Clone)]
+pub(super) struct MovingHold {
+    pub is_first_order: bool,
+    pub time: Fraction,
+    pub ratio: Q,
 }
 
 /// How an input of some age, in samples, enters: the matrix before `B`, and the share of it that passes on at once.
@@ -61,16 +70,44 @@ struct Solution<'m> {
     index: usize,
 }
 
+/// How many whole samples a delay is, and the share of one that is left.
+fn samples_of(ratio: &Q) -> Result<(usize, Q), String> {
+    let samples = ratio.floor().to_integer().to_usize().filter(|k| *k <= MAX_SAMPLES);
+    Ok((samples.ok_or("a dead time has too many samples")?, ratio.fract()))
+}
+
+/// The same with matrices as variables.
+pub(super) fn moving(a: &[Vec<Fraction>], hold: &MovingHold, moving: &mut Moving) -> Result<Held, String> {
+    let (samples, fraction) = samples_of(&hold.ratio)?;
+    let kinds = match (fraction.is_zero(), hold.is_first_order) {
+        (true, false) => vec![HeldMatrix::State, HeldMatrix::Now],
+        (false, false) => vec![HeldMatrix::State, HeldMatrix::Now, HeldMatrix::Early],
+        (true, true) => vec![HeldMatrix::State, HeldMatrix::NowOfRamp, HeldMatrix::LateOfRamp],
+        (false, true) => {
+            vec![HeldMatrix::State, HeldMatrix::NowOfRamp, HeldMatrix::LateOfRamp, HeldMatrix::EarlyOfRamp]
+        }
+    };
+    let found = moving.held(a, &hold.time, &fraction, kinds.clone());
+    let nothing = vec![vec![Multi::default(); a.len()]; a.len()];
+    let of = |wanted: [HeldMatrix; 2]| {
+        let at = kinds.iter().position(|kind| wanted.contains(kind));
+        at.map_or_else(|| nothing.clone(), |k| found[k].clone())
+    };
+    let parts = [
+        of([HeldMatrix::Early, HeldMatrix::EarlyOfRamp]),
+        of([HeldMatrix::Now, HeldMatrix::NowOfRamp]),
+        of([HeldMatrix::LateOfRamp; 2]),
+    ];
+    Ok(assembled(found[0].clone(), Multi::one(), parts, samples, &fraction, hold.is_first_order, Vec::new()))
+}
+
 /// Symbols are the variables from `first` on.
 pub(super) fn held(a: &Numbers, hold: &Hold, table: &Table, first: usize, clock: &Clock) -> Result<Held, String> {
     let zero = Q::zero();
     if hold.time <= zero || hold.delay < zero {
         return Err("the times of a hold are not positive".into());
     }
-    let ratio = &hold.delay / &hold.time;
-    let samples = ratio.floor().to_integer().to_usize().filter(|k| *k <= MAX_SAMPLES);
-    let samples = samples.ok_or("a dead time has too many samples")?;
-    let fraction = ratio.fract();
+    let (samples, fraction) = samples_of(&(&hold.delay / &hold.time))?;
     let mut divisors = Vec::new();
     let mut respond = |share: &Q| response(a, hold, &(share * &hold.time), table, first, &mut divisors, clock);
     let one = Q::one();

@@ -30,7 +30,9 @@ mod interval;
 mod intervals;
 mod keys;
 mod map;
+mod map_boxes;
 mod model;
+mod moving;
 mod multivariate;
 mod number;
 mod over;
@@ -42,14 +44,18 @@ mod region;
 mod roots;
 mod statement;
 mod symbols;
+mod taylor;
 mod tolerance;
 mod toml;
 mod univariate;
 mod verdict;
 
+pub use map_boxes::{BoxJudge, JudgedBox};
+
 use clock::{Clock, out_of_time};
 use format::{
-    Json, SCHEMA, SCHEMA_OF_BOXES, SCHEMA_OF_CELLS, SCHEMA_OF_MAPS, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS,
+    Json, SCHEMA, SCHEMA_OF_BOXES, SCHEMA_OF_CELLS, SCHEMA_OF_MAPS, SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_WITH_DEAD_TIME,
+    SCHEMA_WITH_SYMBOLS,
 };
 use num_traits::Zero;
 use number::{Q, shorten};
@@ -115,7 +121,7 @@ impl Default for Limits {
 pub struct Proved {
     /// The statement in a sentence or two.
     pub statement: String,
-    /// The kind of the statement: `intervals`, `verdict`, `tolerance`, `map` or `cells`.
+    /// The kind of the statement: `intervals`, `verdict`, `tolerance`, `map`, `boxes` or `cells`.
     pub kind: &'static str,
 }
 
@@ -273,7 +279,15 @@ fn checked(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Re
     // Another version may have other parts, so it is looked at first.
     let schema = json.get("schema").ok_or_else(|| "the certificate has no 'schema'".to_owned());
     let schema = Step::Format.of(schema.and_then(|s| text(s, "'schema'")))?;
-    let known = [SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_WITH_DEAD_TIME, SCHEMA_OF_BOXES, SCHEMA_OF_MAPS, SCHEMA_OF_CELLS];
+    let known = [
+        SCHEMA,
+        SCHEMA_WITH_SYMBOLS,
+        SCHEMA_WITH_DEAD_TIME,
+        SCHEMA_OF_BOXES,
+        SCHEMA_OF_MAPS,
+        SCHEMA_OF_CELLS,
+        SCHEMA_OF_MAPS_BY_BOXES,
+    ];
     if !known.contains(&schema) {
         let [rest @ .., last] = known.map(|name| format!("'{name}'"));
         let reason = format!("the schema is '{}', not {} or {last}", shorten(schema), rest.join(", "));
@@ -283,6 +297,7 @@ fn checked(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Re
         Step::Format.of(json.get("statement").ok_or_else(|| "the certificate has no 'statement'".into()))?;
     let kind = Step::Statement.of(statement.get("kind").ok_or_else(|| "the statement has no 'kind'".into()))?;
     match Step::Statement.of(text(kind, "'kind'"))? {
+        "boxes" if schema == SCHEMA_OF_MAPS_BY_BOXES => map_boxes::check(model, &json, clock),
         "map" if schema == SCHEMA_OF_MAPS => map::check(model, &json, statement, &clock),
         "tolerance" if schema == SCHEMA_OF_BOXES => boxes::check(model, &json, statement, &clock),
         "cells" if schema == SCHEMA_OF_CELLS => gain::check(model, &json, statement, &clock),

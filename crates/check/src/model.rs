@@ -6,6 +6,7 @@ use super::clock::Clock;
 use super::declarations::{Declarations, Meaning};
 use super::expression::{Base, DeadTime, Names, Scope, number};
 use super::keys;
+use super::moving::Moving;
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, shorten};
 use super::symbols::Table;
@@ -39,6 +40,8 @@ pub(super) struct Asked {
     pub divisors: BTreeSet<Multi>,
     /// The values of the variables from 2 on; symbols follow.
     pub values: Vec<Q>,
+    /// What the variables behind the parameters of a box are, where functions of them are read.
+    pub moving: Option<Moving>,
 }
 
 /// Reads the model for a question, exponentials over the symbols of a table, dead times as multiples of `base`.
@@ -50,21 +53,23 @@ pub(super) fn asked(
     base: Option<Base<'_>>,
     clock: &Clock,
 ) -> Result<Asked, String> {
-    read_for((kept, &[]), text, values, table, base, clock)
+    read_for((kept, &[], false), text, values, table, base, clock)
 }
 
-/// Reads the model for a question about a box of parameters, which are the variables behind those with a value.
+/// Reads the model for a question about a box of parameters, which are the variables behind those with a value; functions and holds are
+/// further variables if they are to be read.
 pub(super) fn asked_over_box(
     text: &str,
     boxed: &[String],
     values: &[(String, Q)],
+    is_moving: bool,
     clock: &Clock,
 ) -> Result<Asked, String> {
-    read_for((None, boxed), text, values, &Table::empty(), None, clock)
+    read_for((None, boxed, is_moving), text, values, &Table::empty(), None, clock)
 }
 
 fn read_for(
-    (kept, boxed): (Option<&str>, &[String]),
+    (kept, boxed, is_moving): (Option<&str>, &[String], bool),
     text: &str,
     values: &[(String, Q)],
     table: &Table,
@@ -78,23 +83,23 @@ fn read_for(
         let meaning = declared.asked(kept, boxed, values, clock)?;
         if meaning.changes_constants {
             // The model must be right as it is.
-            evaluated(&root, &declared, &declared.as_written(), None, clock)?;
+            evaluated(&root, &declared, (&declared.as_written(), is_moving), None, clock)?;
         }
         let of = Values { numbers: &meaning.values, table, base };
-        let (form, divisors) = evaluated(&root, &declared, &meaning, Some(of), clock)?;
-        Ok(Asked { discrete: declared.discrete, form, divisors, values: meaning.values })
+        let (form, divisors, moving) = evaluated(&root, &declared, (&meaning, is_moving), Some(of), clock)?;
+        Ok(Asked { discrete: declared.discrete, form, divisors, values: meaning.values, moving })
     })
 }
 
-/// The loop and everything that its model divides by.
+/// The loop, everything that its model divides by, and the functions in it if they are read.
 fn evaluated(
     root: &Toml,
     declared: &Declarations<'_>,
-    meaning: &Meaning<'_>,
+    (meaning, is_moving): (&Meaning<'_>, bool),
     values: Option<Values<'_>>,
     clock: &Clock,
-) -> Result<(Form, BTreeSet<Multi>), String> {
-    let mut scope = declared.scope(meaning, clock)?;
+) -> Result<(Form, BTreeSet<Multi>, Option<Moving>), String> {
+    let mut scope = declared.scope(meaning, is_moving, clock)?;
     if let Some(Values { numbers, base: Some(base), .. }) = values.filter(|_| !declared.discrete) {
         let (base, power) = match base {
             Base::OfParameter(base) => (base.clone(), 1),
@@ -136,7 +141,7 @@ fn evaluated(
         (Form::Feedback([a, b, c, k]), ports)
     };
     simulation(root, &ports, clock)?;
-    Ok((form, scope.divisors))
+    Ok((form, scope.divisors, scope.moving))
 }
 
 /// What a loop calls what enters it, what it remembers, and what is seen of it.

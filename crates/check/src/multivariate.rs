@@ -261,7 +261,7 @@ impl Multi {
 
 /// `numerator / (denominator scalar)`: the denominator contains variable 0 or is 1, the scalar does not
 /// contain it. Nothing but integers is ever cancelled.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Fraction {
     pub numerator: Multi,
     pub denominator: Multi,

@@ -4,6 +4,7 @@ use super::blocks::cleared;
 use super::characteristic::{Form, product};
 use super::clock::Clock;
 use super::model;
+use super::moving::Sources;
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, Z};
 use super::over_symbols::{determinant, primitive, substituted};
@@ -25,7 +26,18 @@ pub(super) struct OverBox {
 
 /// Reads the model; `set` has the values of all parameters but those of the box.
 pub(super) fn over_box(text: &str, names: &[String], set: &[(String, Q)], clock: &Clock) -> Result<OverBox, String> {
-    let asked = model::asked_over_box(text, names, set, clock)?;
+    with_sources(text, names, set, false, clock).map(|(found, _)| found)
+}
+
+/// The same with functions and holds as further variables, if they are to be read, and what these are.
+pub(super) fn with_sources(
+    text: &str,
+    names: &[String],
+    set: &[(String, Q)],
+    is_moving: bool,
+    clock: &Clock,
+) -> Result<(OverBox, Sources), String> {
+    let asked = model::asked_over_box(text, names, set, is_moving, clock)?;
     clock.reading(|| {
         let values = &asked.values;
         let mut divisors = Vec::with_capacity(asked.divisors.len());
@@ -68,7 +80,8 @@ pub(super) fn over_box(text: &str, names: &[String], set: &[(String, Q)], clock:
         };
         let mut coefficients = d.coefficients(0);
         coefficients.resize(degree + 1, Multi::default());
-        Ok(OverBox { discrete: asked.discrete, coefficients, divisors })
+        let sources = asked.moving.map_or_else(|| Ok(Sources::none()), |moving| moving.with_values(values, clock))?;
+        Ok((OverBox { discrete: asked.discrete, coefficients, divisors }, sources))
     })
 }
 

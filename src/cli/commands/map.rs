@@ -3,6 +3,7 @@
 use super::map_body;
 use super::map_boxes::{self, MethodOptions};
 use super::{Context, decided};
+use crate::certified_boxes::certify_boxes;
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, question};
@@ -27,6 +28,9 @@ use std::sync::Arc;
 
 /// Digits to which places and frequencies are enclosed, at least and at most.
 pub(super) const LIMIT_DIGITS: (usize, usize) = (10, 20);
+
+/// The part of what is left of the time that a certificate of boxes may take, so that some is left to check it.
+const CERTIFICATE: (u32, u32) = (1, 2);
 
 /// Width and height of the picture, and of the one that a page shows on a telephone.
 pub(super) const WIDE: (f64, f64) = (860.0, 600.0);
@@ -58,7 +62,7 @@ pub(in crate::cli) struct Options {
     /// Draws y on a linear axis
     #[arg(long)]
     pub linear_y: bool,
-    /// Writes a certificate of the exact map that 'jurist verify' re-checks
+    /// Writes a certificate of the map that 'jurist verify' re-checks; of boxes as many as it can see
     #[arg(long, value_name = "FILE")]
     pub certificate: Option<OsString>,
     #[command(flatten)]
@@ -105,14 +109,10 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let (asked, question) = options.require.asked_each(&model, question, &options.region, context)?;
     refuse_proofs(&model, &asked, options.certificate.is_some())?;
     let boxes = options.method.request(&requests, context)?;
-    let method = match options.certificate {
-        Some(_) => MapMethod::Exact,
-        None => options.method.method_for(&asked)?,
-    };
+    let mut method = options.method.method_for(&asked)?;
     let problem = question.plane_problem()?;
     if options.certificate.is_some() {
-        options.method.refuse_boxes()?;
-        problem.refuse_map_certificate(&context.budget)?;
+        method = options.method.method_certified(&problem, &context.budget)?;
     }
     let digits = options.output.digits() as usize;
     let places = digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1);
@@ -123,7 +123,20 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
             if let Some(line) = map_boxes::window_note(&found, &boxes) {
                 note(&line);
             }
-            return map_boxes::answer(&found, &options.output, context);
+            let certificate = match &options.certificate {
+                Some(file) => {
+                    let certified = certify_boxes(&found, &context.budget.share(CERTIFICATE.0, CERTIFICATE.1))?;
+                    write_answer(&certified.text, Some(file))?;
+                    note(&map_boxes::shares(&certified));
+                    Some((certified.text, file))
+                }
+                None => None,
+            };
+            let status = map_boxes::answer(&found, &options.output, context)?;
+            if let Some((text, file)) = &certificate {
+                check_certificate(context, &options.output.run, &model.source().text, text, file);
+            }
+            return Ok(status);
         }
         Err(stopped) => {
             let by_boxes = problem.ends_in_boxes(method, &boxes);

@@ -1,20 +1,23 @@
 //! Options of `jurist map` that choose the method, and its answer by boxes.
 
 use super::Context;
+use crate::certified_boxes::{CertifiedBoxes, judge};
 use crate::cli::arguments::OutputOptions;
 use crate::cli::assignments::{AxisRequest, in_line, plain_number};
 use crate::cli::output::ending;
 use crate::cli::picture::{WRITES, pdf, png, write};
 use crate::cli::status::{Error, Outcome, Status};
 use clap::{Args, ValueEnum};
-use jurist_algebra::limits::Exhausted;
-use jurist_algebra::number::Rational;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Rational, to_decimal};
 use jurist_draw::figures::map::boxes_figure;
 use jurist_draw::page::map_boxes_page;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod};
-use jurist_engine::error::Diagnostic;
+use jurist_engine::error::{Diagnostic, Error as EngineError};
+use jurist_engine::problem::Problem;
 use jurist_engine::response::Requirements;
 use jurist_engine::stability::Range;
+use jurist_engine::stability::plane::boxes::Window;
 use std::path::Path;
 
 /// How the map is made.
@@ -62,13 +65,21 @@ impl MethodOptions {
         Ok(MapMethod::Exact)
     }
 
-    /// That only the exact map has a certificate.
-    pub fn refuse_boxes(&self) -> Result<(), Error> {
-        if self.method != MethodName::Boxes {
-            return Ok(());
+    /// The method of a map with a certificate: boxes where the exact map has none, unless that is asked for.
+    pub fn method_certified(&self, problem: &Problem, budget: &Budget) -> Result<MapMethod, Error> {
+        let exact = problem.refuse_map_certificate(budget);
+        match (self.method, exact) {
+            (MethodName::Exact, Err(refusal)) => Err(refusal),
+            (MethodName::Exact, Ok(())) => Ok(MapMethod::Exact),
+            (MethodName::Auto, Ok(())) => Ok(MapMethod::Auto),
+            (MethodName::Boxes, _) | (MethodName::Auto, Err(EngineError::Refused(_))) => {
+                // Any window will do to see whether the checkers read the model.
+                let side = Range::between(Some(Rational::ZERO), Some(Rational::ONE));
+                judge(problem, &Window::new(&side, &side).expect("not empty"), budget)?;
+                Ok(MapMethod::Boxes)
+            }
+            (MethodName::Auto, Err(stopped)) => Err(stopped),
         }
-        let error = Diagnostic::error("E-no-certificate", "a map by boxes has no certificate yet");
-        Err(error.help("the exact map has one: leave out '--method boxes'").into())
     }
 
     /// What may help when the exact map is not finished in time.
@@ -148,4 +159,20 @@ pub(super) fn answer(boxes: &Answer<MapBoxes>, output: &OutputOptions, context: 
 /// The subdivision ended before its goal.
 fn stopped_at(budget: &str) -> Exhausted {
     Exhausted::new(budget, "subdividing the window")
+}
+
+/// How much of the window the certificate speaks of.
+pub(super) fn shares(certified: &CertifiedBoxes) -> String {
+    let percent = |share: &Rational| {
+        // Rounded down: no more is said than is proved.
+        let tenths = (share * &Rational::from(1000)).floor();
+        to_decimal(&(Rational::from(tenths) / Rational::from(10)), 6)
+    };
+    let sum = &certified.stable + &certified.unstable;
+    format!(
+        "note: the certificate proves {} % of the window, {} % stable and {} % not; it says nothing of the rest",
+        percent(&sum),
+        percent(&certified.stable),
+        percent(&certified.unstable)
+    )
 }

@@ -2,11 +2,12 @@
 
 use super::{Diagram, Matrices, Row, Rule, Values};
 use crate::clock::Clock;
-use crate::hold::{Hold, held};
+use crate::hold::{self, Held, Hold, MovingHold};
 use crate::multivariate::{Fraction, Multi};
 use crate::number::Q;
+use crate::over_symbols::substituted;
 use crate::toml::Toml;
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 use std::ops::Range;
 
 impl Diagram<'_, '_> {
@@ -30,6 +31,10 @@ impl Diagram<'_, '_> {
         }
         let (Some(time), None) = (time, factor) else { return Err("'discretize' is not complete".into()) };
         let Some(values) = self.values else { return Ok(Rule::Unknown) };
+        if self.scope.moving.is_some() {
+            let ratio = delay.map_or(Ok(Q::zero()), |delay| ratio(&delay, &time, &values, clock))?;
+            return Ok(Rule::Moving(MovingHold { is_first_order: method == "foh", time, ratio }));
+        }
         let time = numbered(&time, &values, clock)?;
         let delay = delay.map_or(Ok(Q::zero()), |delay| numbered(&delay, &values, clock))?;
         Ok(Rule::Hold(Hold { is_first_order: method == "foh", time, delay }))
@@ -40,16 +45,21 @@ impl Diagram<'_, '_> {
         let clock = self.scope.clock;
         let Some(values) = self.values else { return Err("internal: a hold without values".into()) };
         let whole = |m: &Multi| Fraction { numerator: m.clone(), denominator: Multi::one(), scalar: Multi::one() };
-        let den: Vec<Q> =
-            den.coefficients(0).iter().map(|c| numbered(&whole(c), &values, clock)).collect::<Result<_, _>>()?;
-        let Some((lead, below)) = den.split_last().filter(|(lead, _)| !lead.is_zero()) else {
+        // Numbers, where only numbers can be in an exponential.
+        let read = |c: &Multi| match self.scope.moving {
+            Some(_) => Ok(whole(c)),
+            None => numbered(&whole(c), &values, clock).map(|q| Fraction::number(&q)),
+        };
+        let den: Vec<Fraction> = den.coefficients(0).iter().map(read).collect::<Result<_, _>>()?;
+        let Some((lead, below)) = den.split_last().filter(|(lead, _)| !lead.numerator.is_zero()) else {
             return Err("a held block loses its order".into());
         };
+        let lead = lead.inverse(clock)?;
         let (n, zero) = (below.len(), || Fraction::number(&Q::zero()));
         let mut num: Vec<Fraction> = num.coefficients(0).iter().map(whole).collect();
         num.resize_with(n + 1, zero);
         for c in &mut num {
-            *c = c.times(&Fraction::number(&lead.recip()), clock)?;
+            *c = c.times(&lead, clock)?;
         }
         let direct = num.pop().unwrap_or_else(zero);
         let mut a = vec![vec![zero(); n]; n];
@@ -58,7 +68,7 @@ impl Diagram<'_, '_> {
             if k > 0 {
                 a[k - 1][k] = Fraction::number(&Q::one());
             }
-            let ratio = Fraction::number(&(&below[k] / lead));
+            let ratio = below[k].times(&lead, clock)?;
             a[n - 1][k] = ratio.clone().negated();
             c.push(num[k].plus(&direct.times(&ratio.negated(), clock)?, clock)?);
         }
@@ -66,21 +76,32 @@ impl Diagram<'_, '_> {
         Ok([a, b, vec![c], vec![vec![direct]]])
     }
 
-    /// The rows of a block behind a hold: its states, then the past inputs it remembers.
-    pub(super) fn held(
-        &mut self,
-        [a, b, c, d]: Matrices,
-        hold: &Hold,
-        inputs: &[Row],
-        outputs: Range<usize>,
-    ) -> Result<(), String> {
+    /// What a block does behind a hold with its numbers.
+    pub(super) fn enclosed(&mut self, a: &[Vec<Fraction>], hold: &Hold) -> Result<Held, String> {
         let clock = self.scope.clock;
         let Some(values) = self.values else { return Err("internal: a hold without values".into()) };
         let number = |f: &Fraction| numbered(f, &values, clock);
         let numbers = a.iter().map(|row| row.iter().map(number).collect()).collect::<Result<Vec<Vec<Q>>, _>>()?;
-        let of = held(&numbers, hold, values.table, values.numbers.len(), clock)?;
+        let of = hold::held(&numbers, hold, values.table, values.numbers.len(), clock)?;
         self.scope.divisors.extend(of.divisors.iter().filter(|m| !m.is_constant()).cloned());
-        let (n, m) = (numbers.len(), inputs.len());
+        Ok(of)
+    }
+
+    /// The same where it depends on the parameters of a box.
+    pub(super) fn moving(&mut self, a: &[Vec<Fraction>], hold: MovingHold) -> Result<Held, String> {
+        hold::moving(a, &hold, self.scope.moving.as_mut().ok_or("internal: a hold with numbers")?)
+    }
+
+    /// The rows of a block behind a hold: its states, then the past inputs it remembers.
+    pub(super) fn held(
+        &mut self,
+        [a, b, c, d]: Matrices,
+        of: Held,
+        inputs: &[Row],
+        outputs: Range<usize>,
+    ) -> Result<(), String> {
+        let clock = self.scope.clock;
+        let (n, m) = (a.len(), inputs.len());
         let (states, past) = (self.unknowns, self.unknowns + n);
         self.unknowns += n + of.past * m;
         self.degree += n + of.past * m;
@@ -133,6 +154,20 @@ impl Diagram<'_, '_> {
         }
         Ok(())
     }
+}
+
+/// The delay over the sample time, a number that is not negative.
+fn ratio(delay: &Fraction, time: &Fraction, values: &Values<'_>, clock: &Clock) -> Result<Q, String> {
+    let top = delay.numerator.times(&time.whole_denominator(clock)?, clock)?;
+    let below = time.numerator.times(&delay.whole_denominator(clock)?, clock)?;
+    let both = substituted(&[top, below], values.numbers, clock)?;
+    let [top, below] = both.as_slice() else { return Err("internal: a quotient has two parts".into()) };
+    let Some((key, c)) = below.0.last_key_value() else { return Err("a sample time is zero".into()) };
+    let q = Q::new(top.0.get(key).cloned().unwrap_or_default(), c.clone());
+    if top.scaled(q.denom()) != below.scaled(q.numer()) || q.is_negative() {
+        return Err("a dead time is not a fixed multiple of the sample time".into());
+    }
+    Ok(q)
 }
 
 /// The number that a fraction is for the values of the parameters.

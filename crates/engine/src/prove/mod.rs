@@ -9,6 +9,7 @@ mod gain;
 mod held;
 mod line;
 mod map;
+mod map_boxes;
 mod over_symbols;
 mod smt2;
 mod statement;

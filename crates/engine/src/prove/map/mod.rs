@@ -118,7 +118,7 @@ impl Problem {
 
 fn no_certificate(why: impl Into<String>) -> Error {
     Diagnostic::error("E-no-certificate", why)
-        .help("maps have one where the loop is rational, the bound of its region a number, and stability all that is asked")
+        .help("exact maps have one where the loop is rational, the bound of its region a number, and stability all that is asked; with constants that are not rational maps by boxes have one: --method boxes")
         .into()
 }
 

@@ -1,0 +1,90 @@
+//! Certificates of maps by boxes: the statement around a tree of boxes.
+
+use super::statement::{about, number, object, region, set};
+use super::text::to_text;
+use super::{no_certificate, refuse_requirements};
+use crate::error::Error;
+use crate::problem::{Bound, Problem};
+use crate::stability::plane::boxes::Window;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+
+/// The schema of certificates of maps by boxes.
+const SCHEMA: &str = "jurist/certificate/7";
+
+impl Problem {
+    /// A certificate that says of a window what a tree says of its boxes; the checkers show each of them by Taylor models of a total degree
+    /// `order`, in fixed point with so many bits. It proves nothing where the tree says more than they see: who makes one asks
+    /// `jurist_check::BoxJudge`. The package `jurist` does that in `certify_boxes`.
+    ///
+    /// `x` and `y` halve a box in one parameter, the lower half follows first; `+` and `-` are boxes that are stable everywhere and nowhere,
+    /// `?` says nothing.
+    ///
+    /// Cost: that of writing it.
+    ///
+    /// ```
+    /// use jurist_check::{Limits, check};
+    /// use jurist_engine::model::Model;
+    /// use jurist_engine::stability::Range;
+    /// use jurist_engine::stability::plane::boxes::Window;
+    /// let drive = Model::drive();
+    /// let side = |low: &str, high: &str| Range::between(low.parse().ok(), high.parse().ok());
+    /// let window = Window::new(&side("1/20000", "1/10000"), &side("50", "100")).unwrap();
+    /// let problem = drive.ask().free("T").free("K_pwm").plane_problem()?;
+    /// let certificate = |tree: &str| problem.boxes_certificate(&window, tree, 6, 256).unwrap();
+    /// let proves = |tree: &str| check(&drive.source().text, &certificate(tree), &Limits::default()).is_ok();
+    /// assert!(proves("y++") && proves("x?+") && !proves("-") && !proves("x+-"));
+    /// # Ok::<(), jurist_engine::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Refused`] (`E-no-certificate`) for models with requirements, and a region whose bound is free.
+    ///
+    /// # Panics
+    /// Unless two parameters are free.
+    pub fn boxes_certificate(&self, window: &Window, tree: &str, order: usize, bits: usize) -> Result<String, Error> {
+        refuse_requirements(self)?;
+        refuse_free_bound(self)?;
+        let [x, y] = self.free() else { panic!("a map is of two parameters") };
+        let side = |ends: &[Rational; 2]| ends.iter().map(number).collect();
+        let statement = object([
+            ("kind", "boxes".into()),
+            ("time", self.time().name().into()),
+            ("x", x.name.as_str().into()),
+            ("y", y.name.as_str().into()),
+            ("set", set(self.set())),
+            ("region", region(self.region())),
+            ("window", object([("x", side(&window.x)), ("y", side(&window.y))])),
+            ("tree", tree.into()),
+        ]);
+        Ok(to_text(&object([
+            ("schema", SCHEMA.into()),
+            ("model", about(self)),
+            ("statement", statement),
+            ("order", order.into()),
+            ("bits", bits.into()),
+        ])))
+    }
+
+    /// Refuses problems whose map by boxes has no certificate, before it is made.
+    ///
+    /// Cost: that of [`Problem::algebra_over_symbols`].
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`).
+    pub fn refuse_boxes_certificate(&self, budget: &Budget) -> Result<(), Error> {
+        refuse_requirements(self)?;
+        refuse_free_bound(self)?;
+        match self.algebra_over_symbols(budget)?.symbols().delays().is_empty() {
+            true => Ok(()),
+            false => Err(no_certificate("no certificate of a map by boxes: the loop has dead time")),
+        }
+    }
+}
+
+fn refuse_free_bound(problem: &Problem) -> Result<(), Error> {
+    match problem.region().bound() {
+        Bound::Free => Err(no_certificate("no certificate of a map on which the bound of the region is free")),
+        Bound::Number(_) => Ok(()),
+    }
+}
