@@ -442,13 +442,22 @@ mod tests {
         {
             assert_eq!(value(text), None, "{text}");
         }
-        for (text, is_read) in [("(", true), ("-", true), ("2^", false)] {
-            let nested = |n: usize| format!("{}1{}", text.repeat(n), ")".repeat(if text == "(" { n } else { 0 }));
-            assert!(value(&nested(200)).is_some() || !is_read, "{text}");
-            assert_eq!(value(&nested(201)), None, "{text}");
-            assert_eq!(value(&nested(100_000)), None, "{text}");
-        }
         assert_eq!(value(&vec!["1"; 50_000].join("+")).as_deref(), Some("50000"));
+    }
+
+    /// On a stack of the size that a check has: without optimisation the levels need more than a test's own.
+    #[test]
+    fn nesting_has_a_limit() {
+        let test = || {
+            for (text, is_read) in [("(", true), ("-", true), ("2^", false)] {
+                let nested = |n: usize| format!("{}1{}", text.repeat(n), ")".repeat(if text == "(" { n } else { 0 }));
+                assert!(value(&nested(200)).is_some() || !is_read, "{text}");
+                assert_eq!(value(&nested(201)), None, "{text}");
+                assert_eq!(value(&nested(100_000)), None, "{text}");
+            }
+        };
+        let thread = std::thread::Builder::new().stack_size(crate::STACK);
+        thread.spawn(test).expect("a thread").join().expect("no panic");
     }
 
     #[test]
