@@ -29,7 +29,7 @@ impl Problem {
     /// use jurist_engine::stability::plane::boxes::Window;
     /// let drive = Model::drive();
     /// let side = |low: &str, high: &str| Range::between(low.parse().ok(), high.parse().ok());
-    /// let window = Window::new(&side("1/20000", "1/10000"), &side("50", "100")).unwrap();
+    /// let window = Window::new(&side("1/12000", "1/10000"), &side("100", "110")).unwrap();
     /// let problem = drive.ask().free("T").free("K_pwm").plane_problem()?;
     /// let certificate = |tree: &str| problem.boxes_certificate(&window, tree, 6, 256).unwrap();
     /// let proves = |tree: &str| check(&drive.source().text, &certificate(tree), &Limits::default()).is_ok();
