@@ -27,6 +27,17 @@ const MOST_HALVINGS: usize = 60;
 /// A certificate of a map by boxes, and how much of the window it speaks of.
 ///
 /// The shares are of the window's area; what is neither is unknown in the certificate.
+///
+/// ```
+/// use jurist::{BoxRequest, Budget, MapMethod, MapOrBoxes, Model, Range, certify_boxes};
+/// let side = |low: &str, high: &str| Range::between(low.parse().ok(), high.parse().ok());
+/// let request = BoxRequest::new([side("1/12000", "1/10000"), side("100", "110")], "1/10".parse().unwrap());
+/// let problem = Model::drive().ask().free("T").free("K_pwm").plane_problem()?;
+/// let MapOrBoxes::Boxes(boxes) = problem.map_by(MapMethod::Boxes, &request, 6, &Budget::unlimited())? else { panic!() };
+/// let certified = certify_boxes(&boxes, &Budget::unlimited())?;
+/// assert_eq!((certified.stable, certified.unstable), (1.into(), 0.into()));
+/// # Ok::<(), jurist::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct CertifiedBoxes {

@@ -31,7 +31,7 @@ pub(super) type Split = Vec<(Vec<u32>, MultiPoly)>;
 
 /// `sum P_k(s; p) exp(-tau_k(p) s)` with coefficients that are polynomials in the parameters, and dead times that are quotients of such.
 ///
-/// A point is counted by one walk along the imaginary axis. Where that does not tell, as with roots on the axis, [`Family::at`] says
+/// A point is counted by one walk along the imaginary axis. Where that does not tell, as with roots on the axis, `Family::at` says
 /// [`AtPoint::Undefined`]: who has the model counts there once more.
 ///
 /// ```
