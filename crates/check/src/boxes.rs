@@ -7,7 +7,7 @@ use super::number::{Q, Z, integer};
 use super::over_box::{FIRST, OverBox, common_factor, in_half_plane, in_region, over_box, vanishes_only_with};
 use super::over_symbols::{primitive, substituted};
 use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
-use super::statement::{Extent, count, extent, identifier, list, number, object, text, values};
+use super::statement::{Extent, count, fixed_extent, identifier, list, number, object, text, values};
 use super::univariate::Uni;
 use super::{Proved, Rejection, Step, is_discrete, verdict};
 use crate::format::Json;
@@ -68,10 +68,7 @@ impl Statement {
         let keys = ["kind", "time", "set", "region", "tolerances", "factor", "limit", "beyond"];
         let [_, time, set, region, tolerances, factor, limit, beyond] = object(json, "the statement", keys, &[])?;
         let discrete = is_discrete(time)?;
-        let extent = extent(region, discrete)?;
-        if extent == Extent::Parameter {
-            return Err("the region has no parameter here".into());
-        }
+        let extent = fixed_extent(region, discrete)?;
         let (mut names, mut sides) = (Vec::new(), Vec::new());
         for tolerance in list(tolerances, "'tolerances'")? {
             let [name, nominal, between] = object(tolerance, "a tolerance", ["name", "nominal", "between"], &[])?;

@@ -37,7 +37,7 @@ impl Timer for Counted {
 
 /// Ends the work when its time is up.
 pub(super) struct Clock {
-    timer: Box<dyn Timer>,
+    timer: Box<dyn Timer + Send>,
     timeout: Duration,
     work: Cell<u64>,
     /// The work at which the reading of a model is given up.
@@ -45,7 +45,7 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    fn with(timer: impl Timer + 'static, timeout: Duration) -> Self {
+    fn with(timer: impl Timer + Send + 'static, timeout: Duration) -> Self {
         Clock { timer: Box::new(timer), timeout, work: Cell::new(0), limit: Cell::new(u64::MAX) }
     }
 

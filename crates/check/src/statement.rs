@@ -146,6 +146,19 @@ pub(super) fn extent(json: &Json, discrete: bool) -> Result<Extent, String> {
     }
 }
 
+/// A region whose bound is a number.
+pub(super) fn fixed_extent(json: &Json, discrete: bool) -> Result<Extent, String> {
+    match extent(json, discrete)? {
+        Extent::Parameter => Err("the region has no parameter here".into()),
+        fixed @ Extent::Number(_) => Ok(fixed),
+    }
+}
+
+/// The names of two parameters.
+pub(super) fn axes(x: &Json, y: &Json) -> Result<Vec<String>, String> {
+    [(x, "'x'"), (y, "'y'")].map(|(json, what)| Ok(identifier(text(json, what)?)?.to_owned())).into_iter().collect()
+}
+
 pub(super) fn end<P>(json: &Json, read: impl Fn(&Json, &str) -> Result<P, String>) -> Result<End<P>, String> {
     match json {
         Json::Null => Ok(End::Infinite),

@@ -3,7 +3,7 @@
 use super::clock::Clock;
 use super::number::Q;
 use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
-use super::statement::{self, End, Extent, count, extent, list, object, polynomial, polynomials, text, values};
+use super::statement::{self, End, Extent, count, fixed_extent, list, object, polynomial, polynomials, text, values};
 use super::univariate::Uni;
 use super::{Proved, Rejection, Step, further_keys, held, is_discrete, model, region, same_characteristic, table};
 use crate::format::Json;
@@ -20,10 +20,7 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
         Step::Statement.of(object(statement, "the statement", keys, &[]))?;
     let discrete = Step::Statement.of(is_discrete(time))?;
     let set = Step::Statement.of(values(set))?;
-    let extent = Step::Statement.of(extent(region, discrete))?;
-    if extent == Extent::Parameter {
-        return Err(Rejection { step: Step::Statement, reason: "the region has no parameter here".into() });
-    }
+    let extent = Step::Statement.of(fixed_extent(region, discrete))?;
     let verdict = Step::Statement.of(text(verdict, "'verdict'"))?;
     let claimed = Step::Statement.of((|| {
         Ok([

@@ -14,7 +14,7 @@ use crate::multivariate::Multi;
 use crate::number::Q;
 use crate::over_box::{OverBox, common_factor, in_region, over_box, vanishes_only_with};
 use crate::over_symbols::primitive;
-use crate::statement::{Extent, bound, count, extent, identifier, list, object, polynomials, text, values};
+use crate::statement::{Extent, axes, bound, count, fixed_extent, list, object, polynomials, values};
 use crate::{Proved, Rejection, Step, is_discrete, verdict};
 use isolation::Place;
 use std::collections::BTreeMap;
@@ -36,12 +36,8 @@ impl Statement {
         let keys = ["kind", "time", "x", "y", "set", "region", "domain", "regions"];
         let [_, time, x, y, set, region, domain, regions] = object(json, "the statement", keys, &[])?;
         let discrete = is_discrete(time)?;
-        let extent = extent(region, discrete)?;
-        if extent == Extent::Parameter {
-            return Err("the region has no parameter here".into());
-        }
-        let name = |json: &Json, what: &str| Ok::<_, String>(identifier(text(json, what)?)?.to_owned());
-        let names = vec![name(x, "'x'")?, name(y, "'y'")?];
+        let extent = fixed_extent(region, discrete)?;
+        let names = axes(x, y)?;
         let [x, y] = object(domain, "'domain'", ["x", "y"], &[])?;
         let mut cells = Vec::new();
         for region in list(regions, "'regions'")? {

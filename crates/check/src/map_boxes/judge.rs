@@ -10,7 +10,7 @@ use crate::number::{Q, Z};
 use crate::over_box::{FIRST, in_half_plane, in_region, with_sources};
 use crate::over_symbols::primitive;
 use crate::taylor::{Precision, Taylor};
-use crate::{Limits, Rejection, Step};
+use crate::{Limits, Rejection, STACK, Step};
 use num_traits::{One, Signed};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -78,8 +78,18 @@ impl BoxJudge {
     /// # Errors
     /// [`Rejection`] where the certificate has not the form of one of boxes, or the model cannot be read.
     pub fn new(model: &str, certificate: &str, limits: &Limits) -> Result<Self, Rejection> {
-        let (statement, parts) = read(&Step::Format.of(Json::parse(certificate))?)?;
-        BoxJudge::of(model, statement, &parts, Clock::new(limits.timeout))
+        let read = || {
+            let (statement, parts) = read(&Step::Format.of(Json::parse(certificate))?)?;
+            BoxJudge::of(model, statement, &parts, Clock::new(limits.timeout))
+        };
+        // As a check: expressions may nest deeper than a default stack allows.
+        std::thread::scope(|scope| {
+            let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, read);
+            thread.map_or_else(
+                |_| read(),
+                |thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            )
+        })
     }
 
     pub(super) fn of(model: &str, statement: Statement, parts: &Parts, clock: Clock) -> Result<Self, Rejection> {

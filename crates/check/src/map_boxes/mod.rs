@@ -6,7 +6,7 @@ mod judge;
 use crate::clock::Clock;
 use crate::format::Json;
 use crate::number::Q;
-use crate::statement::{Extent, count, extent, identifier, list, number, object, text, values};
+use crate::statement::{Extent, axes, count, fixed_extent, list, number, object, text, values};
 use crate::{Proved, Rejection, Step, is_discrete, verdict};
 pub use judge::{BoxJudge, JudgedBox};
 use num_traits::{One, Zero};
@@ -35,12 +35,8 @@ impl Statement {
         let keys = ["kind", "time", "x", "y", "set", "region", "window", "tree"];
         let [_, time, x, y, set, region, window, tree] = object(json, "the statement", keys, &[])?;
         let discrete = is_discrete(time)?;
-        let extent = extent(region, discrete)?;
-        if extent == Extent::Parameter {
-            return Err("the region has no parameter here".into());
-        }
-        let name = |json: &Json, what: &str| Ok::<_, String>(identifier(text(json, what)?)?.to_owned());
-        let names = vec![name(x, "'x'")?, name(y, "'y'")?];
+        let extent = fixed_extent(region, discrete)?;
+        let names = axes(x, y)?;
         let [x, y] = object(window, "'window'", ["x", "y"], &[])?;
         let tree = text(tree, "'tree'")?.to_owned();
         Ok(Statement { discrete, names, set: values(set)?, extent, window: [ends(x)?, ends(y)?], tree })

@@ -197,7 +197,7 @@ impl Packing {
                 *e = u32::try_from(rest % r).expect("an exponent is below its radix");
                 rest /= r;
             }
-            assert_eq!(rest, 0);
+            debug_assert_eq!(rest, 0);
             terms.push((Monomial::new(&exponents), c));
         }
         MultiPoly::from_descending(terms)

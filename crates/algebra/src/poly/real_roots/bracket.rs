@@ -80,7 +80,7 @@ impl Bracket {
                 (a, value)
             };
             let (a, value) = at(&guess);
-            assert!(value.sign().is_ne(), "the root is irrational");
+            debug_assert!(value.sign().is_ne(), "the root is irrational");
             let right = value.sign() == left_sign;
             let neighbour = if right { &guess + &Integer::ONE } else { &guess - &Integer::ONE };
             let outside = neighbour.is_zero() || neighbour == cells;

@@ -198,7 +198,7 @@ fn predicted(a: &Size, b: &Size, m: u64, cells: &Integer) -> Integer {
 
 /// Narrows a bracket that does not hold zero to a width of at most `2^-target`.
 pub fn refine_bracket(p: &UniPoly, b: &mut Bracket, target: i64) {
-    assert!(b.lo.sign() == Sign::Greater || b.hi.sign() == Sign::Less, "zero is not in the bracket");
+    debug_assert!(b.lo.sign() == Sign::Greater || b.hi.sign() == Sign::Less, "zero is not in the bracket");
     if b.lo.is_negative() {
         let mut mirrored = Bracket { lo: -&b.hi, hi: -&b.lo, bits: b.bits, rising: !b.rising };
         Half::new(p.negated_argument()).narrow(&mut mirrored, target, 2);
