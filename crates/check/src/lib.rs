@@ -16,6 +16,7 @@ mod coefficient;
 mod crossing;
 mod dead_time;
 mod declarations;
+mod descartes;
 mod determinant;
 mod expression;
 pub mod format;

@@ -2,7 +2,6 @@
 
 use super::clock::Clock;
 use super::number::{Q, Z};
-use num_bigint::Sign;
 use num_traits::{One, Signed, Zero};
 
 /// Coefficients from the constant term up, without zeros at the top.
@@ -165,78 +164,6 @@ impl Uni {
     pub fn derivative(&self) -> Uni {
         Uni::new(self.0.iter().enumerate().skip(1).map(|(k, c)| c * Z::from(k)).collect())
     }
-
-    /// The number of sign changes between successive coefficients that are not zero.
-    fn variations(coefficients: &[Z]) -> usize {
-        let mut last = Sign::NoSign;
-        let mut count = 0;
-        for sign in coefficients.iter().map(Z::sign).filter(|s| *s != Sign::NoSign) {
-            count += usize::from(last != Sign::NoSign && last != sign);
-            last = sign;
-        }
-        count
-    }
-
-    /// Descartes' bound for the open interval `(a, b)`, where `None` is an infinite end: at least the
-    /// number of roots in it with multiplicity, and equal to it when it is 0 or 1. `None` when both
-    /// ends are infinite and the polynomial is not constant.
-    pub fn descartes(&self, a: Option<&Q>, b: Option<&Q>, clock: &Clock) -> Result<Option<usize>, String> {
-        if self.degree() == 0 {
-            return Ok(Some(0));
-        }
-        let count = match (a, b) {
-            (None, None) => return Ok(None),
-            // y > 0 in f(a + y)
-            (Some(a), None) => Self::variations(&self.along(a, &Q::one(), clock)?),
-            // y > 0 in f(b - y)
-            (None, Some(b)) => Self::variations(&self.along(b, &-Q::one(), clock)?),
-            // y > 0 in (1 + y)^d f(a + (b - a)/(1 + y))
-            (Some(a), Some(b)) => {
-                let mut c = self.along(a, &(b - a), clock)?;
-                c.reverse();
-                shift(&mut c, &Z::one(), clock)?;
-                Self::variations(&c)
-            }
-        };
-        Ok(Some(count))
-    }
-
-    /// Coefficients of a positive multiple of `f(a + w t)` in `t`, zeros at the top included.
-    fn along(&self, a: &Q, w: &Q, clock: &Clock) -> Result<Vec<Z>, String> {
-        // With a = A/D and w = W/D: D^d f((A + W t)/D) = sum f_k D^(d-k) (A + W t)^k.
-        let d = a.denom() * w.denom();
-        let big_a = a.numer() * w.denom();
-        let big_w = w.numer() * a.denom();
-        let mut c = self.0.clone();
-        let mut scale = Z::one();
-        for coefficient in c.iter_mut().rev() {
-            *coefficient *= &scale;
-            scale *= &d;
-        }
-        shift(&mut c, &big_a, clock)?;
-        let mut scale = Z::one();
-        for coefficient in &mut c {
-            *coefficient *= &scale;
-            scale *= &big_w;
-        }
-        Ok(c)
-    }
-}
-
-/// `f(t + a)` by repeated synthetic division.
-fn shift(c: &mut [Z], a: &Z, clock: &Clock) -> Result<(), String> {
-    if a.is_zero() {
-        return Ok(());
-    }
-    let n = c.len();
-    for i in 0..n {
-        clock.tick()?;
-        for j in (i..n - 1).rev() {
-            let step = if a.is_one() { c[j + 1].clone() } else { &c[j + 1] * a };
-            c[j] += step;
-        }
-    }
-    Ok(())
 }
 
 /// The greatest common divisor, 0 of none.
@@ -279,26 +206,6 @@ mod tests {
 
     fn uni(c: &[i64]) -> Uni {
         Uni::new(c.iter().map(|&c| Z::from(c)).collect())
-    }
-
-    fn q(n: i64, d: i64) -> Q {
-        Q::new(n.into(), d.into())
-    }
-
-    #[test]
-    fn descartes_counts_roots_in_open_intervals() {
-        let clock = Clock::new(Duration::MAX);
-        let f = uni(&[-6, 11, -6, 1]); // 1, 2, 3
-        let count = |a: Option<Q>, b: Option<Q>| f.descartes(a.as_ref(), b.as_ref(), &clock).unwrap();
-        assert_eq!(count(Some(q(1, 2)), Some(q(3, 2))), Some(1));
-        assert_eq!(count(Some(q(1, 1)), Some(q(2, 1))), Some(0));
-        assert_eq!(count(Some(q(1, 1)), Some(q(3, 1))), Some(1));
-        assert_eq!(count(Some(q(3, 1)), None), Some(0));
-        assert_eq!(count(Some(q(5, 2)), None), Some(1));
-        assert_eq!(count(None, Some(q(1, 1))), Some(0));
-        assert_eq!(count(None, Some(q(4, 3))), Some(1));
-        assert_eq!(count(None, None), None);
-        assert_eq!(uni(&[7]).descartes(None, None, &clock).unwrap(), Some(0));
     }
 
     #[test]
