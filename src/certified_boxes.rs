@@ -77,6 +77,9 @@ enum Node {
 /// Boxes of the answer are taken together where the check sees the whole of them, and halved where it does not see as much at once as the engine
 /// does. It never says more than the answer. A budget that runs out leaves more unknown.
 ///
+/// What is shown of a box is shown by Taylor models ([MakinoBerz2003](jurist_algebra::bibliography#makinoberz2003)), see
+/// [`grammar`](jurist_check::grammar).
+///
 /// Cost: each box is tried, so for the tree twice what its check costs.
 ///
 /// ```standalone_crate

@@ -1,4 +1,4 @@
-//! Descartes' rule of signs on an interval [CollinsAkritas1976]: in fixed point with bounds of the errors where that is much less work, and exactly.
+//! Descartes' rule of signs on an interval \[CollinsAkritas1976\]: in fixed point with bounds of the errors where that is much less work, and exactly.
 
 use super::clock::Clock;
 use super::number::{Q, Z};

@@ -1,6 +1,6 @@
 //! Functions of the two coordinates of a box as polynomials with a bound of what is left out.
 //!
-//! The coordinates `u`, `v` go from -1 to 1. Coefficients are integers in units of `2^-bits`; every rounding is in the bound.
+//! Taylor models \[MakinoBerz2003\], for use in this package only. The coordinates `u`, `v` go from -1 to 1. Coefficients are integers in units of `2^-bits`; every rounding is in the bound.
 
 use super::clock::Clock;
 use super::number::{Q, Z};

@@ -1,10 +1,10 @@
 //! How a budget reaches the kernels: it is installed on the thread, and inner loops ask it now and then.
 
 use super::{Budget, Exhausted, Limits};
-use rayon::iter::{FromParallelIterator, IntoParallelIterator, ParallelIterator};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use std::cell::{Cell, RefCell};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Units of work between two looks at the limits: about a millisecond.
 const QUANTUM: u64 = 1 << 16;
@@ -167,7 +167,17 @@ impl Budget {
     /// # Errors
     /// [`Exhausted`] when this budget runs out, also when its time is up before the work begins.
     pub fn enter<T>(&self, work: impl FnOnce() -> T) -> Result<T, Exhausted> {
-        let Some(limits) = &self.limits else { return Ok(work()) };
+        let mut work = Work::new(work);
+        self.enter_with(&mut || work.run())?;
+        Ok(work.done())
+    }
+
+    /// One function for all work: hundreds of copies would be a tenth of the program.
+    fn enter_with(&self, work: &mut dyn FnMut()) -> Result<(), Exhausted> {
+        let Some(limits) = &self.limits else {
+            work();
+            return Ok(());
+        };
         limits.spend(0).map_err(|e| self.at_step(e))?;
         let frame = INNERMOST.with_borrow(|frame| match frame {
             Some(frame) if frame.holds(limits) => Arc::clone(frame),
@@ -186,6 +196,28 @@ impl Budget {
     }
 }
 
+/// Work that is done once, through a door that knows nothing of its value.
+struct Work<F, T> {
+    work: Option<F>,
+    value: Option<T>,
+}
+
+impl<T, F: FnOnce() -> T> Work<F, T> {
+    fn new(work: F) -> Self {
+        Work { work: Some(work), value: None }
+    }
+
+    fn run(&mut self) {
+        if let Some(work) = self.work.take() {
+            self.value = Some(work());
+        }
+    }
+
+    fn done(self) -> T {
+        self.value.expect("a door that is not left by unwinding has done the work")
+    }
+}
+
 /// What holds on a thread, to be taken to another one.
 struct Ambient(Option<Arc<Frame>>);
 
@@ -194,7 +226,7 @@ impl Ambient {
         Ambient(INNERMOST.with_borrow(Option::clone))
     }
 
-    fn run<T>(&self, work: impl FnOnce() -> T) -> T {
+    fn run(&self, work: impl FnOnce()) {
         let _installed = Installed::new(self.0.clone());
         work()
     }
@@ -212,8 +244,14 @@ impl Ambient {
 /// assert!(Budget::with_work(100_000).enter(|| join(endless, endless)).is_err());
 /// ```
 pub fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    let (mut a, mut b) = (Work::new(a), Work::new(b));
+    join_both(&mut || a.run(), &mut || b.run());
+    (a.done(), b.done())
+}
+
+fn join_both(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
     let ambient = Ambient::current();
-    rayon::join(|| ambient.run(a), || ambient.run(b))
+    rayon::join(|| ambient.run(a), || ambient.run(b));
 }
 
 /// The images of all items in their order, computed on as many threads as there are; the budgets that hold here hold
@@ -226,12 +264,19 @@ pub fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> 
 /// ```
 pub fn parallel_map<I, T, C>(items: I, f: impl Fn(I::Item) -> T + Send + Sync) -> C
 where
-    I: IntoParallelIterator,
+    I: IntoIterator<Item: Send>,
     T: Send,
-    C: FromParallelIterator<T>,
+    C: FromIterator<T>,
 {
+    let works: Vec<_> = items.into_iter().map(|item| Mutex::new(Work::new(|| f(item)))).collect();
+    // Each is locked by the one thread that does it.
+    parallel_each(works.len(), &|k| works[k].lock().unwrap_or_else(PoisonError::into_inner).run());
+    works.into_iter().map(|work| work.into_inner().unwrap_or_else(PoisonError::into_inner).done()).collect()
+}
+
+fn parallel_each(count: usize, work: &(dyn Fn(usize) + Sync)) {
     let ambient = Ambient::current();
-    items.into_par_iter().map(|item| ambient.run(|| f(item))).collect()
+    (0..count).into_par_iter().for_each(|k| ambient.run(|| work(k)));
 }
 
 /// Does work that no budget of this thread ends: as if it began on a thread of its own.
@@ -245,6 +290,12 @@ where
 /// assert_eq!(budget.enter(|| apart(|| checkpoint(1_000_000))), Ok(()));
 /// ```
 pub fn apart<T>(work: impl FnOnce() -> T) -> T {
+    let mut work = Work::new(work);
+    apart_with(&mut || work.run());
+    work.done()
+}
+
+fn apart_with(work: &mut dyn FnMut()) {
     Ambient(None).run(work)
 }
 

@@ -21,6 +21,9 @@ const BEYOND: [i64; 2] = [-3, -1];
 
 /// Decides boxes of a window one by one, as the check of a map by boxes does. Who writes a certificate asks it what a checker can see.
 ///
+/// How it decides is in [`grammar`](crate::grammar), *maps by boxes*: Taylor models of the coefficients \[MakinoBerz2003\], and the turns about zero along
+/// the imaginary axis.
+///
 /// ```
 /// use jurist_check::{BoxJudge, Limits};
 /// let model = "time = 'continuous'\nparameters = { a = {}, b = {} }\nloop.characteristic = 's^2 + a*s + b'";
