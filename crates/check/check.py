@@ -383,6 +383,36 @@ def evaluate(text, names, inverse, functions={}):
     need(not tokens, f"cannot read {text[:60]!r}")
     return result
 
+def without_exponentials(tokens, depth=0):
+    """Without those factors of the whole that are exponentials of s, and their exponents."""
+    need(depth <= MAX_NESTING, "an expression is nested too deep")
+    partner, opened = {}, []
+    for i, token in enumerate(tokens):
+        if token == "(":
+            opened.append(i)
+        elif token == ")" and opened:
+            partner[opened.pop()] = i
+    factors, found, begin, i, operator = [], [], 0, 0, "*"
+    while i <= len(tokens):
+        token = tokens[i] if i < len(tokens) else "end"
+        if token == "(":
+            i = partner.get(i, len(tokens) - 1)
+        elif token in ("+", "-") and i > begin and tokens[i - 1] not in ("+", "-", "^"):
+            return tokens, []  # a sum
+        elif token in ("*", "/", "end"):
+            at = next((k for k in range(begin, i) if tokens[k] not in ("+", "-")), i)
+            signs, factor = tokens[begin:at], tokens[at:i]
+            if operator == "*" and factor[:2] == ["exp", "("] and partner.get(at + 1) == i - 1 and "s" in factor:
+                found.append(factor[2:-1])
+                factor = ["1"]
+            elif operator == "*" and factor[:1] == ["("] and partner.get(at) == i - 1:
+                inner, more = without_exponentials(factor[1:-1], depth + 1)
+                factor, found = ["(", *inner, ")"], found + more
+            factors += [*signs, *factor, *([token] if token != "end" else [])]
+            begin, operator = i + 1, token
+        i += 1
+    return factors, found
+
 class Scope:
     """What names mean, and everything that was divided by."""
 
@@ -657,6 +687,15 @@ class Loop:
             need(method in ("zoh", "foh") or not delay, "only a hold has a delay")
             if method in ("zoh", "foh"):
                 need(t and not c, "'discretize' does not fit")
+                if isinstance(block.get("transfer"), str) and not isinstance(block["transfer"], Number) and "exp" not in scope.known:
+                    rest, exponents = without_exponentials(tokens_of(block["transfer"]))
+                    block = {**block, "transfer": " ".join(rest)}
+                    for exponent in exponents:
+                        exponent = scope.value(" ".join(exponent), {"s": scalar(Z)})
+                        powers = exponent.scalar().coefficients(0)
+                        need(len(powers) == 2 and not powers[0] and not exponent.bottom.degree(0), "an exponent is no dead time times s")
+                        time = Value({"": -powers[1]}, exponent.bottom)
+                        delay = delay + time if delay else time
                 if self.values is not None and self.moving:
                     hold = method == "foh", t, self.ratio(delay, t) if delay else Fraction(0)
                 elif self.values is not None:

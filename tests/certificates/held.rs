@@ -38,7 +38,7 @@ const PLANTS: [&str; 12] = [
     "transfer = '1/(s^3 - 2*s^2 + s + 1)'\ndiscretize = 'zoh'",
     "transfer = '1/(s + 1)'\ndiscretize = 'foh'",
     "transfer = '1/(s*(s^2 + 4))'\ndiscretize = { method = 'foh', delay = '0.3*T' }",
-    "transfer = '(s + 3)/(s + 1)'\ndiscretize = { method = 'zoh', delay = 'T/2' }",
+    "transfer = '-(exp(-T*s/4)*(s + 3))/(s + 1)*-exp(-T*s/4)'\ndiscretize = 'zoh'",
     "transfer = '1/(s^2*(s + 1))'\ndiscretize = { method = 'zoh', delay = 'T/2' }",
     "A = [[0, 1], [-5, -2]]\nB = [[0], [1]]\nC = [[1, 'K/7']]\ndiscretize = 'zoh'",
 ];

@@ -171,7 +171,7 @@ fn all_kinds_of_holds_are_certified() {
         "transfer = '(2 - s)/(s^2 + s/2 + 3)'\ndiscretize = { method = 'zoh', delay = '0.7*T' }",
         "transfer = '1/(s + 1)'\ndiscretize = { method = 'foh', delay = 'T' }",
         "transfer = '1/(s^2 + 4)'\ndiscretize = { method = 'foh', delay = '1.3*T' }",
-        "transfer = '(s + 3)/(s + 1)'\ndiscretize = { method = 'zoh', delay = 'T/2' }",
+        "transfer = '-(exp(-T*s/4)*(s + 3))/(s + 1)*-exp(-T*s/4)'\ndiscretize = 'zoh'",
         "A = [[0, 1], [-5, -2]]\nB = [[0], [1]]\nC = [[1, 'K/7']]\ndiscretize = 'zoh'",
     ] {
         let text = format!(

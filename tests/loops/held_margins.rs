@@ -53,6 +53,27 @@ fn the_servo_behind_a_hold_has_these_margins_to_thirty_digits() {
     }
 }
 
+/// A factor of the transfer function, wherever it stands, is the same as the hold's own dead time.
+#[test]
+fn dead_time_of_a_plant_may_be_a_factor_of_its_transfer_function() {
+    let of = |transfer: &str, discretize: &str| {
+        let text = SERVO_BEHIND_A_HOLD
+            .replace("'20/(s*(T_m*s + 1))'", &format!("'{transfer}'"))
+            .replace("discretize = 'zoh'", &format!("discretize = {discretize}"));
+        let model = load(&text);
+        let stable_set = model.ask().free("K").stable_set(&Budget::unlimited()).unwrap();
+        (stable_set.text(30), margins_of(&model, None).text(30))
+    };
+    let plain = of("20/(s*(T_m*s + 1))", "{ method = 'zoh', delay = '3*T_m/10 + 0.001' }");
+    assert!(plain.1.contains("stable"), "{}", plain.1);
+    for transfer in
+        ["exp(-(3*T_m/10 + 0.001)*s)*20/(s*(T_m*s + 1))", "-2*(10*exp(-s/1000)/s)/(T_m*s + 1)*-exp(-T_m*(3*s)/10)"]
+    {
+        assert_eq!(of(transfer, "'zoh'"), plain, "{transfer}");
+    }
+    assert_eq!(of("exp(-s/1000)*20/(s*(T_m*s + 1))", "{ method = 'zoh', delay = '3*T_m/10' }"), plain);
+}
+
 /// Only the fraction up to 18.46 samples had been looked at, and was called the margin.
 #[test]
 fn dead_time_behind_a_hold_is_not_less_than_the_whole_samples_that_are_borne() {

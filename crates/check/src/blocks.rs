@@ -12,6 +12,7 @@ mod hold_rows;
 use super::characteristic::Form;
 use super::clock::Clock;
 use super::declarations::Declarations;
+use super::exponentials::without_exponentials;
 use super::expression::{Base, Names, Scope, number};
 use super::hold::{Hold, MovingHold};
 use super::model::{Ports, matrix, names, outputs, sized};
@@ -19,6 +20,7 @@ use super::multivariate::{Fraction, Multi};
 use super::number::{Q, Z, shorten};
 use super::symbols::Table;
 use super::toml::Toml;
+use hold_rows::is_hold;
 use num_traits::{One, ToPrimitive, Zero};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -125,9 +127,18 @@ impl Diagram<'_, '_> {
         for text in block.get("input").map(Toml::one_or_more).unwrap_or_default() {
             inputs.push(self.scope.linear(text, &self.signals)?);
         }
+        let (mut transfer, mut exponents) = (block.get("transfer").cloned(), Vec::new());
+        if let (Some(Toml::Text(text)), Some(how)) = (&transfer, block.get("discretize"))
+            && is_hold(how)?
+            && !self.scope.knows("exp")
+        {
+            let (rest, found) = without_exponentials(text);
+            exponents = found.iter().map(|e| (*e).to_owned()).collect();
+            transfer = Some(Toml::Text(rest));
+        }
         let substitution = match block.get("discretize") {
             Some(_) if !self.declared.discrete => return Err("a continuous loop has nothing to discretise".into()),
-            Some(how) => Some(self.rule(how)?),
+            Some(how) => Some(self.rule(how, &exponents)?),
             None => None,
         };
         let inner = if substitution.is_some() { "s" } else { self.declared.variable() };
@@ -163,7 +174,7 @@ impl Diagram<'_, '_> {
             // Both over the scalar denominators of both.
             (num.numerator.times(&den.scalar, clock)?, den.numerator.times(&num.scalar, clock)?)
         } else {
-            let f = if let Some(text) = block.get("transfer") {
+            let f = if let Some(text) = &transfer {
                 // Signals are not known there, constants and parameters are.
                 if substitution.is_some() && self.declared.is_taken(inner) {
                     return Err("'s' is the variable of a block and also something else".into());

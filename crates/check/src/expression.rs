@@ -9,7 +9,7 @@ use num_traits::{One, ToPrimitive, Zero};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Parentheses, signs and exponents may nest this deep.
-const MAX_NESTING: usize = 200;
+pub(super) const MAX_NESTING: usize = 200;
 
 /// Exponents may be this large.
 const MAX_POWER: i64 = 1000;
@@ -133,6 +133,22 @@ impl<'c> Scope<'c> {
         Fraction::variable(of.values.len()).power(k, self.clock)
     }
 
+    /// Whether a constant or a parameter has this name.
+    pub fn knows(&self, name: &str) -> bool {
+        self.parameters.contains_key(name) || self.constants.contains_key(name)
+    }
+
+    /// The `tau` of `-tau*s`.
+    pub fn time_of_exponent(&mut self, text: &str) -> Result<Fraction, String> {
+        let Fraction { numerator, denominator, scalar } = self.evaluate(text, Names::Variable("s"))?.constant;
+        match numerator.coefficients(0).as_slice() {
+            [constant, of_s] if constant.is_zero() && denominator.degree(0) == 0 => {
+                Ok(Fraction { numerator: of_s.clone(), denominator, scalar }.negated())
+            }
+            _ => Err(format!("the exponent '{}' is no dead time times s", shorten(text))),
+        }
+    }
+
     fn evaluate(&mut self, text: &str, names: Names<'_>) -> Result<Linear, String> {
         let mut parser = Parser { scope: self, names, rest: text, nesting: 0 };
         let value = parser.sum().and_then(|value| match parser.next_char() {
@@ -169,7 +185,7 @@ pub(super) fn is_name(text: &str) -> bool {
 }
 
 /// How long the name is with which a text begins; 0 if it begins with none.
-fn name_length(text: &str) -> usize {
+pub(super) fn name_length(text: &str) -> usize {
     if text.starts_with(|c: char| c == '_' || c.is_alphabetic()) {
         text.find(|c: char| !(c == '_' || c.is_alphanumeric())).unwrap_or(text.len())
     } else {
@@ -178,7 +194,7 @@ fn name_length(text: &str) -> usize {
 }
 
 /// How long the number is with which a text begins.
-fn number_length(text: &str) -> usize {
+pub(super) fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digit = |i: usize| bytes.get(i).is_some_and(u8::is_ascii_digit);
     let digits = |mut i: usize| {
@@ -345,7 +361,7 @@ impl<'t> Parser<'_, '_, 't> {
         if matches!(self.names, Names::Numbers) {
             return Err(format!("the name '{}' where only numbers may stand", shorten(name)));
         }
-        let is_known = self.scope.parameters.contains_key(name) || self.scope.constants.contains_key(name);
+        let is_known = self.scope.knows(name);
         if name == "exp" && !is_known && self.scope.dead_time.is_some() && self.eat('(') {
             let argument = self.nested(Self::sum)?;
             if !self.eat(')') {

@@ -18,6 +18,7 @@ mod dead_time;
 mod declarations;
 mod descartes;
 mod determinant;
+mod exponentials;
 mod expression;
 pub mod format;
 mod frequency;

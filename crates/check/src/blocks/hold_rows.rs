@@ -11,19 +11,21 @@ use num_traits::{One, Signed, Zero};
 use std::ops::Range;
 
 impl Diagram<'_, '_> {
-    /// The rule of a block. Its sample time is that of the loop unless it has its own.
-    pub(super) fn rule(&mut self, how: &Toml) -> Result<Rule, String> {
+    /// The rule of a block. Its sample time is that of the loop unless it has its own. To the dead time of a hold come exponents of the
+    /// transfer function.
+    pub(super) fn rule(&mut self, how: &Toml, exponents: &[String]) -> Result<Rule, String> {
         let clock = self.scope.clock;
         let mut get = |key: &str| how.get(key).map(|t| self.scope.scalar(t)).transpose();
-        let (mut time, factor, delay) = (get("T")?, get("c")?, get("delay")?);
-        let method = match how {
-            Toml::Text(method) => method.as_str(),
-            table => table.get("method").ok_or("'discretize' has no method")?.text()?,
-        };
+        let (mut time, factor, mut delay) = (get("T")?, get("c")?, get("delay")?);
+        let method = method(how)?;
+        for exponent in exponents {
+            let own = self.scope.time_of_exponent(exponent)?;
+            delay = Some(delay.map_or(Ok(own.clone()), |delay| delay.plus(&own, clock))?);
+        }
         if time.is_none() && factor.is_none() {
             time = self.sample_time.map(|t| self.scope.scalar(t)).transpose()?;
         }
-        if !matches!(method, "zoh" | "foh") {
+        if !is_hold(how)? {
             if delay.is_some() {
                 return Err("only a hold has a 'delay'".into());
             }
@@ -154,6 +156,17 @@ impl Diagram<'_, '_> {
         }
         Ok(())
     }
+}
+
+fn method(how: &Toml) -> Result<&str, String> {
+    match how {
+        Toml::Text(method) => Ok(method.as_str()),
+        table => table.get("method").ok_or("'discretize' has no method")?.text(),
+    }
+}
+
+pub(super) fn is_hold(how: &Toml) -> Result<bool, String> {
+    Ok(matches!(method(how)?, "zoh" | "foh"))
 }
 
 /// The delay over the sample time, a number that is not negative.

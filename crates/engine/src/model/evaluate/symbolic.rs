@@ -2,7 +2,7 @@
 
 use super::linear::linear;
 use super::scalar::Scope;
-use super::transfer::{Fraction, MAX_ORDER, fraction, polynomial};
+use super::transfer::{Fraction, MAX_ORDER, fraction, held_fraction, polynomial};
 use super::walk::{Failure, Meaning, division_by_zero};
 use super::zpoly::ZPoly;
 use crate::error::{Diagnostic, Span};
@@ -156,11 +156,15 @@ impl Evaluator<'_, '_> {
     fn block(&mut self, block: &Block, wiring: &Wiring<'_>, variable: &str) -> Option<BlockValues> {
         let inputs = self.rows(block.inputs.iter(), wiring);
         let variable = if block.discretization.is_some() { "s" } else { variable };
-        let dynamics = self.dynamics(block, variable);
-        let discretization = match &block.discretization {
+        let mut dead_time = RationalFunction::zero();
+        let dynamics = self.dynamics(block, variable, &mut dead_time);
+        let mut discretization = match &block.discretization {
             None => Some(None),
             Some(d) => self.discretization(d).map(Some),
         };
+        if let Some(Some(DiscretizationValues::Hold(hold))) = &mut discretization {
+            hold.delay = &hold.delay + &dead_time;
+        }
         if let Some(pwm) = &block.pwm {
             for e in [&pwm.amplitude, &pwm.carrier, &pwm.period] {
                 self.scalar(e);
@@ -229,8 +233,16 @@ impl Evaluator<'_, '_> {
         self.keep(value)
     }
 
-    fn dynamics(&mut self, block: &Block, variable: &str) -> Option<DynamicValues> {
+    /// What a block does; behind a hold its dead time is added up beside it.
+    fn dynamics(&mut self, block: &Block, variable: &str, dead_time: &mut RationalFunction) -> Option<DynamicValues> {
+        let is_held = block.discretization.as_ref().is_some_and(|d| d.method.is_hold());
         let (ratio, span) = match &block.dynamics {
+            Dynamics::Transfer(e) if is_held => {
+                let value = held_fraction(e, self.scope);
+                let (ratio, delay) = self.keep(value)?;
+                *dead_time = delay;
+                (ratio, e.span)
+            }
             Dynamics::Transfer(e) => {
                 let value = fraction(e, variable, self.scope);
                 (self.keep(value)?, e.span)

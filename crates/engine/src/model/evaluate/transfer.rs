@@ -5,7 +5,7 @@ use super::scalar::Scope;
 use super::walk::{Failure, Meaning, division_by_zero, evaluate, too_large};
 use super::zpoly::ZPoly;
 use crate::error::{Diagnostic, Span};
-use crate::model::text::{Expression, Function, Sign};
+use crate::model::text::{Expression, Factor, Function, Node, Sign};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 
@@ -39,6 +39,42 @@ pub(in crate::model) fn fraction(e: &Expression, variable: &str, scope: &mut Sco
             .into());
     }
     Ok(fraction)
+}
+
+/// The transfer expression of a block behind a hold: what is rational in `s`, and the dead time of factors `exp(-tau*s)` of the whole.
+pub(in crate::model) fn held_fraction(
+    e: &Expression,
+    scope: &mut Scope<'_>,
+) -> Result<(Fraction, RationalFunction), Failure> {
+    let mut exponents = Vec::new();
+    let rest = without_exponentials(e, &mut exponents);
+    let mut meaning = InVariable { scope: &mut *scope, variable: "s", rational: true };
+    let mut delay = RationalFunction::zero();
+    for exponent in exponents {
+        let value = evaluate(exponent, &mut meaning)?;
+        delay = &delay + &meaning.time(&value, exponent.span)?;
+    }
+    Ok((fraction(&rest, "s", scope)?, delay))
+}
+
+/// An expression without those factors of the whole that are exponentials of `s`, and their exponents.
+fn without_exponentials<'e>(e: &'e Expression, exponents: &mut Vec<&'e Expression>) -> Expression {
+    let node = match &e.node {
+        Node::Call(Function::Exp, exponent) if exponent.names().contains("s") => {
+            exponents.push(exponent);
+            Node::Number(1.into())
+        }
+        Node::Negative(inner) => Node::Negative(Box::new(without_exponentials(inner, exponents))),
+        Node::Product(factors) => {
+            let of = |(factor, e): &'e (Factor, Expression)| match factor {
+                Factor::Times => (Factor::Times, without_exponentials(e, exponents)),
+                Factor::Over => (Factor::Over, e.clone()),
+            };
+            Node::Product(factors.iter().map(of).collect())
+        }
+        node => node.clone(),
+    };
+    Expression { span: e.span, node }
 }
 
 /// An expression that is a polynomial in the variable.
@@ -200,6 +236,12 @@ impl Meaning for InVariable<'_, '_> {
 impl InVariable<'_, '_> {
     /// `exp(-x s)`.
     fn dead_time(&mut self, exponent: &Fraction, span: Span) -> Result<RationalFunction, Failure> {
+        let time = self.time(exponent, span)?;
+        self.scope.delay(time, span)
+    }
+
+    /// The `x` of `-x s`.
+    fn time(&mut self, exponent: &Fraction, span: Span) -> Result<RationalFunction, Failure> {
         let (n, d) = (&exponent.numerator, &exponent.denominator);
         if n.degree() != 1 || !n.coefficient(0).is_zero() || d.degree() > 0 {
             let error = Diagnostic::error("E-dead-time", "the exponent is not a dead time times s");
@@ -208,8 +250,7 @@ impl InVariable<'_, '_> {
                 .help("a dead time tau is written exp(-tau*s)")
                 .into());
         }
-        let time = n.leading().checked_div(&d.leading()).ok_or_else(|| division_by_zero(span))?;
-        self.scope.delay(-time, span)
+        Ok(-n.leading().checked_div(&d.leading()).ok_or_else(|| division_by_zero(span))?)
     }
 }
 
@@ -219,7 +260,7 @@ fn of_the_variable(function: Function, variable: &str, span: Span) -> Diagnostic
     let error = Diagnostic::error("E-function", message).at(span, format!("contains {variable}"));
     error.help(match (function, variable) {
         (Function::Exp, "s") => {
-            "dead time of a continuous block behind a hold: discretize = { method = \"zoh\", T = \"..\", delay = \"..\" }"
+            "dead time of a plant behind a hold is a factor of the whole, exp(-tau*s)*G(s) with discretize = \"zoh\""
         }
         (Function::Exp, _) => "a delay of whole samples is 1/z^n; z itself is exp(s*T)",
         _ => "functions have arguments of constants and parameters",

@@ -155,7 +155,16 @@ fn dynamics(
             kind(&second.key)
         );
         let error = Diagnostic::error("E-two-forms", message).at(second.key_span, "given here again");
-        reader.report(error.also(first.key_span, "first given here").help("keep one of them"));
+        let is_delayed = [kind(&first.key), kind(&second.key)].contains(&"delay");
+        let help = match (is_delayed, time, continuous) {
+            (false, ..) => "keep one of them",
+            (_, Time::Continuous, _) => "dead time is a factor exp(-tau*s) of 'transfer', or a block of its own",
+            (_, _, true) => {
+                "dead time of a plant behind a hold is a factor exp(-tau*s) of 'transfer', or a key of 'discretize'"
+            }
+            _ => "a delay is a block of its own, or a division by z^n",
+        };
+        reader.report(error.also(first.key_span, "first given here").help(help));
         return None;
     }
     let need = |key: &str, reader: &mut Reader| {
