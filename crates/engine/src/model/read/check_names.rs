@@ -208,7 +208,10 @@ fn unknown(name: &str, span: Span, allowed: &Allowed<'_>) -> Diagnostic {
     if error.help.is_none() {
         let variable = model.time.variable();
         error.help = Some(match name {
-            "z" | "s" if name != variable => format!("the variable of a {} loop is {variable}", model.time.name()),
+            "s" if variable == "z" => {
+                "the variable of a discrete loop is z; a block in s has discretize = \"zoh\" (behind a hold) or \"tustin\"".into()
+            }
+            "z" if variable == "s" => "the variable of a continuous loop is s".into(),
             _ if name == variable => format!("{variable} is known in 'characteristic' and 'transfer' only"),
             _ => known_names(allowed.names()).unwrap_or_else(|| "define it in [constants] or [parameters]".into()),
         });

@@ -158,7 +158,7 @@ impl Parser<'_> {
         self.deeper(operator.span)?;
         let exponent = self.expression(PREFIX)?;
         self.depth -= 1;
-        let value = integer_exponent(&exponent)?;
+        let value = integer_exponent(&base, &exponent)?;
         Ok(Expression { span: base.span.to(exponent.span), node: Node::Power(Box::new(base), value) })
     }
 
@@ -227,11 +227,15 @@ impl Parser<'_> {
 }
 
 /// The value of an exponent, which must be an integer of moderate size.
-fn integer_exponent(exponent: &Expression) -> Result<i64, Diagnostic> {
+fn integer_exponent(base: &Expression, exponent: &Expression) -> Result<i64, Diagnostic> {
     if !exponent.is_constant() {
+        let help = match &base.node {
+            Node::Name(name) if name == "e" => "the exponential of x is written 'exp(x)'",
+            _ => "exponents fix the order of the loop: write its value as a number, such as 'z^3'",
+        };
         return Err(Diagnostic::error("E-exponent", "an exponent must be a whole number, written as a number")
             .at(exponent.span, "contains a name or a function")
-            .help("exponents fix the order of the loop: write its value as a number, such as 'z^3'"));
+            .help(help));
     }
     let too_large = || {
         Diagnostic::error("E-exponent", "the exponent is too large")
