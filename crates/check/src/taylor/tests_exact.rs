@@ -133,3 +133,27 @@ fn roots_of_squares_are_enclosed_with_few_bits() {
         }
     }
 }
+
+/// Integers alone, whose halves are none.
+#[test]
+fn halves_of_polynomials_without_error_are_enclosed() {
+    for order in 1..=4 {
+        let p = Precision::new(order, 8);
+        for seed in 1..20_i64 {
+            let c: Vec<Z> = (0..p.exponents.len() as i64).map(|k| Z::from((seed * (7 * k + 3) + k * k) % 17 - 8)).collect();
+            let f = Taylor { c, rest: Z::zero() };
+            let at = |u: &Q, v: &Q| {
+                let power = |x: &Q, n: &usize| (0..*n).fold(q(1, 1), |power, _| power * x);
+                f.c.iter().zip(&p.exponents).fold(q(0, 1), |sum, (c, [i, j])| {
+                    sum + Q::new(c.clone(), p.one_unit()) * power(u, i) * power(v, j)
+                })
+            };
+            for axis in [0, 1] {
+                for (half, shift) in f.halves(axis, &p).iter().zip([-1, 1]) {
+                    let inner = |w: &Q, k: usize| if k == axis { (w + q(shift, 1)) / q(2, 1) } else { w.clone() };
+                    encloses(half, &p, |u, v| at(&inner(u, 0), &inner(v, 1)));
+                }
+            }
+        }
+    }
+}
