@@ -86,17 +86,14 @@ fn what_is_known_of_one_half_is_not_said_of_the_other() {
 #[test]
 fn the_region_is_that_of_the_statement() {
     let text = model("discrete", "z - a + 0*b + 0*c");
-    let of = |radius: &str, tree: &str| {
-        certificate(&format!(r#""radius": "{radius}""#), ["5/8", "7/8"], ["0", "1"], tree)
-    };
+    let of =
+        |radius: &str, tree: &str| certificate(&format!(r#""radius": "{radius}""#), ["5/8", "7/8"], ["0", "1"], tree);
     for (radius, right, wrong) in [("1", "+", "-"), ("1/2", "-", "+"), ("9/10", "+", "-"), ("3/5", "-", "+")] {
         accept(&text, &of(radius, right));
         reject(&text, &of(radius, wrong), Step::Stable);
     }
     let text = model("continuous", "s + a + 0*b + 0*c");
-    let of = |decay: &str, tree: &str| {
-        certificate(&format!(r#""decay": "{decay}""#), ["5/8", "7/8"], ["0", "1"], tree)
-    };
+    let of = |decay: &str, tree: &str| certificate(&format!(r#""decay": "{decay}""#), ["5/8", "7/8"], ["0", "1"], tree);
     for (decay, right, wrong) in [("0", "+", "-"), ("1/2", "+", "-"), ("1", "-", "+"), ("-1", "+", "-")] {
         accept(&text, &of(decay, right));
         reject(&text, &of(decay, wrong), Step::Stable);

@@ -113,3 +113,46 @@ fn functions_of_the_variable_of_the_loop_are_refused() {
     }
     assert!(Moving::new(9).of(Function::Exponential, a).is_ok());
 }
+
+/// Of two integrators in a row everything is a power of the time: with `T = 2`, `F(t) = [1, t; 0, 1]`, `G(t) = [t, t^2/2; 0, t]` and
+/// `H(t) = [t^2/4, t^3/12; 0, t^2/4]`.
+#[test]
+fn holds_of_two_integrators_are_powers_of_the_time() {
+    let p = Precision::new(2, 64);
+    let (zero, one) = (Taylor::zero, || Taylor::number(&Q::one(), &p));
+    let a = vec![vec![zero(), one()], vec![zero(), zero()]];
+    let time = Taylor::number(&Q::from(Z::from(2)), &p);
+    let all = [
+        HeldMatrix::State,
+        HeldMatrix::Now,
+        HeldMatrix::NowOfRamp,
+        HeldMatrix::LateOfRamp,
+        HeldMatrix::Early,
+        HeldMatrix::EarlyOfRamp,
+    ];
+    let is = |share: (i64, i64), kinds: &[HeldMatrix], exact: &[[(i64, i64); 2]]| {
+        let share = Q::new(share.0.into(), share.1.into());
+        let found = held(&a, &time, &share, kinds, &p, &clock()).unwrap();
+        for (found, [corner, above]) in found.chunks(4).zip(exact) {
+            let of = |(n, d): &(i64, i64)| Q::new((*n).into(), (*d).into());
+            for (entry, exact) in found.iter().zip([of(corner), of(above), Q::zero(), of(corner)]) {
+                is_within(entry, &exact, 1 << 16, &p);
+            }
+        }
+    };
+    // At once: F(2), G(2), G(2) - H(2), H(2).
+    is((0, 1), &all[..4], &[[(1, 1), (2, 1)], [(2, 1), (2, 1)], [(1, 1), (4, 3)], [(1, 1), (2, 3)]]);
+    // A quarter late: F(2); G(3/2); of the ramp; H(3/2); F(3/2) G(1/2); F(3/2) (G(1/2)/4 - H(1/2)).
+    is(
+        (1, 4),
+        &all,
+        &[
+            [(1, 1), (2, 1)],
+            [(3, 2), (9, 8)],
+            [(11, 8), (77, 48)],
+            [(9, 16), (9, 32)],
+            [(1, 2), (7, 8)],
+            [(1, 16), (11, 96)],
+        ],
+    );
+}

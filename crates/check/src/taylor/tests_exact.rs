@@ -45,12 +45,16 @@ fn what_is_made_of_numbers_holds_all_that_they_may_be() {
                 assert!(own.iter().all(|x| x.is_positive() == is_positive && !x.is_zero()), "{a:?}");
             }
             if let Ok(inverse) = a.inverse(&p, &clock) {
-                assert!(own.iter().all(|x| !x.is_zero() && holds(&ends(&inverse, &p), &x.recip())), "{a:?} {inverse:?}");
+                assert!(
+                    own.iter().all(|x| !x.is_zero() && holds(&ends(&inverse, &p), &x.recip())),
+                    "{a:?} {inverse:?}"
+                );
             }
             if let Ok(root) = a.root(&p, &clock) {
                 let [low, high] = ends(&root, &p);
                 // The root's ends, squared, are on both sides.
-                let is_root = |x: &Q| x.is_positive() && &(&high * &high) >= x && (low.is_negative() || &(&low * &low) <= x);
+                let is_root =
+                    |x: &Q| x.is_positive() && &(&high * &high) >= x && (low.is_negative() || &(&low * &low) <= x);
                 assert!(high.is_positive() && own.iter().all(is_root), "{a:?} {root:?}");
             }
             for b in numbers() {
@@ -76,9 +80,10 @@ fn encloses(t: &Taylor, p: &Precision, exact: impl Fn(&Q, &Q) -> Q) {
     for u in &places {
         for v in &places {
             let power = |x: &Q, n: &usize| (0..*n).fold(q(1, 1), |power, _| power * x);
-            let found = t.c.iter().zip(&p.exponents).fold(q(0, 1), |sum, (c, [i, j])| {
-                sum + Q::from(c.clone()) * power(u, i) * power(v, j)
-            });
+            let found =
+                t.c.iter()
+                    .zip(&p.exponents)
+                    .fold(q(0, 1), |sum, (c, [i, j])| sum + Q::from(c.clone()) * power(u, i) * power(v, j));
             let off = found - exact(u, v) * Q::from(p.one_unit());
             assert!(off.abs() <= Q::from(t.rest.clone()), "({u}, {v}): off by {off} units in {t:?}");
         }
@@ -140,13 +145,14 @@ fn halves_of_polynomials_without_error_are_enclosed() {
     for order in 1..=4 {
         let p = Precision::new(order, 8);
         for seed in 1..20_i64 {
-            let c: Vec<Z> = (0..p.exponents.len() as i64).map(|k| Z::from((seed * (7 * k + 3) + k * k) % 17 - 8)).collect();
+            let c: Vec<Z> =
+                (0..p.exponents.len() as i64).map(|k| Z::from((seed * (7 * k + 3) + k * k) % 17 - 8)).collect();
             let f = Taylor { c, rest: Z::zero() };
             let at = |u: &Q, v: &Q| {
                 let power = |x: &Q, n: &usize| (0..*n).fold(q(1, 1), |power, _| power * x);
-                f.c.iter().zip(&p.exponents).fold(q(0, 1), |sum, (c, [i, j])| {
-                    sum + Q::new(c.clone(), p.one_unit()) * power(u, i) * power(v, j)
-                })
+                f.c.iter()
+                    .zip(&p.exponents)
+                    .fold(q(0, 1), |sum, (c, [i, j])| sum + Q::new(c.clone(), p.one_unit()) * power(u, i) * power(v, j))
             };
             for axis in [0, 1] {
                 for (half, shift) in f.halves(axis, &p).iter().zip([-1, 1]) {
