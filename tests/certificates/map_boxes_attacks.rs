@@ -32,6 +32,16 @@ fn boxes_where_a_loop_may_be_undefined_are_not_stable() {
         reject(&text, &certificate(DISC, unit, unit, "-"), Step::Stable);
         accept(&text, &certificate(DISC, ["7/4", "15/8"], unit, "+"));
     }
+    // Of a constant that nothing is made of: no coefficient shows it.
+    for divisor in ["a - b", "a - exp(b - 1)"] {
+        let text = format!("{}\nconstants.unused = '1/({divisor})'", model("discrete", "z + a/4 + b/4 + 0*c"));
+        reject(&text, &certificate(DISC, unit, unit, "+"), Step::Stable);
+        accept(&text, &certificate(DISC, ["7/4", "15/8"], unit, "+"));
+        accept(&text, &certificate(DISC, ["7", "8"], unit, "-"));
+    }
+    let nowhere = format!("{}\nconstants.unused = '1/c'", model("discrete", "z + a/4 + b/4"));
+    accept(&nowhere, &certificate(DISC, unit, unit, "-"));
+    reject(&nowhere, &certificate(DISC, unit, unit, "+"), Step::Stable);
     // Of a block, in the loop's variable: where all of it vanishes.
     for (divisor, is_defined) in
         [("(b + 2)*z", true), ("(b + 2)*z + (a - b)/8", true), ("(b - 1/2)*z", false), ("(a - b)*(z + 1/8)", false)]

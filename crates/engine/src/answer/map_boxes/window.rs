@@ -166,6 +166,7 @@ mod tests {
             (bounded, 1, 0, range(Some("2/3"), Some("2")), ["2/3", "2"]),
             // Twice as far until 9 is beyond.
             (free, 1, 0, Range::all(), ["0", "9"]),
+            ("K = { nominal = 1, min = -2 }", 1, 0, Range::all(), ["-2", "13"]),
             (free, 1, 0, range(None, Some("3")), ["-1", "3"]),
             (free, 1, 0, range(Some("-2"), None), ["-2", "13"]),
             (free, 1, 0, range(Some("2"), None), ["2", "9"]),
@@ -187,5 +188,16 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         }
+
+        // The domain cuts what is asked for of any loop.
+        let (model, _) = Model::from_toml(&crate::error::Source::new(
+            "model.toml",
+            "time = 'continuous'\nparameters = { a = { min = -1, max = 2 }, b = { min = 0 } }\nloop.characteristic = 's^2 + a*s + b'",
+        ))
+        .unwrap();
+        let problem = model.ask().free("a").free("b").plane_problem().unwrap();
+        let wanted = [range(Some("-5"), Some("5")), range(Some("-1"), Some("1"))];
+        let Window { x, y } = window_of(&problem, &BoxRequest::new(wanted, Rational::ONE)).unwrap();
+        assert_eq!((x, y), (["-1", "2"].map(n), ["0", "1"].map(n)));
     }
 }

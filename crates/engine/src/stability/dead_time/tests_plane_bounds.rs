@@ -60,7 +60,7 @@ fn beyond_its_bound_the_highest_power_outweighs_the_rest_at_every_corner() {
     let (mut bounds, mut none) = (0, 0);
     for own in own {
         for delayed in delayed {
-            for slack in [0, 3] {
+            for slack in [0, 3, 200] {
                 let slack = [slack; 1];
                 let function = function(&[(own, [0; 3]), (delayed, [1, 0, 0])], &slack);
                 let Some((e, is_negative)) = function.bound(&Place::whole()) else {
@@ -101,6 +101,9 @@ fn coefficients_known_up_to_a_bound_are_not_told_from_zero_within_it() {
     for slack in [[40, 0, 0, 0], [0, 30, 0, 0], [0, 0, 20, 0], [50, 40, 30, 0]] {
         assert_eq!(whole(&slack), None, "{slack:?}");
     }
+    // Nor beyond all frequencies.
+    let bound = |slack: &[i64]| function(&[(&part, [0; 3])], slack).bound(&Place::whole());
+    assert_eq!((bound(&[0, 0, 15, 0]), bound(&[0, 0, 20, 0])), (Some((2, false)), None));
     // A power that only its bound is known of may be there.
     assert_eq!(whole(&[0, 0, 0, 1]), None);
 }
