@@ -130,3 +130,20 @@ fn sample_times_are_positive() {
         reject(text, &certificate(DISC, ["1/8", "1/4"], b, tree), Step::Stable);
     }
 }
+
+/// Sine and cosine of the same angle, whichever is read first.
+#[test]
+fn functions_of_one_argument_are_told_apart() {
+    for (characteristic, right, wrong) in [
+        ("z - cos(b)/2 - 3*sin(b)", "+", "-"),
+        ("z - 3*sin(b) - cos(b)/2", "+", "-"),
+        ("z - 3*sin(b) - 2*cos(b)", "-", "+"),
+        ("z - 2*cos(b) - 3*sin(b)", "-", "+"),
+        ("z - sqrt(b + 1/8) - exp(b + 1/8)/4", "+", "-"),
+        ("z - exp(b + 1/8) - sqrt(b + 1/8)/4", "-", "+"),
+    ] {
+        let text = model("discrete", &format!("{characteristic} + 0*a + 0*c"));
+        accept(&text, &certificate(DISC, ["0", "1"], ["0", "1/8"], right));
+        reject(&text, &certificate(DISC, ["0", "1"], ["0", "1/8"], wrong), Step::Stable);
+    }
+}
