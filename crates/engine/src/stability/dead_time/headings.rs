@@ -273,6 +273,13 @@ mod tests {
         assert_eq!(start(2, 1 << 3), None);
     }
 
+    #[test]
+    fn clear_pieces_that_are_joined_keep_their_turns() {
+        let clear = |first, last| Piece::Clear { first, last };
+        let one = joined(vec![clear(14, 19), clear(4, 9), clear(8, 3)]);
+        assert!(matches!(one.as_slice(), [Piece::Clear { first: 14, last: 19 }]), "{one:?}");
+    }
+
     /// What one step leaves of an open stretch the next one does not leave: no heading is common to both, so nothing is known.
     #[test]
     fn a_stretch_keeps_to_a_heading_as_a_whole() {
