@@ -357,3 +357,6 @@ fn held(
     }
     Ok(out)
 }
+
+#[cfg(test)]
+mod tests;

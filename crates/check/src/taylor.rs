@@ -252,6 +252,9 @@ impl Taylor {
 }
 
 #[cfg(test)]
+mod tests_exact;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use num_traits::ToPrimitive;

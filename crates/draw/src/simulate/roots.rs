@@ -29,7 +29,7 @@ pub struct ApproximateRoot {
 /// Multiplicities are exact (square-free decomposition); the simple roots of each factor come from
 /// Aberth's iteration [Aberth1973](jurist_algebra::bibliography#aberth1973), started at the radii of the Newton polygon [Bini1996](jurist_algebra::bibliography#bini1996), first in
 /// floating point and then in fixed point with as many bits as it takes, so that a cluster such as four roots within 1e-3 of z = 1
-/// is resolved. Real roots have imaginary part exactly 0. O(d^2) products per sweep.
+/// is resolved. Real roots that are told from all others have imaginary part exactly 0. O(d^2) products per sweep.
 ///
 /// ```
 /// use jurist_algebra::poly::UniPoly;
@@ -275,6 +275,70 @@ mod tests {
         assert!(found.iter().any(|r| (r.value.re / 1e15 - 1.0).abs() < 1e-14));
         assert!(found.iter().any(|r| (r.value.re - 1e-12).abs() < 1e-16 && r.value.im == 0.0));
         assert!(found.iter().filter(|r| (r.value.im.abs() - 1.0).abs() < 1e-14).count() == 2);
+    }
+
+    /// `z^40 - 2 (1000 z - 1)^4`, after Mignotte: four roots within `10^-32` of each other, which the first precision does not tell apart.
+    #[test]
+    fn discs_of_roots_that_are_almost_one_are_small() {
+        let mut c = vec![-2, 8000, -12_000_000, 8_000_000_000, -2_000_000_000_000];
+        c.resize(40, 0);
+        c.push(1);
+        let found = roots(&UniPoly::from_i64(&c));
+        assert_eq!(found.len(), 40);
+        assert!(found.iter().all(|r| r.radius <= GOOD_ENOUGH * r.value.norm().max(1.0)), "{found:?}");
+        assert_eq!(found.iter().filter(|r| (r.value - 0.001).norm() < 1e-12).count(), 4);
+    }
+
+    #[test]
+    fn a_disc_holds_a_root_however_bad_its_middle() {
+        let p = UniPoly::from_i64(&[-1, 0, 0, 0, 1]);
+        for (re, im) in [(10.0, 0.0), (0.5, 0.5), (-3.0, 4.0), (0.0, 0.1), (1.1, -0.2)] {
+            let z = Complex::new(re, im);
+            let near = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
+            let distance = near.iter().map(|(x, y)| (z - Complex::new(*x, *y)).norm()).fold(f64::INFINITY, f64::min);
+            assert!(radius(&p, &Fixed::from_f64(z, 60), 60) >= distance, "{z}");
+        }
+        // No root is known to be near a critical point.
+        assert_eq!(radius(&p, &Fixed::zero(), 60), f64::INFINITY);
+        // With one bit 3/2 seems to be a root of 2.
+        let two = UniPoly::from_i64(&[-2, 0, 1]);
+        let z = Fixed::from_f64(Complex::new(1.5, 0.0), 1);
+        assert!(evaluate(&two, &z, 1).0.is_zero() && radius(&two, &z, 1) > 1.5 - 2f64.sqrt());
+    }
+
+    #[test]
+    fn a_pair_beside_the_real_axis_is_no_real_root() {
+        // (10^17 (z - 1))^2 + 1
+        let n = Integer::from(10_i64.pow(17));
+        let square = &n * &n;
+        let p = UniPoly::new(vec![&square + &Integer::ONE, -(&square << 1), square]);
+        let found = roots(&p);
+        assert!(found.iter().all(|r| (r.value.im.abs() * 1e17 - 1.0).abs() < 1e-6), "{found:?}");
+        // Of discs that may be each other's mirror images, neither is real; one alone is.
+        let disc = |im: f64, r: f64| (Complex::new(1.0, im), r);
+        let both = vec![disc(1e-10, 1e-9), disc(-2e-10, 1e-9)];
+        assert_eq!(with_real_roots_real(both.clone()), both);
+        assert_eq!(with_real_roots_real(vec![both[0]])[0].0.im, 0.0);
+        assert_eq!(with_real_roots_real(vec![disc(1e-8, 1e-9)])[0].0.im, 1e-8);
+    }
+
+    #[test]
+    fn a_critical_point_is_left() {
+        let bits = 80;
+        let mut found = [Complex::new(0.0, 0.0), Complex::new(0.5, 3.0)].map(|z| Fixed::from_f64(z, bits));
+        iterate(&UniPoly::from_i64(&[-1, 0, 1]), &mut found, bits);
+        let mut found = found.map(|z| z.to_f64(bits).re);
+        found.sort_by(f64::total_cmp);
+        assert!((found[0] + 1.0).abs() < 1e-15 && (found[1] - 1.0).abs() < 1e-15, "{found:?}");
+    }
+
+    #[test]
+    fn magnitudes_beyond_floating_point_are_found() {
+        // (2^1200 z - 1)(z - 3)
+        let large = &Integer::ONE << 1200;
+        let p = &UniPoly::new(vec![-Integer::ONE, large]) * &UniPoly::from_i64(&[-3, 1]);
+        let found = roots(&p);
+        assert!(found.iter().any(|r| r.value.norm() < 1e-15) && found.iter().any(|r| (r.value.re - 3.0).abs() < 1e-14));
     }
 
     proptest! {

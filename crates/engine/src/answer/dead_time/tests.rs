@@ -164,3 +164,24 @@ fn a_prediction_is_refused_where_it_stands() {
     assert_eq!(refused.code(), "E-dead-time");
     assert!(refused.to_string().contains("looks ahead"), "{refused}");
 }
+
+/// A dead time that rises and one that falls, alone and with the parameter elsewhere: below zero there is no loop.
+#[test]
+fn a_dead_time_is_never_negative_whatever_the_domain_says() {
+    for (characteristic, domain, expected) in [
+        ("s + 1 + exp(-p*s)/2", ("-1", "1"), Some("0 domain .. 1 domain")),
+        ("s + 1 + exp(-(1 - p)*s)/2", ("0", "3"), Some("0 domain .. 1 domain")),
+        ("s + 1 + exp(-p*s)/2", ("-1", "0"), None),
+        ("s + 1 + exp(-(1 - p)*s)/2", ("1", "3"), None),
+        // Stable as long as p (2 - p) < pi/2.
+        ("s + (2 - p)*exp(-p*s)", ("-1", "3"), Some("0 domain .. 2 s=0")),
+        ("s + p*exp(-(2 - p)*s)", ("-1", "3"), Some("0 s=0 .. 2 domain")),
+        ("s + p*exp(-(2 - p)*s)", ("2", "3"), None),
+    ] {
+        let model =
+            load(&format!("time = 'continuous'\nparameters.p = {{}}\nloop.characteristic = '{characteristic}'"));
+        let domain = Range::between(Some(number(domain.0)), Some(number(domain.1)));
+        let found = stable(model.ask().free("p").domain("p", domain.clone()), 12);
+        assert_eq!(found, expected.into_iter().collect::<Vec<_>>(), "{characteristic} {domain:?}");
+    }
+}

@@ -139,4 +139,65 @@ mod tests {
         let unstable = window(&loop_with("2", "1"), [Range::all(), Range::all()]);
         assert_eq!((&unstable.x[1], &unstable.y[1]), (&n(4), &n(2)));
     }
+
+    /// `s + c K exp(-theta s)`: with `theta = 1/5` and `c = 1` stable for `0 < K < 7.85...`.
+    fn asked(parameters: &str, set: &[(&str, i64)], decay: i64, wanted: Range) -> Result<[Rational; 2], Error> {
+        let text = format!(
+            "time = 'continuous'\nparameters = {{ {parameters}, theta = {{ nominal = '1/5' }}, c = {{ nominal = 1 }} }}\n\
+             loop.characteristic = 's + c*K*exp(-theta*s)'"
+        );
+        let (model, _) = Model::from_toml(&crate::error::Source::new("model.toml", &text)).unwrap();
+        let set = set.iter().map(|(name, value)| ((*name).to_owned(), Rational::from(*value)));
+        let asked = model.ask().set_all(set).within(crate::problem::Region::half_plane(decay.into()));
+        let problem = asked.free("K").free("theta").plane_problem().unwrap();
+        let request = BoxRequest::new([wanted, Range::between(None, Some(Rational::ONE))], Rational::ONE);
+        window_around(&problem, &request, &Budget::unlimited()).map(|window| window.x)
+    }
+
+    #[test]
+    fn windows_keep_to_the_domain_and_reach_as_far_up_as_down() {
+        let n = |text: &str| text.parse::<Rational>().unwrap();
+        let range = |low: Option<&str>, high: Option<&str>| Range::between(low.map(n), high.map(n));
+        let bounded = "K = { nominal = 1, min = '1/2', max = 3 }";
+        let free = "K = { nominal = 1 }";
+        for (parameters, set, decay, wanted, x) in [
+            (bounded, 1, 0, Range::all(), ["1/2", "3"]),
+            (bounded, 1, 0, range(Some("-1"), Some("10")), ["1/2", "3"]),
+            (bounded, 1, 0, range(Some("2/3"), Some("2")), ["2/3", "2"]),
+            // Twice as far until 9 is beyond.
+            (free, 1, 0, Range::all(), ["0", "9"]),
+            ("K = { nominal = 1, min = -2 }", 1, 0, Range::all(), ["-2", "13"]),
+            (free, 1, 0, range(None, Some("3")), ["-1", "3"]),
+            (free, 1, 0, range(Some("-2"), None), ["-2", "13"]),
+            (free, 1, 0, range(Some("2"), None), ["2", "9"]),
+            // The values and the region that are asked for: limits at 3.9 and 4.4.
+            (free, 2, 0, Range::all(), ["0", "5"]),
+            ("K = { nominal = '3/2' }", 1, 0, Range::all(), ["0", "27/2"]),
+            ("K = { nominal = '3/2' }", 1, 2, Range::all(), ["0", "9/2"]),
+            // The last doubling finds it.
+            ("K = { nominal = '1/4' }", 1, 0, Range::all(), ["0", "33/4"]),
+            // A nominal point that is not stable is in the middle.
+            ("K = { nominal = -1 }", 1, 0, Range::all(), ["-2", "0"]),
+        ] {
+            let found = asked(parameters, &[("c", set)], decay, wanted.clone()).unwrap();
+            assert_eq!(found, x.map(n), "{parameters} {set} {decay} {wanted:?}");
+        }
+        for empty in [range(Some("5"), Some("6")), range(Some("0"), Some("1/4"))] {
+            match asked(bounded, &[], 0, empty) {
+                Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, "E-empty-domain"),
+                other => panic!("{other:?}"),
+            }
+        }
+
+        // The domain cuts what is asked for of any loop.
+        let (model, _) = Model::from_toml(&crate::error::Source::new(
+            "model.toml",
+            "time = 'continuous'\nparameters = { a = { min = -1, max = 2 }, b = { min = 0 } }\nloop.characteristic = 's^2 + a*s + b'",
+        ))
+        .unwrap();
+        let problem = model.ask().free("a").free("b").plane_problem().unwrap();
+        let wanted = [range(Some("-5"), Some("5")), range(Some("-1"), Some("1"))];
+        let Window { x, y } = window_of(&problem, &BoxRequest::new(wanted, Rational::ONE)).unwrap();
+        assert_eq!((x, y), (["-1", "2"].map(n), ["0", "1"].map(n)));
+    }
 }

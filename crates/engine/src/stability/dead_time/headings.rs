@@ -272,4 +272,26 @@ mod tests {
         assert_eq!(start(0, 0b111 << 3), Some([0, 8]));
         assert_eq!(start(2, 1 << 3), None);
     }
+
+    #[test]
+    fn clear_pieces_that_are_joined_keep_their_turns() {
+        let clear = |first, last| Piece::Clear { first, last };
+        let one = joined(vec![clear(14, 19), clear(4, 9), clear(8, 3)]);
+        assert!(matches!(one.as_slice(), [Piece::Clear { first: 14, last: 19 }]), "{one:?}");
+    }
+
+    /// What one step leaves of an open stretch the next one does not leave: no heading is common to both, so nothing is known.
+    #[test]
+    fn a_stretch_keeps_to_a_heading_as_a_whole() {
+        let open = |slopes| Piece::Open { at: Dyadic::zero(), to: Dyadic::zero(), step: Step(0), slopes };
+        let clear = |first, last| Piece::Clear { first, last };
+        let right = |slopes: [Headings; 2]| {
+            let [a, b] = slopes.map(open);
+            roots_right(&[clear(0, 0), a, b, clear(4, 4)], 1, false)
+        };
+        assert_eq!(right([1 | 1 << 4, 1 << 4]), Some(Right { least: 0, most: 2 }));
+        assert_eq!(right([1 | 1 << 4, 1 | 1 << 4]), Some(Right { least: 0, most: 0 }));
+        assert_eq!(right([1, 1 << 4]), None);
+        assert_eq!(right([1 | 1 << 4, 0]), None);
+    }
 }

@@ -39,6 +39,8 @@ mod tests_family;
 mod tests_gain;
 #[cfg(test)]
 mod tests_plane;
+#[cfg(test)]
+mod tests_plane_bounds;
 mod trigonometric;
 mod turn;
 mod windows;

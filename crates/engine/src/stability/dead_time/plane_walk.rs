@@ -416,3 +416,6 @@ impl Walk<'_> {
         self.first[0].iter().fold(Integer::ZERO, |sum, [re, _]| sum + re.coeff(0)).is_negative()
     }
 }
+
+#[cfg(test)]
+mod tests;
