@@ -25,25 +25,29 @@ pub(super) fn window_around(question: &Problem, request: &BoxRequest, budget: &B
         let lower = range.lower.clone().max(axis.domain.lower.clone());
         let upper = range.upper.iter().chain(&axis.domain.upper).min().cloned();
         let Some(nominal) = &axis.nominal else { continue };
+        // Where an end leaves the nominal value outside, that end takes its place.
+        let (above, below) = (lower.as_ref().filter(|end| *end > nominal), upper.as_ref().filter(|end| *end < nominal));
+        let from = above.or(below).unwrap_or(nominal).clone();
         let reach = match (&lower, &upper) {
-            (Some(lower), None) => nominal - lower,
-            (None, Some(upper)) => upper - nominal,
-            _ => nominal.abs(),
+            (Some(lower), None) if *lower < from => &from - lower,
+            (None, Some(upper)) if *upper > from => upper - &from,
+            _ => from.abs(),
         };
         let reach = if reach.sign().is_gt() { reach } else { Rational::ONE };
-        range.lower = Some(lower.unwrap_or_else(|| nominal - &reach));
+        range.lower = Some(lower.unwrap_or_else(|| &from - &reach));
         range.upper = Some(match upper {
             Some(upper) => upper,
-            None => nominal + reach_of_stability(question, k, reach, budget)?,
+            None => &from + reach_of_stability(question, k, &from, reach, budget)?,
         });
     }
     window_of(question, &wanted)
 }
 
-/// How far a window is to reach from the nominal value of an axis.
+/// How far a window is to reach from a value of an axis.
 fn reach_of_stability(
     question: &Problem,
     axis: usize,
+    from: &Rational,
     least: Rational,
     budget: &Budget,
 ) -> Result<Rational, Exhausted> {
@@ -52,7 +56,7 @@ fn reach_of_stability(
     };
     let is_stable = |reach: &Rational| {
         let mut point = nominal.clone();
-        point[axis] = &point[axis] + reach;
+        point[axis] = from + reach;
         let names = question.free().iter().map(|free| free.name.clone());
         let asked = question.model().ask().within(question.region().clone()).set_all(question.set().to_vec());
         match asked.set_all(names.zip(point)).verdict(budget) {
@@ -168,8 +172,12 @@ mod tests {
             (free, 1, 0, Range::all(), ["0", "9"]),
             ("K = { nominal = 1, min = -2 }", 1, 0, Range::all(), ["-2", "13"]),
             (free, 1, 0, range(None, Some("3")), ["-1", "3"]),
+            // The nominal value is outside of what is asked for.
+            (free, 1, 0, range(Some("3"), None), ["3", "9"]),
+            (free, 1, 0, range(None, Some("-3")), ["-6", "-3"]),
+            (free, 1, 0, range(None, Some("0")), ["-1", "0"]),
             (free, 1, 0, range(Some("-2"), None), ["-2", "13"]),
-            (free, 1, 0, range(Some("2"), None), ["2", "9"]),
+            (free, 1, 0, range(Some("2"), None), ["2", "10"]),
             // The values and the region that are asked for: limits at 3.9 and 4.4.
             (free, 2, 0, Range::all(), ["0", "5"]),
             ("K = { nominal = '3/2' }", 1, 0, Range::all(), ["0", "27/2"]),
