@@ -1,0 +1,270 @@
+//! The characteristic function on a stretch of the imaginary axis, for all points of a box: its value in the middle, by how much the frequency and
+//! both parameters change it, and bounds of the rest.
+
+use super::headings::{Headings, LENGTH, TURN, heading};
+use super::turn::Turns;
+use crate::number::{Q, Z};
+use crate::taylor::Taylor;
+use num_traits::{Euclid, One, Signed, ToPrimitive, Zero};
+
+/// Frequencies are in units of two to the minus this power.
+pub(super) const FREQUENCY_BITS: usize = 64;
+
+/// More than the roundings of the three evaluations of a polynomial, for each coefficient.
+const ROUNDED: u32 = 8;
+
+/// Bits of what is compared.
+const SHORT: u64 = 56;
+
+/// Real and imaginary part.
+type Complex = [Z; 2];
+
+/// A polynomial in `s` times `exp(-tau s)`, over a box.
+pub(super) struct Part {
+    /// The coefficients in the middle, and their changes by half of either side.
+    about: [Vec<Z>; 3],
+    /// The coefficients of the derivative by `s`, in the middle.
+    derivative: Vec<Z>,
+    /// What is left out of each coefficient.
+    rest: Vec<Z>,
+    /// The first and the second derivative, with the moduli of the coefficients.
+    derivatives: [Vec<Z>; 2],
+    /// The moduli of all that changes a coefficient over the box, and the derivative with these.
+    changes: [Vec<Z>; 2],
+    delay: Option<Delay>,
+}
+
+/// A dead time over a box.
+struct Delay {
+    middle: Q,
+    /// The middle in units, rounded down, and the changes by half of either side.
+    floor: Z,
+    changes: [Z; 2],
+    /// A bound of the moduli of both changes together.
+    spread: Z,
+}
+
+impl Part {
+    /// Of the coefficients over a box, and the dead time: its middle and its changes by half of either side.
+    pub fn new(coefficients: &[Taylor], delay: Option<(Q, [Q; 2])>, bits: usize) -> Self {
+        let about = [0, 1, 2].map(|way| {
+            let of = |c: &Taylor| if way == 0 { c.constant() } else { c.linear(way - 1) };
+            coefficients.iter().map(of).collect::<Vec<Z>>()
+        });
+        let moduli = |j: usize| [1, 2].iter().map(|&way| about[way][j].abs()).sum::<Z>();
+        let n = coefficients.len();
+        let rest: Vec<Z> =
+            (0..n).map(|j| coefficients[j].variation() - moduli(j) + Z::from(ROUNDED)).collect();
+        let change: Vec<Z> = (0..n).map(|j| &rest[j] + moduli(j)).collect();
+        let derivative = derivative(&about[0]);
+        let first: Vec<Z> = derivative.iter().map(Z::abs).collect();
+        let second = self::derivative(&first);
+        let changes = [change.clone(), self::derivative(&change)];
+        let delay = delay.map(|(middle, both)| {
+            let floor = |q: &Q| ((q.numer() << bits) as Z).div_euclid(q.denom());
+            let changes = both.each_ref().map(floor);
+            let spread = changes.iter().map(|x| x.abs() + Z::one()).sum();
+            Delay { floor: floor(&middle), middle, changes, spread }
+        });
+        Part { about, derivative, rest, derivatives: [first, second], changes, delay }
+    }
+}
+
+fn derivative(c: &[Z]) -> Vec<Z> {
+    c.iter().enumerate().skip(1).map(|(j, c)| c * Z::from(j)).collect()
+}
+
+/// The quotient by `2^bits`, rounded up.
+fn up(x: Z, bits: usize) -> Z {
+    -((-x) >> bits)
+}
+
+/// The value at `i omega`.
+fn on_axis(c: &[Z], omega: &Z) -> Complex {
+    let square = omega * omega;
+    let part = |odd: usize| {
+        let mut sum = Z::zero();
+        for c in c.iter().skip(odd).step_by(2).rev() {
+            sum = c - ((sum * &square) >> (2 * FREQUENCY_BITS));
+        }
+        sum
+    };
+    [part(0), (part(1) * omega) >> FREQUENCY_BITS]
+}
+
+/// A bound of the value at a frequency, or below, of a polynomial whose coefficients are not negative.
+fn at_most(c: &[Z], omega: &Z) -> Z {
+    c.iter().rev().fold(Z::zero(), |sum, c| up(sum * omega, FREQUENCY_BITS) + c)
+}
+
+/// A bound of the modulus: `sqrt(a^2 + b^2) <= a + b/2` for `a >= b`.
+fn modulus([re, im]: &Complex) -> Z {
+    let (a, b) = (re.abs(), im.abs());
+    let (large, small) = if a >= b { (a, b) } else { (b, a) };
+    large + ((small + 1_u32) >> 1)
+}
+
+fn add(sum: &mut Complex, [re, im]: Complex) {
+    sum[0] += re;
+    sum[1] += im;
+}
+
+/// Times a number and `-i`.
+fn turned_back([re, im]: &Complex, by: &Z, bits: usize) -> Complex {
+    [(im * by) >> bits, -((re * by) >> bits)]
+}
+
+/// Times `exp(-i angle)` with this cosine and sine.
+fn times([re, im]: &Complex, [c, s]: &[Z; 2], bits: usize) -> Complex {
+    [(re * c + im * s) >> bits, (im * c - re * s) >> bits]
+}
+
+/// The function about the middle of a stretch and of a box.
+pub(super) struct Local {
+    value: [i128; 2],
+    /// The changes by half of either side of the box, and by half of the stretch.
+    changes: [[i128; 2]; 3],
+    rest: i128,
+    /// The derivative by the frequency, and how far it is off anywhere.
+    slope: [i128; 2],
+    slope_rest: i128,
+    /// How much of the rest is there because of either side of the box, for a choice and no proof.
+    blame: [i128; 2],
+}
+
+impl Local {
+    /// On the stretch of half the length `half` about a frequency.
+    pub fn new(parts: &[Part], middle: &Z, half: &Z, turns: &Turns, bits: usize) -> Self {
+        let far = middle + half;
+        let one = Z::one() << bits;
+        // The frequency, rounded up to a whole number, and one.
+        let above: Z = (&far >> FREQUENCY_BITS) + 2_u32;
+        let by_half = |x: Z| up(x * half, FREQUENCY_BITS);
+        let [mut value, mut by_u, mut by_v, mut slope] = [(); 4].map(|()| [Z::zero(), Z::zero()]);
+        let (mut rest, mut slope_rest, mut blame) = (Z::zero(), Z::zero(), [Z::zero(), Z::zero()]);
+        for part in parts {
+            let [p, u, v] = part.about.each_ref().map(|c| on_axis(c, middle));
+            let [re, im] = on_axis(&part.derivative, middle);
+            let d = [-im, re];
+            let [change, change_slope] = part.changes.each_ref().map(|c| at_most(c, &far));
+            let [first, second] = part.derivatives.each_ref().map(|c| at_most(c, &far));
+            // How far the polynomial and its derivative are off their values in the middle, and the former off its linear part.
+            let off = change + by_half(first);
+            let slope_off = &change_slope + by_half(second.clone());
+            let bent = at_most(&part.rest, &far)
+                + by_half(change_slope)
+                + up(second * half * half, 2 * FREQUENCY_BITS + 1);
+            let Some(delay) = &part.delay else {
+                add(&mut value, p);
+                add(&mut by_u, u);
+                add(&mut by_v, v);
+                add(&mut slope, d);
+                rest += bent;
+                slope_rest += slope_off;
+                continue;
+            };
+            let size = modulus(&p);
+            let longest: Z = &delay.floor + 1_u32;
+            // How far the angle is off that in the middle.
+            let angle = up(&far * &delay.spread, FREQUENCY_BITS) + by_half(longest.clone());
+            let turn = if angle < one { turns.of(&delay.middle, middle, FREQUENCY_BITS) } else { None };
+            let Some(turn) = turn else {
+                // Anything of this size.
+                let all = size + off;
+                for (sum, time) in blame.iter_mut().zip(&delay.changes) {
+                    let angle: Z = (&far * time.abs()) >> FREQUENCY_BITS;
+                    *sum += (&all * angle.min(one.clone())) >> bits;
+                }
+                slope_rest += modulus(&d) + slope_off + up((longest + &delay.spread) * &all, bits);
+                rest += all;
+                continue;
+            };
+            let changes = [u, v].into_iter().zip(&delay.changes).map(|(mut own, time)| {
+                add(&mut own, turned_back(&p, &((middle * time) >> FREQUENCY_BITS), bits));
+                own
+            });
+            let mut d = d;
+            add(&mut d, turned_back(&p, &delay.floor, bits));
+            let (mut rounded, d_size) = (&size * &above * 2_u32, modulus(&d));
+            for (sum, own) in [&mut by_u, &mut by_v].into_iter().zip(changes) {
+                rounded += modulus(&own);
+                add(sum, times(&own, &turn, bits));
+            }
+            add(&mut value, times(&p, &turn, bits));
+            add(&mut slope, times(&d, &turn, bits));
+            // exp(-i x) is off 1 - i x by at most x^2/2, and off 1 by at most x.
+            let square = by_half(delay.spread.clone()) + up(&angle * &angle, bits + 1);
+            rest += bent + up(&size * square + &off * &angle, bits) + (rounded >> (bits - 3)) + 64_u32;
+            let slope_rounded: Z = ((&size + &d_size) >> (bits - 3)) + 64_u32;
+            rest += by_half(slope_rounded.clone());
+            slope_rest += slope_off
+                + up(longest * &off + &delay.spread * (size + off) + d_size * angle, bits)
+                + slope_rounded;
+        }
+        let by_omega = slope.each_ref().map(|x| (x * half) >> FREQUENCY_BITS);
+        Local::short([value, by_u, by_v, by_omega, slope], rest, slope_rest, blame)
+    }
+
+    /// With as many bits as are of use. The slope has a unit of its own.
+    fn short(vectors: [Complex; 5], rest: Z, slope_rest: Z, blame: [Z; 2]) -> Self {
+        let down = |numbers: &[Complex], rest: &Z| {
+            let longest = numbers.iter().flatten().chain([rest]).map(Z::bits).max().unwrap_or(0);
+            longest.saturating_sub(SHORT)
+        };
+        let (far, own) = (down(&vectors[..4], &rest), down(&vectors[4..], &slope_rest));
+        // Numbers of so few bits always fit.
+        let floor = |x: &Z, by: u64| (x >> by).to_i128().unwrap_or(i128::MAX >> 32);
+        let [value, u, v, w] = [0, 1, 2, 3].map(|i| vectors[i].each_ref().map(|x| floor(x, far)));
+        Local {
+            value,
+            changes: [u, v, w],
+            // Each of four vectors is rounded by less than 3/2.
+            rest: floor(&rest, far) + 8,
+            slope: vectors[4].each_ref().map(|x| floor(x, own)),
+            slope_rest: floor(&slope_rest, own) + 4,
+            blame: blame.each_ref().map(|x| floor(x, far)),
+        }
+    }
+
+    /// The first heading, a given one before all others, about which the function is in the half plane, at least a share `1/2^margin` of its
+    /// value in the middle being left, if a margin is asked for.
+    pub fn clear(&self, before: Option<i64>, margin: Option<u32>) -> Option<i64> {
+        let is_clear = |k: &i64| {
+            let value = along(*k, &self.value);
+            let changes = self.changes.iter().map(|x| along(*k, x).abs()).sum::<i128>();
+            let left = value - changes - LENGTH * self.rest;
+            left > 0 && margin.is_none_or(|margin| left << margin > value)
+        };
+        before.into_iter().chain(0..TURN).find(is_clear)
+    }
+
+    /// The headings about which the derivative by the frequency is in the half plane.
+    pub fn slopes(&self, margin: Option<u32>) -> Headings {
+        let is_along = |k: &i64| {
+            let slope = along(*k, &self.slope);
+            let left = slope - LENGTH * self.slope_rest;
+            left > 0 && margin.is_none_or(|margin| left << margin > slope)
+        };
+        (0..TURN).filter(is_along).fold(0, |all, k| all | 1 << k)
+    }
+
+    /// By how much half of either side moves the function, in parts of 1024 of both: across its way where that is known.
+    pub fn shares(&self, slopes: Headings) -> [u64; 2] {
+        let [u, v] = [0, 1].map(|i| {
+            let [a, b] = self.changes[i];
+            let size = |k: i64| along(k, &[a, b]).abs();
+            let own = match (0..TURN).filter(|k| slopes & 1 << k != 0).max_by_key(|k| along(*k, &self.slope)) {
+                Some(k) => size(k + 4),
+                None => size(0).max(size(4)),
+            };
+            own + LENGTH * self.blame[i]
+        });
+        [u, v].map(|x| u64::try_from((x << 10) / (u + v + 1)).unwrap_or(0))
+    }
+}
+
+/// The part of a vector along a heading.
+fn along(k: i64, [x, y]: &[i128; 2]) -> i128 {
+    let [a, b] = heading(k);
+    a * x + b * y
+}
