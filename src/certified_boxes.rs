@@ -98,7 +98,7 @@ enum Node {
 /// ```
 ///
 /// # Errors
-/// [`Error::Refused`] (`E-no-certificate`) for models with requirements, a region whose bound is free, dead time, and what else the check does
+/// [`Error::Refused`] (`E-no-certificate`) for models with requirements, a region whose bound is free, and what else the check does
 /// not read.
 pub fn certify_boxes(answer: &Answer<MapBoxes>, budget: &Budget) -> Result<CertifiedBoxes, Error> {
     budget.step("certificate");

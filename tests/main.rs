@@ -94,6 +94,7 @@ mod certificates {
     mod held;
     mod map_attacks;
     mod map_boxes;
+    mod map_boxes_dead_time;
     mod maps;
     mod program;
     mod readers;

@@ -1588,10 +1588,13 @@ def over_box(text, names, values, symbols=None):
     else:
         d = system(loop.equations, loop.unknowns)
         need(d.degree(0) <= loop.degree, "a determinant has too high a degree")
-        divisors.append([d.lead(0) if d.degree(0) == loop.degree else ZERO])
     for equations, states in loop.own:
         own = system(equations, states)
         divisors.append([own.lead(0) if own.degree(0) == len(states) else ZERO])
+    if "characteristic" not in model.root["loop"]:
+        divisors.append([d.lead(0) if d.degree(0) == loop.degree else ZERO])
+        if symbols:
+            symbols.has_lead_last = True
     return model.discrete, d.coefficients(0) + [ZERO] * (loop.degree - d.degree(0)), divisors
 
 def vanishes_only_with(p, factors):
@@ -2061,7 +2064,7 @@ class Moving:
     def __init__(self, first=0):
         self.next, self.known, self.sources, self.is_continuous = first, [], [], False
         self.functions = {name: lambda f, name=name: self.variable(name, self.argument(f)) for name in ("sqrt", "exp", "sin", "cos", "tan")}
-        self.functions["exp"] = self.exponential
+        self.functions["exp"], self.has_lead_last = self.exponential, False
 
     @staticmethod
     def argument(f):
@@ -2077,6 +2080,7 @@ class Moving:
 
     def delayed(self, time):
         """exp(-T s)"""
+        need(time.number() is None or time.number() >= 0, "a negative dead time")
         return self.variable("delay", self.argument(time))
 
     def variables(self, source, count):
@@ -2590,7 +2594,7 @@ class Walk:
 
     def local(self, middle, half):
         self.looked_at += 1
-        spend(10 + 12 * len(self.parts) + 2 * sum(len(part.rest) for part in self.parts), self.bits, self.bits)
+        spend(18 + 5 * sum(len(part.rest) for part in self.parts), self.bits, self.bits)
         return local(self.parts, middle, half, self.turns, self.bits)
 
     def over(self, cell):
@@ -2636,7 +2640,7 @@ class JudgeOfDelays:
         self.times = [self.time(*f) for _, f in sources.sources]
         n, self.models = len(own) - 1, models
         self.n, self.turns = n, Turns(models.bits)
-        divisors = [ways for ways in divisors if ways != [own[n]]]  # it is looked at where the highest power is to outweigh the rest
+        divisors = divisors[:-1] if sources.has_lead_last else divisors  # it is looked at where the highest power is to outweigh the rest
         need(not any(e >> 4 * FIELD for ways in divisors for p in ways for e in p), "a divisor depends on the dead time")
         parts = {}
         for j, p in enumerate(cleared(own)):

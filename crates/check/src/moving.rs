@@ -115,6 +115,9 @@ impl Moving {
 
     /// `exp(-T s)`.
     pub fn delayed(&mut self, time: Fraction) -> Result<Fraction, String> {
+        if time.as_number().is_some_and(|time| time.is_negative()) {
+            return Err("a negative dead time".into());
+        }
         Ok(Fraction::variable(self.variables(Source::Delay(time), 1)))
     }
 

@@ -115,7 +115,8 @@ impl Delayed {
         // With s = 2^scale x, times a positive number.
         let size = scale.unsigned_abs() as usize;
         let factor = |j: usize| Z::from(1) << (size * if scale >= 0 { j } else { order - j });
-        let scaled = |part: Vec<Multi>| part.into_iter().enumerate().map(|(j, c)| c.scaled(&factor(j))).collect::<Vec<_>>();
+        let scaled =
+            |part: Vec<Multi>| part.into_iter().enumerate().map(|(j, c)| c.scaled(&factor(j))).collect::<Vec<_>>();
         let mut all: Vec<Multi> = primitive(coefficients.into_iter().flat_map(scaled).collect());
         let mut divisors = Vec::with_capacity(terms.divisors.len());
         for list in terms.divisors.into_iter().filter(|list| !list.iter().any(is_number)) {
@@ -265,7 +266,8 @@ impl Delayed {
 fn cells_up_to(bound: i64) -> impl Iterator<Item = Cell> {
     let last = (bound + FREQUENCY_BITS as i64) as usize;
     let first = last - OCTAVES as usize;
-    let fourths = (first..last).flat_map(|e| (4_u32..8).map(move |k| Cell { low: Z::from(k) << (e - 2), length: e - 2 }));
+    let fourths =
+        (first..last).flat_map(|e| (4_u32..8).map(move |k| Cell { low: Z::from(k) << (e - 2), length: e - 2 }));
     std::iter::once(Cell { low: Z::zero(), length: first }).chain(fourths)
 }
 
@@ -368,7 +370,8 @@ impl Walk<'_> {
     fn local(&mut self, middle: &Z, half: &Z) -> Result<Local, String> {
         self.looked_at += 1;
         let bits = self.judge.precision.bits;
-        let operations = 30 + 10 * (self.judge.order + 1) * self.parts.len();
+        // By the time that the slower checker takes.
+        let operations = 250 + 60 * (self.judge.order + 1) * self.parts.len();
         self.clock.spend(operations, bits as u64, FREQUENCY_BITS as u64)?;
         Ok(Local::new(self.parts, middle, half, &self.judge.turns, bits))
     }

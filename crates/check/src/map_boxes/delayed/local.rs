@@ -53,8 +53,7 @@ impl Part {
         });
         let moduli = |j: usize| [1, 2].iter().map(|&way| about[way][j].abs()).sum::<Z>();
         let n = coefficients.len();
-        let rest: Vec<Z> =
-            (0..n).map(|j| coefficients[j].variation() - moduli(j) + Z::from(ROUNDED)).collect();
+        let rest: Vec<Z> = (0..n).map(|j| coefficients[j].variation() - moduli(j) + Z::from(ROUNDED)).collect();
         let change: Vec<Z> = (0..n).map(|j| &rest[j] + moduli(j)).collect();
         let derivative = derivative(&about[0]);
         let first: Vec<Z> = derivative.iter().map(Z::abs).collect();
@@ -151,9 +150,8 @@ impl Local {
             // How far the polynomial and its derivative are off their values in the middle, and the former off its linear part.
             let off = change + by_half(first);
             let slope_off = &change_slope + by_half(second.clone());
-            let bent = at_most(&part.rest, &far)
-                + by_half(change_slope)
-                + up(second * half * half, 2 * FREQUENCY_BITS + 1);
+            let bent =
+                at_most(&part.rest, &far) + by_half(change_slope) + up(second * half * half, 2 * FREQUENCY_BITS + 1);
             let Some(delay) = &part.delay else {
                 add(&mut value, p);
                 add(&mut by_u, u);
@@ -197,9 +195,8 @@ impl Local {
             rest += bent + up(&size * square + &off * &angle, bits) + (rounded >> (bits - 3)) + 64_u32;
             let slope_rounded: Z = ((&size + &d_size) >> (bits - 3)) + 64_u32;
             rest += by_half(slope_rounded.clone());
-            slope_rest += slope_off
-                + up(longest * &off + &delay.spread * (size + off) + d_size * angle, bits)
-                + slope_rounded;
+            slope_rest +=
+                slope_off + up(longest * &off + &delay.spread * (size + off) + d_size * angle, bits) + slope_rounded;
         }
         let by_omega = slope.each_ref().map(|x| (x * half) >> FREQUENCY_BITS);
         Local::short([value, by_u, by_v, by_omega, slope], rest, slope_rest, blame)

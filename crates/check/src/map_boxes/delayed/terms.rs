@@ -84,9 +84,11 @@ impl Terms {
         let times = sources.dead_times()?.into_iter().map(Time::of).collect::<Result<Vec<_>, _>>()?;
         let n = own.coefficients.len() - 1;
         let is_delayed = |p: &Multi| p.0.keys().any(|e| e.len() > FIRST + 2);
-        // The leading coefficient is looked at where the highest power is to outweigh the rest.
-        let lead = vec![own.coefficients[n].clone()];
-        let divisors: Vec<Vec<Multi>> = own.divisors.into_iter().filter(|list| *list != lead).collect();
+        let mut divisors = own.divisors;
+        if own.has_lead_last {
+            // It is looked at where the highest power is to outweigh the rest.
+            divisors.pop();
+        }
         if divisors.iter().flatten().any(is_delayed) {
             return Err("a divisor depends on the dead time".into());
         }
