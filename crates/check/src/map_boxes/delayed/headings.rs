@@ -189,7 +189,7 @@ mod tests {
                 };
                 (0..16).filter(is_near)
             };
-            let sixteenth = |k: i64| angle(heading(k).map(|x| x as i64));
+            let sixteenth = |k: i64| (angle(heading(k).map(|x| x as i64)) + 16.0).rem_euclid(16.0);
             // By how much a heading is off an argument, less than a quarter.
             let off = |k: i64, point: [i64; 2]| (sixteenth(k) - angle(point) + 24.0).rem_euclid(16.0) - 8.0;
             let (first, last) = (way[0], way[way.len() - 1]);

@@ -265,3 +265,73 @@ fn along(k: i64, [x, y]: &[i128; 2]) -> i128 {
     let [a, b] = heading(k);
     a * x + b * y
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clock::Clock;
+    use crate::taylor::Precision;
+    use std::time::Duration;
+
+    const BITS: usize = 96;
+
+    /// Of `P_0 = x y + (1 + x) s + s^2` and `P_1 = y + (x - 2 y) s` with the dead time `1 + x/2 - y/4`, at many stretches of many boxes: where a
+    /// half plane is found the function in floating point is in it, on a grid of points that has all corners; so is its derivative.
+    #[test]
+    fn half_planes_hold_the_function_and_its_derivative() {
+        let (p, clock, turns) = (Precision::new(1, BITS), Clock::new(Duration::MAX), Turns::new(BITS));
+        let mut seed = 7_u64;
+        let mut random = |n: u64| {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((seed >> 33) % n) as i64
+        };
+        let (mut clear, mut directed) = (0, 0);
+        for _ in 0..400 {
+            let over = |k: i64, n: i64| Q::new(k.into(), n.into());
+            let (cx, cy, rx, ry) = (random(200) - 50, random(200) - 50, 1 + random(20), 1 + random(20));
+            let side = |c: i64, r: i64| [over(c - r, 50), over(c + r, 50)];
+            let x = Taylor::coordinate(&side(cx, rx), 0, &p);
+            let y = Taylor::coordinate(&side(cy, ry), 1, &p);
+            let (zero, one) = (Taylor::zero(), Taylor::number(&Q::one(), &p));
+            let first = [x.times(&y, &p, &clock).unwrap(), one.plus(&x), one];
+            let second = [y.clone(), x.minus(&y.scaled(&2.into())), zero];
+            let time = over(50, 50) + over(cx, 100) - over(cy, 200);
+            if time.is_negative() {
+                continue;
+            }
+            let changes = [over(rx, 100), over(-ry, 200)];
+            let parts = [Part::new(&first, None, BITS), Part::new(&second, Some((time, changes)), BITS)];
+            let (middle, half) = (20 + random(1000), random(20));
+            let unit = |k: i64| (Z::from(k) << FREQUENCY_BITS) / 200;
+            let local = Local::new(&parts, &unit(middle), &unit(half), &turns, BITS);
+            let value = |[t, u, v]: [f64; 3]| {
+                let (x, y) = ((cx as f64 + rx as f64 * u) / 50.0, (cy as f64 + ry as f64 * v) / 50.0);
+                let (w, tau) = ((middle as f64 + half as f64 * t) / 200.0, 1.0 + x / 2.0 - y / 4.0);
+                let (c, s) = ((w * tau).cos(), -(w * tau).sin());
+                let ([a, b], [da, db]) = ([y, (x - 2.0 * y) * w], [0.0, x - 2.0 * y]);
+                let [f, g] = [x * y - w * w + a * c - b * s, (1.0 + x) * w + a * s + b * c];
+                // The derivative of the delayed part: (P' - i tau P) exp(-i w tau).
+                let [a, b] = [da + tau * b, db - tau * a];
+                ([f, g], [-2.0 * w + a * c - b * s, 1.0 + x + a * s + b * c])
+            };
+            let steps = [-1.0, -0.4, 0.1, 0.7, 1.0];
+            let grid: Vec<[f64; 3]> = (0..125).map(|k| [steps[k % 5], steps[k / 5 % 5], steps[k / 25]]).collect();
+            let is_in = |k: i64, [re, im]: [f64; 2]| {
+                let [a, b] = heading(k).map(|x| x as f64);
+                a * re + b * im > -1e-9
+            };
+            let slopes = local.slopes(None);
+            for k in 0..TURN {
+                if local.clear(Some(k), None) == Some(k) {
+                    assert!(grid.iter().all(|at| is_in(k, value(*at).0)), "{k} {cx} {cy} {rx} {ry} {middle} {half}");
+                    clear += 1;
+                }
+                if slopes & 1 << k != 0 {
+                    assert!(grid.iter().all(|at| is_in(k, value(*at).1)), "{k} {cx} {cy} {rx} {ry} {middle} {half}");
+                    directed += 1;
+                }
+            }
+        }
+        assert!(clear > 500 && directed > 300, "{clear} {directed}");
+    }
+}
