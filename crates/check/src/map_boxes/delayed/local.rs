@@ -286,9 +286,10 @@ mod tests {
             ((seed >> 33) % n) as i64
         };
         let (mut clear, mut directed) = (0, 0);
-        for _ in 0..400 {
+        for _ in 0..2000 {
             let over = |k: i64, n: i64| Q::new(k.into(), n.into());
-            let (cx, cy, rx, ry) = (random(200) - 50, random(200) - 50, 1 + random(20), 1 + random(20));
+            let widest = 1 << random(5);
+            let (cx, cy, rx, ry) = (random(200) - 50, random(200) - 50, random(widest), random(widest));
             let side = |c: i64, r: i64| [over(c - r, 50), over(c + r, 50)];
             let x = Taylor::coordinate(&side(cx, rx), 0, &p);
             let y = Taylor::coordinate(&side(cy, ry), 1, &p);
@@ -301,7 +302,9 @@ mod tests {
             }
             let changes = [over(rx, 100), over(-ry, 200)];
             let parts = [Part::new(&first, None, BITS), Part::new(&second, Some((time, changes)), BITS)];
-            let (middle, half) = (20 + random(1000), random(20));
+            // Short and long stretches, of small and of large boxes.
+            let half = if random(2) == 0 { random(20) } else { random(200) };
+            let middle = half + random(600);
             let unit = |k: i64| (Z::from(k) << FREQUENCY_BITS) / 200;
             let local = Local::new(&parts, &unit(middle), &unit(half), &turns, BITS);
             let value = |[t, u, v]: [f64; 3]| {
@@ -332,6 +335,6 @@ mod tests {
                 }
             }
         }
-        assert!(clear > 500 && directed > 300, "{clear} {directed}");
+        assert!(clear > 2000 && directed > 1000, "{clear} {directed}");
     }
 }
