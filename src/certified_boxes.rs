@@ -114,7 +114,6 @@ pub fn certify_boxes(answer: &Answer<MapBoxes>, budget: &Budget) -> Result<Certi
 /// # Errors
 /// Those of [`certify_boxes`], which are known before there is a map.
 pub(crate) fn judge(problem: &Problem, window: &Window, budget: &Budget) -> Result<BoxJudge, Error> {
-    problem.refuse_boxes_certificate(budget)?;
     let (order, bits) = precision(problem, budget)?;
     let draft = problem.boxes_certificate(window, "?", order, bits)?;
     // Reading a model is counted work; between boxes the budget is asked.
@@ -127,9 +126,9 @@ pub(crate) fn judge(problem: &Problem, window: &Window, budget: &Budget) -> Resu
 }
 
 fn precision(problem: &Problem, budget: &Budget) -> Result<(usize, usize), Error> {
-    Ok(match problem.has_dead_time(budget)? {
-        true => (ORDER_WITH_DEAD_TIME, BITS_WITH_DEAD_TIME),
-        false => (ORDER, BITS),
+    Ok(match problem.algebra_over_symbols(budget)?.symbols().delays().is_empty() {
+        true => (ORDER, BITS),
+        false => (ORDER_WITH_DEAD_TIME, BITS_WITH_DEAD_TIME),
     })
 }
 

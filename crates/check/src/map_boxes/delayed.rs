@@ -214,7 +214,7 @@ impl Delayed {
         let top = &coefficients[0][n];
         let least = top.constant().abs() - top.variation();
         // What is an odd number of powers below it in its own part points across.
-        let is_against = |k: usize, j: usize| k > 0 || (j < n && (n - j) % 2 == 0);
+        let is_against = |k: usize, j: usize| k > 0 || (j < n && (n - j).is_multiple_of(2));
         let sum = |j: usize| {
             let parts = coefficients.iter().enumerate().filter(|(k, _)| is_against(*k, j));
             parts.map(|(_, part)| part[j].magnitude()).sum::<Z>()

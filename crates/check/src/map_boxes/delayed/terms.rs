@@ -127,8 +127,8 @@ impl Terms {
     pub fn scale(&self, point: &[Q; 2]) -> i64 {
         let n = self.terms[0].1.len() - 1;
         let mut sizes = vec![Q::zero(); n + 1];
-        for (size, c) in self.terms.iter().flat_map(|(_, part)| part.iter().enumerate()).map(|(j, c)| (j, c)) {
-            sizes[size] += value(c, point).abs();
+        for (j, c) in self.terms.iter().flat_map(|(_, part)| part.iter().enumerate()) {
+            sizes[j] += value(c, point).abs();
         }
         let Some(top) = sizes.pop().filter(|top| !top.is_zero()) else { return 0 };
         let bits = |q: &Q| q.numer().bits() as i64 - q.denom().bits() as i64;

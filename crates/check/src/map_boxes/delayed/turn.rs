@@ -32,7 +32,7 @@ impl Turns {
 
     /// Cosine and sine of a time, not negative, and a frequency in units of `2^-frequency_bits`; `None` for angles that are too large.
     pub fn of(&self, time: &Q, frequency: &Z, frequency_bits: usize) -> Option<[Z; 2]> {
-        let angle = (time.numer() * frequency << (self.bits + GUARD)).div_euclid(&(time.denom() << frequency_bits));
+        let angle = ((time.numer() * frequency) << (self.bits + GUARD)).div_euclid(&(time.denom() << frequency_bits));
         if let Some(found) = self.known.borrow().get(&angle) {
             return Some(found.clone());
         }
