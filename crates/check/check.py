@@ -2652,19 +2652,16 @@ class JudgeOfDelays:
                 part[j] = part[j] + P({e: c})
         parts = sorted((time, part) for time, part in parts.items() if any(part))
         leads = [k for k, (_, part) in enumerate(parts) if part[n]]
-        need(n and leads, "the loop is not well posed, or has no order")
+        need(1 <= n <= 64 and leads, "the loop is not well posed, or has no fitting order")
         first = next((k for k in leads if not any(parts[k][0])), leads[0])
         parts[0], parts[first] = parts[first], parts[0]
         self.delays = [tuple(x - y for x, y in zip(time, parts[0][0])) for time, _ in parts]
         parts = [part for _, part in parts]
-        point = [sum(side) / 2 for side in sides]
-        sizes = [sum(abs(Fraction(p.at(point).get(0, 0))) for p in column) for column in zip(*parts)]
-
-        def bits(q):
-            return q.numerator.bit_length() - q.denominator.bit_length()
-
-        scales = [(bits(x) - bits(sizes[n])) // (n - j) + 1 for j, x in enumerate(sizes[:n]) if x] if sizes[n] else []
-        self.scale = w = max(scales, default=0)
+        need(not any(self.is_long(end) for side in sides for end in side), "an end of the window has too many digits")
+        lengths = [x.numerator.bit_length() - x.denominator.bit_length() for x in (max(map(abs, side)) for side in sides)]
+        sizes = [max((c.bit_length() + sum((e >> FIELD * (2 + i) & MASK) * lengths[i] for i in (0, 1)) for p in column for e, c in p.items()),
+                     default=None) for column in zip(*parts)]
+        self.scale = w = max(((x - sizes[n]) // (n - j) + 1 for j, x in enumerate(sizes[:n]) if x is not None), default=0)
         need(abs(w) <= 1000, "the frequencies are too low or too high")
         functions = cleared([p * number(1 << (w * j if w >= 0 else -w * (n - j))) for part in parts for j, p in enumerate(part)])
         self.divisors = []
@@ -2677,7 +2674,13 @@ class JudgeOfDelays:
     @staticmethod
     def time(top, bottom):
         need(not any(bottom) and all(e >> 2 * FIELD in (0, 1, 1 << FIELD) for e in top), "a dead time is not linear in the two parameters")
-        return tuple(Fraction(top.get(e << 2 * FIELD, 0), bottom[0]) for e in (0, 1, 1 << FIELD))
+        time = tuple(Fraction(top.get(e << 2 * FIELD, 0), bottom[0]) for e in (0, 1, 1 << FIELD))
+        need(not any(map(JudgeOfDelays.is_long, time)), "a dead time has too many digits")
+        return time
+
+    @staticmethod
+    def is_long(q):
+        return size(q.as_integer_ratio()) > 4096
 
     def halves(self, sides, known, own, axis):
         if not own:

@@ -88,7 +88,7 @@ fn random_loops_agree_with_verdicts() {
         assert!(share > number("0.8"), "{share}\n{text}");
         seen += agree_with_verdicts(&text, sides, &certificate, 1);
     }
-    assert!(seen > 40, "{seen}");
+    assert!(seen > 20, "{seen}");
 }
 
 #[test]

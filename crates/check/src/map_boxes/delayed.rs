@@ -20,7 +20,7 @@ use headings::{Headings, Piece, push_clear, roots_to_the_right};
 use local::{FREQUENCY_BITS, Local, Part};
 use num_traits::{Signed, Zero};
 use std::ops::{Range, RangeInclusive};
-use terms::{Terms, Time};
+use terms::{Terms, Time, is_long};
 use turn::Turns;
 
 /// Powers of two, relative to the size of the roots in the middle of the window, between which the highest power of `s` is to outweigh the rest.
@@ -103,9 +103,11 @@ impl Delayed {
         if own.discrete || of.extent != Extent::Number(Q::zero()) {
             return Err("a loop with dead time is not continuous, or its boundary is not the imaginary axis".into());
         }
+        if of.window.iter().flatten().any(is_long) {
+            return Err("an end of the window has too many digits".into());
+        }
         let terms = Terms::new(own, sources, clock)?;
-        let two = Q::from(Z::from(2));
-        let scale = terms.scale(&of.window.each_ref().map(|[low, high]| (low + high) / &two));
+        let scale = terms.scale(&of.window.each_ref().map(|[low, high]| low.abs().max(high.abs())));
         if scale.abs() > MOST_SCALE {
             return Err("the frequencies are too low or too high".into());
         }

@@ -6,8 +6,14 @@ use crate::multivariate::Multi;
 use crate::number::{Q, Z};
 use crate::over_box::{FIRST, OverBox};
 use crate::over_symbols::primitive;
-use num_traits::{Signed, Zero};
+use num_traits::Zero;
 use std::collections::BTreeMap;
+
+/// Higher orders are refused.
+const MAX_ORDER: usize = 64;
+
+/// Dead times with longer numbers are refused.
+const MAX_BITS: u64 = 4096;
 
 /// `offset + slopes[0] x + slopes[1] y`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,6 +40,9 @@ impl Time {
                 _ => return Err(not_linear()),
             };
             *place = Q::new(c.clone(), over.clone());
+            if is_long(place) {
+                return Err("a dead time has too many digits".into());
+            }
         }
         Ok(time)
     }
@@ -67,6 +76,10 @@ impl Time {
         let [least, most] = self.range(sides);
         ((least + most) / two * factor, change)
     }
+}
+
+pub(super) fn is_long(q: &Q) -> bool {
+    q.numer().bits().max(q.denom().bits()) > MAX_BITS
 }
 
 /// `sum P_k(s) exp(-tau_k s)` with polynomials in `s` and the parameters, `tau_0 = 0`.
@@ -113,8 +126,9 @@ impl Terms {
         // A dead time that all have in common moves no root: that of the highest power of s is taken for it.
         let leads = |(_, part): &(Time, Vec<Multi>)| !part[n].is_zero();
         let first = terms.iter().position(|term| leads(term) && term.0.is_zero());
-        let Some(first) = first.or_else(|| terms.iter().position(leads)).filter(|_| n > 0) else {
-            return Err("the loop is not well posed, or has no order".into());
+        let Some(first) = first.or_else(|| terms.iter().position(leads)).filter(|_| (1..=MAX_ORDER).contains(&n))
+        else {
+            return Err("the loop is not well posed, or has no fitting order".into());
         };
         terms.swap(0, first);
         let common = terms[0].0.clone();
@@ -122,23 +136,19 @@ impl Terms {
         Ok(Terms { terms, times, divisors })
     }
 
-    /// The exponent of a power of two that is about the size of the roots: where the highest power begins to outweigh the others, by
-    /// the sums of the moduli of all coefficients at a point.
+    /// The exponent of a power of two that is about the size of the roots: where the highest power begins to outweigh the others, by the
+    /// lengths of the largest terms of all coefficients at a point.
     pub fn scale(&self, point: &[Q; 2]) -> i64 {
+        let length = |q: &Q| q.numer().bits() as i64 - q.denom().bits() as i64;
+        let lengths = point.each_ref().map(length);
+        let of_term = |(e, c): (&Vec<u32>, &Z)| {
+            let power = |i: usize| i64::from(e.get(FIRST + i).copied().unwrap_or(0)) * lengths[i];
+            c.bits() as i64 + power(0) + power(1)
+        };
         let n = self.terms[0].1.len() - 1;
-        let mut sizes = vec![Q::zero(); n + 1];
-        for (j, c) in self.terms.iter().flat_map(|(_, part)| part.iter().enumerate()) {
-            sizes[j] += value(c, point).abs();
-        }
-        let Some(top) = sizes.pop().filter(|top| !top.is_zero()) else { return 0 };
-        let bits = |q: &Q| q.numer().bits() as i64 - q.denom().bits() as i64;
-        let roots = sizes.iter().enumerate().filter(|(_, size)| !size.is_zero());
-        roots.map(|(j, size)| (bits(size) - bits(&top)).div_euclid((n - j) as i64) + 1).max().unwrap_or(0)
+        let size = |j: usize| self.terms.iter().flat_map(|(_, part)| part[j].0.iter()).map(of_term).max();
+        let Some(top) = size(n) else { return 0 };
+        let roots = (0..n).filter_map(|j| Some((size(j)? - top).div_euclid((n - j) as i64) + 1));
+        roots.max().unwrap_or(0)
     }
-}
-
-/// A polynomial in the parameters at a point.
-fn value(p: &Multi, point: &[Q; 2]) -> Q {
-    let power = |i: usize, e: &[u32]| crate::number::power(&point[i], e.get(FIRST + i).copied().unwrap_or(0));
-    p.0.iter().fold(Q::zero(), |sum, (e, c)| sum + Q::from(c.clone()) * power(0, e) * power(1, e))
 }
