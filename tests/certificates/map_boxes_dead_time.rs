@@ -164,6 +164,11 @@ fn another_statement_or_model_is_rejected() {
         r#"{"radius": "1"}"#,
     );
     reject(&plain("discrete", "z + a*exp(-b*z)"), &discrete, Step::Model);
+    // Where a neutral loop's dead time is zero it has no chain of roots to the right.
+    let neutral = plain("continuous", "s*(1 + a*exp(-b*s)) + 1");
+    let chains = by_hand.replace(r#"["1", "2"]"#, r#"["3/2", "2"]"#).replace("yyxx+???y?x?-", "-");
+    accept(&neutral, &chains);
+    reject(&neutral, &chains.replace(r#"["1/2", "5/2"]"#, r#"["0", "5/2"]"#), Step::Stable);
     // All points of such a box are undefined.
     let negative = by_hand.replace(r#"["1/2", "5/2"]"#, r#"["-2", "-1"]"#).replace("yyxx+???y?x?-", "-");
     accept(&text, &negative);
