@@ -15,6 +15,10 @@ use std::time::Duration;
 const ORDER: usize = 6;
 const BITS: usize = 256;
 
+/// The same of loops with dead time: what is not linear in a box is left out. As many bits more than the frequencies have.
+const ORDER_WITH_DEAD_TIME: usize = 1;
+const BITS_WITH_DEAD_TIME: usize = 128;
+
 /// So much of what the answer decides may stay unknown: this power of two less than what may stay undecided in the answer.
 const LEFT_BITS: u64 = 3;
 
@@ -97,14 +101,15 @@ enum Node {
 /// ```
 ///
 /// # Errors
-/// [`Error::Refused`] (`E-no-certificate`) for models with requirements, a region whose bound is free, dead time, and what else the check does
+/// [`Error::Refused`] (`E-no-certificate`) for models with requirements, a region whose bound is free, and what else the check does
 /// not read.
 pub fn certify_boxes(answer: &Answer<MapBoxes>, budget: &Budget) -> Result<CertifiedBoxes, Error> {
     budget.step("certificate");
     let (problem, window) = (answer.problem(), &answer.value().boxes.window);
     let judge = judge(problem, window, budget)?;
     let (tree, [stable, unstable]) = Search::new(answer, &judge).tree(budget);
-    Ok(CertifiedBoxes { text: problem.boxes_certificate(window, &tree, ORDER, BITS)?, stable, unstable })
+    let (order, bits) = precision(problem, budget)?;
+    Ok(CertifiedBoxes { text: problem.boxes_certificate(window, &tree, order, bits)?, stable, unstable })
 }
 
 /// What the check sees of a window.
@@ -112,14 +117,21 @@ pub fn certify_boxes(answer: &Answer<MapBoxes>, budget: &Budget) -> Result<Certi
 /// # Errors
 /// Those of [`certify_boxes`], which are known before there is a map.
 pub(crate) fn judge(problem: &Problem, window: &Window, budget: &Budget) -> Result<BoxJudge, Error> {
-    problem.refuse_boxes_certificate(budget)?;
-    let draft = problem.boxes_certificate(window, "?", ORDER, BITS)?;
+    let (order, bits) = precision(problem, budget)?;
+    let draft = problem.boxes_certificate(window, "?", order, bits)?;
     // Reading a model is counted work; between boxes the budget is asked.
     let judge = BoxJudge::new(&problem.model().source().text, &draft, &Limits::within(Duration::MAX));
     judge.map_err(|rejection| {
         Diagnostic::error("E-no-certificate", format!("no certificate of this map by boxes: {}", rejection.reason))
             .help("the checkers read the model themselves; the answer is printed without '--certificate'")
             .into()
+    })
+}
+
+fn precision(problem: &Problem, budget: &Budget) -> Result<(usize, usize), Error> {
+    Ok(match problem.algebra_over_symbols(budget)?.symbols().delays().is_empty() {
+        true => (ORDER, BITS),
+        false => (ORDER_WITH_DEAD_TIME, BITS_WITH_DEAD_TIME),
     })
 }
 

@@ -95,6 +95,7 @@ mod certificates {
     mod map_attacks;
     mod map_boxes;
     mod map_boxes_attacks;
+    mod map_boxes_dead_time;
     mod maps;
     mod program;
     mod readers;

@@ -592,6 +592,8 @@ class Loop:
         self.values, self.symbols, self.sample_time = values, symbols, root.get("sample_time")
         self.first = 2 + len(values or [])  # symbols are the variables from here on
         self.moving = symbols if isinstance(symbols, Moving) else None
+        if self.moving:
+            self.moving.is_continuous = self.z == "s"
         self.scope = Scope({name: c for name, c in model.constants.items() if name not in variables}, variables, self.moving)
         if isinstance(symbols, DeadTime) and self.z == "s":
             self.scope.exponential = lambda f: self.delayed(-f, 1)
@@ -738,6 +740,8 @@ class Loop:
         need(len(u) == len(y) == 1, "a transfer function has one input and one output")
         if kinds[2] and self.scope.exponential:
             num, den = self.delayed(scope.value(block["delay"]), 0).scalar(), ONE
+        elif kinds[2] and self.moving and self.moving.is_continuous:
+            num, den = self.moving.delayed(scope.value(block["delay"])).scalar(), ONE
         elif kinds[2]:
             samples = constant(block["delay"])
             need(samples.denominator == 1 and 0 <= samples <= MAX_ORDER and inner == "z", "a delay is a number of samples")
@@ -1623,10 +1627,13 @@ def over_box(text, names, values, symbols=None):
     else:
         d = system(loop.equations, loop.unknowns)
         need(d.degree(0) <= loop.degree, "a determinant has too high a degree")
-        divisors.append([d.lead(0) if d.degree(0) == loop.degree else ZERO])
     for equations, states in loop.own:
         own = system(equations, states)
         divisors.append([own.lead(0) if own.degree(0) == len(states) else ZERO])
+    if "characteristic" not in model.root["loop"]:
+        divisors.append([d.lead(0) if d.degree(0) == loop.degree else ZERO])
+        if symbols:
+            symbols.has_lead_last = True
     return model.discrete, d.coefficients(0) + [ZERO] * (loop.degree - d.degree(0)), divisors
 
 def vanishes_only_with(p, factors):
@@ -2094,13 +2101,26 @@ class Moving:
     """Functions in expressions and matrices behind holds, as variables behind the parameters of a box."""
 
     def __init__(self, first=0):
-        self.next, self.known, self.sources, self.over_a_box = first, [], [], None
+        self.next, self.known, self.sources, self.is_continuous = first, [], [], False
         self.functions = {name: lambda f, name=name: self.variable(name, self.argument(f)) for name in ("sqrt", "exp", "sin", "cos", "tan")}
+        self.functions["exp"], self.has_lead_last = self.exponential, False
 
     @staticmethod
     def argument(f):
         need(not f.scalar().degree(0) and not f.bottom.degree(0), "a function of the loop's variable")
         return f.scalar(), f.bottom
+
+    def exponential(self, f):
+        """Of s times a dead time, or of something without the loop's variable."""
+        powers = f.scalar().coefficients(0)
+        if len(powers) == 2 and not powers[0] and not f.bottom.degree(0) and self.is_continuous:
+            return self.delayed(Value({"": -powers[1]}, f.bottom))
+        return self.variable("exp", self.argument(f))
+
+    def delayed(self, time):
+        """exp(-T s)"""
+        need(time.number() is None or time.number() >= 0, "a negative dead time")
+        return self.variable("delay", self.argument(time))
 
     def variables(self, source, count):
         for known, first in self.known:
@@ -2389,6 +2409,388 @@ class Judge:
         w = size_of_roots(p)
         return any(roots_to_the_right(q, models) for q in (p, *(moved(p, w + e) for e in (-3, -1))))
 
+# ---------------------------------------------------------------- maps by boxes of loops with dead time
+
+FREQUENCY_BITS = 64  # frequencies are whole multiples of 2^-64
+HEADINGS = [(x * a - y * b, x * b + y * a) for a, b in AXES for x, y in ((17, 0), (15, 8), (12, 12), (8, 15))]  # by sixteenths of a turn
+LONGEST = 17  # of a heading
+
+def up(x, bits):
+    """x / 2^bits, rounded up."""
+    return -(-x >> bits)
+
+def at_most(c, w):
+    """A bound of a polynomial without negative coefficients up to a frequency."""
+    total = 0
+    for x in reversed(c):
+        total = -(-total * w >> FREQUENCY_BITS) + x
+    return total
+
+def on_axis(c, w):
+    """A polynomial at i w."""
+    square, out = w * w, []
+    for part in (c[::2], c[1::2]):
+        total = 0
+        for x in reversed(part):
+            total = x - (total * square >> 2 * FREQUENCY_BITS)
+        out.append(total)
+    return out[0], out[1] * w >> FREQUENCY_BITS
+
+def modulus(z):
+    """At least: sqrt(a^2 + b^2) <= a + b/2 for a >= b."""
+    a, b = abs(z[0]), abs(z[1])
+    return a + (b + 1 >> 1) if a >= b else b + (a + 1 >> 1)
+
+def derivative(c):
+    return [j * x for j, x in enumerate(c)][1:]
+
+class Turns:
+    """Cosine and sine of many angles, off by less than two units of 2^-bits."""
+
+    def __init__(self, bits):
+        self.bits, self.quarter, self.known = bits, Models(1, bits + 32).pi()[0][0] >> 1, {}
+
+    def of(self, time, w):
+        angle = (time.numerator * w << self.bits + 32) // (time.denominator << FREQUENCY_BITS)
+        if angle not in self.known:
+            quarters, rest = divmod(angle, self.quarter)
+            if quarters >= 1 << 16:
+                return None
+            bits, sums, k = self.bits + 32, [0, 0], 0
+            term = 1 << bits
+            while term:
+                sums[k % 2] += term if k % 4 < 2 else -term
+                k += 1
+                term = (term * rest >> bits) // k
+            c, s = (x >> 32 for x in sums)
+            self.known[angle] = ((c, s), (-s, c), (-c, -s), (s, -c))[quarters % 4]
+        return self.known[angle]
+
+class Delayed:
+    """A polynomial in s times exp(-tau s), over a box: the coefficients as models, the dead time's middle and changes, none for no delay."""
+
+    def __init__(self, coefficients, delay, bits):
+        self.about = [[c[0][way] for c in coefficients] for way in range(3)]
+        moduli = [abs(u) + abs(v) for u, v in zip(*self.about[1:])]
+        self.rest = [beside_constant(c) - x + 8 for c, x in zip(coefficients, moduli)]  # and roundings
+        self.change = [x + r for x, r in zip(moduli, self.rest)]
+        self.derivative = derivative(self.about[0])
+        self.first = list(map(abs, self.derivative))
+        self.second, self.change_slope = derivative(self.first), derivative(self.change)
+        self.delay = delay
+        if delay:
+            self.middle, *changes = delay
+            self.floor, *self.changes = ((q.numerator << bits) // q.denominator for q in delay)
+            self.spread = sum(abs(x) + 1 for x in self.changes)
+
+def local(parts, middle, half, turns, bits):
+    """The function about the middle of a stretch of the axis and of a box: its value, the changes by half of either side and of the stretch,
+    what is off that at most, and the derivative by the frequency with how far it is off."""
+    far, one = middle + half, 1 << bits
+    above = (far >> FREQUENCY_BITS) + 2
+    value, by_u, by_v, slope, rest, slope_rest = [0, 0], [0, 0], [0, 0], [0, 0], 0, 0
+    for part in parts:
+        p, u, v = (on_axis(c, middle) for c in part.about)
+        d = on_axis(part.derivative, middle)
+        d = -d[1], d[0]
+        change_slope, second = at_most(part.change_slope, far), at_most(part.second, far)
+        off = at_most(part.change, far) + up(at_most(part.first, far) * half, FREQUENCY_BITS)
+        slope_off = change_slope + up(second * half, FREQUENCY_BITS)
+        bent = (at_most(part.rest, far) + up(change_slope * half, FREQUENCY_BITS)
+                + up(second * half * half, 2 * FREQUENCY_BITS + 1))
+        if not part.delay:
+            rest, slope_rest = rest + bent, slope_rest + slope_off
+        else:
+            p_size, longest = modulus(p), part.floor + 1
+            angle = up(far * part.spread, FREQUENCY_BITS) + up(longest * half, FREQUENCY_BITS)
+            turn = turns.of(part.middle, middle) if angle < one else None
+            if turn is None:  # anything of this size
+                rest += p_size + off
+                slope_rest += modulus(d) + slope_off + up((longest + part.spread) * (p_size + off), bits)
+                continue
+
+            def back(z, by):  # times -i and a number
+                return z[1] * by >> bits, -(z[0] * by >> bits)
+
+            changed = []
+            for z, time in zip((u, v), part.changes):
+                more = back(p, middle * time >> FREQUENCY_BITS)
+                changed.append((z[0] + more[0], z[1] + more[1]))
+            more = back(p, part.floor)
+            d = d[0] + more[0], d[1] + more[1]
+            d_size = modulus(d)
+            rounded = 2 * p_size * above + sum(map(modulus, changed))
+            c, s = turn
+            p, u, v, d = ((x * c + y * s >> bits, y * c - x * s >> bits) for x, y in (p, *changed, d))
+            # exp(-i x) is off 1 - i x by at most x^2/2, and off 1 by at most x.
+            square = up(part.spread * half, FREQUENCY_BITS) + up(angle * angle, bits + 1)
+            slope_rounded = (p_size + d_size >> bits - 3) + 64
+            rest += bent + up(p_size * square + off * angle, bits) + (rounded >> bits - 3) + 64 + up(slope_rounded * half, FREQUENCY_BITS)
+            slope_rest += slope_off + up(longest * off + part.spread * (p_size + off) + d_size * angle, bits) + slope_rounded
+        for total, z in zip((value, by_u, by_v, slope), (p, u, v, d)):
+            total[0] += z[0]
+            total[1] += z[1]
+    vectors = value, by_u, by_v, [x * half >> FREQUENCY_BITS for x in slope]
+    far = max(size([*(x for z in vectors for x in z), rest]) - 56, 0)
+    own = max(size([*slope, slope_rest]) - 56, 0)
+    return [(x >> far, y >> far) for x, y in vectors], (rest >> far) + 8, (slope[0] >> own, slope[1] >> own), (slope_rest >> own) + 4
+
+def clear(found, before=None, margin=None):
+    """The first heading about which the function is in the half plane, one before all others; with a margin, a share of the value is left."""
+    vectors, rest = found[:2]
+    for k in (before, *range(16)) if before is not None else range(16):
+        a, b = HEADINGS[k % 16]
+        along = a * vectors[0][0] + b * vectors[0][1]
+        if along > 0:
+            left = along - sum(abs(a * x + b * y) for x, y in vectors[1:]) - LONGEST * rest
+            if left > 0 and (margin is None or left << margin > along):
+                return k
+    return None
+
+def slopes_of(found, margin=None):
+    """The headings about which the derivative is in the half plane."""
+    (x, y), rest = found[2:]
+    out = set()
+    for k, (a, b) in enumerate(HEADINGS):
+        left = a * x + b * y - LONGEST * rest
+        if left > 0 and (margin is None or left << margin > a * x + b * y):
+            out.add(k)
+    return out
+
+ALL = frozenset(range(16))  # headings
+
+def turn_to(now, k):
+    """The way by less than half a turn, None if the other heading is opposite."""
+    k = (k - now) % 16
+    return None if k == 8 else k if k < 8 else k - 16
+
+def largest_change(now, to, slopes):
+    """Of the heading, on a stretch on which the derivative is in these half planes; None if nothing is known."""
+    common = None
+    for along in slopes:
+        before, behind = ([(k - along + 8) % 16 - 8 for k in (now, to)], [(k - along) % 16 for k in (now, to)])
+        found = {before[1] - before[0]} if -8 not in before else set()
+        found |= {behind[1] - behind[0]} if 0 not in behind else set()
+        if behind[0] and before[1] != -8:  # zero is passed on one side or the other
+            found |= {before[1] - behind[0], before[1] - behind[0] + 16}
+        common = found if common is None else common & found
+    return max(common) if common else None
+
+def roots_beside(pieces, n, is_negative):
+    """At least so many roots are to the right where none is on the axis, and whether that is their number everywhere; None if unknown.
+    Pieces are pairs of headings, on which the function is clear of zero, or a cell and the headings of the derivative."""
+    end = (4 * n + 8 * is_negative) % 16
+    start = now = slopes = None
+    is_exact = True
+    for first, last in [*pieces, (end, end)]:
+        if isinstance(first, tuple):
+            slopes, is_exact = (ALL if slopes is None else slopes) & last, False
+            continue
+        if now is None and slopes is None:
+            if first % 8 == 4:
+                return None
+            start, now = (first + 4) // 8 * 8, first
+        elif now is None:  # the imaginary part grows or falls from zero on
+            start, lowest = (0, -3) if 4 in slopes else (-8, -11) if 12 in slopes else (None, None)
+            if start is None or (first - lowest) % 16 == 15:
+                return None
+            now = (first - lowest) % 16 + lowest
+        else:
+            step = turn_to(now, first) if slopes is None else largest_change(now, first, slopes)
+            if step is None:
+                return None
+            now += step
+        now, slopes = now + last - first, None
+    eighths = 4 * n - (now - start)
+    return None if eighths % 8 else (eighths // 8, is_exact)
+
+class Walk:
+    """Along the axis, for a box."""
+
+    def __init__(self, parts, turns, bits, pieces):
+        self.parts, self.turns, self.bits, self.looked_at, self.pieces = parts, turns, bits, 0, []
+        self.is_whole = True
+        for first, last in pieces:
+            if not self.is_whole:
+                self.pieces.append((first, last))
+            elif isinstance(first, tuple):
+                self.is_whole = self.over(first)
+            elif self.push(first):
+                self.pieces[-1] = self.pieces[-1][0], self.pieces[-1][1] + last - first
+            else:
+                self.is_whole = False
+
+    def push(self, k):
+        """A stretch in the half plane about a heading."""
+        if not self.pieces or isinstance(self.pieces[-1][0], tuple):
+            self.pieces.append((k, k))
+            return True
+        first, last = self.pieces[-1]
+        step = turn_to(last, k)
+        if step is not None:
+            self.pieces[-1] = first, last + step
+        return step is not None
+
+    def local(self, middle, half):
+        self.looked_at += 1
+        spend(18 + 5 * sum(len(part.rest) for part in self.parts), self.bits, self.bits)
+        return local(self.parts, middle, half, self.turns, self.bits)
+
+    def over(self, cell):
+        shortest, cells = max(cell[1] - 24, 1), [cell]
+        while cells:
+            low, length = cells.pop()
+            half = 1 << length - 1
+            before = self.pieces[-1][1] if self.pieces and not isinstance(self.pieces[-1][0], tuple) else None
+            found = self.local(low + half, half)
+            k = clear(found, before)
+            if k is not None:
+                if self.push(k):
+                    continue
+                self.pieces += [(cell, frozenset()) for cell in ((low, length), *reversed(cells))]
+                return False
+            slopes = slopes_of(found)
+            if length > shortest and self.looked_at < 2000:
+                point = self.local(low + half, 0)
+                if clear(point, None, 3) is not None or not slopes and slopes_of(point, 3):
+                    cells += [(low + half, length - 1), (low, length - 1)]
+                    continue
+            self.pieces.append(((low, length), slopes))
+            common = ALL
+            for first, last in reversed(self.pieces):
+                if not isinstance(first, tuple):
+                    break
+                common &= last
+            if not common:  # the rest of the way is of no use to this box
+                self.pieces += [(cell, frozenset()) for cell in reversed(cells)]
+                return False
+        return True
+
+def times_range(time, sides):
+    """The least and the greatest value of a + b x + c y."""
+    ends = [sorted(slope * end for end in side) for slope, side in zip(time[1:], sides)]
+    return time[0] + ends[0][0] + ends[1][0], time[0] + ends[0][1] + ends[1][1]
+
+class JudgeOfDelays:
+    """Whether boxes are stable everywhere, or nowhere. What is known of one is the way along the axis."""
+
+    def __init__(self, own, divisors, sources, sides, models):
+        need(all(name == "delay" for name, *_ in sources.sources), "beside dead time the loop has other functions")
+        self.times = [self.time(*f) for _, f in sources.sources]
+        n, self.models = len(own) - 1, models
+        self.n, self.turns = n, Turns(models.bits)
+        divisors = divisors[:-1] if sources.has_lead_last else divisors  # it is looked at where the highest power is to outweigh the rest
+        need(not any(e >> 4 * FIELD for ways in divisors for p in ways for e in p), "a divisor depends on the dead time")
+        parts = {}
+        for j, p in enumerate(cleared(own)):
+            for e, c in p.items():
+                total, behind = (Fraction(0),) * 3, e >> 4 * FIELD
+                for time in self.times:
+                    total, behind = tuple(x + (behind & MASK) * y for x, y in zip(total, time)), behind >> FIELD
+                part, e = parts.setdefault(total, [P() for _ in own]), e & (1 << 4 * FIELD) - 1
+                part[j] = part[j] + P({e: c})
+        parts = sorted((time, part) for time, part in parts.items() if any(part))
+        leads = [k for k, (_, part) in enumerate(parts) if part[n]]
+        need(1 <= n <= 64 and leads, "the loop is not well posed, or has no fitting order")
+        first = next((k for k in leads if not any(parts[k][0])), leads[0])
+        parts[0], parts[first] = parts[first], parts[0]
+        self.delays = [tuple(x - y for x, y in zip(time, parts[0][0])) for time, _ in parts]
+        parts = [part for _, part in parts]
+        need(not any(self.is_long(end) for side in sides for end in side), "an end of the window has too many digits")
+        lengths = [x.numerator.bit_length() - x.denominator.bit_length() for x in (max(map(abs, side)) for side in sides)]
+        sizes = [max((c.bit_length() + sum((e >> FIELD * (2 + i) & MASK) * lengths[i] for i in (0, 1)) for p in column for e, c in p.items()),
+                     default=None) for column in zip(*parts)]
+        self.scale = w = max(((x - sizes[n]) // (n - j) + 1 for j, x in enumerate(sizes[:n]) if x is not None), default=0)
+        need(abs(w) <= 1000, "the frequencies are too low or too high")
+        functions = cleared([p * number(1 << (w * j if w >= 0 else -w * (n - j))) for part in parts for j, p in enumerate(part)])
+        self.divisors = []
+        for ways in divisors:
+            self.divisors.append(range(len(functions), len(functions) + len(ways)))
+            functions += ways
+        self.nowhere = not all(map(any, divisors))
+        self.functions = OverBoxes(functions, Moving(), models)
+
+    @staticmethod
+    def time(top, bottom):
+        need(not any(bottom) and all(e >> 2 * FIELD in (0, 1, 1 << FIELD) for e in top), "a dead time is not linear in the two parameters")
+        time = tuple(Fraction(top.get(e << 2 * FIELD, 0), bottom[0]) for e in (0, 1, 1 << FIELD))
+        need(not any(map(JudgeOfDelays.is_long, time)), "a dead time has too many digits")
+        return time
+
+    @staticmethod
+    def is_long(q):
+        return size(q.as_integer_ratio()) > 4096
+
+    def halves(self, sides, known, own, axis):
+        if not own:
+            known = self.look(sides, known)[1]
+        low, high = sides[axis]
+        for side in ([low, (low + high) / 2], [(low + high) / 2, high]):
+            yield [side if i == axis else other for i, other in enumerate(sides)], known, False
+
+    def shows(self, sides, known, own, stable):
+        return self.look(sides, known)[0] is stable
+
+    def look(self, sides, way):
+        """The verdict on a box, None if nothing is shown; and the way for parts of it."""
+        if self.nowhere:
+            return False, None
+        times = [times_range(time, sides) for time in self.times]
+        if any(most < 0 for _, most in times):
+            return False, None  # no loop has a negative dead time
+        delays = [times_range(time, sides) for time in self.delays]
+        if any(least < 0 for least, _ in times + delays):
+            return None, None
+        n, functions = self.n, self.functions.at(sides)
+        parts = [functions[k * (n + 1):(k + 1) * (n + 1)] for k in range(len(delays))]
+        top, sign = parts[0][n], sign_of(parts[0][n])
+        if not sign:
+            return None, None
+        if way is None:
+            bound = self.bound(parts)
+            if bound is None:
+                return (False if self.has_chain(parts, delays) else None), None
+            e = bound + FREQUENCY_BITS
+            cells = [(0, e - 8), *((k << i - 2, i - 2) for i in range(e - 8, e) for k in range(4, 8))]
+            way = sign < 0, [(cell, frozenset()) for cell in cells]
+        zero = self.models.units(0)
+        for part in parts:
+            zero = summed(zero, part[0])
+        if sign_of(zero) == -sign:
+            return False, None  # a real root is to the right
+        bits = self.models.bits
+        down = max(size([abs(c[0][0]) + beside_constant(c) for part in parts for c in part]) - bits, 0)
+        factor = Fraction(2) ** self.scale
+        scaled = []
+        for part, time, (least, most) in zip(parts, self.delays, delays):
+            changes = (slope * (high - low) / 2 * factor for slope, (low, high) in zip(time[1:], sides))
+            delay = ((least + most) / 2 * factor, *changes) if any(time) else None
+            scaled.append(Delayed([halved(c, down) for c in part], delay, bits))
+        walk = Walk(scaled, self.turns, bits, way[1])
+        way = way[0], walk.pieces
+        right = roots_beside(walk.pieces, n, way[0]) if walk.is_whole else None
+        if right and right[0] > 0:
+            return False, way
+        defined = all(any(sign_of(functions[i]) for i in ways) for ways in self.divisors)
+        return (True if right == (0, True) and defined else None), way
+
+    def bound(self, parts):
+        """A power of two beyond which the highest power of s outweighs, on the axis, all that may point against it."""
+        n, top = self.n, parts[0][self.n]
+        others = [sum(abs(part[j][0][0]) + beside_constant(part[j]) for k, part in enumerate(parts)
+                      if k or j < n and (n - j) % 2 == 0) for j in range(n + 1)]
+        least = abs(top[0][0]) - beside_constant(top)
+        if others[n] >= least:
+            return None
+        return next((e for e in range(-20, 41) if sum(x << (e + 20) * j + 20 * (n - j) for j, x in enumerate(others)) < least << (e + 20) * n), None)
+
+    def has_chain(self, parts, delays):
+        """Whether one delayed highest power, the only one, outweighs that without delay: infinitely many roots are to the right."""
+        tops = [part[self.n] for part in parts]
+        moduli = [abs(top[0][0]) + beside_constant(top) for top in tops]
+        [*delayed] = [k for k in range(1, len(parts)) if moduli[k]]
+        return len(delayed) == 1 and delays[delayed[0]][0] > 0 and 2 * abs(tops[delayed[0]][0][0]) - moduli[delayed[0]] > moduli[0]
+
 def check_boxes(model, document, statement, values, discrete, extent):
     _, _, order, bits = parts(document, ["schema", "statement", "order", "bits"], ["model"])
     *_, x, y, window, tree = parts(statement, ["kind", "time", "set", "region", "x", "y", "window", "tree"])
@@ -2399,14 +2801,19 @@ def check_boxes(model, document, statement, values, discrete, extent):
     sources, models = Moving(), Models(order, bits)
     is_discrete, own, divisors = over_box(model, names, values, sources)
     need(is_discrete == discrete, "the model's time is another")
-    own = in_region(own, discrete, extent)
-    own = cleared(in_half_plane(own)) if discrete else own
-    nowhere, n = not all(map(any, divisors)) or not all(own), len(own) - 1
-    functions, places = list(own), []
-    for ways in divisors:
-        places.append(range(len(functions), len(functions) + len(ways)))
-        functions += ways
-    judge = Judge(OverBoxes(functions, sources, models), n, places, models)
+    if any(name == "delay" for name, *_ in sources.sources):
+        need(not discrete and extent == 0, "a loop with dead time is not continuous, or its boundary is not the imaginary axis")
+        judge = JudgeOfDelays(own, divisors, sources, sides, models)
+        nowhere = judge.nowhere
+    else:
+        own = in_region(own, discrete, extent)
+        own = cleared(in_half_plane(own)) if discrete else own
+        nowhere, n = not all(map(any, divisors)) or not all(own), len(own) - 1
+        functions, places = list(own), []
+        for ways in divisors:
+            places.append(range(len(functions), len(functions) + len(ways)))
+            functions += ways
+        judge = Judge(OverBoxes(functions, sources, models), n, places, models)
     where = ", ".join(f"{name} from {low} to {high}" for name, (low, high) in zip(names, sides))
     stack, shares = [(sides, None, False, 0)], {"+": Fraction(0), "-": Fraction(0), "?": Fraction(0)}
     for letter in tree:

@@ -23,7 +23,7 @@ use std::time::Duration;
 const LIMITS: Limits = Limits::within(Duration::MAX);
 
 /// A parameter and its ends.
-type Side<'a> = (&'a str, &'a str, &'a str);
+pub(super) type Side<'a> = (&'a str, &'a str, &'a str);
 
 fn boxes(text: &str, sides: [Side; 2], undecided: &str) -> Answer<MapBoxes> {
     let range = |(_, low, high): Side| Range::between(Some(number(low)), Some(number(high)));
@@ -40,21 +40,21 @@ fn is_certified(text: &str, sides: [Side; 2], undecided: &str, least: &str) {
     let (certificate, share) = emitted(text, sides, undecided);
     accept(text, &certificate);
     assert!(share > number(least), "{share}\n{text}");
-    agree_with_verdicts(text, sides, &certificate, 1);
+    assert!(agree_with_verdicts(text, sides, &certificate, 1) > 5);
 }
 
 /// The certificate, with the shares that it proves together.
-fn emitted(text: &str, sides: [Side; 2], undecided: &str) -> (String, Rational) {
+pub(super) fn emitted(text: &str, sides: [Side; 2], undecided: &str) -> (String, Rational) {
     let found = certify_boxes(&boxes(text, sides, undecided), &Budget::unlimited());
     let found = found.unwrap_or_else(|e| panic!("{e}\n{text}"));
     (found.text, found.stable + found.unstable)
 }
 
-fn plain(time: &str, characteristic: &str) -> String {
+pub(super) fn plain(time: &str, characteristic: &str) -> String {
     format!("time = '{time}'\nparameters = {{ a = {{}}, b = {{}} }}\nloop.characteristic = '{characteristic}'")
 }
 
-fn tree_of(certificate: &str) -> String {
+pub(super) fn tree_of(certificate: &str) -> String {
     match Json::parse(certificate).unwrap().get("statement").and_then(|s| s.get("tree")) {
         Some(Json::Text(tree)) => tree.clone(),
         other => panic!("{other:?}"),
@@ -62,7 +62,7 @@ fn tree_of(certificate: &str) -> String {
 }
 
 /// The leaves of a tree in a window; `None` where it is none.
-fn leaves(tree: &str, window: [[Rational; 2]; 2]) -> Option<Vec<(char, [[Rational; 2]; 2])>> {
+pub(super) fn leaves(tree: &str, window: [[Rational; 2]; 2]) -> Option<Vec<(char, [[Rational; 2]; 2])>> {
     let (mut out, mut stack) = (Vec::new(), vec![window]);
     for letter in tree.chars() {
         let cell = stack.pop()?;
@@ -81,7 +81,7 @@ fn leaves(tree: &str, window: [[Rational; 2]; 2]) -> Option<Vec<(char, [[Rationa
 }
 
 /// Whether what a statement says of its boxes is true at their corners and within.
-fn is_true(text: &str, json: &Json) -> bool {
+pub(super) fn is_true(text: &str, json: &Json) -> bool {
     let Some(statement) = json.get("statement") else { return false };
     let word = |json: &Json| match json {
         Json::Text(text) => text.clone(),
@@ -113,8 +113,8 @@ fn is_true(text: &str, json: &Json) -> bool {
     })
 }
 
-/// At random points of the boxes the engine's verdict is what the certificate says.
-fn agree_with_verdicts(text: &str, sides: [Side; 2], certificate: &str, every: usize) {
+/// At random points of the boxes the engine's verdict is what the certificate says; at how many.
+pub(super) fn agree_with_verdicts(text: &str, sides: [Side; 2], certificate: &str, every: usize) -> usize {
     let window = sides.map(|(_, low, high)| [number(low), number(high)]);
     let (mut random, mut seen) = (Random::new(7), [0, 0]);
     let model = read(text);
@@ -123,14 +123,20 @@ fn agree_with_verdicts(text: &str, sides: [Side; 2], certificate: &str, every: u
             continue;
         }
         let mut inner = |[low, high]: &[Rational; 2]| {
-            low + &((high - low) * Rational::new((random.below(101) as i64).into(), 100.into()))
+            // The edges belong to a box; and few digits leave dead times a large divisor in common.
+            low + &((high - low) * Rational::new((random.below(5) as i64).into(), 4.into()))
         };
         let point = [0, 1].map(|k| (sides[k].0.to_owned(), inner(&cell[k])));
-        let verdict = model.ask().set_all(point.clone()).verdict(&Budget::unlimited()).unwrap();
+        let verdict = match model.ask().set_all(point.clone()).verdict(&Budget::unlimited()) {
+            Ok(verdict) => verdict,
+            // Dead times without a divisor in common have no verdict.
+            Err(refused) if refused.to_string().contains("no common divisor") => continue,
+            Err(refused) => panic!("{refused}"),
+        };
         assert_eq!(verdict.value().verdict == Verdict::Stable, letter == '+', "{point:?}\n{text}");
         seen[usize::from(letter == '+')] += 1;
     }
-    assert!(seen.iter().sum::<usize>() > 5, "{seen:?}");
+    seen.iter().sum()
 }
 
 #[test]
@@ -147,7 +153,7 @@ fn boxes_of_examples_are_certified() {
         let (certificate, share) = emitted(&text, sides, undecided);
         accept(&text, &certificate);
         assert!(share >= number("0.85") - number(undecided), "{name}: {share}");
-        agree_with_verdicts(&text, sides, &certificate, 3);
+        assert!(agree_with_verdicts(&text, sides, &certificate, 3) > 5, "{name}");
     }
 }
 
@@ -372,8 +378,10 @@ fn the_program_certifies_boxes() {
     assert!(exact.status == 2 && exact.stderr.contains("E-no-certificate"), "{}", exact.stderr);
     // What the checkers do not read is said before there is a map.
     for (text, x, y) in [
+        // A divisor with dead time in it.
         (
-            "time = 'continuous'\nparameters = { K = {}, tau = {} }\nloop.characteristic = 's + K*exp(-tau*s)'",
+            "time = 'continuous'\nparameters = { K = {}, tau = {} }\n[[block]]\ninput = '-K*y'\noutput = 'y'\n\
+             transfer = '1/(s + 2 - exp(-tau*s))'\n[loop]",
             "K=1..2",
             "tau=1..2",
         ),

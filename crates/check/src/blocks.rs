@@ -16,6 +16,7 @@ use super::exponentials::without_exponentials;
 use super::expression::{Base, Names, Scope, number};
 use super::hold::{Hold, MovingHold};
 use super::model::{Ports, matrix, names, outputs, sized};
+use super::moving::Moving;
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, Z, shorten};
 use super::symbols::Table;
@@ -162,6 +163,12 @@ impl Diagram<'_, '_> {
         let (num, den) = if let (Some(time), true) = (block.get("delay"), self.scope.dead_time.is_some()) {
             let time = self.scope.scalar(time)?;
             (self.scope.delayed(&time, 0)?.numerator, Multi::one())
+        } else if let Some(time) = block.get("delay")
+            && self.scope.moving.as_ref().is_some_and(Moving::is_continuous)
+        {
+            let time = self.scope.scalar(time)?;
+            let moving = self.scope.moving.as_mut().ok_or("internal: no functions are read")?;
+            (moving.delayed(time)?.numerator, Multi::one())
         } else if let Some(samples) = block.get("delay") {
             let samples = number(samples, clock)?;
             let samples = Some(samples).filter(Q::is_integer).and_then(|q| q.to_integer().to_u32());

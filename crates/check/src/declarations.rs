@@ -152,7 +152,7 @@ impl<'t> Declarations<'t> {
         let mut scope = Scope::new(meaning.variables.clone(), clock);
         // Behind all others.
         let last = meaning.variables.values().copied().max().unwrap_or(1).max(meaning.values.len().saturating_sub(1));
-        scope.moving = is_moving.then(|| Moving::new(last + 1));
+        scope.moving = is_moving.then(|| Moving::new(last + 1, !self.discrete));
         for (name, text) in self.constants.iter().filter(|(name, _)| !meaning.variables.contains_key(*name)) {
             let value = match meaning.replaced.get(name) {
                 Some(value) => Fraction::number(value),

@@ -37,6 +37,8 @@ impl Function {
 enum Source<F> {
     Pi,
     Of(Function, F),
+    /// `exp(-T s)` of a dead time `T`.
+    Delay(F),
     /// The matrices [`HeldMatrix`] of a hold, row by row.
     Hold {
         a: Vec<Vec<F>>,
@@ -68,12 +70,18 @@ pub(super) enum HeldMatrix {
 pub(super) struct Moving {
     /// The number of the next variable.
     next: usize,
+    /// Whether the loop's variable is `s`, so that it may have dead time.
+    is_continuous: bool,
     sources: Vec<(usize, Source<Fraction>)>,
 }
 
 impl Moving {
-    pub fn new(first: usize) -> Self {
-        Moving { next: first, sources: Vec::new() }
+    pub fn new(first: usize, is_continuous: bool) -> Self {
+        Moving { next: first, is_continuous, sources: Vec::new() }
+    }
+
+    pub fn is_continuous(&self) -> bool {
+        self.is_continuous
     }
 
     fn variables(&mut self, source: Source<Fraction>, count: usize) -> usize {
@@ -90,12 +98,27 @@ impl Moving {
         Fraction::variable(self.variables(Source::Pi, 1))
     }
 
-    /// A function of something without the loop's variable.
+    /// A function of something without the loop's variable, or `exp` of `s` times a dead time.
     pub fn of(&mut self, function: Function, argument: Fraction) -> Result<Fraction, String> {
         if argument.numerator.degree(0) > 0 || argument.denominator.degree(0) > 0 {
-            return Err("a function of the loop's variable".into());
+            let mut powers = argument.numerator.coefficients(0);
+            let slope = powers.pop().filter(|_| powers.len() == 1 && powers[0].is_zero());
+            return match slope.filter(|_| argument.denominator.degree(0) == 0) {
+                Some(slope) if self.is_continuous && function == Function::Exponential => {
+                    self.delayed(Fraction { numerator: slope, ..argument }.negated())
+                }
+                _ => Err("a function of the loop's variable".into()),
+            };
         }
         Ok(Fraction::variable(self.variables(Source::Of(function, argument), 1)))
+    }
+
+    /// `exp(-T s)`.
+    pub fn delayed(&mut self, time: Fraction) -> Result<Fraction, String> {
+        if time.as_number().is_some_and(|time| time.is_negative()) {
+            return Err("a negative dead time".into());
+        }
+        Ok(Fraction::variable(self.variables(Source::Delay(time), 1)))
     }
 
     /// The matrices of a hold, as variables.
@@ -125,6 +148,7 @@ impl Moving {
             sources.push(match source {
                 Source::Pi => Source::Pi,
                 Source::Of(function, f) => Source::Of(*function, quotient(f)?),
+                Source::Delay(f) => Source::Delay(quotient(f)?),
                 Source::Hold { a, time, share, matrices } => Source::Hold {
                     a: a.iter().map(|row| row.iter().map(quotient).collect()).collect::<Result<_, _>>()?,
                     time: quotient(time)?,
@@ -151,6 +175,19 @@ impl Sources {
         Sources(Vec::new())
     }
 
+    pub fn have_dead_time(&self) -> bool {
+        self.0.iter().any(|source| matches!(source, Source::Delay(_)))
+    }
+
+    /// The dead times that the variables stand for, as numerators and denominators.
+    pub fn dead_times(&self) -> Result<Vec<(&Multi, &Multi)>, String> {
+        let time = |source| match source {
+            &Source::Delay(Quotient(ref top, ref below)) => Ok((top, below)),
+            _ => Err("beside dead time the loop has other functions".to_owned()),
+        };
+        self.0.iter().map(time).collect()
+    }
+
     /// The parameters and all the other variables over a box.
     pub fn values(&self, parameters: Vec<Taylor>, p: &Precision, clock: &Clock) -> Result<Vec<Taylor>, String> {
         let mut known = parameters;
@@ -158,6 +195,7 @@ impl Sources {
             let new = match source {
                 Source::Pi => vec![pi(p)],
                 Source::Of(function, f) => vec![function.at(f.over(&known, p, clock)?, p, clock)?],
+                Source::Delay(_) => return Err("internal: a dead time is no number".into()),
                 Source::Hold { a, time, share, matrices } => {
                     let a: Matrix = a
                         .iter()
@@ -229,7 +267,7 @@ impl Function {
 }
 
 /// The circle number by Machin's formula, `16 atan(1/5) - 4 atan(1/239)`.
-fn pi(p: &Precision) -> Taylor {
+pub(super) fn pi(p: &Precision) -> Taylor {
     // 64 bits more than are asked for, so that no rounding is seen in them.
     let one = Z::one() << (p.bits + 64);
     let inverse_tangent = |n: u32| {

@@ -22,6 +22,8 @@ pub(super) struct OverBox {
     pub coefficients: Vec<Multi>,
     /// The loop is undefined where all polynomials of one of these lists vanish.
     pub divisors: Vec<Vec<Multi>>,
+    /// Whether the last of them is the leading coefficient, that of a determinant.
+    pub has_lead_last: bool,
 }
 
 /// Reads the model; `set` has the values of all parameters but those of the box.
@@ -81,7 +83,8 @@ pub(super) fn with_sources(
         let mut coefficients = d.coefficients(0);
         coefficients.resize(degree + 1, Multi::default());
         let sources = asked.moving.map_or_else(|| Ok(Sources::none()), |moving| moving.with_values(values, clock))?;
-        Ok((OverBox { discrete: asked.discrete, coefficients, divisors }, sources))
+        let has_lead_last = !matches!(asked.form, Form::Written(_));
+        Ok((OverBox { discrete: asked.discrete, coefficients, divisors, has_lead_last }, sources))
     })
 }
 

@@ -1,7 +1,10 @@
 //! Maps by boxes: a window of two parameters cut into boxes, of which each is stable everywhere, or nowhere, or unknown.
 
 mod axis;
+mod delayed;
+mod functions;
 mod judge;
+mod polynomial;
 
 use crate::clock::Clock;
 use crate::format::Json;
@@ -15,12 +18,15 @@ use std::fmt::Write;
 /// Trees with longer branches are refused.
 const MAX_DEPTH: usize = 160;
 
+/// The ends of a box in `x` and in `y`.
+pub(super) type Sides = [[Q; 2]; 2];
+
 pub(super) struct Statement {
     pub discrete: bool,
     pub names: Vec<String>,
     pub set: Vec<(String, Q)>,
     pub extent: Extent,
-    pub window: [[Q; 2]; 2],
+    pub window: Sides,
     tree: String,
 }
 
@@ -93,6 +99,12 @@ pub(super) fn check(model: &str, json: &Json, clock: Clock) -> Result<Proved, Re
     let judge = BoxJudge::of(model, statement, &parts, clock)?;
     let shares = judge.walk()?;
     Ok(Proved { statement: judge.statement().in_words(&shares), kind: "boxes" })
+}
+
+/// The axis along which a box is wider, in shares of the window.
+fn share_of_window(sides: &Sides, window: &Sides) -> usize {
+    let share = |k: usize| (&sides[k][1] - &sides[k][0]) / (&window[k][1] - &window[k][0]);
+    usize::from(share(1) > share(0))
 }
 
 impl BoxJudge {

@@ -109,9 +109,9 @@ fn functions_of_the_variable_of_the_loop_are_refused() {
     let (s, a) = (Fraction::variable(0), Fraction::variable(1));
     let reciprocal = Fraction { numerator: Multi::one(), denominator: Multi::variable(0), ..Fraction::variable(0) };
     for wrong in [s.clone(), s.plus(&a, &clock).unwrap(), reciprocal] {
-        assert!(Moving::new(9).of(Function::Exponential, wrong).is_err());
+        assert!(Moving::new(9, false).of(Function::Exponential, wrong).is_err());
     }
-    assert!(Moving::new(9).of(Function::Exponential, a).is_ok());
+    assert!(Moving::new(9, false).of(Function::Exponential, a).is_ok());
 }
 
 /// Of two integrators in a row everything is a power of the time: with `T = 2`, `F(t) = [1, t; 0, 1]`, `G(t) = [t, t^2/2; 0, t]` and

@@ -6,7 +6,6 @@ use super::{no_certificate, refuse_requirements};
 use crate::error::Error;
 use crate::problem::{Bound, Problem};
 use crate::stability::plane::boxes::Window;
-use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 
 /// The schema of certificates of maps by boxes.
@@ -64,21 +63,6 @@ impl Problem {
             ("order", order.into()),
             ("bits", bits.into()),
         ])))
-    }
-
-    /// Refuses problems whose map by boxes has no certificate, before it is made.
-    ///
-    /// Cost: that of [`Problem::algebra_over_symbols`].
-    ///
-    /// # Errors
-    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`).
-    pub fn refuse_boxes_certificate(&self, budget: &Budget) -> Result<(), Error> {
-        refuse_requirements(self)?;
-        refuse_free_bound(self)?;
-        match self.algebra_over_symbols(budget)?.symbols().delays().is_empty() {
-            true => Ok(()),
-            false => Err(no_certificate("no certificate of a map by boxes: the loop has dead time")),
-        }
     }
 }
 

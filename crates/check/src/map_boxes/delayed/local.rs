@@ -1,0 +1,340 @@
+//! The characteristic function on a stretch of the imaginary axis, for all points of a box: its value in the middle, by how much the frequency and
+//! both parameters change it, and bounds of the rest.
+
+use super::headings::{Headings, LENGTH, TURN, heading};
+use super::turn::Turns;
+use crate::number::{Q, Z};
+use crate::taylor::Taylor;
+use num_traits::{Euclid, One, Signed, ToPrimitive, Zero};
+
+/// Frequencies are in units of two to the minus this power.
+pub(super) const FREQUENCY_BITS: usize = 64;
+
+/// More than the roundings of the three evaluations of a polynomial, for each coefficient.
+const ROUNDED: u32 = 8;
+
+/// Bits of what is compared.
+const SHORT: u64 = 56;
+
+/// Real and imaginary part.
+type Complex = [Z; 2];
+
+/// A polynomial in `s` times `exp(-tau s)`, over a box.
+pub(super) struct Part {
+    /// The coefficients in the middle, and their changes by half of either side.
+    about: [Vec<Z>; 3],
+    /// The coefficients of the derivative by `s`, in the middle.
+    derivative: Vec<Z>,
+    /// What is left out of each coefficient.
+    rest: Vec<Z>,
+    /// The first and the second derivative, with the moduli of the coefficients.
+    derivatives: [Vec<Z>; 2],
+    /// The moduli of all that changes a coefficient over the box, and the derivative with these.
+    changes: [Vec<Z>; 2],
+    delay: Option<Delay>,
+}
+
+/// A dead time over a box.
+struct Delay {
+    middle: Q,
+    /// The middle in units, rounded down, and the changes by half of either side.
+    floor: Z,
+    changes: [Z; 2],
+    /// A bound of the moduli of both changes together.
+    spread: Z,
+}
+
+impl Part {
+    /// Of the coefficients over a box, and the dead time: its middle and its changes by half of either side.
+    pub fn new(coefficients: &[Taylor], delay: Option<(Q, [Q; 2])>, bits: usize) -> Self {
+        let about = [0, 1, 2].map(|way| {
+            let of = |c: &Taylor| if way == 0 { c.constant() } else { c.linear(way - 1) };
+            coefficients.iter().map(of).collect::<Vec<Z>>()
+        });
+        let moduli = |j: usize| [1, 2].iter().map(|&way| about[way][j].abs()).sum::<Z>();
+        let n = coefficients.len();
+        let rest: Vec<Z> = (0..n).map(|j| coefficients[j].variation() - moduli(j) + Z::from(ROUNDED)).collect();
+        let change: Vec<Z> = (0..n).map(|j| &rest[j] + moduli(j)).collect();
+        let derivative = derivative(&about[0]);
+        let first: Vec<Z> = derivative.iter().map(Z::abs).collect();
+        let second = self::derivative(&first);
+        let changes = [change.clone(), self::derivative(&change)];
+        let delay = delay.map(|(middle, both)| {
+            let floor = |q: &Q| ((q.numer() << bits) as Z).div_euclid(q.denom());
+            let changes = both.each_ref().map(floor);
+            let spread = changes.iter().map(|x| x.abs() + Z::one()).sum();
+            Delay { floor: floor(&middle), middle, changes, spread }
+        });
+        Part { about, derivative, rest, derivatives: [first, second], changes, delay }
+    }
+}
+
+fn derivative(c: &[Z]) -> Vec<Z> {
+    c.iter().enumerate().skip(1).map(|(j, c)| c * Z::from(j)).collect()
+}
+
+/// The quotient by `2^bits`, rounded up.
+fn up(x: Z, bits: usize) -> Z {
+    -((-x) >> bits)
+}
+
+/// The value at `i omega`.
+fn on_axis(c: &[Z], omega: &Z) -> Complex {
+    let square = omega * omega;
+    let part = |odd: usize| {
+        let mut sum = Z::zero();
+        for c in c.iter().skip(odd).step_by(2).rev() {
+            sum = c - ((sum * &square) >> (2 * FREQUENCY_BITS));
+        }
+        sum
+    };
+    [part(0), (part(1) * omega) >> FREQUENCY_BITS]
+}
+
+/// A bound of the value at a frequency, or below, of a polynomial whose coefficients are not negative.
+fn at_most(c: &[Z], omega: &Z) -> Z {
+    c.iter().rev().fold(Z::zero(), |sum, c| up(sum * omega, FREQUENCY_BITS) + c)
+}
+
+/// A bound of the modulus: `sqrt(a^2 + b^2) <= a + b/2` for `a >= b`.
+fn modulus([re, im]: &Complex) -> Z {
+    let (a, b) = (re.abs(), im.abs());
+    let (large, small) = if a >= b { (a, b) } else { (b, a) };
+    large + ((small + 1_u32) >> 1)
+}
+
+fn add(sum: &mut Complex, [re, im]: Complex) {
+    sum[0] += re;
+    sum[1] += im;
+}
+
+/// Times a number and `-i`.
+fn turned_back([re, im]: &Complex, by: &Z, bits: usize) -> Complex {
+    [(im * by) >> bits, -((re * by) >> bits)]
+}
+
+/// Times `exp(-i angle)` with this cosine and sine.
+fn times([re, im]: &Complex, [c, s]: &[Z; 2], bits: usize) -> Complex {
+    [(re * c + im * s) >> bits, (im * c - re * s) >> bits]
+}
+
+/// The function about the middle of a stretch and of a box.
+pub(super) struct Local {
+    value: [i128; 2],
+    /// The changes by half of either side of the box, and by half of the stretch.
+    changes: [[i128; 2]; 3],
+    rest: i128,
+    /// The derivative by the frequency, and how far it is off anywhere.
+    slope: [i128; 2],
+    slope_rest: i128,
+    /// How much of the rest is there because of either side of the box, for a choice and no proof.
+    blame: [i128; 2],
+}
+
+impl Local {
+    /// On the stretch of half the length `half` about a frequency.
+    pub fn new(parts: &[Part], middle: &Z, half: &Z, turns: &Turns, bits: usize) -> Self {
+        let far = middle + half;
+        let one = Z::one() << bits;
+        // The frequency, rounded up to a whole number, and one.
+        let above: Z = (&far >> FREQUENCY_BITS) + 2_u32;
+        let by_half = |x: Z| up(x * half, FREQUENCY_BITS);
+        let [mut value, mut by_u, mut by_v, mut slope] = [(); 4].map(|()| [Z::zero(), Z::zero()]);
+        let (mut rest, mut slope_rest, mut blame) = (Z::zero(), Z::zero(), [Z::zero(), Z::zero()]);
+        for part in parts {
+            let [p, u, v] = part.about.each_ref().map(|c| on_axis(c, middle));
+            let [re, im] = on_axis(&part.derivative, middle);
+            let d = [-im, re];
+            let [change, change_slope] = part.changes.each_ref().map(|c| at_most(c, &far));
+            let [first, second] = part.derivatives.each_ref().map(|c| at_most(c, &far));
+            // How far the polynomial and its derivative are off their values in the middle, and the former off its linear part.
+            let off = change + by_half(first);
+            let slope_off = &change_slope + by_half(second.clone());
+            let bent =
+                at_most(&part.rest, &far) + by_half(change_slope) + up(second * half * half, 2 * FREQUENCY_BITS + 1);
+            let Some(delay) = &part.delay else {
+                add(&mut value, p);
+                add(&mut by_u, u);
+                add(&mut by_v, v);
+                add(&mut slope, d);
+                rest += bent;
+                slope_rest += slope_off;
+                continue;
+            };
+            let size = modulus(&p);
+            let longest: Z = &delay.floor + 1_u32;
+            // How far the angle is off that in the middle.
+            let angle = up(&far * &delay.spread, FREQUENCY_BITS) + by_half(longest.clone());
+            let turn = if angle < one { turns.of(&delay.middle, middle, FREQUENCY_BITS) } else { None };
+            let Some(turn) = turn else {
+                // Anything of this size.
+                let all = size + off;
+                for (sum, time) in blame.iter_mut().zip(&delay.changes) {
+                    let angle: Z = (&far * time.abs()) >> FREQUENCY_BITS;
+                    *sum += (&all * angle.min(one.clone())) >> bits;
+                }
+                slope_rest += modulus(&d) + slope_off + up((longest + &delay.spread) * &all, bits);
+                rest += all;
+                continue;
+            };
+            let changes = [u, v].into_iter().zip(&delay.changes).map(|(mut own, time)| {
+                add(&mut own, turned_back(&p, &((middle * time) >> FREQUENCY_BITS), bits));
+                own
+            });
+            let mut d = d;
+            add(&mut d, turned_back(&p, &delay.floor, bits));
+            let (mut rounded, d_size) = (&size * &above * 2_u32, modulus(&d));
+            for (sum, own) in [&mut by_u, &mut by_v].into_iter().zip(changes) {
+                rounded += modulus(&own);
+                add(sum, times(&own, &turn, bits));
+            }
+            add(&mut value, times(&p, &turn, bits));
+            add(&mut slope, times(&d, &turn, bits));
+            // exp(-i x) is off 1 - i x by at most x^2/2, and off 1 by at most x.
+            let square = by_half(delay.spread.clone()) + up(&angle * &angle, bits + 1);
+            rest += bent + up(&size * square + &off * &angle, bits) + (rounded >> (bits - 3)) + 64_u32;
+            let slope_rounded: Z = ((&size + &d_size) >> (bits - 3)) + 64_u32;
+            rest += by_half(slope_rounded.clone());
+            slope_rest +=
+                slope_off + up(longest * &off + &delay.spread * (size + off) + d_size * angle, bits) + slope_rounded;
+        }
+        let by_omega = slope.each_ref().map(|x| (x * half) >> FREQUENCY_BITS);
+        Local::short([value, by_u, by_v, by_omega, slope], rest, slope_rest, blame)
+    }
+
+    /// With as many bits as are of use. The slope has a unit of its own.
+    fn short(vectors: [Complex; 5], rest: Z, slope_rest: Z, blame: [Z; 2]) -> Self {
+        let down = |numbers: &[Complex], rest: &Z| {
+            let longest = numbers.iter().flatten().chain([rest]).map(Z::bits).max().unwrap_or(0);
+            longest.saturating_sub(SHORT)
+        };
+        let (far, own) = (down(&vectors[..4], &rest), down(&vectors[4..], &slope_rest));
+        // Numbers of so few bits always fit.
+        let floor = |x: &Z, by: u64| (x >> by).to_i128().unwrap_or(i128::MAX >> 32);
+        let [value, u, v, w] = [0, 1, 2, 3].map(|i| vectors[i].each_ref().map(|x| floor(x, far)));
+        Local {
+            value,
+            changes: [u, v, w],
+            // Each of four vectors is rounded by less than 3/2.
+            rest: floor(&rest, far) + 8,
+            slope: vectors[4].each_ref().map(|x| floor(x, own)),
+            slope_rest: floor(&slope_rest, own) + 4,
+            blame: blame.each_ref().map(|x| floor(x, far)),
+        }
+    }
+
+    /// The first heading, a given one before all others, about which the function is in the half plane, at least a share `1/2^margin` of its
+    /// value in the middle being left, if a margin is asked for.
+    pub fn clear(&self, before: Option<i64>, margin: Option<u32>) -> Option<i64> {
+        let is_clear = |k: &i64| {
+            let value = along(*k, &self.value);
+            let changes = self.changes.iter().map(|x| along(*k, x).abs()).sum::<i128>();
+            let left = value - changes - LENGTH * self.rest;
+            left > 0 && margin.is_none_or(|margin| left << margin > value)
+        };
+        before.into_iter().chain(0..TURN).find(is_clear)
+    }
+
+    /// The headings about which the derivative by the frequency is in the half plane.
+    pub fn slopes(&self, margin: Option<u32>) -> Headings {
+        let is_along = |k: &i64| {
+            let slope = along(*k, &self.slope);
+            let left = slope - LENGTH * self.slope_rest;
+            left > 0 && margin.is_none_or(|margin| left << margin > slope)
+        };
+        (0..TURN).filter(is_along).fold(0, |all, k| all | 1 << k)
+    }
+
+    /// By how much half of either side moves the function, in parts of 1024 of both: across its way where that is known.
+    pub fn shares(&self, slopes: Headings) -> [u64; 2] {
+        let [u, v] = [0, 1].map(|i| {
+            let [a, b] = self.changes[i];
+            let size = |k: i64| along(k, &[a, b]).abs();
+            let own = match (0..TURN).filter(|k| slopes & 1 << k != 0).max_by_key(|k| along(*k, &self.slope)) {
+                Some(k) => size(k + 4),
+                None => size(0).max(size(4)),
+            };
+            own + LENGTH * self.blame[i]
+        });
+        [u, v].map(|x| u64::try_from((x << 10) / (u + v + 1)).unwrap_or(0))
+    }
+}
+
+/// The part of a vector along a heading.
+fn along(k: i64, [x, y]: &[i128; 2]) -> i128 {
+    let [a, b] = heading(k);
+    a * x + b * y
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clock::Clock;
+    use crate::taylor::Precision;
+    use std::time::Duration;
+
+    const BITS: usize = 96;
+
+    /// Of `P_0 = x y + (1 + x) s + s^2` and `P_1 = y + (x - 2 y) s` with the dead time `1 + x/2 - y/4`, at many stretches of many boxes: where a
+    /// half plane is found the function in floating point is in it, on a grid of points that has all corners; so is its derivative.
+    #[test]
+    fn half_planes_hold_the_function_and_its_derivative() {
+        let (p, clock, turns) = (Precision::new(1, BITS), Clock::new(Duration::MAX), Turns::new(BITS));
+        let mut seed = 7_u64;
+        let mut random = |n: u64| {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((seed >> 33) % n) as i64
+        };
+        let (mut clear, mut directed) = (0, 0);
+        for _ in 0..2000 {
+            let over = |k: i64, n: i64| Q::new(k.into(), n.into());
+            let widest = 1 << random(5);
+            let (cx, cy, rx, ry) = (random(200) - 50, random(200) - 50, random(widest), random(widest));
+            let side = |c: i64, r: i64| [over(c - r, 50), over(c + r, 50)];
+            let x = Taylor::coordinate(&side(cx, rx), 0, &p);
+            let y = Taylor::coordinate(&side(cy, ry), 1, &p);
+            let (zero, one) = (Taylor::zero(), Taylor::number(&Q::one(), &p));
+            let first = [x.times(&y, &p, &clock).unwrap(), one.plus(&x), one];
+            let second = [y.clone(), x.minus(&y.scaled(&2.into())), zero];
+            let time = over(50, 50) + over(cx, 100) - over(cy, 200);
+            if time.is_negative() {
+                continue;
+            }
+            let changes = [over(rx, 100), over(-ry, 200)];
+            let parts = [Part::new(&first, None, BITS), Part::new(&second, Some((time, changes)), BITS)];
+            // Short and long stretches, of small and of large boxes.
+            let half = if random(2) == 0 { random(20) } else { random(200) };
+            let middle = half + random(600);
+            let unit = |k: i64| (Z::from(k) << FREQUENCY_BITS) / 200;
+            let local = Local::new(&parts, &unit(middle), &unit(half), &turns, BITS);
+            let value = |[t, u, v]: [f64; 3]| {
+                let (x, y) = ((cx as f64 + rx as f64 * u) / 50.0, (cy as f64 + ry as f64 * v) / 50.0);
+                let (w, tau) = ((middle as f64 + half as f64 * t) / 200.0, 1.0 + x / 2.0 - y / 4.0);
+                let (c, s) = ((w * tau).cos(), -(w * tau).sin());
+                let ([a, b], [da, db]) = ([y, (x - 2.0 * y) * w], [0.0, x - 2.0 * y]);
+                let [f, g] = [x * y - w * w + a * c - b * s, (1.0 + x) * w + a * s + b * c];
+                // The derivative of the delayed part: (P' - i tau P) exp(-i w tau).
+                let [a, b] = [da + tau * b, db - tau * a];
+                ([f, g], [-2.0 * w + a * c - b * s, 1.0 + x + a * s + b * c])
+            };
+            let steps = [-1.0, -0.4, 0.1, 0.7, 1.0];
+            let grid: Vec<[f64; 3]> = (0..125).map(|k| [steps[k % 5], steps[k / 5 % 5], steps[k / 25]]).collect();
+            let is_in = |k: i64, [re, im]: [f64; 2]| {
+                let [a, b] = heading(k).map(|x| x as f64);
+                a * re + b * im > -1e-9
+            };
+            let slopes = local.slopes(None);
+            for k in 0..TURN {
+                if local.clear(Some(k), None) == Some(k) {
+                    assert!(grid.iter().all(|at| is_in(k, value(*at).0)), "{k} {cx} {cy} {rx} {ry} {middle} {half}");
+                    clear += 1;
+                }
+                if slopes & 1 << k != 0 {
+                    assert!(grid.iter().all(|at| is_in(k, value(*at).1)), "{k} {cx} {cy} {rx} {ry} {middle} {half}");
+                    directed += 1;
+                }
+            }
+        }
+        assert!(clear > 2000 && directed > 1000, "{clear} {directed}");
+    }
+}

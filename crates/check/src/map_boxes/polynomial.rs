@@ -1,0 +1,170 @@
+//! What is shown of single boxes by the characteristic polynomial: loops without dead time.
+
+use super::axis::{right, scale, shifted};
+use super::functions::Functions;
+use super::{Sides, share_of_window};
+use crate::clock::Clock;
+use crate::moving::Sources;
+use crate::multivariate::Multi;
+use crate::number::Z;
+use crate::over_box::{OverBox, in_half_plane, in_region};
+use crate::over_symbols::primitive;
+use crate::statement::Extent;
+use crate::taylor::{Precision, Taylor};
+use num_traits::{One, Signed};
+use std::ops::Range;
+
+/// Beyond the axis, by these powers of two relative to the size of the roots, roots of a box are looked for whose boundary runs between
+/// parts that are all not stable.
+const BEYOND: [i64; 2] = [-3, -1];
+
+/// The characteristic polynomial over the window.
+pub(super) struct Polynomial {
+    precision: Precision,
+    sources: Sources,
+    /// Polynomials in the parameters and what depends on them: the coefficients in the half plane, then lists of divisors.
+    functions: Functions,
+    /// The number of coefficients.
+    coefficients: usize,
+    /// Places of those divisors that one list has.
+    divisors: Vec<Range<usize>>,
+    /// Whether a divisor, or a coefficient, is zero everywhere: then no point is stable.
+    is_nowhere: bool,
+}
+
+/// What is known of a box.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Known {
+    /// The functions, and whether they were computed for this box and not for a larger one.
+    functions: Option<(Vec<Taylor>, bool)>,
+    /// Whether that was tried.
+    is_tried: bool,
+}
+
+impl Polynomial {
+    pub fn new(own: OverBox, sources: Sources, extent: &Extent, precision: Precision) -> Result<Self, String> {
+        let in_this_region = in_region(&own.coefficients, own.discrete, extent)?;
+        let mut all = primitive(if own.discrete { in_half_plane(&in_this_region) } else { in_this_region });
+        let coefficients = all.len();
+        let is_undefined = own.divisors.iter().any(|parts| parts.iter().all(Multi::is_zero));
+        let is_nowhere = is_undefined || all.iter().any(Multi::is_zero);
+        let mut divisors = Vec::with_capacity(own.divisors.len());
+        for parts in own.divisors.into_iter().filter(|parts| !parts.iter().any(is_number)) {
+            divisors.push(all.len()..all.len() + parts.len());
+            all.extend(primitive(parts));
+        }
+        let functions = Functions::new(&all);
+        Ok(Polynomial { precision, sources, functions, coefficients, divisors, is_nowhere })
+    }
+
+    /// Makes sure that the halves have something to begin with.
+    pub fn prepare(&self, sides: &Sides, known: &mut Known, clock: &Clock) -> Result<(), String> {
+        match &known.functions {
+            Some((known, is_own)) if *is_own || self.is_precise(known, 4) => Ok(()),
+            _ => self.compute(sides, known, clock),
+        }
+    }
+
+    pub fn halves(&self, known: &Known, axis: usize) -> [Known; 2] {
+        let (mut lower, mut upper) = (Vec::new(), Vec::new());
+        for f in known.functions.iter().flat_map(|(known, _)| known) {
+            let [below, above] = f.halves(axis, &self.precision);
+            lower.push(below);
+            upper.push(above);
+        }
+        [lower, upper].map(|half| Known { functions: known.functions.as_ref().map(|_| (half, false)), is_tried: false })
+    }
+
+    /// Whether what is left out is less than a share of what the box changes.
+    fn is_precise(&self, known: &[Taylor], share: usize) -> bool {
+        known[..self.coefficients].iter().all(|f| {
+            let variation = f.variation();
+            (&f.rest << share) <= variation || f.rest.bits() < 8
+        })
+    }
+
+    /// The functions over the box itself, where the series allow it.
+    fn compute(&self, sides: &Sides, of: &mut Known, clock: &Clock) -> Result<(), String> {
+        if of.is_tried {
+            return Ok(());
+        }
+        of.is_tried = true;
+        clock.tick()?;
+        let p = &self.precision;
+        let parameters = sides.iter().enumerate().map(|(i, side)| Taylor::coordinate(side, i, p)).collect();
+        // A box may be too wide for a series; then it is not shown.
+        let own = self.sources.values(parameters, p, clock).and_then(|v| self.functions.at(&v, p, clock));
+        clock.tick()?;
+        if let Ok(own) = own {
+            of.functions = Some((own, true));
+        }
+        Ok(())
+    }
+
+    pub fn shown(&self, sides: &Sides, of: &mut Known, stable: bool, clock: &Clock) -> Result<bool, String> {
+        if self.is_nowhere {
+            return Ok(!stable);
+        }
+        if let Some((known, is_own)) = &of.functions {
+            if self.decided(known, stable, clock)? {
+                return Ok(true);
+            }
+            if *is_own || self.is_precise(known, 10) {
+                return Ok(false);
+            }
+        }
+        self.compute(sides, of, clock)?;
+        match &of.functions {
+            Some((known, true)) => self.decided(known, stable, clock),
+            _ => Ok(false),
+        }
+    }
+
+    fn decided(&self, known: &[Taylor], stable: bool, clock: &Clock) -> Result<bool, String> {
+        let p = &known[..self.coefficients];
+        let right = |p: &[Taylor]| right(p, &self.precision, clock);
+        if stable {
+            return Ok(are_defined(&self.divisors, known) && right(p)? == Some(0));
+        }
+        // All roots to the left make all coefficients of one sign.
+        let signs: Vec<bool> = p.iter().filter_map(Taylor::sign).collect();
+        if signs.contains(&true) && signs.contains(&false) {
+            return Ok(true);
+        }
+        if right(p)?.is_some_and(|count| count > 0) {
+            return Ok(true);
+        }
+        for beyond in BEYOND {
+            if right(&shifted(p, scale(p) + beyond))?.is_some_and(|count| count > 0) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The axis along which the functions change most in a box, 0 or 1; of one that is not known, 0 where it is the wider one in shares of
+    /// the window.
+    pub fn axis(&self, sides: &Sides, window: &Sides, of: &Known) -> usize {
+        let Some((known, _)) = &of.functions else { return share_of_window(sides, window) };
+        let mut sums = [0.0; 2];
+        for f in &known[..self.coefficients] {
+            let size = f.magnitude().max(Z::one());
+            for (axis, sum) in sums.iter_mut().enumerate() {
+                // Shares in thousandths, for a choice and no proof.
+                let share = u32::try_from(f.linear(axis).abs() * 1000 / &size).unwrap_or(u32::MAX);
+                *sum += f64::from(share);
+            }
+        }
+        usize::from(sums[1] > sums[0])
+    }
+}
+
+/// Whether of each of these lists of functions one has a sign.
+pub(super) fn are_defined(divisors: &[Range<usize>], known: &[Taylor]) -> bool {
+    divisors.iter().all(|list| known[list.clone()].iter().any(|f| f.sign().is_some()))
+}
+
+/// A number other than zero.
+pub(super) fn is_number(p: &Multi) -> bool {
+    p.is_constant() && !p.is_zero()
+}
