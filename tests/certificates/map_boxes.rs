@@ -37,10 +37,15 @@ fn boxes(text: &str, sides: [Side; 2], undecided: &str) -> Answer<MapBoxes> {
 
 /// That a map is certified, at least this share of the window: both checkers accept it, and verdicts agree with it.
 fn is_certified(text: &str, sides: [Side; 2], undecided: &str, least: &str) {
+    assert!(certified(text, sides, undecided, least, 1) > 5, "{text}");
+}
+
+/// The same, with a point in one box of `every`; how many points.
+pub(super) fn certified(text: &str, sides: [Side; 2], undecided: &str, least: &str, every: usize) -> usize {
     let (certificate, share) = emitted(text, sides, undecided);
     accept(text, &certificate);
     assert!(share > number(least), "{share}\n{text}");
-    assert!(agree_with_verdicts(text, sides, &certificate, 1) > 5);
+    agree_with_verdicts(text, sides, &certificate, every)
 }
 
 /// The certificate, with the shares that it proves together.
@@ -114,7 +119,7 @@ pub(super) fn is_true(text: &str, json: &Json) -> bool {
 }
 
 /// At random points of the boxes the engine's verdict is what the certificate says; at how many.
-pub(super) fn agree_with_verdicts(text: &str, sides: [Side; 2], certificate: &str, every: usize) -> usize {
+fn agree_with_verdicts(text: &str, sides: [Side; 2], certificate: &str, every: usize) -> usize {
     let window = sides.map(|(_, low, high)| [number(low), number(high)]);
     let (mut random, mut seen) = (Random::new(7), [0, 0]);
     let model = read(text);
@@ -319,6 +324,38 @@ fn another_statement_is_rejected() {
     reject(&text.replace("a*s", "(a - 1)*s"), by_hand, Step::Stable);
 }
 
+/// Asserts of changes of one value in a certificate, one in `part`, and of `trees` trees with a part in another place that what is accepted is true, and
+/// of one in `every` that both checkers say the same. How many are rejected, and how many accepted.
+pub(super) fn rejected_or_true(
+    text: &str,
+    certificate: &str,
+    random: &mut Random,
+    [part, trees, every]: [usize; 3],
+) -> [usize; 2] {
+    let (original, tree) = (Json::parse(certificate).unwrap(), tree_of(certificate));
+    assert!(is_true(text, &original));
+    let mut changes: Vec<String> = mutations(&original).one_in(part).map(|json| json.to_text()).collect();
+    // A letter, or a part of the tree, in the place of another.
+    for _ in 0..trees {
+        let (at, from) = (random.below(tree.len()), random.below(tree.len()));
+        let to = (from + 1 + random.below(5)).min(tree.len());
+        let changed = format!("{}{}{}", &tree[..at], &tree[from..to], &tree[at + 1..]);
+        changes.push(with(certificate, &format!("\"{tree}\""), &format!("\"{changed}\"")));
+    }
+    let mut seen = [0, 0];
+    for (k, changed) in changes.iter().enumerate() {
+        let verdict = check(text, changed, &LIMITS);
+        if k % every == 0
+            && let Some(other) = python(text, changed)
+        {
+            assert_eq!(verdict.is_ok(), other.is_ok(), "{verdict:?} {other:?}\n{changed}");
+        }
+        assert!(verdict.is_err() || is_true(text, &Json::parse(changed).unwrap()), "{changed}");
+        seen[usize::from(verdict.is_ok())] += 1;
+    }
+    seen
+}
+
 #[test]
 fn changed_certificates_are_rejected_or_true() {
     let mut random = Random::new(3);
@@ -327,32 +364,7 @@ fn changed_certificates_are_rejected_or_true() {
         (plain("discrete", "z - exp(-b) + a*(1 - exp(-b))"), [("a", "1/2", "4"), ("b", "1/4", "2")]),
     ] {
         let (certificate, _) = emitted(&text, sides, "0.4");
-        let (original, tree) = (Json::parse(&certificate).unwrap(), tree_of(&certificate));
-        assert!(is_true(&text, &original));
-        let mut changes: Vec<String> = mutations(&original).one_in(1).map(|json| json.to_text()).collect();
-        // A letter, or a part of the tree, in the place of another.
-        for _ in 0..100 {
-            let (at, from) = (random.below(tree.len()), random.below(tree.len()));
-            let to = (from + 1 + random.below(5)).min(tree.len());
-            let changed = format!("{}{}{}", &tree[..at], &tree[from..to], &tree[at + 1..]);
-            changes.push(with(&certificate, &format!("\"{tree}\""), &format!("\"{changed}\"")));
-        }
-        let (mut rejected, mut accepted) = (0, 0);
-        for (k, changed) in changes.iter().enumerate() {
-            let verdict = check(&text, changed, &LIMITS);
-            if k % 3 == 0
-                && let Some(other) = python(&text, changed)
-            {
-                assert_eq!(verdict.is_ok(), other.is_ok(), "{verdict:?} {other:?}\n{changed}");
-            }
-            match verdict {
-                Err(_) => rejected += 1,
-                Ok(_) => {
-                    accepted += 1;
-                    assert!(is_true(&text, &Json::parse(changed).unwrap()), "{changed}");
-                }
-            }
-        }
+        let [rejected, accepted] = rejected_or_true(&text, &certificate, &mut random, [1, 100, 3]);
         assert!(rejected > 80 && accepted > 2, "{rejected} rejected, {accepted} accepted");
     }
 }

@@ -1,8 +1,8 @@
 //! Certificates of maps by boxes of loops with dead time: both checkers accept what is written, and nothing that is wrong.
 
-use super::map_boxes::{Side, agree_with_verdicts, emitted, is_true, leaves, plain, tree_of};
-use crate::helpers::certificates::checkers::{accept, python, reject};
-use crate::helpers::certificates::{mutations, with};
+use super::map_boxes::{Side, certified, emitted, is_true, leaves, plain, rejected_or_true, tree_of};
+use crate::helpers::certificates::checkers::{accept, reject};
+use crate::helpers::certificates::with;
 use crate::helpers::model::{example_text, path};
 use crate::helpers::number::number;
 use crate::helpers::program::jurist;
@@ -62,11 +62,7 @@ fn examples_are_certified() {
         ("smith-predictor", [("theta_model", "3", "7"), ("theta_process", "3", "8")]),
         ("neutral-loop", [("K", "-3/4", "3/4"), ("tau", "1/4", "3")]),
     ] {
-        let text = example_text(name);
-        let (certificate, share) = emitted(&text, sides, "0.15");
-        accept(&text, &certificate);
-        assert!(share > number("0.8"), "{name}: {share}");
-        seen += agree_with_verdicts(&text, sides, &certificate, 2);
+        seen += certified(&example_text(name), sides, "0.25", "0.7", 2);
     }
     assert!(seen > 30, "{seen}");
 }
@@ -83,10 +79,7 @@ fn random_loops_agree_with_verdicts() {
         };
         let text = plain("continuous", &format!("s^{} + {}*s + {} + {delayed}", 2 + c(2), 1 + c(9), c(9)));
         let sides = [("a", "-1", "5"), ("b", "0", "1")];
-        let (certificate, share) = emitted(&text, sides, "0.1");
-        accept(&text, &certificate);
-        assert!(share > number("0.8"), "{share}\n{text}");
-        seen += agree_with_verdicts(&text, sides, &certificate, 1);
+        seen += certified(&text, sides, "0.1", "0.8", 1);
     }
     assert!(seen > 20, "{seen}");
 }
@@ -177,32 +170,9 @@ fn another_statement_or_model_is_rejected() {
 
 #[test]
 fn changed_certificates_are_rejected_or_true() {
-    let (mut random, text) = (Random::new(5), plain("continuous", INTEGRATOR));
+    let text = plain("continuous", INTEGRATOR);
     let (certificate, _) = emitted(&text, WINDOW, "0.4");
-    let (original, tree) = (Json::parse(&certificate).unwrap(), tree_of(&certificate));
-    let mut changes: Vec<String> = mutations(&original).one_in(2).map(|json| json.to_text()).collect();
-    for _ in 0..40 {
-        let (at, from) = (random.below(tree.len()), random.below(tree.len()));
-        let to = (from + 1 + random.below(5)).min(tree.len());
-        let changed = format!("{}{}{}", &tree[..at], &tree[from..to], &tree[at + 1..]);
-        changes.push(with(&certificate, &format!("\"{tree}\""), &format!("\"{changed}\"")));
-    }
-    let (mut rejected, mut accepted) = (0, 0);
-    for (k, changed) in changes.iter().enumerate() {
-        let verdict = check(&text, changed, &LIMITS);
-        if k % 4 == 0
-            && let Some(other) = python(&text, changed)
-        {
-            assert_eq!(verdict.is_ok(), other.is_ok(), "{verdict:?} {other:?}\n{changed}");
-        }
-        match verdict {
-            Err(_) => rejected += 1,
-            Ok(_) => {
-                accepted += 1;
-                assert!(is_true(&text, &Json::parse(changed).unwrap()), "{changed}");
-            }
-        }
-    }
+    let [rejected, accepted] = rejected_or_true(&text, &certificate, &mut Random::new(5), [2, 40, 4]);
     assert!(rejected > 40 && accepted > 0, "{rejected} rejected, {accepted} accepted");
 }
 

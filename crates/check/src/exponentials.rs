@@ -98,6 +98,9 @@ mod tests {
         for text in [
             "exp(-s) + 1",
             "1/exp(-s)",
+            "1/(2*exp(-s))",
+            "2*exp(-s)*3 + 1",
+            "(1 - 2*exp(-s)/(s + 1))",
             "exp(-s)^2",
             "exp(-2)/s",
             "exp2(s)*a",

@@ -255,7 +255,7 @@ fn join_both(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
 }
 
 /// The images of all items in their order, computed on as many threads as there are; the budgets that hold here hold
-/// for all of them.
+/// for all of them. All are computed, also where `C` is a `Result`: then the first error in their order is returned.
 ///
 /// ```
 /// use jurist_algebra::limits::parallel_map;

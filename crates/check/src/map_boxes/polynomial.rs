@@ -146,13 +146,13 @@ impl Polynomial {
     /// the window.
     pub fn axis(&self, sides: &Sides, window: &Sides, of: &Known) -> usize {
         let Some((known, _)) = &of.functions else { return share_of_window(sides, window) };
-        let mut sums = [0.0; 2];
+        let mut sums = [0_u64; 2];
         for f in &known[..self.coefficients] {
             let size = f.magnitude().max(Z::one());
             for (axis, sum) in sums.iter_mut().enumerate() {
                 // Shares in thousandths, for a choice and no proof.
                 let share = u32::try_from(f.linear(axis).abs() * 1000 / &size).unwrap_or(u32::MAX);
-                *sum += f64::from(share);
+                *sum += u64::from(share);
             }
         }
         usize::from(sums[1] > sums[0])
