@@ -269,6 +269,13 @@ fn what_has_no_certificate_is_refused() {
     };
     let required = format!("{}\n[require]\nphase_margin = 30", plain("discrete", "z + a*b"));
     assert_eq!(refused(&required, "a", "b"), "E-no-certificate");
+    // z - 1 + a b: rational, but no checker computes exponentials of what is not a number.
+    let held = "time = 'discrete'\nparameters = { a = {}, b = {} }\nloop.inputs = ['r']\n[[block]]\nname = 'C'\ninput = 'r - y'\n\
+        output = 'u'\ngain = 'a'\n[[block]]\nname = 'P'\ninput = 'u'\noutput = 'y'\ntransfer = '1/s'\n\
+        discretize = { method = 'zoh', T = 'b' }";
+    assert_eq!(refused(held, "a", "b"), "E-no-certificate");
+    let of_another = emitted(&plain("discrete", "z - 1 + a*b"), "a", "b");
+    reject(held, &of_another, Step::Model);
     let budget = Budget::unlimited().cancelled_by(Arc::new(AtomicBool::new(true)));
     let map = map_of(read(&plain("discrete", "z^2 + a*z + b")).ask().free("a").free("b"));
     assert!(matches!(map.certificate(&budget), Err(Error::Stopped(_))));

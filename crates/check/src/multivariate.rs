@@ -248,9 +248,10 @@ impl Multi {
         for (e, c) in &self.0 {
             let mut term = Q::from(c.clone());
             for (i, &k) in e.iter().enumerate().filter(|(i, k)| *i != 0 && *i != kept && **k > 0) {
+                let value = values.get(i).ok_or("a number is needed of what depends on the parameters in question")?;
                 let bits = |q: &Q| q.numer().bits() + q.denom().bits();
-                count(clock, 1, bits(&term), bits(&values[i]).saturating_mul(k.into()))?;
-                term *= power(&values[i], k);
+                count(clock, 1, bits(&term), bits(value).saturating_mul(k.into()))?;
+                term *= power(value, k);
             }
             let at = |i: usize| e.get(i).copied().unwrap_or(0) as usize;
             out[at(0)][at(kept)] += term;

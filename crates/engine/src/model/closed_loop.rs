@@ -149,7 +149,7 @@ impl Answer<'_> {
 }
 
 /// A function with these images in the place of its variables. Numbers are put in first: they make it smaller.
-fn substituted(f: &RationalFunction, images: &[RationalFunction]) -> Option<RationalFunction> {
+pub(super) fn substituted(f: &RationalFunction, images: &[RationalFunction]) -> Option<RationalFunction> {
     let mut f = f.clone();
     for i in f.variables() {
         if let Some(value) = images[i].as_constant() {
@@ -292,14 +292,7 @@ impl Model {
     ) -> Result<Answer<'_>, Error> {
         let mut failures = Vec::new();
         let mut report = |failure| failures.push(failure);
-        // Parameters stay symbolic until everything is evaluated: only so the degree and the points of
-        // division by zero do not depend on the values set. A constant that is set has another number.
-        let symbol = |name: &str, constant: bool| match given.iter().find(|(n, _)| n == name) {
-            _ if !constant => Some(Symbol::Variable),
-            Some((_, value)) => Some(Symbol::Value(value.clone())),
-            None => kept.iter().any(|k| k == name).then_some(Symbol::Variable),
-        };
-        let mut scope = Scope::new(self.parameters().iter(), self.ordered_constants(), symbol, budget, &mut report);
+        let mut scope = self.scope(kept, given, budget, &mut report);
         let wiring = Wiring::of(self);
         let values = symbolic(self, &wiring, &mut scope, &mut report);
         let sample_time = match self.sample_time_expression() {
@@ -323,8 +316,25 @@ impl Model {
         Ok(answer)
     }
 
+    /// Parameters stay symbolic until everything is evaluated: only so the degree and the points of division by zero do not depend
+    /// on the values set. A constant that is set has another number.
+    pub(super) fn scope<'a>(
+        &'a self,
+        kept: &[String],
+        given: &[(String, Rational)],
+        budget: &'a Budget,
+        report: &mut dyn FnMut(Wrong),
+    ) -> Scope<'a> {
+        let symbol = |name: &str, constant: bool| match given.iter().find(|(n, _)| n == name) {
+            _ if !constant => Some(Symbol::Variable),
+            Some((_, value)) => Some(Symbol::Value(value.clone())),
+            None => kept.iter().any(|k| k == name).then_some(Symbol::Variable),
+        };
+        Scope::new(self.parameters().iter(), self.ordered_constants(), symbol, budget, report)
+    }
+
     /// What each variable of the values is in kept names and symbols.
-    fn images(
+    pub(super) fn images(
         &self,
         variables: &[Variable],
         kept: &[String],

@@ -17,6 +17,7 @@ pub mod examples;
 mod free;
 mod open_loop;
 mod parts;
+mod presupposed;
 mod read;
 mod symbols;
 mod text;
@@ -30,6 +31,7 @@ pub use definition::{
 };
 pub use open_loop::Cut;
 pub(crate) use open_loop::{MoreDeadTime, Opened};
+pub(crate) use presupposed::{Presupposed, Presupposition};
 pub use read::{DRIVE, schema, source_from_bytes};
 pub use symbols::{Definition, Meaning, Symbol, Symbols, value_approximate};
 pub(crate) use text::names::shorten;

@@ -135,6 +135,11 @@ impl Symbols {
         self.table.iter().any(|s| s.is_moving)
     }
 
+    /// The variables of the symbols that depend on a kept name.
+    pub(crate) fn moving(&self) -> impl Iterator<Item = usize> {
+        (self.first()..).zip(&self.table).filter(|(_, s)| s.is_moving).map(|(i, _)| i)
+    }
+
     /// Whether there is a square root of what depends on a kept name: the loop is undefined where that is negative, also where the
     /// root itself cancels.
     pub(in crate::model) fn has_moving_root(&self) -> bool {
@@ -216,7 +221,7 @@ impl Symbols {
     }
 
     /// The circle number.
-    pub(in crate::model) fn pi(&mut self) -> RationalFunction {
+    pub(crate) fn pi(&mut self) -> RationalFunction {
         self.is_written = true;
         self.intern(Definition::Pi)
     }

@@ -3,6 +3,7 @@
 
 use super::Problem;
 use super::evaluation::Algebra;
+use super::presupposed::inside;
 use crate::error::Error;
 use crate::stability::{AtPoint, Cause, End, Range, StableInterval, StableSet, UndecidedBracket, symbolic_stable_set};
 use jurist_algebra::limits::Budget;
@@ -91,16 +92,6 @@ fn is_at(end: &End, x: &Rational) -> bool {
 
 fn begins_at(interval: &StableInterval, x: &Rational) -> bool {
     interval.lower.as_ref().is_some_and(|end| is_at(end, x))
-}
-
-/// A number inside of a range.
-fn inside(range: &Range) -> Rational {
-    match (&range.lower, &range.upper) {
-        (Some(lo), Some(hi)) => lo.midpoint(hi),
-        (Some(lo), None) => lo + &(lo.abs() + Rational::ONE),
-        (None, Some(hi)) => hi - &(hi.abs() + Rational::ONE),
-        (None, None) => Rational::ZERO,
-    }
 }
 
 fn value(ratio: &RationalFunction, at: &Rational) -> Option<Rational> {

@@ -10,6 +10,7 @@ mod delayed_plane;
 mod delayed_terms;
 mod evaluation;
 mod over_symbols;
+mod presupposed;
 mod question;
 mod region;
 mod resolved;

@@ -145,10 +145,12 @@ impl Problem {
         // Where the sample time is not positive there is no loop, and where an argument divides by zero no function.
         let time = algebra.sample_time().into_iter().flat_map(|t| [t.numerator(), t.denominator()]);
         let below = symbols.arguments().map(RationalFunction::denominator);
-        let poles = d.poles.iter().chain(time).chain(below).cloned().collect();
+        let positive = self.positive();
+        let poles = d.poles.iter().chain(time).chain(below).chain(&positive).cloned().collect();
         let d = CharacteristicPolynomial { poles, ..d.clone() };
         let free = self.free().len();
-        Ok(Some(budget.enter(|| MovingPolynomial::new(&d, free, symbols, self.shape()))?))
+        let family = budget.enter(|| MovingPolynomial::new(&d, free, symbols, self.shape()))?;
+        Ok(Some(family.defined_where_positive(positive)))
     }
 }
 
@@ -166,6 +168,18 @@ pub(crate) fn fixed_symbols(symbols: &model::Symbols) -> Result<Symbols, Error> 
         table.push(&symbol.name, definition(symbol, place)?);
     }
     Ok(table)
+}
+
+/// The table of symbols that do not depend on a kept name, beside others that are not asked for; `None` where one has no value.
+pub(super) fn symbols_without(symbols: &model::Symbols, moving: &[usize]) -> Option<Symbols> {
+    let mut table = Symbols::new();
+    for (i, symbol) in (symbols.first()..).zip(symbols.iter()) {
+        let place = |f: &RationalFunction| f.map_variables(|i| i.saturating_sub(symbols.first()));
+        // Something has to stand in the place of what is not asked for.
+        let own = if moving.contains(&i) { Definition::Pi } else { definition(symbol, place).ok()? };
+        table.push(&symbol.name, own);
+    }
+    Some(table)
 }
 
 /// The table of symbols where one name is kept, on which they may depend.

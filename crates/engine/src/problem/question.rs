@@ -1,11 +1,13 @@
 //! What is being asked of a model, step by step.
 
+use super::presupposed::{positive_functions, trimmed};
 use super::resolved::{Free, Problem};
 use super::{Bound, DECAY, RADIUS, Region};
 use crate::error::{Diagnostic, Diagnostics, Error};
 use crate::model::{Model, Parameter};
 use crate::stability::Range;
 use jurist_algebra::number::Rational;
+use jurist_algebra::poly::RationalFunction;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -107,13 +109,17 @@ impl Question {
         &self.set
     }
 
-    /// The question with every name known and every value in its place. No algebra is done.
+    /// The question with every name known and every value in its place.
     ///
-    /// Cost: that of looking up each name.
+    /// Domains end where the model has no meaning beyond: where the sample time of a hold would not be positive, or the frequency of
+    /// `prewarp` not below half the sampling rate.
+    ///
+    /// Cost: that of looking up each name, and of the expressions of sample times where there is a hold or `prewarp`.
     ///
     /// # Errors
     /// [`Error::Refused`] for names the model does not know or that cannot vary, values that are missing, a region that
-    /// does not fit the kind of time, an empty domain, a name that is both free and set; all that apply.
+    /// does not fit the kind of time, an empty domain, a name that is both free and set; all that apply. Then for times and
+    /// frequencies that have no meaning.
     pub fn problem(self) -> Result<Arc<Problem>, Error> {
         let (free, region) = self.region_and_free()?;
         let set = resolve(&self.model, &free, &self.set)?;
@@ -141,8 +147,39 @@ impl Question {
                     .into());
             }
         }
-        let warnings = self.warnings(&free);
-        Ok(Arc::new(Problem::new(self.model, set, described, region, warnings)))
+        let mut warnings = self.warnings(&free);
+        let positive = self.presuppose(&free, &set, &mut described, &mut warnings)?;
+        Ok(Arc::new(Problem::new(self.model, set, described, region, warnings).with_positive(positive)))
+    }
+
+    /// Trims the domains to where holds and rules have a meaning; the functions of what is free that have to be positive there.
+    fn presuppose(
+        &self,
+        kept: &[String],
+        set: &[(String, Rational)],
+        free: &mut [Free],
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Vec<RationalFunction>, Error> {
+        let first = free.len() - kept.len();
+        let sourced = |d: Diagnostic| Error::from(Diagnostics::new(Some(self.model.source().clone()), vec![d]));
+        let positive = positive_functions(&self.model, kept, set, first).map_err(sourced)?;
+        for (i, one) in free.iter_mut().enumerate() {
+            let Some(domain) = trimmed(one, i, &positive) else {
+                let message =
+                    format!("nowhere in the domain of '{}' have the model's sample times a meaning", one.name);
+                let help = "the sample time of a hold is positive, and the frequency of 'prewarp' below half the sampling rate";
+                return Err(Diagnostic::error("E-empty-domain", message).help(help).into());
+            };
+            let is_cut = |asked: &Option<Rational>, left: &Option<Rational>| asked.is_some() && asked != left;
+            if is_cut(&one.domain.lower, &domain.lower) || is_cut(&one.domain.upper, &domain.upper) {
+                let message =
+                    format!("the domain of '{}' is larger than the values for which the model has a meaning", one.name);
+                let help = "the sample time of a hold is positive, and the frequency of 'prewarp' below half the sampling rate; the answer is about these";
+                warnings.push(Diagnostic::warning("W-domain", message).help(help));
+            }
+            one.domain = domain;
+        }
+        Ok(positive)
     }
 
     /// The region with its bound freed where `radius` or `decay` is asked for, and the other free names.

@@ -9,7 +9,7 @@ use crate::stability::plane::PlanePolynomial;
 use crate::stability::{ParametricPolynomial, Range, Shape};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::UniPoly;
+use jurist_algebra::poly::{MultiPoly, RationalFunction, UniPoly};
 use std::sync::{Arc, OnceLock};
 
 /// A parameter that a question leaves free.
@@ -64,6 +64,8 @@ pub struct Problem {
     free: Vec<Free>,
     region: Region,
     warnings: Vec<Diagnostic>,
+    /// Functions of what is free that are positive where the model has a meaning.
+    positive: Vec<RationalFunction>,
     algebra: OnceLock<Algebra>,
     parametric: OnceLock<Option<ParametricPolynomial>>,
     plane: OnceLock<Option<PlanePolynomial>>,
@@ -80,7 +82,27 @@ impl Problem {
     ) -> Problem {
         let (algebra, parametric, plane) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
         let delayed = OnceLock::new();
-        Problem { model, set, free, region, warnings, algebra, parametric, plane, delayed }
+        let positive = Vec::new();
+        Problem { model, set, free, region, warnings, positive, algebra, parametric, plane, delayed }
+    }
+
+    /// With functions of what is free that are positive where the model has a meaning; the domains are within these of one name.
+    pub(super) fn with_positive(self, positive: Vec<RationalFunction>) -> Problem {
+        Problem { positive, ..self }
+    }
+
+    /// Products of linear factors and the like that are positive, as polynomials in what is free, where the model has a meaning.
+    pub(crate) fn positive(&self) -> Vec<MultiPoly> {
+        self.positive.iter().map(|f| f.numerator() * f.denominator()).collect()
+    }
+
+    /// Refuses what cannot be asked where several of the free names decide together whether the model has a meaning.
+    fn presupposes_of_one(&self) -> Result<(), Error> {
+        if self.positive.iter().all(|f| f.variables().len() < 2) {
+            return Ok(());
+        }
+        let message = "for which values the sample time of a hold is positive, or the frequency of 'prewarp' below half the sampling rate, depends on both names together";
+        Err(Diagnostic::error("E-discretize", message).help("set one of them").into())
     }
 
     /// The model.
@@ -249,6 +271,7 @@ impl Problem {
     /// Unless two parameters are free.
     pub fn plane(&self, budget: &Budget) -> Result<Option<&PlanePolynomial>, Error> {
         assert_eq!(self.free.len(), 2, "two parameters are free");
+        self.presupposes_of_one()?;
         let algebra = self.algebra(budget)?;
         Ok(self.plane.get_or_init(|| algebra.polynomial().map(PlanePolynomial::new)).as_ref())
     }
@@ -272,6 +295,7 @@ impl Problem {
         if algebra.symbols().is_empty() {
             return self.plane(budget);
         }
+        self.presupposes_of_one()?;
         let symbols = Arc::new(self.symbols_outside(budget)?);
         let over = |d| PlanePolynomial::over_symbols(d, &symbols);
         Ok(self.plane.get_or_init(|| algebra.polynomial().map(over)).as_ref())
@@ -290,7 +314,8 @@ impl Problem {
         if self.region == plain {
             return Arc::clone(self);
         }
-        Arc::new(Problem::new(Arc::clone(&self.model), self.set.clone(), self.free.clone(), plain, Vec::new()))
+        let problem = Problem::new(Arc::clone(&self.model), self.set.clone(), self.free.clone(), plain, Vec::new());
+        Arc::new(problem.with_positive(self.positive.clone()))
     }
 
     /// The problem that is left of one in two parameters when one of them (0 for the first) has a value. Its algebra follows

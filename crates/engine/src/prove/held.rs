@@ -36,6 +36,9 @@ pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error>
     let algebra = problem.algebra_over_symbols(budget)?;
     let symbols = algebra.symbols();
     if symbols.is_empty() {
+        if !problem.positive().is_empty() {
+            return Err(no_certificate("no certificate: the sample time of a hold depends on what is asked for"));
+        }
         // The checkers connect the blocks before anything cancels.
         let cancels = symbols.modes().iter().flatten().any(|c| !c.is_zero());
         return match cancels {

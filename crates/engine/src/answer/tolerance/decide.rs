@@ -12,6 +12,7 @@ use crate::stability::boxes::{
 };
 use crate::stability::{AtPoint, Range};
 use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RealAlgebraic;
 use std::sync::Arc;
@@ -30,6 +31,11 @@ impl Problem {
         budget: &Budget,
     ) -> Result<Answer<ToleranceAnswer>, Error> {
         refuse_beside_requirements(request)?;
+        let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
+        if self.positive().iter().any(|p| !p.eval(&nominal).sign().is_gt()) {
+            let decision = BoxDecision::NotStable { witness: None };
+            return Ok(self.answered(sides, AtPoint::Undefined, decision));
+        }
         let algebra = self.algebra_over_symbols(budget)?;
         let Some(d) = algebra.polynomial() else {
             let decision = BoxDecision::NotStable { witness: None };
@@ -37,7 +43,6 @@ impl Problem {
         };
         if !algebra.symbols().delays().is_empty() {
             refuse_beside_functions(request)?;
-            let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
             let Some(p) = self.delayed_family(&nominal, budget)? else {
                 let decision = BoxDecision::NotStable { witness: None };
                 return Ok(self.answered(sides, AtPoint::Zero, decision));
@@ -49,6 +54,8 @@ impl Problem {
             return self.tolerance_of(&p, &Truth::of_points(self), sides, request, budget);
         }
         let truth = Truth::of(self, budget)?;
+        let poles = d.poles.iter().cloned().chain(self.positive()).collect();
+        let d = &CharacteristicPolynomial { poles, ..d.clone() };
         let p = budget.enter(|| BoxPolynomial::over(d, truth.beside(&sides).len(), self.shape()))?;
         self.tolerance_of(&p, &truth, sides, request, budget)
     }

@@ -11,7 +11,7 @@ use crate::stability::{AtPoint, Shape, count_roots, is_hurwitz_routh};
 use jurist_algebra::ball::{Ball, Elementary, Series};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::matrix::CharacteristicPolynomial;
-use jurist_algebra::number::{Integer, Rational, Sign};
+use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly};
 use jurist_algebra::symbols::ParametricSymbols;
 use std::collections::BTreeMap;
@@ -64,6 +64,8 @@ pub struct MovingPolynomial {
     /// The coefficients in the half plane, then what must not vanish, as polynomials in the other parameters: exponents of these,
     /// with polynomials in what is inside and in symbols.
     pub(super) functions: Vec<Vec<(Vec<u32>, MultiPoly)>>,
+    /// The loop has a meaning where these polynomials in the parameters are positive.
+    positive: Vec<MultiPoly>,
 }
 
 impl MovingPolynomial {
@@ -93,7 +95,31 @@ impl MovingPolynomial {
         let all = coefficients.iter().chain(polynomial.certain().iter().map(|(_, f)| f));
         let functions = all.map(split).collect();
         let below = symbols.parameters_below(parameters);
-        MovingPolynomial { polynomial, symbols, parameters, inside, below, functions }
+        MovingPolynomial { polynomial, symbols, parameters, inside, below, functions, positive: Vec::new() }
+    }
+
+    /// The same where the loop has a meaning only where these polynomials in the parameters, which are among the poles, are positive.
+    pub(crate) fn defined_where_positive(self, positive: Vec<MultiPoly>) -> MovingPolynomial {
+        MovingPolynomial { positive, ..self }
+    }
+
+    /// Whether the loop is seen to have a meaning at no point of a box.
+    pub(super) fn has_no_meaning_in(&self, sides: &[[Rational; 2]]) -> bool {
+        let zero = || Enclosure::from_rational(Rational::ZERO);
+        let sides: Vec<Enclosure> = sides.iter().map(|[low, high]| Enclosure::new(low.clone(), high.clone())).collect();
+        let value = |p: &MultiPoly| {
+            p.terms().iter().fold(zero(), |sum, (monomial, c)| {
+                let powers = monomial.exponents().iter().zip(&sides);
+                let factors = powers.flat_map(|(&e, side)| std::iter::repeat_n(side, e as usize));
+                let c = Enclosure::from_rational(c.clone().into());
+                sum.add(&factors.fold(c, |product, side| product.mul(side, POINT_BITS)), POINT_BITS)
+            })
+        };
+        self.positive.iter().any(|p| !value(p).upper().sign().is_gt())
+    }
+
+    pub(super) fn has_a_meaning_at(&self, point: &[Rational]) -> bool {
+        self.positive.iter().all(|p| p.eval(point).sign().is_gt())
     }
 
     /// The degree the polynomial is meant to have.
@@ -151,6 +177,9 @@ impl MovingPolynomial {
 
     /// Whether the loop is stable at a point; `None` where that is not seen, as where exponents are very large.
     pub(super) fn seen_at(&self, point: &[Rational]) -> Option<bool> {
+        if !self.has_a_meaning_at(point) {
+            return Some(false);
+        }
         match self.numbers(point) {
             Some(numbers) => {
                 let defined = numbers[self.coefficients()..].iter().all(|c| !c.is_zero());
@@ -221,7 +250,9 @@ impl Family for MovingPolynomial {
     }
 
     fn at(&self, point: &[Rational]) -> AtPoint {
-        let Some(numbers) = self.numbers(point) else { return AtPoint::Undefined };
+        let Some(numbers) = self.numbers(point).filter(|_| self.has_a_meaning_at(point)) else {
+            return AtPoint::Undefined;
+        };
         let divisors = numbers.len() - self.coefficients() - 2;
         if numbers[self.coefficients()..][..divisors].iter().any(Integer::is_zero) {
             return AtPoint::Undefined;

@@ -89,6 +89,9 @@ impl Known<'_> {
     /// What is the same at all points of a box; `None` where that is not seen.
     fn verdict_in(&self, sides: &[[Rational; 2]; 2], budget: &Budget) -> Result<Option<BoxVerdict>, Exhausted> {
         let [x, y] = sides;
+        if self.p.has_no_meaning_in(sides) {
+            return Ok(Some(BoxVerdict::Unstable { outside: None }));
+        }
         let middle = [x, y].map(|[low, high]| low.midpoint(high));
         let Some((count, signs, scale)) = self.certain_at(&middle) else { return Ok(None) };
         // Another count or sign at a corner tells at once that a boundary is here.
@@ -105,6 +108,8 @@ impl Known<'_> {
             return Ok(None);
         }
         Ok(Some(match count.outside {
+            // What is presupposed is among what keeps its sign.
+            _ if !self.p.has_a_meaning_at(&middle) => BoxVerdict::Unstable { outside: None },
             0 => BoxVerdict::Stable,
             outside => BoxVerdict::Unstable { outside: Some(outside) },
         }))

@@ -1,0 +1,102 @@
+//! What a model presupposes of its parameters beside divisors that are not zero: sample times are positive, frequencies below
+//! half the sampling rate.
+
+use super::closed_loop::substituted;
+use super::definition::{Form, Model};
+use super::symbols::Symbols;
+use crate::error::{Diagnostic, Span};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::RationalFunction;
+
+/// What is presupposed of a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Presupposed {
+    /// The sample time of a hold: positive.
+    SampleTime,
+    /// The angle `w T` by which a frequency turns in a sample: between 0 and pi.
+    Angle,
+}
+
+/// A function of the kept names and of symbols, and what is presupposed of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Presupposition {
+    pub of: Presupposed,
+    pub function: RationalFunction,
+    pub span: Span,
+}
+
+impl Presupposition {
+    /// The refusal where the function is not positive.
+    pub fn not_positive(&self) -> Diagnostic {
+        match self.of {
+            Presupposed::SampleTime => Diagnostic::error("E-value", "the sample time of a hold must be positive")
+                .at(self.span, "the time of this one"),
+            Presupposed::Angle => Diagnostic::error("E-discretize", "the frequency of 'prewarp' must be positive")
+                .at(self.span, "not positive"),
+        }
+    }
+
+    /// The refusal where an angle is not below pi.
+    pub fn too_fast(&self) -> Diagnostic {
+        Diagnostic::error("E-discretize", "the frequency of 'prewarp' is not below half the sampling rate")
+            .at(self.span, "an angle of pi or more in a sample")
+            .help("'prewarp' is in radians per unit of time: 2*pi times the frequency")
+    }
+
+    /// The refusal where it is not known whether what is presupposed holds.
+    pub fn not_known(&self) -> Diagnostic {
+        let message = match self.of {
+            Presupposed::SampleTime => "it is not known for which values the sample time of this hold is positive",
+            Presupposed::Angle => {
+                "it is not known for which values the frequency of 'prewarp' is below half the sampling rate"
+            }
+        };
+        Diagnostic::error("E-discretize", message)
+            .at(self.span, "a function of what is asked for")
+            .help("set the parameters that it depends on")
+    }
+}
+
+impl Model {
+    /// What the model presupposes, and the symbols that occur in it; `None` where an expression has no value, of which
+    /// [`Model::evaluate`] tells.
+    ///
+    /// Cost: the expressions of sample times and frequencies are evaluated, and those of the constants.
+    pub(crate) fn presuppositions(
+        &self,
+        kept: &[String],
+        given: &[(String, Rational)],
+    ) -> Option<(Vec<Presupposition>, Symbols)> {
+        let Form::Blocks(diagram) = &self.form else { return Some(Default::default()) };
+        let rules = || diagram.blocks.iter().filter_map(|b| b.discretization.as_ref());
+        if !rules().any(|d| d.method.is_hold() || d.prewarp.is_some()) {
+            return Some(Default::default());
+        }
+        let budget = Budget::unlimited();
+        let mut is_known = true;
+        let mut report = |_| is_known = false;
+        let mut scope = self.scope(kept, given, &budget, &mut report);
+        let mut found: Vec<Presupposition> = Vec::new();
+        for rule in rules() {
+            let Some(time) = &rule.sample_time else { continue };
+            let mut value = |e| scope.scalar(e).ok();
+            let presupposition = if rule.method.is_hold() {
+                Presupposition { of: Presupposed::SampleTime, function: value(time)?, span: rule.span }
+            } else if let Some(frequency) = &rule.prewarp {
+                let function = &value(frequency)? * &value(time)?;
+                Presupposition { of: Presupposed::Angle, function, span: frequency.span }
+            } else {
+                continue;
+            };
+            if found.iter().all(|p| (p.of, &p.function) != (presupposition.of, &presupposition.function)) {
+                found.push(presupposition);
+            }
+        }
+        let (images, symbols) = self.images(&scope.variables, kept, given).ok()?;
+        for presupposition in &mut found {
+            presupposition.function = substituted(&presupposition.function, &images)?;
+        }
+        is_known.then_some((found, symbols))
+    }
+}
