@@ -11,6 +11,9 @@ pub(super) trait Ring: Clone + PartialEq {
     fn zero(&self) -> Self;
     fn is_zero(&self) -> bool;
     fn plus(&self, other: &Self) -> Self;
+    fn add(&mut self, other: &Self) {
+        *self = self.plus(other);
+    }
     fn minus(&self, other: &Self) -> Self;
     fn times(&self, other: &Self, clock: &Clock) -> Result<Self, String>;
     fn scaled(&self, factor: &Z) -> Self;
@@ -75,6 +78,10 @@ impl Ring for Multi {
 
     fn plus(&self, other: &Self) -> Self {
         Multi::plus(self, other)
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.add_all(other);
     }
 
     fn minus(&self, other: &Self) -> Self {

@@ -12,6 +12,9 @@ const LEAST_DEGREE: usize = 12;
 /// Bits beyond those that the errors may take.
 const GUARD: u64 = 128;
 
+/// The sign of a polynomial at a number.
+pub(super) type SignAt<'s> = dyn Fn(&Q) -> Result<Sign, String> + 's;
+
 impl Uni {
     /// Descartes' bound for the open interval `(a, b)`, where `None` is an infinite end: at least the
     /// number of roots in it with multiplicity, and equal to it when it is 0 or 1. `None` when both
@@ -20,6 +23,16 @@ impl Uni {
     /// Cost: as many additions as the square of the degree, of numbers of some bits for each degree; of all digits of the coefficients, and of
     /// the ends for each degree, where the signs do not show.
     pub fn descartes(&self, a: Option<&Q>, b: Option<&Q>, clock: &Clock) -> Result<Option<usize>, String> {
+        self.descartes_with((a, b), &|x| self.sign_at(x, clock), clock)
+    }
+
+    /// The same, asking for the signs at the ends, which may be known.
+    pub fn descartes_with(
+        &self,
+        (a, b): (Option<&Q>, Option<&Q>),
+        sign_at: &SignAt<'_>,
+        clock: &Clock,
+    ) -> Result<Option<usize>, String> {
         let d = self.degree() as u64;
         if d == 0 {
             return Ok(Some(0));
@@ -33,7 +46,7 @@ impl Uni {
             let exact = longest + d * [a, b].into_iter().flatten().map(of_end).max().unwrap_or(0);
             for bits in [3 * d + GUARD, 6 * d + 4 * GUARD] {
                 if 2 * bits < exact
-                    && let Some(count) = self.rounded_variations(a, b, bits, clock)?
+                    && let Some(count) = self.rounded_variations((a, b), bits, sign_at, clock)?
                 {
                     return Ok(Some(count));
                 }
@@ -89,9 +102,9 @@ impl Uni {
     /// second shift, by one again, begins with errors that have hardly grown.
     fn rounded_variations(
         &self,
-        a: Option<&Q>,
-        b: Option<&Q>,
+        (a, b): (Option<&Q>, Option<&Q>),
         bits: u64,
+        sign_at: &SignAt<'_>,
         clock: &Clock,
     ) -> Result<Option<usize>, String> {
         let (end, other) = match (a, b) {
@@ -111,10 +124,11 @@ impl Uni {
         shift_by_one(&mut values, bits, clock)?;
         let mut error = doubled(&largest(&errors));
         // The signs of the first and the last coefficient, which tell whether an end is a root.
-        let sign_at = |x: &Q| self.numerator_at(x, clock).map(|value| value.sign());
         let known;
         if let Some(other) = other {
-            let ratio = other / end - Q::one();
+            // Not in lowest terms, which would cost more than it saves.
+            let (n, d) = (end.numer() * other.denom(), other.numer() * end.denom() - end.numer() * other.denom());
+            let ratio = if n.is_negative() { Q::new_raw(-d, -n) } else { Q::new_raw(d, n) };
             let Some(second) = scaled(&values, &error, &ratio, bits, clock)? else { return Ok(None) };
             values = second.values;
             values.reverse();
@@ -270,6 +284,10 @@ mod tests {
     use super::*;
     use std::time::Duration;
 
+    fn rounded(f: &Uni, a: Option<&Q>, b: Option<&Q>, bits: u64, clock: &Clock) -> Result<Option<usize>, String> {
+        f.rounded_variations((a, b), bits, &|x| f.sign_at(x, clock), clock)
+    }
+
     fn uni(c: &[i64]) -> Uni {
         Uni::new(c.iter().map(|&c| Z::from(c)).collect())
     }
@@ -333,7 +351,7 @@ mod tests {
                 }
                 let exact = f.exact_variations(a, b, &clock).unwrap();
                 for bits in [8, 2 * f.degree() as u64 + 4, 2 * f.degree() as u64 + 5 * GUARD] {
-                    let rounded = f.rounded_variations(a, b, bits, &clock).unwrap();
+                    let rounded = rounded(&f, a, b, bits, &clock).unwrap();
                     assert!(rounded.is_none() || rounded == exact, "{f:?} on {a:?} {b:?}: {rounded:?}, not {exact:?}");
                     let is_wide = bits > 5 * GUARD && a.or(b).is_some_and(|end| !end.is_zero());
                     told += usize::from(is_wide && rounded.is_some());
@@ -359,12 +377,12 @@ mod tests {
             [((99_970, 99_973), 1), ((99_980, 99_990), 0), ((99_922, 99_924), 1)].map(|((a, b), n)| (a, b, n))
         {
             let (a, b) = (q(a, 100_000), q(b, 100_000));
-            assert_eq!(g.rounded_variations(Some(&a), Some(&b), bits, &clock).unwrap(), Some(roots));
+            assert_eq!(rounded(&g, Some(&a), Some(&b), bits, &clock).unwrap(), Some(roots));
             assert_eq!(g.descartes(Some(&a), Some(&b), &clock).unwrap(), Some(roots));
         }
-        assert_eq!(g.rounded_variations(Some(&q(1, 1)), None, bits, &clock).unwrap(), Some(0));
-        assert_eq!(g.rounded_variations(None, Some(&q(-1, 1)), bits, &clock).unwrap(), Some(0));
-        assert_eq!(g.rounded_variations(None, Some(&q(-99_990, 100_000)), bits, &clock).unwrap(), Some(1));
+        assert_eq!(rounded(&g, Some(&q(1, 1)), None, bits, &clock).unwrap(), Some(0));
+        assert_eq!(rounded(&g, None, Some(&q(-1, 1)), bits, &clock).unwrap(), Some(0));
+        assert_eq!(rounded(&g, None, Some(&q(-99_990, 100_000)), bits, &clock).unwrap(), Some(1));
     }
 
     #[test]

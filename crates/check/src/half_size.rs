@@ -69,7 +69,7 @@ pub(super) fn times<P: Ring>(a: &InX<P>, b: &InX<P>, clock: &Clock) -> Result<In
     let mut out = vec![first.zero(); a.len() + b.len() - 1];
     for (i, x) in a.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
         for (j, y) in b.iter().enumerate().filter(|(_, y)| !y.is_zero()) {
-            out[i + j] = out[i + j].plus(&x.times(y, clock)?);
+            out[i + j].add(&x.times(y, clock)?);
         }
     }
     Ok(out)

@@ -40,6 +40,7 @@ mod number;
 mod over;
 mod over_box;
 mod over_symbols;
+mod products;
 #[doc = include_str!("proved.md")]
 pub mod proved {}
 mod region;

@@ -2,9 +2,11 @@
 
 use super::clock::Clock;
 use super::number::{Q, Z, power};
+use super::products;
 use super::univariate::gcd;
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// More terms than this are refused.
 const MAX_TERMS: usize = 50_000;
@@ -52,13 +54,21 @@ impl Multi {
     }
 
     /// Adds a term. Exponent lists have no zeros at the end, so that each monomial has one key.
-    fn add(&mut self, mut exponents: Vec<u32>, value: Z) {
+    pub fn add(&mut self, mut exponents: Vec<u32>, value: Z) {
         while exponents.last() == Some(&0) {
             exponents.pop();
         }
-        let sum = self.0.remove(&exponents).unwrap_or_default() + value;
-        if !sum.is_zero() {
-            self.0.insert(exponents, sum);
+        match self.0.entry(exponents) {
+            Entry::Vacant(_) if value.is_zero() => {}
+            Entry::Vacant(place) => {
+                place.insert(value);
+            }
+            Entry::Occupied(mut place) => {
+                *place.get_mut() += value;
+                if place.get().is_zero() {
+                    place.remove();
+                }
+            }
         }
     }
 
@@ -77,10 +87,24 @@ impl Multi {
 
     pub fn plus(&self, other: &Multi) -> Multi {
         let mut sum = self.clone();
-        for (e, c) in &other.0 {
-            sum.add(e.clone(), c.clone());
-        }
+        sum.add_all(other);
         sum
+    }
+
+    pub fn add_all(&mut self, other: &Multi) {
+        for (e, c) in &other.0 {
+            match self.0.get_mut(e) {
+                Some(sum) => {
+                    *sum += c;
+                    if sum.is_zero() {
+                        self.0.remove(e);
+                    }
+                }
+                None => {
+                    self.0.insert(e.clone(), c.clone());
+                }
+            }
+        }
     }
 
     pub fn minus(&self, other: &Multi) -> Multi {
@@ -95,24 +119,27 @@ impl Multi {
     }
 
     pub fn times(&self, other: &Multi, clock: &Clock) -> Result<Multi, String> {
-        let mut out = Multi::default();
         let bits = [self, other].map(|m| longest(m.0.values()));
-        for (e, c) in &self.0 {
-            count(clock, other.0.len(), bits[0], bits[1])?;
-            for (f, d) in &other.0 {
-                let n = e.len().max(f.len());
-                let at = |list: &[u32], i: usize| list.get(i).copied().unwrap_or(0);
-                let sum: Vec<u32> = (0..n).map(|i| at(e, i) + at(f, i)).collect();
-                if sum.iter().any(|&e| e > MAX_EXPONENT) {
-                    return Err("an expression of the model has too high a degree".into());
-                }
-                out.add(sum, c * d);
-            }
-            if out.0.len() > MAX_TERMS {
-                return Err("an expression of the model has too many terms".into());
-            }
+        count(clock, 0, bits[0], bits[1])?;
+        // The product of the terms of the highest degrees in a variable has the sum of these.
+        if !self.is_zero()
+            && !other.is_zero()
+            && products::added(&self.degrees(), &other.degrees()).iter().any(|&e| e > MAX_EXPONENT)
+        {
+            return Err("an expression of the model has too high a degree".into());
         }
-        Ok(out)
+        products::times(self, other, bits, MAX_TERMS, clock)?
+            .ok_or_else(|| "an expression of the model has too many terms".into())
+    }
+
+    /// The degrees in all variables.
+    fn degrees(&self) -> Vec<u32> {
+        let mut out = Vec::new();
+        for e in self.0.keys() {
+            out.resize(out.len().max(e.len()), 0);
+            out.iter_mut().zip(e).for_each(|(most, e)| *most = (*most).max(*e));
+        }
+        out
     }
 
     pub fn power(&self, exponent: u32, clock: &Clock) -> Result<Multi, String> {

@@ -3,9 +3,9 @@
 use super::characteristic::Form;
 use super::clock::Clock;
 use super::multivariate::Multi;
-use super::number::{Q, Z, power};
+use super::number::{Q, Z};
 use super::statement::Extent;
-use super::univariate::{Uni, common_denominator, gcd_of};
+use super::univariate::{Uni, gcd_of};
 use num_traits::{One, Zero};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -80,32 +80,33 @@ fn common(parts: &[Multi], clock: &Clock) -> Result<Multi, String> {
 
 /// Polynomials with values for the variables from 2 up, together times a positive number; symbols become variables from 2 on.
 pub(super) fn substituted(row: &[Multi], values: &[Q], clock: &Clock) -> Result<Vec<Multi>, String> {
-    let mut out: Vec<BTreeMap<Vec<u32>, Q>> = Vec::with_capacity(row.len());
-    for p in row {
-        let mut terms: BTreeMap<Vec<u32>, Q> = BTreeMap::new();
-        for (e, c) in &p.0 {
-            let mut term = Q::from(c.clone());
-            for (i, &k) in e.iter().enumerate().take(values.len()).skip(2).filter(|(_, k)| **k > 0) {
-                clock.spend(1, (values[i].numer().bits() + values[i].denom().bits()) * u64::from(k), 64)?;
-                term *= power(&values[i], k);
-            }
-            let mut key: Vec<u32> = e.iter().take(2).copied().chain(e.iter().skip(values.len()).copied()).collect();
-            while key.last() == Some(&0) {
-                key.pop();
-            }
-            let sum = terms.remove(&key).unwrap_or_else(Q::zero) + term;
-            if !sum.is_zero() {
-                terms.insert(key, sum);
-            }
+    let known = |e: &[u32]| values.len().min(e.len());
+    let mut greatest = vec![0; values.len()];
+    for e in row.iter().flat_map(|p| p.0.keys()) {
+        for i in 2..known(e) {
+            greatest[i] = greatest[i].max(e[i]);
         }
-        out.push(terms);
     }
-    let d = common_denominator(out.iter().flat_map(BTreeMap::values));
-    let integral: Vec<BTreeMap<Vec<u32>, Z>> = out
-        .into_iter()
-        .map(|terms| terms.into_iter().map(|(e, q)| (e, q.numer() * (&d / q.denom()))).collect())
-        .collect();
-    Ok(primitive(integral.into_iter().map(Multi).collect()))
+    // A value n/d to the power k is n^k d^(m - k), times d^m for the greatest power m.
+    let mut weights: Vec<BTreeMap<u32, Z>> = vec![BTreeMap::new(); values.len()];
+    let mut out = Vec::with_capacity(row.len());
+    for p in row {
+        let mut sum = Multi::default();
+        for (e, c) in &p.0 {
+            let mut term = c.clone();
+            for i in (2..values.len()).filter(|&i| greatest[i] > 0) {
+                let (k, most) = (e.get(i).copied().unwrap_or(0), greatest[i]);
+                let (n, d) = (values[i].numer(), values[i].denom());
+                clock.spend(1, n.bits() * u64::from(k) + d.bits() * u64::from(most - k), term.bits())?;
+                term *= &*weights[i].entry(k).or_insert_with(|| n.pow(k) * d.pow(most - k));
+            }
+            let mut key: Vec<u32> = e.iter().take(2).copied().collect();
+            key.extend(&e[known(e)..]);
+            sum.add(key, term);
+        }
+        out.push(sum);
+    }
+    Ok(primitive(out))
 }
 
 /// Divided by the greatest common divisor of all integers in it.

@@ -2,6 +2,7 @@
 
 use super::clock::Clock;
 use super::number::{Q, Z};
+use num_bigint::Sign;
 use num_traits::{One, Signed, Zero};
 
 /// Coefficients from the constant term up, without zeros at the top.
@@ -98,6 +99,10 @@ impl Uni {
         Ok(result)
     }
 
+    pub fn sign_at(&self, value: &Q, clock: &Clock) -> Result<Sign, String> {
+        Ok(self.numerator_at(value, clock)?.sign())
+    }
+
     pub fn vanishes_at(&self, value: &Q, clock: &Clock) -> Result<bool, String> {
         Ok(self.numerator_at(value, clock)?.is_zero())
     }
@@ -167,13 +172,14 @@ impl Uni {
 }
 
 /// The greatest common divisor, 0 of none.
-pub(super) fn gcd_of<'a>(values: impl Iterator<Item = &'a Z>) -> Z {
-    let mut g = Z::zero();
+pub(super) fn gcd_of<'a>(values: impl Iterator<Item = &'a Z> + Clone) -> Z {
+    // The shortest first: all others are reduced to its length by a division.
+    let mut g = values.clone().filter(|v| !v.is_zero()).min_by_key(|v| v.bits()).map(Z::abs).unwrap_or_default();
     for v in values {
-        g = gcd(&g, v);
         if g.is_one() {
             break;
         }
+        g = gcd(&g, v);
     }
     g
 }

@@ -5,6 +5,9 @@ use crate::format::Json;
 use crate::number::{Q, rational};
 use crate::statement::number;
 use crate::univariate::Uni;
+use num_bigint::Sign;
+use std::cell::RefCell;
+use std::collections::VecDeque;
 
 /// A root: a rational number, or the only one in an open interval at whose ends the polynomial has no root.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +36,7 @@ pub(super) fn roots(
     if f.is_zero() {
         return Err("a polynomial is zero everywhere".into());
     }
+    let f = Signs { f, known: RefCell::default() };
     let mut found = Vec::new();
     let mut before = lower.cloned();
     for item in json {
@@ -51,7 +55,7 @@ pub(super) fn roots(
             },
             _ => return Err("an item of the roots is neither a number nor a list".into()),
         };
-        gap(f, before.as_ref(), Some(&left), clock)?;
+        gap(&f, before.as_ref(), Some(&left), clock)?;
         if let Json::List(ends) = item {
             if ends.len() == 1 {
                 if !f.vanishes_at(&left, clock)? {
@@ -70,12 +74,44 @@ pub(super) fn roots(
         }
         before = Some(right);
     }
-    gap(f, before.as_ref(), upper, clock)?;
+    gap(&f, before.as_ref(), upper, clock)?;
     Ok(found)
 }
 
+/// So many signs are remembered: those at the ends of an enclosure, which its neighbours need too.
+const REMEMBERED: usize = 4;
+
+/// A polynomial with its signs at the last numbers.
+struct Signs<'f> {
+    f: &'f Uni,
+    known: RefCell<VecDeque<(Q, Sign)>>,
+}
+
+impl Signs<'_> {
+    fn at(&self, x: &Q, clock: &Clock) -> Result<Sign, String> {
+        let known =
+            self.known.borrow().iter().find(|(q, _)| q.numer() == x.numer() && q.denom() == x.denom()).map(|k| k.1);
+        if let Some(sign) = known {
+            return Ok(sign);
+        }
+        let sign = self.f.sign_at(x, clock)?;
+        let mut known = self.known.borrow_mut();
+        known.truncate(REMEMBERED - 1);
+        known.push_front((x.clone(), sign));
+        Ok(sign)
+    }
+
+    fn vanishes_at(&self, x: &Q, clock: &Clock) -> Result<bool, String> {
+        Ok(self.at(x, clock)? == Sign::NoSign)
+    }
+
+    fn descartes(&self, a: Option<&Q>, b: Option<&Q>, clock: &Clock) -> Result<Option<usize>, String> {
+        self.f.descartes_with((a, b), &|x| self.at(x, clock), clock)
+    }
+}
+
 /// That there is no root in an open interval. An interval that is empty must not be at a root: it is counted elsewhere.
-fn gap(f: &Uni, a: Option<&Q>, b: Option<&Q>, clock: &Clock) -> Result<(), String> {
+fn gap(f: &Signs<'_>, a: Option<&Q>, b: Option<&Q>, clock: &Clock) -> Result<(), String> {
     if let (Some(a), Some(b)) = (a, b)
         && a >= b
     {
