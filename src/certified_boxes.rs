@@ -107,7 +107,9 @@ pub fn certify_boxes(answer: &Answer<MapBoxes>, budget: &Budget) -> Result<Certi
     budget.step("certificate");
     let (problem, window) = (answer.problem(), &answer.value().boxes.window);
     let judge = judge(problem, window, budget)?;
-    let (tree, [stable, unstable]) = Search::new(answer, &judge).tree(budget);
+    let map = &answer.value().boxes;
+    let goal = &answer.value().goal * &Rational::dyadic(&1.into(), LEFT_BITS);
+    let (tree, [stable, unstable]) = Search::new(&map.boxes, &map.window, goal, &judge, false).tree(budget);
     let (order, bits) = precision(problem, budget)?;
     Ok(CertifiedBoxes { text: problem.boxes_certificate(window, &tree, order, bits)?, stable, unstable })
 }
@@ -128,16 +130,18 @@ pub(crate) fn judge(problem: &Problem, window: &Window, budget: &Budget) -> Resu
     })
 }
 
-fn precision(problem: &Problem, budget: &Budget) -> Result<(usize, usize), Error> {
+pub(crate) fn precision(problem: &Problem, budget: &Budget) -> Result<(usize, usize), Error> {
     Ok(match problem.algebra_over_symbols(budget)?.symbols().delays().is_empty() {
         true => (ORDER, BITS),
         false => (ORDER_WITH_DEAD_TIME, BITS_WITH_DEAD_TIME),
     })
 }
 
-struct Search<'a> {
+pub(crate) struct Search<'a> {
     boxes: &'a [PlaneBox],
     judge: &'a BoxJudge,
+    /// Whether boxes are never halved in the second parameter.
+    is_line: bool,
     /// The share of the window that is decided, and may yet be left unknown.
     goal: Rational,
     nodes: Vec<Node>,
@@ -146,24 +150,19 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(answer: &'a Answer<MapBoxes>, judge: &'a BoxJudge) -> Self {
-        let map = &answer.value().boxes;
-        let mut search = Search {
-            boxes: &map.boxes,
-            judge,
-            goal: &answer.value().goal * &Rational::dyadic(&1.into(), LEFT_BITS),
-            nodes: vec![Node::Leaf('?')],
-            open: VecDeque::new(),
-        };
-        if let Some(wanted) = search.wanted((0..map.boxes.len()).collect()) {
-            let (window, judged) = (map.window.clone(), judge.whole());
+    /// For what these boxes of the window, which come from halving it, say, but for a share of the window.
+    pub fn new(boxes: &'a [PlaneBox], window: &Window, goal: Rational, judge: &'a BoxJudge, is_line: bool) -> Self {
+        let (nodes, open) = (vec![Node::Leaf('?')], VecDeque::new());
+        let mut search = Search { boxes, judge, is_line, goal, nodes, open };
+        if let Some(wanted) = search.wanted((0..boxes.len()).collect()) {
+            let (window, judged) = (window.clone(), judge.whole());
             search.open.push_back(Open { node: 0, halvings: 0, window, judged, wanted });
         }
         search
     }
 
     /// The tree as text, and the shares that are stable and not stable in it.
-    fn tree(mut self, budget: &Budget) -> (String, [Rational; 2]) {
+    pub fn tree(mut self, budget: &Budget) -> (String, [Rational; 2]) {
         let mut shares = [Rational::ZERO, Rational::ZERO];
         let mut leaves = 0;
         // What is decided, and waits.
@@ -181,6 +180,7 @@ impl<'a> Search<'a> {
                     continue;
                 }
                 Wanted::All(_) if open.halvings >= MOST_HALVINGS => continue,
+                Wanted::All(_) if self.is_line => 0,
                 Wanted::All(_) => self.judge.axis(&open.judged),
                 Wanted::Each(boxes) => self.cut(&open.window, boxes),
             };

@@ -2797,7 +2797,9 @@ def check_boxes(model, document, statement, values, discrete, extent):
     need(extent != "parameter", "the region has no parameter here")
     need(1 <= count(order) <= 16 and 64 <= count(bits) <= 4096, "order or bits: out of range")
     names, sides = [name_of(x), name_of(y)], [items(ends, rational) for ends in parts(window, ["x", "y"])]
-    need(all(len(ends) == 2 and ends[0] < ends[1] for ends in sides) and isinstance(tree, str), "the window is empty, or there is no tree")
+    need(all(len(ends) == 2 for ends in sides) and isinstance(tree, str), "a side has not two ends, or there is no tree")
+    is_line = sides[1][0] == sides[1][1]  # one parameter alone is asked about
+    need(sides[0][0] < sides[0][1] and sides[1][0] <= sides[1][1], "the window is empty")
     sources, models = Moving(), Models(order, bits)
     is_discrete, own, divisors = over_box(model, names, values, sources)
     need(is_discrete == discrete, "the model's time is another")
@@ -2814,13 +2816,14 @@ def check_boxes(model, document, statement, values, discrete, extent):
             places.append(range(len(functions), len(functions) + len(ways)))
             functions += ways
         judge = Judge(OverBoxes(functions, sources, models), n, places, models)
-    where = ", ".join(f"{name} from {low} to {high}" for name, (low, high) in zip(names, sides))
-    stack, shares = [(sides, None, False, 0)], {"+": Fraction(0), "-": Fraction(0), "?": Fraction(0)}
+    where = ", ".join(f"{name} from {low} to {high}" if low < high else f"{name} = {low}" for name, (low, high) in zip(names, sides))
+    stack, shares, pieces = [(sides, None, False, 0)], {"+": Fraction(0), "-": Fraction(0), "?": Fraction(0)}, []
     for letter in tree:
         need(stack, "tree: something follows it")
         sides, known, is_own, depth = stack.pop()
         if letter in "xy":
             need(depth < 160, "tree: too deep")
+            need(letter == "x" or not is_line, "tree: a side without a width is halved")
             stack += [(*half, depth + 1) for half in judge.halves(sides, known, is_own, int(letter == "y"))][::-1]
             continue
         need(letter in shares, "tree: another letter")
@@ -2828,8 +2831,16 @@ def check_boxes(model, document, statement, values, discrete, extent):
         if letter != "?" and not (nowhere and letter == "-"):
             shown = not nowhere and judge.shows(sides, known, is_own, letter == "+")
             need(shown, f"stable: a leaf {letter} is not shown, {' x '.join(f'[{a}, {b}]' for a, b in sides)}")
+        if pieces and pieces[-1][0] == letter:  # those of one parameter follow each other
+            pieces[-1][2] = sides[0][1]
+        else:
+            pieces.append([letter, *sides[0]])
     need(not stack, "tree: it ends too early")
     where += "".join(f", {name} = {x}" for name, x in values.items())
+    if is_line:
+        stable, unstable = (" and ".join(f"{low} <= {names[0]} <= {high}" for kind, low, high in pieces if kind == letter) or "nothing that is looked at"
+                            for letter in "+-")
+        return f"in {statement['time']} time, {statement['region']}, {where}: stable for {stable}, not for any value in {unstable}"
     stable, unstable = (f"{int(1000 * shares[letter]) / 10} %" for letter in "+-")
     return (f"in {statement['time']} time, {statement['region']}, {where}: stable in the boxes + of the tree and nowhere in its boxes -, "
             f"at least {stable} and {unstable} of the window")

@@ -3,6 +3,7 @@
 use super::arguments::RunOptions;
 use super::commands::Context;
 use super::output::note;
+use jurist_algebra::number::{Rational, to_decimal};
 use jurist_check::{Limits, check};
 use jurist_engine::error::Diagnostic;
 use std::ffi::OsStr;
@@ -36,4 +37,11 @@ pub(super) fn check_certificate(context: &Context, options: &RunOptions, model: 
         Ok(_) => {}
         Err(rejection) => unchecked(&rejection.to_string()),
     }
+}
+
+/// A share in percent with so many decimal places, rounded down: no more is said than is proved.
+pub(super) fn percent_below(share: &Rational, places: i64) -> String {
+    let scale = Rational::from(10).pow(places).expect("ten is not zero");
+    let floor = Rational::from((&(share * &Rational::from(100)) * &scale).floor());
+    to_decimal(&(floor / scale), 12)
 }

@@ -7,9 +7,10 @@ use crate::cli::assignments::{AxisRequest, in_line, plain_number};
 use crate::cli::output::ending;
 use crate::cli::picture::{WRITES, pdf, png, write};
 use crate::cli::status::{Error, Outcome, Status};
+use crate::cli::written::percent_below;
 use clap::{Args, ValueEnum};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::{Rational, to_decimal};
+use jurist_algebra::number::Rational;
 use jurist_draw::figures::map::boxes_figure;
 use jurist_draw::page::map_boxes_page;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod};
@@ -163,11 +164,7 @@ fn stopped_at(budget: &str) -> Exhausted {
 
 /// How much of the window the certificate speaks of.
 pub(super) fn shares(certified: &CertifiedBoxes) -> String {
-    let percent = |share: &Rational| {
-        // Rounded down: no more is said than is proved.
-        let tenths = (share * &Rational::from(1000)).floor();
-        to_decimal(&(Rational::from(tenths) / Rational::from(10)), 6)
-    };
+    let percent = |share: &Rational| percent_below(share, 1);
     let sum = &certified.stable + &certified.unstable;
     format!(
         "note: the certificate proves {} % of the window, {} % stable and {} % not; it says nothing of the rest",

@@ -58,6 +58,12 @@ enum Known {
     Delayed(delayed::Known),
 }
 
+impl JudgedBox {
+    pub(super) fn sides(&self) -> &Sides {
+        &self.sides
+    }
+}
+
 impl fmt::Display for JudgedBox {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [[a, b], [c, d]] = &self.sides;

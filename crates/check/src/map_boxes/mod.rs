@@ -45,24 +45,46 @@ impl Statement {
         let names = axes(x, y)?;
         let [x, y] = object(window, "'window'", ["x", "y"], &[])?;
         let tree = text(tree, "'tree'")?.to_owned();
-        Ok(Statement { discrete, names, set: values(set)?, extent, window: [ends(x)?, ends(y)?], tree })
+        Ok(Statement { discrete, names, set: values(set)?, extent, window: [ends(x, false)?, ends(y, true)?], tree })
     }
 
-    fn in_words(&self, shares: &[Q; 3]) -> String {
+    /// Whether the second parameter has one value.
+    fn is_line(&self) -> bool {
+        self.window[1][0] == self.window[1][1]
+    }
+
+    fn in_words(&self, walked: &Walked) -> String {
         let mut out = String::from("For ");
-        for (i, (name, [low, high])) in self.names.iter().zip(&self.window).enumerate() {
+        let sides = self.names.iter().zip(&self.window);
+        for (i, (name, [low, high])) in sides.take(if self.is_line() { 1 } else { 2 }).enumerate() {
             let _ = write!(out, "{}{name} from {low} to {high}", if i == 0 { "" } else { " and " });
         }
-        for (i, (name, value)) in self.set.iter().enumerate() {
+        let one = self.is_line().then(|| (&self.names[1], &self.window[1][0]));
+        for (i, (name, value)) in one.into_iter().chain(self.set.iter().map(|(name, q)| (name, q))).enumerate() {
             let _ = write!(out, "{}{name} = {value}", if i == 0 { ", with " } else { ", " });
         }
         let within = verdict::within(&self.extent, self.discrete);
+        if self.is_line() {
+            let name = &self.names[0];
+            let pieces = |letter: char| {
+                let own = walked.pieces.iter().filter(|(l, _)| *l == letter);
+                let all: Vec<String> = own.map(|(_, [low, high])| format!("{low} <= {name} <= {high}")).collect();
+                if all.is_empty() { "no value that is looked at".to_owned() } else { all.join(" and ") }
+            };
+            let _ = write!(
+                out,
+                ", the loop is stable{within} for {}, and not stable for any value in {}. Nothing is said of the rest.",
+                pieces('+'),
+                pieces('-')
+            );
+            return out;
+        }
         let percent = |q: &Q| {
             // Rounded down: no more is claimed than is proved.
             let tenths = (q * Q::from(num_bigint::BigInt::from(1000))).floor().to_integer();
             format!("{}.{}", &tenths / 10, tenths % 10)
         };
-        let [stable, unstable, _] = shares.each_ref().map(percent);
+        let [stable, unstable, _] = walked.shares.each_ref().map(percent);
         let _ = write!(
             out,
             ", the loop is stable{within} in all boxes '+' of the tree, and nowhere in its boxes '-': at least {stable} % and {unstable} % of the \
@@ -72,12 +94,16 @@ impl Statement {
     }
 }
 
-/// Two numbers in order.
-fn ends(json: &Json) -> Result<[Q; 2], String> {
+/// Two numbers in order, which may be the same where one parameter alone is asked about.
+fn ends(json: &Json, may_be_one: bool) -> Result<[Q; 2], String> {
     match list(json, "a side of the window")? {
         [low, high] => {
             let side = [number(low, "a side of the window")?, number(high, "a side of the window")?];
-            if side[0] < side[1] { Ok(side) } else { Err("the window is empty".into()) }
+            if side[0] < side[1] || may_be_one && side[0] == side[1] {
+                Ok(side)
+            } else {
+                Err("the window is empty".into())
+            }
         }
         _ => Err("a side of the window has two ends".into()),
     }
@@ -97,21 +123,39 @@ fn read(json: &Json) -> Result<(Statement, Parts), Rejection> {
 pub(super) fn check(model: &str, json: &Json, clock: Clock) -> Result<Proved, Rejection> {
     let (statement, parts) = read(json)?;
     let judge = BoxJudge::of(model, statement, &parts, clock)?;
-    let shares = judge.walk()?;
-    Ok(Proved { statement: judge.statement().in_words(&shares), kind: "boxes" })
+    let walked = judge.walk()?;
+    Ok(Proved { statement: judge.statement().in_words(&walked), kind: "boxes" })
 }
 
 /// The axis along which a box is wider, in shares of the window.
 fn share_of_window(sides: &Sides, window: &Sides) -> usize {
-    let share = |k: usize| (&sides[k][1] - &sides[k][0]) / (&window[k][1] - &window[k][0]);
-    usize::from(share(1) > share(0))
+    let width = |[low, high]: &[Q; 2]| high - low;
+    usize::from(width(&sides[1]) * width(&window[0]) > width(&sides[0]) * width(&window[1]))
+}
+
+/// What the leaves of a tree say.
+struct Walked {
+    /// The shares of the window that are stable, not stable, and unknown.
+    shares: [Q; 3],
+    /// Where one parameter alone is asked about, its ranges that are stable or not, ascending, what follows each other taken together.
+    pieces: Vec<(char, [Q; 2])>,
+}
+
+impl Walked {
+    fn add(&mut self, letter: char, [low, high]: &[Q; 2]) {
+        match self.pieces.last_mut() {
+            Some((last, [_, end])) if *last == letter && end == low => *end = high.clone(),
+            _ => self.pieces.push((letter, [low.clone(), high.clone()])),
+        }
+    }
 }
 
 impl BoxJudge {
-    /// That each leaf of the tree is what it says; the shares of the window that are stable, not stable, and unknown.
-    fn walk(&self) -> Result<[Q; 3], Rejection> {
+    /// That each leaf of the tree is what it says.
+    fn walk(&self) -> Result<Walked, Rejection> {
         let mut stack = vec![(self.whole(), 0)];
-        let mut shares = [Q::zero(), Q::zero(), Q::zero()];
+        let (is_line, zero) = (self.statement().is_line(), Q::zero);
+        let mut walked = Walked { shares: [zero(), zero(), zero()], pieces: Vec::new() };
         let stable = |reason: String| Rejection { step: Step::Stable, reason };
         for letter in self.statement().tree.chars() {
             Step::Line.of(self.clock().tick())?;
@@ -120,6 +164,9 @@ impl BoxJudge {
             };
             let share = || Q::new_raw(One::one(), num_bigint::BigInt::one() << depth);
             match letter {
+                'y' if is_line => {
+                    return Err(Rejection { step: Step::Line, reason: "a side without a width is halved".into() });
+                }
                 'x' | 'y' => {
                     if depth >= MAX_DEPTH {
                         return Err(Rejection { step: Step::Line, reason: "the tree is too deep".into() });
@@ -131,9 +178,12 @@ impl BoxJudge {
                     if !self.shown(&mut cell, letter == '+').map_err(stable)? {
                         return Err(stable(format!("a leaf '{letter}' is not shown: {cell}")));
                     }
-                    shares[usize::from(letter == '-')] += share();
+                    walked.shares[usize::from(letter == '-')] += share();
+                    if is_line {
+                        walked.add(letter, &cell.sides()[0]);
+                    }
                 }
-                '?' => shares[2] += share(),
+                '?' => walked.shares[2] += share(),
                 other => {
                     let reason = format!("'{}' is no part of a tree", other.escape_debug());
                     return Err(Rejection { step: Step::Line, reason });
@@ -141,7 +191,7 @@ impl BoxJudge {
             }
         }
         if stack.is_empty() {
-            return Ok(shares);
+            return Ok(walked);
         }
         Err(Rejection { step: Step::Line, reason: "the tree ends too early".into() })
     }

@@ -1,0 +1,170 @@
+//! Certificates of the answer about one parameter: exact ones, and boxes where there are none.
+
+use crate::certified_boxes::{Search, judge, precision};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_engine::answer::Answer;
+use jurist_engine::error::Error;
+use jurist_engine::problem::Problem;
+use jurist_engine::stability::plane::boxes::{BoxVerdict, PlaneBox, Window};
+use jurist_engine::stability::{StableInterval, StableSet};
+use std::sync::Arc;
+
+/// Pieces at an end of a stable interval are this power of two shorter than the end is far from zero.
+const END_BITS: u64 = 24;
+
+/// Pieces at zero are this power of two shorter than the window.
+const ZERO_BITS: usize = 40;
+
+/// The share of the window that may stay unknown, as a power of two: what lies at the ends decides.
+const LEFT_BITS: u64 = 48;
+
+/// A certificate of the answer about one parameter, and how much it says.
+///
+/// ```
+/// use jurist::{Budget, Model, certify_intervals};
+/// let answer = Model::drive().ask().free("K_pwm").stable_set(&Budget::unlimited())?;
+/// assert!(certify_intervals(&answer, &Budget::unlimited())?.window.is_none(), "an exact one");
+/// # Ok::<(), jurist::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct CertifiedIntervals {
+    /// The certificate.
+    pub text: String,
+    /// Where it speaks of a window of the parameter only, the ends of that; `None` where it says for all values whether the loop is stable.
+    pub window: Option<[Rational; 2]>,
+    /// The share of the window that is proved stable, or not: 1 without a window.
+    pub proved: Rational,
+}
+
+/// A certificate of the set of values of one parameter for which the loop is stable.
+///
+/// Where there is no exact one, as where the parameter is inside of functions (a sample time, a constant of a plant behind a hold), a window that
+/// contains the finite ends is cut into boxes as that of a map; the certificate then leaves short pieces at the ends unknown.
+///
+/// Cost: that of [`Answer::certificate`], else that of [`certify_boxes`](crate::certify_boxes) for some dozen boxes at each end.
+///
+/// ```standalone_crate
+/// use jurist::{Budget, Limits, Model, Source, certify_intervals, check};
+/// let text = std::fs::read_to_string("examples/dc-servo.toml").unwrap();
+/// let (model, _) = Model::from_toml(&Source::new("dc-servo.toml", &text))?;
+/// let answer = model.ask().free("T").stable_set(&Budget::unlimited())?;
+/// let certified = certify_intervals(&answer, &Budget::unlimited())?;
+/// assert!(certified.proved > "999/1000".parse().unwrap());
+/// assert_eq!(check(&text, &certified.text, &Limits::default()).unwrap().kind, "boxes");
+/// # Ok::<(), jurist::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where there is neither.
+pub fn certify_intervals(answer: &Answer<StableSet>, budget: &Budget) -> Result<CertifiedIntervals, Error> {
+    match answer.certificate(budget) {
+        Ok(text) => Ok(CertifiedIntervals { text, window: None, proved: Rational::ONE }),
+        Err(Error::Refused(why)) if why.code() == "E-no-certificate" => {
+            by_boxes(answer, budget)?.ok_or(Error::Refused(why))
+        }
+        Err(other) => Err(other),
+    }
+}
+
+/// By boxes; `None` where the checkers do not read the model so either, or nothing is seen of it.
+fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<CertifiedIntervals>, Error> {
+    budget.step("certificate");
+    let problem = answer.problem();
+    let Some((plane, value)) = beside_another(problem)? else { return Ok(None) };
+    let ends = window(problem, answer.value());
+    let window = Window { x: ends.clone(), y: [value.clone(), value] };
+    let judge = match judge(&plane, &window, budget) {
+        Ok(judge) => judge,
+        Err(Error::Refused(_)) => return Ok(None),
+        Err(other) => return Err(other),
+    };
+    // The second side has a width here alone.
+    let over = |x: [Rational; 2]| Window { x, y: [Rational::ZERO, Rational::ONE] };
+    let mut pieces = Vec::new();
+    cut(answer.value(), ends.clone(), 0, &mut |x, verdict| pieces.push(PlaneBox { window: over(x), verdict }));
+    let goal = Rational::dyadic(&1.into(), LEFT_BITS);
+    let (tree, [stable, unstable]) = Search::new(&pieces, &over(ends.clone()), goal, &judge, true).tree(budget);
+    let proved = &stable + &unstable;
+    if proved.is_zero() {
+        return Ok(None);
+    }
+    let (order, bits) = precision(&plane, budget)?;
+    let text = plane.boxes_certificate(&window, &tree, order, bits)?;
+    Ok(Some(CertifiedIntervals { text, window: Some(ends), proved }))
+}
+
+/// The problem with another parameter, or constant, free as well, and the value that it has; `None` where there is none, or the bound of the
+/// region is in question.
+fn beside_another(problem: &Arc<Problem>) -> Result<Option<(Arc<Problem>, Rational)>, Error> {
+    let [free] = problem.free() else { return Ok(None) };
+    if problem.region().is_free() {
+        return Ok(None);
+    }
+    let model = problem.model();
+    let set = |name: &str| problem.set().iter().find(|(n, _)| n == name).map(|(_, value)| value.clone());
+    let parameters = model.parameters().iter().map(|p| (&p.name, set(&p.name)));
+    let constants = model.constants().iter().map(|c| (&c.name, set(&c.name).or_else(|| c.number.clone())));
+    let mut others = parameters.chain(constants).filter(|(name, _)| **name != free.name);
+    let Some((other, value)) = others.find_map(|(name, value)| Some((name.clone(), value?))) else { return Ok(None) };
+    let question = model.ask().within(problem.region().clone()).free(&free.name).free(&other);
+    let rest = problem.set().iter().filter(|(name, _)| *name != other);
+    let question = rest.fold(question, |question, (name, value)| question.set(name, value.clone()));
+    Ok(Some((question.problem()?, value)))
+}
+
+/// A window with all finite ends of the stable set inside, as far as the domain goes.
+fn window(problem: &Problem, set: &StableSet) -> [Rational; 2] {
+    let free = problem.parameter();
+    let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
+    let above = |end: &jurist_engine::stability::End| end.value.rational_above().abs();
+    let nominal = free.nominal.iter().map(Rational::abs);
+    let far = ends.map(above).chain(nominal).max().filter(|far| !far.is_zero()).unwrap_or(Rational::ONE);
+    let far = &far * &Rational::from(2);
+    let low = free.domain.lower.clone().map_or_else(|| -&far, |low| low.max(-&far));
+    let high = free.domain.upper.clone().map_or_else(|| far.clone(), |high| high.min(far.clone()));
+    match low < high {
+        true => [low, high],
+        // A domain that is farther away than everything known.
+        false => match (&free.domain.lower, &free.domain.upper) {
+            (Some(low), None) => [low.clone(), low + &(&low.abs() + &Rational::ONE)],
+            (None, Some(high)) => [high - &(&high.abs() + &Rational::ONE), high.clone()],
+            (Some(low), Some(high)) => [low.clone(), high.clone()],
+            (None, None) => [-&far, far],
+        },
+    }
+}
+
+/// Halves a range until each piece is in a stable interval, or beside all, or short and at an end.
+fn cut(set: &StableSet, x: [Rational; 2], halvings: usize, put: &mut impl FnMut([Rational; 2], BoxVerdict)) {
+    let [low, high] = &x;
+    let is_before = |x: &Rational, end: &Option<jurist_engine::stability::End>| {
+        end.as_ref().is_none_or(|end| end.value.compare_rational(x).is_gt())
+    };
+    let is_behind = |x: &Rational, end: &Option<jurist_engine::stability::End>| {
+        end.as_ref().is_none_or(|end| end.value.compare_rational(x).is_lt())
+    };
+    let is_inside = |i: &StableInterval| is_behind(low, &i.lower) && is_before(high, &i.upper);
+    let is_outside = |i: &StableInterval| {
+        i.lower.is_some() && is_before(high, &i.lower) || i.upper.is_some() && is_behind(low, &i.upper)
+    };
+    let is_known = set.undecided().iter().all(|b| {
+        b.lower.as_ref().is_some_and(|lower| high < lower) || b.upper.as_ref().is_some_and(|upper| low > upper)
+    });
+    if is_known && set.intervals().iter().any(is_inside) {
+        return put(x, BoxVerdict::Stable);
+    }
+    if is_known && set.intervals().iter().all(is_outside) {
+        return put(x, BoxVerdict::Unstable { outside: None });
+    }
+    let far = low.abs().max(high.abs());
+    let is_short = high - low <= &far * &Rational::dyadic(&1.into(), END_BITS);
+    let is_at_zero = halvings >= ZERO_BITS && !low.sign().is_gt() && !high.is_negative();
+    if is_short || is_at_zero {
+        return put(x, BoxVerdict::Undecided);
+    }
+    let middle = low.midpoint(high);
+    cut(set, [low.clone(), middle.clone()], halvings + 1, put);
+    cut(set, [middle, high.clone()], halvings + 1, put);
+}
