@@ -6,7 +6,7 @@ mod exponential;
 
 use super::clock::Clock;
 use super::multivariate::{Fraction, Multi};
-use super::number::{Q, Z};
+use super::number::Q;
 use super::over_symbols::substituted;
 use super::taylor::{Precision, Taylor};
 pub(super) use exponential::pi;

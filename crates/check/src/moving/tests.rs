@@ -1,6 +1,7 @@
 //! Functions of matrices and numbers against digits from elsewhere (mpmath, 50 digits).
 
 use super::*;
+use crate::number::Z;
 use num_traits::Zero;
 use std::time::Duration;
 

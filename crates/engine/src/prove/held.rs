@@ -1,4 +1,4 @@
-//! Certificates of loops with blocks behind a hold: polynomials over symbols, whose definitions the checkers enclose themselves.
+//! Certificates of loops with blocks behind a hold, or of prewarped rules: polynomials over symbols, whose definitions the checkers enclose themselves.
 
 mod line;
 
@@ -31,15 +31,14 @@ const MOST_BITS: u64 = 1 << 13;
 /// The checkers have so many bits more than the signs were certain with here.
 const SPARE_BITS: u64 = 64;
 
-/// Whether the loop has constants that are not rational, all of them from blocks behind holds at fixed times.
+/// Whether the loop has constants that are not rational, all of them from holds and prewarped rules at fixed times.
 pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error> {
     let algebra = problem.algebra_over_symbols(budget)?;
     let symbols = algebra.symbols();
     if symbols.is_empty() {
         // The checkers connect the blocks before anything cancels.
-        let cancels = symbols.modes().iter().flatten().any(|c| !c.is_zero());
-        return match cancels {
-            true => Err(no_certificate("no certificate: the exponentials of the held blocks cancel at these values")),
+        return match symbols.are_brought() {
+            true => Err(no_certificate("no certificate: the constants of holds and prewarped rules cancel at these values")),
             false => Ok(false),
         };
     }

@@ -109,7 +109,7 @@ impl Problem {
         if !symbols.delays().is_empty() {
             return Err(no_certificate("no certificate of a map: the loop has dead time"));
         }
-        if !symbols.is_empty() || symbols.modes().iter().flatten().any(|c| !c.is_zero()) {
+        if !symbols.is_empty() || symbols.are_brought() {
             return Err(no_certificate("no certificate of a map: the loop has constants that are not rational"));
         }
         Ok(())
