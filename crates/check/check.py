@@ -22,7 +22,7 @@ from math import comb, gcd, isqrt, lcm, prod
 MAX_TEXT, MAX_MODEL = 64 << 20, 4 << 20  # characters
 MAX_DIGITS = 100_000
 MAX_BITS = 1 << 22  # of the numbers that the check computes
-MAX_TERMS = 500_000
+MAX_TERMS = 100_000
 MAX_DEPTH = 16  # of JSON
 MAX_NESTING = 200  # of expressions
 MAX_ORDER = 2000
