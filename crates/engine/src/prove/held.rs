@@ -42,7 +42,9 @@ pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error>
     if symbols.is_empty() {
         // The checkers connect the blocks before anything cancels.
         return match symbols.are_brought() {
-            true => Err(no_certificate("no certificate: the constants of holds and prewarped rules cancel at these values")),
+            true => {
+                Err(no_certificate("no certificate: the constants of holds and prewarped rules cancel at these values"))
+            }
             false => Ok(false),
         };
     }
