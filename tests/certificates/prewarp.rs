@@ -128,6 +128,40 @@ fn certificates_of_other_rules_are_rejected() {
     reject(&text.replace("'1/2'", "'-1/2'").replace("'3'", "'-3'"), &map, Step::Model);
 }
 
+/// By the formula alone these loops are what the certificates say, with a tangent that is the right one: but no angle is above pi, and no frequency or time
+/// is negative. Numbers are seen as they are written, others with the values of the parameters.
+#[test]
+fn angles_and_signs_that_no_sampled_loop_has_are_rejected() {
+    for (frequency, factor) in [("3", ""), ("3*b", "*b")] {
+        let text = |time: &str| lag(frequency, &format!("{time}{factor}"));
+        let right = verdict_emitted(&text("1/2"), "K", "1");
+        accept(&text("1/2"), &right);
+        // tan(15/4) is positive again; the loop with the factor 3/tan(15/4) has both of its roots inside.
+        let angle = "\"3/4\"";
+        assert!(right.contains(angle) && right.contains(r#""inside": 2"#), "{right}");
+        reject(&text("5/2"), &right.replace(angle, "\"15/4\""), Step::Model);
+        // w/tan(w T/2) is even in w.
+        let negative = lag(&format!("-{frequency}"), &format!("1/2{factor}"));
+        reject(&negative, &right, Step::Model);
+        // The other sign of the factor, or of s.
+        let mirrored = |text: &str| text.replace("1/(s + 1)", "1/(1 - s)");
+        let right = verdict_emitted(&mirrored(&text("1/2")), "K", "-2");
+        accept(&mirrored(&text("1/2")), &right);
+        assert!(right.contains(r#""inside": 2"#), "{right}");
+        reject(&text("-1/2"), &right, Step::Model);
+        reject(&lag(&format!("-{frequency}"), &format!("-1/2{factor}")), &right, Step::Model);
+    }
+    // A loop that is nowhere stable needs no factor for that, but is to be one.
+    let nowhere = |frequency: &str, time: &str| {
+        format!("{}[[block]]\ninput = 'y'\noutput = 'v'\ntransfer = '1/(z - 1)'\n", lag(frequency, time))
+    };
+    let boxes = of_boxes(["1/8", "1/7"], ["1", "2"], "-");
+    accept(&nowhere("3", "1"), &boxes);
+    for (frequency, time) in [("4", "1"), ("-3", "1"), ("3", "-1"), ("-3", "-1"), ("0", "1")] {
+        reject(&nowhere(frequency, time), &boxes, Step::Model);
+    }
+}
+
 /// A certificate of boxes of `K` and `b`.
 fn of_boxes(gains: [&str; 2], b: [&str; 2], tree: &str) -> String {
     let [gains, b] = [gains, b].map(|ends| ends.map(|end| number(end).to_string()));
