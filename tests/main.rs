@@ -97,6 +97,7 @@ mod certificates {
     mod map_boxes_attacks;
     mod map_boxes_dead_time;
     mod maps;
+    mod prewarp;
     mod program;
     mod readers;
     mod smt;

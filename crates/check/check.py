@@ -22,7 +22,7 @@ from math import comb, gcd, isqrt, lcm, prod
 MAX_TEXT, MAX_MODEL = 64 << 20, 4 << 20  # characters
 MAX_DIGITS = 100_000
 MAX_BITS = 1 << 22  # of the numbers that the check computes
-MAX_TERMS = 50_000
+MAX_TERMS = 100_000
 MAX_DEPTH = 16  # of JSON
 MAX_NESTING = 200  # of expressions
 MAX_ORDER = 2000
@@ -286,7 +286,7 @@ def scalar(p):
 NOTHING = scalar(ZERO)
 
 def dot(row, values):
-    return sum((c * x for c, x in zip(row, values) if c.scalar()), NOTHING)
+    return sum((c * x for c, x in zip(row, values) if c.scalar() and x.tops), NOTHING)
 
 # ---------------------------------------------------------------- expressions
 
@@ -584,6 +584,8 @@ class DeadTime:
     def __init__(self, base, power):
         self.base, self.power = base, power
 
+BELOW_PI = Fraction(31415926535897932384626433832795028, 10 ** 34)
+
 class Loop:
     """Equations of signals and states, and everything that is divided by."""
 
@@ -674,6 +676,8 @@ class Loop:
     def block(self, block, signals):
         scope = self.scope
         u = [scope.linear(e, signals) for e in several(block["input"])]
+        # External signals are zero, and what divides them is not in the equations.
+        u = [Value({name: p for name, p in e.tops.items() if name not in self.inputs}, e.bottom) for e in u]
         y = [signals[name] for name in several(block["output"])]
         up, down, inner = Z, ONE, self.z
         hold = None
@@ -681,12 +685,13 @@ class Loop:
             need(self.z == "z", "a continuous loop has nothing to discretise")
             need("transfer" not in block or "s" not in self.taken, "s has two meanings")
             rule, inner = block["discretize"], "s"
-            rule = {"method": rule} if isinstance(rule, str) else dict(table(rule, "method T c delay"))
+            rule = {"method": rule} if isinstance(rule, str) else dict(table(rule, "method T c prewarp delay"))
             method = text_of(rule.get("method"))
             if "T" not in rule and "c" not in rule and self.sample_time is not None:
                 rule["T"] = self.sample_time
-            t, c, delay = (scope.value(rule[k]) if k in rule else None for k in ("T", "c", "delay"))
+            t, c, w, delay = (scope.value(rule[k]) if k in rule else None for k in ("T", "c", "prewarp", "delay"))
             need(method in ("zoh", "foh") or not delay, "only a hold has a delay")
+            need(not w or method == "tustin" and t and not c, "'prewarp' goes with tustin and a sample time, without 'c'")
             if method in ("zoh", "foh"):
                 need(t and not c, "'discretize' does not fit")
                 if isinstance(block.get("transfer"), str) and not isinstance(block["transfer"], Number) and "exp" not in scope.known:
@@ -703,6 +708,8 @@ class Loop:
                 elif self.values is not None:
                     hold = method == "foh", self.number(t), self.number(delay) if delay else Fraction(0)
                     need(hold[1] > 0 and hold[2] >= 0, "the times of a hold are not positive")
+            elif w and (c := self.prewarped(w, t)) is None:
+                pass  # only what is written is looked at
             elif method == "tustin" and (c or t):
                 c = c or scope.value("2/T", {"T": t})
                 up, down = (Z + number(-1)) * c.scalar(), (Z + ONE) * c.bottom
@@ -797,6 +804,22 @@ class Loop:
         q = Fraction(top.get(max(bottom), 0), bottom[max(bottom)])
         need(top * number(q.denominator) == bottom * number(q.numerator) and q >= 0, "a dead time is no multiple of the sample time")
         return q
+
+    def prewarped(self, w, t):
+        """The factor w/tan(w T/2) of Tustin's rule that is exact at the frequency w, which has to be below half the sampling rate."""
+        def certain(w, t):
+            need(all(q is None or q > 0 for q in (w, t)), "the frequency of 'prewarp', or its sample time, is not positive")
+            need(w is None or t is None or w * t <= BELOW_PI, "the frequency of 'prewarp' is not below half the sampling rate")
+        certain(w.number(), t.number())
+        if self.values is None:
+            return None
+        if self.moving:
+            return self.moving.prewarped(w, t)
+        w, t = self.number(w), self.number(t)
+        certain(w, t)
+        x = self.symbols.tangent(w ** 2, t / 2, self.first, self.scope.divisors)
+        self.scope.divisors.append(x.scalar())
+        return Value({"": x.bottom}, x.scalar())
 
     def held(self, hold, a, b, c, d, x, u, y):
         """over x[k+1] = state x[k] + sum of matrix B u[k - age], and the states of past inputs."""
@@ -2133,6 +2156,9 @@ class Moving:
     def variable(self, name, argument=None):
         return scalar(P({1 << FIELD * self.variables((name, argument), 1): 1}))
 
+    def prewarped(self, w, time):
+        return scalar(P({1 << FIELD * self.variables(("prewarp", self.argument(w), self.argument(time)), 1): 1}))
+
     def held(self, a, first_order, time, ratio, loop):
         """The state matrix, and how inputs enter: their age, matrix, and the share that passes on at once."""
         samples, share = int(ratio // 1), ratio % 1
@@ -2157,7 +2183,7 @@ class Moving:
             if name == "hold":
                 of = [[quotient(f) for f in row] for row in of[0]], quotient(of[1]), *of[2:]
             else:
-                of = [quotient(of[0])]
+                of = map(quotient, of)
             self.sources.append((name, *of))
 
     def values(self, parameters, models):
@@ -2172,7 +2198,10 @@ class Moving:
                 a, time, share, first_order = of
                 known += self.matrices([[over(f) for f in row] for row in a], over(time), share, first_order, models)
                 continue
-            f = over(of[0]) if of[0] else None
+            f, *others = (over(f) if f else None for f in of)
+            if name == "prewarp":
+                known.append(self.factor(f, *others, models))
+                continue
             if name == "pi":
                 known.append(models.pi())
             elif name == "sqrt":
@@ -2195,6 +2224,15 @@ class Moving:
                 e >>= FIELD
             total = summed(total, term, c)
         return total
+
+    @staticmethod
+    def factor(w, time, models):
+        """w cos(w T/2)/sin(w T/2), for an angle w T between 0 and pi."""
+        angle = models.times(w, time)
+        if min(sign_of(w), sign_of(time), sign_of(summed(models.pi(), angle, -1))) <= 0:
+            raise TooWide
+        cosine, sine = models.turned(halved(angle, 1))
+        return models.quotient(models.times(w, cosine), sine)
 
     @staticmethod
     def matrices(a, time, share, first_order, models):

@@ -103,6 +103,19 @@ fn the_examples_behind_a_hold_are_certified() {
     }
 }
 
+/// Fast modes in short times: the symbols are small, the coefficients before their powers long, and the checkers multiply them last.
+#[test]
+fn long_coefficients_have_their_bits() {
+    let plant = "transfer = '1/(s*(s^2/4900000 + s/5000 + 1))'\ndiscretize = { method = 'zoh', delay = '0.3*T' }";
+    let model = loop_of(plant).replace("'1/5'", "'1/4000'").replace("gain = 1", "transfer = '1/z'");
+    let certificate = emitted(&model, "K");
+    accept(&model, &certificate);
+    let Some(Json::Count(bits)) = Json::parse(&certificate).expect("JSON").get("bits").cloned() else {
+        panic!("no bits")
+    };
+    reject(&model, &certificate.replace(&format!("\"bits\": {bits}"), "\"bits\": 320"), Step::Line);
+}
+
 /// What is not a number at fixed times has no certificate yet, and is not given one that would be rejected.
 #[test]
 fn what_no_checker_knows_gets_no_certificate() {

@@ -410,9 +410,6 @@ fn the_program_certifies_boxes() {
             assert!(run.status == 2 && run.stderr.contains(expected), "{}", run.stderr);
         }
     }
-    let prewarped = path("examples/two-mass-drive.toml").to_str().unwrap().to_owned();
-    let run = jurist(&["map", &prewarped, "-x", "K_p=1..2", "-y", "K_i=1..3", "--certificate", &file]);
-    assert!(run.status == 2 && run.stderr.contains("'prewarp' is no key"), "{}", run.stderr);
     std::fs::remove_dir_all(&folder).unwrap();
 }
 

@@ -8,6 +8,7 @@
 #![expect(clippy::needless_range_loop, reason = "matrix indices, as in the formulas")]
 
 mod hold_rows;
+mod prewarp;
 
 use super::characteristic::Form;
 use super::clock::Clock;

@@ -2,12 +2,16 @@
 //!
 //! In polynomials each is a variable behind the parameters of the box. Over a box they are [`Taylor`] models.
 
+mod exponential;
+
 use super::clock::Clock;
 use super::multivariate::{Fraction, Multi};
-use super::number::{Q, Z};
+use super::number::Q;
 use super::over_symbols::substituted;
 use super::taylor::{Precision, Taylor};
-use num_traits::{One, Signed, Zero};
+pub(super) use exponential::pi;
+use exponential::{Matrix, exponential, held, prewarped, turned};
+use num_traits::{One, Signed};
 
 /// A function that expressions know.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +43,11 @@ enum Source<F> {
     Of(Function, F),
     /// `exp(-T s)` of a dead time `T`.
     Delay(F),
+    /// The factor of Tustin's rule that is exact at a frequency.
+    Prewarp {
+        frequency: F,
+        time: F,
+    },
     /// The matrices [`HeldMatrix`] of a hold, row by row.
     Hold {
         a: Vec<Vec<F>>,
@@ -121,6 +130,12 @@ impl Moving {
         Ok(Fraction::variable(self.variables(Source::Delay(time), 1)))
     }
 
+    /// The factor of Tustin's rule that is exact at a frequency, as a variable.
+    pub fn prewarped(&mut self, frequency: &Fraction, time: &Fraction) -> Fraction {
+        let source = Source::Prewarp { frequency: frequency.clone(), time: time.clone() };
+        Fraction::variable(self.variables(source, 1))
+    }
+
     /// The matrices of a hold, as variables.
     pub fn held(
         &mut self,
@@ -149,6 +164,9 @@ impl Moving {
                 Source::Pi => Source::Pi,
                 Source::Of(function, f) => Source::Of(*function, quotient(f)?),
                 Source::Delay(f) => Source::Delay(quotient(f)?),
+                Source::Prewarp { frequency, time } => {
+                    Source::Prewarp { frequency: quotient(frequency)?, time: quotient(time)? }
+                }
                 Source::Hold { a, time, share, matrices } => Source::Hold {
                     a: a.iter().map(|row| row.iter().map(quotient).collect()).collect::<Result<_, _>>()?,
                     time: quotient(time)?,
@@ -167,8 +185,6 @@ struct Quotient(Multi, Multi);
 
 /// What the variables behind the parameters of a box stand for, in order.
 pub(super) struct Sources(Vec<Source<Quotient>>);
-
-type Matrix = Vec<Vec<Taylor>>;
 
 impl Sources {
     pub fn none() -> Self {
@@ -196,6 +212,10 @@ impl Sources {
                 Source::Pi => vec![pi(p)],
                 Source::Of(function, f) => vec![function.at(f.over(&known, p, clock)?, p, clock)?],
                 Source::Delay(_) => return Err("internal: a dead time is no number".into()),
+                Source::Prewarp { frequency, time } => {
+                    let (w, time) = (frequency.over(&known, p, clock)?, time.over(&known, p, clock)?);
+                    vec![prewarped(&w, &time, p, clock)?]
+                }
                 Source::Hold { a, time, share, matrices } => {
                     let a: Matrix = a
                         .iter()
@@ -243,157 +263,20 @@ fn value(f: &Multi, known: &[Taylor], p: &Precision, clock: &Clock) -> Result<Ta
 
 impl Function {
     fn at(self, x: Taylor, p: &Precision, clock: &Clock) -> Result<Taylor, String> {
-        let turned = |x: Taylor| -> Result<[Taylor; 2], String> {
-            let m = vec![vec![Taylor::zero(), x.clone()], vec![x.scaled(&-Z::one()), Taylor::zero()]];
-            let [mut whole, ..] = exponential(&m, p, clock)?;
-            let mut first = whole.swap_remove(0);
-            let sine = first.pop().unwrap_or_else(Taylor::zero);
-            Ok([first.pop().unwrap_or_else(Taylor::zero), sine])
-        };
         Ok(match self {
             Function::Root => x.root(p, clock)?,
             Function::Exponential => {
                 let [mut whole, ..] = exponential(&vec![vec![x]], p, clock)?;
                 whole.swap_remove(0).swap_remove(0)
             }
-            Function::Sine => turned(x)?[1].clone(),
-            Function::Cosine => turned(x)?[0].clone(),
+            Function::Sine => turned(x, p, clock)?[1].clone(),
+            Function::Cosine => turned(x, p, clock)?[0].clone(),
             Function::Tangent => {
-                let [cosine, sine] = turned(x)?;
+                let [cosine, sine] = turned(x, p, clock)?;
                 sine.times(&cosine.inverse(p, clock)?, p, clock)?
             }
         })
     }
-}
-
-/// The circle number by Machin's formula, `16 atan(1/5) - 4 atan(1/239)`.
-pub(super) fn pi(p: &Precision) -> Taylor {
-    // 64 bits more than are asked for, so that no rounding is seen in them.
-    let one = Z::one() << (p.bits + 64);
-    let inverse_tangent = |n: u32| {
-        let (mut power, mut sum, mut k) = (&one / n, Z::zero(), 1_u32);
-        while !power.is_zero() {
-            let term = &power / k;
-            sum = if k % 4 == 1 { sum + term } else { sum - term };
-            power /= n * n;
-            k += 2;
-        }
-        sum
-    };
-    Taylor::units((inverse_tangent(5) * 16 - inverse_tangent(239) * 4) >> 64_usize, Z::from(2))
-}
-
-fn product(a: &Matrix, b: &Matrix, p: &Precision, clock: &Clock) -> Result<Matrix, String> {
-    let n = a.len();
-    let mut out = vec![vec![Taylor::zero(); n]; n];
-    for i in 0..n {
-        for j in 0..n {
-            for k in 0..n {
-                out[i][j] = out[i][j].plus(&a[i][k].times(&b[k][j], p, clock)?);
-            }
-        }
-    }
-    Ok(out)
-}
-
-fn mapped(a: &Matrix, f: impl Fn(&Taylor) -> Taylor) -> Matrix {
-    a.iter().map(|row| row.iter().map(&f).collect()).collect()
-}
-
-fn plus(a: &Matrix, b: &Matrix) -> Matrix {
-    a.iter().zip(b).map(|(x, y)| x.iter().zip(y).map(|(x, y)| x.plus(y)).collect()).collect()
-}
-
-fn minus(a: &Matrix, b: &Matrix) -> Matrix {
-    plus(a, &mapped(b, |x| x.scaled(&-Z::one())))
-}
-
-fn by(a: &Matrix, factor: &Taylor, p: &Precision, clock: &Clock) -> Result<Matrix, String> {
-    a.iter().map(|row| row.iter().map(|x| x.times(factor, p, clock)).collect()).collect()
-}
-
-fn by_number(a: &Matrix, q: &Q) -> Matrix {
-    mapped(a, |x| x.scaled(q.numer()).over(q.denom()))
-}
-
-/// `sum M^k/k!`, `sum M^k/(k + 1)!` and `sum M^k/(k + 2)!`: of `M/2^s`, with rows that add up to at most `2^-8`, then doubled `s` times.
-fn exponential(m: &Matrix, p: &Precision, clock: &Clock) -> Result<[Matrix; 3], String> {
-    let n = m.len();
-    let norm = m.iter().map(|row| row.iter().map(Taylor::magnitude).sum::<Z>()).max().unwrap_or_default();
-    let eighth = Z::one() << (p.bits - 8);
-    let mut doublings = 0_usize;
-    while (&norm >> doublings) >= eighth {
-        doublings += 1;
-        if doublings > 64 {
-            return Err("an exponent is too large to be enclosed".into());
-        }
-    }
-    let m = mapped(m, |x| x.halved(doublings));
-    let one = Taylor::number(&Q::one(), p);
-    let unit: Matrix =
-        (0..n).map(|i| (0..n).map(|j| if i == j { one.clone() } else { Taylor::zero() }).collect()).collect();
-    // The terms M^k/k!, and their sums divided by 1, k + 1, and (k + 1)(k + 2).
-    let mut term = unit.clone();
-    let mut sums = [unit.clone(), unit.clone(), mapped(&unit, |x| x.over(&Z::from(2)))];
-    let (mut k, mut bound) = (0_usize, Z::one());
-    while bound <= Z::one() << p.bits {
-        k += 1;
-        bound = (bound * Z::from(k)) << 8;
-        term = mapped(&product(&term, &m, p, clock)?, |x| x.over(&Z::from(k)));
-        let divisors = [1, k + 1, (k + 1) * (k + 2)];
-        for (sum, divisor) in sums.iter_mut().zip(divisors) {
-            *sum = plus(sum, &mapped(&term, |x| x.over(&Z::from(divisor))));
-        }
-    }
-    // What is left out is below twice one over the bound, which is less than a unit.
-    for x in sums.iter_mut().flatten().flatten() {
-        x.rest += 2;
-    }
-    let [mut whole, mut first, mut second] = sums;
-    for _ in 0..doublings {
-        second = mapped(&plus(&plus(&second, &first), &product(&whole, &second, p, clock)?), |x| x.halved(2));
-        first = mapped(&plus(&first, &product(&whole, &first, p, clock)?), |x| x.halved(1));
-        whole = product(&whole, &whole, p, clock)?;
-    }
-    Ok([whole, first, second])
-}
-
-/// The entries of the matrices of a hold.
-fn held(
-    a: &Matrix,
-    time: &Taylor,
-    share: &Q,
-    matrices: &[HeldMatrix],
-    p: &Precision,
-    clock: &Clock,
-) -> Result<Vec<Taylor>, String> {
-    // F, G and H over a share of the sample time.
-    let over = |share: &Q| -> Result<[Matrix; 3], String> {
-        let span = time.scaled(share.numer()).over(share.denom());
-        let [whole, first, second] = exponential(&by(a, &span, p, clock)?, p, clock)?;
-        Ok([whole, by(&first, &span, p, clock)?, by_number(&by(&second, &span, p, clock)?, share)])
-    };
-    let rest = Q::one() - share;
-    let ([s0, s1, s2], late) = (over(&rest)?, if share.is_zero() { None } else { Some(over(share)?) });
-    let then = |late: &Matrix| product(&s0, late, p, clock);
-    let mut out = Vec::new();
-    for kind in matrices {
-        let matrix = match (kind, &late) {
-            (HeldMatrix::State, None) => s0.clone(),
-            (HeldMatrix::State, Some([r0, ..])) => then(r0)?,
-            (HeldMatrix::Now, _) => s1.clone(),
-            (HeldMatrix::LateOfRamp, _) => s2.clone(),
-            (HeldMatrix::NowOfRamp, None) => minus(&s1, &s2),
-            (HeldMatrix::NowOfRamp, Some([_, r1, r2])) => {
-                plus(&then(&plus(&by_number(r1, &rest), r2))?, &minus(&s1, &s2))
-            }
-            (HeldMatrix::Early, Some([_, r1, _])) => then(r1)?,
-            (HeldMatrix::EarlyOfRamp, Some([_, r1, r2])) => then(&minus(&by_number(r1, share), r2))?,
-            (HeldMatrix::Early | HeldMatrix::EarlyOfRamp, None) => return Err("internal: nothing is late".into()),
-        };
-        out.extend(matrix.into_iter().flatten());
-    }
-    Ok(out)
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ impl Diagram<'_, '_> {
     pub(super) fn rule(&mut self, how: &Toml, exponents: &[String]) -> Result<Rule, String> {
         let clock = self.scope.clock;
         let mut get = |key: &str| how.get(key).map(|t| self.scope.scalar(t)).transpose();
-        let (mut time, factor, mut delay) = (get("T")?, get("c")?, get("delay")?);
+        let (mut time, factor, prewarp, mut delay) = (get("T")?, get("c")?, get("prewarp")?, get("delay")?);
         let method = method(how)?;
         for exponent in exponents {
             let own = self.scope.time_of_exponent(exponent)?;
@@ -29,9 +29,15 @@ impl Diagram<'_, '_> {
             if delay.is_some() {
                 return Err("only a hold has a 'delay'".into());
             }
-            return self.substitution(method, time, factor).map(Rule::Quotient);
+            return match (prewarp, method, time, factor) {
+                (None, method, time, factor) => self.substitution(method, time, factor).map(Rule::Quotient),
+                (Some(frequency), "tustin", Some(time), None) => self.prewarped(&frequency, &time),
+                _ => Err("'prewarp' goes with tustin and a sample time, without 'c'".into()),
+            };
         }
-        let (Some(time), None) = (time, factor) else { return Err("'discretize' is not complete".into()) };
+        let (Some(time), None, None) = (time, factor, prewarp) else {
+            return Err("'discretize' is not complete".into());
+        };
         let Some(values) = self.values else { return Ok(Rule::Unknown) };
         if self.scope.moving.is_some() {
             let ratio = delay.map_or(Ok(Q::zero()), |delay| ratio(&delay, &time, &values, clock))?;
@@ -184,7 +190,7 @@ fn ratio(delay: &Fraction, time: &Fraction, values: &Values<'_>, clock: &Clock) 
 }
 
 /// The number that a fraction is for the values of the parameters.
-fn numbered(f: &Fraction, values: &Values<'_>, clock: &Clock) -> Result<Q, String> {
+pub(super) fn numbered(f: &Fraction, values: &Values<'_>, clock: &Clock) -> Result<Q, String> {
     let number = |m: &Multi| -> Result<Q, String> {
         let at = m.specialised(1, values.numbers, clock)?;
         let mut all = at.into_iter().flatten();

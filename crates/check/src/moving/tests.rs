@@ -1,6 +1,8 @@
 //! Functions of matrices and numbers against digits from elsewhere (mpmath, 50 digits).
 
 use super::*;
+use crate::number::Z;
+use num_traits::Zero;
 use std::time::Duration;
 
 fn clock() -> Clock {
@@ -155,4 +157,53 @@ fn holds_of_two_integrators_are_powers_of_the_time() {
             [(1, 16), (11, 96)],
         ],
     );
+}
+
+/// `w/tan(w T/2)` of an angle below and one above a right angle, and the limit of small ones, `2/T`.
+#[test]
+fn factors_of_prewarped_rules_have_their_digits() {
+    let p = Precision::new(2, 160);
+    let number = |q: Q| Taylor::number(&q, &p);
+    for (w, time, exact) in [
+        (
+            Q::from(Z::from(700)),
+            Q::new(Z::one(), Z::from(4000)),
+            decimal("797957290472191577213338191912092755463263740", 41),
+        ),
+        (Q::from(Z::from(3)), Q::one(), decimal("2127445329079573463669426788044098672200106", 43)),
+        (Q::new(Z::one(), Z::from(8)), Q::from(Z::from(2)), decimal("9947862332333763972342150559357484815249376", 43)),
+    ] {
+        is_within(&prewarped(&number(w), &number(time), &p, &clock()).unwrap(), &exact, 1 << 30, &p);
+    }
+    let found = prewarped(&number(Q::new(Z::one(), Z::one() << 40_usize)), &number(Q::one()), &p, &clock()).unwrap();
+    assert!(
+        (Q::from(found.constant()) / Q::from(Z::one() << 160_usize) - Q::from(Z::from(2))).abs()
+            < Q::new(Z::one(), Z::one() << 80_usize)
+    );
+}
+
+/// A box has a factor only if the frequency, the sample time and the way to half the sampling rate are positive in all of it.
+#[test]
+fn factors_of_prewarped_rules_are_of_angles_between_zero_and_pi() {
+    let p = Precision::new(4, 128);
+    let side = |low: (i64, i64), high: (i64, i64), axis: usize| {
+        Taylor::coordinate(&[low, high].map(|(n, d)| Q::new(n.into(), d.into())), axis, &p)
+    };
+    let is_read = |w: [(i64, i64); 2], time: [(i64, i64); 2]| {
+        prewarped(&side(w[0], w[1], 0), &side(time[0], time[1], 1), &p, &clock()).is_ok()
+    };
+    let around_one = [(9, 10), (11, 10)];
+    assert!(is_read(around_one, around_one));
+    assert!(is_read([(3, 1), (31, 10)], [(99, 100), (101, 100)]), "up to 3.131");
+    // Pi in the box, at its corner, and above all of it; a whole turn, where the tangent is that of a small angle.
+    for w in [[(31, 10), (32, 10)], [(3, 1), (315, 100)], [(33, 10), (34, 10)], [(7, 1), (71, 10)]] {
+        assert!(!is_read(w, [(1, 1), (1001, 1000)]), "{w:?}");
+        assert!(!is_read([(1, 1), (1001, 1000)], w), "{w:?}");
+    }
+    assert!(!is_read([(3, 1), (31, 10)], [(99, 100), (102, 100)]), "the angle passes pi in a corner");
+    // Either sign, both negative, zero in the box or on its edge.
+    let negative = [(-11, 10), (-9, 10)];
+    for wrong in [negative, [(-1, 10), (11, 10)], [(0, 1), (1, 1)], [(-1, 1), (0, 1)]] {
+        assert!(!is_read(wrong, around_one) && !is_read(around_one, wrong) && !is_read(wrong, negative), "{wrong:?}");
+    }
 }

@@ -357,6 +357,11 @@ impl Model {
                     let argument = substituted(argument, &images).ok_or_else(undefined)?;
                     symbols.call(*function, argument).ok_or_else(undefined)?
                 }
+                Variable::TangentOfRule(angle) => {
+                    let undefined = || Error::Undefined("the factor of a prewarped rule has no value there".into());
+                    let angle = substituted(angle, &images).ok_or_else(undefined)?;
+                    symbols.tangent_of_a_rule(angle).ok_or_else(undefined)?
+                }
                 Variable::Delay(time) => {
                     let undefined = || Error::Undefined("a dead time has no value there".into());
                     let time = substituted(time, &images).ok_or_else(undefined)?;

@@ -72,8 +72,10 @@ pub struct Symbols {
     nonzero: Vec<MultiPoly>,
     /// The modes of the blocks behind holds: monic polynomials without the leading coefficient.
     modes: Vec<Vec<Rational>>,
-    /// Whether a function or `pi` is written in the model, beside what holds bring.
+    /// Whether a function or `pi` is written in the model, beside what holds and rules bring.
     is_written: bool,
+    /// Whether a prewarped rule brings a tangent.
+    is_prewarped: bool,
     /// Values of the kept names near which dead times are divided into whole samples and a rest.
     near: Vec<Rational>,
     /// Dead times in samples that depend on kept names.
@@ -184,7 +186,12 @@ impl Symbols {
         &self.modes
     }
 
-    /// Whether a function or `pi` is written in the model, beside what holds bring.
+    /// Whether holds and rules bring constants that are not rational, be it that they cancel in the end.
+    pub fn are_brought(&self) -> bool {
+        self.is_prewarped || self.modes.iter().flatten().any(|c| !c.is_zero())
+    }
+
+    /// Whether a function or `pi` is written in the model, beside what holds and rules bring.
     pub fn is_written(&self) -> bool {
         self.is_written
     }
@@ -298,6 +305,12 @@ impl Symbols {
             Function::Exp => Some(self.exponential(x)),
             Function::Sin | Function::Cos | Function::Tan => self.circular(function, x),
         }
+    }
+
+    /// The tangent that a prewarped rule brings.
+    pub(in crate::model) fn tangent_of_a_rule(&mut self, x: RationalFunction) -> Option<RationalFunction> {
+        self.is_prewarped = true;
+        self.circular(Function::Tan, x)
     }
 
     /// Sine, cosine or tangent.

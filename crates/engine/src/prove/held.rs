@@ -1,4 +1,4 @@
-//! Certificates of loops with blocks behind a hold: polynomials over symbols, whose definitions the checkers enclose themselves.
+//! Certificates of loops with blocks behind a hold, or of prewarped rules: polynomials over symbols, whose definitions the checkers enclose themselves.
 
 mod line;
 
@@ -28,10 +28,14 @@ const FIRST_BITS: u64 = 256;
 /// Bits after which a certificate is given up.
 const MOST_BITS: u64 = 1 << 13;
 
-/// The checkers have so many bits more than the signs were certain with here.
+/// The checkers have so many bits more than the signs were certain with here, beside those of the longest coefficient: they take powers of symbols,
+/// which may be small, before they multiply.
 const SPARE_BITS: u64 = 64;
 
-/// Whether the loop has constants that are not rational, all of them from blocks behind holds at fixed times.
+/// They take no more.
+const MOST_OF_CHECKERS: u64 = 1 << 15;
+
+/// Whether the loop has constants that are not rational, all of them from holds and prewarped rules at fixed times.
 pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error> {
     let algebra = problem.algebra_over_symbols(budget)?;
     let symbols = algebra.symbols();
@@ -40,9 +44,10 @@ pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error>
             return Err(no_certificate("no certificate: the sample time of a hold depends on what is asked for"));
         }
         // The checkers connect the blocks before anything cancels.
-        let cancels = symbols.modes().iter().flatten().any(|c| !c.is_zero());
-        return match cancels {
-            true => Err(no_certificate("no certificate: the exponentials of the held blocks cancel at these values")),
+        return match symbols.are_brought() {
+            true => {
+                Err(no_certificate("no certificate: the constants of holds and prewarped rules cancel at these values"))
+            }
             false => Ok(false),
         };
     }
@@ -113,6 +118,8 @@ pub(super) fn of_set(answer: &Answer<StableSet>, budget: &Budget) -> Result<Stri
         ("factors", polynomials(&proof.factors)),
         ("line", Value::Array(line)),
     ];
+    let all = proof.certain.iter().chain(&proof.factors).chain(proof.identity.as_ref().map(|i| &i.value));
+    let bits = bits + longest(all.chain(&d));
     certificate(problem, statement::intervals(problem, stable), (bits, &symbols), &d, steps, budget)
 }
 
@@ -153,6 +160,7 @@ pub(super) fn of_verdict(answer: &Answer<PointVerdict>, budget: &Budget) -> Resu
     if (own.inside, own.on, own.outside) != counts || verdict.infinite > 0 {
         return Err(no_certificate("no certificate: roots are on the circle"));
     }
+    let bits = bits + longest(p.poles().iter().chain(&d));
     certificate(problem, statement::verdict(problem, verdict), (bits, &symbols), &d, [], budget)
 }
 
@@ -169,7 +177,7 @@ fn certificate<const N: usize>(
         ("schema", SCHEMA.into()),
         ("model", about(problem)),
         ("statement", statement),
-        ("bits", (bits + SPARE_BITS).into()),
+        ("bits", (bits + SPARE_BITS).min(MOST_OF_CHECKERS).into()),
         ("symbols", definitions(symbols)?),
         ("modes", modes(problem, budget)?),
         ("characteristic", polynomials(characteristic)),
@@ -189,6 +197,11 @@ fn coefficients(p: &SymbolicPolynomial) -> Vec<MultiPoly> {
         content = content.gcd(&c.integer_content());
     }
     if content.is_zero() { d } else { d.iter().map(|c| c.div_exact_integer(&content).expect("a content")).collect() }
+}
+
+/// The bits of the longest coefficient.
+fn longest<'p>(polynomials: impl Iterator<Item = &'p MultiPoly>) -> u64 {
+    polynomials.map(MultiPoly::height_bits).max().unwrap_or(0)
 }
 
 /// Terms by ascending exponents of the parameter and the symbols.

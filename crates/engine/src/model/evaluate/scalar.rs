@@ -35,6 +35,8 @@ pub(in crate::model) enum Variable {
     Pi,
     /// A function of a value in the variables before this one.
     Call(Function, RationalFunction),
+    /// The tangent of a value in the variables before this one that a prewarped rule brings: nobody wrote it.
+    TangentOfRule(RationalFunction),
     /// `exp(-x s)` of a dead time `x` in the variables before this one.
     Delay(RationalFunction),
 }
@@ -122,6 +124,11 @@ impl<'a> Scope<'a> {
             }
         }
         Ok(self.variable(Variable::Call(function, value)))
+    }
+
+    /// The tangent that a prewarped rule brings.
+    pub fn tangent_of_a_rule(&mut self, value: RationalFunction) -> RationalFunction {
+        if value.is_zero() { value } else { self.variable(Variable::TangentOfRule(value)) }
     }
 
     /// The variable that stands for this, the same each time.

@@ -7,8 +7,8 @@ use super::walk::{Failure, Meaning, division_by_zero};
 use super::zpoly::ZPoly;
 use crate::error::{Diagnostic, Span};
 use crate::model::definition::{Block, Discretization, Dynamics, Form, Matrix, Method, Model, Output, Ports, Time};
+use crate::model::text::Expression;
 use crate::model::text::names::shorten;
-use crate::model::text::{Expression, Function};
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
@@ -221,8 +221,7 @@ impl Evaluator<'_, '_> {
         }
         let angle = &frequency * &time;
         let half = &angle * &RationalFunction::from(Rational::new(1.into(), 2.into()));
-        let tangent = self.scope.call(Function::Tan, half, span);
-        let tangent = self.keep(tangent)?;
+        let tangent = self.scope.tangent_of_a_rule(half);
         let value = self.quotient(frequency, tangent, span)?;
         Some(DiscretizationValues::Rule { method: d.method, value, prewarp: Some(Prewarp { angle, span }) })
     }

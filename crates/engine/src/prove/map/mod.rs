@@ -109,8 +109,7 @@ impl Problem {
         if !symbols.delays().is_empty() {
             return Err(no_certificate("no certificate of a map: the loop has dead time"));
         }
-        if !self.positive().is_empty() || !symbols.is_empty() || symbols.modes().iter().flatten().any(|c| !c.is_zero())
-        {
+        if !self.positive().is_empty() || !symbols.is_empty() || symbols.are_brought() {
             return Err(no_certificate("no certificate of a map: the loop has constants that are not rational"));
         }
         Ok(())
