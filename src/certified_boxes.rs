@@ -109,7 +109,7 @@ pub fn certify_boxes(answer: &Answer<MapBoxes>, budget: &Budget) -> Result<Certi
     let judge = judge(problem, window, budget)?;
     let map = &answer.value().boxes;
     let goal = &answer.value().goal * &Rational::dyadic(&1.into(), LEFT_BITS);
-    let (tree, [stable, unstable]) = Search::new(&map.boxes, &map.window, goal, &judge, false).tree(budget);
+    let (tree, [stable, unstable]) = Search::new(&map.boxes, &map.window, goal, &judge, false).tree(MOST_WORK, budget);
     let (order, bits) = precision(problem, budget)?;
     Ok(CertifiedBoxes { text: problem.boxes_certificate(window, &tree, order, bits)?, stable, unstable })
 }
@@ -161,13 +161,13 @@ impl<'a> Search<'a> {
         search
     }
 
-    /// The tree as text, and the shares that are stable and not stable in it.
-    pub fn tree(mut self, budget: &Budget) -> (String, [Rational; 2]) {
+    /// The tree as text, and the shares that are stable and not stable in it; the judge does no more work than that.
+    pub fn tree(mut self, most_work: u64, budget: &Budget) -> (String, [Rational; 2]) {
         let mut shares = [Rational::ZERO, Rational::ZERO];
         let mut leaves = 0;
         // What is decided, and waits.
         let mut waiting = self.decided_share();
-        while waiting > self.goal && self.judge.work() < MOST_WORK && budget.check().is_ok() {
+        while waiting > self.goal && self.judge.work() < most_work && budget.check().is_ok() {
             let Some(mut open) = self.open.pop_front() else { break };
             let share = Rational::dyadic(&1.into(), open.halvings as u64);
             let axis = match &open.wanted {

@@ -14,7 +14,13 @@ use std::sync::Arc;
 const END_BITS: u64 = 24;
 
 /// Pieces at zero are this power of two shorter than the window.
-const ZERO_BITS: usize = 40;
+const ZERO_BITS: usize = 24;
+
+/// More work is not done, counted by the judge: of that the slower checker does most again.
+const MOST_WORK: u64 = 15_000_000_000;
+
+/// The window reaches so many times as far as the farthest end, or the nominal value.
+const BEYOND: i64 = 2;
 
 /// The share of the window that may stay unknown, as a power of two: what lies at the ends decides.
 const LEFT_BITS: u64 = 48;
@@ -85,7 +91,8 @@ fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<Certif
     let mut pieces = Vec::new();
     cut(answer.value(), ends.clone(), 0, &mut |x, verdict| pieces.push(PlaneBox { window: over(x), verdict }));
     let goal = Rational::dyadic(&1.into(), LEFT_BITS);
-    let (tree, [stable, unstable]) = Search::new(&pieces, &over(ends.clone()), goal, &judge, true).tree(budget);
+    let (tree, [stable, unstable]) =
+        Search::new(&pieces, &over(ends.clone()), goal, &judge, true).tree(MOST_WORK, budget);
     let proved = &stable + &unstable;
     if proved.is_zero() {
         return Ok(None);
@@ -116,24 +123,46 @@ fn beside_another(problem: &Arc<Problem>) -> Result<Option<(Arc<Problem>, Ration
 
 /// A window with all finite ends of the stable set inside, as far as the domain goes.
 fn window(problem: &Problem, set: &StableSet) -> [Rational; 2] {
-    let free = problem.parameter();
+    let (domain, nominal) = (&problem.parameter().domain, &problem.parameter().nominal);
+    // Where nothing is known any more there is no end.
+    let is_end = |x: &Rational| {
+        let near = |y: &Option<Rational>| y.as_ref().is_some_and(|y| (x - y).abs() <= &x.abs() * &number(1, 1 << 20));
+        !set.undecided().iter().any(|b| b.lower.is_none() && near(&b.upper) || b.upper.is_none() && near(&b.lower))
+    };
     let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
-    let above = |end: &jurist_engine::stability::End| end.value.rational_above().abs();
-    let nominal = free.nominal.iter().map(Rational::abs);
-    let far = ends.map(above).chain(nominal).max().filter(|far| !far.is_zero()).unwrap_or(Rational::ONE);
-    let far = &far * &Rational::from(2);
-    let low = free.domain.lower.clone().map_or_else(|| -&far, |low| low.max(-&far));
-    let high = free.domain.upper.clone().map_or_else(|| far.clone(), |high| high.min(far.clone()));
+    let ends = ends.map(|end| end.value.refined_to_digits(4).enclosure().1).filter(is_end).map(|x| x.abs());
+    let far = ends.max().filter(|far| !far.is_zero()).map(|far| &far * &Rational::from(BEYOND));
+    let around = nominal.iter().map(|x| &x.abs() * &Rational::from(BEYOND)).max().filter(|far| !far.is_zero());
+    let far = round_up(&far.max(around).unwrap_or(Rational::ONE));
+    let low = domain.lower.clone().map_or_else(|| -&far, |low| low.max(-&far));
+    let high = domain.upper.clone().map_or_else(|| far.clone(), |high| high.min(far.clone()));
     match low < high {
         true => [low, high],
         // A domain that is farther away than everything known.
-        false => match (&free.domain.lower, &free.domain.upper) {
+        false => match (&domain.lower, &domain.upper) {
             (Some(low), None) => [low.clone(), low + &(&low.abs() + &Rational::ONE)],
             (None, Some(high)) => [high - &(&high.abs() + &Rational::ONE), high.clone()],
             (Some(low), Some(high)) => [low.clone(), high.clone()],
             (None, None) => [-&far, far],
         },
     }
+}
+
+/// A positive number with two digits, not below this one.
+fn round_up(x: &Rational) -> Rational {
+    let ten = Rational::from(10);
+    let (mut x, mut scale) = (x.clone(), Rational::ONE);
+    while x < ten {
+        (x, scale) = (&x * &ten, scale / ten.clone());
+    }
+    while x >= Rational::from(100) {
+        (x, scale) = (x / ten.clone(), &scale * &ten);
+    }
+    &Rational::from(x.ceil()) * &scale
+}
+
+fn number(n: i64, d: i64) -> Rational {
+    Rational::new(n.into(), d.into())
 }
 
 /// Halves a range until each piece is in a stable interval, or beside all, or short and at an end.
@@ -158,10 +187,13 @@ fn cut(set: &StableSet, x: [Rational; 2], halvings: usize, put: &mut impl FnMut(
     if is_known && set.intervals().iter().all(is_outside) {
         return put(x, BoxVerdict::Unstable { outside: None });
     }
+    let is_unknown = set.undecided().iter().any(|b| {
+        b.lower.as_ref().is_none_or(|lower| lower <= low) && b.upper.as_ref().is_none_or(|upper| high <= upper)
+    });
     let far = low.abs().max(high.abs());
     let is_short = high - low <= &far * &Rational::dyadic(&1.into(), END_BITS);
     let is_at_zero = halvings >= ZERO_BITS && !low.sign().is_gt() && !high.is_negative();
-    if is_short || is_at_zero {
+    if is_unknown || is_short || is_at_zero {
         return put(x, BoxVerdict::Undecided);
     }
     let middle = low.midpoint(high);

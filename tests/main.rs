@@ -92,6 +92,7 @@ mod certificates {
     mod dead_time;
     mod gain;
     mod held;
+    mod intervals_by_boxes;
     mod map_attacks;
     mod map_boxes;
     mod map_boxes_attacks;

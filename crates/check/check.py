@@ -1197,7 +1197,7 @@ def loop_of(text, kept, values, boxed=(), symbols=None):
     if numbers:  # given as such; and the model must be right as it is
         [constant(model.constants[name]) for name in numbers]
         others = {name: v for v, name in enumerate(model.parameters, 1)}
-        Loop(model, others, symbols=Moving(1 + len(others)) if isinstance(symbols, Moving) else None)
+        Loop(model, others, symbols=Moving(1 + len(others)) if isinstance(symbols, (Moving, DeadTime)) else None)
     # A constant that is set has another number, and nothing else changes.
     model.constants = model.constants | {name: str(x) for name, x in values.items() if name in numbers}
     values = {name: x for name, x in values.items() if name not in numbers}

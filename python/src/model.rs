@@ -198,7 +198,7 @@ impl Answered {
     /// A certificate.
     fn certificate(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<String> {
         self.made(py, timeout, |kind, budget| match kind {
-            Kind::Stable(answer) => answer.certificate(budget),
+            Kind::Stable(answer) => jurist::certify_intervals(answer, budget).map(|certified| certified.text),
             Kind::Verdict(answer) => answer.certificate(budget),
         })
     }

@@ -82,7 +82,8 @@ fn read_for(
         let declared = Declarations::read(&root, clock)?;
         let meaning = declared.asked(kept, boxed, values, clock)?;
         if meaning.changes_constants {
-            // The model must be right as it is.
+            // The model must be right as it is; dead times are read without their values.
+            let is_moving = is_moving || base.is_some();
             evaluated(&root, &declared, (&declared.as_written(), is_moving), None, clock)?;
         }
         let of = Values { numbers: &meaning.values, table, base };

@@ -14,6 +14,8 @@ use jurist_algebra::poly::RationalFunction;
 pub(crate) enum Presupposed {
     /// The sample time of a hold: positive.
     SampleTime,
+    /// A frequency: positive.
+    Frequency,
     /// The angle `w T` by which a frequency turns in a sample: between 0 and pi.
     Angle,
 }
@@ -32,8 +34,10 @@ impl Presupposition {
         match self.of {
             Presupposed::SampleTime => Diagnostic::error("E-value", "the sample time of a hold must be positive")
                 .at(self.span, "the time of this one"),
-            Presupposed::Angle => Diagnostic::error("E-discretize", "the frequency of 'prewarp' must be positive")
-                .at(self.span, "not positive"),
+            Presupposed::Frequency | Presupposed::Angle => {
+                Diagnostic::error("E-discretize", "the frequency of 'prewarp' must be positive")
+                    .at(self.span, "not positive")
+            }
         }
     }
 
@@ -48,7 +52,7 @@ impl Presupposition {
     pub fn not_known(&self) -> Diagnostic {
         let message = match self.of {
             Presupposed::SampleTime => "it is not known for which values the sample time of this hold is positive",
-            Presupposed::Angle => {
+            Presupposed::Frequency | Presupposed::Angle => {
                 "it is not known for which values the frequency of 'prewarp' is below half the sampling rate"
             }
         };
@@ -81,16 +85,18 @@ impl Model {
         for rule in rules() {
             let Some(time) = &rule.sample_time else { continue };
             let mut value = |e| scope.scalar(e).ok();
-            let presupposition = if rule.method.is_hold() {
-                Presupposition { of: Presupposed::SampleTime, function: value(time)?, span: rule.span }
+            let mut own = Vec::new();
+            if rule.method.is_hold() {
+                own.push((Presupposed::SampleTime, value(time)?, rule.span));
             } else if let Some(frequency) = &rule.prewarp {
-                let function = &value(frequency)? * &value(time)?;
-                Presupposition { of: Presupposed::Angle, function, span: frequency.span }
-            } else {
-                continue;
-            };
-            if found.iter().all(|p| (p.of, &p.function) != (presupposition.of, &presupposition.function)) {
-                found.push(presupposition);
+                let (w, time) = (value(frequency)?, value(time)?);
+                let angle = &w * &time;
+                own.extend([(Presupposed::Frequency, w, frequency.span), (Presupposed::Angle, angle, frequency.span)]);
+            }
+            for (of, function, span) in own {
+                if found.iter().all(|p| (p.of, &p.function) != (of, &function)) {
+                    found.push(Presupposition { of, function, span });
+                }
             }
         }
         let (images, symbols) = self.images(&scope.variables, kept, given).ok()?;

@@ -330,5 +330,7 @@ mod tests {
         };
         assert_eq!(at("1", "1").unwrap(), Verdict::Unstable);
         assert_eq!(at("3", "3/2").map_err(code).unwrap_err(), "E-discretize");
+        // Both negative: the angle is positive, and the factor of the rule is not.
+        assert_eq!(at("-1", "-1").map_err(code).unwrap_err(), "E-discretize");
     }
 }
