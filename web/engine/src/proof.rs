@@ -3,7 +3,7 @@
 use crate::model::problem;
 use crate::reply::Reply;
 use crate::told::budget;
-use jurist::{Error, Limits};
+use jurist::{Error, Limits, certify_intervals};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -21,7 +21,10 @@ pub(crate) struct CertificateRequest {
 pub(crate) fn certificate(request: &CertificateRequest) -> Result<Value, Error> {
     let budget = budget();
     let certificate = match &request.free {
-        Some(name) => problem(&request.model, &request.set, &[name])?.stable_set(&budget)?.certificate(&budget)?,
+        Some(name) => {
+            let answer = problem(&request.model, &request.set, &[name])?.stable_set(&budget)?;
+            certify_intervals(&answer, &budget)?.text
+        }
         None => problem(&request.model, &request.set, &[])?.verdict(&budget)?.certificate(&budget)?,
     };
     Ok(json!({ "certificate": certificate }))
