@@ -16,6 +16,9 @@ const END_BITS: u64 = 24;
 /// Pieces at zero are this power of two shorter than the window.
 const ZERO_BITS: usize = 24;
 
+/// Pieces are not halved more often, whatever the ends are: the checkers read trees of some depth only.
+const MOST_HALVINGS: usize = 100;
+
 /// More work is not done, counted by the judge: of that the slower checker does most again.
 const MOST_WORK: u64 = 15_000_000_000;
 
@@ -118,7 +121,11 @@ fn beside_another(problem: &Arc<Problem>) -> Result<Option<(Arc<Problem>, Ration
     let question = model.ask().within(problem.region().clone()).free(&free.name).free(&other);
     let rest = problem.set().iter().filter(|(name, _)| *name != other);
     let question = rest.fold(question, |question, (name, value)| question.set(name, value.clone()));
-    Ok(Some((question.problem()?, value)))
+    match question.problem() {
+        Ok(plane) => Ok(Some((plane, value))),
+        Err(Error::Refused(_)) => Ok(None),
+        Err(other) => Err(other),
+    }
 }
 
 /// A window with all finite ends of the stable set inside, as far as the domain goes.
@@ -193,7 +200,7 @@ fn cut(set: &StableSet, x: [Rational; 2], halvings: usize, put: &mut impl FnMut(
     let far = low.abs().max(high.abs());
     let is_short = high - low <= &far * &Rational::dyadic(&1.into(), END_BITS);
     let is_at_zero = halvings >= ZERO_BITS && !low.sign().is_gt() && !high.is_negative();
-    if is_unknown || is_short || is_at_zero {
+    if is_unknown || is_short || is_at_zero || halvings >= MOST_HALVINGS {
         return put(x, BoxVerdict::Undecided);
     }
     let middle = low.midpoint(high);
