@@ -16,6 +16,9 @@ const END_BITS: u64 = 24;
 /// Pieces at zero are this power of two shorter than the window.
 const ZERO_BITS: usize = 24;
 
+/// So many other names are tried: one that is inside of a dead time, or of a frequency, will not do.
+const MOST_OTHERS: usize = 12;
+
 /// Pieces are not halved more often, whatever the ends are: the checkers read trees of some depth only.
 const MOST_HALVINGS: usize = 100;
 
@@ -81,13 +84,22 @@ pub fn certify_intervals(answer: &Answer<StableSet>, budget: &Budget) -> Result<
 fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<CertifiedIntervals>, Error> {
     budget.step("certificate");
     let problem = answer.problem();
-    let Some((plane, value)) = beside_another(problem)? else { return Ok(None) };
     let ends = window(problem, answer.value());
-    let window = Window { x: ends.clone(), y: [value.clone(), value] };
-    let judge = match judge(&plane, &window, budget) {
-        Ok(judge) => judge,
-        Err(Error::Refused(_)) => return Ok(None),
-        Err(other) => return Err(other),
+    let beside = |(name, value): (String, Rational)| {
+        let window = Window { x: ends.clone(), y: [value.clone(), value] };
+        let judged = beside_another(problem, &name).and_then(|plane| {
+            let judge = judge(&plane, &window, budget)?;
+            Ok((plane, window, judge))
+        });
+        match judged {
+            Ok(found) => Some(Ok(found)),
+            Err(Error::Refused(_)) => None,
+            Err(other) => Some(Err(other)),
+        }
+    };
+    let Some((plane, window, judge)) = others(problem).into_iter().take(MOST_OTHERS).find_map(beside).transpose()?
+    else {
+        return Ok(None);
     };
     // The second side has a width here alone.
     let over = |x: [Rational; 2]| Window { x, y: [Rational::ZERO, Rational::ONE] };
@@ -105,27 +117,25 @@ fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<Certif
     Ok(Some(CertifiedIntervals { text, window: Some(ends), proved }))
 }
 
-/// The problem with another parameter, or constant, free as well, and the value that it has; `None` where there is none, or the bound of the
-/// region is in question.
-fn beside_another(problem: &Arc<Problem>) -> Result<Option<(Arc<Problem>, Rational)>, Error> {
-    let [free] = problem.free() else { return Ok(None) };
+/// The other parameters and constants that have values; none where the bound of the region is in question.
+fn others(problem: &Problem) -> Vec<(String, Rational)> {
+    let [free] = problem.free() else { return Vec::new() };
     if problem.region().is_free() {
-        return Ok(None);
+        return Vec::new();
     }
     let model = problem.model();
     let set = |name: &str| problem.set().iter().find(|(n, _)| n == name).map(|(_, value)| value.clone());
     let parameters = model.parameters().iter().map(|p| (&p.name, set(&p.name)));
     let constants = model.constants().iter().map(|c| (&c.name, set(&c.name).or_else(|| c.number.clone())));
-    let mut others = parameters.chain(constants).filter(|(name, _)| **name != free.name);
-    let Some((other, value)) = others.find_map(|(name, value)| Some((name.clone(), value?))) else { return Ok(None) };
-    let question = model.ask().within(problem.region().clone()).free(&free.name).free(&other);
-    let rest = problem.set().iter().filter(|(name, _)| *name != other);
-    let question = rest.fold(question, |question, (name, value)| question.set(name, value.clone()));
-    match question.problem() {
-        Ok(plane) => Ok(Some((plane, value))),
-        Err(Error::Refused(_)) => Ok(None),
-        Err(other) => Err(other),
-    }
+    let others = parameters.chain(constants).filter(|(name, _)| **name != free.name);
+    others.filter_map(|(name, value)| Some((name.clone(), value?))).collect()
+}
+
+/// The problem with another name free as well.
+fn beside_another(problem: &Problem, other: &str) -> Result<Arc<Problem>, Error> {
+    let question = problem.model().ask().within(problem.region().clone()).free(&problem.parameter().name).free(other);
+    let rest = problem.set().iter().filter(|(name, _)| name != other);
+    rest.fold(question, |question, (name, value)| question.set(name, value.clone())).problem()
 }
 
 /// A window with all finite ends of the stable set inside, as far as the domain goes.

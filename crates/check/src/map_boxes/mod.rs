@@ -68,15 +68,21 @@ impl Statement {
             let name = &self.names[0];
             let pieces = |letter: char| {
                 let own = walked.pieces.iter().filter(|(l, _)| *l == letter);
-                let all: Vec<String> = own.map(|(_, [low, high])| format!("{low} <= {name} <= {high}")).collect();
-                if all.is_empty() { "no value that is looked at".to_owned() } else { all.join(" and ") }
+                own.map(|(_, [low, high])| format!("{low} <= {name} <= {high}")).collect::<Vec<_>>().join(" and ")
             };
-            let _ = write!(
-                out,
-                ", the loop is stable{within} for {}, and not stable for any value in {}. Nothing is said of the rest.",
-                pieces('+'),
-                pieces('-')
-            );
+            let (stable, unstable) = (pieces('+'), pieces('-'));
+            let _ = match (stable.is_empty(), unstable.is_empty()) {
+                (true, true) => write!(out, ", nothing is said of the loop."),
+                (true, false) => write!(out, ", the loop is not stable{within} for any value in {unstable}."),
+                (false, true) => write!(out, ", the loop is stable{within} for {stable}."),
+                (false, false) => {
+                    write!(
+                        out,
+                        ", the loop is stable{within} for {stable}, and not stable for any value in {unstable}."
+                    )
+                }
+            };
+            out.push_str(" Nothing is said of the rest.");
             return out;
         }
         let percent = |q: &Q| {

@@ -3,9 +3,10 @@
 
 use super::closed_loop::substituted;
 use super::definition::{Form, Model};
+use super::evaluate::walk::Failure;
 use super::symbols::Symbols;
 use crate::error::{Diagnostic, Span};
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 
@@ -67,24 +68,48 @@ impl Model {
     /// [`Model::evaluate`] tells.
     ///
     /// Cost: the expressions of sample times and frequencies are evaluated, and those of the constants.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
     pub(crate) fn presuppositions(
         &self,
         kept: &[String],
         given: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Option<(Vec<Presupposition>, Symbols)>, Exhausted> {
+        let mut exhausted = None;
+        let found = self.presupposed(kept, given, budget, &mut |failure| {
+            if let Failure::Exhausted(by) = failure {
+                exhausted = Some(by);
+            }
+        });
+        match exhausted {
+            Some(exhausted) => Err(exhausted),
+            None => Ok(found),
+        }
+    }
+
+    fn presupposed(
+        &self,
+        kept: &[String],
+        given: &[(String, Rational)],
+        budget: &Budget,
+        report: &mut dyn FnMut(Failure),
     ) -> Option<(Vec<Presupposition>, Symbols)> {
         let Form::Blocks(diagram) = &self.form else { return Some(Default::default()) };
         let rules = || diagram.blocks.iter().filter_map(|b| b.discretization.as_ref());
         if !rules().any(|d| d.method.is_hold() || d.prewarp.is_some()) {
             return Some(Default::default());
         }
-        let budget = Budget::unlimited();
         let mut is_known = true;
-        let mut report = |_| is_known = false;
-        let mut scope = self.scope(kept, given, &budget, &mut report);
+        let mut scope = self.scope(kept, given, budget, &mut |failure| {
+            is_known = false;
+            report(failure);
+        });
         let mut found: Vec<Presupposition> = Vec::new();
         for rule in rules() {
             let Some(time) = &rule.sample_time else { continue };
-            let mut value = |e| scope.scalar(e).ok();
+            let mut value = |e| scope.scalar(e).map_err(&mut *report).ok();
             let mut own = Vec::new();
             if rule.method.is_hold() {
                 own.push((Presupposed::SampleTime, value(time)?, rule.span));

@@ -13,6 +13,9 @@ use jurist_algebra::symbols::Symbols as Table;
 /// Significant digits of a bound that is not rational; it is rounded towards the inside of the domain.
 const DIGITS: i64 = 12;
 
+/// No more work is done for all that is presupposed: to ask a question takes no time.
+const MOST_WORK: u64 = 200_000_000;
+
 /// Bits of its enclosure.
 const BITS: u64 = 256;
 
@@ -29,7 +32,10 @@ pub(super) fn positive_functions(
     set: &[(String, Rational)],
     first: usize,
 ) -> Result<Vec<RationalFunction>, Diagnostic> {
-    let Some((presuppositions, symbols)) = model.presuppositions(kept, set) else { return Ok(Vec::new()) };
+    let budget = Budget::with_work(MOST_WORK);
+    let found = budget.enter(|| model.presuppositions(kept, set, &budget)).and_then(|found| found);
+    let found = found.map_err(|_| too_long())?;
+    let Some((presuppositions, symbols)) = found else { return Ok(Vec::new()) };
     let mut found: Vec<RationalFunction> = Vec::new();
     for presupposition in &presuppositions {
         for f in positive(presupposition, symbols.clone())? {
@@ -40,6 +46,14 @@ pub(super) fn positive_functions(
         }
     }
     Ok(found)
+}
+
+fn too_long() -> Diagnostic {
+    Diagnostic::error(
+        "E-too-large",
+        "the sample time of a hold, or the frequency of 'prewarp', is too long an expression",
+    )
+    .help("set the parameters that it depends on, or write it shorter")
 }
 
 /// Functions of the kept names that are positive where what is presupposed holds; none where it holds for all values.
@@ -65,6 +79,10 @@ fn positive(of: &Presupposition, mut symbols: Symbols) -> Result<Vec<RationalFun
             (vec![factor, under], (square, 2))
         }
     };
+    // What else moves is not known.
+    if wanted.iter().chain([&below.0]).flat_map(RationalFunction::variables).any(|i| moving.contains(&i)) {
+        return Err(of.not_known());
+    }
     let mut out = Vec::new();
     for g in wanted.drain(..) {
         let Some((s, r)) = table.split(&g) else { return Err(of.not_known()) };
@@ -160,44 +178,55 @@ fn rounded_down(x: &Rational) -> Rational {
 }
 
 /// The part of a parameter's domain in which the functions of it alone are positive: that around its nominal value, if they are
-/// positive there.
+/// positive there, else the first; and whether there are others. `None` where they are positive nowhere.
 ///
 /// Cost: the real roots of their numerators and denominators.
-pub(super) fn trimmed(free: &Free, own: usize, functions: &[RationalFunction]) -> Option<Range> {
-    let mut domain = free.domain.clone();
-    for f in functions.iter().filter(|f| f.variables() == [own]) {
-        // It is positive where this is.
-        let product = f.numerator() * f.denominator();
-        let p = product.to_univariate(own).expect("one variable occurs");
-        domain = positive_part(&p, &domain, free.nominal.as_ref())?;
+///
+/// # Errors
+/// Where these take too much work.
+pub(super) fn trimmed(
+    free: &Free,
+    own: usize,
+    functions: &[RationalFunction],
+) -> Result<Option<(Range, bool)>, Diagnostic> {
+    let (range, budget) = (&free.domain, Budget::with_work(MOST_WORK));
+    let polynomials: Vec<UniPoly> = functions
+        .iter()
+        .filter(|f| f.variables() == [own])
+        .flat_map(|f| [f.numerator(), f.denominator()])
+        .map(|p| p.to_univariate(own).expect("one variable occurs"))
+        .collect();
+    if polynomials.is_empty() {
+        return Ok(Some((range.clone(), false)));
     }
-    Some(domain)
-}
-
-/// A piece of a range in which a polynomial is positive, that with this value if it is; `None` where it is nowhere positive.
-fn positive_part(p: &UniPoly, range: &Range, nominal: Option<&Rational>) -> Option<Range> {
-    let roots = match SquareFree::part_of(p) {
-        Some(part) => {
-            isolate_real_roots_in(&part, range.lower.as_ref(), range.upper.as_ref(), &Budget::unlimited()).ok()?
+    let mut ends: Vec<[Rational; 2]> = Vec::new();
+    for p in &polynomials {
+        let Some(part) = SquareFree::part_of(p) else { return Ok(None) };
+        for root in
+            isolate_real_roots_in(&part, range.lower.as_ref(), range.upper.as_ref(), &budget).map_err(|_| too_long())?
+        {
+            ends.push(match root.exact() {
+                Some(x) => [x.clone(), x],
+                None => root.refined_to_digits(DIGITS as usize).enclosure().into(),
+            });
         }
-        None => return None,
-    };
-    // Each root from below and from above.
-    let mut ends: Vec<[Option<Rational>; 2]> = vec![[None, range.lower.clone()]];
-    for root in &roots {
-        ends.push(match root.exact() {
-            Some(x) => [Some(x.clone()), Some(x)],
-            None => {
-                let (low, high) = root.refined_to_digits(DIGITS as usize).enclosure();
-                [Some(low), Some(high)]
-            }
-        });
     }
-    ends.push([range.upper.clone(), None]);
-    let pieces = ends.windows(2).map(|pair| Range::between(pair[0][1].clone(), pair[1][0].clone()));
-    let positive: Vec<Range> = pieces.filter(|piece| !piece.is_empty() && p.sign_at(&inside(piece)).is_gt()).collect();
-    let around = positive.iter().find(|piece| nominal.is_some_and(|x| piece.contains(x)));
-    around.or(positive.first()).cloned()
+    ends.sort();
+    // From the upper end of one root's enclosure to the lower end of the next one's.
+    let lower = std::iter::once(range.lower.clone()).chain(ends.iter().map(|e| Some(e[1].clone())));
+    let upper = ends.iter().map(|e| Some(e[0].clone())).chain(std::iter::once(range.upper.clone()));
+    let pieces = lower.zip(upper).map(|(lower, upper)| Range::between(lower, upper)).filter(|piece| !piece.is_empty());
+    let is_positive = |piece: &Range| {
+        let x = inside(piece);
+        // A quotient is positive where numerator and denominator have the same sign.
+        polynomials.chunks(2).all(|pair| {
+            let [above, below] = [0, 1].map(|k| pair[k].sign_at(&x));
+            above.is_ne() && above == below
+        })
+    };
+    let positive: Vec<Range> = pieces.filter(is_positive).collect();
+    let around = positive.iter().find(|piece| free.nominal.as_ref().is_some_and(|x| piece.contains(x)));
+    Ok(around.or(positive.first()).map(|piece| (piece.clone(), positive.len() > 1)))
 }
 
 /// A number inside of a range.
@@ -280,6 +309,39 @@ mod tests {
                 assert!(is_refused(end + &step) && !is_refused(end - &step), "{discretize} at {end}");
             }
         }
+    }
+
+    #[test]
+    fn roots_of_what_moves_by_itself_are_not_known() {
+        // With the root of a root, and that of an exponential, in the place of a number the bound would be any.
+        for frequency in ["sqrt(sqrt(x))", "sqrt(exp(x))", "sqrt(x*sqrt(x))", "sqrt(1 - sqrt(x))"] {
+            let rule = format!("{{ method = 'tustin', T = '1', prewarp = '{frequency}' }}");
+            let found = model("x = { nominal = 0.5 }", "1/(s - 1)", &rule).ask().free("x").problem();
+            assert_eq!(found.map_err(code).err(), Some("E-discretize"), "{frequency}");
+        }
+    }
+
+    #[test]
+    fn what_several_blocks_presuppose_holds_together() {
+        // x^2 > 1 and x > 0; the nominal value is in neither part of the first.
+        let text = "time = 'discrete'\n[parameters]\nx = { nominal = 0.5 }\n[loop]\ninputs = ['r']\n\
+            [[block]]\nname = 'A'\ninput = 'r - y'\noutput = 'u'\ntransfer = '1/(s + 1)'\n\
+            discretize = { method = 'zoh', T = 'x^2 - 1' }\n\
+            [[block]]\nname = 'B'\ninput = 'u'\noutput = 'y'\ntransfer = '1/(s + 2)'\n\
+            discretize = { method = 'zoh', T = 'x' }\n";
+        let model = Model::from_toml(&Source::new("model.toml", text)).unwrap().0;
+        let problem = model.ask().free("x").problem().unwrap();
+        assert_eq!(problem.parameter().domain, Range::between(Some(1.into()), None));
+        // Of several parts one is left, and that is said.
+        let both = text.replace("T = 'x' }", "T = 'x^2 - 4' }");
+        let model = Model::from_toml(&Source::new("model.toml", &both)).unwrap().0;
+        let problem = model.ask().free("x").problem().unwrap();
+        assert_eq!(problem.parameter().domain, Range::between(None, Some((-2).into())));
+        assert!(problem.warnings().iter().any(|w| w.code == "W-domain"));
+        // Long expressions are refused and take no time.
+        let long = text.replace("x^2 - 1", "(x^20 + 3*x^19 - x + 1)^120 + 1");
+        let model = Model::from_toml(&Source::new("model.toml", &long)).unwrap().0;
+        assert_eq!(model.ask().free("x").problem().map_err(code).err(), Some("E-too-large"));
     }
 
     #[test]

@@ -164,14 +164,14 @@ impl Question {
         let sourced = |d: Diagnostic| Error::from(Diagnostics::new(Some(self.model.source().clone()), vec![d]));
         let positive = positive_functions(&self.model, kept, set, first).map_err(sourced)?;
         for (i, one) in free.iter_mut().enumerate() {
-            let Some(domain) = trimmed(one, i, &positive) else {
+            let Some((domain, has_others)) = trimmed(one, i, &positive).map_err(sourced)? else {
                 let message =
                     format!("nowhere in the domain of '{}' have the model's sample times a meaning", one.name);
                 let help = "the sample time of a hold is positive, and the frequency of 'prewarp' below half the sampling rate";
                 return Err(Diagnostic::error("E-empty-domain", message).help(help).into());
             };
             let is_cut = |asked: &Option<Rational>, left: &Option<Rational>| asked.is_some() && asked != left;
-            if is_cut(&one.domain.lower, &domain.lower) || is_cut(&one.domain.upper, &domain.upper) {
+            if has_others || is_cut(&one.domain.lower, &domain.lower) || is_cut(&one.domain.upper, &domain.upper) {
                 let message =
                     format!("the domain of '{}' is larger than the values for which the model has a meaning", one.name);
                 let help = "the sample time of a hold is positive, and the frequency of 'prewarp' below half the sampling rate; the answer is about these";

@@ -39,10 +39,15 @@ const MOST_OF_CHECKERS: u64 = 1 << 15;
 pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error> {
     let algebra = problem.algebra_over_symbols(budget)?;
     let symbols = algebra.symbols();
+    if symbols.is_moving() || symbols.is_written() || !symbols.delays().is_empty() {
+        return Err(no_certificate("no certificate: the loop has functions that no checker knows there"));
+    }
+    if !problem.positive().is_empty() {
+        return Err(no_certificate(
+            "no certificate: the sample time of a hold, or of a rule, depends on what is asked for",
+        ));
+    }
     if symbols.is_empty() {
-        if !problem.positive().is_empty() {
-            return Err(no_certificate("no certificate: the sample time of a hold depends on what is asked for"));
-        }
         // The checkers connect the blocks before anything cancels.
         return match symbols.are_brought() {
             true => {
@@ -50,9 +55,6 @@ pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error>
             }
             false => Ok(false),
         };
-    }
-    if symbols.is_moving() || symbols.is_written() || !symbols.delays().is_empty() {
-        return Err(no_certificate("no certificate: the loop has functions that no checker knows there"));
     }
     Ok(true)
 }
