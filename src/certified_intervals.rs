@@ -2,7 +2,7 @@
 
 use crate::certified_boxes::{Search, judge, precision};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Rational, parse_number, to_scientific};
 use jurist_engine::answer::Answer;
 use jurist_engine::error::Error;
 use jurist_engine::problem::Problem;
@@ -165,17 +165,10 @@ fn window(problem: &Problem, set: &StableSet) -> [Rational; 2] {
     }
 }
 
-/// A positive number with two digits, not below this one.
+/// A number with two digits, not below this positive one: what is added is more than what rounding takes off.
 fn round_up(x: &Rational) -> Rational {
-    let ten = Rational::from(10);
-    let (mut x, mut scale) = (x.clone(), Rational::ONE);
-    while x < ten {
-        (x, scale) = (&x * &ten, scale / ten.clone());
-    }
-    while x >= Rational::from(100) {
-        (x, scale) = (x / ten.clone(), &scale * &ten);
-    }
-    &Rational::from(x.ceil()) * &scale
+    let rounded = to_scientific(&(x + &(x * &number(1, 10))), 2);
+    parse_number(&rounded).expect("a number that was written")
 }
 
 fn number(n: i64, d: i64) -> Rational {

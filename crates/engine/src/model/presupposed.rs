@@ -33,8 +33,9 @@ impl Presupposition {
     /// The refusal where the function is not positive.
     pub fn not_positive(&self) -> Diagnostic {
         match self.of {
-            Presupposed::SampleTime => Diagnostic::error("E-value", "the sample time of a hold must be positive")
-                .at(self.span, "the time of this one"),
+            Presupposed::SampleTime => {
+                Diagnostic::error("E-value", "the sample time of a hold must be positive").at(self.span, "this hold")
+            }
             Presupposed::Frequency | Presupposed::Angle => {
                 Diagnostic::error("E-discretize", "the frequency of 'prewarp' must be positive")
                     .at(self.span, "not positive")

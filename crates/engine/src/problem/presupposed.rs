@@ -6,12 +6,12 @@ use crate::error::Diagnostic;
 use crate::model::{Definition, Model, Presupposed, Presupposition, Symbols};
 use crate::stability::Range;
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{Integer, Rational, Sign};
+use jurist_algebra::number::{Rational, Sign, parse_number, to_scientific};
 use jurist_algebra::poly::{MultiPoly, RationalFunction, SquareFree, UniPoly, isolate_real_roots_in};
 use jurist_algebra::symbols::Symbols as Table;
 
 /// Significant digits of a bound that is not rational; it is rounded towards the inside of the domain.
-const DIGITS: i64 = 12;
+const DIGITS: usize = 12;
 
 /// No more work is done for all that is presupposed: to ask a question takes no time.
 const MOST_WORK: u64 = 200_000_000;
@@ -33,19 +33,21 @@ pub(super) fn positive_functions(
     first: usize,
 ) -> Result<Vec<RationalFunction>, Diagnostic> {
     let budget = Budget::with_work(MOST_WORK);
-    let found = budget.enter(|| model.presuppositions(kept, set, &budget)).and_then(|found| found);
-    let found = found.map_err(|_| too_long())?;
-    let Some((presuppositions, symbols)) = found else { return Ok(Vec::new()) };
-    let mut found: Vec<RationalFunction> = Vec::new();
-    for presupposition in &presuppositions {
-        for f in positive(presupposition, symbols.clone())? {
-            let f = f.map_variables(|i| i + first).expect("no two variables become one");
-            if !found.contains(&f) {
-                found.push(f);
+    let found = || {
+        let presuppositions = model.presuppositions(kept, set, &budget).map_err(|_| too_long())?;
+        let mut found: Vec<RationalFunction> = Vec::new();
+        let Some((presuppositions, symbols)) = presuppositions else { return Ok(found) };
+        for presupposition in &presuppositions {
+            for f in positive(presupposition, symbols.clone(), &budget)? {
+                let f = f.map_variables(|i| i + first).expect("no two variables become one");
+                if !found.contains(&f) {
+                    found.push(f);
+                }
             }
         }
-    }
-    Ok(found)
+        Ok(found)
+    };
+    budget.enter(found).map_err(|_| too_long())?
 }
 
 fn too_long() -> Diagnostic {
@@ -57,11 +59,11 @@ fn too_long() -> Diagnostic {
 }
 
 /// Functions of the kept names that are positive where what is presupposed holds; none where it holds for all values.
-fn positive(of: &Presupposition, mut symbols: Symbols) -> Result<Vec<RationalFunction>, Diagnostic> {
+fn positive(of: &Presupposition, mut symbols: Symbols, budget: &Budget) -> Result<Vec<RationalFunction>, Diagnostic> {
     let pi = symbols.pi();
     let moving: Vec<usize> = symbols.moving().collect();
     let Some(table) = symbols_without(&symbols, &moving) else { return Err(of.not_known()) };
-    let table = Constants { table, first: symbols.first() };
+    let table = Constants { table, first: symbols.first(), budget };
     let f = &of.function;
     // What is positive, and what is below a power of pi.
     let (mut wanted, below) = match f.variables().into_iter().find(|i| moving.contains(i)) {
@@ -116,12 +118,13 @@ fn positive(of: &Presupposition, mut symbols: Symbols) -> Result<Vec<RationalFun
 }
 
 /// Constants over symbols, whose variables come after the kept names.
-struct Constants {
+struct Constants<'b> {
     table: Table,
     first: usize,
+    budget: &'b Budget,
 }
 
-impl Constants {
+impl Constants<'_> {
     fn own(&self, p: &MultiPoly) -> MultiPoly {
         p.map_variables(|i| i.saturating_sub(self.first))
     }
@@ -142,8 +145,7 @@ impl Constants {
 
     /// The sign of a constant; `None` where it is not found.
     fn sign(&self, s: &RationalFunction) -> Option<Sign> {
-        let budget = Budget::unlimited();
-        let [above, below] = [s.numerator(), s.denominator()].map(|p| self.table.sign(&self.own(p), &budget).ok());
+        let [above, below] = [s.numerator(), s.denominator()].map(|p| self.table.sign(&self.own(p), self.budget).ok());
         match (above?, below?) {
             (_, Sign::Equal) => None,
             (sign, below) if below.is_lt() => Some(sign.reverse()),
@@ -163,18 +165,11 @@ impl Constants {
     }
 }
 
-/// A positive number to so many digits, not above it.
+/// A number of so many digits below a positive one: what is taken off is more than what rounding adds.
 fn rounded_down(x: &Rational) -> Rational {
-    let ten = |k: i64| Rational::from(10).pow(k).expect("ten is not zero");
-    let mut scale = 0;
-    while x * &ten(scale) < ten(DIGITS - 1) {
-        scale += 1;
-    }
-    while x * &ten(scale) >= ten(DIGITS) {
-        scale -= 1;
-    }
-    let digits: Integer = (x * &ten(scale)).floor();
-    &Rational::from(digits) * &ten(-scale)
+    let share = Rational::from(10).pow(1 - DIGITS as i64).expect("ten is not zero");
+    let rounded = to_scientific(&(x - &(x * &share)), DIGITS);
+    parse_number(&rounded).expect("a number that was written")
 }
 
 /// The part of a parameter's domain in which the functions of it alone are positive: that around its nominal value, if they are
@@ -207,11 +202,15 @@ pub(super) fn trimmed(
         {
             ends.push(match root.exact() {
                 Some(x) => [x.clone(), x],
-                None => root.refined_to_digits(DIGITS as usize).enclosure().into(),
+                None => root.refined_to_digits(DIGITS).enclosure().into(),
             });
         }
     }
     ends.sort();
+    // Enclosures of roots that are close together may be within one another.
+    for k in 1..ends.len() {
+        ends[k][1] = ends[k][1].clone().max(ends[k - 1][1].clone());
+    }
     // From the upper end of one root's enclosure to the lower end of the next one's.
     let lower = std::iter::once(range.lower.clone()).chain(ends.iter().map(|e| Some(e[1].clone())));
     let upper = ends.iter().map(|e| Some(e[0].clone())).chain(std::iter::once(range.upper.clone()));
@@ -244,8 +243,6 @@ mod tests {
     use super::*;
     use crate::answer::{BoxRequest, MapMethod, MapOrBoxes, Verdict};
     use crate::error::{Error, Source};
-    use jurist_algebra::number::parse_number;
-
     fn number(text: &str) -> Rational {
         parse_number(text).unwrap()
     }
@@ -276,8 +273,8 @@ mod tests {
             ("f = { nominal = 1000 }", "{ method = 'zoh', T = '1/f' }", "f", "0", None),
             ("f = { nominal = 1000 }", "{ method = 'zoh', T = '1/(f - 5)' }", "f", "5", None),
             ("T = { nominal = -0.001 }", "{ method = 'foh', T = '-T' }", "T", "", Some("0")),
-            (&*both, tustin, "T", "0", Some("0.00448798950512")),
-            (&*both, tustin, "w", "0", Some("3141.59265358")),
+            (&*both, tustin, "T", "0", Some("0.00448798950508")),
+            (&*both, tustin, "w", "0", Some("3141.59265356")),
             (t, "{ method = 'tustin', T = 'T', prewarp = '2*pi*120' }", "T", "0", Some("1/240")),
             ("f = { nominal = 120 }", "{ method = 'tustin', T = '1/400', prewarp = '2*pi*f' }", "f", "0", Some("200")),
             // sqrt(k/3)/10 < pi
@@ -286,7 +283,7 @@ mod tests {
                 "{ method = 'tustin', T = '1/10', prewarp = 'sqrt(k/3)' }",
                 "k",
                 "0",
-                Some("2960.88132032"),
+                Some("2960.88132030"),
             ),
             // (f - 1) (3 - f) is positive from 1 to 3
             ("f = { nominal = 2 }", "{ method = 'zoh', T = '(f - 1)*(3 - f)' }", "f", "1", Some("3")),
@@ -332,6 +329,13 @@ mod tests {
         let model = Model::from_toml(&Source::new("model.toml", text)).unwrap().0;
         let problem = model.ask().free("x").problem().unwrap();
         assert_eq!(problem.parameter().domain, Range::between(Some(1.into()), None));
+        // Irrational ends that are 1e-30 apart.
+        let close = text.replace("x^2 - 1", "x^2 - 2").replace("T = 'x' }", "T = 'x^2 - 2 - 1e-30' }");
+        let model = Model::from_toml(&Source::new("model.toml", &close)).unwrap().0;
+        let problem = model.ask().free("x").domain("x", Range::between(Some(1.into()), None)).problem().unwrap();
+        let end = problem.parameter().domain.lower.clone().unwrap();
+        let beyond = &(&end * &end) - &number("2.000000000000000000000000000001");
+        assert!(!beyond.is_negative() && beyond < number("1e-10"), "{end}");
         // Of several parts one is left, and that is said.
         let both = text.replace("T = 'x' }", "T = 'x^2 - 4' }");
         let model = Model::from_toml(&Source::new("model.toml", &both)).unwrap().0;

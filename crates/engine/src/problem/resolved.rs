@@ -91,7 +91,7 @@ impl Problem {
         Problem { positive, ..self }
     }
 
-    /// Products of linear factors and the like that are positive, as polynomials in what is free, where the model has a meaning.
+    /// Polynomials in what is free that are positive where the model has a meaning: numerators times denominators of what is presupposed.
     pub(crate) fn positive(&self) -> Vec<MultiPoly> {
         self.positive.iter().map(|f| f.numerator() * f.denominator()).collect()
     }

@@ -9,6 +9,7 @@ use super::state_space::{Stop, Substitution, System, substituted};
 use crate::error::{Diagnostic, Span};
 use crate::model::evaluate::symbolic::{BlockValues, Hold};
 use crate::model::evaluate::transfer::MAX_ORDER;
+use crate::model::presupposed::{Presupposed, Presupposition};
 use crate::model::symbols::Symbols;
 use crate::model::text::names::shorten;
 use jurist_algebra::limits::Budget;
@@ -90,7 +91,8 @@ pub(in crate::model) fn held(
 fn positive(time: &RationalFunction, delay: &RationalFunction, hold: &Hold) -> Result<(), Stop> {
     let not_positive = |f: &RationalFunction| f.as_constant().is_some_and(|v| v.is_negative() || v.is_zero());
     let error = if not_positive(time) {
-        refused("E-value", "the sample time of a hold must be positive".into(), hold.span, "this hold")
+        let time = time.clone();
+        Presupposition { of: Presupposed::SampleTime, function: time, span: hold.span }.not_positive()
     } else if delay.as_constant().is_some_and(|v| v.is_negative()) {
         refused("E-value", "dead time must not be negative".into(), hold.span, "this hold")
     } else {

@@ -12,6 +12,7 @@ use crate::model::evaluate::symbolic::{
 use crate::model::evaluate::walk::Failure;
 use crate::model::evaluate::work::count_work;
 use crate::model::evaluate::zpoly::ZPoly;
+use crate::model::presupposed::{Presupposed, Presupposition};
 use crate::model::symbols::Symbols;
 use crate::model::text::names::shorten;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -200,13 +201,8 @@ fn below_half_the_sampling_rate(angle: &RationalFunction, span: Span) -> Result<
     if is_below && !angle.is_negative() && !angle.is_zero() {
         return Ok(());
     }
-    let error = if is_below {
-        Diagnostic::error("E-discretize", "the frequency of 'prewarp' must be positive").at(span, "not positive")
-    } else {
-        Diagnostic::error("E-discretize", "the frequency of 'prewarp' is not below half the sampling rate")
-            .at(span, "an angle of pi or more in a sample")
-            .help("'prewarp' is in radians per unit of time: 2*pi times the frequency")
-    };
+    let angle = Presupposition { of: Presupposed::Angle, function: angle.into(), span };
+    let error = if is_below { angle.not_positive() } else { angle.too_fast() };
     Err(Stop::Refused(Box::new(error)))
 }
 
