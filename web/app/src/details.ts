@@ -3,8 +3,9 @@
 import { coefficients } from "./formula.js";
 import { by, download, h, table } from "./dom.js";
 import { label } from "./numbers.js";
+import { over } from "./over.js";
 import { causes } from "./parameters.js";
-import { no } from "./plots.js";
+import { no } from "./reply.js";
 
 type Ask = (lane: string, request: unknown) => Promise<any>;
 
@@ -13,6 +14,8 @@ export interface Asked {
   values: [string, string][];
   names: string[];
 }
+
+const DRAWERS = ["details", "polynomial", "tolerance"];
 
 const program = (text: string, ...args: string[]) => ({ ask: "program", model: text, arguments: args });
 
@@ -24,9 +27,13 @@ export class Details {
   private asked: Asked = { text: "", values: [], names: [] };
   private digits = 30;
   private readonly open: Record<string, boolean> = {};
+  /** What the content of each drawer is about, once it is whole. */
+  private readonly filled: Record<string, Asked | undefined> = {};
+  /** What is asked for. */
+  private readonly filling: Record<string, Asked | undefined> = {};
 
   constructor(private readonly ask: Ask) {
-    for (const id of ["details", "polynomial", "tolerance"]) {
+    for (const id of DRAWERS) {
       by<HTMLDetailsElement>(id).addEventListener("toggle", (event) => {
         this.open[id] = (event.target as HTMLDetailsElement).open;
         void this.fill(id);
@@ -34,33 +41,63 @@ export class Details {
     }
   }
 
+  /** Another text: nothing stays of the one before. */
+  clear(): void {
+    this.asked = { text: "", values: [], names: [] };
+    for (const id of DRAWERS) this.empty(id);
+  }
+
+  /** What the drawers will be about: what is about other values is grey. */
+  stale(asked: Asked): void {
+    const old = JSON.stringify(asked) !== JSON.stringify(this.asked);
+    for (const id of DRAWERS) if (id !== "polynomial") this.body(id).setAttribute("aria-busy", String(old));
+  }
+
   /** What the drawers are about; those that are open are filled anew. */
   async about(asked: Asked): Promise<void> {
     // What stands there is kept while it is about the same question.
-    if (JSON.stringify(asked) === JSON.stringify(this.asked)) return;
-    this.asked = asked;
-    for (const id of ["details", "polynomial", "tolerance"]) if (this.open[id]) await this.fill(id);
+    if (JSON.stringify(asked) !== JSON.stringify(this.asked)) this.asked = asked;
+    for (const id of DRAWERS) await this.fill(id);
   }
 
+  private body(id: string): HTMLElement {
+    return by(`${id}-body`);
+  }
+
+  private empty(id: string): void {
+    this.filled[id] = undefined;
+    this.body(id).replaceChildren(h("p", {}, "computing …"));
+  }
+
+  /** Fills a drawer that is open; what was overtaken by another text or other values is left. */
   private async fill(id: string): Promise<void> {
-    if (!this.open[id]) return;
-    if (id === "details") await this.limits();
-    if (id === "polynomial") await this.polynomial();
-    if (id === "tolerance") await this.tolerance();
+    const { asked } = this;
+    if (!this.open[id] || asked.text === "" || this.filled[id] === asked || this.filling[id] === asked) return;
+    // The polynomial has the parameters in it: their values leave it as it is.
+    if (id === "polynomial" && this.filled[id]?.text === asked.text) return;
+    this.empty(id);
+    this.filling[id] = asked;
+    const parts = await (id === "details" ? this.limits(asked) : id === "polynomial" ? this.polynomial(asked) : this.tolerance(asked));
+    if (this.filling[id] === asked) this.filling[id] = undefined;
+    const same = id === "polynomial" ? asked.text === this.asked.text : asked === this.asked;
+    if (!parts || !same) return;
+    this.filled[id] = asked;
+    this.body(id).replaceChildren(...parts);
+    this.body(id).setAttribute("aria-busy", "false");
   }
 
-  private async limits(): Promise<void> {
-    const { text, values, names } = this.asked;
-    const body = by("details-body");
+  private async limits(asked: Asked): Promise<Node[] | undefined> {
+    const { text, values, names } = asked;
     const digits = h("select", { id: "digits", change: (event: Event) => {
       this.digits = Number((event.target as HTMLSelectElement).value);
-      void this.limits();
+      this.asked = { ...asked };
+      void this.fill("details");
     } }, ...[12, 30, 100, 1000].map((n) => h("option", { value: n, selected: n === this.digits }, String(n))));
     const parts: Node[] = [h("p", {}, h("label", { for: "digits" }, "Significant digits "), digits)];
-    parts.push(this.certificate(undefined));
+    parts.push(this.certificate(asked, undefined));
     for (const name of names) {
       const reply = await this.ask(`digits ${name}`, program(text, "intervals", "-", "--param", name, ...others(values, name), "--digits", String(this.digits), "--json"));
-      if (!reply) return;
+      if (!reply || asked !== this.asked) return undefined;
       parts.push(h("h3", {}, `Stable set of ${name}`));
       const message = no(reply);
       const document = message ? undefined : JSON.parse(reply.output);
@@ -72,9 +109,9 @@ export class Details {
         for (const side of ["lower", "upper"] as const) parts.push(this.end(interval[side], `${name}: ${side} end of interval ${k + 1}`));
       }
       if (document.stable.length === 0) parts.push(h("p", {}, "empty: stable for no value"));
-      parts.push(this.certificate(name));
+      parts.push(this.certificate(asked, name));
     }
-    body.replaceChildren(...parts);
+    return parts;
   }
 
   private end(end: any, title: string): Node {
@@ -86,27 +123,29 @@ export class Details {
     if (end.frequency_hz != null) rows.push(["frequency", `${label(String(end.frequency_hz), 8)} Hz`]);
     else if (end.angle != null) rows.push(["angle", `${label(String(end.angle), 8)} rad per sample`]);
     if (end.polynomial) rows.push(["root of, from the constant term up", code(`[${end.polynomial.join(", ")}]`)]);
-    if (end.over) rows.push(["zero of", code(JSON.stringify(end.over))]);
+    if (end.over) rows.push(...over(end.over).map(([what, is]) => [what, code(is)]));
     return h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": title }, table(title, ["what", "is"], rows));
   }
 
   /** A certificate of the verdict, or of the set of a parameter: made, checked in this page, saved. */
-  private certificate(name: string | undefined): Node {
+  private certificate({ text, values }: Asked, name: string | undefined): Node {
     const said = h("p", { role: "status" });
     const about = name ? `of the stable set of ${name}` : "of the verdict";
-    const { text, values } = this.asked;
+    const over = () => {
+      said.textContent = "undecided: cancelled";
+    };
     const make = async () => {
       said.textContent = "making it…";
       const set = name ? values.filter(([n]) => n !== name) : values;
-      const reply = await this.ask(`certificate ${name}`, { ask: "certificate", model: text, set, free: name ?? null });
-      if (!reply) return;
+      const reply = await this.ask(`certificate ${about}`, { ask: "certificate", model: text, set, free: name ?? null });
+      if (!reply) return over();
       if (!reply.certificate) {
         said.textContent = no(reply) ?? "there is none";
         return;
       }
       said.textContent = "checking it with the independent checker…";
-      const checked = await this.ask(`check ${name}`, { ask: "check", model: text, certificate: reply.certificate });
-      if (!checked) return;
+      const checked = await this.ask(`check ${about}`, { ask: "check", model: text, certificate: reply.certificate });
+      if (!checked) return over();
       const words = checked.proved ? `Proved by the checker, whose code shares nothing with the engine: ${checked.proved}` : `Rejected: ${checked.rejected ?? no(checked)}`;
       const file = `certificate-${name ?? "verdict"}.json`;
       said.replaceChildren(words, " ", h("button", { type: "button", class: "small", click: () => download(file, "application/json", reply.certificate) }, "Save the certificate"));
@@ -114,32 +153,25 @@ export class Details {
     return h("div", {}, h("button", { type: "button", click: () => void make() }, `Certificate ${about}`), said);
   }
 
-  private async polynomial(): Promise<void> {
-    const { text } = this.asked;
+  private async polynomial({ text }: Asked): Promise<Node[] | undefined> {
     const reply = await this.ask("polynomial", program(text, "charpoly", "-", "--json"));
-    if (!reply) return;
+    if (!reply) return undefined;
     const message = no(reply);
-    const body = by("polynomial-body");
-    if (message || !reply.output) return body.replaceChildren(h("p", {}, message ?? "undecided"));
+    if (message || !reply.output) return [h("p", {}, message ?? "undecided")];
     const latex = async () => {
       const tex = await this.ask("latex", program(text, "charpoly", "-", "--format", "latex"));
       if (tex?.output) await navigator.clipboard.writeText(tex.output);
     };
     const document = JSON.parse(reply.output);
     const long = reply.output.length > 200_000;
-    body.replaceChildren(
+    return [
       h("button", { type: "button", click: () => void latex() }, "Copy as LaTeX"),
       ...(long ? [h("pre", {}, "It is too long to be shown as a formula; the program writes it: jurist charpoly")] : coefficients(document)),
-    );
+    ];
   }
 
-  private async tolerance(): Promise<void> {
-    const { text, values } = this.asked;
-    const body = by("tolerance-body");
-    body.replaceChildren(h("p", {}, "…"));
+  private async tolerance({ text, values }: Asked): Promise<Node[] | undefined> {
     const reply = await this.ask("tolerance", program(text, "tolerance", "-", ...values.flatMap(([n, v]) => ["--set", `${n}=${v}`])));
-    if (!reply) return;
-    const message = no(reply) ?? [reply.output, ...reply.notes].join("\n");
-    body.replaceChildren(h("pre", {}, message));
+    return reply && [h("pre", {}, no(reply) ?? [reply.output, ...reply.notes].join("\n"))];
   }
 }

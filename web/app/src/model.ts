@@ -1,5 +1,6 @@
 // What the engine says of a text that is a model.
 
+import { plain } from "./numbers.js";
 import type { Parameter } from "./parameters.js";
 
 export interface Model {
@@ -12,4 +13,20 @@ export interface Model {
   outputs: string[];
   blocks: [string, string, string, string][];
   tolerances: boolean;
+}
+
+/** The same with its numbers as people write them: `0.0001` for `1/10000`. */
+export function withDecimals(model: Model): Model {
+  const text = (t: string | null) => (t === null ? null : plain(t));
+  return {
+    ...model,
+    parameters: model.parameters.map((p) => ({ ...p, nominal: text(p.nominal), min: text(p.min), max: text(p.max) })),
+    constants: model.constants.map((c) => ({ ...c, value: plain(c.value) })),
+  };
+}
+
+/** Where the loop may be cut: signals and parameters. */
+export function signals({ blocks, parameters }: Model): string[] {
+  const names = parameters.map((p) => p.name);
+  return [...new Set([...blocks.flatMap((b) => b[2].split(", ")), ...names])].filter((n) => n !== "" && n !== "u" && n !== "y" || names.includes(n));
 }

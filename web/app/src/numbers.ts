@@ -30,6 +30,15 @@ export function short(value: number, digits = 4): string {
   return text.replace("-", "−").replace("e-", "e−");
 }
 
+/** A root in floating point. A part that is below the last digit of the other is noise. */
+export function complex(re: number, im: number): string {
+  const noise = Number.EPSILON * Math.hypot(re, im);
+  if (Math.abs(im) <= noise) return short(re, 6);
+  const imaginary = `${short(Math.abs(im), 6)}i`;
+  if (Math.abs(re) <= noise) return im < 0 ? `−${imaginary}` : imaginary;
+  return `${short(re, 6)} ${im < 0 ? "−" : "+"} ${imaginary}`;
+}
+
 function trimmed(text: string): string {
   return text.replace(/\.?0+e/, "e").replace("e+", "e");
 }
@@ -62,6 +71,20 @@ export function decimalText(digits: bigint, exponent: number): string {
   return `${sign}${text[0]}${text.length > 1 ? `.${text.slice(1)}` : ""}e${exponent + text.length - 1}`;
 }
 
+/** Longer decimals than this are no easier to read than their fraction. */
+const READABLE = 12;
+
+/** A fraction as a decimal, where it is a short one; everything else as it is. */
+export function plain(text: string): string {
+  const [, sign, p, q] = /^([+-]?)(\d{1,40})\/(\d{1,40})$/.exec(text.trim()) ?? [];
+  if (p === undefined || q === undefined || BigInt(q) === 0n) return text;
+  const digits = (k: number) => BigInt(p) * 10n ** BigInt(k);
+  const places = Array.from({ length: 41 }, (_, k) => k).find((k) => digits(k) % BigInt(q) === 0n);
+  if (places === undefined) return text;
+  const decimal = decimalText(digits(places) / BigInt(q), -places);
+  return decimal.length > READABLE ? text : (sign === "-" ? "-" : "") + decimal;
+}
+
 /** An axis from one value to another. */
 export interface Scale {
   lower: number;
@@ -69,6 +92,8 @@ export interface Scale {
   log: boolean;
   /** Degrees: round values are parts of a turn. */
   degrees?: boolean;
+  /** Decibels: round values are parts of twenty, or twenties. */
+  decibels?: boolean;
 }
 
 export function place(scale: Scale, value: number): number {
@@ -91,7 +116,7 @@ export function decimalAt(scale: Scale, at: number): string {
 }
 
 /** Round values on an axis: at most about `count`. */
-export function ticks({ lower, upper, log, degrees }: Scale, count: number): number[] {
+export function ticks({ lower, upper, log, degrees, decibels }: Scale, count: number): number[] {
   if (!(upper > lower)) return [];
   if (log) {
     const [from, to] = [Math.ceil(Math.log10(lower) - 1e-9), Math.floor(Math.log10(upper) + 1e-9)];
@@ -107,8 +132,8 @@ export function ticks({ lower, upper, log, degrees }: Scale, count: number): num
   }
   const raw = (upper - lower) / count;
   const power = 10 ** Math.floor(Math.log10(raw));
-  const turn = degrees ? [15, 30, 45, 90, 180, 360, 720, 1440].find((f) => f >= raw) : undefined;
-  const step = turn ?? ([1, 2, 5, 10].find((f) => f * power >= raw) ?? 10) * power;
+  const usual = degrees ? [15, 30, 45, 90, 180, 360, 720, 1440] : decibels ? [1, 2, 5, 10, 20, 40, 60, 80, 100, 200, 400] : [];
+  const step = usual.find((f) => f >= raw) ?? ([1, 2, 5, 10].find((f) => f * power >= raw) ?? 10) * power;
   const first = Math.ceil(lower / step - 1e-9);
   const list: number[] = [];
   for (let k = first; k * step <= upper + step * 1e-9; k++) list.push(Number((k * step).toPrecision(12)));

@@ -3,18 +3,20 @@
 import { h, s, table } from "./dom.js";
 import { type Scale, label, short } from "./numbers.js";
 import { type Box, Figure, around, axes, equal, path } from "./plot.js";
-import { ABOVE, BELOW, Zoom, no, waiting, whole } from "./plots.js";
+import { ABOVE, BELOW, type Reads, Zoom, waiting, whole } from "./plots.js";
+import { documentOf, no } from "./reply.js";
 
 export class OpenLoopPlot {
   readonly figure: Figure;
   readonly zoom: Zoom;
   readonly cut: HTMLSelectElement;
-  data: any;
-  margins: any;
   private nyquist = false;
   private readonly toggles: HTMLButtonElement[];
 
-  constructor(chosen: () => void) {
+  constructor(
+    private readonly known: Reads,
+    chosen: () => void,
+  ) {
     this.figure = new Figure("open-loop", "Open loop and margins", "Margins", (svg, w, hgt) => this.paint(svg, w, hgt));
     this.zoom = new Zoom(() => this.figure.draw());
     this.cut = h("select", { "aria-label": "where the loop is cut", title: "where the loop is cut", change: chosen });
@@ -23,6 +25,23 @@ export class OpenLoopPlot {
     );
     this.figure.controls.append(this.cut, ...this.toggles, ...this.zoom.buttons);
     this.choose(false);
+  }
+
+  /** Where the loop may be cut. */
+  offer(signals: string[], cut: string): void {
+    const option = (value: string, text: string) => h("option", { value, selected: value === cut }, text);
+    this.cut.replaceChildren(option("", "cut: automatic"), ...signals.map((n) => option(n, `cut at ${n}`)));
+  }
+
+  /** The curve, or why there is none. */
+  private get data(): any {
+    const { reply } = this.known("frequency response");
+    return documentOf(reply) ?? reply;
+  }
+
+  private get margins(): any {
+    const { reply } = this.known("margins");
+    return documentOf(reply) ?? reply;
   }
 
   private choose(nyquist: boolean): void {
@@ -34,9 +53,15 @@ export class OpenLoopPlot {
 
   private paint(svg: SVGSVGElement, width: number, height: number): void {
     const data = this.data;
-    if (!data?.frequency) return waiting(svg, width, height, no(data) || "…");
+    if (!data?.frequency) return waiting(svg, width, height, this.why(data) ?? "");
     if (this.nyquist) this.paintNyquist(svg, width, height, data);
     else this.paintBode(svg, width, height, data);
+  }
+
+  /** Why there is nothing; where the menu has an answer to that, so is this one. */
+  private why(reply: any): string | undefined {
+    const open = reply?.refused?.diagnostics?.some((d: any) => d.code === "E-cut");
+    return open && this.cut.options.length > 1 ? `${no(reply)}: choose it above` : no(reply);
   }
 
   private paintBode(svg: SVGSVGElement, width: number, height: number, data: any): void {
@@ -54,8 +79,9 @@ export class OpenLoopPlot {
       [bottom, phase, "phase (degrees)", words, [-180, 180]],
     ];
     for (const [box, points, name, below, levels] of panels) {
-      const ys: Scale = { ...around([...points.map((p) => p[1]), levels[0]!]), degrees: levels.length > 1 };
-      const view = axes(svg, box, xs, ys, { x: below, y: name });
+      const degrees = levels.length > 1;
+      const ys: Scale = { ...around([...points.map((p) => p[1]), levels[0]!]), degrees, decibels: !degrees };
+      const view = axes(svg, box, xs, ys, { x: below, y: name }, levels);
       if (box === top) for (const t of svg.querySelectorAll(".tick[text-anchor=middle]")) t.remove();
       for (const level of levels) {
         view.inside.append(s("line", { class: "boundary", x1: box.left, x2: box.left + box.width, y1: view.y(level), y2: view.y(level) }));
@@ -68,6 +94,8 @@ export class OpenLoopPlot {
   }
 
   private crossings(): number[] {
+    // Else they might be of other values than the curve.
+    if (!this.known("margins").now || !this.known("frequency response").now) return [];
     const { gain = [], phase = [] } = this.margins?.crossings ?? {};
     const of = (c: any) => (this.data.hertz ? c.frequency_hz : c.angle);
     return [...gain, ...phase].map(of).filter((f: unknown): f is number => typeof f === "number");
@@ -88,7 +116,9 @@ export class OpenLoopPlot {
   }
 
   show(): void {
-    const message = no(this.data) || no(this.margins);
+    const [curve, margins] = [this.known("frequency response"), this.known("margins")];
+    this.figure.wait((curve.late && this.data?.frequency) || (margins.late && this.margins?.at));
+    const message = this.why(this.data) ?? this.why(this.margins);
     const found = this.margins;
     if (message || !found?.at) {
       this.figure.say(message ?? "");

@@ -1,21 +1,25 @@
 // The page: one state, and what is asked when it changes.
 
 import { Address } from "./address.js";
-import { sets } from "./copy.js";
-import { blocks, counted, remarks } from "./about.js";
-import { Details } from "./details.js";
+import { blocks, remarks } from "./about.js";
+import { type Asked as Drawers, Details } from "./details.js";
 import { by, h } from "./dom.js";
-import type { Engine, Reply } from "./engine.js";
+import type { Engine } from "./engine.js";
+import { Freshness } from "./freshness.js";
 import type { Shared } from "./link.js";
 import { script } from "./load.js";
-import { isNumber } from "./numbers.js";
+import { isNumber, plain } from "./numbers.js";
 import { type Interval, Row, nearest } from "./parameters.js";
-import type { Model } from "./model.js";
+import { type Model, signals, withDecimals } from "./model.js";
 import { OpenLoopPlot } from "./openloop.js";
-import { LocusPlot, MapPlot, ResponsePlot, type Verdict, no } from "./plots.js";
+import { MapPlot } from "./map.js";
+import { LocusPlot, type Reads, ResponsePlot, verdictIn } from "./plots.js";
 import type { Figure } from "./plot.js";
 import { Questions } from "./questions.js";
+import { documentOf, no } from "./reply.js";
+import { questionsAbout, verdictOf } from "./requests.js";
 import { type TextBox, textArea } from "./textbox.js";
+import { VerdictBar } from "./verdict.js";
 
 declare const DRIVE: string;
 declare const EDITOR_SCRIPT: string;
@@ -23,36 +27,42 @@ declare const EDITOR_SCRIPT: string;
 export class Page {
   /** What stands in the editor. */
   private written = "";
+  /** What was read last. */
+  private reading: string | undefined;
   /** The last of it that was a model, which is what is asked about. */
   text = "";
   model: Model | undefined;
   private values = new Map<string, string>();
   private rows = new Map<string, Row>();
-  private sets = new Map<string, Interval[]>();
   private readonly questions: Questions;
+  private readonly known: Reads;
+  private readonly bar: VerdictBar;
+  private readonly freshness = new Freshness();
   focus = "";
   private cut = "";
   private mapAxes: [string, string] | undefined;
   private timer = 0;
   private quiet = 0;
-  private said = 0;
   private readonly box: TextBox;
   private editor: TextBox;
   private readonly details: Details;
   readonly map: MapPlot;
-  readonly locus = new LocusPlot();
-  readonly response = new ResponsePlot();
+  readonly locus: LocusPlot;
+  readonly response: ResponsePlot;
   readonly loop: OpenLoopPlot;
 
   constructor(readonly engine: Engine) {
-    this.questions = new Questions(engine, (text) => this.defect(text));
+    this.questions = new Questions(engine, (lane) => this.changed(lane));
+    this.known = (lane: string) => this.questions.known(lane);
+    this.bar = new VerdictBar(this.known);
     this.box = textArea(by<HTMLTextAreaElement>("text"), (text) => this.typed(text));
     this.editor = this.box;
-    this.map = new MapPlot((x, y, done) => this.moved(x, y, done));
-    this.loop = new OpenLoopPlot(() => {
+    this.map = new MapPlot(this.known, (x, y, done) => this.moved(x, y, done));
+    this.locus = new LocusPlot(this.known);
+    this.response = new ResponsePlot(this.known);
+    this.loop = new OpenLoopPlot(this.known, () => {
       this.cut = this.loop.cut.value;
-      this.later();
-      void this.remember(true);
+      this.chosen();
     });
     this.details = new Details((lane, request) => engine.ask("slow", lane, request));
     const figures = this.figures();
@@ -94,57 +104,77 @@ export class Page {
   async open(text: string, shared?: Shared): Promise<void> {
     this.editor.set(text);
     clearTimeout(this.timer);
+    this.written = text;
+    this.freshness.written(text);
     await this.read(text, shared);
   }
 
   private typed(text: string): void {
-    if (text === this.written) return;
+    // Who writes the old text again wants no other read.
     clearTimeout(this.timer);
+    if (text === this.written) return;
+    this.written = text;
+    this.freshness.written(text);
+    if (text === this.reading) return;
     this.timer = window.setTimeout(() => void this.read(text).then(() => this.remember(true)), 250);
   }
 
   private async read(text: string, shared?: Shared): Promise<void> {
-    this.written = text;
+    this.reading = text;
     // Nobody needs the answers about what is put aside; while somebody types, only when there is a new model.
     if (shared) this.engine.cancel();
     // The drive is a model: before anything else there is its verdict.
     const known = shared && !this.model && text === DRIVE;
     if (known) {
-      this.text = text;
+      this.about(text);
       this.guess(text, shared);
     }
     const described = this.engine.ask("quick", "describe", { ask: "describe", model: text });
     if (shared && !known) this.guess(text, shared);
     const reply = await described;
     if (!this.model) performance.mark("described");
-    if (!reply || text !== this.written) return;
+    if (!reply || text !== this.reading) return;
+    // Who ends long work wants the text read all the same.
+    if (reply.stopped) return this.read(text, shared);
     if (reply.defect) return this.defect(reply.defect);
     this.editor.mark(reply.check.diagnostics);
     remarks(reply, this.editor);
-    by("stale").hidden = reply.model !== null;
-    if (!reply.model) return;
+    if (!reply.model) {
+      if (text !== this.text) this.questions.stand(text, []);
+      this.freshness.refused(text);
+      // What was ended for this text is asked for again.
+      if (this.model) this.ask();
+      return;
+    }
     if (!shared) this.engine.cancel();
+    this.about(text);
+    this.take(withDecimals(reply.model), shared);
+  }
+
+  /** From now on all panels are about this text, and hold nothing of another. */
+  private about(text: string): void {
+    const other = text !== this.text;
     this.text = text;
-    this.take(reply.model, shared);
+    this.questions.about(text);
+    this.freshness.about(text);
+    if (!other) return;
+    clearTimeout(this.laterTimer);
+    by("failure").hidden = true;
+    this.details.clear();
+    for (const figure of this.figures()) figure.clear();
+    this.bar.show();
   }
 
   /** Asks for the verdict before the model is known: what differs from nominal is. */
   private guess(text: string, { v = {} }: Shared): void {
-    this.questions.renew();
-    const given = sets(Object.entries(v).filter(([, value]) => isNumber(value)));
-    void this.questions.once("quick", "verdict", this.program(text, "verdict", "-", "--json", ...given), (reply) => {
-      if (text === this.text) this.verdict(reply);
-    });
+    this.questions.stand(text, [verdictOf(text, Object.entries(v).filter(([, value]) => isNumber(value)))]);
+    void this.questions.ask(text, "verdict");
   }
 
   /** A model that is one. */
   private take(model: Model, shared?: Shared): void {
     const before = this.model;
     this.model = model;
-    this.sets.clear();
-    if (!shared) {
-      this.questions.renew();
-    }
     const values = new Map<string, string>();
     for (const { name, nominal } of model.parameters) {
       // What was dragged stays where it is while the text is edited; a new nominal value wins.
@@ -155,10 +185,12 @@ export class Page {
     }
     this.values = values;
     const names = model.parameters.map((p) => p.name);
-    this.focus = [shared?.p, this.focus, names[0]].find((n) => n !== undefined && names.includes(n)) ?? "";
-    const axes = shared?.a ?? this.mapAxes;
+    // A text from elsewhere brings what is chosen about it.
+    this.focus = [shared ? shared.p : this.focus, names[0]].find((n) => n !== undefined && names.includes(n)) ?? "";
+    const axes = shared ? shared.a : this.mapAxes;
     this.mapAxes = axes?.every((n) => names.includes(n)) && axes[0] !== axes[1] ? axes : names.length >= 2 ? [names[0]!, names[1]!] : undefined;
-    this.cut = shared?.c ?? this.cut;
+    this.cut = shared ? (shared.c ?? "") : this.cut;
+    this.map.message = this.mapAxes ? "" : `A map needs two parameters, and this model has ${names.length === 0 ? "none" : "one"}.`;
     document.title = `${model.title ?? "jurist"}: exact stability limits`;
     this.build(model, names);
     this.ask();
@@ -172,42 +204,33 @@ export class Page {
       const { name } = parameter;
       const row = new Row(parameter, this.values.get(name)!, (text, done) => this.entered(name, text, done), () => {
         this.focus = name;
-        this.later();
-        void this.remember(true);
+        this.chosen();
       });
-      row.say(this.map.verdict ?? "");
       this.rows.set(name, row);
       list.append(row.element);
     }
     if (names.length === 0) list.append(h("p", { class: "sentence" }, "The model has no parameters: only its verdict can be asked for."));
     blocks(model);
-    const option = (value: string, text: string) => h("option", { value, selected: value === this.cut }, text);
-    const signals = [...new Set([...model.blocks.flatMap((b) => b[2].split(", ")), ...names])].filter((n) => n !== "" && n !== "u" && n !== "y" || names.includes(n));
-    if (!signals.includes(this.cut)) this.cut = "";
-    this.loop.cut.replaceChildren(option("", "cut: automatic"), ...signals.map((n) => option(n, `cut at ${n}`)));
+    const cuts = signals(model);
+    if (!cuts.includes(this.cut)) this.cut = "";
+    this.loop.offer(cuts, this.cut);
     this.mapControls(names);
     by("tolerance").hidden = !model.tolerances;
     this.locus.time = model.time;
   }
 
+  /** Something about the pictures was chosen. */
+  private chosen(): void {
+    this.ask();
+    void this.remember(true);
+  }
+
   private mapControls(names: string[]): void {
-    const { controls } = this.map.figure;
-    controls.replaceChildren();
-    if (!this.mapAxes || names.length < 3) return;
-    const select = (k: 0 | 1) => {
-      const choose = (event: Event) => {
-        const name = (event.target as HTMLSelectElement).value;
-        const axes = this.mapAxes!;
-        if (axes[1 - k] === name) axes[1 - k] = axes[k];
-        axes[k] = name;
-        this.questions.forget("map");
-        this.mapControls(names);
-        this.later();
-        void this.remember(true);
-      };
-      return h("select", { "aria-label": k === 0 ? "across" : "upwards", change: choose }, ...names.map((n) => h("option", { selected: n === this.mapAxes![k] }, n)));
-    };
-    controls.append(select(0), select(1));
+    this.map.choose(names, this.mapAxes, (axes) => {
+      this.mapAxes = axes;
+      this.mapControls(names);
+      this.chosen();
+    });
   }
 
   // ---------------------------------------------------------------------------------------- values
@@ -229,39 +252,27 @@ export class Page {
   }
 
   /** Names and values as they are set. */
-  given(without: string[] = []): [string, string][] {
-    return [...this.values].filter(([name]) => !without.includes(name));
+  given(): [string, string][] {
+    return [...this.values];
   }
 
   /** Those of them that differ from nominal. */
   differing(): [string, string][] {
-    return this.given().filter(([name, value]) => this.model?.parameters.find((p) => p.name === name)?.nominal !== value);
-  }
-
-  private program(model: string, ...args: string[]): unknown {
-    return { ask: "program", model, arguments: args };
+    return this.given().filter(([name, value]) => this.model?.parameters.find((p) => p.name === name)?.nominal !== plain(value));
   }
 
   /** Everything that a point needs: the verdict and the pictures that move at once, the rest when there is time. */
   private ask(moves = false): void {
     this.moves = moves;
-    const verdict = this.program(this.text, "verdict", "-", "--json", ...sets(this.differing()));
-    this.told = this.questions.once("quick", "verdict", verdict, (reply) => this.verdict(reply));
-    const point = { ask: "point", model: this.text, set: this.given(), response: true };
-    void this.questions.once("quick", "point", point, (reply) => {
-      this.locus.roots = no(reply) ? reply : reply.roots;
-      this.response.take(no(reply) ? reply : reply.response);
-      this.locus.show(this.moves);
-      this.response.show(this.moves);
-    });
-    for (const [name, row] of this.rows) {
-      const request = this.program(this.text, "intervals", "-", "--param", name, "--json", ...sets(this.given([name])));
-      void this.questions.once("quick", `intervals ${name}`, request, (reply) => this.interval(name, row, reply));
-    }
-    if (this.mapAxes) {
-      this.map.point = [this.values.get(this.mapAxes[0])!, this.values.get(this.mapAxes[1])!];
-      this.map.show(moves);
-    }
+    const { text, focus, cut, mapAxes: axes } = this;
+    this.questions.stand(text, questionsAbout({ text, values: this.given(), differing: this.differing(), focus, cut, axes }));
+    const quick = this.questions.lanes().filter((q) => q.speed === "quick");
+    this.details.stale(this.drawers());
+    this.told = this.questions.ask(text, "verdict");
+    for (const { lane } of quick) void this.questions.ask(text, lane);
+    if (axes) this.map.point = [this.values.get(axes[0])!, this.values.get(axes[1])!];
+    if (!moves) this.show();
+    else if (axes) this.map.show(true);
     this.later();
   }
 
@@ -278,7 +289,8 @@ export class Page {
 
   private later(): void {
     clearTimeout(this.laterTimer);
-    this.laterTimer = window.setTimeout(() => void this.told.then(() => this.slow()), 60);
+    const { text } = this;
+    this.laterTimer = window.setTimeout(() => void this.told.then(() => text === this.text && this.slow()), 60);
   }
 
   private slow(): void {
@@ -288,91 +300,60 @@ export class Page {
       for (const row of this.rows.values()) row.rest();
       for (const plot of [this.map, this.locus, this.response]) plot.show();
     }
-    const names = this.model.parameters.map((p) => p.name);
-    if (this.focus) {
-      const request = this.program(this.text, "locus", "-", "--param", this.focus, "--json", "--quiet", ...sets(this.given([this.focus])));
-      void this.questions.once("slow", "locus", request, (reply) => {
-        this.locus.data = this.document(reply);
-        this.locus.show();
-      });
-    } else {
-      this.locus.data = undefined;
-      this.locus.show();
-    }
-    const at = this.cut ? ["--at", this.cut] : [];
-    const given = sets(this.given());
-    void this.questions.once("slow", "margins", this.program(this.text, "margins", "-", "--json", ...at, ...given), (reply) => {
-      this.loop.margins = this.document(reply) ?? reply;
-      this.loop.show();
-    });
-    void this.questions.once("slow", "frequency response", this.program(this.text, "bode", "-", "--json", ...at, ...given), (reply) => {
-      this.loop.data = this.document(reply) ?? reply;
-      this.loop.show();
-    });
-    if (this.mapAxes) {
-      const [x, y] = this.mapAxes;
-      const request = { ask: "map", model: this.text, set: this.given(this.mapAxes), x, y };
-      void this.questions.once("long", "map", request, (reply) => {
-        this.map.data = reply;
-        this.map.message = "";
-        this.map.show();
-      });
-    } else {
-      this.map.data = undefined;
-      this.map.message = names.length < 2 ? "A map needs two parameters." : "";
-      this.map.show();
-    }
-    void this.details.about({ text: this.text, values: this.given(), names });
+    for (const { lane, speed } of this.questions.lanes()) if (speed !== "quick") void this.questions.ask(this.text, lane);
+    void this.details.about(this.drawers());
   }
 
-  private document(reply: Reply): any {
-    return typeof reply.output === "string" && reply.output.startsWith("{") ? JSON.parse(reply.output) : undefined;
+  private drawers(): Drawers {
+    return { text: this.text, values: this.given(), names: [...this.rows.keys()] };
   }
 
-  private interval(name: string, row: Row, reply: Reply): void {
-    const document = this.document(reply);
-    if (!document?.stable) {
-      this.sets.delete(name);
-      row.answer(undefined, no(reply) ?? (reply.notes?.join(" ") || "undecided"), this.moves);
-    } else {
-      this.sets.set(name, document.stable);
-      row.answer(document.stable, "", this.moves);
-    }
+  // --------------------------------------------------------------------------------------- answers
+
+  /** Everything that panels show, anew. */
+  private show(): void {
+    this.bar.show();
+    for (const plot of [this.map, this.locus, this.response, this.loop]) plot.show();
+    for (const name of this.rows.keys()) this.interval(name);
     this.limit();
   }
 
-  private verdict(reply: Reply): void {
-    const document = this.document(reply);
-    const message = no(reply);
-    const verdict: Verdict = document?.verdict ?? undefined;
-    this.locus.counts = document?.degree !== undefined ? document : undefined;
-    by("verdict").className = `verdict ${verdict ?? ""}`;
-    const word = verdict ?? (message ? "no answer" : "undecided");
-    if (by("verdict-word").textContent !== word) by("verdict-word").textContent = word;
-    const roots = counted(document) ?? message ?? reply.notes?.join(" ") ?? "";
-    if (by("verdict-roots").textContent !== roots) by("verdict-roots").textContent = roots;
-    for (const row of this.rows.values()) row.say(verdict ?? "");
-    this.map.verdict = verdict;
-    this.map.show(this.moves);
-    this.locus.show(this.moves);
-    this.limit();
-    this.mark();
-    // A reader is told once the value rests.
-    clearTimeout(this.said);
-    this.said = window.setTimeout(() => {
-      const words = `${verdict ?? "no answer"}: ${roots}`;
-      if (by("announce").textContent !== words) by("announce").textContent = words;
-    }, 700);
+  /** Something else is known in a lane. */
+  private changed(lane: string): void {
+    const { reply } = this.known(lane);
+    if (reply?.defect) this.defect(reply.defect);
+    const { moves } = this;
+    if (lane === "verdict") {
+      this.bar.show();
+      for (const row of this.rows.values()) row.say(verdictIn(this.known)?.verdict ?? "");
+      this.map.show(moves);
+      this.locus.show(moves);
+      this.limit();
+    } else if (lane === "point") {
+      this.locus.show(moves);
+      this.response.show(moves);
+    } else if (lane === "locus") this.locus.show();
+    else if (lane === "map") this.map.show();
+    else if (lane === "margins" || lane === "frequency response") this.loop.show();
+    else {
+      this.interval(lane.replace("intervals ", ""));
+      this.limit();
+    }
   }
 
-  private marked = false;
+  private interval(name: string): void {
+    const { reply, late } = this.known(`intervals ${name}`);
+    const document = documentOf(reply);
+    const row = this.rows.get(name);
+    row?.wait(late);
+    if (document?.stable) row?.answer(document.stable, "", this.moves);
+    else row?.answer(undefined, no(late ? undefined : reply) ?? (reply.notes?.join(" ") || "undecided"), this.moves);
+  }
 
-  /** When the first verdict was there, and drawn: for those who measure. */
-  private mark(): void {
-    if (this.marked) return;
-    this.marked = true;
-    performance.mark("verdict");
-    requestAnimationFrame(() => setTimeout(() => performance.mark("drawn")));
+  /** The stable sets that are known. */
+  get sets(): Map<string, Interval[]> {
+    const of = (name: string) => [name, documentOf(this.known(`intervals ${name}`).reply)?.stable] as const;
+    return new Map([...this.rows.keys()].map(of).filter(([, stable]) => stable));
   }
 
   private limit(): void {
@@ -432,8 +413,9 @@ export class Page {
     const editor = globalThis.juristEditor!(by("editor"), area.value, (text) => this.typed(text));
     area.remove();
     this.editor = editor;
-    const reply = await this.engine.ask("quick", "remarks", { ask: "describe", model: editor.get() });
-    if (reply?.check) editor.mark(reply.check.diagnostics);
+    const text = editor.get();
+    const reply = await this.engine.ask("quick", "remarks", { ask: "describe", model: text });
+    if (reply?.check && text === editor.get()) editor.mark(reply.check.diagnostics);
     if (had) editor.focus(1, 1);
   }
 }

@@ -230,6 +230,11 @@ export class Row {
     this.draw(moves);
   }
 
+  /** Whether the stable set is of other values than those that are set. */
+  wait(is: boolean): void {
+    this.element.setAttribute("aria-busy", String(is));
+  }
+
   /** Nothing moves any more. */
   rest(): void {
     if (!this.dragging) this.rescale();
@@ -291,7 +296,8 @@ export class Row {
     this.element.classList.toggle("unknown", this.stable === undefined);
     this.thumb();
     if (moves) return;
-    const words = this.message || this.sentence();
+    const waits = this.stable && this.element.ariaBusy === "true" ? "computing …; for the values before: " : "";
+    const words = waits + (this.message || this.sentence());
     if (this.words.textContent !== words) this.words.textContent = words;
   }
 
@@ -304,7 +310,7 @@ export class Row {
   }
 
   private sentence(): string {
-    if (!this.stable) return "…";
+    if (!this.stable) return "computing …";
     if (this.stable.length === 0) return "stable for no value";
     const bound = (end: End | null, none: string) => (end ? `${label(end.decimal)} (${cause(end)})` : none);
     const one = (i: Interval) => `from ${bound(i.lower, "−∞")} to ${bound(i.upper, "∞")}`;

@@ -20,7 +20,8 @@ export interface Axes {
 
 let clips = 0;
 
-export function axes(svg: SVGSVGElement, box: Box, xs: Scale, ys: Scale, words: { x: string; y: string }): Axes {
+/** Axes with their ticks; values of `always` that are in the window have a label, whatever else has. */
+export function axes(svg: SVGSVGElement, box: Box, xs: Scale, ys: Scale, words: { x: string; y: string }, always: number[] = []): Axes {
   const id = `clip${++clips}`;
   const x = (v: number) => box.left + box.width * clamp(place(xs, v));
   const y = (v: number) => box.top + box.height * (1 - clamp(place(ys, v)));
@@ -38,7 +39,9 @@ export function axes(svg: SVGSVGElement, box: Box, xs: Scale, ys: Scale, words: 
     free = at + half + 6;
     svg.append(s("text", { class: "tick", x: at, y: bottom + 15, "text-anchor": "middle" }, text));
   }
-  for (const t of ticks(ys, Math.max(2.5, box.height / 50))) {
+  const levels = always.filter((t) => t >= ys.lower && t <= ys.upper);
+  const room = (t: number) => levels.every((level) => Math.abs(y(level) - y(t)) > 12);
+  for (const t of [...levels, ...ticks(ys, Math.max(3.5, box.height / 50)).filter(room)]) {
     const at = y(t);
     svg.append(s("line", { class: "grid", x1: box.left, x2: right, y1: at, y2: at }));
     svg.append(s("text", { class: "tick", x: box.left - 6, y: at + 4, "text-anchor": "end" }, short(t)));
@@ -97,6 +100,7 @@ export class Figure {
   readonly sentence: HTMLElement;
   readonly extra: HTMLElement;
   readonly controls: HTMLElement;
+  private readonly waits = h("span", { class: "waits", hidden: true }, "computing …; this is of the values before");
   private readonly table: HTMLDetailsElement;
   private size = { width: 0, height: 0 };
   private pending: "" | "some" | "all" = "";
@@ -120,7 +124,7 @@ export class Figure {
       "section",
       { class: "figure", id, "aria-labelledby": `${id}-title` },
       h("div", { class: "bar" }, h("h2", { id: `${id}-title` }, title), this.controls),
-      h("div", { class: "canvas" }, this.svg),
+      h("div", { class: "canvas" }, this.svg, this.waits),
       this.sentence,
       this.table,
     );
@@ -159,6 +163,21 @@ export class Figure {
     this.svg.replaceChildren();
     this.paint(this.svg, width, height);
     if (focus) this.svg.focus();
+  }
+
+  /** Whether what is shown is of other values than those that are set. */
+  wait(is: unknown): void {
+    this.waits.hidden = !is;
+    this.element.setAttribute("aria-busy", String(Boolean(is)));
+  }
+
+  /** Nothing of another model stays: neither drawn nor said. */
+  clear(): void {
+    this.svg.replaceChildren();
+    this.extra.replaceChildren();
+    this.rows = undefined;
+    this.say("");
+    this.draw();
   }
 
   say(text: string): void {

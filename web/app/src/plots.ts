@@ -1,8 +1,10 @@
-// The pictures: map, root locus, time response.
+// The pictures of a point: root locus and time response; what all pictures share.
 
 import { h, s, table } from "./dom.js";
-import { type Scale, decimalAt, float, short } from "./numbers.js";
-import { type Axes, type Box, Figure, around, axes, cut, equal, path, place } from "./plot.js";
+import { type Scale, complex, short } from "./numbers.js";
+import { type Axes, type Box, Figure, around, axes, cut, equal, path } from "./plot.js";
+import type { Known } from "./questions.js";
+import { documentOf, no } from "./reply.js";
 
 const LEFT = 58;
 export const BELOW = 38;
@@ -12,7 +14,7 @@ export function whole(width: number, height: number, left = LEFT): Box {
   return { left, top: ABOVE, width: Math.max(20, width - left - 14), height: Math.max(20, height - ABOVE - BELOW) };
 }
 
-function named(name: string, unit: string | null | undefined): string {
+export function named(name: string, unit: string | null | undefined): string {
   return unit ? `${name} (${unit})` : name;
 }
 
@@ -23,151 +25,15 @@ export function waiting(svg: SVGSVGElement, width: number, height: number, text:
   }
 }
 
-/** Why there is nothing to draw, in the engine's words. */
-export function no(reply: any): string | undefined {
-  if (!reply) return "…";
-  if (reply.refused) return reply.refused.diagnostics?.[0]?.message ?? reply.refused.text;
-  if (reply.undefined) return `undefined here: ${reply.undefined}`;
-  if (reply.stopped) return `undecided: ${reply.stopped}`;
-  if (reply.defect) return `a defect of jurist: ${reply.defect}`;
-  if (reply.none) return reply.none;
-  return undefined;
-}
-
 export type Verdict = "stable" | "marginal" | "unstable" | "undefined" | undefined;
 
-// ---------------------------------------------------------------------------------------------- map
+/** What is known in a lane. Pictures keep no answer: they ask each time that they are drawn. */
+export type Reads = (lane: string) => Known;
 
-export class MapPlot {
-  readonly figure: Figure;
-  data: any;
-  /** The values at the point, as they are set. */
-  point: [string, string] = ["", ""];
-  verdict: Verdict;
-  message = "";
-  private view: Axes | undefined;
-  private readonly cross = { x: s("line", { class: "cross" }), y: s("line", { class: "cross" }), point: s("circle", { r: 9 }) };
-
-  constructor(private readonly moved: (x: string, y: string, done: boolean) => void) {
-    this.figure = new Figure("map", "Map of two parameters", "What limits the region", (svg, w, hgt) => this.paint(svg, w, hgt), () => this.shift());
-    const svg = this.figure.svg;
-    svg.setAttribute("tabindex", "0");
-    svg.setAttribute("role", "application");
-    svg.setAttribute("aria-roledescription", "map; the arrow keys move the point");
-    const at = (event: PointerEvent, done: boolean) => {
-      if (!this.view || !this.data?.x) return;
-      const { left, top } = svg.getBoundingClientRect();
-      const box = this.view.box;
-      const u = Math.max(0, Math.min(1, (event.clientX - left - box.left) / box.width));
-      const v = Math.max(0, Math.min(1, 1 - (event.clientY - top - box.top) / box.height));
-      this.moved(decimalAt(this.data.x, u), decimalAt(this.data.y, v), done);
-    };
-    svg.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0 || !this.data?.x) return;
-      svg.setPointerCapture(event.pointerId);
-      at(event, false);
-    });
-    svg.addEventListener("pointermove", (event) => svg.hasPointerCapture(event.pointerId) && at(event, false));
-    svg.addEventListener("pointerup", (event) => svg.hasPointerCapture(event.pointerId) && at(event, true));
-    svg.addEventListener("keydown", (event) => {
-      const step = event.shiftKey ? 0.1 : 0.01;
-      const by: Record<string, [number, number]> = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
-      const delta = by[event.key];
-      if (!delta || !this.data?.x) return;
-      event.preventDefault();
-      const moved = (scale: Scale, text: string, d: number) =>
-        d === 0 ? text : decimalAt(scale, Math.max(0, Math.min(1, place(scale, float(text)) + d)));
-      this.moved(moved(this.data.x, this.point[0], delta[0]), moved(this.data.y, this.point[1], delta[1]), true);
-    });
-  }
-
-  private paint(svg: SVGSVGElement, width: number, height: number): void {
-    this.view = undefined;
-    const data = this.data;
-    this.drawn = data;
-    if (!data?.x) return waiting(svg, width, height, this.message || no(data) || "…");
-    const box = whole(width, height, 64);
-    const view = axes(svg, box, data.x, data.y, { x: named(data.x.name, data.x.unit), y: named(data.y.name, data.y.unit) });
-    this.view = view;
-    const unit = { x: (u: number) => box.left + u * box.width, y: (v: number) => box.top + (1 - v) * box.height };
-    const { inside } = view;
-    // As one shape: neighbours with an edge of their own each show a seam.
-    if (data.areas.length > 0) inside.append(s("path", { class: "region", d: data.areas.map((outline: [number, number][]) => `${path(outline, unit)}Z`).join("") }));
-    for (const wall of data.walls) {
-      const kind = wall.causes.includes("pair") && !wall.causes.includes("z=") && !wall.causes.includes("s=0") ? "pair" : wall.causes.includes("=-1") ? "minus" : wall.causes.includes("=") ? "real" : "other";
-      inside.append(s("path", { class: `wall ${wall.limits ? "limits" : ""} ${kind}`, d: path(wall.points, unit) }));
-    }
-    // The words of each mechanism once, beside its longest line, where they cover least.
-    const said = new Set<string>();
-    const drawn = data.walls.flatMap((wall: any) => wall.points).map(([u, v]: number[]) => [unit.x(u!), unit.y(v!)] as [number, number]);
-    for (const wall of [...data.walls].filter((w: any) => w.limits).sort((a: any, b: any) => b.points.length - a.points.length)) {
-      if (said.has(wall.words)) continue;
-      const at = placed(wall, box, unit, drawn);
-      if (!at) continue;
-      said.add(wall.words);
-      const [x, y] = at;
-      // What comes later keeps away from it.
-      for (let k = -4; k <= 4; k++) drawn.push([x + (k / 4) * wall.words.length * 3.2, y - 4]);
-      inside.append(s("text", { class: "words", x, y, "text-anchor": "middle" }, wall.words));
-    }
-    inside.append(this.cross.x, this.cross.y, this.cross.point);
-    this.shift();
-  }
-
-  /** The point alone. */
-  private shift(): boolean {
-    if (!this.view) return false;
-    const { box } = this.view;
-    const [x, y] = [this.view.x(float(this.point[0])), this.view.y(float(this.point[1]))];
-    const put = (element: Element, places: Record<string, number>) => {
-      for (const [name, at] of Object.entries(places)) element.setAttribute(name, Number.isFinite(at) ? at.toFixed(1) : "-99");
-    };
-    put(this.cross.x, { x1: x, x2: x, y1: box.top, y2: box.top + box.height });
-    put(this.cross.y, { x1: box.left, x2: box.left + box.width, y1: y, y2: y });
-    put(this.cross.point, { cx: x, cy: y });
-    this.cross.point.setAttribute("class", `point ${this.verdict ?? ""}`);
-    return true;
-  }
-
-  show(moves = false): void {
-    if (moves) return this.figure.move();
-    const { data, point } = this;
-    if (!data?.x) {
-      this.figure.say(this.message || no(data) || "");
-      this.figure.tabulate(() => []);
-    } else {
-      const regions = data.never ? "stable at no point of the plane" : data.regions === 1 ? "one stable region, drawn green" : `${data.regions} stable regions, drawn green`;
-      const at = this.verdict ? `, ${this.verdict}` : "";
-      this.figure.say(`${data.x.name} and ${data.y.name}: ${regions}. The point is at ${data.x.name} = ${point[0]}, ${data.y.name} = ${point[1]}${at}.`);
-    }
-    this.figure.svg.setAttribute("aria-label", this.figure.sentence.textContent ?? "");
-    if (data?.x && data === this.drawn) return this.figure.move(true);
-    this.figure.draw();
-    if (data?.x) this.figure.tabulate(() => [h("pre", {}, String(data.text ?? ""))]);
-  }
-
-  /** What was drawn last. */
-  private drawn: any;
-}
-
-type Unit = { x(u: number): number; y(v: number): number };
-
-/** Where the words of a line go: the middle of their foot. */
-function placed(wall: any, box: Box, unit: Unit, drawn: [number, number][]): [number, number] | undefined {
-  const half = wall.words.length * 3.2;
-  const inner = wall.points.filter(([u, v]: number[]) => u! > 0.02 && u! < 0.98 && v! > 0.02 && v! < 0.98);
-  let best: { at: [number, number]; covers: number } | undefined;
-  for (const share of [0.5, 0.35, 0.65, 0.2, 0.8]) {
-    const point = inner[Math.floor(inner.length * share)];
-    if (!point) continue;
-    const [x, y] = [unit.x(point[0]), unit.y(point[1])];
-    for (const at of [[x, y - 8], [x + half + 8, y + 4], [x - half - 8, y + 4], [x, y + 18]] as [number, number][]) {
-      if (at[0] - half < box.left + 4 || at[0] + half > box.left + box.width - 4 || at[1] < box.top + 14 || at[1] > box.top + box.height - 4) continue;
-      const covers = drawn.filter(([a, b]) => Math.abs(a - at[0]) < half + 2 && b > at[1] - 13 && b < at[1] + 5).length;
-      if (covers < (best?.covers ?? Infinity)) best = { at, covers };
-    }
-  }
-  return best?.at;
+/** The document of the verdict, where it is about the values that are set, or a moment old. */
+export function verdictIn(known: Reads): any {
+  const { reply, late } = known("verdict");
+  return late ? undefined : documentOf(reply);
 }
 
 // -------------------------------------------------------------------------------------------- locus
@@ -197,23 +63,29 @@ export class Zoom {
 export class LocusPlot {
   readonly figure: Figure;
   readonly zoom: Zoom;
-  data: any;
-  roots: any;
-  /** How many roots are where: exact. */
-  counts: { inside: number; degree: number; infinite: number } | undefined;
   time: "discrete" | "continuous" = "discrete";
   private view: Axes | undefined;
   private window = { centre: [0, 0] as [number, number], half: 1 };
   private marks: SVGGElement = s("g", {});
 
-  constructor() {
+  constructor(private readonly known: Reads) {
     this.figure = new Figure("locus", "Roots and root locus", "Roots", (svg, w, hgt) => this.paint(svg, w, hgt), () => this.shift());
     this.zoom = new Zoom(() => this.figure.draw());
     this.figure.controls.append(...this.zoom.buttons);
   }
 
+  private get roots(): any {
+    const { reply } = this.known("point");
+    return no(reply) ? reply : reply.roots;
+  }
+
   private get at(): [number, number, number][] {
     return this.roots?.at ?? [];
+  }
+
+  /** The lines that the roots move along. */
+  private get data(): any {
+    return documentOf(this.known("locus").reply);
   }
 
   /** What is looked at: all roots and crossings, or nearer. */
@@ -227,8 +99,7 @@ export class LocusPlot {
   private paint(svg: SVGSVGElement, width: number, height: number): void {
     this.view = undefined;
     const branches: any[] = this.data?.branches ?? [];
-    const message = no(this.roots);
-    if (!this.at.length && !branches.length) return waiting(svg, width, height, message || "…");
+    if (!this.at.length && !branches.length) return waiting(svg, width, height, no(this.roots) ?? "");
     const box = whole(width, height);
     const discrete = this.time === "discrete";
     this.window = this.wanted();
@@ -291,8 +162,11 @@ export class LocusPlot {
   }
 
   show(moves = false): void {
+    const [point, lines] = [this.known("point"), this.known("locus")];
+    this.figure.wait((point.late && this.at.length > 0) || (lines.late && this.data));
     if (moves) return this.figure.move();
-    const { counts } = this;
+    // How many roots are where: exact.
+    const counts = verdictIn(this.known);
     const message = no(this.roots);
     const discrete = this.time === "discrete";
     if (message) {
@@ -300,13 +174,16 @@ export class LocusPlot {
       this.figure.tabulate(() => []);
     } else if (this.at.length) {
       const where = discrete ? "inside the unit circle" : "left of the axis";
-      const count = counts ? `${counts.inside} of ${counts.degree} roots ${where}. ` : "";
+      const count = counts?.degree !== undefined ? `${counts.inside} of ${counts.degree} roots ${where}. ` : "";
       const [re, im] = this.dominant();
       const name = this.data?.parameter ? `Lines: as ${this.data.parameter} moves. ` : "";
       this.figure.say(`${count}${name}The root ${discrete ? "of greatest modulus" : "farthest right"} is ${complex(re, im)}.`);
       const size = discrete ? "modulus" : "damping";
       const rows = () => this.at.map(([a, b, k]) => [`${complex(a, b)}${k > 1 ? ` (${k} times)` : ""}`, short(discrete ? Math.hypot(a, b) : -a / Math.hypot(a, b), 6)]);
       this.figure.tabulate(() => [h("p", { class: "note" }, "Floating point; the counts above are exact."), table("Roots", ["root", size], rows())]);
+    } else {
+      this.figure.say("");
+      this.figure.tabulate(() => []);
     }
     this.figure.draw();
   }
@@ -325,15 +202,13 @@ function thin(points: [number, number][], view: Axes): [number, number][] {
   return kept;
 }
 
-function complex(re: number, im: number): string {
-  return im === 0 ? short(re, 6) : `${short(re, 6)} ${im < 0 ? "−" : "+"} ${short(Math.abs(im), 6)}i`;
-}
-
 // ----------------------------------------------------------------------------------------- response
 
 export class ResponsePlot {
   readonly figure: Figure;
-  private data: any;
+  /** The answer that the points were taken from. */
+  private taken: any;
+  private made: any;
   private readonly select: HTMLSelectElement;
   private names = "";
   private view: Axes | undefined;
@@ -341,16 +216,22 @@ export class ResponsePlot {
   private readonly line = s("path", { class: "line c0" });
   private readonly final = s("line", { class: "final" });
 
-  constructor() {
+  constructor(private readonly known: Reads) {
     this.figure = new Figure("response", "Time response", "Values", (svg, w, hgt) => this.paint(svg, w, hgt), () => this.shift());
     this.select = h("select", { "aria-label": "signal shown", change: () => this.show() });
     this.figure.controls.append(this.select);
   }
 
-  /** An answer, in which points are one list of numbers. */
-  take(data: any): void {
-    const pairs = (flat: number[]) => Array.from({ length: flat.length / 2 }, (_, k) => [flat[2 * k], flat[2 * k + 1]]);
-    this.data = data?.signals ? { ...data, signals: data.signals.map((x: any) => ({ ...x, points: pairs(x.points) })) } : data;
+  /** The answer, in which points were one list of numbers. */
+  private get data(): any {
+    const { reply } = this.known("point");
+    if (reply !== this.taken) {
+      this.taken = reply;
+      const data = no(reply) ? reply : reply.response;
+      const pairs = (flat: number[]) => Array.from({ length: flat.length / 2 }, (_, k) => [flat[2 * k], flat[2 * k + 1]]);
+      this.made = data?.signals ? { ...data, signals: data.signals.map((x: any) => ({ ...x, points: pairs(x.points) })) } : data;
+    }
+    return this.made;
   }
 
   private get signal(): any {
@@ -366,7 +247,7 @@ export class ResponsePlot {
   private paint(svg: SVGSVGElement, width: number, height: number): void {
     this.view = undefined;
     const signal = this.signal;
-    if (!signal?.points.length) return waiting(svg, width, height, no(this.data) || "…");
+    if (!signal?.points.length) return waiting(svg, width, height, no(this.data) ?? "");
     this.scales = this.wanted(signal);
     const { xs, ys } = this.scales;
     this.view = axes(svg, whole(width, height), xs, ys, { x: `time (${this.data.unit})`, y: named(signal.name, signal.unit) });
@@ -395,6 +276,7 @@ export class ResponsePlot {
   }
 
   show(moves = false): void {
+    this.figure.wait(this.known("point").late && this.signal);
     if (moves) return this.figure.move();
     const message = no(this.data);
     const names = JSON.stringify(this.data?.signals?.map((x: any) => x.name) ?? []);

@@ -56,7 +56,7 @@ export async function opened(url, { width = 1200, height = 900, mobile = false, 
       await browser.open(to, w, h, 1, mobile);
       await page.answered();
       // Nothing waits for an answer either in the moment before the first map is asked for.
-      const asked = '(() => { const e = document.getElementById("map-sentence"); return !e?.offsetParent || e.textContent !== "…"; })()';
+      const asked = '(() => { const e = document.getElementById("map-sentence"); return !e?.offsetParent || e.textContent !== "computing …"; })()';
       await page.until(asked, "the first map");
       await page.answered();
     },

@@ -8,6 +8,7 @@ import { random } from "./models.mjs";
 
 const numbers = await moduleOf("numbers.ts");
 const copy = await moduleOf("copy.ts");
+const overModule = await moduleOf("over.ts");
 const paste = await moduleOf("paste.ts");
 const link = await moduleOf("link.ts");
 
@@ -17,6 +18,32 @@ test("fractions of any length have a place", () => {
   assert.equal(numbers.float(`1${"0".repeat(400)}/2${"0".repeat(400)}`), 0.5);
   assert.ok(Math.abs(numbers.float(`-3${"1".repeat(700)}/2${"7".repeat(698)}`) / -112.0000000000004 - 1) < 1e-9);
   assert.ok(Number.isNaN(numbers.float(null)));
+});
+
+test("fractions that are short decimals are written as these, and nothing else is changed", () => {
+  const cases = { "1/10000": "0.0001", "47/5000000": "9.4e-6", "-9/5000": "-0.0018", "1/3": "1/3", "1/2": "0.5", "1e-4": "1e-4", "0.10": "0.10", "1/0": "1/0", "K/2": "K/2", "6/4": "1.5", "1/1048576": "1/1048576" };
+  for (const [text, expected] of Object.entries(cases)) assert.equal(numbers.plain(text), expected);
+  const next = random(8);
+  for (let k = 0; k < 500; k++) {
+    const [p, q] = [Math.floor(next() * 1e6), 2 ** Math.floor(next() * 8) * 5 ** Math.floor(next() * 8)];
+    assert.equal(Number(numbers.plain(`${p}/${q}`).split("/").reduce((a, b) => a / b)), p / q);
+  }
+});
+
+test("a part of a root that is noise is not written", () => {
+  assert.equal(numbers.complex(2.93874e-39, 0.707107), "0.707107i");
+  assert.equal(numbers.complex(-0, -2), "−2i");
+  assert.equal(numbers.complex(0.5, 1e-17), "0.5");
+  assert.equal(numbers.complex(1e-9, -1), "1e−9 − 1i");
+  assert.equal(numbers.complex(0, 0), "0");
+});
+
+test("what an end is a zero of is said in words", () => {
+  const { over } = overModule;
+  assert.deepEqual(over({ symbols: { e_1: "exp(-T)" }, polynomial: ["1", "-e_1"] }), [["root of, from the constant term up", "[1, -e_1]"], ["with", "e_1 = exp(-T)"]]);
+  assert.deepEqual(over({ function: "resultant of the half-size pair", pi: "pi", t1: "tan(1)" }), [["zero of", "resultant of the half-size pair"], ["with", "pi = pi, t1 = tan(1)"]]);
+  const crossing = { omega2: { polynomial: ["-1", "1"], enclosure: ["1", "1"] }, theta: ["0", "1/10"], k: 2, direction: "+" };
+  assert.ok(over(crossing).every(([, is]) => !/[{"]/.test(is)));
 });
 
 test("numbers are told from what is none", () => {
@@ -59,6 +86,7 @@ test("a place on a track and its value are inverse to each other", () => {
 test("ticks are round, inside of their axis, and parts of a turn where it is in degrees", () => {
   assert.deepEqual(numbers.ticks({ lower: -1.6, upper: 1.6, log: false }, 3.5), [-1, 0, 1]);
   assert.deepEqual(numbers.ticks({ lower: -200, upper: 210, log: false, degrees: true }, 2.5), [-180, 0, 180]);
+  assert.deepEqual(numbers.ticks({ lower: -52, upper: 71, log: false, decibels: true }, 3.5), [-40, 0, 40]);
   assert.deepEqual(numbers.ticks({ lower: 0.02, upper: 5000, log: true }, 3), [0.1, 10, 1000]);
 });
 

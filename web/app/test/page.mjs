@@ -47,11 +47,13 @@ test("the drive is answered before a key is pressed", async () => {
   assert.equal(await page.value('document.getElementById("verdict-roots").textContent'), "6 of 6 roots inside the unit circle");
   const labels = await page.value('[...document.querySelectorAll(".ends button")].map((b) => b.textContent)');
   assert.ok(labels.includes("0.038101") && labels.includes("550.94"), labels.join());
-  assert.match(await page.value('document.getElementById("map-sentence").textContent'), /stable region.* K_pwm = 110, T = 1\/10000, stable/);
+  assert.match(await page.value('document.getElementById("map-sentence").textContent'), /stable region.* K_pwm = 110, T = 0.0001, stable/);
   assert.match(await page.value('document.getElementById("open-loop-sentence").textContent'), /gain margin 13.99 dB, lower −69.21 dB, phase margin 71.87°/);
   assert.ok((await page.value('document.querySelectorAll("#locus .root").length')) >= 6);
   assert.ok((await page.value('document.querySelectorAll("#response .line").length')) === 1);
   assert.ok((await page.value('document.querySelectorAll("#map .region").length')) >= 1);
+  const ticks = await page.value('[...document.querySelectorAll("#open-loop .tick[text-anchor=end]")].map((e) => e.textContent)');
+  assert.ok(ticks.includes("−180") && ticks.length >= 6, `ticks of the Bode plot: ${ticks}`);
   assert.deepEqual(page.complaints(), []);
   await shot("desk");
 });
@@ -199,12 +201,13 @@ test("what is pasted becomes a model", async () => {
   assert.match(await page.value('document.getElementById("paste-wrong").textContent'), /no polynomial/);
 });
 
-test("a text that is no model shows the program's words at their place and keeps the last answers", async () => {
+test("a text that is no model shows the program's words at their place and keeps the last answers, in grey", async () => {
   await page.open(fromFile);
   await page.value(`jurist.page.editor.set(${JSON.stringify(drive.replace("K_pwm = {", "K_pmw = {"))})`);
   await page.until('!document.getElementById("stale").hidden');
   assert.match(await page.value('document.querySelector("#remarks pre").textContent'), /error\[E-unknown-name\]: unknown name 'K_pwm'[^]*did you mean 'K_pmw'/);
   assert.ok((await page.value('document.querySelectorAll(".cm-lintRange-error").length')) > 0);
+  assert.match(await page.value('document.getElementById("stale").textContent'), /no model at the moment. What is shown below is about the last text that was a model/);
   assert.equal(await page.value('document.getElementById("verdict-word").textContent'), "stable");
 });
 
@@ -332,7 +335,8 @@ test("the first screens, and dragging, need nothing of the second part of the en
     engine.rest = undefined;
     engine.arriving = new Promise(() => {});
     for (const seat of Object.values(engine.seats)) seat.replace();
-    page.questions.renew();
+    page.questions.about("");
+    page.questions.about(page.text);
     page.ask();
   })()`);
   await page.settled();

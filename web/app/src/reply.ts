@@ -1,0 +1,23 @@
+// What the engine's answers say.
+
+import type { Reply } from "./engine.js";
+
+/** Why there is nothing to show, in the engine's words. */
+export function no(reply: any): string | undefined {
+  if (!reply) return "computing …";
+  if (reply.refused) return reply.refused.diagnostics?.[0]?.message ?? reply.refused.text;
+  if (reply.undefined) return `undefined here: ${reply.undefined}`;
+  if (reply.stopped) return `undecided: ${reply.stopped}`;
+  if (reply.defect) return `a defect of jurist: ${reply.defect}`;
+  if (reply.none) return reply.none;
+  return undefined;
+}
+
+const read = new WeakMap<object, any>();
+
+/** The document that a command has written, read once. */
+export function documentOf(reply: Reply): any {
+  if (typeof reply?.output !== "string" || !reply.output.startsWith("{")) return undefined;
+  if (!read.has(reply)) read.set(reply, JSON.parse(reply.output));
+  return read.get(reply);
+}

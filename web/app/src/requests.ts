@@ -1,0 +1,52 @@
+// What is asked about a model with its values: one question for each lane.
+
+import { sets } from "./copy.js";
+import type { Speed } from "./engine.js";
+import type { Question } from "./questions.js";
+
+/** A text that is a model, and what is chosen about it. */
+export interface Chosen {
+  text: string;
+  /** Names and values as they are set. */
+  values: [string, string][];
+  /** Those of them that differ from nominal. */
+  differing: [string, string][];
+  /** The parameter of the root locus; none is empty. */
+  focus: string;
+  /** Where the loop is cut; empty for what the program chooses. */
+  cut: string;
+  axes: [string, string] | undefined;
+}
+
+function program(lane: string, speed: Speed, model: string, ...args: string[]): Question {
+  const request = { ask: "program", model, arguments: args };
+  return { lane, speed, request };
+}
+
+/** The verdict alone, which is asked for before the model is known. */
+export function verdictOf(text: string, differing: [string, string][]): Question {
+  return program("verdict", "quick", text, "verdict", "-", "--json", ...sets(differing));
+}
+
+/** Everything that the panels show: the verdict and the pictures that move at once, then what takes longer. */
+export function questionsAbout({ text, values, differing, focus, cut, axes }: Chosen): Question[] {
+  const without = (...names: string[]) => values.filter(([name]) => !names.includes(name));
+  const point = { ask: "point", model: text, set: values, response: true };
+  const all: Question[] = [verdictOf(text, differing), { lane: "point", speed: "quick", request: point }];
+  for (const [name] of values) {
+    all.push(program(`intervals ${name}`, "quick", text, "intervals", "-", "--param", name, "--json", ...sets(without(name))));
+  }
+  if (focus) {
+    const locus = program("locus", "slow", text, "locus", "-", "--param", focus, "--json", "--quiet", ...sets(without(focus)));
+    all.push({ ...locus, subject: focus });
+  }
+  const at = cut ? ["--at", cut] : [];
+  for (const [lane, command] of [["margins", "margins"], ["frequency response", "bode"]] as const) {
+    all.push({ ...program(lane, "slow", text, command, "-", "--json", ...at, ...sets(values)), subject: cut });
+  }
+  if (axes) {
+    const map = { ask: "map", model: text, set: without(...axes), x: axes[0], y: axes[1] };
+    all.push({ lane: "map", speed: "long", subject: JSON.stringify(axes), request: map });
+  }
+  return all;
+}
