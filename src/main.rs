@@ -2,7 +2,25 @@
 
 #![deny(unsafe_code)]
 
+use cap::Cap;
+use std::alloc::System;
+use std::sync::Arc;
+
+/// The allocator of the system, which counts what is in use.
+#[global_allocator]
+static ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
+
+/// What the allocator counts, for `--memory`.
+struct Allocated;
+
+impl jurist_algebra::limits::Gauge for Allocated {
+    fn bytes(&self) -> u64 {
+        ALLOCATOR.allocated() as u64
+    }
+}
+
 fn main() -> std::process::ExitCode {
+    jurist_algebra::limits::measure_by(Arc::new(Allocated));
     #[cfg(unix)]
     let closed = standard_output::was_closed();
     #[cfg(not(unix))]

@@ -18,6 +18,7 @@ mod laws {
     mod real_roots;
     mod root_cases;
     mod stability;
+    mod turning;
 }
 
 /// From a model's text to its characteristic polynomial, or to what is wrong with it.
@@ -62,9 +63,11 @@ mod maps {
     mod body_program;
     mod boxes;
     mod cases;
+    mod extents;
     mod held;
     mod laws;
     mod methods;
+    mod oracle;
     mod program;
     mod required;
 }
@@ -121,6 +124,7 @@ mod pictures {
 mod program {
     mod bad_models;
     mod beginning;
+    mod budgets;
     mod documents;
     mod drive;
     #[cfg(unix)]

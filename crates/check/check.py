@@ -10,15 +10,19 @@ the values of expressions are objects of class Linear, which have no other opera
 
 Polynomials are objects of class P, or lists of integers, the constant term first, where numbers are put in.
 """
+import hashlib
 import json
 import re
 import signal
 import sys
 import tomllib
+from bisect import bisect_left
 from fractions import Fraction
+from functools import reduce
 from itertools import accumulate
 from math import comb, gcd, isqrt, lcm, prod
 
+VERSION = "0.3.0"
 MAX_TEXT, MAX_MODEL = 64 << 20, 4 << 20  # characters
 MAX_DIGITS = 100_000
 MAX_BITS = 1 << 22  # of the numbers that the check computes
@@ -27,7 +31,8 @@ MAX_DEPTH = 16  # of JSON
 MAX_NESTING = 200  # of expressions
 MAX_ORDER = 2000
 MAX_DEGREE = 4000
-MAX_WORK = 20 * 10**9  # about as many nanoseconds
+MAX_WORK, WORK_OF_BYTE = 10**9, 10**6  # about as many nanoseconds: for every text, and for each byte of it
+MAX_BYTES = 48 << 20  # of the numbers of one step
 SECONDS = 60  # the last resort
 sys.set_int_max_str_digits(2 * MAX_DIGITS)
 sys.setrecursionlimit(4000)
@@ -35,18 +40,29 @@ sys.setrecursionlimit(4000)
 class Rejected(Exception):
     pass
 
+class Refused(Rejected):
+    """The check would be more work, or take more memory, than texts of their length may ask for."""
+
 def need(condition, reason):
     if not condition:
         raise Rejected(reason)
 
-spent = 0
+def allow(condition, reason):
+    if not condition:
+        raise Refused(reason)
+
+spent, most = 0, MAX_WORK
 
 def spend(count, bits=0, others=0):
     """Counts operations on numbers of so many bits before they are done."""
     global spent
-    need(bits + others <= MAX_BITS, "a number grows too long")
+    allow(bits + others <= MAX_BITS, "a number grows too long")
     spent += count * (500 + bits // 30 + others // 30 + bits * others // 1000)
-    need(spent <= MAX_WORK, "the check is too much work")
+    allow(spent <= most, "the check is more work than texts of this length may ask for")
+
+def hold(count, bits):
+    """Refuses numbers that take too many bytes together, before they are computed."""
+    allow(count * (bits // 8 + 32) <= MAX_BYTES, "the numbers of a step would take too much memory")
 
 # ---------------------------------------------------------------- polynomials in one variable, as lists
 
@@ -130,12 +146,14 @@ class P(dict):
         return P({e: -c for e, c in self.items()})
 
     def __mul__(self, other):
-        spend(5 + len(self) * len(other), size(self.values()), size(other.values()))
+        bits = size(self.values()), size(other.values())
+        hold(min(len(self) * len(other), MAX_TERMS), sum(bits))
+        spend(5 + len(self) * len(other), *bits)
         out = {}
         for e, c in self.items():
             for f, d in other.items():
                 out[e + f] = out.get(e + f, 0) + c * d
-        need(len(out) <= MAX_TERMS and not any(e & HIGHEST for e in out), "an expression grows too large")
+        allow(len(out) <= MAX_TERMS and not any(e & HIGHEST for e in out), "an expression grows too large")
         return P.of(out)
 
     def __pow__(self, k):
@@ -292,7 +310,9 @@ def dot(row, values):
 
 DIGITS = "[0-9](?:_?[0-9])*"
 NUMBER = rf"(?:{DIGITS}(?:\.(?:{DIGITS})?)?|\.{DIGITS})(?:[eE][+-]?{DIGITS})?(?![\w.])"
-TOKEN = re.compile(rf"[^\S\x1c-\x1f]*({NUMBER}|[^\W\d]\w*|[-+*/^()])")
+BLANK = r"[^\S\x1c-\x1f]*"  # what Unicode calls white space
+BLANKS = "".join(c for c in map(chr, range(0x3001)) if c.isspace() and c not in "\x1c\x1d\x1e\x1f")
+TOKEN = re.compile(rf"{BLANK}({NUMBER}|[^\W\d]\w*|[-+*/^()])")
 
 CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f]")
 
@@ -304,6 +324,8 @@ class Number(str):
         return super().__new__(cls, text)
 
 def is_name(text):
+    if any(c in "\u115f\u1160\u3164\uffa0" for c in text):  # letters that are drawn as nothing
+        return False
     return re.fullmatch(r"[^\W\d]\w*", text) and (text[0] == "_" or text[0].isalpha())
 
 def decimal(text):
@@ -314,7 +336,7 @@ def decimal(text):
     return Value({"": number(x.numerator)}, number(x.denominator))
 
 def tokens_of(text):
-    tokens, at, text = [], 0, text.rstrip()
+    tokens, at, text = [], 0, text.rstrip(BLANKS)
     while at < len(text):
         match = TOKEN.match(text, at)
         need(match, f"cannot read {text[:60]!r}")
@@ -473,8 +495,8 @@ class Scope:
     def rows(self, toml):
         """A matrix as it is written, or the constant of this name."""
         if isinstance(toml, str) and not isinstance(toml, Number):
-            need(toml.strip() in self.matrices, "no constant of this name is a matrix")
-            toml = self.matrices[toml.strip()]
+            need(toml.strip(BLANKS) in self.matrices, "no constant of this name is a matrix")
+            toml = self.matrices[toml.strip(BLANKS)]
         return listed(toml)
 
     def matrix(self, toml, rows=None, columns=None):
@@ -514,12 +536,50 @@ def distinct(names, others=()):
     need(len({*names, *others}) == len(names) + len(others), "a name has two meanings, or one that is reserved")
     return names
 
+# What opens and closes in a model, and what lies between; a quotation mark alone begins a string that has no end.
+PIECE = re.compile(
+    r""" (?P<text> "{3}(?:[^\\]|\\.)*?"{3} | "(?:[^"\\\n]|\\.)*") | '{3}.*?'{3} | '[^'\n]*' | (?P<endless> ["'])
+       | (?P<blank> (?:[ \t] | \r?\n | \#[\t\x20-\x7e\x80-\U0010ffff]*)+) | [^"'\#\s\[\]{},]+ | .""", re.VERBOSE | re.DOTALL)
+ESCAPE = re.compile(r"\\(?:x([0-9A-Fa-f]{2})|(e)|.)", re.DOTALL)
+
+def toml_1_0(text):
+    """The same model without what TOML 1.1 adds: lines, comments and a last comma in inline tables, and two escapes."""
+    out, opened, before, comma = [], [], "", ""
+    for match in PIECE.finditer(text):
+        piece, inline = match[0], opened[-1:] == ["{"]
+        if match["endless"]:
+            return text
+        if match["blank"] and inline:
+            out.append(" ")
+            continue
+        if match["text"]:
+            piece = ESCAPE.sub(lambda m: f"\\u00{m[1]}" if m[1] else "\\u001b" if m[2] else m[0], piece)
+        out.append("" if piece == "}" else comma)
+        comma = ""
+        if piece in ("[", "{"):
+            opened.append(piece)
+        elif piece in ("]", "}"):
+            opened[-1:] = []
+        if piece == "," and inline and before not in ("{", ","):
+            comma = piece
+        else:
+            out.append(piece)
+        before = piece
+    return "".join(out)
+
+def parsed(text):
+    """The tables of a model. `tomllib` reads TOML 1.0 before Python 3.15."""
+    try:
+        return tomllib.loads(text, parse_float=Number)
+    except tomllib.TOMLDecodeError:
+        return tomllib.loads(toml_1_0(text), parse_float=Number)
+
 # What tomllib would make decimal without a word; strings and comments are passed over.
 NOT_DECIMAL = re.compile(
     r""" "{3}(?:[^\\]|\\.)*?"{3} | '{3}.*?'{3} | "(?:[^"\\\n]|\\.)*" | '[^'\n]*' | \#[^\n]*
        | (?<![\w.-]) [+-]? (?P<number> 0[xob])""", re.VERBOSE | re.DOTALL)
 
-BOUND = re.compile(r"\s*([+-]?)([0-9._eE/]+(?:[eE][+-]?[0-9]+)?)\s*(%?)\s*")
+BOUND = re.compile(rf"{BLANK}([+-]?)((?:[0-9._/]|[eE][+-]?)+){BLANK}(%?){BLANK}")
 
 def tolerance(toml):
     """Refuses what is no tolerance; it has no influence on what is proved."""
@@ -546,7 +606,7 @@ class Model:
     def __init__(self, text):
         need(len(text) <= MAX_MODEL, "the model is too long")
         keys = "title time sample_time constants parameters loop block simulation"
-        self.root = table(tomllib.loads(text.removeprefix("\ufeff"), parse_float=Number), keys)
+        self.root = table(parsed(text.removeprefix("\ufeff")), keys)
         need(not any(match["number"] for match in NOT_DECIMAL.finditer(text)), "a number is not decimal")
         text_of(self.root.get("title", ""))
         self.discrete = text_of(self.root.get("time")) == "discrete"
@@ -645,7 +705,7 @@ class Loop:
 
     def responses(self, loop, names):
         outputs = several(loop.get("outputs", []))
-        self.outputs = [CONTROL.sub(" ", text_of(output).strip()) for output in outputs]  # a name is one line
+        self.outputs = [CONTROL.sub(" ", text_of(output).strip(BLANKS)) for output in outputs]  # a name is one line
         need(len(set(self.outputs)) == len(outputs), "an output is named twice")
         for output in outputs:
             self.scope.linear(output, {name: Value({name: ONE}) for name in names})
@@ -1165,6 +1225,7 @@ def determinant(m):
         sizes = [[e.degree(v) for e in row] for row in m]
         degrees.append(1 + min(sum(map(max, sizes)), sum(map(max, zip(*sizes)))))
     columns = []
+    allow(degrees[0] * degrees[1] <= 1 << 20, "the model is too large for the check")
     for p in range(degrees[1]):
         columns.append(interpolated([
             eliminated([[sum(c * z ** (k & MASK) * p ** (k >> FIELD) for k, c in e.items()) for e in row] for row in m])
@@ -1183,7 +1244,8 @@ def expanded(rows):
                     term = -term if (columns >> j).bit_count() % 2 else term
                     after[columns | 1 << j] = after.get(columns | 1 << j, ZERO) + term
         minors = {columns: minor for columns, minor in after.items() if minor}
-        need(len(minors) <= 20_000, "a loop with symbols is too large for the check")
+        terms = sum(map(len, minors.values()))
+        allow(len(minors) <= 20_000 and terms <= 400_000, "a loop with symbols is too large for the check")
     return next(iter(minors.values()), ZERO)
 
 def loop_of(text, kept, values, boxed=(), symbols=None):
@@ -1512,9 +1574,9 @@ class Tensor:
                     plane[place * len(powers) + j] = c
             planes.append(plane)
         tensor = Tensor(counts, planes)
-        for i, (low, high) in enumerate(sides):
+        for i, side in enumerate(sides):
             if counts[i] > 1:
-                tensor.multiply(i, to_bernstein(counts[i] - 1, low, high))
+                tensor.change_basis(i, *side)
         return tensor
 
     @staticmethod
@@ -1523,6 +1585,9 @@ class Tensor:
         k = (len(p) - 1) // 2
         p = [c * number((-1) ** (j // 2)) for j, c in enumerate(p + [ZERO])]
         tensor = Tensor.of([p[0:2 * k + 1:2], p[1:2 * k + 2:2]], sides)
+        scale_bits = k * (2 + size(v0.as_integer_ratio()))
+        hold(len(tensor.planes[0]), size(c for plane in tensor.planes for c in plane) + scale_bits)
+        spend(4 * k, scale_bits, k)
         ways = [comb(k, j) for j in range(k + 1)]
         top, bottom, common = v0.numerator, v0.denominator, lcm(*ways)
         for plane, w in zip(tensor.planes, (weight.denominator, weight.numerator)):
@@ -1549,13 +1614,32 @@ class Tensor:
                 out += part[at:at + stride]
         return out
 
-    def multiply(self, axis, matrix):
-        """A matrix times the coefficients along an axis."""
+    def change_basis(self, axis, low, high):
+        """From the powers of p to Bernstein's polynomials of u, p = low + (high - low) u = (a + w u)/q, along an axis, times a positive
+        number."""
+        l, q = self.counts[axis] - 1, lcm(low.denominator, high.denominator)
+        a, w = int(low * q), int((high - low) * q)
+        hold(l + 1, 2 * l)
+        ways = [comb(l, e) for e in range(l + 1)]
+        common = lcm(*ways)
+        grown = (l + 1) * (size([a, w, q]) + 4)
+
+        def changed(lane):
+            if not any(lane):
+                return lane
+            spend(4 * len(lane), bits, size([q, w]))
+            c = shifted([x * q ** (l - f) for f, x in enumerate(lane)], a)
+            c = [x * w ** e * (common // ways[e]) for e, x in enumerate(c)]
+            spend(l * l // 2, bits)
+            for i in range(l):  # b_j = sum of C(j, e) c_e
+                c[i:] = [c[i], *map(int.__add__, c[i:], c[i + 1:])]
+            return c
+
+        bits = max(map(size, self.planes)) + grown
+        hold(len(self.planes) * len(self.planes[0]), bits)
         for n, plane in enumerate(self.planes):
-            spend(len(plane) * len(matrix), size(plane), max(map(size, matrix)))
-            parts = self.slices(plane, axis)
-            products = [[sum(map(int.__mul__, row, lane)) for lane in zip(*parts)] for row in matrix]
-            self.planes[n] = self.joined(products, axis)
+            lanes = [changed(list(lane)) for lane in zip(*self.slices(plane, axis))]
+            self.planes[n] = self.joined(list(map(list, zip(*lanes))), axis)
 
     def halves(self, axis):
         """Over both halves along an axis, times a power of two [de Casteljau]."""
@@ -1594,13 +1678,6 @@ class Tensor:
             total = term if total is None else list(map(int.__add__, total, term))
         return total
 
-def to_bernstein(l, low, high):
-    """The matrix from the powers of p to Bernstein's polynomials of u, p = low + (high - low) u, times a positive number."""
-    q = lcm(low.denominator, high.denominator)
-    a, w, common = int(low * q), int((high - low) * q), lcm(*(comb(l, e) for e in range(l + 1)))
-    return [[q ** (l - f) * sum(common // comb(l, e) * comb(j, e) * comb(f, e) * a ** (f - e) * w ** e
-                                for e in range(min(j, f) + 1)) for f in range(l + 1)] for j in range(l + 1)]
-
 NODE = re.compile(r"x|s([0-9]{1,6}),|l(-?[0-9]+,-?[0-9]+);|a((?:[0-9]{1,6},|x,)*(?:[0-9]{1,6}|x)):([-0-9,]+);|[+-]")
 
 def follow(tree, whole):
@@ -1616,8 +1693,9 @@ def follow(tree, whole):
         if letter in "xs":
             axis = last if letter == "x" else int(node[1])
             need(pair if letter == "x" else axis < last, "a tree halves what is not there")
+            bits = max(map(size, cell.planes)) + cell.counts[axis]
+            hold((len(stack) + 2) * len(cell.planes) * len(cell.planes[0]), bits)
             stack += cell.halves(axis)[::-1]
-            need(len(stack) * len(cell.planes[0]) <= 1 << 21, "a tree is too deep")
         elif letter in "+-":
             need(not pair, "a sign where a vector must be")
             need(all(c > 0 if letter == "+" else c < 0 for c in cell.planes[0]), "a leaf has not its sign")
@@ -1688,9 +1766,11 @@ def at_point(polynomials, point):
 
 def in_half_plane(d):
     """(1 - s)^n D((1 + s)/(1 - s))"""
-    n = len(d) - 1
+    n, bits = len(d) - 1, size(c for p in d for c in p.values())
+    hold((n + 1) * sum(map(len, d)), bits + n)
     p = [ZERO] * (n + 1)
     for i, c in enumerate(d):
+        spend(n * n // 4 + n * len(c), bits + n)
         row = [1]
         for j in range(n):
             row = [x + y if j < i else x - y for x, y in zip([*row, 0], [0, *row])]
@@ -1746,9 +1826,8 @@ def check_tolerance(model, document, statement, values, discrete, extent):
     follow(tree, Tensor.of_pair(p, sides, v0, weight))
     d = at_point(given, nominal)
     need(len(d) == n + 1 and places(d, discrete) == (n, 0, 0), "stable: the nominal point is not")
-    sentence = f"in {statement['time']} time, {statement['region']}, "
-    sentence += ", ".join(f"{low} <= {name} <= {high}" for name, (low, high) in zip(names, sides))
-    sentence += "".join(f", {name} = {x}" for name, x in values.items()) + ": stable everywhere"
+    sentence = "For all " + ", ".join("{} from {} to {}".format(name, *inward(*side)) for name, side in zip(names, sides))
+    sentence += f"{and_with(values)}, the loop is stable{within(discrete, extent)}; these are the tolerances times {exact(factor)}."
     keys = ["factor", "point", "degree", "inside", "on", "outside", "infinite"]
     for own_factor, point, *counts in items(beyond, lambda item: parts(item, keys)):
         own_factor, point = rational(own_factor), items(point, rational)
@@ -1760,7 +1839,11 @@ def check_tolerance(model, document, statement, values, discrete, extent):
         found = [n, *found, 0 if undefined else n - sum(found)]
         need([*map(count, counts)] == found, f"beyond: the counts are {found}")
         need(undefined or found[1] < n, "beyond: the point is stable")
-        sentence += "; not at " + ", ".join(f"{name} = {x}" for name, x in zip(names, point))
+        of = "within the tolerances" if limit is None else f"the range of {limit} alone"
+        sentence += f" At {at_values(dict(zip(names, point)))}, {of} times {exact(own_factor)}, it is not: "
+        inside, on, outside, infinite = found[1:]
+        sentence += (f"{inside} roots are inside, {on} on the boundary, {outside} outside, {infinite} infinite."
+                     if sum(found[1:]) == n else "it is undefined there.")
     return sentence
 
 # ---------------------------------------------------------------- maps of two parameters
@@ -1889,11 +1972,11 @@ def check_map(model, document, statement, values, discrete, extent):
         need(any(own) or given == own, "characteristic: not that of the model")
     common = beside(given, own) if given and any(own) else ONE
     certain, identity, nowhere = boundaries(given, len(own) - 1, discrete, [ZERO] * nothing, boundary, ring)
-    sentence = f"in {statement['time']} time, {statement['region']}, {names[0]} in {domain_of(left, right)}, {names[1]} in {domain_of(low, high)}"
-    sentence += "".join(f", {name} = {x}" for name, x in values.items())
+    sentence = f"For all real {ranged(names[0], left, right)} and {ranged(names[1], low, high)}{and_with(values)}, the loop is stable"
+    sentence += within(discrete, extent)
     if nowhere:
         need(factors == x_factors == strips == joins == regions == [], "the loop is stable nowhere")
-        return sentence + ": stable nowhere"
+        return sentence + " nowhere off its boundary curves."
     factors = [f.primitive() for f in items(factors, ring.read)]
     need(all(map(any, factors)), "factors: one is constant")
     for ways in divisors + [[p] for p in (common, *certain, *([identity["value"]] if identity else []))]:
@@ -1958,10 +2041,25 @@ def check_map(model, document, statement, values, discrete, extent):
         both = region_of[cells[0]] | region_of[cells[1]]
         region_of |= dict.fromkeys(both, both)
     need(all(region_of[cells[0]] == set(cells) for cells in regions), "joins: the cells of a region are not all joined")
-    return f"{sentence}: off its boundary curves and {len(walls)} lines stable exactly in {len(regions)} regions of {len(stable)} cells"
+    if not regions:
+        return sentence + " nowhere off its boundary curves."
 
-def domain_of(low, high):
-    return f"({'-infinity' if low is None else low}, {'infinity' if high is None else high})"
+    def wall(k, outer, infinite):
+        if not 0 <= k < len(walls):
+            return infinite if outer is None else exact(outer)
+        a, b = walls[k]
+        return exact(a) if a == b else "[a number between {} and {}]".format(*outward(a, b))
+
+    def plural(count, word):
+        return f"{count} {word}{'s' * (count != 1)}"
+
+    sentence += f", off its boundary curves and {plural(len(walls), 'line')} of constant {names[0]}, exactly in "
+    parted = []
+    for cells in regions:
+        first, last = min(cells)[0], max(cells)[0]
+        ends = wall(first - 1, left, "-infinity"), wall(last, right, "infinity")
+        parted.append("{} for {} from {} to {}".format(plural(len(cells), "cell"), names[0], *ends))
+    return f"{sentence}{plural(len(regions), 'connected region')}: {'; '.join(parted)}."
 
 # ---------------------------------------------------------------- maps by boxes
 
@@ -1998,7 +2096,11 @@ class Models:
 
     def times(self, f, g):
         (a, r), (b, s) = f, g
-        spend(len(a), self.bits, self.bits)
+        pairs = (len(a) - a.count(0)) * (len(b) - b.count(0))
+        spend(3 + len(a) // 4 + pairs // 2 + pairs * (self.bits ** 2 // 1000) // 500)
+        longest = [max(size(c), bound.bit_length()) for c, bound in (f, g)]  # exponentials grow far beyond one
+        if max(longest) > 4 * self.bits:
+            spend(pairs, *longest)
         full = [0] * len(a)
         for x, places in zip(a, self.places):
             if x:
@@ -2408,6 +2510,78 @@ def moved(p, e):
             p[j] = summed(p[j], p[j + 1])
     return p
 
+PRIME, POINTS = (1 << 31) - 1, (1_000_003, 7_654_321)
+
+def image(p, v, point):
+    """The coefficients of the powers of a variable modulo a prime, the others at values of their own."""
+    spend(10 * len(p), size(p.values()))
+    out = [0] * (p.degree(v) + 1)
+    for e, c in p.items():
+        k, u, e = e >> FIELD * v & MASK, 0, e & ~(MASK << FIELD * v)
+        while e:
+            c, e, u = c * pow(point + u, e & MASK, PRIME) % PRIME, e >> FIELD, u + 1
+        out[k] = (out[k] + c) % PRIME
+    return trimmed(out)
+
+def common_image(a, b):
+    """Euclid's algorithm modulo the prime."""
+    while b:
+        inverse = pow(b[-1], -1, PRIME)
+        spend(3 * len(a) * len(b))
+        while len(a) >= len(b):
+            shift, factor = len(a) - len(b), a[-1] * inverse
+            a = trimmed([*a[:shift], *((x - factor * y) % PRIME for x, y in zip(a[shift:], b))])
+        a, b = b, a
+    return a
+
+def in_common(polynomials, above):
+    """A greatest common divisor in variables from 2 on and below a bound. In most it has none, as images in one variable show."""
+    some = [p.primitive() for p in polynomials if p]
+    top = max((max(*p, 0).bit_length() + FIELD - 1) // FIELD for p in some) if some else 0
+    suspects = 0
+    for v in range(2, min(top, above)):
+        if all(p.degree(v) for p in some) and any(len(reduce(common_image, (image(p, v, x) for p in some))) > 1 for x in POINTS):
+            suspects |= MASK << FIELD * v
+    if not suspects:
+        return ONE
+    parts = []
+    for p in some:  # the coefficients of all monomials in the other variables
+        of_rest = {}
+        for e, c in p.items():
+            of_rest.setdefault(e & ~suspects, P())[e & suspects] = c
+        parts += of_rest.values()
+    found = ZERO
+    for part in sorted(parts, key=len):
+        found = found.common(part)
+        if not any(found):
+            return ONE
+    return found
+
+def separated(lists):
+    """Divides out of each list the factors that other lists hold: the signs of factors are easier to prove than that of their product. In no
+    list may all polynomials vanish together."""
+    def divided_by(list_, f):
+        while any(list_) and not any(p and not any(p) for p in list_):
+            quotients = [p / f if p else p for p in list_]
+            if None in quotients:
+                break
+            list_ = quotients
+        return list_
+
+    def degree(p):
+        return max(sum(e >> FIELD * v & MASK for v in range(e.bit_length() // FIELD + 1)) for e in p)
+
+    known = []
+    for p in sorted((ways[0].primitive() for ways in lists if len(ways) == 1 and ways[0]), key=degree):
+        for v in range(2, max(p).bit_length() // FIELD + 1):
+            variable = P({1 << FIELD * v: 1})
+            if variable not in known and all(e >> FIELD * v & MASK for e in p):
+                known.append(variable)
+        [rest] = reduce(divided_by, known, [p])
+        known += [rest] if any(rest) else []
+    several = [reduce(divided_by, known, cleared(ways)) for ways in lists if len(ways) != 1 or not ways[0]]
+    return [ways for ways in several if not any(p and not any(p) for p in ways)] + [[p] for p in known]
+
 class Judge:
     """Whether boxes are stable everywhere, or nowhere. What is known of one are the functions over it, and whether they are its own or
     those of a larger one, halved."""
@@ -2671,7 +2845,7 @@ class Walk:
 
     def local(self, middle, half):
         self.looked_at += 1
-        spend(18 + 5 * sum(len(part.rest) for part in self.parts), self.bits, self.bits)
+        spend(36 + 10 * sum(len(part.rest) for part in self.parts), self.bits, self.bits)
         return local(self.parts, middle, half, self.turns, self.bits)
 
     def over(self, cell):
@@ -2742,10 +2916,10 @@ class JudgeOfDelays:
         need(abs(w) <= 1000, "the frequencies are too low or too high")
         functions = cleared([p * number(1 << (w * j if w >= 0 else -w * (n - j))) for part in parts for j, p in enumerate(part)])
         self.divisors = []
-        for ways in divisors:
+        self.nowhere = not all(map(any, divisors))
+        for ways in separated(divisors):
             self.divisors.append(range(len(functions), len(functions) + len(ways)))
             functions += ways
-        self.nowhere = not all(map(any, divisors))
         self.functions = OverBoxes(functions, Moving(), models)
 
     @staticmethod
@@ -2833,7 +3007,7 @@ def check_boxes(model, document, statement, values, discrete, extent):
     _, _, order, bits = parts(document, ["schema", "statement", "order", "bits"], ["model"])
     *_, x, y, window, tree = parts(statement, ["kind", "time", "set", "region", "x", "y", "window", "tree"])
     need(extent != "parameter", "the region has no parameter here")
-    need(1 <= count(order) <= 16 and 64 <= count(bits) <= 4096, "order or bits: out of range")
+    need(1 <= count(order) <= 8 and 64 <= count(bits) <= 1024, "order or bits: out of range")
     names, sides = [name_of(x), name_of(y)], [items(ends, rational) for ends in parts(window, ["x", "y"])]
     need(all(len(ends) == 2 for ends in sides) and isinstance(tree, str), "a side has not two ends, or there is no tree")
     is_line = sides[1][0] == sides[1][1]  # one parameter alone is asked about
@@ -2841,7 +3015,11 @@ def check_boxes(model, document, statement, values, discrete, extent):
     sources, models = Moving(), Models(order, bits)
     is_discrete, own, divisors = over_box(model, names, values, sources)
     need(is_discrete == discrete, "the model's time is another")
-    if any(name == "delay" for name, *_ in sources.sources):
+    has_delay = any(name == "delay" for name, *_ in sources.sources)
+    common = in_common(own, 4 if has_delay else 1 << FIELD)
+    if any(common):  # where it vanishes, all coefficients do; the last divisor has a meaning of its own
+        own, divisors = [c / common if c else c for c in own], [[common], *divisors]
+    if has_delay:
         need(not discrete and extent == 0, "a loop with dead time is not continuous, or its boundary is not the imaginary axis")
         judge = JudgeOfDelays(own, divisors, sources, sides, models)
         nowhere = judge.nowhere
@@ -2850,11 +3028,13 @@ def check_boxes(model, document, statement, values, discrete, extent):
         own = cleared(in_half_plane(own)) if discrete else own
         nowhere, n = not all(map(any, divisors)) or not all(own), len(own) - 1
         functions, places = list(own), []
-        for ways in divisors:
+        for ways in separated(divisors):
             places.append(range(len(functions), len(functions) + len(ways)))
             functions += ways
         judge = Judge(OverBoxes(functions, sources, models), n, places, models)
-    where = ", ".join(f"{name} from {low} to {high}" if low < high else f"{name} = {low}" for name, (low, high) in zip(names, sides))
+    where = " and ".join("{} from {} to {}".format(name, *inward(*side)) for name, side in zip(names, sides[:1] if is_line else sides))
+    where = f"For {where}{and_with(({names[1]: sides[1][0]} if is_line else {}) | values)}, "
+    inside = within(discrete, extent)
     stack, shares, pieces = [(sides, None, False, 0)], {"+": Fraction(0), "-": Fraction(0), "?": Fraction(0)}, []
     for letter in tree:
         need(stack, "tree: something follows it")
@@ -2874,14 +3054,20 @@ def check_boxes(model, document, statement, values, discrete, extent):
         else:
             pieces.append([letter, *sides[0]])
     need(not stack, "tree: it ends too early")
-    where += "".join(f", {name} = {x}" for name, x in values.items())
     if is_line:
-        stable, unstable = (" and ".join(f"{low} <= {names[0]} <= {high}" for kind, low, high in pieces if kind == letter) or "nothing that is looked at"
-                            for letter in "+-")
-        return f"in {statement['time']} time, {statement['region']}, {where}: stable for {stable}, not for any value in {unstable}"
-    stable, unstable = (f"{int(1000 * shares[letter]) / 10} %" for letter in "+-")
-    return (f"in {statement['time']} time, {statement['region']}, {where}: stable in the boxes + of the tree and nowhere in its boxes -, "
-            f"at least {stable} and {unstable} of the window")
+        def ranges(letter):
+            own = (inward(low, high) for kind, low, high in pieces if kind == letter)
+            return " and ".join(f"{low} <= {names[0]} <= {high}" for low, high in own)
+
+        stable, unstable = ranges("+"), ranges("-")
+        said = (f"the loop is stable{inside} for {stable}, and not stable for any value in {unstable}." if stable and unstable else
+                f"the loop is stable{inside} for {stable}." if stable else
+                f"the loop is not stable{inside} for any value in {unstable}." if unstable else "nothing is said of the loop.")
+        return f"{where}{said} Nothing is said of the rest."
+    tenths = [int(1000 * shares[letter]) for letter in "+-"]
+    stable, unstable = (f"{k // 10}.{k % 10} %" for k in tenths)
+    return (f"{where}the loop is stable{inside} in all boxes '+' of the tree, and nowhere in its boxes '-': at least {stable} and {unstable} of "
+            "the window. Nothing is said of the rest.")
 
 # ---------------------------------------------------------------- dead time
 
@@ -3015,6 +3201,18 @@ def check_windows(model, document, statement, values, extent):
         events.sort()
         need(all(a[1] < b[0] for a, b in zip(events, events[1:])), "crossings: the order of two switches is not certain")
     scale = base * (1 << bits)
+    behind = [[hi for _, hi, _, crossing, _ in events if crossing == i] for i in range(len(found))]
+
+    def is_alone(j, k, between):
+        """Whether no other switch is in the interval: of each crossing the first that is not before it is looked at."""
+        for i, c in enumerate(found):
+            turns = int(c.is_one) + bisect_left(behind[i], between[0] * scale)
+            if i == j and turns != k:
+                return False
+            if c.dead_time(turns + (i == j), bits)[0] <= between[1] * scale:
+                return False
+        return True
+
     before, stable = low, []
     for e0, e1, direction, j, k in events:
         at = Fraction(e0) / scale, Fraction(e1) / scale
@@ -3037,14 +3235,13 @@ def check_windows(model, document, statement, values, extent):
             return (None if end is None else rational(end)) == own
         crossing, turns, between = parts(end, ["crossing", "turns", "between"])
         between = pair(between)
-        return [count(crossing), count(turns)] == [*own[:2]] and between[0] <= own[2][0] and own[2][1] <= between[1]
+        is_own = [count(crossing), count(turns)] == [*own[:2]] and between[0] <= own[2][0] and own[2][1] <= between[1]
+        return is_own and is_alone(*own[:2], between)
 
     for interval, ends in zip(claimed, stable):
         need(all(map(fits, parts(interval, ["lower", "upper"]), ends)), "stable: an end is another")
-    where = [f"{in_words(lower)} to {in_words(upper)}" for lower, upper in
-             ([e if not isinstance(e, tuple) else e[2] for e in ends] for ends in stable)]
-    given = "".join(f", {name} = {x}" for name, x in values.items())
-    return f"in continuous time{given}: stable exactly for {parameter} from {' or '.join(where) or 'nowhere'} in ({low}, {high})"
+    stable = [[e[2] if isinstance(e, tuple) else e for e in ends] for ends in stable]
+    return of_intervals(parameter, values, False, extent, low, high, stable)
 
 # ---------------------------------------------------------------- a gain beside dead time
 
@@ -3208,11 +3405,112 @@ def check_cells(model, document, statement, values, extent):
         family.clear(exponent, a, b)
         found = family.right(exponent, (a + b) / 2)
         need(found == right, f"cells: {found} roots are to the right from {a} to {b}")
-    given = "".join(f", {name} = {x}" for name, x in values.items())
     if parameter is None:
-        return f"in continuous time{given}: {cells[0][2]} roots to the right of the imaginary axis, none on it"
-    of = [[f"[{a}, {b}]" for a, b, right in cells if right in wanted] for wanted in ({0}, {c[2] for c in cells})]
-    return f"in continuous time{given}: of {parameter} in {' or '.join(of[1])} stable exactly in {' or '.join(of[0]) or 'none'}"
+        at = f"At {at_values(values)}, the" if values else "The"
+        return f"{at} loop is {verdict}: {cells[0][2]} roots to the right of the imaginary axis, none on it."
+    of = [" or ".join(f"[{', '.join(inward(a, b))}]" for a, b, right in cells if right in wanted) for wanted in ({0}, {c[2] for c in cells})]
+    return (f"For {parameter} in {of[1]}{and_with(values)}, the loop is stable exactly {f'in {of[0]}' if of[0] else 'for none of them'}. "
+            "Nothing is said of other values.")
+
+# ---------------------------------------------------------------- words
+
+DIGITS, SHORT, WHOLE, PLAIN = 12, 12, 15, range(-5, 12)  # of a decimal, a fraction, an integer; powers of ten without exponent
+
+def is_short(q):
+    return len(str(q)) <= SHORT or q.denominator == 1 and len(str(q)) <= WHOLE
+
+def exponent(q):
+    """Of the leading digit the power of ten; None of zero."""
+    if not q:
+        return None
+    about = len(str(abs(q.numerator))) - len(str(q.denominator))
+    return about - 1 if over_power(abs(q), about) < 1 else about
+
+def over_power(q, power):
+    return q / 10 ** power if power >= 0 else q * 10 ** -power
+
+def layout(digits, power, dots=""):
+    """A whole number times a power of ten, with something behind its digits."""
+    sign, every = "-" if digits < 0 else "", str(abs(digits))
+    if not digits:
+        return "0"
+    leading, every = len(every) + power - 1, every if dots else every.rstrip("0")
+    if leading not in PLAIN:
+        return f"{sign}{every[0]}{'.' * (len(every) > 1)}{every[1:]}{dots}e{leading}"
+    if leading < 0:
+        return f"{sign}0.{'0' * (-leading - 1)}{every}{dots}"
+    whole = every[:leading + 1].ljust(leading + 1, "0")
+    return f"{sign}{whole}" + (f".{every[leading + 1:]}{dots}" if len(every) > leading + 1 or dots else "")
+
+def exact(q):
+    """A number: its fraction if that is short; its decimal; or the first digits of that and three dots."""
+    if is_short(q):
+        return str(q)
+    power = exponent(q) - DIGITS + 1
+    digits = over_power(abs(q), power)
+    text = layout(int(digits), power, "" if digits.denominator == 1 else "...")
+    return "-" + text if q < 0 else text
+
+def rounded(q, leading, up):
+    if is_short(q):
+        return str(q)
+    digits = over_power(q, leading - DIGITS + 1)
+    return layout(-int(-digits // 1) if up else int(digits // 1), leading - DIGITS + 1)
+
+def inward(low, high):
+    """The ends of an interval, which is not made wider."""
+    return rounded(low, exponent(low), True), rounded(high, exponent(high), False)
+
+def outward(low, high):
+    """The ends of an enclosure, which is not made narrower: both with as many decimals."""
+    leading = max(e for e in map(exponent, (low, high)) if e is not None)
+    return rounded(low, leading, False), rounded(high, leading, True)
+
+def within(discrete, extent):
+    """The region, if it is not the usual one."""
+    if extent == "parameter":
+        return " with all |z| < radius" if discrete else " with all Re s < -decay"
+    if extent == (1 if discrete else 0):
+        return ""
+    return f" with all |z| < {exact(extent)}" if discrete else f" with all Re s < {exact(-extent)}"
+
+def at_values(values):
+    return ", ".join(f"{name} = {exact(x)}" for name, x in values.items())
+
+def and_with(values):
+    return f", with {at_values(values)}" if values else ""
+
+def ranged(name, low, high):
+    return (f"{name} in ({exact(low)}, {exact(high)})" if low is not None is not high else
+            f"{name} > {exact(low)}" if low is not None else f"{name} < {exact(high)}" if high is not None else name)
+
+def root_counts(inside, on, outside, infinite):
+    return f"{inside} roots inside, {on} on the boundary, {outside} outside, {infinite} infinite."
+
+def end_in_words(e, parameter):
+    """An end of an interval; None where it is infinite."""
+    if e is None or isinstance(e, Fraction):
+        return None if e is None else exact(e)
+    if isinstance(e[0], Fraction):
+        return "[a dead time between {} and {} with roots on the axis]".format(*outward(*e))
+    if any(k >> 2 * FIELD for k in e[0]):
+        of = "the polynomial over symbols in 'stable'"
+    else:
+        powers = ["", f"*{parameter}"]
+        of = " + ".join(f"{c}{powers[k] if k < 2 else f'*{parameter}^{k}'}" for k, c in enumerate(e[0].listed(1)) if c)
+        of = of.replace("+ -", "- ")
+        if len(of) > 200:
+            of = f"the polynomial of degree {e[0].degree(1)} in 'stable'"
+    return "[a root of {} between {} and {}]".format(of, *outward(*e[1]))
+
+def of_intervals(parameter, values, discrete, extent, low, high, stable):
+    sentence = f"For all real {ranged(parameter, low, high)}{and_with(values)}, the loop is stable{within(discrete, extent)}"
+    pieces = []
+    for interval in stable:
+        lower, upper = (end_in_words(e, parameter) for e in interval)
+        pieces.append("all of them" if lower is upper is None else f"{parameter} > {lower}" if upper is None else
+                      f"{parameter} < {upper}" if lower is None else f"{lower} < {parameter} < {upper}")
+    return f"{sentence} exactly for {' or '.join(pieces)}." if pieces else f"{sentence} nowhere."
 
 # ---------------------------------------------------------------- the parts of a certificate
 
@@ -3280,6 +3578,8 @@ def read(certificate):
     need(len(certificate) <= MAX_TEXT, "the text is too long")
     hooks = {"parse_int": small, "parse_float": small, "parse_constant": small, "object_pairs_hook": strict}
     document = json.loads(certificate, **hooks)
+    if "\\u" in certificate:
+        json.dumps(document, ensure_ascii=False).encode()  # fails where half of a surrogate pair stands alone
     need(depth(document) <= MAX_DEPTH, "nested too deep")
     need(isinstance(document, dict) and document.get("schema") in SCHEMAS, "unknown schema")
     return document
@@ -3354,20 +3654,7 @@ def check(model, certificate):
             need(ring.is_unit(p), "factors: a boundary polynomial is not a product of them")
         found = walk(d, n, discrete, certain, identity, factors, line, low, high, ring)
         need(found == claimed, "stable: the claimed set is not the one that the line shows")
-    given = ", ".join([f"{low} < {parameter} < {high}".replace("None < ", "").replace(" < None", ""),
-                       *(f"{name} = {x}" for name, x in values.items())])
-    where = [f"{in_words(lower, '-infinity')} to {in_words(upper, 'infinity')}" for lower, upper in claimed]
-    return f"in {time} time, {given}, {region}: stable exactly for {parameter} from {' or '.join(where) or 'nowhere'}"
-
-def in_words(e, infinite="infinity"):
-    if e is None:
-        return infinite
-    if isinstance(e, tuple) and isinstance(e[0], Fraction):
-        return f"[a switch in ({float(e[0])}, {float(e[1])})]"
-    if isinstance(e, Fraction):
-        return str(e)
-    of = "a polynomial over symbols" if any(k >> 2 * FIELD for k in e[0]) else e[0].listed(1)
-    return f"[the root of {of} in ({e[1][0]}, {e[1][1]})]"
+    return of_intervals(parameter, values, discrete, extent, low, high, claimed)
 
 def the_given(characteristic, own, ring, symbols):
     """The characteristic polynomial of the certificate, which is the model's own."""
@@ -3446,6 +3733,8 @@ def walk(d, n, discrete, certain, identity, factors, line, low, high, ring):
         if identity is None or touch is None or not vanishes(identity["value"]):
             return False
         w = dict(enumerate(identity[touch[0]])).get(touch[1])  # not zero there: Theorem 2
+        if f and w and not w.degree(1):
+            return ring.is_nonzero(w)
         return bool(w) and (ring.descartes(w, p["left"], p["right"]) == 0 if f else not ring.vanishes(w, x))
 
     need(isinstance(line, list) and len(line) % 2 == 1, "line: must begin and end with a stretch")
@@ -3478,9 +3767,10 @@ def check_verdict(model, document, statement, values, discrete, extent):
     found = "unstable" if outside + infinite or not p else "marginal" if on else "stable"
     found = [found if all(poles) else "undefined", n, inside, on, outside, infinite]
     need([name, *map(count, counts)] == found, f"stable: it is {dict(zip(names, found))}")
-    at = ", ".join(f"{name} = {x}" for name, x in values.items())
-    roots = ", ".join(f"{name} {x}" for name, x in zip(names, found))
-    return f"in {statement['time']} time, {at or 'without parameters'}, {statement['region']}: {roots}"
+    at = f"At {at_values(values)}, the" if values else "The"
+    if name == "undefined":
+        return f"{at} loop is undefined."
+    return f"{at} loop is {name}{within(discrete, extent)}: {root_counts(*found[2:])}"
 
 
 # Whatever is wrong in a certificate or a model ends in one of these; the check itself has no other way out.
@@ -3488,15 +3778,52 @@ FAILURES = (ArithmeticError, AttributeError, LookupError, MemoryError, Recursion
 
 def judge(model, certificate):
     """Whether the certificate is accepted, and the statement or the reason."""
-    global spent
-    spent = 0
+    global spent, most
+    spent, most = 0, MAX_WORK + WORK_OF_BYTE * len((model + certificate).encode(errors="replace"))
     try:
         return True, check(model, certificate)
     except FAILURES as error:
-        return False, f"{type(error).__name__}: {error}"
+        return False, reason_of(error)
+
+def reason_of(error):
+    """For people; which exception it was says more than its own words where these are not the check's."""
+    if isinstance(error, Refused):
+        return f"refused: {error}"
+    if isinstance(error, Rejected):
+        return str(error)
+    if isinstance(error, MemoryError):
+        return "refused: the check takes too much memory"
+    if isinstance(error, RecursionError):
+        return "nested too deep"
+    return f"a part of the certificate or of the model has not its form ({type(error).__name__}: {str(error)[:80]})"
 
 def give_up(*_):
-    raise Rejected(f"the check takes longer than {SECONDS} s")
+    raise Refused(f"the check takes longer than {SECONDS} s")
+
+def one_line(text):
+    text = CONTROL.sub(" ", text)
+    return text[:40] + "..." if len(text) > 100 else text.strip(BLANKS)
+
+def fnv1a64(text):
+    digest = 0xcbf29ce484222325
+    for byte in text.encode():
+        digest = (digest ^ byte) * 0x100000001b3 % (1 << 64)
+    return f"{digest:016x}"
+
+def report(sentence, model, certificate, names):
+    """The statement, the names and SHA-256 of both texts, the version of the checker, and a remark if the certificate names another text."""
+    title = one_line(Model(model).root.get("title", ""))
+    title = f", '{title}'" if title else ""
+    of_model, of_certificate = (hashlib.sha256(text.encode()).hexdigest() for text in (model, certificate))
+    lines = [f"proved: {sentence}", f"model: {one_line(names[0])}{title}, SHA-256 {of_model}",
+             f"certificate: {one_line(names[1])}, SHA-256 {of_certificate}", f"checked by: check.py {VERSION}"]
+    about = json.loads(certificate).get("model")
+    digest = about.get("digest") if isinstance(about, dict) else None
+    kind, _, digest = digest.partition(":") if isinstance(digest, str) else ("", "", "")
+    own = {"sha256": lambda: of_model, "fnv1a64": lambda: fnv1a64(model)}.get(kind)
+    if own and own() != digest:
+        lines.append("note: the certificate was written for another text of a model; what it proves of this one stands above")
+    return "\n".join(lines)
 
 def main():
     if len(sys.argv) != 3:
@@ -3510,7 +3837,10 @@ def main():
         accepted, sentence = False, str(error)
     else:
         accepted, sentence = judge(*texts)
-    print("proved:" if accepted else "rejected:", sentence, file=sys.stdout if accepted else sys.stderr)
+    if accepted:
+        print(report(sentence, *texts, sys.argv[1:]))
+    else:
+        print(sentence if sentence.startswith("refused: ") else f"rejected: {sentence}", file=sys.stderr)
     sys.exit(0 if accepted else 4)
 
 

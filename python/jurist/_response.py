@@ -46,7 +46,7 @@ class FrequencyResponse(Document):
 
     @property
     def phase_degrees(self) -> Any:
-        """Its phase, continued from point to point."""
+        """Its phase, continued from the lowest frequency on."""
         return self._array("phase_degrees")
 
     def _array(self, name: str) -> Any:

@@ -6,7 +6,7 @@ import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 from ._combine import membership, pieces, simplest
 from ._ends import End, Interval, end_at
@@ -140,7 +140,11 @@ class StableSet(Sequence[Interval]):
     def __len__(self) -> int:
         return len(self._document["stable"])
 
-    def __getitem__(self, i: Any) -> Any:
+    @overload
+    def __getitem__(self, i: int) -> Interval: ...
+    @overload
+    def __getitem__(self, i: slice) -> tuple[Interval, ...]: ...
+    def __getitem__(self, i: int | slice) -> Interval | tuple[Interval, ...]:
         return self.intervals[i]
 
     def __iter__(self) -> Iterator[Interval]:

@@ -95,6 +95,11 @@ def test_membership_is_exact_and_takes_numbers_as_the_model_file_does(drive):
         two[0] in two  # noqa: B015
 
 
+def test_an_item_has_the_type_of_an_interval():
+    said = jurist.StableSet.__getitem__.__annotations__
+    assert said == {"i": "int | slice", "return": "Interval | tuple[Interval, ...]"}
+
+
 def test_sequence_sample_nearest_and_rows(drive):
     s = stable("(K^2 - 2)*(K^2 - 3)")
     assert len(s) == 3

@@ -81,7 +81,11 @@ pub(super) enum Command {
     /// The page for the browser, with everything it computes with, as a folder of files
     Page(commands::page::Options),
     /// Re-checks a certificate against a model, with code that shares nothing with the engine
-    #[command(mut_arg("timeout", |timeout| timeout.help("Rejects the certificate after this time, with exit status 4")))]
+    #[command(
+        mut_arg("timeout", |timeout| timeout.help("Rejects the certificate after this time, with exit status 4")),
+        mut_arg("memory", |memory| memory.help("Rejects the certificate rather than use more megabytes, with exit status 4 [default: 800]")),
+        mut_arg("work", |work| work.hide(true))
+    )]
     Verify(commands::verify::Options),
     /// Only reads a model: every mistake with its place
     Check(commands::check::Options),
@@ -177,6 +181,12 @@ pub(super) struct RunOptions {
     /// Gives up after this time, with exit status 3
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = seconds)]
     pub timeout: Option<Duration>,
+    /// Gives up after so much counted work, with exit status 3
+    #[arg(long, value_name = "UNITS")]
+    pub work: Option<u64>,
+    /// Gives up rather than use more megabytes of memory, with exit status 3 [default: 800]
+    #[arg(long, value_name = "MB", allow_negative_numbers = true, value_parser = megabytes)]
+    pub memory: Option<u64>,
     /// Works on so many threads; the answer is the same for any number [default: those of the machine]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -186,6 +196,25 @@ pub(super) struct RunOptions {
     /// Tells on standard error what is being done
     #[arg(short, long)]
     pub verbose: bool,
+}
+
+/// Bytes that may be in use where `--memory` is not given: a process that counts so many needs less than a gigabyte.
+const DEFAULT_MEMORY: u64 = 800 * MEGABYTE;
+
+const MEGABYTE: u64 = 1_000_000;
+
+impl RunOptions {
+    /// The bytes that may be in use.
+    pub fn memory(&self) -> u64 {
+        self.memory.unwrap_or(DEFAULT_MEMORY)
+    }
+}
+
+/// A number of megabytes, in bytes.
+fn megabytes(text: &str) -> Result<u64, String> {
+    let megabytes: u64 = text.parse().map_err(|_| "a whole number of megabytes is expected, such as 800".to_owned())?;
+    // More than can be counted is as good as no limit.
+    Ok(megabytes.saturating_mul(MEGABYTE))
 }
 
 /// A duration that is not negative, in decimal notation.
@@ -206,6 +235,14 @@ mod tests {
     #[test]
     fn the_definitions_are_consistent() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn memory() {
+        assert_eq!(megabytes("0"), Ok(0));
+        assert_eq!(megabytes("800"), Ok(DEFAULT_MEMORY));
+        assert_eq!(megabytes("18446744073709551615"), Ok(u64::MAX));
+        assert!(megabytes("-1").is_err() && megabytes("1.5").is_err() && megabytes("").is_err());
     }
 
     #[test]

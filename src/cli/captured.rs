@@ -1,9 +1,9 @@
 //! Commands run for another program: what they would write is handed over.
 
+use super::answered;
 use super::arguments::Arguments;
 use super::command_line::CommandLine;
-use super::commands::{self, Context};
-use super::destinations;
+use super::commands::Context;
 use super::plain::plain;
 use clap::Parser;
 use jurist_algebra::limits::Budget;
@@ -82,7 +82,7 @@ pub fn captured<S: Into<OsString>>(
     let sink = Sink { model: model.clone(), budget: budget.clone(), captured: Captured::default(), bytes: Vec::new() };
     let before = Installed(SINK.replace(Some(sink)));
     let context = Context::new(&line, &parsed);
-    let outcome = destinations::check(&parsed, &context).and_then(|()| commands::run(&parsed, &context));
+    let outcome = answered(&parsed, &context);
     let Some(sink) = SINK.take() else { unreachable!("it was installed above") };
     drop(before);
     let output = String::from_utf8_lossy(&sink.bytes).into_owned();

@@ -28,6 +28,7 @@ pub(super) fn load(model: Option<&OsString>, context: &Context) -> Result<Model,
         return Ok(model);
     }
     let (name, bytes) = read_model(model, context)?;
+    context.budget.step("reading the model");
     let (model, warnings) = Model::from_bytes(&name, &bytes)?;
     context.warn(Some(model.source()), &warnings);
     Ok(model)

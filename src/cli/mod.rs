@@ -23,6 +23,8 @@ mod requirements;
 mod status;
 #[cfg(feature = "cli")]
 mod sweep;
+#[cfg(all(feature = "cli", not(target_family = "wasm")))]
+mod watch;
 mod written;
 
 pub use captured::{Captured, captured};
@@ -33,27 +35,45 @@ use command_line::CommandLine;
 use commands::Context;
 use jurist_engine::error::Diagnostic;
 use jurist_engine::show::diagnostics::render_error;
-use status::{Error, Status};
+use status::{Error, Outcome, Status};
 use std::ffi::OsString;
 use std::process::ExitCode;
+
+/// The command line as data: commands and options with their help, of which manual pages are made.
+pub fn command() -> clap::Command {
+    <Arguments as clap::CommandFactory>::command()
+}
 
 /// Runs the program on the process's arguments, given whether standard output was closed when it began: the
 /// runtime has replaced it by then with one that loses everything.
 pub fn main(output_closed: bool) -> ExitCode {
-    ExitCode::from(program(std::env::args_os(), output_closed))
+    ExitCode::from(program_with(std::env::args_os(), output_closed, Host::Process))
 }
 
 /// Runs the program on a list of arguments, its name first; gives the exit status.
 pub fn program(arguments: impl IntoIterator<Item = OsString>, output_closed: bool) -> u8 {
+    program_with(arguments, output_closed, Host::Another)
+}
+
+/// Whose process it is that a command runs in.
+#[derive(Clone, Copy, PartialEq)]
+enum Host {
+    /// The program's own, which may be ended.
+    Process,
+    /// One that goes on.
+    Another,
+}
+
+fn program_with(arguments: impl IntoIterator<Item = OsString>, output_closed: bool, host: Host) -> u8 {
     quiet_panics();
     output::note_closed(output_closed);
     let line = CommandLine::new(arguments);
     // A panic is a defect of this program; even then there is a message and no backtrace.
-    let status = std::panic::catch_unwind(|| run(&line));
+    let status = std::panic::catch_unwind(|| run(&line, host));
     status.unwrap_or(101)
 }
 
-fn run(line: &CommandLine) -> u8 {
+fn run(line: &CommandLine, #[cfg_attr(not(feature = "cli"), allow(unused_variables))] host: Host) -> u8 {
     let arguments = match Arguments::try_parse_from(line.arguments()) {
         Ok(arguments) => arguments,
         Err(answer) if !answer.use_stderr() => {
@@ -70,8 +90,13 @@ fn run(line: &CommandLine) -> u8 {
         }
     };
     let context = Context::new(line, &arguments);
-    let outcome = destinations::check(&arguments, &context).and_then(|()| commands::run(&arguments, &context));
+    #[cfg(all(feature = "cli", not(target_family = "wasm")))]
+    if host == Host::Process {
+        watch::begin(&context, arguments.run_options(), arguments.without_answer());
+    }
+    let outcome = answered(&arguments, &context);
     context.reporter.finish();
+    context.reporter.tell_work(&context.budget);
     match outcome {
         Ok(status) => status as u8,
         Err(Error::Refused(error)) => {
@@ -96,6 +121,12 @@ fn run(line: &CommandLine) -> u8 {
             Status::BadInput as u8
         }
     }
+}
+
+/// What the command gives; where the budget runs out outside of all steps that answer that themselves, nothing is known.
+fn answered(arguments: &Arguments, context: &Context) -> Outcome {
+    let work = || destinations::check(arguments, context).and_then(|()| commands::run(arguments, context));
+    context.budget.surround(work).unwrap_or_else(|stopped| Err(stopped.into()))
 }
 
 /// Draws an error or warnings on standard error, in colour if it is a terminal that wants it.

@@ -8,6 +8,7 @@ use std::ffi::{OsStr, OsString};
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Writes an answer to the file, or to standard output if there is none.
 ///
@@ -23,8 +24,47 @@ pub(super) fn write_answer(answer: &str, file: Option<&OsString>) -> Result<(), 
     }
 }
 
+/// Writes the answer itself, not a proof beside it: there is one from now on, whatever is done afterwards.
+pub(super) fn finish_answer(answer: &str, file: Option<&OsString>) -> Result<(), Error> {
+    write_answer(answer, file)?;
+    note_answered();
+    Ok(())
+}
+
+/// Writes to standard output how an answer begins that is still being worked on; whether that was possible.
+pub(super) fn write_beginning(text: &str) -> bool {
+    let _held = writing();
+    let before = ANSWERED.load(Ordering::Relaxed);
+    let written = write_to_standard(text.as_bytes()).is_ok();
+    ANSWERED.store(before, Ordering::Relaxed);
+    written
+}
+
+/// Notes that the answer has been written.
+pub(super) fn note_answered() {
+    ANSWERED.store(true, Ordering::Relaxed);
+}
+
+/// Held while something is being written.
+static WRITING: Mutex<()> = Mutex::new(());
+
+/// Whether there is an answer.
+static ANSWERED: AtomicBool = AtomicBool::new(false);
+
+fn writing() -> MutexGuard<'static, ()> {
+    WRITING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Keeps all others from writing; `None` where an answer has been written.
+#[cfg(all(feature = "cli", not(target_family = "wasm")))]
+pub(super) fn instead_of_an_answer() -> Option<impl Sized> {
+    let held = writing();
+    (!ANSWERED.load(Ordering::Relaxed)).then_some(held)
+}
+
 /// Makes the bytes the content of a file, as a whole or not at all.
 pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let _held = writing();
     let written = Destination::of(path).and_then(|destination| replace(&destination, bytes));
     written.map_err(|e| write_error(&path.to_string_lossy(), &e))
 }
@@ -42,8 +82,17 @@ pub(super) fn write_standard(bytes: &[u8]) -> std::io::Result<()> {
     if captured::write(bytes) {
         return Ok(());
     }
+    let _held = writing();
+    write_to_standard(bytes)
+}
+
+/// Writes to standard output, where nobody else does.
+pub(super) fn write_to_standard(bytes: &[u8]) -> std::io::Result<()> {
     if CLOSED.load(Ordering::Relaxed) {
         return Err(std::io::Error::other("it is closed"));
+    }
+    if !bytes.is_empty() {
+        ANSWERED.store(true, Ordering::Relaxed);
     }
     let mut stdout = std::io::stdout().lock();
     // The library's own writer takes a descriptor that is not open for writing for one that swallows everything.

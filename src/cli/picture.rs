@@ -2,7 +2,7 @@
 
 use super::arguments::PictureOptions;
 pub(super) use super::output::write_file as write;
-use super::output::{ending, unknown_ending, write_answer};
+use super::output::{ending, note_answered, unknown_ending, write_answer};
 use super::status::Error;
 use jurist_draw::figures::Figure;
 use jurist_engine::error::Diagnostic;
@@ -80,6 +80,7 @@ pub(super) fn deliver(picture: &Picture<'_>, kind: Kind, file: Option<&OsString>
     if picture.csv_beside && kind != Kind::Csv {
         write(&path.with_extension("csv"), (picture.csv)().as_bytes())?;
     }
+    note_answered();
     Ok(())
 }
 

@@ -37,7 +37,12 @@ impl Reporter {
 
     /// The budget that the options grant, telling this listener how far it is.
     pub fn budget(self: &Arc<Self>, options: &RunOptions) -> Budget {
-        let budget = options.timeout.map_or_else(Budget::unlimited, Budget::with_timeout);
+        let mut budget = options.timeout.map_or_else(Budget::unlimited, Budget::with_timeout);
+        budget = budget.within_memory(options.memory());
+        // Where nothing ends it, work is counted only for who wants to know.
+        if let Some(units) = options.work.or(options.verbose.then_some(u64::MAX)) {
+            budget = budget.within_work(units);
+        }
         budget.reporting_to(Arc::clone(self) as Arc<dyn Progress>)
     }
 
@@ -50,6 +55,21 @@ impl Reporter {
     pub fn finish(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
+        }
+    }
+
+    /// Tells with `--verbose` how much work was counted: the same number on every machine.
+    pub fn tell_work(&self, budget: &Budget) {
+        if let Some(units) = budget.work_done().filter(|_| self.verbose) {
+            super::output::note(&format!("{units} units of work"));
+        }
+    }
+
+    /// Writes something while the progress bar is off the terminal.
+    pub fn aside<T>(&self, write: impl FnOnce() -> T) -> T {
+        match &self.bar {
+            Some(bar) => bar.suspend(write),
+            None => write(),
         }
     }
 

@@ -16,7 +16,9 @@ impl Reporter {
 
     /// The budget that the options grant.
     pub fn budget(self: &Arc<Self>, options: &RunOptions) -> Budget {
-        options.timeout.map_or_else(Budget::unlimited, Budget::with_timeout)
+        let budget = options.timeout.map_or_else(Budget::unlimited, Budget::with_timeout);
+        let budget = budget.within_memory(options.memory());
+        options.work.map_or(budget.clone(), |units| budget.within_work(units))
     }
 
     /// No time passes.
@@ -24,6 +26,14 @@ impl Reporter {
         Duration::ZERO
     }
 
+    /// There is nothing in the way.
+    pub fn aside<T>(&self, write: impl FnOnce() -> T) -> T {
+        write()
+    }
+
     /// There is nothing to take away.
     pub fn finish(&self) {}
+
+    /// Nobody is told.
+    pub fn tell_work(&self, _: &Budget) {}
 }

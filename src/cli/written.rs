@@ -5,8 +5,8 @@ use super::commands::Context;
 use super::output::note;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_check::{Limits, check};
-use jurist_engine::error::Diagnostic;
-use std::ffi::OsStr;
+use jurist_engine::error::{Diagnostic, Error};
+use std::ffi::{OsStr, OsString};
 use std::time::Duration;
 
 /// Runs the check of `jurist verify` on a certificate that has been written, for as long as `--timeout` leaves
@@ -39,9 +39,24 @@ pub(super) fn check_certificate(context: &Context, options: &RunOptions, model: 
     }
 }
 
+/// What a certificate is made of and the file for it, where one is asked for; why there is none is to be said after the answer.
+pub(super) fn certified<T>(
+    file: &Option<OsString>,
+    make: impl FnOnce() -> Result<T, Error>,
+) -> Result<Option<(T, &OsString)>, Error> {
+    file.as_ref().map(|file| Ok((make()?, file))).transpose()
+}
+
 /// A share in percent with so many decimal places, rounded down: no more is said than is proved.
 pub(super) fn percent_below(share: &Rational, places: i64) -> String {
     let scale = Rational::from(10).pow(places).expect("ten is not zero");
     let floor = Rational::from((&(share * &Rational::from(100)) * &scale).floor());
     to_decimal(&(floor / scale), 12)
+}
+
+/// How much a certificate by boxes speaks of.
+pub(super) fn share(name: &str, [low, high]: &[Rational; 2], proved: &Rational) -> String {
+    let (low, high) = (to_decimal(low, 6), to_decimal(high, 6));
+    let percent = percent_below(proved, 6);
+    format!("proves {percent} % of {low} <= {name} <= {high}, by boxes; it says nothing of the rest")
 }

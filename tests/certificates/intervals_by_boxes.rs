@@ -141,5 +141,7 @@ fn the_program_says_how_much_a_certificate_by_boxes_proves() {
     let alone = LAG.replace("K = { nominal = 3 }\n", "").replace("gain = 'K'", "gain = 3");
     let refused = jurist_with_input(&["intervals", "-", "--param", "T", "--certificate", &file], alone.as_bytes());
     assert!(refused.status == 2 && refused.stderr.contains("E-no-certificate"), "{}", refused.stderr);
+    let plain = jurist_with_input(&["intervals", "-", "--param", "T"], alone.as_bytes());
+    assert_eq!(refused.stdout, plain.stdout, "the answer is printed all the same");
     std::fs::remove_dir_all(&folder).unwrap();
 }

@@ -158,7 +158,9 @@ fn boxes_of_examples_are_certified() {
         let (certificate, share) = emitted(&text, sides, undecided);
         accept(&text, &certificate);
         assert!(share >= number("0.85") - number(undecided), "{name}: {share}");
-        assert!(agree_with_verdicts(&text, sides, &certificate, 3) > 5, "{name}");
+        // Of few boxes all are looked at.
+        let every = if certificate.len() < 1000 { 1 } else { 3 };
+        assert!(agree_with_verdicts(&text, sides, &certificate, every) > 5, "{name}");
     }
 }
 
@@ -291,8 +293,9 @@ fn another_statement_is_rejected() {
         (Step::Statement, "certificate/7", "certificate/5"),
         (Step::Statement, r#""kind": "boxes""#, r#""kind": "map""#),
         (Step::Format, r#""order": 2"#, r#""order": 0"#),
-        (Step::Format, r#""order": 2"#, r#""order": 17"#),
+        (Step::Format, r#""order": 2"#, r#""order": 9"#),
         (Step::Format, r#""bits": 64"#, r#""bits": 63"#),
+        (Step::Format, r#""bits": 64"#, r#""bits": 1025"#),
         (Step::Format, r#""bits": 64"#, r#""bits": "64""#),
         (Step::Format, r#""order""#, r#""degree""#),
         (Step::Statement, r#"["-3", "5"]"#, r#"["5", "-3"]"#),

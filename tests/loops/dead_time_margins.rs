@@ -5,6 +5,7 @@ use crate::helpers::number::number;
 use crate::helpers::open_loops::{margins_of, stable};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
+use jurist_engine::error::Error;
 use jurist_engine::model::Model;
 use jurist_engine::response::{DelayMargin, PhaseMargin};
 use jurist_engine::show::real;
@@ -99,4 +100,15 @@ fn dead_time_that_is_no_single_factor_is_refused() {
     );
     let refused = model.ask().margins(Some("y"), &Rational::ZERO, &Budget::unlimited()).unwrap_err().to_string();
     assert!(refused.contains("E-dead-time"), "{refused}");
+}
+
+/// With dead time in the feedback the peak gain is refused in its own words.
+#[test]
+fn a_norm_with_dead_time_in_the_feedback_is_refused_as_a_norm() {
+    let text = "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\n\
+        transfer = 'exp(-s)/(s+2)'\n";
+    let Err(Error::Refused(refused)) = load(text).ask().norm("r", "y", &Budget::unlimited()) else { panic!("refused") };
+    let first = &refused.diagnostics()[0];
+    assert!(first.message.starts_with("the peak gain") && !first.message.contains("open loop"), "{}", first.message);
+    assert!(!first.help.as_ref().unwrap().contains("--param GAIN"));
 }

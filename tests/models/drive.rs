@@ -1,6 +1,6 @@
 //! The built-in drive: its coefficients, its two forms, its transfer functions.
 
-use crate::helpers::model::{characteristic, keeping, load};
+use crate::helpers::model::{characteristic, example_text, keeping, load, path};
 use crate::helpers::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::faddeev_leverrier;
@@ -32,6 +32,25 @@ fn expected() -> Vec<RationalFunction> {
         p.coefficients[0].clone()
     };
     COEFFICIENTS.iter().map(value).collect()
+}
+
+#[test]
+fn models_inside_of_packages_are_the_examples() {
+    // A package holds what is in its own folder, so these are there once more.
+    let packaged = [
+        ("crates/engine", vec!["drive"]),
+        ("studies/drive", vec!["drive-blocks", "equation-23-as-printed", "equation-37-as-printed"]),
+    ];
+    for (package, names) in packaged {
+        for entry in std::fs::read_dir(path(&format!("{package}/models"))).unwrap() {
+            let file = entry.unwrap().file_name().into_string().unwrap();
+            assert!(names.contains(&file.trim_end_matches(".toml")), "{package}/models/{file}");
+        }
+        for name in names {
+            let copy = std::fs::read_to_string(path(&format!("{package}/models/{name}.toml"))).unwrap();
+            assert_eq!(copy, example_text(name), "{package}/models/{name}.toml is not examples/{name}.toml");
+        }
+    }
 }
 
 #[test]

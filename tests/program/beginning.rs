@@ -153,3 +153,30 @@ fn a_model_is_only_read() {
     assert_eq!(results[0]["level"], "error");
     assert_eq!(results[0]["locations"][0]["physicalLocation"]["region"]["startColumn"], 20);
 }
+
+/// 1/(s (s + 1)) has a phase margin of 51.8 degrees.
+#[test]
+fn a_sarif_log_has_the_requirements_that_are_not_met() {
+    let model = |required: &str| {
+        format!(
+            "time = 'continuous'\n[loop]\ninputs = ['r']\n[[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\n\
+             transfer = '1/(s*(s + 1))'\n[require]\n{required}"
+        )
+    };
+    let log = |required: &str| -> (i32, Vec<Value>) {
+        let run = jurist_with_input(&["check", "-", "--sarif"], model(required).as_bytes());
+        let log: Value = serde_json::from_str(&run.stdout).unwrap();
+        (run.status, log["runs"][0]["results"].as_array().unwrap().clone())
+    };
+    assert_eq!(log("phase_margin = '45 deg'\n"), (0, Vec::new()));
+    let (status, found) = log("gain_margin = '6 dB'\nphase_margin = '60 deg'\ndecay = 0.1\n");
+    assert_eq!((status, found.len()), (1, 1), "{found:?}");
+    assert_eq!((&found[0]["ruleId"], &found[0]["level"]), (&"W-not-met".into(), &"warning".into()));
+    assert!(found[0]["message"]["text"].as_str().unwrap().starts_with("phase_margin"), "{found:?}");
+    assert_eq!(found[0]["locations"][0]["physicalLocation"]["region"]["startLine"], 11);
+    let (status, found) = log("decay = 0.6\n");
+    assert_eq!((status, found.len()), (1, 1), "{found:?}");
+    // A model that is only read says nothing of it.
+    let run = jurist_with_input(&["check", "-", "--json"], model("phase_margin = '60 deg'\n").as_bytes());
+    assert_eq!(run.status, 0, "{}", run.stdout);
+}

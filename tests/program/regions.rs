@@ -73,3 +73,14 @@ fn tables_say_which_region_they_are_for() {
     }
     assert!(!jurist(&["jury"]).stdout.lines().next().unwrap().contains("all"));
 }
+
+#[test]
+fn the_bound_of_a_region_is_an_axis_of_a_map() {
+    let run = jurist_with_input(&["map", "-", "-x", "K", "-y", "radius=0..1"], DISCRETE.as_bytes());
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("radius"), "{}", run.stdout);
+    let run = jurist_with_input(&["map", "-", "-x", "decay", "-y", "K"], CONTINUOUS.as_bytes());
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let wrong = jurist_with_input(&["map", "-", "-x", "radius", "-y", "K"], CONTINUOUS.as_bytes());
+    assert_eq!(wrong.status, 2, "{}", wrong.stdout);
+}

@@ -329,3 +329,51 @@ fn values_that_are_set_are_those_of_the_page_and_of_its_command_lines() {
     );
     assert!(plain(section(&run.stdout, "certificates")).contains("--set K_pwm=600"));
 }
+
+/// One integrator in a loop inside of another: which loop is meant has to be said.
+const CASCADE: &str = "time = 'continuous'\n[parameters]\nK = { nominal = 1, min = 0 }\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+    [[block]]\nname = 'outer'\ninput = 'r - y'\noutput = 'v'\ngain = 'K'\n\
+    [[block]]\nname = 'inner'\ninput = '10*(v - w)'\noutput = 'w'\ntransfer = '1/s'\n\
+    [[block]]\nname = 'rest'\ninput = 'w'\noutput = 'y'\ntransfer = '1/s'\n";
+
+#[test]
+fn a_report_has_the_margins_of_the_loop_that_is_named_or_required() {
+    let asked = |text: &str, options: &[&str]| {
+        let run = jurist_with_input(&[&["report", "-", "-o", "-", "-q"], options].concat(), text.as_bytes());
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        let (margins, bode) = (plain(section(&run.stdout, "margins")), section(&run.stdout, "bode").contains("<svg"));
+        (margins, bode)
+    };
+    let (margins, drawn) = asked(CASCADE, &[]);
+    assert!(margins.contains("where it is cut") && !drawn, "{margins}");
+    let required = format!("{CASCADE}[require]\nphase_margin = '45 deg'\nat = 'w'\n");
+    for (text, options, at) in
+        [(CASCADE, &["--at", "v"][..], "v"), (&required, &[], "w"), (&required, &["--at", "v"], "v")]
+    {
+        let (margins, drawn) = asked(text, options);
+        assert!(margins.contains(&format!("cut at {at}:")) && drawn, "{margins}");
+    }
+    let wrong = jurist_with_input(&["report", "-", "-o", "-", "-q", "--at", "V"], CASCADE.as_bytes());
+    assert!(plain(section(&wrong.stdout, "margins")).contains("'V'"), "{}", wrong.stderr);
+}
+
+/// A gain of one, at which the loop's modulus is one at the frequency 0.
+#[test]
+fn a_loop_with_dead_time_and_a_phase_margin_of_half_a_turn_is_reported_on() {
+    let text = "time = 'continuous'\n[parameters]\nK = { nominal = 1, min = 0 }\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+        [[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K*exp(-s)/(s+1)'\n";
+    let run = jurist_with_input(&["report", "-", "-o", "-", "-q"], text.as_bytes());
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let margins = plain(section(&run.stdout, "margins"));
+    assert!(margins.contains("180") && margins.contains("2.261826"), "{margins}");
+}
+
+#[test]
+fn certificates_by_boxes_are_those_of_the_command() {
+    let part = page("examples/dc-servo.toml");
+    let part = section(&part, "certificates");
+    let said = rows(part, "Certificates of this report&#39;s answers");
+    let said = if said.is_empty() { rows(part, "Certificates of this report's answers") } else { said };
+    let row = said.iter().find(|row| row[0] == "all limits of T").unwrap_or_else(|| panic!("{said:?}"));
+    assert!(row[1].contains("by boxes") && row[2] == "accepted", "{row:?}");
+}

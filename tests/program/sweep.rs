@@ -57,6 +57,41 @@ fn a_run_that_was_cut_goes_on_and_ends_with_the_same_bytes() {
 }
 
 #[test]
+fn a_file_of_another_sweep_is_not_resumed() {
+    let folder = std::env::temp_dir().join(format!("jurist-sweep-other-{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    let model = folder.join("other.toml").to_str().unwrap().to_owned();
+    let drive = fs::read_to_string("examples/drive.toml").unwrap();
+    fs::write(&model, drive + "# another text is another model\n").unwrap();
+    for ending in ["jsonl", "csv"] {
+        let file = folder.join(format!("rows.{ending}")).to_str().unwrap().to_owned();
+        assert_eq!(jurist(&[GRID, &["-o", &file]].concat()).status, 0);
+        let before = fs::read_to_string(&file).unwrap();
+        let refused = |arguments: &[&str]| {
+            let run = jurist(&[arguments, &["-o", &file, "--resume"]].concat());
+            assert_eq!(run.status, 2, "{}", run.stderr);
+            assert!(run.stderr.contains("error[E-resume]"), "{}", run.stderr);
+            assert_eq!(fs::read_to_string(&file).unwrap(), before, "nothing is lost");
+        };
+        refused(&["sweep", &model, "--param", "K_pwm", "--over", "T=1e-4,3e-4,2e-4"]);
+        refused(&["sweep", "--param", "K_pwm", "--over", "T=1e-4,3e-4,4e-4"]);
+        refused(&["sweep", "--over", "T=1e-4,3e-4,2e-4"]);
+        // A grid that holds the old one goes on.
+        let run = jurist(&["sweep", "--param", "K_pwm", "--over", "T=1e-4..3e-4:5", "-o", &file, "--resume"]);
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        // What another program wrote, and what a run of another sweep left beside the file.
+        fs::write(&file, "my notes\n").unwrap();
+        assert!(jurist(&[GRID, &["-o", &file, "--resume"]].concat()).stderr.contains("E-resume"));
+        fs::remove_file(&file).unwrap();
+        let row = jurist(&["sweep", "--over", "K_pwm=110,111"]).stdout.replace('\n', "\n\n");
+        fs::write(format!("{file}.part"), &row).unwrap();
+        assert!(jurist(&[GRID, &["-o", &file, "--resume"]].concat()).stderr.contains("E-resume"));
+        assert_eq!(fs::read_to_string(format!("{file}.part")).unwrap(), row);
+    }
+    fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
 fn failures_are_rows_and_undecided_ones_give_the_status() {
     let run = jurist(&["sweep", "--param", "K_pwm", "--over", "T=0,1e-4", "--each", "0"]);
     assert_eq!(run.status, 3);

@@ -2,7 +2,13 @@
 
 use crate::helpers::program::{jurist, jurist_with_input, refused};
 use crate::helpers::schema::fits;
+use jurist_algebra::limits::Budget;
+use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
+use jurist_engine::model::Model;
 use serde_json::Value;
+use std::cell::RefCell;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 const EIGHT: &str = "R_a,L_a,J,B_v,K_a,k_1,k_2,E_sw=20%";
 
@@ -159,7 +165,32 @@ fn tolerances_inside_of_functions_are_answered_and_have_no_certificate() {
     assert_eq!((&document["verdict"], &document["worst"]["cause"]), (&"stable".into(), &"complex pair".into()));
     let frequency = document["worst"]["frequency_hz"].as_f64().unwrap();
     assert!(1650.0 < frequency && frequency < 1670.0, "{frequency}");
+    let plain = jurist(&asked);
     let run = jurist(&[&asked[..], &["--certificate", "-"]].concat());
-    assert_eq!(run.status, 2, "{}", run.stdout);
+    assert_eq!((run.status, &run.stdout), (2, &plain.stdout), "the answer is printed, then the reason");
     assert!(run.stderr.contains("E-no-certificate"), "{}", run.stderr);
+}
+
+/// A proof of the box is told before the larger boxes are looked at, and its text is how the whole text begins.
+#[test]
+fn a_proof_is_told_as_soon_as_it_stands() {
+    let tolerances = [("R_a", "20%".parse().unwrap()), ("L_a", "20%".parse().unwrap())];
+    let request = ToleranceRequest::new(tolerances);
+    let told = RefCell::new(Vec::new());
+    let tell = |answer: &Answer<ToleranceAnswer>| told.borrow_mut().push(answer.text(9));
+    let whole = Model::drive().ask().tolerance_told(&request, &tell, &Budget::unlimited()).unwrap();
+    assert_eq!(told.borrow().len(), 1);
+    assert!(whole.text(9).starts_with(&told.borrow()[0]) && whole.text(9) != told.borrow()[0], "{told:?}");
+    assert!(told.borrow()[0].contains("\n2 tolerances of 20 %: stable for all values (proof: "), "{told:?}");
+    // What comes after it may be ended: the proof stands.
+    let flag = Arc::new(AtomicBool::new(false));
+    let stopped = Model::drive().ask().tolerance_told(
+        &request,
+        &|_| flag.store(true, Ordering::Relaxed),
+        &Budget::unlimited().cancelled_by(Arc::clone(&flag)),
+    );
+    assert!(flag.load(Ordering::Relaxed) && stopped.is_ok_and(|answer| answer.value().decision.is_stable()));
+    // The program prints the same text, in two parts.
+    let run = jurist(&["tolerance", "--tol", "R_a,L_a=20%"]);
+    assert_eq!(run.stdout, whole.text(9), "{}", run.stderr);
 }

@@ -4,14 +4,11 @@ use super::clock::Clock;
 use super::multivariate::Multi;
 use super::number::{MAX_DIGITS, Q, Z, integer, shorten};
 use super::over_box::FIRST;
-use super::univariate::gcd;
+use super::univariate::{gcd_counted, gcd_of};
 use num_traits::{One, Signed, Zero};
 
 /// More coefficients of a polynomial are refused.
 const MAX_COEFFICIENTS: usize = 1 << 17;
-
-/// The cells that wait may have so many coefficients together.
-const MAX_WAITING: usize = 1 << 21;
 
 /// The Bernstein coefficients of polynomials over a box, each polynomial times a positive number; the last axis is the frequency and
 /// runs fastest.
@@ -37,8 +34,10 @@ impl Tensor {
         };
         let mut tensor = Tensor::new(&[part(0), part(1)], sides, clock)?;
         let ways = binomials(k);
-        let common = ways.iter().fold(Z::one(), |l, b| &l / gcd(&l, b) * b);
+        let common = common_multiple(&ways, clock)?;
         let (top, bottom) = (v0.numer(), v0.denom());
+        clock.hold(tensor.len(), tensor.longest() + (k as u64) * (2 + top.bits() + bottom.bits()))?;
+        clock.spend(4 * k, (k as u64) * (top.bits() + bottom.bits()), k as u64)?;
         let scales: Vec<Z> =
             (0..=k).map(|j| top.pow(j as u32) * bottom.pow((k - j) as u32) * (&common / &ways[j])).collect();
         for (plane, weight) in tensor.planes.iter_mut().zip([weight.denom(), weight.numer()]) {
@@ -48,7 +47,7 @@ impl Tensor {
                 *c *= scale * weight;
             }
         }
-        tensor.reduce();
+        tensor.reduce(clock)?;
         Ok(tensor)
     }
 
@@ -72,10 +71,10 @@ impl Tensor {
         let mut tensor = Tensor { counts, planes };
         for (i, side) in sides.iter().enumerate() {
             if tensor.counts[i] > 1 {
-                tensor.change_basis(i, &to_bernstein(tensor.counts[i] - 1, side), clock)?;
+                tensor.change_basis(i, side, clock)?;
             }
         }
-        tensor.reduce();
+        tensor.reduce(clock)?;
         Ok(tensor)
     }
 
@@ -92,32 +91,27 @@ impl Tensor {
     }
 
     /// Without integers common to all: a positive factor does not matter.
-    fn reduce(&mut self) {
-        let mut common = Z::zero();
-        for c in self.planes.iter().flatten() {
-            common = gcd(&common, c);
-            if common.is_one() {
-                return;
-            }
-        }
-        if !common.is_zero() {
+    fn reduce(&mut self, clock: &Clock) -> Result<(), String> {
+        let common = gcd_of(self.planes.iter().flatten(), clock)?;
+        if !common.is_zero() && !common.is_one() {
+            clock.spend(self.planes.len() * self.len(), self.longest(), common.bits())?;
             self.planes.iter_mut().flatten().for_each(|c| *c /= &common);
         }
+        Ok(())
     }
 
-    /// A matrix times the coefficients along an axis.
-    fn change_basis(&mut self, axis: usize, matrix: &[Vec<Z>], clock: &Clock) -> Result<(), String> {
+    /// From the powers of a parameter to Bernstein's polynomials over an interval, along an axis.
+    fn change_basis(&mut self, axis: usize, side: &[Q; 2], clock: &Clock) -> Result<(), String> {
         let (stride, count) = (self.stride(axis), self.counts[axis]);
-        let longest = matrix.iter().flatten().map(Z::bits).max().unwrap_or(0);
-        clock.spend(self.planes.len() * self.len() * count, longest, self.longest())?;
+        let basis = Basis::new(count - 1, side, clock)?;
+        let bits = self.longest() + basis.bits();
+        clock.hold(self.planes.len() * self.len(), bits)?;
         for plane in &mut self.planes {
             for block in plane.chunks_mut(stride * count) {
                 for at in 0..stride {
-                    let lane: Vec<Z> = (0..count).map(|k| std::mem::take(&mut block[at + k * stride])).collect();
-                    for (j, row) in matrix.iter().enumerate() {
-                        let terms = row.iter().zip(&lane).filter(|(_, c)| !c.is_zero());
-                        block[at + j * stride] = terms.map(|(m, c)| m * c).sum();
-                    }
+                    let mut lane: Vec<Z> = (0..count).map(|k| std::mem::take(&mut block[at + k * stride])).collect();
+                    basis.change(&mut lane, bits, clock)?;
+                    lane.into_iter().enumerate().for_each(|(j, c)| block[at + j * stride] = c);
                 }
             }
         }
@@ -194,20 +188,74 @@ fn binomials(n: usize) -> Vec<Z> {
     row
 }
 
+/// The least common multiple.
+fn common_multiple(numbers: &[Z], clock: &Clock) -> Result<Z, String> {
+    let mut common = Z::one();
+    for n in numbers {
+        common = &common / gcd_counted(&common, n, clock)? * n;
+    }
+    Ok(common)
+}
+
 /// From the powers of a parameter to Bernstein's polynomials over an interval, times a positive number: with `p = (a + w u)/q`,
 /// `p^f = sum_e C(f, e) a^(f - e) w^e u^e / q^f`, and `u^e = sum_(j >= e) C(j, e)/C(l, e) B_j`.
-fn to_bernstein(l: usize, [low, high]: &[Q; 2]) -> Vec<Vec<Z>> {
-    let q = low.denom() / gcd(low.denom(), high.denom()) * high.denom();
-    let (a, b) = (low.numer() * (&q / low.denom()), high.numer() * (&q / high.denom()));
-    let w = b - &a;
-    let ways: Vec<Vec<Z>> = (0..=l).map(binomials).collect();
-    let common = ways[l].iter().fold(Z::one(), |lcm, b| &lcm / gcd(&lcm, b) * b);
-    let entry = |j: usize, f: usize| -> Z {
-        let term =
-            |e: usize| &common * &ways[j][e] / &ways[l][e] * &ways[f][e] * a.pow((f - e) as u32) * w.pow(e as u32);
-        (0..=j.min(f)).map(term).sum::<Z>() * q.pow((l - f) as u32)
-    };
-    (0..=l).map(|j| (0..=l).map(|f| entry(j, f)).collect()).collect()
+struct Basis {
+    a: Z,
+    w: Z,
+    q: Z,
+    /// The common multiple of the `C(l, e)` divided by each.
+    shares: Vec<Z>,
+}
+
+impl Basis {
+    fn new(l: usize, [low, high]: &[Q; 2], clock: &Clock) -> Result<Self, String> {
+        let q = low.denom() / gcd_counted(low.denom(), high.denom(), clock)? * high.denom();
+        let (a, b) = (low.numer() * (&q / low.denom()), high.numer() * (&q / high.denom()));
+        clock.hold(l + 1, 2 * l as u64)?;
+        let ways = binomials(l);
+        let common = common_multiple(&ways, clock)?;
+        Ok(Basis { w: b - &a, a, q, shares: ways.iter().map(|b| &common / b).collect() })
+    }
+
+    /// The bits by which coefficients grow at most.
+    fn bits(&self) -> u64 {
+        let longest = self.a.bits().max(self.w.bits()).max(self.q.bits());
+        self.shares.len() as u64 * (longest + 4)
+    }
+
+    /// Of one polynomial, its numbers of so many bits at most in the end.
+    fn change(&self, c: &mut [Z], bits: u64, clock: &Clock) -> Result<(), String> {
+        let l = c.len() - 1;
+        if c.iter().all(Zero::is_zero) {
+            return Ok(());
+        }
+        clock.spend(4 * c.len(), bits, self.q.bits().max(self.w.bits()))?;
+        let mut power = Z::one();
+        for x in c.iter_mut().rev() {
+            *x *= &power;
+            power *= &self.q;
+        }
+        for i in 0..l {
+            clock.spend(l - i, bits, self.a.bits())?;
+            for j in (i..l).rev() {
+                let (lower, upper) = c.split_at_mut(j + 1);
+                lower[j] += &upper[0] * &self.a;
+            }
+        }
+        power = Z::one();
+        for (x, share) in c.iter_mut().zip(&self.shares) {
+            *x *= &power * share;
+            power *= &self.w;
+        }
+        for i in 0..l {
+            clock.spend(l - i, bits, 0)?;
+            for j in (i + 1..=l).rev() {
+                let (lower, upper) = c.split_at_mut(j);
+                upper[0] += &lower[j - 1];
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Coefficients of one degree more along an axis, times that degree: of the same polynomial, or of it times `2 u - 1`.
@@ -250,11 +298,10 @@ pub(super) fn walk(text: &str, whole: Tensor, claim: Claim, clock: &Clock) -> Re
         let shown = match (letter, claim) {
             ('x', Claim::Pair) | ('s', _) => {
                 let axis = if letter == 'x' { last } else { axis(until(&mut rest, ',')?, last)? };
+                let bits = cell.longest() + cell.counts[axis] as u64;
+                clock.hold((stack.len() + 2).saturating_mul(cell.planes.len() * cell.len()), bits)?;
                 let [low, high] = cell.halves(axis, clock)?;
                 stack.extend([high, low]);
-                if stack.len().saturating_mul(stack[0].len()) > MAX_WAITING {
-                    return Err("the tree is too deep".into());
-                }
                 true
             }
             ('l', Claim::Pair) => match numbers(until(&mut rest, ';')?)?.as_slice() {
@@ -343,7 +390,7 @@ mod tests {
         let upper = [[middle, sides[0][1].clone()], sides[1].clone()];
         for (mut half, sides) in [(low, lower), (high, upper)] {
             corners(&half, &sides);
-            half.reduce();
+            half.reduce(&clock).unwrap();
             assert_eq!(half.planes, Tensor::of_one(&example(), &sides, &clock).unwrap().planes);
         }
     }

@@ -9,6 +9,7 @@ use super::over_symbols::{primitive, substituted};
 use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
 use super::statement::{Extent, count, fixed_extent, identifier, list, number, object, text, values};
 use super::univariate::Uni;
+use super::words::{exact, inward};
 use super::{Proved, Rejection, Step, is_discrete, verdict};
 use crate::format::Json;
 use num_traits::{Signed, Zero};
@@ -110,15 +111,17 @@ impl Statement {
     fn in_words(&self) -> String {
         let mut out = String::from("For all ");
         for (i, (name, [low, high])) in self.names.iter().zip(self.at(&self.factor)).enumerate() {
+            let [low, high] = inward(&low, &high);
             let _ = write!(out, "{}{name} from {low} to {high}", if i == 0 { "" } else { ", " });
         }
         for (i, (name, value)) in self.set.iter().enumerate() {
-            let _ = write!(out, "{}{name} = {value}", if i == 0 { ", with " } else { ", " });
+            let _ = write!(out, "{}{name} = {}", if i == 0 { ", with " } else { ", " }, exact(value));
         }
         let within = verdict::within(&self.extent, self.discrete);
-        let _ = write!(out, ", the loop is stable{within}; these are the tolerances times {}.", self.factor);
+        let _ = write!(out, ", the loop is stable{within}; these are the tolerances times {}.", exact(&self.factor));
         for Beyond { factor, point, counts: [degree, inside, on, outside, infinite] } in &self.beyond {
-            let point: Vec<String> = self.names.iter().zip(point).map(|(n, x)| format!("{n} = {x}")).collect();
+            let point: Vec<String> = self.names.iter().zip(point).map(|(n, x)| format!("{n} = {}", exact(x))).collect();
+            let factor = exact(factor);
             let _ = match self.limit {
                 None => write!(out, " At {}, within the tolerances times {factor}, it is not: ", point.join(", ")),
                 Some(at) => {
@@ -146,20 +149,20 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
     if own.discrete != s.discrete {
         return Err(Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() });
     }
-    let in_this_region = Step::Model.of(in_region(&own.coefficients, s.discrete, &s.extent))?;
+    let in_this_region = Step::Model.of(in_region(&own.coefficients, s.discrete, &s.extent, clock))?;
     let read = |json: &Json| polynomial(json, s.names.len());
     let (given, common) = Step::Characteristic.of((|| {
         let given = list(characteristic, "'characteristic'")?.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         let common = common_factor(&given, &in_this_region, clock)?;
         Ok((given, common))
     })())?;
-    let p = if s.discrete { in_half_plane(&given) } else { given.clone() };
+    let p = if s.discrete { Step::Characteristic.of(in_half_plane(&given, clock))? } else { given.clone() };
     let sides = s.at(&s.factor);
     Step::Factors.of((|| {
         let mut known = Vec::new();
         for factor in list(factors, "'factors'")? {
             let [polynomial, tree] = object(factor, "a factor", ["polynomial", "tree"], &[])?;
-            let f = primitive(vec![read(polynomial)?]).swap_remove(0);
+            let f = primitive(vec![read(polynomial)?], clock)?.swap_remove(0);
             if f.is_constant() {
                 return Err("a factor is constant".to_owned());
             }

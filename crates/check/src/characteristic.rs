@@ -129,22 +129,22 @@ pub(super) fn specialised(
     let negative = denominator.leading().is_negative();
     for c in &mut coefficients {
         if !c.is_zero() {
-            let scale = c.content();
+            let scale = c.content(clock)?;
             let quotient = c.divided(&common, clock)?.ok_or("internal: a gcd does not divide")?;
             *c = quotient.scaled(&if negative { -scale } else { scale });
         }
     }
     coefficients.resize(degree + 1, Uni::default());
-    Ok(Characteristic { discrete, degree, coefficients: primitive(coefficients), poles })
+    Ok(Characteristic { discrete, degree, coefficients: primitive(coefficients, clock)?, poles })
 }
 
 /// Divided by the greatest common divisor of all integers in it.
-pub(super) fn primitive(coefficients: Vec<Uni>) -> Vec<Uni> {
-    let g = super::univariate::gcd_of(coefficients.iter().flat_map(|c| c.0.iter()));
+pub(super) fn primitive(coefficients: Vec<Uni>, clock: &Clock) -> Result<Vec<Uni>, String> {
+    let g = super::univariate::gcd_of(coefficients.iter().flat_map(|c| c.0.iter()), clock)?;
     if g.is_zero() || g.is_one() {
-        return coefficients;
+        return Ok(coefficients);
     }
-    coefficients.into_iter().map(|c| Uni(c.0.iter().map(|x| x / &g).collect())).collect()
+    Ok(coefficients.into_iter().map(|c| Uni(c.0.iter().map(|x| x / &g).collect())).collect())
 }
 
 fn undefined(
@@ -182,7 +182,7 @@ fn matrix_entries(m: &[Vec<Fraction>], numbers: &[Q], clock: &Clock) -> Result<O
             // Lowest terms keep the row's denominator small; the places of division are noted already.
             let g = n.gcd(&d, clock)?;
             if g.degree() > 0 {
-                let (cn, cd) = (n.content(), d.content());
+                let (cn, cd) = (n.content(clock)?, d.content(clock)?);
                 let reduced =
                     |p: &Uni| p.divided(&g, clock)?.ok_or_else(|| "internal: a gcd does not divide".to_owned());
                 (n, d) = (reduced(&n)?.scaled(&cn), reduced(&d)?.scaled(&cd));
@@ -194,12 +194,13 @@ fn matrix_entries(m: &[Vec<Fraction>], numbers: &[Q], clock: &Clock) -> Result<O
         for (_, d) in &parts {
             let g = common.gcd(d, clock)?;
             let rest = d.divided(&g, clock)?.ok_or("internal: a gcd does not divide")?;
-            common = common.times(&rest);
+            common = common.product(&rest, clock)?;
         }
-        let contents = parts.iter().fold(Z::one(), |l, (_, d)| {
-            let c = d.content();
-            &l / super::univariate::gcd(&l, &c) * c
-        });
+        let mut contents = Z::one();
+        for (_, d) in &parts {
+            let c = d.content(clock)?;
+            contents = &contents / super::univariate::gcd_counted(&contents, &c, clock)? * c;
+        }
         let common = common.scaled(&contents);
         let mut entries = Vec::new();
         for (j, (n, d)) in parts.iter().enumerate() {
@@ -209,7 +210,7 @@ fn matrix_entries(m: &[Vec<Fraction>], numbers: &[Q], clock: &Clock) -> Result<O
             if !scale.is_integer() {
                 return Err("internal: a common multiple is not integral".into());
             }
-            let minus = n.times(&factor).scaled(&-scale.to_integer());
+            let minus = n.product(&factor, clock)?.scaled(&-scale.to_integer());
             entries.push(if i == j { Entry(vec![minus, common.clone()]) } else { Entry(vec![minus]) });
         }
         out.push(entries);

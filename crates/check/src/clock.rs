@@ -1,11 +1,24 @@
 //! What bounds a check: the time it takes, and the work that reading a model may be.
 
 use std::cell::Cell;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// The work of reading a model, in units of about a nanosecond. It is counted and not timed: whether a text is a model must not
 /// depend on how busy the machine is.
 const MODEL_WORK: u64 = 20_000_000_000;
+
+/// The work of a check in the same units: so much for every text, and so much for each byte of it. What the engine writes takes a
+/// tenth at most.
+const WORK: u64 = 6_000_000_000;
+const WORK_OF_BYTE: u64 = 2_000_000;
+
+/// The bytes that the numbers of one step may take.
+const MEMORY: u64 = 48 << 20;
+
+/// About what a number takes beside its digits.
+const BYTES_OF_NUMBER: u64 = 32;
 
 /// Says when the time is over.
 trait Timer {
@@ -42,11 +55,16 @@ pub(super) struct Clock {
     work: Cell<u64>,
     /// The work at which the reading of a model is given up.
     limit: Cell<u64>,
+    /// The work at which the whole check is.
+    total: u64,
+    /// Whether a bound of work or of memory was reached.
+    is_refused: Arc<AtomicBool>,
 }
 
 impl Clock {
     fn with(timer: impl Timer + Send + 'static, timeout: Duration) -> Self {
-        Clock { timer: Box::new(timer), timeout, work: Cell::new(0), limit: Cell::new(u64::MAX) }
+        let (work, limit, is_refused) = (Cell::new(0), Cell::new(u64::MAX), Arc::default());
+        Clock { timer: Box::new(timer), timeout, work, limit, total: u64::MAX, is_refused }
     }
 
     #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
@@ -64,6 +82,31 @@ impl Clock {
         Clock::with(Counted(u64::try_from(timeout.as_nanos()).unwrap_or(u64::MAX)), timeout)
     }
 
+    /// With the work that texts of so many bytes may be: a short text costs seconds at most.
+    pub fn of_texts(timeout: Duration, bytes: usize) -> Self {
+        let total = WORK.saturating_add(WORK_OF_BYTE.saturating_mul(bytes as u64));
+        let mut clock = Clock::new(timeout);
+        clock.total = total;
+        clock
+    }
+
+    /// An error for what would be too much, which is told from what is wrong.
+    pub fn refuse(&self, reason: &str) -> String {
+        self.is_refused.store(true, Ordering::Relaxed);
+        reason.to_owned()
+    }
+
+    /// Says whether a bound of work or of memory was reached.
+    pub fn refusals(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.is_refused)
+    }
+
+    /// Refuses numbers that take too many bytes together, before they are computed.
+    pub fn hold(&self, count: usize, bits: u64) -> Result<(), String> {
+        let bytes = (count as u64).saturating_mul(bits / 8 + BYTES_OF_NUMBER);
+        if bytes > MEMORY { Err(self.refuse("the numbers of a step would take too much memory")) } else { Ok(()) }
+    }
+
     /// One small step.
     pub fn tick(&self) -> Result<(), String> {
         self.spend(1, 0, 0)
@@ -75,7 +118,10 @@ impl Clock {
         let work = self.work.get().saturating_add((count as u64).saturating_mul(words.saturating_add(100)));
         self.work.set(work);
         if work >= self.limit.get() {
-            return Err("the model takes too much work to read".into());
+            return Err(self.refuse("the model takes too much work to read"));
+        }
+        if work >= self.total {
+            return Err(self.refuse("the check is more work than texts of this length may ask for"));
         }
         if self.timer.is_over(work) { Err(out_of_time(self.timeout)) } else { Ok(()) }
     }

@@ -54,8 +54,8 @@ impl Ring for Uni {
         Uni::minus(self, other)
     }
 
-    fn times(&self, other: &Self, _: &Clock) -> Result<Self, String> {
-        Ok(Uni::times(self, other))
+    fn times(&self, other: &Self, clock: &Clock) -> Result<Self, String> {
+        Uni::product(self, other, clock)
     }
 
     fn scaled(&self, factor: &Z) -> Self {

@@ -14,6 +14,7 @@ use super::statement::{
 };
 use super::symbols::Table;
 use super::univariate::Uni;
+use super::words::outward;
 use super::{Proved, Rejection, Step, is_discrete, model, verdict};
 use crate::format::Json;
 use num_traits::{One, Signed, Zero};
@@ -73,8 +74,8 @@ pub(super) fn check(text_of_model: &str, json: &Json, statement: &Json, clock: &
         }
     };
     let found = Step::Boundary.of(counted(p, q, crossings, bits, upper.as_ref().map(|u| u * &base), clock))?;
-    let limits = Step::Line.of(walk(&found, &lower, upper.as_ref(), &base, bits))?;
-    Step::Stable.of(same(stable, &limits))?;
+    let limits = Step::Line.of(walk(&found, &lower, upper.as_ref(), &base, bits, clock))?;
+    Step::Stable.of(same(stable, &limits, &found, &(&base * Q::from(Z::one() << bits))))?;
     let domain = (Some(lower), upper);
     let extent = Extent::Number(Q::zero());
     let statement = verdict::sentence_of_intervals(parameter, &set, &extent, false, &domain, &in_words(&limits));
@@ -150,7 +151,7 @@ pub(super) fn characteristic_function(
     if d.is_zero() || d.degree(0) != degree {
         return Err("the loop is not well posed".into());
     }
-    let function = primitive(vec![d]).swap_remove(0);
+    let function = primitive(vec![d], clock)?.swap_remove(0);
     Ok(CharacteristicFunction { function, divisors })
 }
 
@@ -160,6 +161,33 @@ struct Counted {
     switches: Vec<Switch>,
     /// Whether there are roots to the right for good beyond the last switch.
     grows: bool,
+    /// Each crossing with the upper ends of its switches, ascending.
+    crossings: Vec<(Crossing, Vec<Z>)>,
+}
+
+impl Counted {
+    fn without_crossings(right: i64, grows: bool) -> Self {
+        Counted { right, switches: Vec::new(), grows, crossings: Vec::new() }
+    }
+
+    /// Whether an interval of angles over frequencies holds no switch but one: of each crossing the first that is not before it is
+    /// looked at.
+    fn is_alone(&self, (crossing, turns): (usize, usize), [a, b]: [&Q; 2]) -> Result<bool, String> {
+        for (i, (c, ends)) in self.crossings.iter().enumerate() {
+            let before = ends.partition_point(|hi| hi * a.denom() < *a.numer());
+            let mut next = usize::from(c.is_one) + before;
+            if i == crossing {
+                if next != turns {
+                    return Ok(false);
+                }
+                next += 1;
+            }
+            if Q::from(c.dead_time(next)?.lo) <= *b {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
 }
 
 fn counted(p: &Uni, q: &Uni, crossings: &Json, bits: usize, last: Option<Q>, clock: &Clock) -> Result<Counted, String> {
@@ -173,7 +201,7 @@ fn counted(p: &Uni, q: &Uni, crossings: &Json, bits: usize, last: Option<Q>, clo
     if total.at(0).is_zero() {
         // s = 0 is a root for every dead time.
         return match enclosures {
-            [] => Ok(Counted { right: 1, switches: Vec::new(), grows: true }),
+            [] => Ok(Counted::without_crossings(1, true)),
             _ => Err("there is nothing to cross".into()),
         };
     }
@@ -203,7 +231,7 @@ fn counted(p: &Uni, q: &Uni, crossings: &Json, bits: usize, last: Option<Q>, clo
     let right = (places.outside + 2 * found.iter().filter(|c| c.is_one && c.is_gain).count()) as i64;
     // The count exceeds tau/pi sum of +-omega - 2 m.
     let Some(turn) = found.first().map(|c| c.turn.clone()) else {
-        return Ok(Counted { right, switches: Vec::new(), grows: right > 0 });
+        return Ok(Counted::without_crossings(right, right > 0));
     };
     let growth =
         found.iter().fold(Interval::zero(), |sum, c| if c.is_gain { sum.plus(&c.omega) } else { sum.minus(&c.omega) });
@@ -216,7 +244,7 @@ fn counted(p: &Uni, q: &Uni, crossings: &Json, bits: usize, last: Option<Q>, clo
     let mut switches = Vec::new();
     for (crossing, c) in found.iter().enumerate() {
         for turns in usize::from(c.is_one).. {
-            clock.tick()?;
+            clock.spend(4, bits as u64, bits as u64)?;
             let at = c.dead_time(turns)?;
             if at.lo >= last {
                 break;
@@ -231,27 +259,41 @@ fn counted(p: &Uni, q: &Uni, crossings: &Json, bits: usize, last: Option<Q>, clo
     if switches.windows(2).any(|w| w[0].at.hi >= w[1].at.lo) {
         return Err("the order of two switches is not certain".into());
     }
-    Ok(Counted { right, switches, grows: true })
+    let ends = |i: usize| switches.iter().filter(|s| s.crossing == i).map(|s| s.at.hi.clone()).collect();
+    let crossings = found.into_iter().enumerate().map(|(i, c)| (c, ends(i))).collect();
+    Ok(Counted { right, switches, grows: true, crossings })
 }
 
 /// The stable intervals.
-fn walk(found: &Counted, lower: &Q, upper: Option<&Q>, base: &Q, bits: usize) -> Result<Vec<(Limit, Limit)>, String> {
+fn walk(
+    found: &Counted,
+    lower: &Q,
+    upper: Option<&Q>,
+    base: &Q,
+    bits: usize,
+    clock: &Clock,
+) -> Result<Vec<(Limit, Limit)>, String> {
     let scale = base * Q::from(Z::one() << bits);
+    let (lower_end, upper_end) = (lower * &scale, upper.map(|u| u * &scale));
     let mut right = found.right;
     let mut before = Limit::Number(lower.clone());
     let mut stable = Vec::new();
     for switch in &found.switches {
-        let (lo, hi) = (Q::from(switch.at.lo.clone()) / &scale, Q::from(switch.at.hi.clone()) / &scale);
-        if hi < *lower {
+        clock.spend(4, bits as u64, bits as u64)?;
+        let compared = |x: &Z, end: &Q| (x * end.denom()).cmp(end.numer());
+        if compared(&switch.at.hi, &lower_end).is_lt() {
             right += switch.change;
             continue;
         }
-        if upper.is_some_and(|u| lo > *u) {
+        if upper_end.as_ref().is_some_and(|u| compared(&switch.at.lo, u).is_gt()) {
             break;
         }
-        if lo <= *lower || upper.is_some_and(|u| hi >= *u) {
+        if compared(&switch.at.lo, &lower_end).is_le()
+            || upper_end.as_ref().is_some_and(|u| compared(&switch.at.hi, u).is_ge())
+        {
             return Err("a switch is not told from an end of the domain".into());
         }
+        let [lo, hi] = [&switch.at.lo, &switch.at.hi].map(|x| Q::new_raw(x * scale.denom(), scale.numer().clone()));
         let at = Limit::Switch(switch.crossing, switch.turns, lo, hi);
         if right == 0 {
             stable.push((before, at.clone()));
@@ -268,8 +310,8 @@ fn walk(found: &Counted, lower: &Q, upper: Option<&Q>, base: &Q, bits: usize) ->
     Ok(stable)
 }
 
-/// Whether the claim has these ends; an enclosure in it may be wider.
-fn same(claim: &Json, limits: &[(Limit, Limit)]) -> Result<(), String> {
+/// Whether the claim has these ends; an enclosure in it may be wider, but holds no other switch. The scale is that of switches.
+fn same(claim: &Json, limits: &[(Limit, Limit)], found: &Counted, scale: &Q) -> Result<(), String> {
     let claim = list(claim, "'stable'")?;
     if claim.len() != limits.len() {
         return Err(format!("there are {} stable intervals", limits.len()));
@@ -283,7 +325,9 @@ fn same(claim: &Json, limits: &[(Limit, Limit)]) -> Result<(), String> {
                 Limit::Switch(crossing, turns, lo, hi) => {
                     let [c, k, between] = object(json, "an end", ["crossing", "turns", "between"], &[])?;
                     let (a, b) = pair(between, "'between'")?;
-                    count(c, "'crossing'")? == *crossing && count(k, "'turns'")? == *turns && a <= *lo && *hi <= b
+                    let is_own =
+                        count(c, "'crossing'")? == *crossing && count(k, "'turns'")? == *turns && a <= *lo && *hi <= b;
+                    is_own && found.is_alone((*crossing, *turns), [&(a * scale), &(b * scale)])?
                 }
             };
             if !fits {
@@ -300,9 +344,7 @@ fn in_words(limits: &[(Limit, Limit)]) -> Json {
         Limit::Infinite => Json::Null,
         Limit::Number(q) => q.to_string().into(),
         Limit::Switch(_, _, lo, hi) => {
-            let scale = Q::from(Z::from(10).pow(12));
-            let (lo, hi) = ((lo * &scale).floor() / &scale, (hi * &scale).ceil() / &scale);
-            let between = Json::List(vec![lo.to_string().into(), hi.to_string().into()]);
+            let between = Json::List(outward(lo, hi).into_iter().map(Json::from).collect());
             Json::Object(vec![("switch".to_owned(), between)])
         }
     };

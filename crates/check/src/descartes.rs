@@ -80,6 +80,9 @@ impl Uni {
         let d = a.denom() * w.denom();
         let big_a = a.numer() * w.denom();
         let big_w = w.numer() * a.denom();
+        let bits = self.0.len() as u64 * (d.bits() + big_a.bits().max(big_w.bits()) + 1) + self.longest();
+        clock.hold(self.0.len(), bits)?;
+        clock.spend(2 * self.0.len(), bits, d.bits().max(big_w.bits()))?;
         let mut c = self.0.clone();
         let mut scale = Z::one();
         for coefficient in c.iter_mut().rev() {
@@ -230,7 +233,8 @@ fn shift(c: &mut [Z], a: &Z, clock: &Clock) -> Result<(), String> {
     }
     let n = c.len();
     for i in 0..n {
-        clock.tick()?;
+        let longest = c[i..].iter().map(Z::bits).max().unwrap_or(0);
+        clock.spend(n - i, longest, a.bits())?;
         for j in (i..n - 1).rev() {
             let (lower, upper) = c.split_at_mut(j + 1);
             if a.is_one() {

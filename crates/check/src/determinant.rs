@@ -19,6 +19,9 @@ impl Entry {
     }
 }
 
+/// Determinants that would take more values are refused.
+const MAX_VALUES: usize = 1 << 20;
+
 /// The determinant of a square matrix, coefficients of variable 0 from the constant term up.
 ///
 /// Degrees are bounded by the sums over rows, or columns, of the largest degrees; that many values at small
@@ -32,8 +35,8 @@ pub(super) fn determinant(m: &[Vec<Entry>], clock: &Clock) -> Result<Vec<Uni>, S
     let (Some(z_bound), Some(p_bound)) = (bound(m, Entry::degree), bound(m, Entry::parameter_degree)) else {
         return Ok(Vec::new());
     };
-    if (z_bound + 1).saturating_mul(p_bound + 1) > 4_000_000 {
-        return Err("the model is too large for the check".into());
+    if (z_bound + 1).saturating_mul(p_bound + 1) > MAX_VALUES {
+        return Err(clock.refuse("the model is too large for the check"));
     }
     let mut by_power: Vec<Vec<Z>> = vec![Vec::new(); z_bound + 1];
     for p in points(p_bound + 1) {
@@ -46,6 +49,7 @@ pub(super) fn determinant(m: &[Vec<Entry>], clock: &Clock) -> Result<Vec<Uni>, S
             clock.spend(terms, longest_entry.saturating_add(32 * (z_bound as u64)), 32)?;
             let numbers = at_p.iter().map(|row| row.iter().map(|c| value(c, z)).collect()).collect();
             values.push(bareiss(numbers, clock)?);
+            clock.hold(values.len() * (p_bound + 1), values[0].bits())?;
         }
         for (k, c) in interpolated(&values, clock)?.into_iter().enumerate() {
             by_power[k].push(c);

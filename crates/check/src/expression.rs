@@ -186,8 +186,10 @@ pub(super) fn is_name(text: &str) -> bool {
 
 /// How long the name is with which a text begins; 0 if it begins with none.
 pub(super) fn name_length(text: &str) -> usize {
-    if text.starts_with(|c: char| c == '_' || c.is_alphabetic()) {
-        text.find(|c: char| !(c == '_' || c.is_alphanumeric())).unwrap_or(text.len())
+    // Letters that are drawn as nothing: in a name they would hide what is meant.
+    let is_blank = |c: char| matches!(c, '\u{115f}' | '\u{1160}' | '\u{3164}' | '\u{ffa0}');
+    if text.starts_with(|c: char| c == '_' || (c.is_alphabetic() && !is_blank(c))) {
+        text.find(|c: char| !(c == '_' || (c.is_alphanumeric() && !is_blank(c)))).unwrap_or(text.len())
     } else {
         0
     }

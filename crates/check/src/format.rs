@@ -33,6 +33,9 @@ pub const MAX_TEXT: usize = 64 << 20;
 /// Arrays and objects may nest this deep; a certificate needs six levels.
 pub const MAX_DEPTH: usize = 16;
 
+/// Counts have at most so many digits.
+const MAX_COUNT_DIGITS: usize = 9;
+
 /// A JSON value. Objects keep their order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Json {
@@ -212,15 +215,13 @@ impl Reader<'_> {
 
     fn value(&mut self, depth: usize) -> Result<Json, String> {
         self.space();
-        if depth > MAX_DEPTH {
-            return Err(self.wrong("nested too deep"));
-        }
         match self.peek() {
             Some(b'n') => self.word("null", Json::Null),
             Some(b't') => self.word("true", Json::Bool(true)),
             Some(b'f') => self.word("false", Json::Bool(false)),
             Some(b'"') => self.string().map(Json::Text),
             Some(b'0'..=b'9') => self.count(),
+            Some(b'[' | b'{') if depth >= MAX_DEPTH => Err(self.wrong("nested too deep")),
             Some(b'[') => {
                 self.at += 1;
                 let mut items = Vec::new();
@@ -276,7 +277,9 @@ impl Reader<'_> {
         let digits = &self.text[start..self.at];
         let plain = digits.len() == 1 || !digits.starts_with('0');
         match digits.parse() {
-            Ok(n) if plain && !matches!(self.peek(), Some(b'.' | b'e' | b'E')) => Ok(Json::Count(n)),
+            Ok(n) if plain && digits.len() <= MAX_COUNT_DIGITS && !matches!(self.peek(), Some(b'.' | b'e' | b'E')) => {
+                Ok(Json::Count(n))
+            }
             _ => Err(self.wrong("only small counts are written as numbers, all others as strings")),
         }
     }
@@ -310,15 +313,7 @@ impl Reader<'_> {
                         Some(b'r') => '\r',
                         Some(b'b') => '\u{8}',
                         Some(b'f') => '\u{c}',
-                        Some(b'u') => {
-                            let code = self
-                                .text
-                                .get(self.at..self.at + 4)
-                                .filter(|t| t.bytes().all(|b| b.is_ascii_hexdigit()));
-                            let code = code.and_then(|t| u32::from_str_radix(t, 16).ok()).and_then(char::from_u32);
-                            self.at += 4;
-                            code.ok_or_else(|| "a \\u escape is wrong".to_owned())?
-                        }
+                        Some(b'u') => self.escaped()?,
                         _ => return Err("an escape is wrong".to_owned()),
                     });
                 }
@@ -328,9 +323,56 @@ impl Reader<'_> {
     }
 }
 
+/// The code point of two halves of a surrogate pair (RFC 8259, section 7).
+fn joined(high: u32, low: u32) -> u32 {
+    0x1_0000 + ((high - 0xd800) << 10) + (low - 0xdc00)
+}
+
+impl Reader<'_> {
+    /// The character of the four hexadecimal digits behind `\u`, or of two such escapes that are a surrogate pair.
+    fn escaped(&mut self) -> Result<char, String> {
+        let high = self.code()?;
+        let is_half = (0xd800..0xdc00).contains(&high);
+        if is_half && self.text.get(self.at..).is_some_and(|rest| rest.starts_with("\\u")) {
+            self.at += 2;
+            let low = self.code()?;
+            if (0xdc00..0xe000).contains(&low) {
+                return char::from_u32(joined(high, low)).ok_or_else(|| self.wrong("a \\u escape is wrong"));
+            }
+        }
+        char::from_u32(high).ok_or_else(|| self.wrong("half of a surrogate pair stands alone"))
+    }
+
+    fn code(&mut self) -> Result<u32, String> {
+        let digits = self.text.get(self.at..self.at + 4).filter(|t| t.bytes().all(|b| b.is_ascii_hexdigit()));
+        let code = digits.and_then(|t| u32::from_str_radix(t, 16).ok());
+        let code = code.ok_or_else(|| self.wrong("a \\u escape is wrong"))?;
+        self.at += 4;
+        Ok(code)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn escaped_characters_are_read_and_halves_of_pairs_are_not() {
+        let read = |text: &str| Json::parse(&format!("\"{text}\""));
+        assert_eq!(read("\\ud83d\\ude00 \\u00e9"), Ok("\u{1f600} \u{e9}".into()));
+        for wrong in
+            ["\\ud83d", "\\ude00", "\\ud83d ", "\\ud83d\\n", "\\ud83d\\u0041", "\\ud83d\\ud83d", "\\ud83d\\u", "\\u123"]
+        {
+            assert!(read(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn nesting_and_counts_end_where_they_are_said_to() {
+        let nested = |n: usize| format!("{}7{}", "[".repeat(n), "]".repeat(n));
+        assert!(Json::parse(&nested(MAX_DEPTH)).is_ok() && Json::parse(&nested(MAX_DEPTH + 1)).is_err());
+        assert!(Json::parse("999999999").is_ok() && Json::parse("1000000000").is_err());
+    }
 
     #[test]
     fn what_is_written_reads_back() {

@@ -8,6 +8,7 @@ use super::number::{Q, Z};
 use super::over_symbols::primitive;
 use super::statement::{Extent, count, extent, identifier, list, number, object, pair, text, values};
 use super::univariate::Uni;
+use super::words::{exact, inward};
 use super::{Proved, Rejection, Step, is_discrete};
 use crate::format::Json;
 use num_traits::{Signed, Zero};
@@ -74,7 +75,7 @@ pub(super) fn check_verdict(
     }
     let cell = Cell { lower: Q::zero(), upper: Q::zero(), right };
     prove(text_of_model, (None, &set), base, bits, &[cell], clock)?;
-    let at: Vec<String> = set.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+    let at: Vec<String> = set.iter().map(|(name, value)| format!("{name} = {}", exact(value))).collect();
     let at = if at.is_empty() { "The".to_owned() } else { format!("At {}, the", at.join(", ")) };
     let statement = format!("{at} loop is {name}: {right} roots to the right of the imaginary axis, none on it.");
     Ok(Proved { statement, kind: "verdict" })
@@ -140,7 +141,7 @@ fn family(
         let coefficients: Vec<Uni> = divisor.coefficients(0).iter().map(in_parameter).collect();
         divisors.push(common(&coefficients)?);
     }
-    let mut parts: Vec<Vec<Uni>> = primitive(found.function.coefficients(2))
+    let mut parts: Vec<Vec<Uni>> = primitive(found.function.coefficients(2), clock)?
         .iter()
         .map(|part| part.coefficients(0).iter().map(in_parameter).collect())
         .skip_while(|part: &Vec<Uni>| part.iter().all(Uni::is_zero))
@@ -150,7 +151,7 @@ fn family(
         if content.degree() > 0 {
             // The quotient comes without the integers that all coefficients have in common.
             let quotient = c.divided(&content, clock)?.ok_or("internal: a common divisor does not divide")?;
-            *c = quotient.scaled(&c.content());
+            *c = quotient.scaled(&c.content(clock)?);
         }
         if c.degree() > 1 {
             return Err("the parameter does not enter as a factor".into());
@@ -218,10 +219,10 @@ fn counted(family: &Family, frequencies: &mut Frequencies<'_>, axis: i32, p: &Q)
 
 fn in_words(parameter: &str, set: &[(String, Q)], cells: &[Cell]) -> String {
     let join = |of: &[String]| of.join(" or ");
-    let within = |cell: &Cell| format!("[{}, {}]", cell.lower, cell.upper);
+    let within = |cell: &Cell| format!("[{}]", inward(&cell.lower, &cell.upper).join(", "));
     let all: Vec<String> = cells.iter().map(within).collect();
     let stable: Vec<String> = cells.iter().filter(|c| c.right == 0).map(within).collect();
-    let given: Vec<String> = set.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+    let given: Vec<String> = set.iter().map(|(name, value)| format!("{name} = {}", exact(value))).collect();
     let given = if given.is_empty() { String::new() } else { format!(", with {}", given.join(", ")) };
     let stable = if stable.is_empty() { "for none of them".to_owned() } else { format!("in {}", join(&stable)) };
     format!(

@@ -15,6 +15,9 @@ use super::symbols::Table;
 use super::univariate::common_denominator;
 use num_traits::{One, ToPrimitive, Zero};
 
+/// A product of rational numbers and a sum are so many operations: their common divisors are looked for.
+const RATIONAL: usize = 20;
+
 /// Dead times of more samples are refused.
 const MAX_SAMPLES: usize = 2000;
 
@@ -197,7 +200,7 @@ fn numbers_product(a: &Numbers, b: &Numbers, clock: &Clock) -> Result<Numbers, S
     for i in 0..n {
         for j in 0..n {
             for k in (0..n).filter(|&k| !a[i][k].is_zero() && !b[k][j].is_zero()) {
-                clock.spend(1, a[i][k].numer().bits() + a[i][k].denom().bits(), b[k][j].numer().bits())?;
+                clock.spend(RATIONAL, a[i][k].numer().bits() + a[i][k].denom().bits(), b[k][j].numer().bits())?;
                 out[i][j] += &a[i][k] * &b[k][j];
             }
         }
@@ -261,7 +264,7 @@ fn response(
         for j in 0..3 {
             for r in 0..n {
                 for c in 0..n {
-                    clock.tick()?;
+                    clock.spend(RATIONAL, 1, 1)?;
                     z[b][j][r][c] = part(b, j, r, c);
                 }
             }
@@ -355,7 +358,7 @@ fn inverse(mut m: Numbers, clock: &Clock) -> Result<Numbers, String> {
                 continue;
             }
             for j in k..2 * n {
-                clock.tick()?;
+                clock.spend(RATIONAL, 1, 1)?;
                 let step = &factor * &m[k][j];
                 m[i][j] -= step;
             }

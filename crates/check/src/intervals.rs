@@ -353,6 +353,9 @@ fn is_excluded<P: Coefficient>(
             if w.is_zero() || identity.value.divided(f, clock)?.is_none() {
                 return Ok(false);
             }
+            if w.degree() == 0 {
+                return w.is_nonzero(clock);
+            }
             Ok(w.descartes(Some(a), Some(b), clock)? == Some(0))
         }
         _ => Ok(false),

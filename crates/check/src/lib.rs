@@ -18,6 +18,7 @@ mod dead_time;
 mod declarations;
 mod descartes;
 mod determinant;
+mod digest;
 mod exponentials;
 mod expression;
 pub mod format;
@@ -44,6 +45,7 @@ mod products;
 #[doc = include_str!("proved.md")]
 pub mod proved {}
 mod region;
+mod report;
 mod roots;
 mod statement;
 mod symbols;
@@ -52,8 +54,11 @@ mod tolerance;
 mod toml;
 mod univariate;
 mod verdict;
+mod words;
 
+pub use digest::sha256;
 pub use map_boxes::{BoxJudge, JudgedBox};
+pub use report::{Names, report};
 
 use clock::{Clock, out_of_time};
 use format::{
@@ -66,6 +71,7 @@ use over::Over;
 use statement::{Extent, bound, extent, identifier, object, polynomial, polynomials, text, values};
 use std::fmt;
 use std::rc::Rc;
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 use symbols::Table;
@@ -75,7 +81,7 @@ use univariate::Uni;
 const STACK: usize = 64 << 20;
 
 /// A check that does not end by itself is given up this long after its time.
-const GRACE: Duration = Duration::from_millis(500);
+const GRACE: Duration = Duration::from_millis(150);
 
 /// How much work a check may be.
 ///
@@ -162,6 +168,8 @@ pub enum Step {
     Stable,
     /// The check was given up in the middle of a step.
     Time,
+    /// The check would be more work, or take more memory, than texts of their length may ask for. Nothing is said of the certificate.
+    Work,
 }
 
 impl Step {
@@ -180,6 +188,7 @@ impl Step {
             Step::Joins => "joins",
             Step::Stable => "stable",
             Step::Time => "time",
+            Step::Work => "work",
         }
     }
 
@@ -213,7 +222,9 @@ pub struct Rejection {
 
 impl fmt::Display for Rejection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the certificate is rejected at the step '{}': {}", self.step.name(), self.reason)
+        // What is too much to check may still be true.
+        let word = if matches!(self.step, Step::Time | Step::Work) { "refused" } else { "rejected" };
+        write!(f, "the certificate is {word} at the step '{}': {}", self.step.name(), self.reason)
     }
 }
 
@@ -277,7 +288,14 @@ pub fn check(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, 
 }
 
 fn checked(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Rejection> {
-    let clock = Clock::new(limits.timeout);
+    let clock = Clock::of_texts(limits.timeout, model.len() + certificate.len());
+    let refusals = clock.refusals();
+    // A refusal is told apart, in whatever step it came.
+    by_kind(model, certificate, clock)
+        .map_err(|e| if refusals.load(Ordering::Relaxed) { Rejection { step: Step::Work, ..e } } else { e })
+}
+
+fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejection> {
     let json = Step::Format.of(Json::parse(certificate))?;
     // Another version may have other parts, so it is looked at first.
     let schema = json.get("schema").ok_or_else(|| "the certificate has no 'schema'".to_owned());
@@ -382,7 +400,7 @@ fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) ->
             if d.discrete != discrete {
                 return Err(other_time());
             }
-            let coefficients = region::transformed(&d.coefficients, discrete, &extent);
+            let coefficients = Step::Model.of(region::transformed(&d.coefficients, discrete, &extent, clock))?;
             let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'", polynomial))?;
             Step::Characteristic.of(same_characteristic(&given, &coefficients))?;
             let d = intervals::Loop { discrete, degree: d.degree, coefficients: &coefficients, poles: &d.poles };

@@ -3,7 +3,7 @@
 #![forbid(unsafe_code)]
 
 use jurist_check::format::MAX_TEXT;
-use jurist_check::{Limits, check};
+use jurist_check::{Limits, Names, check, report};
 use std::ffi::{OsStr, OsString};
 use std::io::{Read, Write};
 use std::process::ExitCode;
@@ -93,25 +93,35 @@ fn bytes(name: &OsStr) -> Result<Vec<u8>, String> {
 }
 
 /// The proved statement, or why nothing is proved.
-fn verdict(model: Vec<u8>, certificate: Vec<u8>, limits: &Limits) -> Result<String, String> {
+fn verdict(model: Vec<u8>, certificate: Vec<u8>, names: Names<'_>, limits: &Limits) -> Result<String, String> {
     let text = |bytes: Vec<u8>, what: &str| {
         String::from_utf8(bytes).map_err(|_| format!("the certificate is rejected: {what} is not UTF-8"))
     };
     let (model, certificate) = (text(model, "the model")?, text(certificate, "the certificate")?);
-    check(&model, &certificate, limits).map(|proved| proved.statement).map_err(|rejection| rejection.to_string())
+    let proved = check(&model, &certificate, limits).map_err(|rejection| rejection.to_string())?;
+    Ok(report(&proved, &model, &certificate, names))
+}
+
+/// The name of a file for people.
+fn shown(name: &OsStr) -> String {
+    if name == "-" { "standard input".into() } else { name.to_string_lossy().into_owned() }
 }
 
 fn run() -> Result<ExitCode, String> {
     let answer = match task(std::env::args_os().skip(1)).map_err(|e| format!("{e}; see jurist-check --help"))? {
         Task::Help => HELP.to_owned(),
         Task::Version => concat!("jurist-check ", env!("CARGO_PKG_VERSION"), "\n").to_owned(),
-        Task::Check { model, certificate, limits } => match verdict(bytes(&model)?, bytes(&certificate)?, &limits) {
-            Ok(statement) => format!("proved: {statement}\n"),
-            Err(reason) => {
-                complain(&reason);
-                return Ok(ExitCode::from(REJECTED));
+        Task::Check { model, certificate, limits } => {
+            let [of_model, of_certificate] = [&model, &certificate].map(|name| shown(name));
+            let names = Names { model: &of_model, certificate: &of_certificate };
+            match verdict(bytes(&model)?, bytes(&certificate)?, names, &limits) {
+                Ok(said) => said,
+                Err(reason) => {
+                    complain(&reason);
+                    return Ok(ExitCode::from(REJECTED));
+                }
             }
-        },
+        }
     };
     let mut output = std::io::stdout().lock();
     output.write_all(answer.as_bytes()).and_then(|()| output.flush()).map_err(|e| format!("cannot write: {e}"))?;

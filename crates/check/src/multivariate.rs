@@ -3,7 +3,7 @@
 use super::clock::Clock;
 use super::number::{Q, Z, power};
 use super::products;
-use super::univariate::gcd;
+use super::univariate::{gcd_counted, gcd_of};
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -20,7 +20,7 @@ const MAX_BITS: u64 = 1 << 22;
 /// Counts operations on numbers of so many bits, whose results have at most as many as both together.
 fn count(clock: &Clock, operations: usize, bits: u64, others: u64) -> Result<(), String> {
     if bits.saturating_add(others) > MAX_BITS {
-        return Err("a number in the model grows too long".into());
+        return Err(clock.refuse("a number in the model grows too long"));
     }
     clock.spend(operations, bits, others)
 }
@@ -126,10 +126,11 @@ impl Multi {
             && !other.is_zero()
             && products::added(&self.degrees(), &other.degrees()).iter().any(|&e| e > MAX_EXPONENT)
         {
-            return Err("an expression of the model has too high a degree".into());
+            return Err(clock.refuse("an expression of the model has too high a degree"));
         }
+        clock.hold(self.0.len().saturating_mul(other.0.len()).min(MAX_TERMS), bits[0] + bits[1])?;
         products::times(self, other, bits, MAX_TERMS, clock)?
-            .ok_or_else(|| "an expression of the model has too many terms".into())
+            .ok_or_else(|| clock.refuse("an expression of the model has too many terms"))
     }
 
     /// The degrees in all variables.
@@ -149,7 +150,7 @@ impl Multi {
             count(clock, 1, bits / 2, bits / 2)?;
             let e: Vec<u32> = e.iter().map(|e| e.saturating_mul(exponent)).collect();
             if e.iter().any(|&e| e > MAX_EXPONENT) {
-                return Err("an expression of the model has too high a degree".into());
+                return Err(clock.refuse("an expression of the model has too high a degree"));
             }
             return Ok(Multi::default().with(e, c.pow(exponent)));
         }
@@ -222,7 +223,7 @@ impl Multi {
         let variable = match (first(self), first(other)) {
             (None, None) => {
                 let all = self.0.values().chain(other.0.values());
-                return Ok(Multi::constant(all.fold(Z::zero(), |g, c| gcd(&g, c))));
+                return Ok(Multi::constant(gcd_of(all, clock)?));
             }
             (a, b) => a.unwrap_or(usize::MAX).min(b.unwrap_or(usize::MAX)),
         };
@@ -313,11 +314,7 @@ impl Fraction {
     fn reduced(mut self, clock: &Clock) -> Result<Self, String> {
         let mut g = Z::zero();
         for c in self.numerator.0.values().chain(self.scalar.0.values()) {
-            // Bits times words: about what a greatest common divisor takes.
-            let (short, long) = (g.bits().min(c.bits()), g.bits().max(c.bits()));
-            clock.spend(1, short, long)?;
-            clock.spend(1, short.saturating_mul(64), short)?;
-            g = gcd(&g, c);
+            g = gcd_counted(&g, c, clock)?;
             if g.is_one() {
                 break;
             }

@@ -7,6 +7,7 @@ use super::coefficient::{Coefficient, Ring};
 use super::interval::{Interval, balanced};
 use super::multivariate::Multi;
 use super::number::{Q, Z, integer};
+use super::over_symbols::primitive;
 use super::statement::{count, list, text};
 use super::symbols::Table;
 use crate::format::Json;
@@ -138,7 +139,9 @@ impl Coefficient for Over {
     }
 
     fn divided(&self, divisor: &Self, clock: &Clock) -> Result<Option<Self>, String> {
-        Ok(self.polynomial.divided(&divisor.polynomial, clock)?.map(|q| self.with(q)))
+        // Gauss: a quotient by a polynomial without common integers is integral; the integers move no zero.
+        let primitive = |p: &Self| Ok::<_, String>(primitive(vec![p.polynomial.clone()], clock)?.swap_remove(0));
+        Ok(primitive(self)?.divided(&primitive(divisor)?, clock)?.map(|q| self.with(q)))
     }
 
     fn descartes(&self, a: Option<&Q>, b: Option<&Q>, clock: &Clock) -> Result<Option<usize>, String> {

@@ -1,5 +1,9 @@
 //! The characteristic polynomial of a loop in all parameters of a box. Nothing is brought to lowest terms.
 
+mod common;
+
+pub(super) use common::separated;
+
 use super::blocks::cleared;
 use super::characteristic::{Form, product};
 use super::clock::Clock;
@@ -103,10 +107,14 @@ fn less(m: &[Vec<Fraction>], clock: &Clock) -> Result<Vec<Vec<Multi>>, String> {
 }
 
 /// `D(R z)` or `D(s - S)`, times a positive number.
-pub(super) fn in_region(d: &[Multi], discrete: bool, extent: &Extent) -> Result<Vec<Multi>, String> {
+pub(super) fn in_region(d: &[Multi], discrete: bool, extent: &Extent, clock: &Clock) -> Result<Vec<Multi>, String> {
     let Extent::Number(bound) = extent else { return Err("the region has no parameter here".into()) };
     let n = d.len().saturating_sub(1) as u32;
     let (top, bottom) = (bound.numer(), bound.denom());
+    let (terms, bits) = size(d);
+    let bits = bits + u64::from(n) * (top.bits() + bottom.bits());
+    clock.hold(terms, bits)?;
+    clock.spend(terms, bits, top.bits())?;
     if discrete {
         return Ok(d.iter().zip(0..).map(|(c, k)| c.scaled(&(top.pow(k) * bottom.pow(n - k)))).collect());
     }
@@ -114,6 +122,7 @@ pub(super) fn in_region(d: &[Multi], discrete: bool, extent: &Extent) -> Result<
     let mut c: Vec<Multi> = d.iter().zip(0..).map(|(c, k)| c.scaled(&bottom.pow(n - k))).collect();
     for i in 0..c.len() {
         for j in (i..c.len() - 1).rev() {
+            clock.spend(1 + c[j].0.len() + c[j + 1].0.len(), bits, top.bits())?;
             c[j] = c[j].minus(&c[j + 1].scaled(top));
         }
     }
@@ -121,11 +130,14 @@ pub(super) fn in_region(d: &[Multi], discrete: bool, extent: &Extent) -> Result<
 }
 
 /// `(1 - s)^n D((1 + s)/(1 - s))`, whose roots are left of the imaginary axis where those of `D` are in the unit disc.
-pub(super) fn in_half_plane(d: &[Multi]) -> Vec<Multi> {
+pub(super) fn in_half_plane(d: &[Multi], clock: &Clock) -> Result<Vec<Multi>, String> {
     let n = d.len() - 1;
+    let (terms, bits) = size(d);
+    clock.hold((n + 1).saturating_mul(terms), bits + n as u64)?;
     let mut out = vec![Multi::default(); n + 1];
     for (i, c) in d.iter().enumerate() {
         let mut factor = vec![Z::one()];
+        clock.spend(n * n / 2 + (n + 1) * c.0.len(), bits + n as u64, 1)?;
         for k in 0..n {
             factor.push(Z::from(0));
             for j in (1..factor.len()).rev() {
@@ -137,7 +149,13 @@ pub(super) fn in_half_plane(d: &[Multi]) -> Vec<Multi> {
             *target = target.plus(&c.scaled(a));
         }
     }
-    out
+    Ok(out)
+}
+
+/// The number of terms, and the bits of the longest number.
+fn size(d: &[Multi]) -> (usize, u64) {
+    let numbers = d.iter().flat_map(|p| p.0.values());
+    (numbers.clone().count(), numbers.map(Z::bits).max().unwrap_or(0))
 }
 
 /// Whether the own polynomial is the given one times a common factor; that factor.
@@ -145,7 +163,7 @@ pub(super) fn common_factor(given: &[Multi], own: &[Multi], clock: &Clock) -> Re
     if given.len() != own.len() {
         return Err(format!("there are {} coefficients, but the model's polynomial has {}", given.len(), own.len()));
     }
-    let (given, own) = (primitive(given.to_vec()), primitive(own.to_vec()));
+    let (given, own) = (primitive(given.to_vec(), clock)?, primitive(own.to_vec(), clock)?);
     let shortest = (0..given.len()).filter(|&k| !given[k].is_zero()).min_by_key(|&k| given[k].0.len());
     let k = shortest.ok_or("the polynomial is zero")?;
     // Gauss: the quotient by polynomials without an integer common to all is integral.
@@ -165,7 +183,7 @@ fn not_that(k: usize) -> String {
 /// Whether a polynomial has zeros only where one of the factors has: what it has in common with them is divided out, as often as
 /// there is anything, and a number other than zero is left.
 pub(super) fn vanishes_only_with(p: &Multi, factors: &[Multi], clock: &Clock) -> Result<bool, String> {
-    let Some(mut p) = primitive(vec![p.clone()]).pop().filter(|p| !p.is_zero()) else { return Ok(false) };
+    let Some(mut p) = primitive(vec![p.clone()], clock)?.pop().filter(|p| !p.is_zero()) else { return Ok(false) };
     // Divisions that leave nothing are most often enough, and cheap beside common divisors.
     for f in factors {
         while !p.is_constant()

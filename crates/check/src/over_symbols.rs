@@ -12,6 +12,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// More sets of columns are refused.
 const MAX_SETS: usize = 20_000;
 
+/// More terms of all minors together are refused.
+const MAX_TERMS: usize = 400_000;
+
 /// Polynomials in the parameter (variable 1) and the symbols (from variable 2 on).
 pub(super) struct OverSymbols {
     pub degree: usize,
@@ -106,16 +109,17 @@ pub(super) fn substituted(row: &[Multi], values: &[Q], clock: &Clock) -> Result<
         }
         out.push(sum);
     }
-    Ok(primitive(out))
+    primitive(out, clock)
 }
 
 /// Divided by the greatest common divisor of all integers in it.
-pub(super) fn primitive(row: Vec<Multi>) -> Vec<Multi> {
-    let g = gcd_of(row.iter().flat_map(|p| p.0.values()));
+pub(super) fn primitive(row: Vec<Multi>, clock: &Clock) -> Result<Vec<Multi>, String> {
+    let g = gcd_of(row.iter().flat_map(|p| p.0.values()), clock)?;
     if g.is_zero() || g.is_one() {
-        return row;
+        return Ok(row);
     }
-    row.into_iter().map(|p| Multi(p.0.into_iter().map(|(e, c)| (e, c / &g)).collect())).collect()
+    clock.spend(row.iter().map(|p| p.0.len()).sum(), g.bits(), 64)?;
+    Ok(row.into_iter().map(|p| Multi(p.0.into_iter().map(|(e, c)| (e, c / &g)).collect())).collect())
 }
 
 /// The determinant, row by row: for each set of columns that the rows so far can take, the determinant of these rows in these
@@ -137,8 +141,9 @@ pub(super) fn determinant(rows: &[Vec<Multi>], clock: &Clock) -> Result<Multi, S
             }
         }
         next.retain(|_, minor| !minor.is_zero());
-        if next.len() > MAX_SETS {
-            return Err("a loop with symbols is too large for the check".into());
+        let terms: usize = next.values().map(|minor| minor.0.len()).sum();
+        if next.len() > MAX_SETS || terms > MAX_TERMS {
+            return Err(clock.refuse("a loop with symbols is too large for the check"));
         }
         minors = next;
     }
@@ -169,7 +174,7 @@ pub(super) fn same(given: &[Multi], own: &[Multi], clock: &Clock) -> Result<(), 
     if given.len() != own.len() {
         return Err(format!("there are {} coefficients, but the model's polynomial has {}", given.len(), own.len()));
     }
-    let (given, own) = (primitive(given.to_vec()), primitive(own.to_vec()));
+    let (given, own) = (primitive(given.to_vec(), clock)?, primitive(own.to_vec(), clock)?);
     let (Some(last), Some(own_last)) = (given.last(), own.last()) else { return Ok(()) };
     // Gauss: the quotient by a polynomial without common integers is integral.
     let quotient = own_last.divided(last, clock)?.ok_or("the leading coefficient is not that of the model")?;

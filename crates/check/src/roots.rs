@@ -18,18 +18,20 @@ pub(super) struct Places {
 /// `D <- (d_n D - d_0 D#)/z`: the roots are inside if and only if `|d_0| < |d_n|` and those of the
 /// reduced polynomial are \[Jury1964\]. Constants that are not zero have no roots.
 pub(super) fn is_schur(d: &Uni, clock: &Clock) -> Result<bool, String> {
-    let mut d = d.primitive();
+    let mut d = d.primitive(clock)?;
     if d.is_zero() {
         return Ok(false);
     }
     while d.degree() > 0 {
-        clock.tick()?;
+        let bits = d.longest();
+        clock.hold(d.0.len(), 2 * bits)?;
+        clock.spend(2 * d.0.len(), bits, bits)?;
         let (first, last) = (d.at(0), d.leading());
         if first.abs() >= last.abs() {
             return Ok(false);
         }
         let n = d.degree();
-        d = Uni::new((1..=n).map(|k| &last * &d.0[k] - &first * &d.0[n - k]).collect()).primitive();
+        d = Uni::new((1..=n).map(|k| &last * &d.0[k] - &first * &d.0[n - k]).collect()).primitive(clock)?;
         if d.degree() != n - 1 {
             return Err("internal: the reduced polynomial has the wrong degree".into());
         }
@@ -41,12 +43,14 @@ pub(super) fn is_schur(d: &Uni, clock: &Clock) -> Result<bool, String> {
 /// `D <- D - (a_n/a_(n-1)) s (a_(n-1) s^(n-1) + a_(n-3) s^(n-3) + ...)` has one root less, and the
 /// rest on the same sides \[Routh1877\].
 pub(super) fn is_hurwitz(d: &Uni, clock: &Clock) -> Result<bool, String> {
-    let mut d = d.primitive();
+    let mut d = d.primitive(clock)?;
     if d.is_zero() {
         return Ok(false);
     }
     while d.degree() > 0 {
-        clock.tick()?;
+        let bits = d.longest();
+        clock.hold(d.0.len(), 2 * bits)?;
+        clock.spend(2 * d.0.len(), bits, bits)?;
         let n = d.degree();
         let (last, next) = (d.leading(), d.at(n - 1));
         if next.is_zero() || last.sign() != next.sign() {
@@ -58,7 +62,7 @@ pub(super) fn is_hurwitz(d: &Uni, clock: &Clock) -> Result<bool, String> {
         for k in (0..n).rev().step_by(2) {
             reduced[k + 1] -= &last * &d.0[k];
         }
-        d = Uni::new(reduced).primitive();
+        d = Uni::new(reduced).primitive(clock)?;
         if d.degree() != n - 1 {
             return Err("internal: the reduced polynomial has the wrong degree".into());
         }
@@ -84,7 +88,8 @@ pub(super) fn places_by_circle(d: &Uni, clock: &Clock) -> Result<Places, String>
     let mut image = Uni::default();
     let mut weight = Uni::constant(Z::one());
     for c in d.0.iter().rev() {
-        clock.tick()?;
+        clock.spend(4 * (1 + image.0.len()), image.longest(), 1)?;
+        clock.spend(1 + weight.0.len(), weight.longest(), c.bits())?;
         image = image.times(&plus).plus(&weight.scaled(c));
         weight = weight.times(&minus);
     }
@@ -179,13 +184,13 @@ fn sign_at_minus_infinity(g: &Uni) -> Sign {
 
 /// `f, g`, then minus the remainder each time.
 fn sturm_chain(f: &Uni, g: &Uni, clock: &Clock) -> Result<Vec<Uni>, String> {
-    let mut chain = vec![f.primitive(), g.primitive()];
+    let mut chain = vec![f.primitive(clock)?, g.primitive(clock)?];
     while let [.., a, b] = chain.as_slice() {
         if b.is_zero() {
             chain.pop();
             break;
         }
-        let next = a.pseudo_remainder(b, clock)?.primitive().scaled(&-Z::one());
+        let next = a.pseudo_remainder(b, clock)?.primitive(clock)?.scaled(&-Z::one());
         chain.push(next);
     }
     Ok(chain)

@@ -156,7 +156,9 @@ impl Table {
             if !known.contains_key(of_symbols) {
                 let mut product = Interval::integer(&Z::one(), self.bits);
                 for (i, &k) in of_symbols.iter().enumerate().filter(|(_, k)| **k > 0) {
+                    clock.hold(k as usize, 2 * self.bits as u64)?;
                     while powers[i].len() <= k as usize {
+                        clock.spend(4, self.bits as u64, self.bits as u64)?;
                         let last = &powers[i][powers[i].len() - 1];
                         let next = last.times(&values[i], self.bits);
                         powers[i].push(next);

@@ -145,8 +145,13 @@ impl Taylor {
         out
     }
 
+    /// The bits of the longest number, or of one: exponentials grow far beyond one.
+    fn longest(&self, p: &Precision) -> u64 {
+        self.c.iter().chain([&self.rest]).map(Z::bits).fold(p.bits as u64, u64::max)
+    }
+
     pub fn times(&self, other: &Self, p: &Precision, clock: &Clock) -> Result<Self, String> {
-        clock.spend(self.c.len() * other.c.len(), p.bits as u64, p.bits as u64)?;
+        clock.spend(self.c.len() * other.c.len(), self.longest(p), other.longest(p))?;
         let mut full: Vec<Z> = Vec::new();
         for (a, [i, j]) in self.c.iter().zip(&p.exponents).filter(|(a, _)| !a.is_zero()) {
             for (b, [k, l]) in other.c.iter().zip(&p.exponents).filter(|(b, _)| !b.is_zero()) {

@@ -51,6 +51,19 @@ impl Uni {
         Uni::new(self.0.iter().map(|c| c * factor).collect())
     }
 
+    /// The longest coefficient's bits.
+    pub fn longest(&self) -> u64 {
+        self.0.iter().map(Z::bits).max().unwrap_or(0)
+    }
+
+    /// The product, counted before it is computed.
+    pub fn product(&self, other: &Uni, clock: &Clock) -> Result<Uni, String> {
+        let (bits, others) = (self.longest(), other.longest());
+        clock.hold(self.0.len() + other.0.len(), bits + others)?;
+        clock.spend(self.0.len() * other.0.len(), bits, others)?;
+        Ok(self.times(other))
+    }
+
     pub fn times(&self, other: &Uni) -> Uni {
         if self.is_zero() || other.is_zero() {
             return Uni::default();
@@ -73,24 +86,27 @@ impl Uni {
     }
 
     /// The greatest common divisor of the coefficients.
-    pub fn content(&self) -> Z {
-        gcd_of(self.0.iter())
+    pub fn content(&self, clock: &Clock) -> Result<Z, String> {
+        gcd_of(self.0.iter(), clock)
     }
 
     /// Divided by the content; the sign stays.
-    pub fn primitive(&self) -> Uni {
-        let content = self.content();
+    pub fn primitive(&self, clock: &Clock) -> Result<Uni, String> {
+        let content = self.content(clock)?;
         if content.is_zero() || content.is_one() {
-            return self.clone();
+            return Ok(self.clone());
         }
-        Uni(self.0.iter().map(|c| c / &content).collect())
+        clock.spend(self.0.len(), self.longest(), content.bits())?;
+        Ok(Uni(self.0.iter().map(|c| c / &content).collect()))
     }
 
     /// The value at a rational number, times the denominator of that number to the power of the degree.
     pub fn numerator_at(&self, value: &Q, clock: &Clock) -> Result<Z, String> {
         let (mut result, mut q_power) = (Z::zero(), Z::one());
+        let (top, below) = (value.numer().bits(), value.denom().bits());
         for (i, c) in self.0.iter().rev().enumerate() {
-            clock.tick()?;
+            clock.spend(1, result.bits(), top)?;
+            clock.spend(1, q_power.bits(), below.max(c.bits()))?;
             if i > 0 {
                 q_power *= value.denom();
             }
@@ -113,12 +129,12 @@ impl Uni {
             return Ok(None);
         }
         // Gauss: a quotient of primitive polynomials is primitive over the integers.
-        let (mut rest, divisor) = (self.primitive().0, divisor.primitive());
-        let lead = divisor.leading();
+        let (mut rest, divisor) = (self.primitive(clock)?.0, divisor.primitive(clock)?);
+        let (lead, longest) = (divisor.leading(), divisor.longest());
         let n = divisor.degree();
         let mut quotient = vec![Z::zero(); rest.len() - n];
         for k in (0..quotient.len()).rev() {
-            clock.tick()?;
+            clock.spend(n + 1, rest[k + n].bits(), longest)?;
             let q = &rest[k + n] / &lead;
             if &q * &lead != rest[k + n] {
                 return Ok(None);
@@ -135,7 +151,7 @@ impl Uni {
 
     /// The primitive greatest common divisor over the rationals, with a positive leading coefficient.
     pub fn gcd(&self, other: &Uni, clock: &Clock) -> Result<Uni, String> {
-        let (mut a, mut b) = (self.primitive(), other.primitive());
+        let (mut a, mut b) = (self.primitive(clock)?, other.primitive(clock)?);
         if a.degree() < b.degree() {
             std::mem::swap(&mut a, &mut b);
         }
@@ -143,7 +159,7 @@ impl Uni {
             if b.degree() == 0 {
                 return Ok(Uni(vec![Z::one()]));
             }
-            let rest = a.pseudo_remainder(&b, clock)?.primitive();
+            let rest = a.pseudo_remainder(&b, clock)?.primitive(clock)?;
             a = std::mem::replace(&mut b, rest);
         }
         Ok(if a.leading().is_negative() { a.scaled(&-Z::one()) } else { a })
@@ -153,9 +169,11 @@ impl Uni {
     pub fn pseudo_remainder(&self, divisor: &Uni, clock: &Clock) -> Result<Uni, String> {
         let mut rest = self.clone();
         let lead = divisor.leading();
-        let size = lead.abs();
+        let (size, longest) = (lead.abs(), divisor.longest());
         while !rest.is_zero() && rest.0.len() >= divisor.0.len() {
-            clock.tick()?;
+            let bits = rest.longest();
+            clock.hold(rest.0.len(), bits + longest)?;
+            clock.spend(rest.0.len() + divisor.0.len(), bits, longest)?;
             let shift = rest.0.len() - divisor.0.len();
             let mut top = rest.leading();
             if lead.is_negative() {
@@ -172,16 +190,24 @@ impl Uni {
 }
 
 /// The greatest common divisor, 0 of none.
-pub(super) fn gcd_of<'a>(values: impl Iterator<Item = &'a Z> + Clone) -> Z {
+pub(super) fn gcd_of<'a>(values: impl Iterator<Item = &'a Z> + Clone, clock: &Clock) -> Result<Z, String> {
     // The shortest first: all others are reduced to its length by a division.
     let mut g = values.clone().filter(|v| !v.is_zero()).min_by_key(|v| v.bits()).map(Z::abs).unwrap_or_default();
     for v in values {
         if g.is_one() {
             break;
         }
-        g = gcd(&g, v);
+        g = gcd_counted(&g, v, clock)?;
     }
-    g
+    Ok(g)
+}
+
+/// The greatest common divisor, counted before it is computed: a division, then a subtraction for each bit of the shorter number.
+pub(super) fn gcd_counted(a: &Z, b: &Z, clock: &Clock) -> Result<Z, String> {
+    let (short, long) = (a.bits().min(b.bits()), a.bits().max(b.bits()));
+    clock.spend(1, short, long)?;
+    clock.spend(1, short.saturating_mul(64), short)?;
+    Ok(gcd(a, b))
 }
 
 /// The greatest common divisor, not negative.

@@ -5,6 +5,7 @@ use super::number::Q;
 use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
 use super::statement::{self, End, Extent, count, fixed_extent, list, object, polynomial, polynomials, text, values};
 use super::univariate::Uni;
+use super::words::{exact, outward};
 use super::{Proved, Rejection, Step, further_keys, held, is_discrete, model, region, same_characteristic, table};
 use crate::format::Json;
 use num_traits::Zero;
@@ -53,7 +54,7 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
         return Err(Rejection { step: Step::Stable, reason });
     }
     let mut sentence = String::new();
-    let values: Vec<String> = set.iter().map(|(n, v)| format!("{n} = {v}")).collect();
+    let values: Vec<String> = set.iter().map(|(n, v)| format!("{n} = {}", exact(v))).collect();
     if !values.is_empty() {
         let _ = write!(sentence, "At {}, ", values.join(", "));
     }
@@ -84,7 +85,7 @@ fn rational(
     if d.discrete != discrete {
         return Err(Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() });
     }
-    let coefficients = region::transformed(&d.coefficients, discrete, extent);
+    let coefficients = Step::Model.of(region::transformed(&d.coefficients, discrete, extent, clock))?;
     let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'", polynomial))?;
     Step::Characteristic.of(same_characteristic(&given, &coefficients))?;
     let undefined = d.poles.iter().any(Uni::is_zero);
@@ -120,9 +121,11 @@ pub(super) fn within(extent: &Extent, discrete: bool) -> String {
     match extent {
         Extent::Parameter if discrete => " with all |z| < radius".into(),
         Extent::Parameter => " with all Re s < -decay".into(),
-        Extent::Number(r) if discrete && *r != Q::from(num_bigint::BigInt::from(1)) => format!(" with all |z| < {r}"),
+        Extent::Number(r) if discrete && *r != Q::from(num_bigint::BigInt::from(1)) => {
+            format!(" with all |z| < {}", exact(r))
+        }
         Extent::Number(s) if !discrete && *s != Q::from(num_bigint::BigInt::from(0)) => {
-            format!(" with all Re s < -({s})")
+            format!(" with all Re s < {}", exact(&-s))
         }
         Extent::Number(_) => String::new(),
     }
@@ -141,12 +144,12 @@ pub(super) fn sentence_of_intervals(
     out.push_str(parameter);
     let _ = match domain {
         (None, None) => Ok(()),
-        (Some(l), None) => write!(out, " > {l}"),
-        (None, Some(u)) => write!(out, " < {u}"),
-        (Some(l), Some(u)) => write!(out, " in ({l}, {u})"),
+        (Some(l), None) => write!(out, " > {}", exact(l)),
+        (None, Some(u)) => write!(out, " < {}", exact(u)),
+        (Some(l), Some(u)) => write!(out, " in ({}, {})", exact(l), exact(u)),
     };
     for (i, (name, value)) in set.iter().enumerate() {
-        let _ = write!(out, "{}{name} = {value}", if i == 0 { ", with " } else { ", " });
+        let _ = write!(out, "{}{name} = {}", if i == 0 { ", with " } else { ", " }, exact(value));
     }
     let _ = write!(out, ", the loop is stable{}", within(extent, discrete));
     let intervals = list(stable, "").unwrap_or_default();
@@ -172,18 +175,18 @@ pub(super) fn sentence_of_intervals(
 }
 
 /// Polynomials that take more characters than this are not written out.
-const SHOWN: usize = 500;
+const SHOWN: usize = 200;
 
 /// An end in words; `None` for an infinite one.
 fn end(json: &Json, parameter: &str) -> Option<String> {
     if let Some(Json::List(between)) = json.get("switch")
         && let [Json::Text(a), Json::Text(b)] = between.as_slice()
     {
-        return Some(format!("[the dead time in ({a}, {b}) with roots on the axis]"));
+        return Some(format!("[a dead time between {a} and {b} with roots on the axis]"));
     }
     let (f, a, b) = match statement::end(json, |p: &Json, _: &str| Ok(p.clone())).ok()? {
         End::Infinite => return None,
-        End::Rational(q) => return Some(q.to_string()),
+        End::Rational(q) => return Some(exact(&q)),
         End::Root(f, a, b) => (f, a, b),
     };
     let polynomial = match polynomial(&f, "") {
@@ -202,5 +205,6 @@ fn end(json: &Json, parameter: &str) -> Option<String> {
             }
         }
     };
-    Some(format!("[the root in ({a}, {b}) of {polynomial}]"))
+    let [a, b] = outward(&a, &b);
+    Some(format!("[a root of {polynomial} between {a} and {b}]"))
 }

@@ -55,10 +55,19 @@ fn run(arguments: &[&str], input: &str) -> (i32, String, String) {
 fn a_certificate_is_proved_or_rejected_by_the_status() {
     let model = File::new("model.toml", MODEL.as_bytes());
     let certificate = File::new("certificate.json", CERTIFICATE.as_bytes());
-    let proved = (0, "proved: For all real K, the loop is stable exactly for 0 < K < 2.\n".to_owned(), String::new());
-    assert_eq!(run(&[model.path(), certificate.path(), "--timeout", "inf"], ""), proved);
-    assert_eq!(run(&["-", certificate.path(), "--timeout", "inf"], MODEL), proved);
-    assert_eq!(run(&[model.path(), "-", "--timeout=inf"], CERTIFICATE), proved);
+    let of = |model: &str, certificate: &str| {
+        let [of_model, of_certificate] = [MODEL, CERTIFICATE].map(jurist_check::sha256);
+        let said = format!(
+            "proved: For all real K, the loop is stable exactly for 0 < K < 2.\nmodel: {model}, SHA-256 {of_model}\n\
+             certificate: {certificate}, SHA-256 {of_certificate}\nchecked by: jurist-check {}\n",
+            env!("CARGO_PKG_VERSION")
+        );
+        (0, said, String::new())
+    };
+    let (one, other) = (model.path(), certificate.path());
+    assert_eq!(run(&[one, other, "--timeout", "inf"], ""), of(one, other));
+    assert_eq!(run(&["-", other, "--timeout", "inf"], MODEL), of("standard input", other));
+    assert_eq!(run(&[one, "-", "--timeout=inf"], CERTIFICATE), of(one, "standard input"));
 
     let wrong = CERTIFICATE.replace("\"upper\": \"2\"", "\"upper\": \"3\"");
     let (status, stdout, stderr) = run(&[model.path(), "-", "--timeout=inf"], &wrong);

@@ -260,7 +260,7 @@ pub struct FrequencyResponse {
     pub frequency: Vec<Float>,
     /// The open loop there.
     pub response: Vec<Point>,
-    /// Its phase in degrees, continued from point to point.
+    /// Its phase in degrees, continued from the lowest frequency on.
     pub phase_degrees: Vec<Float>,
 }
 

@@ -4,7 +4,7 @@ use super::{Context, decided};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_names, load, question};
-use crate::cli::output::{ending, unknown_ending, write_answer};
+use crate::cli::output::{ending, finish_answer, unknown_ending};
 use crate::cli::status::{Error, Outcome, Status};
 use clap::{Args, ValueEnum};
 use jurist_algebra::limits::Exhausted;
@@ -48,7 +48,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         Ok(report) => report,
         Err(stopped) => {
             if notation == Notation::Json {
-                write_answer(&undecided(options, &problem, &stopped), file)?;
+                finish_answer(&undecided(options, &problem, &stopped), file)?;
             }
             return Ok(context.say_undecided(&stopped));
         }
@@ -56,7 +56,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let digits = options.output.digits.map(|d| d as usize);
     let text = context.budget.enter(|| report.write(notation, digits))?;
     context.reporter.finish();
-    write_answer(&text, file)?;
+    finish_answer(&text, file)?;
     Ok(Status::Holds)
 }
 

@@ -7,7 +7,9 @@ use crate::cli::output::write_answer;
 use crate::cli::show;
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
-use jurist_engine::error::Diagnostics;
+use jurist_algebra::limits::Budget;
+use jurist_engine::answer::Verdict;
+use jurist_engine::error::{Diagnostic, Diagnostics, Error};
 use jurist_engine::model::Model;
 use jurist_engine::show::documents::{Check, to_text};
 use std::ffi::OsString;
@@ -21,7 +23,8 @@ pub(in crate::cli) struct Options {
     /// Writes JSON
     #[arg(long)]
     pub json: bool,
-    /// Writes a SARIF log, which editors and code hosts show beside the text
+    /// Writes a SARIF log, which editors and code hosts show beside the text; what [require] asks for and the nominal loop does not
+    /// meet is in it as well
     #[arg(long, conflicts_with = "json")]
     pub sarif: bool,
     /// Writes the JSON document or the log to a file
@@ -31,15 +34,26 @@ pub(in crate::cli) struct Options {
     pub run: RunOptions,
 }
 
-/// Every remark with its place; the status is 2 for a model that no question can be asked about.
+/// Every remark with its place; the status is 2 for a model that no question can be asked about, and 1 in a SARIF log of a loop that does
+/// not meet what its model requires.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let (name, bytes) = read_model(options.model.as_ref(), context)?;
+    let mut unmet = Vec::new();
     let (source, diagnostics) = match Model::from_bytes(&name, &bytes) {
-        Ok((model, warnings)) => (Some(model.source().clone()), warnings),
+        Ok((model, warnings)) => {
+            if options.sarif && !model.require().is_empty() {
+                unmet = unmet_requirements(&model, &context.budget);
+            }
+            (Some(model.source().clone()), [warnings, unmet.clone()].concat())
+        }
         Err(errors) => (errors.source_text().cloned(), errors.diagnostics().to_vec()),
     };
     let check = Check::new(&name, source.as_deref(), &diagnostics);
-    let status = if check.accepted { Status::Holds } else { Status::BadInput };
+    let status = match (check.accepted, unmet.is_empty()) {
+        (true, true) => Status::Holds,
+        (true, false) => Status::DoesNotHold,
+        (false, _) => Status::BadInput,
+    };
     context.reporter.finish();
     if options.json || options.sarif {
         let text = if options.sarif { to_text(&check.sarif()) } else { to_text(&check) };
@@ -59,4 +73,33 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         write_answer(&format!("{name}: a model{remarks}"), options.output.as_ref())?;
     }
     Ok(status)
+}
+
+/// Significant digits of the values in remarks.
+const DIGITS: usize = 6;
+
+/// A remark for each requirement of the model that the nominal loop does not meet, or one that they were not decided.
+fn unmet_requirements(model: &Model, budget: &Budget) -> Vec<Diagnostic> {
+    let remark = |name: &str, message: String| {
+        let warning = Diagnostic::warning("W-not-met", message).help("'jurist verdict' has all values");
+        match model.require().iter().find(|r| r.name == name).or(model.require().first()) {
+            Some(required) => warning.at(required.span, "required here"),
+            None => warning,
+        }
+    };
+    let found = || -> Result<Vec<Diagnostic>, Error> {
+        let values = model.ask().problem()?.set().to_vec();
+        let asked = model.requirements(&[], &values, budget)?;
+        let question = match asked.region.clone() {
+            Some(region) => model.ask().within(region),
+            None => model.ask(),
+        };
+        let problem = question.problem()?;
+        let in_region = problem.verdict(budget)?.value().verdict == Verdict::Stable;
+        let met = problem.requirements_met(&asked.list, asked.at.as_deref(), budget)?;
+        let listed = met.iter().filter(|r| !r.met).map(|r| remark(r.requirement.name(), r.text(DIGITS)));
+        let regional = asked.regional.iter().filter(|_| !in_region);
+        Ok(listed.chain(regional.map(|(name, text)| remark(name, format!("{name} {text}: not met")))).collect())
+    };
+    found().unwrap_or_else(|error| vec![remark("", format!("what is required was not decided: {error}"))])
 }

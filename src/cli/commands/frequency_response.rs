@@ -44,11 +44,8 @@ pub(in crate::cli) fn run(options: &Options, draw: Draw, context: &Context) -> O
     let question = question(context, &model, &options.model, &RegionOptions::default())?;
     let answer = question.margins(options.at.as_deref(), &Rational::ZERO, &context.budget)?;
     context.warn(None, answer.problem().warnings());
-    let (response, figure) = context.budget.enter(|| {
-        let response = frequency_response(answer.value());
-        let figure = draw(&answer, &response);
-        (response, figure)
-    })?;
+    let response = frequency_response(answer.value(), &context.budget)?;
+    let figure = context.budget.enter(|| draw(&answer, &response))?;
     context.reporter.finish();
     let table = || response.to_csv();
     let document = || to_text(&frequency_response_json(&answer, &response));

@@ -8,9 +8,8 @@ use crate::cli::output::{note, write_answer};
 use crate::cli::picture::WRITES;
 use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Outcome, Status};
-use crate::cli::written::{check_certificate, percent_below};
+use crate::cli::written::{certified, check_certificate, share};
 use clap::Args;
-use jurist_algebra::number::{Rational, to_decimal};
 use jurist_engine::problem::{DECAY, RADIUS};
 use jurist_engine::show::documents::Intervals;
 use jurist_engine::show::intervals_text;
@@ -80,14 +79,11 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, problem.warnings());
-    let certificate = match &options.certificate {
-        Some(file) => Some((certify_intervals(&answer, &context.budget)?, file)),
-        None => None,
-    };
-    if let Some((certified, file)) = &certificate {
+    let certificate = certified(&options.certificate, || certify_intervals(&answer, &context.budget));
+    if let Ok(Some((certified, file))) = &certificate {
         write_answer(&certified.text, Some(file))?;
         if let Some(window) = certified.window.as_ref().filter(|_| !context.quiet) {
-            note(&share(&name, window, &certified.proved));
+            note(&format!("note: the certificate {}", share(&name, window, &certified.proved)));
         }
     }
     if let Some(file) = options.smt2.as_ref().filter(|_| WRITES) {
@@ -103,17 +99,8 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let text = || table.iter().fold(answer.text(digits), |text, table| text + &table.text(digits));
     let document = || table.iter().fold(answer.json(digits), |document, t| document.with_sensitivities(t, digits));
     context.answer(output, text, document)?;
-    if let Some((certified, file)) = &certificate {
+    if let Some((certified, file)) = &certificate? {
         check_certificate(context, &output.run, &model.source().text, &certified.text, file);
     }
     Ok(Status::Holds)
-}
-
-/// How much a certificate by boxes speaks of.
-fn share(name: &str, [low, high]: &[Rational; 2], proved: &Rational) -> String {
-    let (low, high) = (to_decimal(low, 6), to_decimal(high, 6));
-    let percent = percent_below(proved, 6);
-    format!(
-        "note: the certificate proves {percent} % of {low} <= {name} <= {high}, by boxes; it says nothing of the rest"
-    )
 }

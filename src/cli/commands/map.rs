@@ -11,7 +11,7 @@ use crate::cli::output::{ending, note, unknown_ending, write_answer};
 use crate::cli::picture::{WRITES, pdf, png, write};
 use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Error, Outcome, Status};
-use crate::cli::written::check_certificate;
+use crate::cli::written::{certified, check_certificate};
 use clap::Args;
 use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
 use jurist_draw::page::map_page;
@@ -19,7 +19,7 @@ use jurist_draw::page::map_page;
 use jurist_drive::published_limits;
 use jurist_engine::answer::{Answer, BoxRequest, Map, MapMethod, MapOrBoxes};
 use jurist_engine::error::{Diagnostic, Error as EngineError};
-use jurist_engine::problem::Problem;
+use jurist_engine::problem::{DECAY, Problem, RADIUS};
 use jurist_engine::response::Requirements;
 use jurist_engine::show::{documents, map_boxes_text, map_text};
 use std::ffi::OsString;
@@ -41,7 +41,7 @@ pub(super) const NARROW: (f64, f64) = (400.0, 470.0);
 pub(in crate::cli) struct Options {
     #[command(flatten)]
     pub model: ModelOptions,
-    /// The first parameter: a parameter, or a constant given as a number; with the picture's window
+    /// The first parameter: a parameter, a constant given as a number, 'radius' or 'decay'; with the picture's window
     #[arg(short = 'x', value_name = "NAME[=LO..HI]", allow_hyphen_values = true)]
     pub x: String,
     /// The second parameter
@@ -93,7 +93,9 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let model = load(options.model.model.as_ref(), context)?;
     let mut question = question(context, &model, &options.model, &options.region)?;
     for request in &requests {
-        known_name(context, &model, &request.name, request.name_span)?;
+        if ![RADIUS, DECAY].contains(&request.name.as_str()) {
+            known_name(context, &model, &request.name, request.name_span)?;
+        }
         question = question.free(&request.name);
     }
     if let Some(z) = &options.z {
@@ -123,18 +125,16 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
             if let Some(line) = map_boxes::window_note(&found, &boxes) {
                 note(&line);
             }
-            let certificate = match &options.certificate {
-                Some(file) => {
-                    let certified = certify_boxes(&found, &context.budget.share(CERTIFICATE.0, CERTIFICATE.1))?;
-                    write_answer(&certified.text, Some(file))?;
-                    note(&map_boxes::shares(&certified));
-                    Some((certified.text, file))
-                }
-                None => None,
-            };
+            let certificate = certified(&options.certificate, || {
+                certify_boxes(&found, &context.budget.share(CERTIFICATE.0, CERTIFICATE.1))
+            });
+            if let Ok(Some((certified, file))) = &certificate {
+                write_answer(&certified.text, Some(file))?;
+                note(&map_boxes::shares(certified));
+            }
             let status = map_boxes::answer(&found, &options.output, context)?;
-            if let Some((text, file)) = &certificate {
-                check_certificate(context, &options.output.run, &model.source().text, text, file);
+            if let Some((certified, file)) = &certificate? {
+                check_certificate(context, &options.output.run, &model.source().text, &certified.text, file);
             }
             return Ok(status);
         }
@@ -161,11 +161,8 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, problem.warnings());
-    let certificate = match &options.certificate {
-        Some(file) => Some((answer.certificate(&context.budget)?, file)),
-        None => None,
-    };
-    if let Some((text, file)) = &certificate {
+    let certificate = certified(&options.certificate, || answer.certificate(&context.budget));
+    if let Ok(Some((text, file))) = &certificate {
         write_answer(text, Some(file))?;
     }
     if let Err(stopped) = &answer.value().limits {
@@ -178,7 +175,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         }
         _ => context.answer(&options.output, || answer.text(digits), || answer.json(digits))?,
     }
-    if let Some((text, file)) = &certificate {
+    if let Some((text, file)) = &certificate? {
         check_certificate(context, &options.output.run, &model.source().text, text, file);
     }
     Ok(Status::Holds)

@@ -36,11 +36,11 @@ pub(super) mod verify;
 use super::arguments::{Arguments, Command, OutputOptions, RunOptions};
 use super::captured;
 use super::command_line::CommandLine;
-use super::output::{ending, unknown_ending, write_answer};
+use super::output::{ending, finish_answer, unknown_ending};
 use super::progress::Reporter;
 use super::show;
 use super::status::{Error, Outcome, Status};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, apart};
 use jurist_engine::error::{Diagnostic, Diagnostics, Source};
 use jurist_engine::show::documents::to_text;
 use serde::Serialize;
@@ -70,6 +70,11 @@ impl<'a> Context<'a> {
         Context { line, reporter, budget, quiet: options.quiet }
     }
 
+    /// Whether what is written is handed over to another program.
+    pub fn is_captured(&self) -> bool {
+        captured::budget().is_some()
+    }
+
     /// Shows warnings, unless they are not wanted.
     pub fn warn(&self, source: Option<&Arc<Source>>, warnings: &[Diagnostic]) {
         if !self.quiet && !warnings.is_empty() && !captured::warn(source, warnings) {
@@ -87,7 +92,7 @@ impl<'a> Context<'a> {
         let wants_json = self.wants_json(options)?;
         let answer = self.budget.enter(|| if wants_json { to_text(&document()) } else { text() })?;
         self.reporter.finish();
-        write_answer(&answer, options.output.as_ref())
+        finish_answer(&answer, options.output.as_ref())
     }
 
     /// Whether JSON is asked for, by the option or by the file's ending.
@@ -113,9 +118,11 @@ impl<'a> Context<'a> {
         text: impl FnOnce() -> Option<String>,
         document: impl FnOnce() -> D,
     ) -> Outcome {
-        let known = if self.wants_json(options)? { Some(to_text(&document())) } else { text() };
+        let wants_json = self.wants_json(options)?;
+        // The budget is over: what is known is written all the same.
+        let known = apart(|| if wants_json { Some(to_text(&document())) } else { text() });
         if let Some(known) = known {
-            write_answer(&known, options.output.as_ref())?;
+            finish_answer(&known, options.output.as_ref())?;
         }
         Ok(self.say_undecided(stopped))
     }
@@ -139,7 +146,8 @@ pub(super) fn decided<T>(result: Result<T, Error>) -> Result<Result<T, Exhausted
 impl Arguments {
     /// The options that say how long to work and how much to say.
     pub fn run_options(&self) -> &RunOptions {
-        const NONE: &RunOptions = &RunOptions { timeout: None, threads: None, quiet: false, verbose: false };
+        const NONE: &RunOptions =
+            &RunOptions { timeout: None, work: None, memory: None, threads: None, quiet: false, verbose: false };
         match &self.command {
             #[cfg(feature = "cli")]
             None => &self.main_job.output.run,
@@ -171,6 +179,17 @@ impl Arguments {
             Some(Command::New(_)) => NONE,
             #[cfg(feature = "cli")]
             Some(Command::Page(options)) => &options.run,
+        }
+    }
+}
+
+#[cfg(all(feature = "cli", not(target_family = "wasm")))]
+impl Arguments {
+    /// How the program ends where the budget allows no answer.
+    pub fn without_answer(&self) -> Status {
+        match &self.command {
+            Some(Command::Verify(_)) => Status::Rejected,
+            _ => Status::Undecided,
         }
     }
 }

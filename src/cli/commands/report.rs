@@ -1,13 +1,18 @@
 //! `jurist report`: one page about one's own loop.
 
 use super::Context;
+use crate::certified_intervals::certify_intervals;
 use crate::cli::arguments::{ModelOptions, RegionOptions, RunOptions};
 use crate::cli::input::{load, question};
-use crate::cli::output::{ending, note, unknown_ending, write_answer};
+use crate::cli::output::{ending, finish_answer, note, unknown_ending};
 use crate::cli::status::{Outcome, Status};
+use crate::cli::written::share;
 use clap::Args;
+use jurist_algebra::limits::Budget;
 use jurist_check::{Limits, check};
-use jurist_draw::report::loop_report;
+use jurist_draw::report::{ReportRequest, loop_report};
+use jurist_engine::answer::Answer;
+use jurist_engine::stability::StableSet;
 use std::ffi::OsString;
 
 /// Options of `jurist report`.
@@ -15,6 +20,10 @@ use std::ffi::OsString;
 pub(in crate::cli) struct Options {
     #[command(flatten)]
     pub model: ModelOptions,
+    /// Where the loop is cut for margins and the Bode diagram: a signal, a block (at its input), or a parameter (the loop's gain)
+    /// [default: what [require] says, else the error of a single loop]
+    #[arg(long, value_name = "SIGNAL")]
+    pub at: Option<String>,
     /// The page, an .html file; '-' is standard output
     #[arg(short, long, value_name = "FILE", default_value = "report.html")]
     pub output: OsString,
@@ -35,9 +44,21 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         check(&model.source().text, certificate, &limits).map(|_| ()).map_err(|rejection| rejection.to_string())
     };
     let name = options.model.model.as_ref().map(|path| path.to_string_lossy().into_owned());
-    let report = loop_report(&question, name.as_deref(), Some(&checker), &context.budget);
+    let certifier = |answer: &Answer<StableSet>, budget: &Budget| {
+        let certified = certify_intervals(answer, budget)?;
+        let name = &answer.problem().parameter().name;
+        let share = certified.window.as_ref().map(|window| share(name, window, &certified.proved));
+        Ok((certified.text, share))
+    };
+    let request = ReportRequest {
+        file: name.as_deref(),
+        at: options.at.as_deref(),
+        certify: Some(&certifier),
+        check: Some(&checker),
+    };
+    let report = loop_report(&question, &request, &context.budget);
     context.reporter.finish();
-    write_answer(&report.html, Some(file))?;
+    finish_answer(&report.html, Some(file))?;
     if file != "-" && !context.quiet {
         note(&format!("wrote {}", file.to_string_lossy()));
     }

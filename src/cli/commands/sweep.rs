@@ -4,9 +4,9 @@ use super::Context;
 use crate::cli::arguments::RunOptions;
 use crate::cli::assignments::{assignments, in_line};
 use crate::cli::input::{known_name, known_names, load};
-use crate::cli::output::{note, write_answer};
+use crate::cli::output::{finish_answer, note};
 use crate::cli::status::{Error, Outcome, Status};
-use crate::cli::sweep::file::{Format, Part, known};
+use crate::cli::sweep::file::{Format, Known, Part};
 use crate::cli::sweep::grid::{Axis, axis, points};
 use crate::cli::sweep::key::{Point, Question, VERDICT};
 use crate::cli::sweep::rows::{Row, order, rows};
@@ -54,18 +54,13 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let model = load(options.model.as_ref(), context)?;
     let (questions, names) = questions(options, &model, context)?;
     let file = options.output.as_ref().filter(|file| *file != "-");
-    let mut kept: HashMap<String, Vec<Row>> = HashMap::new();
-    if let Some(file) = file.filter(|_| options.resume) {
-        for rows in known(file, format)? {
-            let Some(first) = rows.first() else { continue };
-            if matches!(text(first, "status"), "decided" | "refused") {
-                kept.insert(text(first, "key").to_owned(), rows);
-            }
-        }
-    }
+    let mut kept = match file.filter(|_| options.resume) {
+        Some(file) => kept(file, format, &questions, context)?,
+        None => HashMap::new(),
+    };
     let part = file.map(|file| Part::open(file, options.resume)).transpose()?;
     let open: Vec<&Question> = questions.iter().filter(|(key, _)| !kept.contains_key(key)).map(|(_, q)| q).collect();
-    let asked = ask(&open, &model, options.each, part.as_ref(), context);
+    let asked = ask(&open, &model, options, part.as_ref(), context);
     let answered: Vec<Vec<Row>> = asked.into_iter().flatten().collect::<Result<_, Error>>()?;
     context.reporter.finish();
     let rest = open.len() - answered.len();
@@ -78,7 +73,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let of_questions = questions.iter().filter_map(|(key, _)| kept.remove(key));
     let mut all: Vec<Row> = of_questions.flatten().chain(answered.into_iter().flatten()).collect();
     all.sort_by(order);
-    write_answer(&format.text(&all, &names), options.output.as_ref())?;
+    finish_answer(&format.text(&all, &names), options.output.as_ref())?;
     if let Some(part) = part {
         part.done();
     }
@@ -88,6 +83,35 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         return Ok(Status::Undecided);
     }
     Ok(Status::Holds)
+}
+
+/// The rows that earlier runs of this sweep left, by key.
+fn kept(
+    file: &OsString,
+    format: Format,
+    questions: &Keyed,
+    context: &Context,
+) -> Result<HashMap<String, Vec<Row>>, Error> {
+    let known = Known::read(file, format)?;
+    let keys: HashSet<&str> = questions.iter().map(|(key, _)| key.as_str()).collect();
+    if let Some(why) = known.of_others(|key| keys.contains(key)) {
+        let name = file.to_string_lossy();
+        let error = Diagnostic::error("E-resume", format!("{name} is not of this sweep: {why}"));
+        let error = match context.line.argument(&name) {
+            Some(span) => error.at(span, "of another model, other values, or another version of jurist"),
+            None => error,
+        };
+        let error = error.help("write to another file; without '--resume' this one is written anew");
+        return Err(in_line(context.line, vec![error]).into());
+    }
+    let mut kept = HashMap::new();
+    for rows in known.rows {
+        let Some(first) = rows.first() else { continue };
+        if matches!(text(first, "status"), "decided" | "refused") {
+            kept.insert(text(first, "key").to_owned(), rows);
+        }
+    }
+    Ok(kept)
 }
 
 /// A column that is a text.
@@ -144,20 +168,47 @@ fn questions(options: &Options, model: &Model, context: &Context) -> Result<(Key
 fn ask(
     questions: &[&Question],
     model: &Model,
-    each: Duration,
+    options: &Options,
     part: Option<&Part>,
     context: &Context,
 ) -> Vec<Option<Result<Vec<Row>, Error>>> {
     context.budget.step("asking the questions");
     let done = AtomicU64::new(0);
+    let alone = || {
+        let time = time_of_one(options.each, options.run.timeout, context.reporter.elapsed());
+        Budget::with_timeout(time).within_memory(options.run.memory())
+    };
     parallel_map(questions, |question| {
         if context.budget.check().is_err() {
             return None;
         }
         // No part of another question, whose budget may run out first.
-        let found = apart(|| rows(model, question, &Budget::with_timeout(each)));
+        let found = apart(|| rows(model, question, &alone()));
+        // Given up because all are: it stays open.
+        if found.iter().any(|row| text(row, "status") == "undecided") && context.budget.check().is_err() {
+            return None;
+        }
         let written = part.map_or(Ok(()), |part| part.add(&found));
         context.budget.advance(done.fetch_add(1, Ordering::Relaxed) + 1, questions.len() as u64);
         Some(written.map(|()| found))
     })
+}
+
+/// How long a question may take: as long as each may, and no longer than all.
+fn time_of_one(each: Duration, all: Option<Duration>, elapsed: Duration) -> Duration {
+    all.map_or(each, |all| each.min(all.saturating_sub(elapsed)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_question_takes_no_longer_than_all_may() {
+        let [zero, one, ten] = [0, 1, 10].map(Duration::from_secs);
+        assert_eq!(time_of_one(ten, None, one), ten);
+        assert_eq!(time_of_one(ten, Some(one), zero), one);
+        assert_eq!(time_of_one(ten, Some(one), ten), zero);
+        assert_eq!(time_of_one(one, Some(ten), one), one);
+    }
 }

@@ -4,11 +4,11 @@ use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::assignments::in_line;
 use crate::cli::input::{known_name, known_names, load, question};
-use crate::cli::output::{ending, write_answer};
+use crate::cli::output::{ending, write_answer, write_beginning};
 use crate::cli::picture::{Kind, Picture, WRITES, deliver};
 use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Error, Outcome, Status};
-use crate::cli::written::check_certificate;
+use crate::cli::written::{certified, check_certificate};
 use clap::Args;
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, to_decimal};
@@ -19,6 +19,7 @@ use jurist_engine::model::{Model, Tolerance};
 use jurist_engine::show::documents::{self, to_text};
 use jurist_engine::show::tolerance_text;
 use jurist_engine::stability::boxes::BoxDecision;
+use std::cell::RefCell;
 use std::ffi::OsString;
 use std::slice::from_ref;
 
@@ -74,7 +75,9 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     refuse_proofs(&model, &asked, options.certificate.is_some())?;
     let request = request(options, &model, context)?.require(asked.list, asked.at);
     let digits = output.digits() as usize;
-    let answer = match decided(question.clone().tolerance(&request, &context.budget))? {
+    let begun = Begun::new(options, picture, context);
+    let told = |answer: &Answer<ToleranceAnswer>| begun.tell(answer, context);
+    let answer = match decided(question.clone().tolerance_told(&request, &told, &context.budget))? {
         Ok(answer) => answer,
         Err(stopped) if picture.is_some() => return Ok(context.say_undecided(&stopped)),
         Err(stopped) => {
@@ -83,28 +86,71 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
                 open = open.without_value(name).free(name);
             }
             let problem = open.problem()?;
-            let text = || Some(tolerance_text(&problem, Err(&stopped), digits));
+            let text = || Some(begun.rest_of(tolerance_text(&problem, Err(&stopped), digits)));
             return context
                 .undecided(output, &stopped, text, || documents::Tolerance::new(&problem, Err(&stopped), digits));
         }
     };
     context.warn(None, answer.problem().warnings());
-    let certificate = match &options.certificate {
-        Some(file) => Some((answer.certificate(&context.budget)?, file)),
-        None => None,
-    };
-    if let Some((text, file)) = &certificate {
+    let certificate = certified(&options.certificate, || answer.certificate(&context.budget));
+    if let Ok(Some((text, file))) = &certificate {
         write_answer(text, Some(file))?;
     }
-    let status = shown(&answer, picture, options, context)?;
-    if let Some((text, file)) = &certificate {
+    let status = shown(&answer, picture, &begun, options, context)?;
+    if let Some((text, file)) = &certificate? {
         check_certificate(context, &output.run, &answer.problem().model().source().text, text, file);
     }
     Ok(status)
 }
 
+/// The beginning of the text on standard output: a proof is printed as soon as it stands.
+struct Begun {
+    /// Digits of the text, where it goes to standard output.
+    digits: Option<usize>,
+    text: RefCell<String>,
+}
+
+impl Begun {
+    fn new(options: &Options, picture: Option<Kind>, context: &Context) -> Begun {
+        let output = &options.decision.output;
+        let is_text = picture.is_none() && !output.json && output.output.as_ref().is_none_or(|file| file == "-");
+        // Whoever captures a command reads it when it has ended.
+        let digits = (is_text && !context.is_captured()).then(|| text_digits(options));
+        Begun { digits, text: RefCell::default() }
+    }
+
+    fn tell(&self, answer: &Answer<ToleranceAnswer>, context: &Context) {
+        let Some(digits) = self.digits else { return };
+        let text = answer.text(digits);
+        if context.reporter.aside(|| write_beginning(&text)) {
+            *self.text.borrow_mut() = text;
+        }
+    }
+
+    /// What is not printed yet: all of it where nothing is; of a text that goes on otherwise all but its heading.
+    fn rest_of(&self, text: String) -> String {
+        let begun = self.text.borrow();
+        if begun.is_empty() {
+            return text;
+        }
+        let rest = text.strip_prefix(begun.as_str()).or_else(|| text.split_once('\n').map(|(_, rest)| rest));
+        rest.unwrap_or(&text).to_owned()
+    }
+}
+
+/// Digits of the text.
+fn text_digits(options: &Options) -> usize {
+    options.decision.output.digits.unwrap_or(BRACKET_DIGITS + 3) as usize
+}
+
 /// The answer where it is wanted.
-fn shown(answer: &Answer<ToleranceAnswer>, picture: Option<Kind>, options: &Options, context: &Context) -> Outcome {
+fn shown(
+    answer: &Answer<ToleranceAnswer>,
+    picture: Option<Kind>,
+    begun: &Begun,
+    options: &Options,
+    context: &Context,
+) -> Outcome {
     let (output, value) = (&options.decision.output, answer.value());
     let digits = output.digits() as usize;
     if value.domain_factor.as_ref().is_some_and(|factor| *factor <= Rational::ONE) {
@@ -125,14 +171,14 @@ fn shown(answer: &Answer<ToleranceAnswer>, picture: Option<Kind>, options: &Opti
             _ => Status::DoesNotHold,
         });
     }
-    let text_digits = output.digits.unwrap_or(BRACKET_DIGITS + 3) as usize;
+    let text = || begun.rest_of(answer.text(text_digits(options)));
     match &value.decision {
         BoxDecision::Undecided { why, .. } => {
             let stopped = Exhausted::new(*why, "proving the box");
-            context.undecided(output, &stopped, || Some(answer.text(text_digits)), || answer.json(digits))
+            context.undecided(output, &stopped, || Some(text()), || answer.json(digits))
         }
         decision => {
-            context.answer(output, || answer.text(text_digits), || answer.json(digits))?;
+            context.answer(output, text, || answer.json(digits))?;
             Ok(if decision.is_stable() { Status::Holds } else { Status::DoesNotHold })
         }
     }

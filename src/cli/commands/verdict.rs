@@ -7,7 +7,7 @@ use crate::cli::output::write_answer;
 use crate::cli::picture::WRITES;
 use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Outcome, Status};
-use crate::cli::written::check_certificate;
+use crate::cli::written::{certified, check_certificate};
 use clap::Args;
 use jurist_engine::answer::Verdict;
 use jurist_engine::show::documents;
@@ -48,11 +48,8 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, problem.warnings());
-    let certificate = match &options.certificate {
-        Some(file) => Some((answer.certificate(&context.budget)?, file)),
-        None => None,
-    };
-    if let Some((text, file)) = &certificate {
+    let certificate = certified(&options.certificate, || answer.certificate(&context.budget));
+    if let Ok(Some((text, file))) = &certificate {
         write_answer(text, Some(file))?;
     }
     if let Some(file) = options.coq.as_ref().filter(|_| WRITES) {
@@ -75,7 +72,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         documents::Verdict { requirements, ..answer.json() }
     };
     context.answer(output, text, document)?;
-    if let Some((text, file)) = &certificate {
+    if let Some((text, file)) = &certificate? {
         check_certificate(context, &output.run, &problem.model().source().text, text, file);
     }
     let met = found.iter().all(|r| r.met);

@@ -7,8 +7,8 @@ use crate::cli::output::{note, write_answer};
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
 use jurist_check::format::MAX_TEXT;
-use jurist_check::{Limits, check};
-use std::ffi::OsString;
+use jurist_check::{Limits, Names, check, report};
+use std::ffi::{OsStr, OsString};
 
 /// Options of `jurist verify`.
 #[derive(Args, Debug)]
@@ -23,19 +23,29 @@ pub(in crate::cli) struct Options {
     pub run: RunOptions,
 }
 
-/// Prints the proved statement; the status is 4 for a certificate that proves nothing.
+/// The name of a file for people.
+fn shown(name: &OsStr) -> String {
+    if name == "-" { "standard input".into() } else { name.to_string_lossy().into_owned() }
+}
+
+/// Prints the proved statement and names its texts; the status is 4 for a certificate that proves nothing.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let model = read_text(context, &options.model, MAX_TEXT as u64, &CERTIFIED_MODEL)?;
     let certificate = read_text(context, &options.certificate, MAX_TEXT as u64, &CERTIFICATE)?;
     let limits = options.run.timeout.map_or_else(Limits::default, Limits::within);
     let result = match (&model, &certificate) {
-        (Ok(model), Ok(certificate)) => check(model, certificate, &limits).map_err(|rejection| rejection.to_string()),
+        (Ok(model), Ok(certificate)) => {
+            let [of_model, of_certificate] = [&options.model, &options.certificate].map(|name| shown(name));
+            let names = Names { model: &of_model, certificate: &of_certificate };
+            let proved = check(model, certificate, &limits).map_err(|rejection| rejection.to_string());
+            proved.map(|proved| report(&proved, model, certificate, names))
+        }
         (Err(reason), _) | (_, Err(reason)) => Err(format!("the certificate is rejected: {reason}")),
     };
     context.reporter.finish();
     match result {
-        Ok(proved) => {
-            write_answer(&format!("proved: {}", proved.statement), None)?;
+        Ok(said) => {
+            write_answer(&said, None)?;
             Ok(Status::Holds)
         }
         Err(reason) => {

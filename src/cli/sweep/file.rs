@@ -152,17 +152,54 @@ impl Part {
     }
 }
 
-/// The rows that earlier runs left, by question: in `FILE.part`, and in the file itself where it has JSON lines.
-pub(in crate::cli) fn known(answer: &OsStr, format: Format) -> Result<Vec<Vec<Row>>, Error> {
-    let mut out: Vec<Vec<Row>> = Vec::new();
-    if format == Format::JsonLines {
-        let rows: Vec<Row> = read(Path::new(answer))?.lines().filter_map(row).collect();
-        let key = |row: &Row| row.get("key").cloned();
-        out.extend(rows.chunk_by(|a, b| key(a) == key(b)).map(<[Row]>::to_vec));
+/// What earlier runs left.
+pub(in crate::cli) struct Known {
+    /// The rows by question: those in `FILE.part`, and those in the file itself where it has JSON lines.
+    pub rows: Vec<Vec<Row>>,
+    /// The keys of the rows of a table, which is written anew.
+    keys: Vec<String>,
+    /// Whether the file has content that is no row.
+    is_foreign: bool,
+}
+
+impl Known {
+    /// Reads the file and the one beside it.
+    pub fn read(answer: &OsStr, format: Format) -> Result<Known, Error> {
+        let text = read(Path::new(answer))?;
+        let mut known = Known { rows: Vec::new(), keys: Vec::new(), is_foreign: false };
+        match format {
+            Format::JsonLines => {
+                let rows: Vec<Row> = text.lines().filter_map(row).collect();
+                let key = |row: &Row| row.get("key").cloned();
+                known.rows.extend(rows.chunk_by(|a, b| key(a) == key(b)).map(<[Row]>::to_vec));
+            }
+            Format::Csv => {
+                let first_cells = text.lines().filter_map(|line| line.split_once(',')).map(|(cell, _)| cell);
+                known.keys.extend(first_cells.filter(|cell| is_key(cell)).map(str::to_owned));
+            }
+        }
+        let has_head = format == Format::Csv && text.starts_with("key,");
+        known.is_foreign = !text.trim().is_empty() && known.rows.is_empty() && known.keys.is_empty() && !has_head;
+        let part = read(&Part::path_of(answer))?;
+        known.rows.extend(whole(&part).split_terminator("\n\n").map(|rows| rows.lines().filter_map(row).collect()));
+        Ok(known)
     }
-    let part = read(&Part::path_of(answer))?;
-    out.extend(whole(&part).split_terminator("\n\n").map(|rows| rows.lines().filter_map(row).collect()));
-    Ok(out)
+
+    /// Why a sweep with these questions does not go on from here: it would drop rows.
+    pub fn of_others(&self, is_asked: impl Fn(&str) -> bool) -> Option<String> {
+        if self.is_foreign {
+            return Some("it has no rows of a sweep".to_owned());
+        }
+        let keys = self.rows.iter().filter_map(|rows| rows.first()?.get("key")?.as_str());
+        let keys: BTreeSet<&str> = keys.chain(self.keys.iter().map(String::as_str)).collect();
+        let others = keys.iter().filter(|key| !is_asked(key)).count();
+        (others > 0).then(|| format!("{others} of its {} questions are not asked here", keys.len()))
+    }
+}
+
+/// Whether a cell is the key of a row.
+fn is_key(cell: &str) -> bool {
+    cell.len() == 64 && cell.bytes().all(|b| b.is_ascii_hexdigit())
 }
 
 /// The questions that were finished: an empty line is behind each.

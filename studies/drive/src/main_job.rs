@@ -17,7 +17,7 @@ use jurist_engine::show::real;
 use jurist_engine::stability::{AlgebraicInterval, ClassicalTest, End, IntervalSet, StableInterval, StableSet};
 
 /// Eq. 23 with the digits that the paper prints.
-const PRINTED_23: &str = include_str!("../../../examples/equation-23-as-printed.toml");
+const PRINTED_23: &str = include_str!("../models/equation-23-as-printed.toml");
 
 /// The amplitude of the PWM wave, in which Eq. 23 is written.
 const AMPLITUDE: &str = "K_pwm";

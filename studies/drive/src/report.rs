@@ -19,10 +19,10 @@ use jurist_engine::show::intervals::set_lines;
 use jurist_engine::show::notation::{Coefficient, coefficient_text, root_locus_form};
 
 /// The drive as blocks, for the circuit with switches.
-const BLOCKS: &str = include_str!("../../../examples/drive-blocks.toml");
+const BLOCKS: &str = include_str!("../models/drive-blocks.toml");
 /// Eqs. 23 and 37 with the digits that the paper prints.
-const PRINTED_23: &str = include_str!("../../../examples/equation-23-as-printed.toml");
-const PRINTED_37: &str = include_str!("../../../examples/equation-37-as-printed.toml");
+const PRINTED_23: &str = include_str!("../models/equation-23-as-printed.toml");
+const PRINTED_37: &str = include_str!("../models/equation-37-as-printed.toml");
 
 /// A figure and the name of its file.
 #[derive(Debug)]

@@ -5,6 +5,7 @@
 //! more bits.
 
 mod bezout;
+mod characteristic;
 mod elementary;
 mod exponential;
 mod functions;

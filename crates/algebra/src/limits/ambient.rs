@@ -9,6 +9,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Units of work between two looks at the limits: about a millisecond.
 const QUANTUM: u64 = 1 << 16;
 
+/// Pieces of memory below this many bytes are not asked about.
+const CLAIMED: u64 = 1 << 20;
+
 /// A limit that holds on this thread, and those around it.
 struct Frame {
     limits: Arc<Limits>,
@@ -21,6 +24,8 @@ thread_local! {
     /// What `LEFT` was at the last look.
     static GRANTED: Cell<u64> = const { Cell::new(u64::MAX) };
     static INNERMOST: RefCell<Option<Arc<Frame>>> = const { RefCell::new(None) };
+    /// Whether work may be ended at any time, and not for its memory alone.
+    static HURRIED: Cell<bool> = const { Cell::new(false) };
 }
 
 /// What leaves a kernel: the message, and whose door it is to leave by.
@@ -57,10 +62,43 @@ pub fn checkpoint(units: u64) {
     });
 }
 
-/// Whether a budget holds on this thread, so that it pays to do work in pieces.
+/// Announces that so many bytes are about to be taken in one piece, and leaves the computation as [`checkpoint`] does
+/// where a budget does not allow them.
+///
+/// What grows bit by bit is seen by the looks that [`checkpoint`] takes; this is for what would be there at once: a
+/// table, the terms of an expansion. Less than a megabyte is not asked about, so that a claim costs a comparison.
+///
+/// ```
+/// use jurist_algebra::limits::{Budget, claim};
+/// let table = |rows: u64| {
+///     claim(8 * rows * rows);
+///     vec![0u64; (rows * rows) as usize]
+/// };
+/// let budget = Budget::with_memory(100_000_000);
+/// assert!(budget.enter(|| table(1000)).is_ok());
+/// assert!(budget.enter(|| table(1_000_000)).is_err());
+/// ```
+#[inline]
+pub fn claim(bytes: u64) {
+    if bytes >= CLAIMED {
+        ask(bytes);
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn ask(bytes: u64) {
+    let Some(frame) = INNERMOST.with_borrow(Option::clone) else { return };
+    let refused = frame.first(|limits| limits.room(bytes));
+    if let (Some(stop), true) = (refused, cfg!(panic = "unwind")) {
+        resume_unwind(Box::new(stop));
+    }
+}
+
+/// Whether a budget of time or work holds on this thread, so that it pays to do work in pieces.
 #[inline]
 pub(crate) fn is_limited() -> bool {
-    GRANTED.with(Cell::get) != u64::MAX
+    HURRIED.with(Cell::get)
 }
 
 #[cold]
@@ -85,10 +123,17 @@ fn grant(units: u64) {
 impl Frame {
     /// Counts work; the first limit that has run out, from the inside.
     fn charge(&self, units: u64) -> Option<Stop> {
+        // A share counts for the whole, whose own frame may be further out.
+        let mut counted = Vec::new();
+        self.first(|limits| limits.spend_once(units, &mut counted))
+    }
+
+    /// Asks all limits from the inside; the first that has run out.
+    fn first(&self, mut ask: impl FnMut(&Limits) -> Result<(), Exhausted>) -> Option<Stop> {
         let mut stop = None;
         let mut next = Some(self);
         while let Some(frame) = next {
-            if let Err(exhausted) = frame.limits.spend(units)
+            if let Err(exhausted) = ask(&frame.limits)
                 && stop.is_none()
             {
                 stop = Some(Stop { exhausted, limits: Arc::clone(&frame.limits) });
@@ -107,6 +152,10 @@ impl Frame {
             next = frame.outer.as_deref();
         }
         least
+    }
+
+    fn hurries(&self) -> bool {
+        self.limits.hurry() || self.outer.as_ref().is_some_and(|outer| outer.hurries())
     }
 
     fn holds(&self, limits: &Arc<Limits>) -> bool {
@@ -145,7 +194,10 @@ fn settle() {
 }
 
 fn renew() {
-    grant(INNERMOST.with_borrow(|frame| frame.as_ref().map_or(u64::MAX, |frame| frame.quantum())));
+    INNERMOST.with_borrow(|frame| {
+        grant(frame.as_ref().map_or(u64::MAX, |frame| frame.quantum()));
+        HURRIED.set(frame.as_ref().is_some_and(|frame| frame.hurries()));
+    });
 }
 
 impl Budget {
@@ -172,13 +224,40 @@ impl Budget {
         Ok(work.done())
     }
 
+    /// Does work that this budget ends, as [`Budget::enter`] does, but begins it also when the budget has run out already.
+    ///
+    /// A program does all its work inside of this call. A budget that runs out inside of an inner [`Budget::enter`] ends that
+    /// call, which answers with its partial result; all other work ends here.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::{Budget, checkpoint};
+    /// use std::time::Duration;
+    /// let spent = Budget::with_timeout(Duration::ZERO);
+    /// assert_eq!(spent.surround(|| spent.enter(|| 1).is_err()), Ok(true));
+    /// assert!(spent.surround(|| checkpoint(1 << 20)).is_err());
+    /// ```
+    ///
+    /// # Errors
+    /// [`Exhausted`] when this budget runs out.
+    pub fn surround<T>(&self, work: impl FnOnce() -> T) -> Result<T, Exhausted> {
+        let mut work = Work::new(work);
+        self.leave_by_this_door(&mut || work.run())?;
+        Ok(work.done())
+    }
+
     /// One function for all work: hundreds of copies would be a tenth of the program.
     fn enter_with(&self, work: &mut dyn FnMut()) -> Result<(), Exhausted> {
+        if let Some(limits) = &self.limits {
+            limits.spend(0).map_err(|e| self.at_step(e))?;
+        }
+        self.leave_by_this_door(work)
+    }
+
+    fn leave_by_this_door(&self, work: &mut dyn FnMut()) -> Result<(), Exhausted> {
         let Some(limits) = &self.limits else {
             work();
             return Ok(());
         };
-        limits.spend(0).map_err(|e| self.at_step(e))?;
         let frame = INNERMOST.with_borrow(|frame| match frame {
             Some(frame) if frame.holds(limits) => Arc::clone(frame),
             outer => Arc::new(Frame { limits: Arc::clone(limits), outer: outer.clone() }),
@@ -309,6 +388,17 @@ mod tests {
         loop {
             checkpoint(7);
         }
+    }
+
+    /// The door of the whole is around that of a share: as at the outermost door of the program.
+    #[test]
+    fn the_work_of_a_share_is_counted_once() {
+        let whole = Budget::with_work(10_000_000);
+        let counted = whole.surround(|| {
+            whole.share(1, 2).share(1, 2).enter(|| checkpoint(1_000_000)).unwrap();
+            whole.work_done().unwrap()
+        });
+        assert_eq!(counted, Ok(1_000_000));
     }
 
     #[test]

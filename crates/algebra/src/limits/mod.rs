@@ -6,11 +6,14 @@
 
 mod ambient;
 mod clock;
+mod memory;
 
 pub(crate) use ambient::is_limited;
-pub use ambient::{apart, checkpoint, join, parallel_map};
+pub use ambient::{apart, checkpoint, claim, join, parallel_map};
 pub use clock::Clock;
+pub use memory::{Gauge, gauge_of_the_process, measure_by};
 
+use memory::Memory;
 use std::fmt;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -42,7 +45,7 @@ pub trait Progress: Send + Sync {
     fn advance(&self, done: u64, total: u64);
 }
 
-/// How much time or work a computation may take, and whom it tells how far it is.
+/// How much time, work or memory a computation may take, and whom it tells how far it is.
 ///
 /// Algorithms that name their steps take a budget and ask it between them; kernels (products, divisors, resultants,
 /// isolation) ask the one that was [entered](Budget::enter) on their thread.
@@ -69,6 +72,8 @@ struct Reached {
     step: String,
     done: u64,
     total: u64,
+    /// How often somebody was told that the budget is over.
+    refusals: u64,
 }
 
 /// When a budget ends.
@@ -77,6 +82,7 @@ struct Limits {
     deadline: Option<Deadline>,
     /// The innermost share first: work counts for all of them.
     work: Vec<Arc<Work>>,
+    memory: Option<Memory>,
     cancelled: Option<Arc<AtomicBool>>,
 }
 
@@ -98,8 +104,17 @@ struct Work {
 impl Limits {
     /// Counts work and asks whether more may be done.
     fn spend(&self, units: u64) -> Result<(), Exhausted> {
+        self.spend_once(units, &mut Vec::new())
+    }
+
+    /// The same for several limits of one piece of work: what `counted` holds has it already.
+    fn spend_once(&self, units: u64, counted: &mut Vec<*const Work>) -> Result<(), Exhausted> {
         let mut out = None;
         for work in &self.work {
+            if counted.contains(&Arc::as_ptr(work)) {
+                continue;
+            }
+            counted.push(Arc::as_ptr(work));
             let rest =
                 work.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| Some(left.saturating_sub(units)));
             if rest.is_ok_and(|before| before < units) {
@@ -114,10 +129,21 @@ impl Limits {
         {
             return Err(Exhausted::of(format!("time ({} s)", timeout.as_secs_f64())));
         }
+        self.room(0)?;
         if self.cancelled.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)) {
             return Err(Exhausted::of("cancelled".into()));
         }
         Ok(())
+    }
+
+    /// Whether there is a limit of something else than memory.
+    fn hurry(&self) -> bool {
+        self.deadline.is_some() || !self.work.is_empty() || self.cancelled.is_some()
+    }
+
+    /// Asks whether so many bytes may be taken.
+    fn room(&self, bytes: u64) -> Result<(), Exhausted> {
+        self.memory.as_ref().map_or(Ok(()), |memory| memory.room(bytes))
     }
 
     fn work_left(&self) -> u64 {
@@ -167,6 +193,35 @@ impl Budget {
         Budget::limited(Limits { work: vec![Arc::new(Work { left: units.into(), units })], ..Limits::default() })
     }
 
+    /// No more than so many bytes may be in use, as the gauge of the process shows them ([`measure_by`]); where there is
+    /// none, no value may be larger. What is in use already counts, and so does what other threads use.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::{Budget, claim};
+    /// let budget = Budget::with_memory(10_000_000);
+    /// assert!(budget.enter(|| claim(9_000_000)).is_ok());
+    /// assert_eq!(budget.enter(|| claim(11_000_000)).unwrap_err().budget, "memory (10 MB)");
+    /// ```
+    pub fn with_memory(bytes: u64) -> Self {
+        Budget::unlimited().within_memory(bytes)
+    }
+
+    /// The same budget, also with a limit of memory as of [`Budget::with_memory`].
+    pub fn within_memory(self, bytes: u64) -> Self {
+        self.limiting_memory(Memory { gauge: gauge_of_the_process(), bytes })
+    }
+
+    /// The same budget, also with a limit of memory, by the given gauge.
+    pub fn within_memory_on(self, gauge: Arc<dyn Gauge>, bytes: u64) -> Self {
+        self.limiting_memory(Memory { gauge: Some(gauge), bytes })
+    }
+
+    fn limiting_memory(mut self, memory: Memory) -> Self {
+        let limits = self.limits.as_deref().cloned().unwrap_or_default();
+        self.limits = Some(Arc::new(Limits { memory: Some(memory), ..limits }));
+        self
+    }
+
     /// A budget that ends when `part / of` of the time and of the work that are left are used up; without end where
     /// there is no limit. When it runs out it names the whole. What it uses is used of the whole.
     ///
@@ -192,6 +247,28 @@ impl Budget {
         share
     }
 
+    /// The same budget, also ended by so much work in the units of [`checkpoint`].
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// let budget = Budget::unlimited().within_work(5);
+    /// budget.check()?;
+    /// assert_eq!(budget.work_done(), Some(1));
+    /// # Ok::<(), jurist_algebra::limits::Exhausted>(())
+    /// ```
+    pub fn within_work(mut self, units: u64) -> Self {
+        let mut limits = self.limits.as_deref().cloned().unwrap_or_default();
+        limits.work.push(Arc::new(Work { left: units.into(), units }));
+        self.limits = Some(Arc::new(limits));
+        self
+    }
+
+    /// The units of work that were counted against the whole of a budget of work, and `None` where work is not counted.
+    pub fn work_done(&self) -> Option<u64> {
+        let whole = self.limits.as_ref()?.work.last()?;
+        Some(whole.units - whole.left.load(Ordering::Relaxed))
+    }
+
     /// The same budget, reporting to `progress`.
     pub fn reporting_to(mut self, progress: Arc<dyn Progress>) -> Self {
         self.progress = Some(progress);
@@ -213,13 +290,19 @@ impl Budget {
     /// Whether work may go on.
     ///
     /// # Errors
-    /// [`Exhausted`] when the time is up, the work is done, or it was cancelled.
+    /// [`Exhausted`] when the time is up, the work is done, the memory is used, or it was cancelled.
     pub fn check(&self) -> Result<(), Exhausted> {
         self.limits.as_ref().map_or(Ok(()), |limits| limits.spend(1)).map_err(|e| self.at_step(e))
     }
 
+    /// How often work was told that this budget is over, or a share of it.
+    pub fn refusals(&self) -> u64 {
+        self.reached.lock().unwrap_or_else(PoisonError::into_inner).refusals
+    }
+
     /// What ran out, and how far the work came.
     fn at_step(&self, exhausted: Exhausted) -> Exhausted {
+        self.reached.lock().unwrap_or_else(PoisonError::into_inner).refusals += 1;
         Exhausted { reached: self.reached(), ..exhausted }
     }
 
@@ -238,8 +321,9 @@ impl Budget {
         if self.silent {
             return;
         }
-        *self.reached.lock().unwrap_or_else(PoisonError::into_inner) =
-            Reached { step: name.to_owned(), ..Reached::default() };
+        let mut reached = self.reached.lock().unwrap_or_else(PoisonError::into_inner);
+        *reached = Reached { step: name.to_owned(), refusals: reached.refusals, ..Reached::default() };
+        drop(reached);
         if let Some(progress) = &self.progress {
             progress.step(name);
         }
@@ -288,6 +372,12 @@ impl Exhausted {
     /// A budget of one's own that ran out, and the step that was reached.
     pub fn new(budget: impl Into<String>, reached: impl Into<String>) -> Self {
         Exhausted { budget: budget.into(), reached: reached.into() }
+    }
+
+    /// The same with the question that stayed open, such as `whether D(1) is zero`.
+    #[must_use]
+    pub fn with_open(self, question: &str) -> Self {
+        Exhausted { reached: format!("{}; open: {question}", self.reached), ..self }
     }
 
     /// A budget that ran out at a step that is not known here.

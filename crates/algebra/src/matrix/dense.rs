@@ -1,6 +1,6 @@
 //! Dense matrices over a domain.
 
-use crate::limits::checkpoint;
+use crate::limits::{checkpoint, claim};
 use crate::number::Integer;
 use crate::poly::{Domain, Poly};
 use std::fmt;
@@ -25,8 +25,10 @@ pub struct Matrix<R> {
 impl<R: Domain> Matrix<R> {
     /// The matrix whose entry in row `i`, column `j` is `f(i, j)`.
     pub fn from_fn(rows: usize, columns: usize, mut f: impl FnMut(usize, usize) -> R) -> Self {
+        claim((rows as u64).saturating_mul(columns as u64).saturating_mul(size_of::<R>() as u64));
         let mut entries = Vec::with_capacity(rows * columns);
         for i in 0..rows {
+            checkpoint(columns as u64);
             for j in 0..columns {
                 entries.push(f(i, j));
             }

@@ -1,6 +1,6 @@
 //! The characteristic polynomial of a sparse matrix by its minors.
 
-use crate::limits::checkpoint;
+use crate::limits::{checkpoint, claim};
 use crate::number::Integer;
 use std::collections::BTreeMap;
 
@@ -78,6 +78,7 @@ impl SparseRows {
     pub fn determinant(&self, Plan { order, .. }: &Plan, size: usize) -> Terms {
         let mut minors: BTreeMap<u64, Terms> = BTreeMap::from([(0, vec![(0, Integer::ONE)])]);
         // A sum is gathered in place of its exponents.
+        claim((size * size_of::<Integer>()) as u64);
         let mut sums = vec![Integer::ZERO; size];
         for (k, &row) in order.iter().enumerate() {
             let completed = self.completable(&order[k + 1..]);

@@ -2,7 +2,7 @@
 //!
 //! Matrices are stored row by row, one after the other; `which` lists those that are meant.
 
-use crate::limits::checkpoint;
+use crate::limits::{checkpoint, claim};
 use crate::poly::modular::prime_field::PrimeField;
 
 /// In matrices of at least this size rows are counted one by one.
@@ -98,6 +98,7 @@ pub(super) fn from_hessenberg(f: &PrimeField, h: &[u64], n: usize, room: &mut Ve
     // Row k holds the polynomial of the leading block of size k.
     let width = n + 1;
     room.clear();
+    claim(8 * (width * width) as u64);
     room.resize(width * width, 0);
     room[0] = f.one();
     for k in 1..=n {

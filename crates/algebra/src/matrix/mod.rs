@@ -6,6 +6,7 @@
 //! [`CharacteristicPolynomial`] is the plain value that is handed on.
 
 mod characteristic;
+mod decoupled;
 mod dense;
 mod determinant;
 mod expansion;

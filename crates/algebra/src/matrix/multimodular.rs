@@ -4,7 +4,7 @@ use super::RationalMatrix;
 use super::expansion::{SparseRows, Terms};
 use super::hessenberg::{determinants_by_elimination, from_hessenberg, invert_and_scale_rows, reduce_to_hessenberg};
 use super::rational::least_common_multiple;
-use crate::limits::{Budget, Exhausted};
+use crate::limits::{Budget, Exhausted, claim};
 use crate::number::Integer;
 use crate::poly::modular::chinese::{Chinese, Limbs};
 use crate::poly::modular::grid::Grid;
@@ -261,6 +261,7 @@ impl Rows {
             inner *= length;
         }
         let points = data.len() / width;
+        claim(8 * (points * n * n) as u64);
         let mut matrices = vec![0; points * n * n];
         for (values, matrix) in data.chunks_exact(width).zip(matrices.chunks_exact_mut((n * n).max(1))) {
             for (&x, (i, j, _)) in values.iter().zip(&self.entries) {

@@ -260,7 +260,10 @@ fn push_digits(x: &Natural, powers: &[Natural], first: usize, piece: u64, out: &
         }
         None => {
             checkpoint(10 * limbs(x) + 1);
-            out.push_str(&format!("{:0>first$}", x.to_string()));
+            let digits = x.to_string();
+            // Not by a format's width, which ends at 65535.
+            out.extend(std::iter::repeat_n('0', first.saturating_sub(digits.len())));
+            out.push_str(&digits);
         }
     }
 }
@@ -363,6 +366,17 @@ mod tests {
             (a, b) = (&a + &b, a);
         }
         assert_eq!(gcd(&a, &b, 64), 1);
+    }
+
+    /// The pieces that a budget asks for are of more digits than a format can be wide.
+    #[test]
+    fn digits_in_pieces_of_the_usual_size() {
+        for zeros in [65_536, 66_000, 140_000, 300_000] {
+            let x = power(&Natural::from(10u32), zeros, PRODUCT_BITS) + Natural::from(7u32);
+            let text = to_digits(&x, DIGITS_BITS);
+            assert_eq!(text, format!("1{}7", "0".repeat(zeros as usize - 1)));
+            assert_eq!(from_digits(&text, DIGITS_BITS), x);
+        }
     }
 
     #[test]

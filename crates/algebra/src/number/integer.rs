@@ -1,7 +1,7 @@
 //! Integers of any size.
 
 use super::huge;
-use crate::limits::{checkpoint, is_limited};
+use crate::limits::{checkpoint, claim, is_limited};
 use malachite_base::num::arithmetic::traits::{
     Abs, AddMulAssign, DivExact, DivMod, DivisibleBy, FloorRoot, FloorSqrt, Gcd, Lcm, Parity, Pow, Sign as _,
     SubMulAssign,
@@ -33,6 +33,7 @@ fn is_counted(a: &Inner, b: &Inner) -> bool {
 #[cold]
 fn counted_product(a: &Inner, b: &Inner) -> bool {
     let (n, m) = (limbs_of(a), limbs_of(b));
+    claim(8 * (n + m));
     let huge = n.min(m) > 1 && 64 * n.max(m) > huge::PRODUCT_BITS && is_limited();
     if !huge {
         checkpoint(huge::work_of_product(n, m));
@@ -182,6 +183,7 @@ impl Integer {
     pub fn pow(&self, exponent: u64) -> Integer {
         let bits = self.bit_length().saturating_mul(exponent);
         if bits >= 64 * COUNTED_LIMBS && self.bit_length() > 1 {
+            claim(bits / 8);
             if bits > huge::PRODUCT_BITS && is_limited() {
                 let magnitude = huge::power(self.0.unsigned_abs_ref(), exponent, huge::PRODUCT_BITS);
                 return Integer(Inner::from_sign_and_abs(!self.is_negative() || exponent.is_multiple_of(2), magnitude));

@@ -80,6 +80,21 @@ impl Symbols {
         Ok(!self.common(p.as_poly_in(0), q.as_poly_in(0), budget)?.is_constant())
     }
 
+    /// The greatest common divisor of polynomials that are not all zero, up to a number that is not zero.
+    ///
+    /// Cost: as of [`Symbols::square_free_part`] for each polynomial.
+    ///
+    /// # Errors
+    /// As [`Symbols::square_free_part`].
+    pub fn greatest_common_divisor(&self, polynomials: &[MultiPoly], budget: &Budget) -> Result<MultiPoly, Exhausted> {
+        let mut divisor = Poly::zero();
+        for p in polynomials {
+            let p = self.trimmed(p.as_poly_in(0), budget)?;
+            divisor = if divisor.is_zero() { p } else { self.common(divisor, p, budget)? };
+        }
+        Ok(MultiPoly::from_poly_in(&divisor, 0))
+    }
+
     /// The greatest common divisor up to a number that is not zero.
     fn common(
         &self,
@@ -181,6 +196,18 @@ mod tests {
         assert_eq!(degree(&vanishing), 1);
         assert_eq!(degree(&a.times(&a).minus(&MultiPoly::one())), 0);
         assert!(symbols.square_free_part(&a.times(&b).minus(&c).times(&k), &budget).unwrap().is_zero());
+    }
+
+    #[test]
+    fn a_divisor_is_common_to_the_numbers() {
+        let (symbols, budget) = (table(), Budget::unlimited());
+        let [k, a] = [0, 1].map(MultiPoly::variable);
+        // K - a, 2 - a K, and 0 = K (a^2 - 2).
+        let zero = k.times(&a.times(&a).minus(&MultiPoly::from(2)));
+        let list = [zero, k.minus(&a), MultiPoly::from(2).minus(&a.times(&k))];
+        assert_eq!(symbols.greatest_common_divisor(&list, &budget).unwrap().degree_in(0), 1);
+        let list = [list[1].clone(), list[2].clone(), k];
+        assert_eq!(symbols.greatest_common_divisor(&list, &budget).unwrap().degree_in(0), 0);
     }
 
     #[test]

@@ -84,6 +84,25 @@ impl Horner {
     }
 }
 
+/// The value of a polynomial at balls with so many bits, its variables in this order.
+///
+/// Cost: products of balls, as many as Horner's scheme in several variables takes.
+///
+/// ```
+/// use jurist_algebra::ball::Ball;
+/// use jurist_algebra::poly::{Domain, MultiPoly};
+/// use jurist_algebra::symbols::value_at_balls;
+/// let third = Ball::from_rational(&"1/3".parse().unwrap(), 64);
+/// let square = MultiPoly::variable(0).times(&MultiPoly::variable(0));
+/// assert!(value_at_balls(&square, &[third], 64).contains(&"1/9".parse().unwrap()));
+/// ```
+///
+/// # Panics
+/// When a variable has no value.
+pub fn value_at_balls(p: &MultiPoly, values: &[Ball], bits: u64) -> Ball {
+    Horner::of(p).at_balls(values, bits)
+}
+
 /// A function as the schemes of its polynomials.
 #[derive(Clone, Debug)]
 pub(super) enum Scheme {

@@ -12,7 +12,8 @@ use crate::ball::{Ball, Elementary, Known, Series, TaylorModel};
 use crate::limits::{Budget, Exhausted, parallel_map};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::algebraic::simplest_between;
-use crate::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
+use crate::poly::real_roots::rational_roots;
+use crate::poly::{Domain, MultiPoly, RationalFunction, SquareFree, UniPoly};
 use crate::real::{Enclosing, Real, Transcendental};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -150,6 +151,20 @@ impl MovingSymbols {
             parts.fold(UniPoly::one(), |product, (part, _)| product.times(&part))
         };
         arguments.flatten().map(|p| odd(&p)).filter(|p| !p.is_constant()).collect()
+    }
+
+    /// The rational numbers at which an argument that is a rational function of the parameter alone divides by zero, ascending.
+    ///
+    /// Cost: the rational roots of the denominators.
+    pub fn undefined_at(&self) -> Vec<Rational> {
+        let arguments = self.table.iter().flat_map(|(_, definition)| definition.arguments());
+        let below = arguments.filter_map(|x| SquareFree::part_of(&x.denominator().to_univariate(0)?));
+        let roots =
+            |p: SquareFree| rational_roots(&p, &Budget::unlimited()).map(|(roots, _)| roots).unwrap_or_default();
+        let mut found: Vec<Rational> = below.filter(|p| p.degree() > 0).flat_map(roots).collect();
+        found.sort();
+        found.dedup();
+        found
     }
 
     /// The parameter and all symbols as series or models, from the parameter's; `None` where a divisor may vanish.

@@ -80,10 +80,55 @@ impl Symbols {
     }
 }
 
+/// Bits that an algebraic number is computed with beyond the bound of its polynomial's zeros.
+const GUARD_BITS: u64 = 64;
+
+/// Bits beyond which numbers are not computed.
+const MOST_BITS: u64 = 1 << 16;
+
+impl Symbols {
+    /// Whether a polynomial in symbols that are algebraic numbers, roots of roots among them, is shown to be zero: it is a zero of its
+    /// norm, and nearer to 0 than all zeros of that but 0.
+    pub(super) fn is_zero_algebraic_number(&self, p: &MultiPoly, budget: &Budget) -> Result<bool, Exhausted> {
+        let difference = MultiPoly::variable(0).minus(&p.map_variables(|i| i + 1));
+        let Some(norm) = self.norm_in_unknown(&difference, budget)? else { return Ok(false) };
+        let zeros = norm.coeffs().iter().take_while(|c| c.is_zero()).count();
+        let Some((least, rest)) = norm.coeffs()[zeros..].split_first().filter(|_| zeros > 0) else { return Ok(false) };
+        // Cauchy's bound: other zeros are at least |c_0|/(|c_0| + max |c_k|), which is more than 2^-bits.
+        let most = rest.iter().map(Integer::bit_length).max().unwrap_or(0).max(least.bit_length());
+        let bits = (most + 2).saturating_sub(least.bit_length()) + 1;
+        let working = bits + GUARD_BITS;
+        if working > MOST_BITS {
+            return Ok(false);
+        }
+        let value = budget.enter(|| self.enclose(p, working))?;
+        Ok(value.magnitude_units().bit_length() + bits < working)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::Rational;
     use crate::poly::RationalFunction;
+
+    /// `sqrt(3 + 2 sqrt(2)) - 1 - sqrt(2)` is zero, and with `3 + 2^-40` it is not.
+    #[test]
+    fn roots_of_roots_are_zero_where_their_polynomial_says_so() {
+        let budget = Budget::unlimited();
+        for (more, is_zero) in [(0, true), (1, false)] {
+            let mut symbols = Symbols::new();
+            symbols.insert("a", Definition::root(2));
+            let three = Rational::new((Integer::from(3) << 40) + Integer::from(more), Integer::ONE << 40);
+            let inner = &RationalFunction::from(three) + &(&RationalFunction::from(2) * &RationalFunction::variable(0));
+            symbols.insert("b", Definition::Root(inner));
+            let [a, b] = [0, 1].map(MultiPoly::variable);
+            let p = b.minus(&a).minus(&MultiPoly::one());
+            assert_eq!(symbols.is_zero(&p, &budget).unwrap(), is_zero);
+            assert_eq!(symbols.is_zero_algebraic_number(&p, &budget).unwrap(), is_zero);
+            assert!(!symbols.is_zero_algebraic_number(&b, &budget).unwrap());
+        }
+    }
 
     #[test]
     fn symbols_made_of_others_are_eliminated_before_them() {

@@ -19,7 +19,8 @@ impl Symbols {
     ///
     /// A sign other than zero is only ever read off an enclosure. Zero is only ever concluded from an identity: the zero
     /// polynomial, or the normal form of Lindemann and Weierstrass, distinct powers of `e` with algebraic exponents being
-    /// linearly independent over the algebraic numbers ([Baker1975](crate::bibliography#baker1975)).
+    /// linearly independent over the algebraic numbers ([Baker1975](crate::bibliography#baker1975)); or of an algebraic number from
+    /// a polynomial that it is a zero of, and whose other zeros are all farther from 0 than it is.
     ///
     /// Cost: enclosures with more and more bits until zero is left aside; the normal form at 1024 bits.
     ///
@@ -38,7 +39,9 @@ impl Symbols {
             if let Some(sign) = budget.enter(|| self.enclose(p, bits))?.sign() {
                 return Ok(sign);
             }
-            if bits == PROOF_BITS && budget.enter(|| self.is_zero_in_normal_form(p))? {
+            if bits == PROOF_BITS
+                && (budget.enter(|| self.is_zero_in_normal_form(p))? || self.is_zero_algebraic_number(p, budget)?)
+            {
                 return Ok(Sign::Equal);
             }
             bits *= 2;

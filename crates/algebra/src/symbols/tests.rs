@@ -90,14 +90,30 @@ fn tangents_satisfy_double_angles_and_the_hyperbolic_ones_are_exponentials() {
 }
 
 #[test]
-fn a_zero_that_is_not_recognised_ends_with_a_message() {
+fn the_determinant_of_an_exponential_is_seen_to_be_that_of_the_trace() {
     let mut s = Symbols::new();
     let polynomial = [1, 1, 1].map(RationalFunction::from).to_vec();
     let fundamental = |index| Definition::Fundamental { polynomial: polynomial.clone(), index, time: 1.into() };
     let (a, b) = (symbol(&mut s, fundamental(0)), symbol(&mut s, fundamental(1)));
     let x = symbol(&mut s, Definition::exponential(-1));
-    // The determinant of the exponential: a (a - b) + b^2 = exp(-1).
+    // a (a - b) + b^2 = exp(-1).
     let zero = a.times(&a.minus(&b)).plus(&b.times(&b)).minus(&x);
+    assert!(s.sign(&zero, &Budget::unlimited()).unwrap().is_eq());
+    let more = zero.plus(&a).minus(&b);
+    assert!(s.sign(&more, &Budget::unlimited()).unwrap().is_ne());
+}
+
+#[test]
+fn a_zero_that_is_not_recognised_ends_with_a_message() {
+    let mut s = Symbols::new();
+    // exp(sqrt(3 + 2 sqrt(2))) = exp(1 + sqrt(2)): exponents that are roots of roots are not told to be equal.
+    symbol(&mut s, Definition::root(2));
+    let a = RationalFunction::variable(0);
+    let inner = &(&a + &a) + &RationalFunction::from(3);
+    symbol(&mut s, Definition::Root(inner));
+    let x = symbol(&mut s, Definition::Exponential(RationalFunction::variable(1)));
+    let y = symbol(&mut s, Definition::Exponential(&RationalFunction::one() + &a));
+    let zero = x.minus(&y);
     let refused = s.sign(&zero, &Budget::unlimited()).unwrap_err();
     assert_eq!(refused.budget, "precision (8192 bits)");
 }

@@ -4,8 +4,9 @@
 //! weights sum up to at most the sum of the rows' greatest, less what was added. Numbers that make this close are read off the
 //! polygons of both polynomials.
 
+use crate::clock::Clock;
 use crate::number::Z;
-use crate::univariate::{Uni, gcd_of};
+use crate::univariate::Uni;
 use num_traits::{One, Signed, Zero};
 
 /// Numbers with a few digits after the point have denominators of such factors.
@@ -28,14 +29,19 @@ pub(super) struct Frame {
 
 impl Frame {
     /// Of polynomials in `y`, coefficients from the constant term up; `None` where every term of the determinant is zero.
-    pub fn of(f: &[Uni], g: &[Uni]) -> Option<Frame> {
+    pub fn of(f: &[Uni], g: &[Uni], clock: &Clock) -> Result<Option<Frame>, String> {
+        let contents = |p: &[Uni]| p.iter().map(|c| c.content(clock)).collect::<Result<Vec<Z>, _>>();
+        let contents = [contents(f)?, contents(g)?];
+        Ok(Frame::with(f, g, &contents))
+    }
+
+    fn with(f: &[Uni], g: &[Uni], contents: &[Vec<Z>; 2]) -> Option<Frame> {
         let highest = greatest([f, g].map(|p| weights(p, |c| Some(c.degree() as i64).filter(|_| !c.is_zero()))))?;
         let lowest = -greatest([f, g].map(|p| weights(p, |c| Some(-(order(c) as i64)).filter(|_| !c.is_zero()))))?;
         let lowest = lowest.max(0);
         if highest < lowest {
             return None;
         }
-        let contents = [f, g].map(|p| p.iter().map(|c| gcd_of(c.0.iter())).collect::<Vec<Z>>());
         let mut divisor = Z::one();
         for prime in PRIMES.map(Z::from) {
             let of_content = |c: &Z| (!c.is_zero()).then(|| -valuation(c, &prime));

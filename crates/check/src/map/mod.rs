@@ -15,6 +15,7 @@ use crate::number::Q;
 use crate::over_box::{OverBox, common_factor, in_region, over_box, vanishes_only_with};
 use crate::over_symbols::primitive;
 use crate::statement::{Extent, axes, bound, count, fixed_extent, list, object, polynomials, values};
+use crate::words::{exact, outward};
 use crate::{Proved, Rejection, Step, is_discrete, verdict};
 use isolation::Place;
 use std::collections::BTreeMap;
@@ -56,13 +57,13 @@ impl Statement {
             let and = if *name == self.names[0] { "" } else { " and " };
             let _ = match (lower, upper) {
                 (None, None) => write!(out, "{and}{name}"),
-                (Some(l), None) => write!(out, "{and}{name} > {l}"),
-                (None, Some(u)) => write!(out, "{and}{name} < {u}"),
-                (Some(l), Some(u)) => write!(out, "{and}{name} in ({l}, {u})"),
+                (Some(l), None) => write!(out, "{and}{name} > {}", exact(l)),
+                (None, Some(u)) => write!(out, "{and}{name} < {}", exact(u)),
+                (Some(l), Some(u)) => write!(out, "{and}{name} in ({}, {})", exact(l), exact(u)),
             };
         }
         for (i, (name, value)) in self.set.iter().enumerate() {
-            let _ = write!(out, "{}{name} = {value}", if i == 0 { ", with " } else { ", " });
+            let _ = write!(out, "{}{name} = {}", if i == 0 { ", with " } else { ", " }, exact(value));
         }
         let within = verdict::within(&self.extent, self.discrete);
         if self.regions.is_empty() {
@@ -78,9 +79,12 @@ impl Statement {
             let first = region.iter().map(|c| c.0).min().unwrap_or(0);
             let last = region.iter().map(|c| c.0).max().unwrap_or(0);
             let end = |place: Option<&Place>, outer: &Option<Q>, infinite: &str| match (place, outer) {
-                (Some(p), _) if p.is_rational() => p.left.to_string(),
-                (Some(p), _) => format!("[a number in ({}, {})]", p.left, p.right),
-                (None, Some(q)) => q.to_string(),
+                (Some(p), _) if p.is_rational() => exact(&p.left),
+                (Some(p), _) => {
+                    let [a, b] = outward(&p.left, &p.right);
+                    format!("[a number between {a} and {b}]")
+                }
+                (None, Some(q)) => exact(q),
                 (None, None) => infinite.to_owned(),
             };
             let lower = end(first.checked_sub(1).and_then(|k| places.get(k)), &self.domain[0].0, "-infinity");
@@ -159,7 +163,7 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
 
 /// What the model's own polynomial has beside the given one.
 fn common(given: &[Multi], own: &OverBox, s: &Statement, clock: &Clock) -> Result<Multi, String> {
-    let own_in_region = in_region(&own.coefficients, s.discrete, &s.extent)?;
+    let own_in_region = in_region(&own.coefficients, s.discrete, &s.extent, clock)?;
     let is_undefined = own.divisors.iter().any(|parts| parts.iter().all(Multi::is_zero));
     if given.is_empty() && is_undefined {
         return Ok(Multi::one());
@@ -174,7 +178,7 @@ fn common(given: &[Multi], own: &OverBox, s: &Statement, clock: &Clock) -> Resul
 fn curves(json: &Json, all: &[Vec<Multi>], clock: &Clock) -> Result<Vec<Curve>, String> {
     let mut factors = Vec::new();
     for factor in list(json, "'factors'")? {
-        let f = primitive(vec![polynomial(factor, 2)?]).swap_remove(0);
+        let f = primitive(vec![polynomial(factor, 2)?], clock)?.swap_remove(0);
         if f.is_constant() {
             return Err("a factor is constant".into());
         }

@@ -23,8 +23,9 @@ const ZEROS: usize = 3;
 /// modulo one number at as many integers as `R` has coefficients, where no leading coefficient vanishes. So `R = c W` modulo
 /// the product of all moduli, with `c` known by its residues, and in integers where that product is above the sum of what `R` and `c W` can be.
 pub(super) fn is_product(f: &[Uni], g: &[Uni], factors: &[Uni], clock: &Clock) -> Result<bool, String> {
-    let pair = Pair { f: primitive(f), g: primitive(g) };
-    let Some(frame) = Frame::of(&pair.f, &pair.g) else { return Ok(false) };
+    let pair = Pair { f: primitive(f, clock)?, g: primitive(g, clock)? };
+    count_frame(&pair, clock)?;
+    let Some(frame) = Frame::of(&pair.f, &pair.g, clock)? else { return Ok(false) };
     if frame.lowest + frame.count > MAX_DEGREE {
         return Err("a resultant has too high a degree".into());
     }
@@ -87,12 +88,18 @@ pub(super) fn is_product(f: &[Uni], g: &[Uni], factors: &[Uni], clock: &Clock) -
 }
 
 /// Without an integer that divides all coefficients.
-fn primitive(p: &[Uni]) -> Vec<Uni> {
-    let content = gcd_of(p.iter().flat_map(|c| &c.0));
+fn primitive(p: &[Uni], clock: &Clock) -> Result<Vec<Uni>, String> {
+    let content = gcd_of(p.iter().flat_map(|c| &c.0), clock)?;
     if content.is_zero() || content.is_one() {
-        return p.to_vec();
+        return Ok(p.to_vec());
     }
-    p.iter().map(|c| Uni(c.0.iter().map(|c| c / &content).collect())).collect()
+    Ok(p.iter().map(|c| Uni(c.0.iter().map(|c| c / &content).collect())).collect())
+}
+
+/// The work of the bounds of a resultant: rows times columns, and a square for each entry.
+fn count_frame(pair: &Pair, clock: &Clock) -> Result<(), String> {
+    let bits = [&pair.f, &pair.g].map(|p| p.iter().map(Uni::longest).max().unwrap_or(0));
+    clock.spend(8 * pair.f.len() * pair.g.len(), bits[0].max(bits[1]), bits[0].max(bits[1]))
 }
 
 /// Two polynomials in `y`.
@@ -317,7 +324,7 @@ mod tests {
 
     /// By the determinant and exact division.
     fn is_product_of_all(f: &[Uni], g: &[Uni], factors: &[Uni], clock: &Clock) -> bool {
-        let mut rest = sylvester(f, g).primitive();
+        let mut rest = sylvester(f, g).primitive(clock).unwrap();
         for factor in factors {
             while rest.degree() > 0
                 && let Some(quotient) = rest.divided(factor, clock).unwrap()
@@ -349,10 +356,10 @@ mod tests {
         let (x, far) = (uni(&[0, 1]), uni(&[17, 0, 0, 0, 0, 0, 1]));
         for f in &polynomials {
             for g in &polynomials {
-                let whole = sylvester(f, g).primitive();
+                let whole = sylvester(f, g).primitive(&clock).unwrap();
                 let mut lists = vec![vec![], vec![x.clone()], vec![far.clone(), x.clone()]];
                 if whole.degree() > 0 {
-                    let near = whole.plus(&uni(&[1])).primitive();
+                    let near = whole.plus(&uni(&[1])).primitive(&clock).unwrap();
                     lists.extend([vec![far.clone(), whole.clone()], vec![x.clone(), whole.clone()], vec![near]]);
                 }
                 for factors in lists {

@@ -41,7 +41,7 @@ fn at_y(f: &[Uni], y: &Q, clock: &Clock) -> Result<Uni, String> {
 /// That all polynomials at whose zeros curves may meet, turn, leave or end are products of the given ones.
 pub(super) fn covered(curves: &[Curve], x_factors: &[Uni], y_domain: &Domain, clock: &Clock) -> Result<(), String> {
     let divided_by_all = |p: &Uni| -> Result<bool, String> {
-        let mut rest = p.primitive();
+        let mut rest = p.primitive(clock)?;
         for f in x_factors {
             while rest.degree() > 0
                 && let Some(quotient) = rest.divided(f, clock)?
@@ -51,7 +51,7 @@ pub(super) fn covered(curves: &[Curve], x_factors: &[Uni], y_domain: &Domain, cl
         }
         Ok(rest.0.len() == 1)
     };
-    let primitive: Vec<Uni> = x_factors.iter().map(Uni::primitive).collect();
+    let primitive: Vec<Uni> = x_factors.iter().map(|f| f.primitive(clock)).collect::<Result<_, _>>()?;
     let is_resultant = |f: &Curve, g: &Curve| is_product(f, g, &primitive, clock);
     let need = |what: String, is_product: bool| -> Result<(), String> {
         if is_product { Ok(()) } else { Err(format!("{what} is not a product of the factors in x")) }

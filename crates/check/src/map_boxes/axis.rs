@@ -112,6 +112,8 @@ pub(super) fn right(p: &[Taylor], precision: &Precision, clock: &Clock) -> Resul
         if !is_seen(0) || !is_seen(e.len() - 1) || part.halvings >= MAX_HALVINGS || looked_at >= MAX_PARTS {
             return Ok(None);
         }
+        let k = e.len() - 1;
+        clock.spend(k * k * (precision.order + 1) * (precision.order + 2) / 2, precision.bits as u64, 0)?;
         let [low, high] = halves(part);
         parts.extend([high, low]);
     }
@@ -170,7 +172,7 @@ fn halves(part: Part) -> [Part; 2] {
 }
 
 /// `P(s + 2^exponent)`, times a positive number.
-pub(super) fn shifted(p: &[Taylor], exponent: i64) -> Vec<Taylor> {
+pub(super) fn shifted(p: &[Taylor], exponent: i64, of: &Precision, clock: &Clock) -> Result<Vec<Taylor>, String> {
     let mut c = p.to_vec();
     let (n, size) = (p.len() - 1, exponent.unsigned_abs() as usize);
     // P(2^exponent x), or 2^(-n exponent) times it, is shifted by one.
@@ -179,11 +181,12 @@ pub(super) fn shifted(p: &[Taylor], exponent: i64) -> Vec<Taylor> {
         *x = x.scaled(&power(k));
     }
     for i in 0..n {
+        clock.spend((n - i) * (of.order + 1) * (of.order + 2) / 2, of.bits as u64, 0)?;
         for j in (i..n).rev() {
             c[j] = c[j].plus(&c[j + 1]);
         }
     }
-    c
+    Ok(c)
 }
 
 #[cfg(test)]
@@ -219,7 +222,11 @@ mod tests {
             assert_eq!(found, is_certain.then_some(places.outside), "{c:?}");
             seen[found.unwrap_or(4)] += 1;
             // Shifted by far all roots are to the left, of a mirror image to the right.
-            assert_eq!(right(&shifted(&numbers, 12), &precision, &clock).unwrap(), Some(0), "{c:?}");
+            assert_eq!(
+                right(&shifted(&numbers, 12, &precision, &clock).unwrap(), &precision, &clock).unwrap(),
+                Some(0),
+                "{c:?}"
+            );
         }
         assert!(seen[0] > 5 && seen[1] > 5 && seen[2] > 5, "{seen:?}");
     }

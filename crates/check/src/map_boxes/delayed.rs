@@ -6,13 +6,13 @@ mod terms;
 mod turn;
 
 use super::functions::Functions;
-use super::polynomial::{are_defined, is_number};
+use super::polynomial::are_defined;
 use super::{Parts, Sides, Statement, share_of_window};
 use crate::clock::Clock;
 use crate::moving::Sources;
 use crate::multivariate::Multi;
 use crate::number::{Q, Z};
-use crate::over_box::OverBox;
+use crate::over_box::{OverBox, separated};
 use crate::over_symbols::primitive;
 use crate::statement::Extent;
 use crate::taylor::{Precision, Taylor};
@@ -119,11 +119,11 @@ impl Delayed {
         let factor = |j: usize| Z::from(1) << (size * if scale >= 0 { j } else { order - j });
         let scaled =
             |part: Vec<Multi>| part.into_iter().enumerate().map(|(j, c)| c.scaled(&factor(j))).collect::<Vec<_>>();
-        let mut all: Vec<Multi> = primitive(coefficients.into_iter().flat_map(scaled).collect());
+        let mut all: Vec<Multi> = primitive(coefficients.into_iter().flat_map(scaled).collect(), clock)?;
         let mut divisors = Vec::with_capacity(terms.divisors.len());
-        for list in terms.divisors.into_iter().filter(|list| !list.iter().any(is_number)) {
+        for list in separated(terms.divisors, clock)? {
             divisors.push(all.len()..all.len() + list.len());
-            all.extend(primitive(list));
+            all.extend(primitive(list, clock)?);
         }
         Ok(Delayed {
             delays,

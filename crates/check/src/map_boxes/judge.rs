@@ -6,7 +6,7 @@ use super::{Parts, Sides, Statement, read};
 use crate::clock::Clock;
 use crate::format::Json;
 use crate::number::{Q, Z};
-use crate::over_box::with_sources;
+use crate::over_box::{FIRST, with_sources};
 use crate::taylor::Precision;
 use crate::{Limits, Rejection, STACK, Step};
 use std::fmt;
@@ -99,11 +99,13 @@ impl BoxJudge {
             let reason = "the model's time is not that of the statement".into();
             return Err(Rejection { step: Step::Model, reason });
         }
+        let below = if sources.have_dead_time() { FIRST + 2 } else { usize::MAX };
+        let own = Step::Model.of(clock.reading(|| own.without_common(below, &clock)))?;
         let of = if sources.have_dead_time() {
             Step::Model.of(Delayed::new(own, &sources, &statement, parts, &clock)).map(Kind::Delayed)?
         } else {
             let precision = Precision::new(parts.order, parts.bits);
-            Step::Model.of(Polynomial::new(own, sources, &statement.extent, precision)).map(Kind::Polynomial)?
+            Step::Model.of(Polynomial::new(own, sources, &statement.extent, precision, &clock)).map(Kind::Polynomial)?
         };
         Ok(BoxJudge { statement, clock, of })
     }

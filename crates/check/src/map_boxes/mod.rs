@@ -10,6 +10,7 @@ use crate::clock::Clock;
 use crate::format::Json;
 use crate::number::Q;
 use crate::statement::{Extent, axes, count, fixed_extent, list, number, object, text, values};
+use crate::words::{exact, inward};
 use crate::{Proved, Rejection, Step, is_discrete, verdict};
 pub use judge::{BoxJudge, JudgedBox};
 use num_traits::{One, Zero};
@@ -57,18 +58,20 @@ impl Statement {
         let mut out = String::from("For ");
         let sides = self.names.iter().zip(&self.window);
         for (i, (name, [low, high])) in sides.take(if self.is_line() { 1 } else { 2 }).enumerate() {
+            let [low, high] = inward(low, high);
             let _ = write!(out, "{}{name} from {low} to {high}", if i == 0 { "" } else { " and " });
         }
         let one = self.is_line().then(|| (&self.names[1], &self.window[1][0]));
         for (i, (name, value)) in one.into_iter().chain(self.set.iter().map(|(name, q)| (name, q))).enumerate() {
-            let _ = write!(out, "{}{name} = {value}", if i == 0 { ", with " } else { ", " });
+            let _ = write!(out, "{}{name} = {}", if i == 0 { ", with " } else { ", " }, exact(value));
         }
         let within = verdict::within(&self.extent, self.discrete);
         if self.is_line() {
             let name = &self.names[0];
             let pieces = |letter: char| {
                 let own = walked.pieces.iter().filter(|(l, _)| *l == letter);
-                own.map(|(_, [low, high])| format!("{low} <= {name} <= {high}")).collect::<Vec<_>>().join(" and ")
+                let range = |[low, high]: [String; 2]| format!("{low} <= {name} <= {high}");
+                own.map(|(_, [low, high])| range(inward(low, high))).collect::<Vec<_>>().join(" and ")
             };
             let (stable, unstable) = (pieces('+'), pieces('-'));
             let _ = match (stable.is_empty(), unstable.is_empty()) {
@@ -120,8 +123,8 @@ fn read(json: &Json) -> Result<(Statement, Parts), Rejection> {
     let keys = ["schema", "statement", "order", "bits"];
     let [_, statement, order, bits] = Step::Format.of(object(json, "the certificate", keys, &["model"]))?;
     let parts = Step::Format.of((|| match (count(order, "'order'")?, count(bits, "'bits'")?) {
-        (order @ 1..=16, bits @ 64..=4096) => Ok(Parts { order, bits }),
-        _ => Err("'order' is not from 1 to 16, or 'bits' not from 64 to 4096".to_owned()),
+        (order @ 1..=8, bits @ 64..=1024) => Ok(Parts { order, bits }),
+        _ => Err("'order' is not from 1 to 8, or 'bits' not from 64 to 1024".to_owned()),
     })())?;
     Ok((Step::Statement.of(Statement::read(statement))?, parts))
 }

@@ -7,7 +7,7 @@ use crate::clock::Clock;
 use crate::moving::Sources;
 use crate::multivariate::Multi;
 use crate::number::Z;
-use crate::over_box::{OverBox, in_half_plane, in_region};
+use crate::over_box::{OverBox, in_half_plane, in_region, separated};
 use crate::over_symbols::primitive;
 use crate::statement::Extent;
 use crate::taylor::{Precision, Taylor};
@@ -42,16 +42,23 @@ pub(super) struct Known {
 }
 
 impl Polynomial {
-    pub fn new(own: OverBox, sources: Sources, extent: &Extent, precision: Precision) -> Result<Self, String> {
-        let in_this_region = in_region(&own.coefficients, own.discrete, extent)?;
-        let mut all = primitive(if own.discrete { in_half_plane(&in_this_region) } else { in_this_region });
+    pub fn new(
+        own: OverBox,
+        sources: Sources,
+        extent: &Extent,
+        precision: Precision,
+        clock: &Clock,
+    ) -> Result<Self, String> {
+        let in_this_region = in_region(&own.coefficients, own.discrete, extent, clock)?;
+        let all = if own.discrete { in_half_plane(&in_this_region, clock)? } else { in_this_region };
+        let mut all = primitive(all, clock)?;
         let coefficients = all.len();
         let is_undefined = own.divisors.iter().any(|parts| parts.iter().all(Multi::is_zero));
         let is_nowhere = is_undefined || all.iter().any(Multi::is_zero);
         let mut divisors = Vec::with_capacity(own.divisors.len());
-        for parts in own.divisors.into_iter().filter(|parts| !parts.iter().any(is_number)) {
+        for parts in separated(own.divisors, clock)? {
             divisors.push(all.len()..all.len() + parts.len());
-            all.extend(primitive(parts));
+            all.extend(primitive(parts, clock)?);
         }
         let functions = Functions::new(&all);
         Ok(Polynomial { precision, sources, functions, coefficients, divisors, is_nowhere })
@@ -135,7 +142,7 @@ impl Polynomial {
             return Ok(true);
         }
         for beyond in BEYOND {
-            if right(&shifted(p, scale(p) + beyond))?.is_some_and(|count| count > 0) {
+            if right(&shifted(p, scale(p) + beyond, &self.precision, clock)?)?.is_some_and(|count| count > 0) {
                 return Ok(true);
             }
         }
@@ -162,9 +169,4 @@ impl Polynomial {
 /// Whether of each of these lists of functions one has a sign.
 pub(super) fn are_defined(divisors: &[Range<usize>], known: &[Taylor]) -> bool {
     divisors.iter().all(|list| known[list.clone()].iter().any(|f| f.sign().is_some()))
-}
-
-/// A number other than zero.
-pub(super) fn is_number(p: &Multi) -> bool {
-    p.is_constant() && !p.is_zero()
 }

@@ -31,6 +31,7 @@ fn product(a: &Matrix, b: &Matrix, p: &Precision, clock: &Clock) -> Result<Matri
     for i in 0..n {
         for j in 0..n {
             for k in 0..n {
+                clock.tick()?;
                 out[i][j] = out[i][j].plus(&a[i][k].times(&b[k][j], p, clock)?);
             }
         }

@@ -1,14 +1,14 @@
 //! How to write the certificates of what the report says, and what they are.
 
-use super::Checker;
+use super::ReportRequest;
 use super::limits::Limits;
 use super::part::{Part, Parts, Work};
 use crate::page::{Table, escaped, paragraph};
 use jurist_engine::answer::{Answer, PointVerdict};
 use jurist_engine::problem::Question;
 
-/// About five seconds of one core.
-const WORK: Work = Work::Units(500_000_000);
+/// Work of all certificates of limits together, which they share evenly, and of the verdict's: about six tenths of a second of one core.
+const WORK: u64 = 60_000_000;
 
 /// The words of a shell for the model, its settings, and files to write.
 pub(super) struct Commands<'a> {
@@ -51,24 +51,26 @@ pub(super) fn section(
     commands: &Commands<'_>,
     verdict: &Part<Answer<PointVerdict>>,
     limits: &[Limits],
-    check: Option<Checker<'_>>,
+    request: &ReportRequest<'_>,
     parts: &Parts<'_>,
 ) -> String {
     let mut html = paragraph(
         "A certificate is a file from which independent code proves an answer again: it reads the model itself and shares \
          nothing with the code that found the answer.",
     );
+    let check = request.check;
     let mut lines = Vec::new();
     let mut head = vec!["certificate", "size"];
     head.extend(check.is_some().then_some("the independent check says"));
     let mut table = Table::new("Certificates of this report's answers", &head);
-    let mut add = |what: String, file: String, line: String, text: Part<String>| {
+    let mut add = |what: String, file: String, line: String, text: Part<(String, Option<String>)>| {
         let mut row = vec![what];
         match text {
             Err(missing) => row.extend([missing.sentence(), String::new()]),
-            Ok(text) => {
+            Ok((text, share)) => {
                 lines.extend([line, commands.verify(&file)]);
-                row.push(format!("{} bytes", text.len()));
+                let share = share.map(|share| format!("; {share}")).unwrap_or_default();
+                row.push(format!("{} bytes{share}", text.len()));
                 row.extend(check.map(|check| match check(&text) {
                     Ok(()) => "accepted".to_owned(),
                     Err(why) => format!("not accepted: {why}"),
@@ -79,14 +81,19 @@ pub(super) fn section(
         table.rows.push(row);
     };
     if let Ok(answer) = verdict {
-        let text = parts.part("certificate of the verdict", WORK, |budget| answer.certificate(budget));
+        let text = parts
+            .part("certificate of the verdict", Work::Units(WORK), |budget| Ok((answer.certificate(budget)?, None)));
         let file = "verdict.json".to_owned();
         let line = commands.line("verdict", &["--certificate", &file]);
         add("the verdict".to_owned(), file, line, text);
     }
+    let share = Work::Units(WORK / limits.len().max(1) as u64);
     for one in limits {
         let Ok(answer) = &one.set else { continue };
-        let text = parts.part(&format!("certificate of {}", one.name), WORK, |budget| answer.certificate(budget));
+        let text = parts.part(&format!("certificate of {}", one.name), share, |budget| match request.certify {
+            Some(certify) => certify(answer, budget),
+            None => Ok((answer.certificate(budget)?, None)),
+        });
         let file = format!("{}.json", one.name);
         let line = commands.line("intervals", &["--param", &one.name, "--certificate", &file]);
         add(format!("all limits of {}", one.name), file, line, text);

@@ -17,6 +17,10 @@ pub(super) const DIGITS: usize = 12;
 /// Significant digits of frequencies and margins.
 pub(super) const PLACES: usize = 7;
 
+/// Work of the limits of all parameters together, which they share evenly, and the least of one: about a second of one core, and a fifth.
+const WORK: u64 = 100_000_000;
+const LEAST_WORK: u64 = 20_000_000;
+
 /// A parameter with what is known of it.
 pub(super) struct Limits {
     /// Its name.
@@ -49,11 +53,18 @@ impl Shown {
 pub(super) fn find(question: &Question, parts: &Parts<'_>) -> Vec<Limits> {
     let names = question.model().parameters().iter().map(|p| p.name.clone());
     let names: Vec<String> = names.filter(|name| !question.values_set().contains_key(name)).collect();
+    let work = Work::Units((WORK / names.len().max(1) as u64).max(LEAST_WORK));
     parallel_map(names, |name: String| {
         let question = question.clone().free(&name);
-        let set = parts.part(&format!("limits of {name}"), Work::Any, |budget| question.stable_set(budget));
-        let shown = set.as_ref().map_or_else(|_| Shown::default(), Shown::of);
-        Limits { name, set, shown }
+        let found = parts.part(&format!("limits of {name}"), work, |budget| {
+            let answer = question.stable_set(budget)?;
+            let shown = Shown::of(&answer);
+            Ok((answer, shown))
+        });
+        match found {
+            Ok((answer, shown)) => Limits { name, set: Ok(answer), shown },
+            Err(missing) => Limits { name, set: Err(missing), shown: Shown::default() },
+        }
     })
 }
 

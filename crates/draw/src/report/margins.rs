@@ -10,15 +10,15 @@ use jurist_engine::problem::Problem;
 use jurist_engine::response::Margins;
 use std::sync::Arc;
 
-/// About ten seconds of one core.
-const WORK: Work = Work::Units(1_000_000_000);
+/// About half a second of one core.
+const WORK: Work = Work::Units(50_000_000);
 
-pub(super) fn find(problem: &Part<Arc<Problem>>, parts: &Parts<'_>) -> Part<Answer<Margins>> {
+pub(super) fn find(problem: &Part<Arc<Problem>>, at: Option<&str>, parts: &Parts<'_>) -> Part<Answer<Margins>> {
     let problem = problem.as_ref().map_err(Clone::clone)?;
-    parts.part("margins", WORK, |budget| problem.margins(None, &Rational::ZERO, budget))
+    parts.part("margins", WORK, |budget| problem.margins(at, &Rational::ZERO, budget))
 }
 
-pub(super) fn section(margins: &Part<Answer<Margins>>) -> String {
+pub(super) fn section(margins: &Part<Answer<Margins>>, parts: &Parts<'_>) -> String {
     let answer = match margins {
         Err(missing) => return missing.html(),
         Ok(answer) => answer,
@@ -28,7 +28,12 @@ pub(super) fn section(margins: &Part<Answer<Margins>>) -> String {
         "The loop is cut at <b>{}</b>: what comes back there is the open loop; 1 is its nominal factor.",
         math(cut)
     ));
-    let sentences = answer.sentences(PLACES);
+    // The digits of a margin are found here: that is work as well.
+    let written = parts.part("digits of the margins", WORK, |_| Ok((answer.sentences(PLACES), answer.text(DIGITS))));
+    let (sentences, text) = match written {
+        Err(missing) => return html + &missing.html(),
+        Ok(written) => written,
+    };
     if sentences.is_empty() {
         html.push_str(&paragraph("The loop is not stable at the nominal point: only a stable loop has margins."));
     } else {
@@ -36,7 +41,6 @@ pub(super) fn section(margins: &Part<Answer<Margins>>) -> String {
         table.rows.extend(sentences.into_iter().map(|(name, text)| vec![name.to_owned(), text]));
         html.push_str(&table.html());
     }
-    let text = answer.text(DIGITS);
     let text = text.lines().map(escaped).collect::<Vec<_>>().join("\n");
     html + &format!("<details><summary>All crossings of the open loop</summary><pre>{text}</pre></details>\n")
 }
@@ -46,7 +50,8 @@ pub(super) fn bode_section(margins: &Part<Answer<Margins>>, parts: &Parts<'_>) -
         Err(missing) => return missing.html(),
         Ok(answer) => answer,
     };
-    let drawn = parts.part("Bode diagram", WORK, |_| Ok(bode(answer, &frequency_response(answer.value()))));
+    let drawn =
+        parts.part("Bode diagram", WORK, |budget| Ok(bode(answer, &frequency_response(answer.value(), budget)?)));
     match drawn {
         Err(missing) => missing.html(),
         Ok(drawn) => figure(

@@ -21,12 +21,37 @@ pub use model::{comment_at, entries};
 use crate::page::{Section, math, paragraph, report_page};
 use certificates::Commands;
 use jurist_algebra::limits::{Budget, Exhausted, join, parallel_map};
+use jurist_engine::answer::Answer;
+use jurist_engine::error::Error;
 use jurist_engine::problem::Question;
 use jurist_engine::show::layout::called;
+use jurist_engine::stability::StableSet;
 use part::{Parts, Work};
 
 /// Proves a certificate again by other code; an error is the reason why it was not accepted.
 pub type Checker<'a> = &'a (dyn Fn(&str) -> Result<(), String> + Sync);
+
+/// Writes the certificate of the limits of one parameter, and how much it says where that is not everything.
+pub type Certifier<'a> = &'a (dyn Fn(&Answer<StableSet>, &Budget) -> Result<(String, Option<String>), Error> + Sync);
+
+/// What a report is to say beside its answers.
+///
+/// ```
+/// use jurist_draw::report::ReportRequest;
+/// let request = ReportRequest { file: Some("loop.toml"), at: Some("u"), ..ReportRequest::default() };
+/// assert!(request.certify.is_none() && request.check.is_none());
+/// ```
+#[derive(Clone, Copy, Default)]
+pub struct ReportRequest<'a> {
+    /// The model's file in the command lines for certificates; `None` for the built-in drive.
+    pub file: Option<&'a str>,
+    /// Where the loop is cut for margins and the Bode diagram; `None` where the model's `[require]` says so, or there is one loop only.
+    pub at: Option<&'a str>,
+    /// Writes the certificates of limits; `None` for [`Answer::certificate`].
+    pub certify: Option<Certifier<'a>>,
+    /// The independent check of certificates.
+    pub check: Option<Checker<'a>>,
+}
 
 /// The page, and whether it is all of it.
 #[derive(Clone, Debug)]
@@ -38,29 +63,27 @@ pub struct LoopReport {
     pub stopped: Option<Exhausted>,
 }
 
-/// The report on a question in which no name is free: its parameters are asked about one after the other. `file` is the
-/// model's file in the command lines for certificates (`None` for the built-in drive), `check` the independent check of
-/// these.
+/// The report on a question in which no name is free: its parameters are asked about one after the other.
 ///
-/// Cost: that of every answer in it. The verdict and the limits end with the budget only; other parts are left out, too,
+/// Cost: that of every answer in it. The verdict ends with the budget only; all other parts are left out, too,
 /// when they take more than a fixed amount of work, so that the page is the same on every machine.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
-/// use jurist_draw::report::loop_report;
+/// use jurist_draw::report::{ReportRequest, loop_report};
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("K").nominal("1"))
 ///     .characteristic("z^2 - z + K/2")
 ///     .build()?;
-/// let report = loop_report(&model.ask(), None, None, &Budget::unlimited());
+/// let report = loop_report(&model.ask(), &ReportRequest::default(), &Budget::unlimited());
 /// assert!(report.html.contains("all 2 roots are inside the unit circle") && report.stopped.is_none());
 /// # Ok::<(), jurist_engine::error::Error>(())
 /// ```
 ///
 /// # Panics
 /// When a name is free.
-pub fn loop_report(question: &Question, file: Option<&str>, check: Option<Checker<'_>>, budget: &Budget) -> LoopReport {
+pub fn loop_report(question: &Question, request: &ReportRequest<'_>, budget: &Budget) -> LoopReport {
     assert!(question.free_names().is_empty(), "a report frees one parameter after the other");
     let parts = Parts::new(budget);
     let model = question.model();
@@ -69,14 +92,16 @@ pub fn loop_report(question: &Question, file: Option<&str>, check: Option<Checke
         .as_ref()
         .map_err(Clone::clone)
         .and_then(|problem| parts.part("the verdict", Work::Any, |budget| problem.verdict(budget)));
-    let (limits, margins) = join(|| limits::find(question, &parts), || margins::find(&problem, &parts));
-    let commands = Commands { file, question };
+    let required = model.require().iter().find(|r| r.name == "at").map(|r| r.text.as_str());
+    let at = request.at.or(required);
+    let (limits, margins) = join(|| limits::find(question, &parts), || margins::find(&problem, at, &parts));
+    let commands = Commands { file: request.file, question };
     // Parts that need nothing of each other, side by side.
     type Made<'p> = Box<dyn Fn() -> String + Sync + Send + 'p>;
     let sections: Vec<(&'static str, &'static str, Made<'_>)> = vec![
         ("model", "The model", Box::new(|| model::section(question))),
         ("limits", "Verdict and limits", Box::new(|| limits::section(&verdict, &limits))),
-        ("margins", "Margins of the loop", Box::new(|| margins::section(&margins))),
+        ("margins", "Margins of the loop", Box::new(|| margins::section(&margins, &parts))),
         ("sensitivity", "What moves the limits", Box::new(|| sensitivity::section(question, &limits, &parts))),
         ("tolerance", "Worst corner of the tolerances", Box::new(|| tolerance::section(question, &parts))),
         ("locus", "Root locus", Box::new(|| pictures::locus(&limits, &parts))),
@@ -86,7 +111,7 @@ pub fn loop_report(question: &Question, file: Option<&str>, check: Option<Checke
         (
             "certificates",
             "Certificates",
-            Box::new(|| certificates::section(&commands, &verdict, &limits, check, &parts)),
+            Box::new(|| certificates::section(&commands, &verdict, &limits, request, &parts)),
         ),
         ("proved", "What is proved, what is drawn, what is left out", Box::new(|| proved::section(model))),
     ];

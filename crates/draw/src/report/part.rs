@@ -61,7 +61,7 @@ impl From<Error> for Missing {
 /// Units of work, about ten nanoseconds each, after which a part is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Work {
-    /// The heart of the report: only the budget of the whole ends it.
+    /// The verdict: only the budget of the whole ends it.
     Any,
     /// Counted, not timed: the same report on every machine.
     Units(u64),

@@ -15,8 +15,8 @@ use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::StableSet;
 use std::sync::Arc;
 
-/// About ten seconds of one core.
-const WORK: Work = Work::Units(1_000_000_000);
+/// About half a second of one core.
+const WORK: Work = Work::Units(50_000_000);
 
 /// Longer responses make no better picture.
 const MOST_SAMPLES: f64 = 1e6;

@@ -17,9 +17,9 @@ use jurist_engine::stability::{End, Range, StableSet};
 /// Digits of the limits in the tables, and those to which a limit counts as not moved.
 const DIGITS: (usize, usize) = (7, 12);
 
-/// Work of all questions together, which they share evenly, and the least and most of one: about ten seconds of one core, a fifth
-/// of a second and three seconds.
-const WORK: (u64, u64, u64) = (1_000_000_000, 20_000_000, 300_000_000);
+/// Work of all questions together, which they share evenly, and the least and most of one: about seven tenths of a second of one core,
+/// a hundredth and three tenths.
+const WORK: (u64, u64, u64) = (70_000_000, 1_000_000, 30_000_000);
 
 /// Ends of the interval around the nominal value; `None` where that is not stable.
 type Ends = Option<[Option<Real>; 2]>;

@@ -8,8 +8,8 @@ use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
 use jurist_engine::problem::Question;
 use jurist_engine::show::documents::{Answered, Exact, Tolerance, ToleranceFound};
 
-/// About twenty seconds of one core.
-const WORK: Work = Work::Units(2_000_000_000);
+/// About half a second of one core.
+const WORK: Work = Work::Units(50_000_000);
 
 pub(super) fn section(question: &Question, parts: &Parts<'_>) -> String {
     let request = ToleranceRequest::of_model(question.model());

@@ -135,7 +135,7 @@ impl Course {
         let samples = self.samples_within(system.sample_time, most)?;
         let trace = system.simulate_within(&drive, samples, budget)?;
         let is_complete = trace.time.len() > samples;
-        let sampled = problem.algebra_over_symbols(budget)?.sample_time().is_some();
+        let sampled = problem.closed_loop_in_numbers(budget)?.2.is_some();
         let constant = drive.steps.iter().all(|s| s.sample == 0);
         let finals = if constant { system.final_values(&drive.inputs_at(0, system.inputs.len())) } else { Vec::new() };
         let trace = trace.with_units(|name| signal_unit(problem.model(), name));

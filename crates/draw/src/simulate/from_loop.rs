@@ -44,8 +44,8 @@ impl SampledModel {
     /// [`Error`] as for the closed loop; `E-simulation` when the step is not positive; `E-dead-time` for a loop with dead
     /// time, which is a [`DelayedModel`](super::DelayedModel).
     pub fn from_loop(problem: &Problem, step: f64, budget: &Budget) -> Result<SampledModel, Error> {
-        let (ClosedLoop { a, e, c, d, states, inputs, outputs, .. }, symbols) =
-            problem.closed_loop_over_symbols(budget)?;
+        let (ClosedLoop { a, e, c, d, states, inputs, outputs, .. }, symbols, time) =
+            problem.closed_loop_in_numbers(budget)?;
         refuse_dead_time(symbols)?;
         let symbols = symbols.values_approximate(&[]);
         let rounded = |matrix| rounded(matrix, &symbols);
@@ -60,7 +60,7 @@ impl SampledModel {
             transition = flow.view((0, 0), (n, n)).into_owned();
             input = flow.view((0, n), (n, m)).into_owned();
             sample_time = step;
-        } else if let Some(time) = problem.algebra_over_symbols(budget)?.sample_time() {
+        } else if let Some(time) = time {
             sample_time = value_approximate(time, &symbols);
         }
         let model = SampledModel {
@@ -303,4 +303,26 @@ fn outputs_of<'b>(blocks: &'b [&Block]) -> impl Iterator<Item = Name> + 'b {
 
 fn as_outputs(names: impl Iterator<Item = Name>) -> Vec<Output> {
     names.map(|n| Output { expression: jurist_engine::model::Expression::name(n.name.clone()), name: n }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use jurist_engine::error::Source;
+    use nalgebra::DVector;
+
+    /// Its characteristic polynomial over the constants of its modes takes a thousand times this work.
+    #[test]
+    fn a_simulation_does_not_wait_for_the_characteristic_polynomial() {
+        let text = "time = 'discrete'\nsample_time = 0.1\n[parameters]\nK = 286\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+            [[block]]\ninput = 'K*(r - y)'\noutput = 'y'\n\
+            transfer = '1/((s+1)*(s^2+0.4*s+4)*(s^2+0.66*s+11)*(s^2+s+26))'\ndiscretize = 'zoh'\n";
+        let model = Model::from_toml(&Source::new("model.toml", text)).unwrap().0;
+        let problem = model.ask().problem().unwrap();
+        let system = SampledModel::from_loop(&problem, 1.0, &Budget::with_work(100_000_000)).unwrap();
+        assert_eq!((system.states.len(), system.sample_time), (7, 0.1));
+        // 286 times the gain 1/1144 of the plant at rest is 1/4.
+        let values = system.final_values(&DVector::from_element(1, 1.0));
+        assert!((values.last().unwrap().1 - 0.2).abs() < 1e-9, "{values:?}");
+    }
 }

@@ -26,7 +26,7 @@ const BAND: f64 = 0.02;
 /// # Errors
 /// [`Error`] as for the closed loop.
 pub fn natural_duration(problem: &Problem, budget: &Budget) -> Result<Option<f64>, Error> {
-    let (closed_loop, symbols) = problem.closed_loop_over_symbols(budget)?;
+    let (closed_loop, symbols, time) = problem.closed_loop_in_numbers(budget)?;
     if let Some(delayed) = DelayedModel::from_loop(problem, 1.0, budget)? {
         let roots = eigenvalues(&delayed.without_dead_time()).unwrap_or_default();
         let own = duration(&roots.iter().map(|z| z.re).collect::<Vec<_>>()).unwrap_or(0.0);
@@ -35,7 +35,7 @@ pub fn natural_duration(problem: &Problem, budget: &Budget) -> Result<Option<f64
     }
     let symbols = symbols.values_approximate(&[]);
     let Some(roots) = eigenvalues(&rounded(&closed_loop.a, &symbols)?) else { return Ok(None) };
-    let sample_time = match problem.algebra_over_symbols(budget)?.sample_time() {
+    let sample_time = match time {
         Some(time) if problem.time() == Time::Discrete => value_approximate(time, &symbols),
         _ => 1.0,
     };

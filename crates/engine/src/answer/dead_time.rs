@@ -43,6 +43,27 @@ fn undecided(why: &str) -> Error {
 
 /// The stable set of the free parameter.
 pub(super) fn stable_set(problem: &Problem, delayed: &DelayedLoop, budget: &Budget) -> Result<StableSet, Error> {
+    let set = with_positive_dead_time(problem, delayed, budget)?;
+    // Where the dead time is zero nothing is beside: what holds for small ones need not hold there.
+    let BaseDelay::Line { slope, offset } = delayed.delay() else { return Ok(set) };
+    let zero = -offset / slope;
+    let is_pole = delayed.poles().iter().any(|pole| pole.sign_at(&zero).is_eq());
+    if delayed.is_rational() || is_pole || !problem.parameter().domain.contains(&zero) {
+        return Ok(set);
+    }
+    let Some(family) = delayed.family() else { return Ok(set) };
+    // The degree is to be that of all other dead times.
+    if family.at(&zero).is_none_or(|p| p.without_delay().degree() != Some(family.order())) {
+        return Ok(set);
+    }
+    match family.count(&zero, budget).map_err(not_counted)? {
+        Some(count) if count.is_stable() => Ok(set.with_value(domain_end(&zero))),
+        _ => Ok(set),
+    }
+}
+
+/// The values at which no dead time is zero.
+fn with_positive_dead_time(problem: &Problem, delayed: &DelayedLoop, budget: &Budget) -> Result<StableSet, Error> {
     let domain = &problem.parameter().domain;
     if delayed.is_rational() {
         return Ok(crate::stability::stable_set(&delayed.polynomial(), domain, Shape::LeftHalfPlane, budget)?);

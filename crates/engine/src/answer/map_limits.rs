@@ -3,7 +3,7 @@
 use super::{Answer, Frequency, Map};
 use crate::error::Error;
 use crate::problem::Problem;
-use crate::stability::plane::{Limit, multi_value, region_limits};
+use crate::stability::plane::{Limit, PlanePolynomial, region_limits};
 use crate::stability::{AtPoint, End, RealInterval, Shape, StableSet, end_at};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
@@ -61,13 +61,13 @@ pub struct RegionExtent {
 }
 
 impl Problem {
-    fn with_frequency(&self, limit: Limit, bits: u64) -> MapLimit {
+    fn with_frequency(&self, p: &PlanePolynomial, limit: Limit, bits: u64) -> MapLimit {
         let frequency = limit.half_size_root.as_ref().map(|root| match self.shape() {
             Shape::LeftHalfPlane => Frequency::new(None, None, Some(root.neg().sqrt(bits + 8)), bits),
             Shape::UnitDisc => {
                 let half = Enclosure::from_rational(Rational::dyadic(&Integer::ONE, 1));
                 let angle = root.mul(&half, 4 * bits + 64).acos(bits + 8);
-                let step = limit.at.first().and_then(|at| self.sample_time_on(at, 4 * bits + 64));
+                let step = limit.at.first().and_then(|at| self.sample_time_on(p, at, 4 * bits + 64));
                 Frequency::new(Some(angle), step.as_ref(), None, bits)
             }
         });
@@ -75,9 +75,9 @@ impl Problem {
     }
 
     /// The sample time on a box, if it is positive there.
-    fn sample_time_on(&self, [x, y]: &[Enclosure; 2], bits: u64) -> Option<Enclosure> {
+    fn sample_time_on(&self, p: &PlanePolynomial, [x, y]: &[Enclosure; 2], bits: u64) -> Option<Enclosure> {
         let step = self.evaluated()?.sample_time()?;
-        let value = |f: &MultiPoly| multi_value(f, x, y, bits);
+        let value = |f: &MultiPoly| p.enclose(f, x, y, bits);
         let step = value(step.numerator()).div(&value(step.denominator()), bits)?;
         step.lower().sign().is_gt().then_some(step)
     }
@@ -92,7 +92,7 @@ impl Answer<Map> {
         // log2(10) < 10/3
         let bits = (digits as u64 + 2) * 10 / 3 + 8;
         let extent = |r: crate::stability::plane::RegionLimits| RegionExtent {
-            ends: [r.x, r.y].map(|ends| ends.map(|end| end.map(|limit| problem.with_frequency(limit, bits)))),
+            ends: [r.x, r.y].map(|ends| ends.map(|end| end.map(|limit| problem.with_frequency(p, limit, bits)))),
         };
         Ok(found.into_iter().map(extent).collect())
     }
@@ -113,7 +113,7 @@ impl Answer<Map> {
         budget: &Budget,
     ) -> Result<Option<(End, Option<Frequency>)>, Error> {
         budget.enter(|| {
-            if self.value.decomposition.has_symbols() {
+            if self.is_over_symbols(budget)? {
                 return self.wall_over_symbols(x, number, bits, budget);
             }
             let line = self.problem.line(0, x, budget)?;
@@ -127,6 +127,11 @@ impl Answer<Map> {
                 (end, frequency)
             }))
         })?
+    }
+
+    /// Whether the loop has symbols; the curves may have none all the same.
+    fn is_over_symbols(&self, budget: &Budget) -> Result<bool, Error> {
+        Ok(!self.problem.algebra_over_symbols(budget)?.symbols().is_empty())
     }
 
     /// The same where the loop has symbols: the wall is an end of the stable set on the line.
@@ -175,7 +180,7 @@ impl Answer<Map> {
     pub fn fibre(&self, x: &Rational, budget: &Budget) -> Result<Option<Vec<(bool, usize)>>, Error> {
         budget.enter(|| {
             let map = &self.value.decomposition;
-            if map.has_symbols() {
+            if self.is_over_symbols(budget)? {
                 return Ok(None);
             }
             let Some(p) = self.problem.plane(budget)? else { return Ok(None) };

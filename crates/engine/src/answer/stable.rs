@@ -3,7 +3,7 @@
 use super::Answer;
 use crate::error::Error;
 use crate::problem::{Problem, Question, Region};
-use crate::stability::{Cause, StableSet, stable_set, symbolic_stable_set};
+use crate::stability::{Cause, StableSet, stable_set, stable_set_of_parts};
 use jurist_algebra::limits::Budget;
 use std::sync::Arc;
 
@@ -58,7 +58,10 @@ impl Problem {
                 let domain = &self.parameter().domain;
                 let set = match self.symbolic(budget)? {
                     None => StableSet::from_intervals(Vec::new(), Vec::new()),
-                    Some(p) => symbolic_stable_set(&p, domain, self.shape(), budget)?,
+                    Some(p) => {
+                        let parts = self.in_parts(&p, self.algebra_over_symbols(budget)?, budget)?;
+                        stable_set_of_parts(&parts, domain, self.shape(), budget)?
+                    }
                 };
                 return Ok(Answer::new(Arc::clone(self), own_causes(set, self)));
             }
@@ -80,3 +83,6 @@ fn own_causes(mut set: StableSet, problem: &Problem) -> StableSet {
     }
     set
 }
+
+#[cfg(test)]
+mod tests;

@@ -12,6 +12,7 @@ use crate::problem::{Problem, Question};
 use crate::response::Requirement;
 use crate::stability::boxes::{BoxDecision, BoxVolume, ExactProof, LargestFactor, Side};
 use crate::stability::{AtPoint, End};
+use decide::Asked;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use std::collections::BTreeMap;
@@ -217,7 +218,23 @@ impl Question {
     ///
     /// # Errors
     /// [`Error`]: refused (`E-tolerance`, and as [`Question::problem`]), or stopped.
-    pub fn tolerance(mut self, request: &ToleranceRequest, budget: &Budget) -> Result<Answer<ToleranceAnswer>, Error> {
+    pub fn tolerance(self, request: &ToleranceRequest, budget: &Budget) -> Result<Answer<ToleranceAnswer>, Error> {
+        self.tolerance_told(request, &|_| (), budget)
+    }
+
+    /// The same; a proof of the box is told as soon as it stands, as an answer about the box alone. Its text is how the text of
+    /// the whole answer begins.
+    ///
+    /// Cost: that of [`Question::tolerance`].
+    ///
+    /// # Errors
+    /// As [`Question::tolerance`]; what was told stands.
+    pub fn tolerance_told(
+        mut self,
+        request: &ToleranceRequest,
+        told: &dyn Fn(&Answer<ToleranceAnswer>),
+        budget: &Budget,
+    ) -> Result<Answer<ToleranceAnswer>, Error> {
         if request.tolerances.is_empty() {
             return Err(Diagnostic::error("E-tolerance", "no parameter has a tolerance")
                 .help("give tolerances in the model, or with --tol NAME=10% or --all 10%")
@@ -254,6 +271,6 @@ impl Question {
             };
             sides.push(Side::scaled(nominal, widths));
         }
-        Problem::tolerance(&problem, sides, request, budget)
+        Problem::tolerance(&problem, sides, Asked { request, told }, budget)
     }
 }

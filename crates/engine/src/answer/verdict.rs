@@ -2,7 +2,7 @@
 
 use super::Answer;
 use crate::error::Error;
-use crate::problem::{Problem, Question};
+use crate::problem::{FromNumbers, Problem, Question};
 use crate::stability::{AtPoint, RootCount, Shape};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -152,8 +152,11 @@ impl Question {
 impl Problem {
     /// The verdict at the point that the values of all parameters are.
     ///
+    /// A loop with functions, as behind holds, is decided by enclosures of its numbers, unless it is so near to the boundary that these do not tell; any
+    /// other by exact algebra.
+    ///
     /// Cost: that of [`Problem::algebra`], once, and of one root count
-    /// ([`count_roots`](crate::stability::count_roots)).
+    /// ([`count_roots`](crate::stability::count_roots)); without that algebra where enclosures decide.
     ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out.
@@ -163,39 +166,56 @@ impl Problem {
     pub fn verdict(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointVerdict>, Error> {
         budget.enter(|| {
             assert!(self.free().is_empty(), "a point has no free parameters");
-            if let Some(delayed) = self.delayed(budget)? {
-                let verdict = super::dead_time::verdict(self, delayed, budget)?;
-                return Ok(Answer::new(Arc::clone(self), verdict));
-            }
-            let mut drifts = false;
-            let at = if !self.algebra_over_symbols(budget)?.symbols().is_empty() {
-                budget.step("counting the roots");
-                match self.symbolic(budget)? {
-                    None => AtPoint::Undefined,
-                    Some(p) => {
-                        drifts = match p.has_odd_real_roots_beyond(&Rational::ZERO, self.shape(), budget) {
-                            // It is no more than a remark.
-                            Err(stopped) if stopped.budget.starts_with("precision") => false,
-                            found => found?,
-                        };
-                        p.at(&Rational::ZERO, self.shape(), budget)?
-                    }
+            let found = match self.roots_in_numbers(budget) {
+                // What divides by zero is found again, and said.
+                Ok(None) | Err(Error::Undefined(_)) => self.verdict_exactly(budget)?,
+                Ok(Some(FromNumbers::Known { at, degree, drifts })) => {
+                    PointVerdict { drifts, ..PointVerdict::of(at, degree) }
                 }
-            } else {
-                match self.parametric(budget)? {
-                    None => AtPoint::Undefined,
-                    Some(p) => {
-                        budget.step("counting the roots");
-                        drifts = has_odd_real_roots_beyond(&p.specialised(&Rational::ZERO), self.shape());
-                        budget.enter(|| p.at(&Rational::ZERO, self.shape()))?
+                Ok(Some(FromNumbers::Open(question))) => match self.verdict_exactly(budget) {
+                    Err(Error::Stopped(stopped)) if !stopped.reached.contains("; open: ") => {
+                        return Err(Error::Stopped(stopped.with_open(&question)));
                     }
-                }
+                    found => found?,
+                },
+                Err(failure) => return Err(failure),
             };
-            let algebra = self.algebra_over_symbols(budget)?;
-            let undefined = algebra.undefined().map(str::to_owned);
-            let verdict = PointVerdict { undefined, drifts, ..PointVerdict::of(at, algebra.formal_degree()) };
-            Ok(Answer::new(Arc::clone(self), verdict))
+            Ok(Answer::new(Arc::clone(self), found))
         })?
+    }
+
+    /// The verdict by exact algebra: signs of numbers and identities between them.
+    pub(crate) fn verdict_exactly(&self, budget: &Budget) -> Result<PointVerdict, Error> {
+        if let Some(delayed) = self.delayed(budget)? {
+            return super::dead_time::verdict(self, delayed, budget);
+        }
+        let mut drifts = false;
+        let at = if !self.algebra_over_symbols(budget)?.symbols().is_empty() {
+            budget.step("counting the roots");
+            match self.symbolic(budget)? {
+                None => AtPoint::Undefined,
+                Some(p) => {
+                    drifts = match p.has_odd_real_roots_beyond(&Rational::ZERO, self.shape(), budget) {
+                        // It is no more than a remark.
+                        Err(stopped) if stopped.budget.starts_with("precision") => false,
+                        found => found?,
+                    };
+                    p.at(&Rational::ZERO, self.shape(), budget)?
+                }
+            }
+        } else {
+            match self.parametric(budget)? {
+                None => AtPoint::Undefined,
+                Some(p) => {
+                    budget.step("counting the roots");
+                    drifts = has_odd_real_roots_beyond(&p.specialised(&Rational::ZERO), self.shape());
+                    budget.enter(|| p.at(&Rational::ZERO, self.shape()))?
+                }
+            }
+        };
+        let algebra = self.algebra_over_symbols(budget)?;
+        let undefined = algebra.undefined().map(str::to_owned);
+        Ok(PointVerdict { undefined, drifts, ..PointVerdict::of(at, algebra.formal_degree()) })
     }
 }
 

@@ -103,6 +103,19 @@ pub struct Evaluated {
 }
 
 impl Evaluated {
+    /// The closed loop with its characteristic polynomial.
+    pub(super) fn of(
+        closed_loop: ClosedLoop,
+        sample_time: Option<RationalFunction>,
+        symbols: Symbols,
+        budget: &Budget,
+    ) -> Result<Evaluated, Error> {
+        let mut polynomial = closed_loop.characteristic_polynomial(budget)?;
+        polynomial.poles = polynomial.poles.iter().filter_map(|pole| pole_beside(pole, &symbols)).collect();
+        let closed_loop = Some(closed_loop);
+        Ok(Evaluated { polynomial, closed_loop, sample_time, symbols }.without_unused_symbols())
+    }
+
     /// The same without symbols where none occurs: then everything is rational.
     fn without_unused_symbols(mut self) -> Evaluated {
         let first = self.symbols.first();
@@ -132,7 +145,7 @@ pub(super) struct Answer<'m> {
     pub values: Values,
     /// For each variable of `values`, what it is in kept names and symbols: a number, a variable, or a function of both.
     pub images: Vec<RationalFunction>,
-    symbols: RefCell<Symbols>,
+    pub symbols: RefCell<Symbols>,
     poles: Vec<MultiPoly>,
     pub sample_time: Option<RationalFunction>,
 }
@@ -230,10 +243,7 @@ impl Model {
             return Ok(Evaluated { polynomial, closed_loop: None, sample_time, symbols }.without_unused_symbols());
         }
         let (closed_loop, sample_time, symbols) = self.connected(answer, budget)?;
-        let mut polynomial = closed_loop.characteristic_polynomial(budget)?;
-        polynomial.poles = polynomial.poles.iter().filter_map(|pole| pole_beside(pole, &symbols)).collect();
-        let closed_loop = Some(closed_loop);
-        Ok(Evaluated { polynomial, closed_loop, sample_time, symbols }.without_unused_symbols())
+        Evaluated::of(closed_loop, sample_time, symbols, budget)
     }
 
     /// The value of an expression in constants and parameters, all of which have values.
@@ -300,7 +310,7 @@ impl Model {
             None => None,
         };
         let (Some(values), true) = (values, failures.is_empty()) else { return Err(self.failed(failures)) };
-        let (images, symbols) = self.images(&scope.variables, kept, given)?;
+        let (images, symbols) = Model::images(&scope.variables, kept, given)?;
         let symbols = RefCell::new(symbols);
         let mut answer = Answer { wiring, values, images, symbols, poles: Vec::new(), sample_time };
         let divisors = std::mem::take(&mut scope.divisors);
@@ -335,7 +345,6 @@ impl Model {
 
     /// What each variable of the values is in kept names and symbols.
     pub(super) fn images(
-        &self,
         variables: &[Variable],
         kept: &[String],
         given: &[(String, Rational)],

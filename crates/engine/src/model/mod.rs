@@ -15,12 +15,13 @@ mod definition;
 mod evaluate;
 pub mod examples;
 mod free;
+mod in_numbers;
 mod open_loop;
 mod parts;
 mod presupposed;
 mod read;
 mod symbols;
-mod text;
+pub(crate) mod text;
 pub(crate) mod tolerance;
 
 pub use builder::{BlockBuilder, ModelBuilder, ParameterBuilder};
@@ -29,10 +30,12 @@ pub use definition::{
     Block, Constant, Diagram, Discretization, Dynamics, Form, Matrix, Method, Model, Name, Output, Parameter, Ports,
     Pwm, RequirementText, Simulation, Time,
 };
+pub(crate) use in_numbers::InNumbers;
 pub use open_loop::Cut;
 pub(crate) use open_loop::{MoreDeadTime, Opened};
 pub(crate) use presupposed::{Presupposed, Presupposition};
 pub use read::{DRIVE, schema, source_from_bytes};
+pub(crate) use symbols::quotient_at;
 pub use symbols::{Definition, Meaning, Symbol, Symbols, value_approximate};
 pub(crate) use text::names::shorten;
 pub use text::{Expression, Factor, Function, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};

@@ -125,7 +125,7 @@ impl Model {
                 }
             }
         }
-        let (images, symbols) = self.images(&scope.variables, kept, given).ok()?;
+        let (images, symbols) = Model::images(&scope.variables, kept, given).ok()?;
         for presupposition in &mut found {
             presupposition.function = substituted(&presupposition.function, &images)?;
         }

@@ -5,13 +5,18 @@
 //! by one of them, so that identities like `exp(-2*T) = exp(-T)^2` and `cos^2 + sin^2 = 1` hold by themselves.
 
 mod approximate;
+mod circular;
+mod flows;
+mod identity;
 mod merge;
 
 pub use approximate::value_approximate;
+pub(crate) use flows::quotient_at;
 pub use jurist_algebra::symbols::Definition;
 
 use super::text::Function;
-use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::matrix::RationalMatrix;
+use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
 
 /// What a symbol stands for. Arguments are rational functions of the kept names and of earlier symbols.
@@ -22,6 +27,17 @@ pub enum Meaning {
     Constant(Definition),
     /// `exp(-x s)` of a dead time, a function of the polynomial's own variable.
     Delay(RationalFunction),
+    /// An entry of the exponential of a matrix that stays whole: where only numbers are asked for.
+    Flow {
+        /// The number of the matrix.
+        of: usize,
+        /// The row.
+        row: usize,
+        /// The column.
+        column: usize,
+    },
+    /// A function of other symbols, beside which it stays whole.
+    Value(RationalFunction),
 }
 
 /// A symbol: a variable of the polynomials after the kept names.
@@ -37,11 +53,11 @@ pub struct Symbol {
 }
 
 impl Symbol {
-    /// What it stands for; `None` of a dead time.
+    /// What it stands for; `None` of a dead time, and of what stays whole.
     pub fn definition(&self) -> Option<&Definition> {
         match &self.meaning {
             Meaning::Constant(definition) => Some(definition),
-            Meaning::Delay(_) => None,
+            Meaning::Delay(_) | Meaning::Flow { .. } | Meaning::Value(_) => None,
         }
     }
 }
@@ -80,6 +96,10 @@ pub struct Symbols {
     near: Vec<Rational>,
     /// Dead times in samples that depend on kept names.
     samples: Vec<RationalFunction>,
+    /// Whether exponentials of matrices stay whole.
+    keeps_flows: bool,
+    /// The matrices of these, times time.
+    flows: Vec<RationalMatrix>,
 }
 
 impl Symbols {
@@ -312,78 +332,6 @@ impl Symbols {
         self.is_prewarped = true;
         self.circular(Function::Tan, x)
     }
-
-    /// Sine, cosine or tangent.
-    fn circular(&mut self, function: Function, x: RationalFunction) -> Option<RationalFunction> {
-        let (sine, cosine) = match self.multiple_of_pi(&x) {
-            Some(turns) => self.at_multiple_of_pi(&turns)?,
-            None if self.moves(&x) => {
-                // A tangent would leave the line where the angle passes a right one.
-                let circle = [1.into(), RationalFunction::zero(), 1.into()].to_vec();
-                (self.fundamental(circle.clone(), x.clone(), 1), self.fundamental(circle, x, 0))
-            }
-            None if function == Function::Tan => return Some(self.tangent(RationalFunction::one(), x)),
-            None => {
-                let half = &x * &RationalFunction::from(Rational::new(Integer::ONE, 2.into()));
-                let t = self.tangent(RationalFunction::one(), half);
-                half_angle(&t)?
-            }
-        };
-        match function {
-            Function::Sin => Some(sine),
-            Function::Cos => Some(cosine),
-            _ => sine.checked_div(&cosine),
-        }
-    }
-
-    /// `q` where `x = q pi`.
-    fn multiple_of_pi(&self, x: &RationalFunction) -> Option<Rational> {
-        if x.is_zero() {
-            return Some(Rational::ZERO);
-        }
-        let at = self.table.iter().position(|s| s.definition() == Some(&Definition::Pi))?;
-        x.checked_div(&RationalFunction::variable(self.kept.len() + at))?.as_constant()
-    }
-
-    /// Sine and cosine of `q pi`.
-    fn at_multiple_of_pi(&mut self, q: &Rational) -> Option<(RationalFunction, RationalFunction)> {
-        // Reduced to [0, 2), then to the first quadrant.
-        let two = Rational::from(2);
-        let q = q - &(&two * &Rational::from((q * &Rational::new(1.into(), 2.into())).floor()));
-        let half = Rational::new(1.into(), 2.into());
-        let quadrant = (&q * &two).floor().to_i64()?;
-        let rest = &q - &(&half * &Rational::from(quadrant));
-        let twelfths = &rest * &Rational::from(12);
-        let over_two = |root: RationalFunction| &root * &RationalFunction::from(half.clone());
-        let (sine, cosine): (RationalFunction, RationalFunction) = match twelfths.numerator().to_i64() {
-            _ if rest.is_zero() => (RationalFunction::zero(), RationalFunction::one()),
-            Some(2) if twelfths.is_integer() => (half.clone().into(), over_two(self.root(3.into())?)),
-            Some(3) if twelfths.is_integer() => {
-                let root = over_two(self.root(2.into())?);
-                (root.clone(), root)
-            }
-            Some(4) if twelfths.is_integer() => (over_two(self.root(3.into())?), half.clone().into()),
-            _ => {
-                let pi = self.pi();
-                let t = self.tangent(RationalFunction::one(), &pi * &RationalFunction::from(&rest * &half));
-                half_angle(&t)?
-            }
-        };
-        Some(match quadrant {
-            0 => (sine, cosine),
-            1 => (cosine, -sine),
-            2 => (-sine, -cosine),
-            _ => (-cosine, sine),
-        })
-    }
-}
-
-/// Sine and cosine by the tangent of half the angle.
-fn half_angle(t: &RationalFunction) -> Option<(RationalFunction, RationalFunction)> {
-    let square = t * t;
-    let one = RationalFunction::one();
-    let below = &one + &square;
-    Some(((t + t).checked_div(&below)?, (&one - &square).checked_div(&below)?))
 }
 
 impl From<Definition> for Meaning {
@@ -397,7 +345,8 @@ impl Meaning {
     pub fn arguments(&self) -> Vec<&RationalFunction> {
         match self {
             Meaning::Constant(definition) => definition.arguments(),
-            Meaning::Delay(x) => vec![x],
+            Meaning::Delay(x) | Meaning::Value(x) => vec![x],
+            Meaning::Flow { .. } => Vec::new(),
         }
     }
 
@@ -406,6 +355,8 @@ impl Meaning {
         Some(match self {
             Meaning::Constant(definition) => definition.try_map(f)?.into(),
             Meaning::Delay(x) => Meaning::Delay(f(x)?),
+            Meaning::Value(x) => Meaning::Value(f(x)?),
+            Meaning::Flow { .. } => self.clone(),
         })
     }
 
@@ -418,6 +369,8 @@ impl Meaning {
             Meaning::Constant(Definition::Tangent { .. }) => "t",
             Meaning::Constant(Definition::Fundamental { .. }) => "f",
             Meaning::Delay(_) => "z",
+            Meaning::Flow { .. } => "e",
+            Meaning::Value(_) => "v",
         }
     }
 
@@ -429,6 +382,8 @@ impl Meaning {
                 format!("exp(-{}*s)", x.display(variables))
             }
             Meaning::Delay(x) => format!("exp(-({})*s)", x.display(variables)),
+            Meaning::Flow { of, row, column } => format!("entry ({row}, {column}) of exponential {of}"),
+            Meaning::Value(x) => x.display(variables).to_string(),
         }
     }
 }

@@ -5,7 +5,7 @@ use super::Problem;
 use super::evaluation::Algebra;
 use super::presupposed::inside;
 use crate::error::Error;
-use crate::stability::{AtPoint, Cause, End, Range, StableInterval, StableSet, UndecidedBracket, symbolic_stable_set};
+use crate::stability::{AtPoint, Cause, End, Range, StableInterval, StableSet, UndecidedBracket, stable_set_of_parts};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
@@ -20,10 +20,10 @@ impl Problem {
     /// At a whole number of samples the loop is the same from either side, but for states that do nothing: intervals go on
     /// there. Numbers of samples far from the usual one stay undecided where the domain does not bound them.
     ///
-    /// Cost: that of [`Problem::symbolic`] and [`symbolic_stable_set`] for each whole number of samples.
+    /// Cost: that of [`Problem::symbolic`] and `symbolic_stable_set` for each whole number of samples.
     ///
     /// # Errors
-    /// As [`Problem::symbolic`] and [`symbolic_stable_set`].
+    /// As [`Problem::symbolic`] and `symbolic_stable_set`.
     pub fn stable_set_by_samples(&self, budget: &Budget) -> Result<Option<StableSet>, Error> {
         let [asked] = self.free() else { return Ok(None) };
         if self.region().is_free() {
@@ -44,6 +44,10 @@ impl Problem {
         for window in ends.windows(2) {
             let range = Range::between(window[0].clone(), window[1].clone());
             let near = inside(&range);
+            if ratios.iter().any(|ratio| value(ratio, &near).is_some_and(|samples| samples.is_negative())) {
+                // No dead time is negative: the model means nothing there.
+                continue;
+            }
             if !ratios.iter().all(|ratio| is_looked_at(ratio, &near, &usual)) {
                 let why = "more whole samples than are looked at in one question: give a shorter domain";
                 undecided.push(UndecidedBracket::new(range.lower, range.upper, why));
@@ -51,9 +55,18 @@ impl Problem {
             }
             let algebra = budget.enter(|| Algebra::near(self, &[near], budget))??;
             let Some(polynomial) = self.symbolic_of(&algebra)? else { continue };
-            let found = symbolic_stable_set(&polynomial, &range, self.shape(), budget)?;
+            let parts = self.in_parts(&polynomial, &algebra, budget)?;
+            let found = stable_set_of_parts(&parts, &range, self.shape(), budget)?;
             undecided.extend(found.undecided().iter().cloned());
             let mut found = found.intervals().to_vec();
+            for interval in &mut found {
+                for end in [&mut interval.lower, &mut interval.upper].into_iter().flatten() {
+                    let zero = end.value.exact().filter(|x| is_without_dead_time(&ratios, domain, x));
+                    let at = zero.map(|x| polynomial.at(&x, self.shape(), budget)).transpose()?;
+                    end.closed =
+                        matches!(at, Some(AtPoint::Defined { count, infinite: 0 }) if count.inside == count.total());
+                }
+            }
             if let (Some(before), Some(first)) = (&range.lower, found.first_mut())
                 && domain.lower.as_ref() != Some(before)
                 && begins_at(first, before)
@@ -73,8 +86,10 @@ impl Problem {
             intervals.extend(found);
         }
         // The divisions are not of the domain's making.
-        let is_end =
-            |end: &End| end.value.exact().is_some_and(|x| domain.lower == Some(x.clone()) || domain.upper == Some(x));
+        let is_end = |end: &End| {
+            let is_bound = |x: Rational| domain.lower == Some(x.clone()) || domain.upper == Some(x);
+            end.closed || end.value.exact().is_some_and(is_bound)
+        };
         for interval in &mut intervals {
             for end in [&mut interval.lower, &mut interval.upper].into_iter().flatten() {
                 if !is_end(end) {
@@ -92,6 +107,11 @@ fn is_at(end: &End, x: &Rational) -> bool {
 
 fn begins_at(interval: &StableInterval, x: &Rational) -> bool {
     interval.lower.as_ref().is_some_and(|end| is_at(end, x))
+}
+
+/// Whether a dead time is zero at a value inside of the domain.
+fn is_without_dead_time(ratios: &[RationalFunction], domain: &Range, x: &Rational) -> bool {
+    domain.contains(x) && ratios.iter().any(|ratio| value(ratio, x).is_some_and(|samples| samples.is_zero()))
 }
 
 fn value(ratio: &RationalFunction, at: &Rational) -> Option<Rational> {
@@ -164,6 +184,38 @@ mod tests {
                 assert_eq!(set.contains(&x), verdict == Verdict::Stable, "{name} = {x}");
             }
             assert_eq!(set.intervals().len(), 1, "{name}: {:?}", set.intervals());
+        }
+    }
+
+    #[test]
+    fn a_hold_without_dead_time_belongs_to_the_answer_and_a_negative_one_to_none() {
+        let budget = Budget::unlimited();
+        for (delay, name) in [("L - 1/10", "below"), ("3/10 - L", "above")] {
+            let text = servo()
+                .source()
+                .text
+                .replace("delay = 'L'", &format!("delay = '{delay}'"))
+                .replace("0.12, min = 0", "0.15");
+            let (model, _) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
+            let set = model.ask().set("T", "1/10".parse::<Rational>().unwrap()).free("L").stable_set(&budget).unwrap();
+            let set = set.value();
+            let (zero, inside): (Rational, Rational) = match name {
+                "below" => ("1/10".parse().unwrap(), "1/5".parse().unwrap()),
+                _ => ("3/10".parse().unwrap(), "1/5".parse().unwrap()),
+            };
+            assert!(set.contains(&zero) && set.contains(&inside), "{name}: {:?}", set.intervals());
+            let verdict = model
+                .ask()
+                .set("T", "1/10".parse::<Rational>().unwrap())
+                .set("L", zero.clone())
+                .verdict(&budget)
+                .unwrap();
+            assert_eq!(verdict.value().verdict, Verdict::Stable);
+            let far = |b: &UndecidedBracket| match name {
+                "below" => b.upper.as_ref().is_some_and(|hi| *hi <= zero),
+                _ => b.lower.as_ref().is_some_and(|lo| *lo >= zero),
+            };
+            assert!(!set.undecided().iter().any(far), "{name}: {:?}", set.undecided());
         }
     }
 }

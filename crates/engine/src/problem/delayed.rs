@@ -217,7 +217,8 @@ fn base_delay(delays: &[(usize, RationalFunction)]) -> Result<(BaseDelay, Vec<us
         match delay.checked_div(first).and_then(|ratio| ratio.as_constant()) {
             Some(ratio) if ratio.sign().is_gt() => ratios.push(ratio),
             _ => {
-                let help = "give all dead times but one base as numbers, or as multiples of one parameter";
+                let help = "give all dead times but one base as numbers, or as multiples of one parameter; where that is \
+                            not so, ask 'map' with windows, 'tolerance --tol NAME=LO..HI', or 'verdict --set NAME=VALUE'";
                 return Err(refused("the dead times are not rational multiples of one of them", help));
             }
         }

@@ -52,7 +52,11 @@ impl Algebra {
             problem.free().iter().position(|f| problem.region().is_free() && f.name == problem.region().bound_name());
         let kept: Vec<String> =
             problem.free().iter().enumerate().filter(|(i, _)| Some(*i) != bound).map(|(_, f)| f.name.clone()).collect();
-        let evaluated = match model.evaluate_near(&kept, problem.set(), near, budget) {
+        let evaluated = match known(problem, budget) {
+            Some(found) => found,
+            None => model.evaluate_near(&kept, problem.set(), near, budget),
+        };
+        let evaluated = match evaluated {
             Ok(evaluated) => evaluated,
             Err(Error::Undefined(why)) => {
                 let formal_degree = symbolic_degree(model, &kept, problem.set(), budget)?;
@@ -113,6 +117,11 @@ impl Algebra {
     /// The sample time in the free parameters, in discrete time and if the model gives one.
     pub fn sample_time(&self) -> Option<&RationalFunction> {
         self.sample_time.as_ref()
+    }
+
+    /// The closed loop in state space, where the model has states and is defined.
+    pub(super) fn state_space(&self) -> Option<&ClosedLoop> {
+        self.closed_loop.as_ref()
     }
 
     pub(super) fn closed_loop(&self, model: &Model) -> Result<&ClosedLoop, Error> {
@@ -223,6 +232,11 @@ impl Algebra {
     }
 }
 
+/// What follows from the closed loop of a point in numbers, where that is known and rational.
+fn known(problem: &Problem, budget: &Budget) -> Option<Result<Evaluated, Error>> {
+    problem.known_in_numbers()?.evaluated(budget).transpose()
+}
+
 /// The polynomial of one kept parameter (or none) in the form that is decided.
 pub(super) fn parametric(d: &CharacteristicPolynomial) -> ParametricPolynomial {
     let side = |p: &MultiPoly| p.to_univariate(0).expect("one variable is kept");
@@ -233,7 +247,11 @@ pub(super) fn parametric(d: &CharacteristicPolynomial) -> ParametricPolynomial {
 }
 
 /// The polynomial with the bound of the region put in.
-fn in_region(d: CharacteristicPolynomial, region: &Region, bound: Option<usize>) -> CharacteristicPolynomial {
+pub(super) fn in_region(
+    d: CharacteristicPolynomial,
+    region: &Region,
+    bound: Option<usize>,
+) -> CharacteristicPolynomial {
     let put = |value: &Bound| match (value, bound) {
         (Bound::Number(value), _) => RationalFunction::from(value.clone()),
         (Bound::Free, at) => RationalFunction::variable(at.expect("a free bound is among what is free")),

@@ -4,7 +4,7 @@ use super::Region;
 use super::delayed::{DelayedLoop, not_known};
 use super::evaluation::{Algebra, parametric};
 use crate::error::{Diagnostic, Error};
-use crate::model::{ClosedLoop, Model, Symbols, Time};
+use crate::model::{ClosedLoop, InNumbers, Model, Symbols, Time};
 use crate::stability::plane::PlanePolynomial;
 use crate::stability::{ParametricPolynomial, Range, Shape};
 use jurist_algebra::limits::Budget;
@@ -70,6 +70,7 @@ pub struct Problem {
     parametric: OnceLock<Option<ParametricPolynomial>>,
     plane: OnceLock<Option<PlanePolynomial>>,
     delayed: OnceLock<Option<DelayedLoop>>,
+    in_numbers: OnceLock<Option<InNumbers>>,
 }
 
 impl Problem {
@@ -81,9 +82,9 @@ impl Problem {
         warnings: Vec<Diagnostic>,
     ) -> Problem {
         let (algebra, parametric, plane) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        let delayed = OnceLock::new();
+        let (delayed, in_numbers) = (OnceLock::new(), OnceLock::new());
         let positive = Vec::new();
-        Problem { model, set, free, region, warnings, positive, algebra, parametric, plane, delayed }
+        Problem { model, set, free, region, warnings, positive, algebra, parametric, plane, delayed, in_numbers }
     }
 
     /// With functions of what is free that are positive where the model has a meaning; the domains are within these of one name.
@@ -240,6 +241,23 @@ impl Problem {
     pub fn closed_loop_over_symbols(&self, budget: &Budget) -> Result<(&ClosedLoop, &Symbols), Error> {
         let algebra = self.algebra_over_symbols(budget)?;
         Ok((algebra.closed_loop(&self.model)?, algebra.symbols()))
+    }
+
+    /// The closed loop with exponentials of matrices whole, if it has been asked for.
+    pub(super) fn known_in_numbers(&self) -> Option<&InNumbers> {
+        self.in_numbers.get()?.as_ref()
+    }
+
+    /// The closed loop with exponentials of matrices whole; `None` where a name is free, and for the form `characteristic`.
+    pub(super) fn in_numbers(&self, budget: &Budget) -> Result<Option<&InNumbers>, Error> {
+        if let Some(found) = self.in_numbers.get() {
+            return Ok(found.as_ref());
+        }
+        let found = match self.free.is_empty() {
+            true => budget.enter(|| self.model.closed_loop_in_numbers(&self.set, budget))??,
+            false => None,
+        };
+        Ok(self.in_numbers.get_or_init(|| found).as_ref())
     }
 
     /// The polynomial in the one free parameter (or none) in the form that is decided; `None` where the loop is undefined

@@ -4,6 +4,7 @@ mod boxes;
 mod cofactors;
 mod coq;
 mod dead_time;
+mod digest;
 mod emit;
 mod gain;
 mod held;

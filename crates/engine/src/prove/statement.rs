@@ -1,6 +1,7 @@
 //! What every certificate says in the same words: its model, its statement, the identity of its pair.
 
 use super::cofactors::Identity;
+use super::digest::sha256;
 use crate::answer::PointVerdict;
 use crate::problem::{Bound, Problem, Region};
 use jurist_algebra::number::Rational;
@@ -28,10 +29,9 @@ pub(super) fn region(region: &Region) -> Value {
 
 /// Title and digest of the model, for people: the check reads the model itself.
 pub(super) fn about(problem: &Problem) -> Value {
-    let text = &problem.model().source().text;
-    let digest = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
+    let digest = sha256(&problem.model().source().text);
     let title = problem.title().map_or(Value::Null, Value::from);
-    object([("title", title), ("digest", format!("fnv1a64:{digest:016x}").into())])
+    object([("title", title), ("digest", format!("sha256:{digest}").into())])
 }
 
 /// That these are the stable intervals of the problem's parameter.

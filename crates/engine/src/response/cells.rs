@@ -116,6 +116,22 @@ where
     C: Fn(usize, &[&'static str]) -> Result<bool, Error>,
 {
     let (least, most) = (lower.map(|end| &end.value), upper.map(|end| &end.value));
+    // An end that is stable itself is kept where all is met there, too.
+    let kept = |end: Option<&End>| -> Result<Option<End>, Error> {
+        let Some(end) = end else { return Ok(None) };
+        let exact = end.value.exact().filter(|_| end.closed);
+        let closed = exact.map(|x| unmet(&x)).transpose()?.is_some_and(|names| names.is_empty());
+        Ok(Some(End { closed, ..end.clone() }))
+    };
+    let (lower, upper) = (kept(lower)?, kept(upper)?);
+    if let (Some(a), Some(b)) = (least, most)
+        && a.is_same(b)
+    {
+        // A single value.
+        let [lower, upper] = [lower, upper].map(|end| end.map(RequiredEnd::Stability));
+        let is_met = matches!(&lower, Some(RequiredEnd::Stability(end)) if end.closed);
+        return Ok(if is_met { vec![RequiredInterval { lower, upper }] } else { Vec::new() });
+    }
     let mut cells = Vec::with_capacity(candidates.len() + 1);
     for i in 0..=candidates.len() {
         budget.check()?;
@@ -130,12 +146,12 @@ where
         cells.push(unmet(&sample)?);
     }
     let mut out: Vec<RequiredInterval> = Vec::new();
-    let stability = |end: Option<&End>| end.cloned().map(RequiredEnd::Stability);
+    let stability = |end: &Option<End>| end.clone().map(RequiredEnd::Stability);
     let binding = |i: usize, names: &[&'static str]| -> Result<RequiredEnd, Error> {
         let (value, closed) = (candidates[i].clone(), is_closed(i, names)?);
         Ok(RequiredEnd::Requirement { value, names: names.to_vec(), closed })
     };
-    let mut begun: Option<Option<RequiredEnd>> = cells[0].is_empty().then(|| stability(lower));
+    let mut begun: Option<Option<RequiredEnd>> = cells[0].is_empty().then(|| stability(&lower));
     for (i, value) in candidates.iter().enumerate() {
         let (before, after) = (&cells[i], &cells[i + 1]);
         match (before.is_empty(), after.is_empty()) {
@@ -157,7 +173,7 @@ where
         }
     }
     if let Some(lower) = begun {
-        out.push(RequiredInterval { lower, upper: stability(upper) });
+        out.push(RequiredInterval { lower, upper: stability(&upper) });
     }
     Ok(out)
 }

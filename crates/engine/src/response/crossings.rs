@@ -123,7 +123,7 @@ fn gain_crossings<G: Ground>(
 }
 
 /// A rational number below, between and above ascending zeros, all in the range of `x`.
-fn samples_between(zeros: &[Real], shape: Shape, budget: &Budget) -> Result<Vec<Rational>, Exhausted> {
+pub(super) fn samples_between(zeros: &[Real], shape: Shape, budget: &Budget) -> Result<Vec<Rational>, Exhausted> {
     let range = inner(shape);
     let (lowest, highest) = (range.lower.map(Real::from), range.upper.map(Real::from));
     let ends: Vec<Option<&Real>> =

@@ -184,6 +184,10 @@ impl<'a> DeadTime<'a> {
         let Some((i, _)) = least else { return Ok(PhaseMargin::Unbounded) };
         let crossing = crossings.gain[i].clone();
         let place = Some(crossing.place.clone());
+        if matches!(crossing.place, Place::Lowest) && crossing.tangent_squared.is_none() {
+            // Nothing turns there: exactly 180 degrees, of which half has no tangent.
+            return Ok(PhaseMargin::Angle { tangent: None, place });
+        }
         let tangent = enclosed("tangent of half of an angle", move |bits| {
             let half = size(crossing.phase(bits)).div(&Enclosure::from_rational(Rational::from(2)), bits)?;
             Some(tan(&Ball::from_enclosure(&half, bits))?.to_enclosure())

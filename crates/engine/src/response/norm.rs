@@ -8,7 +8,7 @@ use super::place::modulus_squared;
 use super::value::square_root;
 use crate::answer::{Answer, Frequency, PointVerdict, Verdict};
 use crate::error::Error;
-use crate::problem::{Problem, Question};
+use crate::problem::{Problem, Question, refused};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
@@ -78,6 +78,13 @@ impl PeakGain {
     }
 }
 
+fn dead_time_in_the_feedback() -> Error {
+    let message =
+        "the peak gain is not known yet where dead time is in the feedback, or in one of several paths to the output";
+    let help = "the peak of the sensitivity 1/(1 + L) is the inverse of the modulus margin: 'jurist margins'";
+    refused(message, help)
+}
+
 impl Question {
     /// The peak gain from an input to an output with every parameter at its set or nominal value.
     ///
@@ -110,7 +117,8 @@ impl Problem {
             let transfer = closed_loop.transfer_function(input, output, budget)?;
             let (above, below) = (transfer.numerator, transfer.denominator.coefficients);
             // Dead time alone does not change the modulus.
-            let (over, _) = Over::new(below, above, Vec::new(), symbols, self.shape())?;
+            let (over, _) =
+                Over::of_quotient(below, above, Vec::new(), symbols, self.shape(), dead_time_in_the_feedback)?;
             let peak = if verdict.verdict == Verdict::Stable {
                 budget.step("peak gain");
                 Some(match &over {

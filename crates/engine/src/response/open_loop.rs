@@ -13,7 +13,6 @@ use jurist_algebra::ball::{Ball, cos_sin};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
-use jurist_algebra::symbols::Symbols;
 use std::sync::Arc;
 
 /// `D(z; k) = D0 + k N`: the characteristic polynomial with the factor `k` at the cut, nominally 1.
@@ -217,6 +216,12 @@ impl OpenLoop {
 
     /// [`Self::value_at`] at many points; constants are enclosed once.
     pub fn values_at(&self, points: &[Rational], bits: u64) -> Vec<Option<(Enclosure, Enclosure)>> {
+        let found = points.iter().zip(self.undelayed_values_at(points, bits));
+        found.map(|(x, value)| value.map(|(real, imaginary)| self.delayed(x, real, imaginary, bits))).collect()
+    }
+
+    /// [`Self::values_at`] of the open loop without its dead time.
+    pub fn undelayed_values_at(&self, points: &[Rational], bits: u64) -> Vec<Option<(Enclosure, Enclosure)>> {
         with_parts!(self, parts => {
             let reduced = &parts.reduced;
             let [below, twice_real, imaginary] = [&reduced.denominator_squared, &reduced.twice_real, &reduced.imaginary]
@@ -224,7 +229,7 @@ impl OpenLoop {
             let value = |x: &Rational| {
                 let below = below(x);
                 let real = twice_real(x).div(&below.add(&below, bits), bits)?;
-                Some(self.delayed(x, real, imaginary(x).div(&below, bits)?, bits))
+                Some((real, imaginary(x).div(&below, bits)?))
             };
             points.iter().map(value).collect()
         })
@@ -279,10 +284,22 @@ impl Over {
         symbols: &crate::model::Symbols,
         shape: Shape,
     ) -> Result<(Over, Option<Rational>), Error> {
+        Over::of_quotient(denominator, numerator, poles, symbols, shape, no_single_delay)
+    }
+
+    /// The same of any quotient, with the refusal of dead time that is more than a factor.
+    pub(super) fn of_quotient(
+        denominator: Vec<RationalFunction>,
+        numerator: Vec<RationalFunction>,
+        poles: Vec<Poly<MultiPoly>>,
+        symbols: &crate::model::Symbols,
+        shape: Shape,
+        not_a_factor: fn() -> Error,
+    ) -> Result<(Over, Option<Rational>), Error> {
         let (denominator, mut numerator) = polynomial(denominator, numerator);
         let mut dead_time = None;
         if !symbols.delays().is_empty() {
-            let (rest, tau) = split_delay(&denominator, &numerator, symbols).ok_or_else(no_single_delay)?;
+            let (rest, tau) = split_delay(&denominator, &numerator, symbols).ok_or_else(not_a_factor)?;
             numerator = rest;
             dead_time = Some(tau).filter(|tau| !tau.is_zero());
         }
@@ -293,10 +310,10 @@ impl Over {
             let parts = Parts::new(Integers, plain(&denominator), plain(&numerator), poles, shape);
             return Ok((Over::Integers(parts), dead_time));
         }
-        if dead_time.is_some() {
-            return Err(no_single_delay());
+        if !symbols.delays().is_empty() {
+            return Err(not_a_factor());
         }
-        let ground = Constants(Arc::new(constants(symbols)?));
+        let ground = Constants(Arc::new(fixed_symbols(symbols)?));
         Ok((Over::Constants(Parts::new(ground, denominator, numerator, poles, shape)), None))
     }
 }
@@ -334,11 +351,6 @@ fn split_delay(
     }
     let rest = numerator.map(|c| c.div_exact(&factor).expect("every term has the factor"));
     denominator.coeffs().iter().all(is_free).then_some((rest, tau))
-}
-
-/// The symbols of a loop without free parameters.
-fn constants(symbols: &crate::model::Symbols) -> Result<Symbols, Error> {
-    if symbols.delays().is_empty() { fixed_symbols(symbols) } else { Err(no_single_delay()) }
 }
 
 impl<G: Ground> Parts<G> {

@@ -4,8 +4,9 @@ use super::cells::required_parts;
 use super::family::{Elimination, Quotient, nothing_comes_back, plus_multiple, plus_multiple_of};
 use super::met::AtPoint;
 use super::open_loop::OpenLoop;
+use super::over_boxes::{OverBoxes, certain, segments};
 use super::requirement::Requirement;
-use super::{RequiredInterval, RequiredSet};
+use super::{RequiredEnd, RequiredInterval, RequiredSet};
 use crate::error::{Diagnostic, Error};
 use crate::model::{Cut, Opened};
 use crate::problem::{Problem, moving_symbols};
@@ -122,20 +123,99 @@ impl<'a> SymbolicFamily<'a> {
             return Err(Diagnostic::error("E-require", message).help(help).into());
         }
         let mut found = RequiredSet { intervals: Vec::new(), undecided: stable.undecided().to_vec() };
+        let of = |requirement| {
+            let symbols = self.symbols_of(requirement);
+            OverBoxes::new(&self.quotient, &self.undefined, requirement, symbols)
+        };
+        let boxes: Option<Vec<OverBoxes>> = budget.enter(|| requirements.iter().map(of).collect())?;
+        let boxes = boxes.unwrap_or_default();
         for interval in stable.intervals() {
-            self.within(interval, requirements, &mut found, budget)?;
+            self.in_segments(interval, requirements, &boxes, &mut found, budget)?;
         }
+        found.undecided.sort_by(|a, b| (&a.lower, &a.upper).cmp(&(&b.lower, &b.upper)));
         Ok(found)
+    }
+
+    /// The symbols, and the number that a requirement asks for as the last one.
+    fn symbols_of(&self, requirement: &Requirement) -> MovingSymbols {
+        let alpha = match requirement {
+            Requirement::PhaseMargin { twice_cosine, .. } => twice_cosine.clone(),
+            Requirement::GainMargin { factor, .. } => factor.clone(),
+            _ => RealAlgebraic::from_rational(Rational::ZERO),
+        };
+        self.symbols.with("alpha", Definition::Algebraic(alpha))
+    }
+
+    /// The parts of a stable interval: most of it is decided for short intervals as a whole, and only what is left is looked at for single
+    /// values at which something changes.
+    fn in_segments(
+        &self,
+        interval: &StableInterval,
+        requirements: &[Requirement],
+        boxes: &[OverBoxes],
+        found: &mut RequiredSet,
+        budget: &Budget,
+    ) -> Result<(), Error> {
+        let [Some(lower), Some(upper)] = [outward(&interval.lower, true), outward(&interval.upper, false)] else {
+            return self.within(interval, requirements, boxes, found, budget);
+        };
+        if boxes.is_empty() {
+            return self.within(interval, requirements, boxes, found, budget);
+        }
+        let segments = segments(boxes, &lower, &upper, budget)?;
+        let (begun, last) = (found.intervals.len(), segments.len() - 1);
+        let mut joints: Vec<Rational> = Vec::new();
+        for (k, (lo, hi, is_met)) in segments.iter().enumerate() {
+            let lower = if k == 0 { interval.lower.clone() } else { Some(edge(lo)) };
+            let upper = if k == last { interval.upper.clone() } else { Some(edge(hi)) };
+            match is_met {
+                Some(false) => {}
+                Some(true) => {
+                    joints.extend([lo.clone(), hi.clone()]);
+                    let [lower, upper] = [lower, upper].map(|end| end.map(RequiredEnd::Stability));
+                    found.intervals.push(RequiredInterval { lower, upper });
+                }
+                None => {
+                    self.within(&StableInterval::new(lower, upper), requirements, boxes, found, budget)?;
+                }
+            }
+        }
+        let parts = found.intervals.split_off(begun);
+        for part in parts {
+            let exact = |end: &Option<RequiredEnd>| end.as_ref().and_then(|end| end.value().exact());
+            match found.intervals[begun..].last_mut() {
+                Some(before)
+                    if exact(&before.upper).is_some_and(|x| joints.contains(&x))
+                        && exact(&before.upper) == exact(&part.lower) =>
+                {
+                    before.upper = part.upper;
+                }
+                _ => found.intervals.push(part),
+            }
+        }
+        Ok(())
     }
 
     fn within(
         &self,
         interval: &StableInterval,
         requirements: &[Requirement],
+        boxes: &[OverBoxes],
         found: &mut RequiredSet,
         budget: &Budget,
     ) -> Result<(), Error> {
-        let (candidates, mut brackets) = self.candidates(interval, requirements, budget)?;
+        let (candidates, all) = self.candidates(interval, requirements, boxes, budget)?;
+        let mut brackets = Vec::with_capacity(all.len());
+        for bracket in all {
+            // Where functions vanish that mean nothing, nothing changes.
+            let is_settled = match (&bracket.lower, &bracket.upper) {
+                (Some(lo), Some(hi)) => budget.enter(|| certain(boxes, lo, hi))?.is_some(),
+                _ => false,
+            };
+            if !is_settled {
+                brackets.push(bracket);
+            }
+        }
         brackets.retain(|b| {
             let begins =
                 |lo: &Rational| interval.upper.as_ref().is_none_or(|end| end.value.compare_rational(lo).is_gt());
@@ -144,7 +224,6 @@ impl<'a> SymbolicFamily<'a> {
         });
         let mut lower = interval.lower.clone();
         for bracket in &brackets {
-            let edge = |x: &Rational| End::new(Real::from(x.clone()), Cause::Undecided.into(), None);
             if let Some(below) = &bracket.lower {
                 let upper = Some(edge(below));
                 if is_between(below, lower.as_ref(), interval.upper.as_ref()) {
@@ -168,29 +247,29 @@ impl<'a> SymbolicFamily<'a> {
         &self,
         interval: &StableInterval,
         requirements: &[Requirement],
+        boxes: &[OverBoxes],
         budget: &Budget,
     ) -> Result<(Vec<Candidate>, Vec<UndecidedBracket>), Error> {
         // An end that is not rational lies strictly inside.
-        let outward = |end: &Option<End>, is_lower: bool| {
-            let (lo, hi) = end.as_ref()?.value.refined_to_digits(9).enclosure();
-            Some(if is_lower { lo } else { hi })
-        };
         let range = Range::between(outward(&interval.lower, true), outward(&interval.upper, false));
-        let usual = self.problem.parameter().nominal.clone().unwrap_or(Rational::ONE);
+        let nominal = self.problem.parameter().nominal.clone().filter(|x| !x.is_zero());
+        let middle = range.lower.as_ref().zip(range.upper.as_ref()).map(|(lo, hi)| lo.midpoint(hi));
+        let usual = nominal.or_else(|| middle.filter(|x| !x.is_zero())).unwrap_or(Rational::ONE);
+        // Where functions vanish that mean nothing, nothing changes.
+        let changes = |zero: &Real| {
+            let (lo, hi) = zero.refined_to_digits(DIGITS).enclosure();
+            certain(boxes, &lo, &hi).is_none()
+        };
         let mut all: Vec<Candidate> = Vec::new();
         let mut undecided = Vec::new();
         for requirement in requirements {
             budget.check()?;
             let by = Unexpanded { variable: self.symbols.len() + 1 };
-            let alpha = match requirement {
-                Requirement::PhaseMargin { twice_cosine, .. } => twice_cosine.clone(),
-                Requirement::GainMargin { factor, .. } => factor.clone(),
-                _ => RealAlgebraic::from_rational(Rational::ZERO),
-            };
-            let symbols = Arc::new(self.symbols.with("alpha", Definition::Algebraic(alpha)));
+            let symbols = Arc::new(self.symbols_of(requirement));
             let boundaries = self.quotient.boundaries(&by, requirement, budget)?;
-            // The one at which crossings appear comes first.
-            let mut functions = vec![boundaries.touches];
+            // Those at which crossings appear come first.
+            let mut functions = without_contents(boundaries.touches);
+            let touches = functions.len();
             functions.extend(boundaries.zeros.into_iter().flat_map(without_contents));
             functions.push(self.undefined.clone().into());
             if functions.iter().any(|f| f.polynomial().is_some_and(MultiPoly::is_zero)) {
@@ -198,12 +277,12 @@ impl<'a> SymbolicFamily<'a> {
                 let help = "a polynomial of its boundary vanishes for every value";
                 return Err(Diagnostic::error("E-require", message).help(help).into());
             }
-            let (zeros, brackets) = zeros_of_functions(functions, &symbols, &range, &usual, budget)?;
+            let (zeros, brackets) = zeros_of_functions(functions, &symbols, &range, &usual, &changes, budget)?;
             let mut open: Vec<Bracket> = brackets;
             let mut list = Vec::new();
             for (value, of) in zeros {
                 match is_inside(&value, interval, budget) {
-                    Ok(true) => list.push((value, of.contains(&0))),
+                    Ok(true) => list.push((value, of.iter().any(|&k| k < touches))),
                     Ok(false) => {}
                     Err(stopped) if stopped.budget.starts_with("precision") => open.push(around(&value)),
                     Err(stopped) => return Err(stopped.into()),
@@ -283,6 +362,19 @@ impl<'a> SymbolicFamily<'a> {
         Ok(out)
     }
 }
+
+/// A rational number beyond an end of an interval: one that is not rational lies strictly inside.
+fn outward(end: &Option<End>, is_lower: bool) -> Option<Rational> {
+    let (lo, hi) = end.as_ref()?.value.refined_to_digits(9).enclosure();
+    Some(if is_lower { lo } else { hi })
+}
+
+fn edge(x: &Rational) -> End {
+    End::new(Real::from(x.clone()), Cause::Undecided.into(), None)
+}
+
+/// Digits of the interval around a zero in which nothing may change.
+const DIGITS: usize = 24;
 
 /// A resultant as that of the primitive parts, and the contents.
 fn without_contents(f: Function) -> Vec<Function> {

@@ -20,6 +20,7 @@ use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
 use jurist_algebra::real::Real;
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// The values of one parameter for which a loop is stable and meets all its requirements.
@@ -40,6 +41,19 @@ pub struct RequiredInterval {
     pub lower: Option<RequiredEnd>,
     /// The upper end.
     pub upper: Option<RequiredEnd>,
+}
+
+impl RequiredInterval {
+    /// Whether a value lies between the ends, or is one that is met.
+    pub fn contains(&self, value: &Rational) -> bool {
+        let is_beyond = |end: &Option<RequiredEnd>, side: Ordering| {
+            end.as_ref().is_some_and(|end| match end.value().compare_rational(value) {
+                Ordering::Equal => !matches!(end, RequiredEnd::Requirement { closed: true, .. }),
+                order => order == side,
+            })
+        };
+        !is_beyond(&self.lower, Ordering::Greater) && !is_beyond(&self.upper, Ordering::Less)
+    }
 }
 
 /// An end: of stability, or where a requirement binds.

@@ -58,7 +58,7 @@ pub fn answer_lines(problem: &Problem, set: Result<&StableSet, &Exhausted>, digi
         Ok(set) if set.is_empty() => format!("{asked}: {goal} nowhere\n{}", undecided_lines(set.undecided(), digits)),
         Ok(set) => {
             let mut out = format!("{asked}: {goal} for\n");
-            for interval in stable_lines(name, set, digits) {
+            for interval in nominal_first(stable_lines(name, set, digits), nominal_place(set, problem)) {
                 out.push_str(&format!("    {interval}\n"));
             }
             out.push_str(&end_lines(set, problem, digits));
@@ -66,6 +66,20 @@ pub fn answer_lines(problem: &Problem, set: Result<&StableSet, &Exhausted>, digi
             out
         }
     }
+}
+
+/// Which interval has the nominal value.
+fn nominal_place(set: &StableSet, problem: &Problem) -> Option<usize> {
+    let nominal = problem.parameter().nominal.as_ref()?;
+    set.intervals().iter().position(|interval| interval.contains(nominal))
+}
+
+/// In ascending order but for that with the nominal value, which comes first.
+pub(super) fn nominal_first<T>(mut ascending: Vec<T>, nominal: Option<usize>) -> Vec<T> {
+    if let Some(k) = nominal {
+        ascending[..=k].rotate_right(1);
+    }
+    ascending
 }
 
 /// `K > 0`, `0 < K < 3`, `all`.
@@ -92,7 +106,10 @@ pub fn extent_line(name: &str, extent: &RealInterval, digits: usize) -> String {
 /// The same for a stable set.
 pub fn stable_lines(name: &str, set: &StableSet, digits: usize) -> Vec<String> {
     let real = |end: &Option<End>| end.as_ref().map(|end| end.value.clone());
-    lines(name, set.intervals().iter().map(|i| [real(&i.lower), real(&i.upper)]).collect(), digits)
+    let intervals: Vec<_> = set.intervals().iter().map(|i| [real(&i.lower), real(&i.upper)]).collect();
+    let is_closed = |end: &Option<End>| end.as_ref().is_some_and(|end| end.closed);
+    let closed: Vec<[bool; 2]> = set.intervals().iter().map(|i| [is_closed(&i.lower), is_closed(&i.upper)]).collect();
+    lines_with(name, intervals, |i| closed[i], digits)
 }
 
 /// The same for ends of any kind.
@@ -101,16 +118,32 @@ pub(super) fn real_lines(name: &str, set: &RealIntervals, digits: usize) -> Vec<
 }
 
 fn lines(name: &str, intervals: Vec<[Option<Real>; 2]>, digits: usize) -> Vec<String> {
+    lines_with(name, intervals, |_| [false; 2], digits)
+}
+
+/// The same with ends that belong to the set.
+fn lines_with(
+    name: &str,
+    intervals: Vec<[Option<Real>; 2]>,
+    closed: impl Fn(usize) -> [bool; 2],
+    digits: usize,
+) -> Vec<String> {
     let ends: Vec<&Real> = intervals.iter().flatten().flatten().collect();
     let mut decimals = distinct_decimals(&ends, digits).into_iter();
     let mut decimal = |end: &Option<Real>| end.as_ref().and_then(|_| decimals.next());
-    let line = |[lower, upper]: &[Option<Real>; 2]| match (decimal(lower), decimal(upper)) {
-        (None, None) => format!("every {name}"),
-        (Some(l), None) => format!("{name} > {l}"),
-        (None, Some(u)) => format!("{name} < {u}"),
-        (Some(l), Some(u)) => format!("{l} < {name} < {u}"),
+    let less = |closed: bool| if closed { "<=" } else { "<" };
+    let more = |closed: bool| if closed { ">=" } else { ">" };
+    let line = |(i, [lower, upper]): (usize, &[Option<Real>; 2])| {
+        let [from, to] = closed(i);
+        match (decimal(lower), decimal(upper)) {
+            (None, None) => format!("every {name}"),
+            (Some(l), None) => format!("{name} {} {l}", more(from)),
+            (None, Some(u)) => format!("{name} {} {u}", less(to)),
+            (Some(l), Some(u)) if from && to && l == u => format!("{name} = {l}"),
+            (Some(l), Some(u)) => format!("{l} {} {name} {} {u}", less(from), less(to)),
+        }
     };
-    intervals.iter().map(line).collect()
+    intervals.iter().enumerate().map(line).collect()
 }
 
 /// Digits up to which two ends that are close are told apart.
@@ -160,14 +193,21 @@ pub(super) fn undecided_lines(brackets: &[UndecidedBracket], digits: usize) -> S
     brackets.iter().map(line).collect()
 }
 
-/// A row for each end: value, cause, frequency, margin.
+/// A row for each end: value, cause, frequency, margin; those of the interval with the nominal value first.
 fn end_lines(set: &StableSet, problem: &Problem, digits: usize) -> String {
     let mut columns = Columns::new("    ");
     let mut ends: Vec<&End> = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten().collect();
     // Two intervals that touch share an end.
     ends.dedup_by(|b, a| a.value.is_same(&b.value));
     let values: Vec<&Real> = ends.iter().map(|end| &end.value).collect();
-    for (end, decimal) in ends.iter().zip(distinct_decimals(&values, digits)) {
+    let ends: Vec<(&End, String)> = ends.iter().copied().zip(distinct_decimals(&values, digits)).collect();
+    let own = nominal_place(set, problem).map(|k| &set.intervals()[k]);
+    let is_own = |(end, _): &(&End, String)| {
+        let own = own.iter().flat_map(|interval| [&interval.lower, &interval.upper]).flatten();
+        own.into_iter().any(|x| x.value.is_same(&end.value))
+    };
+    let (first, rest): (Vec<_>, Vec<_>) = ends.into_iter().partition(is_own);
+    for (end, decimal) in first.into_iter().chain(rest) {
         columns.row(end_cells(end, decimal, problem, digits));
     }
     if columns.is_empty() { String::new() } else { format!("ends\n{columns}") }

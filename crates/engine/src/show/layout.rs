@@ -1,6 +1,7 @@
 //! Aligned columns and short numbers in text for people.
 
 use crate::model::Model;
+use crate::model::text::is_blank_letter;
 use jurist_algebra::number::{Rational, parse_number, to_decimal};
 use std::borrow::Cow;
 use std::fmt;
@@ -52,7 +53,7 @@ pub fn called(title: Option<&str>) -> Cow<'_, str> {
 /// Whether a character does something else than being seen: controls, other ends of lines, marks of direction.
 pub(crate) fn is_unseen(c: char) -> bool {
     let is_mark = |c: char| matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');
-    c.is_control() || is_mark(c)
+    c.is_control() || is_mark(c) || is_blank_letter(c)
 }
 
 /// The number as a short decimal if it is one, else as a fraction; a very long one with its first digits only.

@@ -1,6 +1,6 @@
 //! Requirements for people.
 
-use super::intervals::{domain_text, heading, undecided_lines};
+use super::intervals::{domain_text, heading, nominal_first, undecided_lines};
 use super::layout::Columns;
 use super::{real, region};
 use crate::answer::Answer;
@@ -27,10 +27,17 @@ impl Answer<RequiredSet> {
         }
         out.push_str(" for\n");
         let mut columns = Columns::new("    ");
-        for interval in &self.value().intervals {
+        let intervals = &self.value().intervals;
+        let nominal = problem.parameter().nominal.as_ref();
+        let place = nominal.and_then(|x| intervals.iter().position(|interval| interval.contains(x)));
+        for interval in nominal_first(intervals.iter().collect(), place) {
             let decimal = |end: &RequiredEnd| real::rounded(&end.value(), digits).decimal;
             let sign = |end: &RequiredEnd| {
-                if matches!(end, RequiredEnd::Requirement { closed: true, .. }) { "<=" } else { "<" }
+                let is_closed = match end {
+                    RequiredEnd::Requirement { closed, .. } => *closed,
+                    RequiredEnd::Stability(end) => end.closed,
+                };
+                if is_closed { "<=" } else { "<" }
             };
             let line = match (&interval.lower, &interval.upper) {
                 (None, None) => format!("every {name}"),

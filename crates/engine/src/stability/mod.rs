@@ -11,6 +11,7 @@ mod cause;
 mod conditions;
 pub mod dead_time;
 mod half_size;
+mod intersection;
 mod interval_set;
 mod jury;
 mod pair_location;
@@ -36,7 +37,7 @@ pub use parametric::{AtPoint, ParametricPolynomial};
 pub use root_count::{RootCount, count_roots, is_stable};
 pub use routh::{RouthTable, is_hurwitz_routh, routh_table};
 pub use stable_set::{Cells, End, StableInterval, StableSet, UndecidedBracket, end_at, stable_set};
-pub(crate) use symbolic::{Bracket, told_apart, zeros_of_functions};
+pub(crate) use symbolic::{Bracket, EnclosedLoop, open_equation, stable_set_of_parts, told_apart, zeros_of_functions};
 pub use symbolic::{
     Comparison, EnclosedCondition, EnclosedRow, EnclosedTable, RealIntervals, Rounding, SymbolicCondition,
     SymbolicPlane, SymbolicPolynomial, SymbolicRow, SymbolicTest, symbolic_stable_set,

@@ -10,6 +10,7 @@ use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{RealAlgebraic, isolate_real_roots_in};
 use jurist_algebra::real::Real;
+use std::cmp::Ordering;
 
 /// One end of a stable interval.
 ///
@@ -33,16 +34,18 @@ pub struct End {
     pub causes: Causes,
     /// The complex pair on the boundary, if there is one; the lowest frequency of several.
     pub pair: Option<ComplexPair>,
+    /// Whether the loop is stable at the value itself: only where a dead time is zero, inside of the domain.
+    pub closed: bool,
 }
 
 impl End {
     /// An end with what happens there.
     pub fn new(value: impl Into<Real>, causes: Causes, pair: Option<ComplexPair>) -> End {
-        End { value: value.into(), causes, pair }
+        End { value: value.into(), causes, pair, closed: false }
     }
 }
 
-/// An open interval of stable parameter values; `None` is an infinite end.
+/// An interval of stable parameter values, open but for ends that are [closed](End::closed); `None` is an infinite end.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
@@ -58,9 +61,9 @@ impl End {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct StableInterval {
-    /// The lower end, never stable itself.
+    /// The lower end, stable itself only where it is closed.
     pub lower: Option<End>,
-    /// The upper end, never stable itself.
+    /// The upper end, stable itself only where it is closed.
     pub upper: Option<End>,
 }
 
@@ -70,10 +73,15 @@ impl StableInterval {
         StableInterval { lower, upper }
     }
 
-    /// Whether a value lies strictly between the ends.
+    /// Whether a value lies between the ends, or is a closed one.
     pub fn contains(&self, value: &Rational) -> bool {
-        self.lower.as_ref().is_none_or(|l| l.value.compare_rational(value).is_lt())
-            && self.upper.as_ref().is_none_or(|u| u.value.compare_rational(value).is_gt())
+        let beyond = |end: &Option<End>, outside: Ordering| {
+            end.as_ref().is_some_and(|end| match end.value.compare_rational(value) {
+                Ordering::Equal => !end.closed,
+                order => order == outside,
+            })
+        };
+        !beyond(&self.lower, Ordering::Greater) && !beyond(&self.upper, Ordering::Less)
     }
 }
 
@@ -188,6 +196,26 @@ impl StableSet {
             Way::Cells(cells) => Some(cells),
             Way::Nowhere | Way::Other => None,
         }
+    }
+
+    /// The set with one value more, at which the loop is stable though it is not beside it on one side, or both.
+    pub(crate) fn with_value(mut self, end: End) -> StableSet {
+        let mut is_known = false;
+        for known in self.ends_mut().filter(|other| other.value.is_same(&end.value)) {
+            (known.closed, is_known) = (true, true);
+        }
+        if is_known {
+            return self;
+        }
+        let end = End { closed: true, ..end };
+        let value = end.value.exact();
+        let is_before = |i: &StableInterval| {
+            let upper = value.as_ref().zip(i.upper.as_ref());
+            upper.is_some_and(|(x, upper)| upper.value.compare_rational(x).is_lt())
+        };
+        let at = self.intervals.iter().take_while(|i| is_before(i)).count();
+        self.intervals.insert(at, StableInterval::new(Some(end.clone()), Some(end)));
+        self
     }
 
     /// Every end, to take back a cause that belongs to the question's form and not to the loop.
@@ -340,6 +368,6 @@ impl EndExaminer<'_> {
         if is_end(&self.range.lower) || is_end(&self.range.upper) {
             causes.insert(Cause::Domain);
         }
-        Ok(End { value: value.clone().into(), causes, pair })
+        Ok(End::new(value.clone(), causes, pair))
     }
 }

@@ -1,7 +1,7 @@
 //! Values of polynomials on grids of small integers modulo a prime, and interpolation from them.
 
 use super::prime_field::PrimeField;
-use crate::limits::checkpoint;
+use crate::limits::{checkpoint, claim};
 
 /// Work of so many steps is counted by row; less is counted at once, which costs nothing beside it.
 const LONG: usize = 1 << 16;
@@ -89,6 +89,7 @@ impl<'a> Grid<'a> {
     pub fn evaluate(&self, data: &[u64], terms: usize, inner: usize, count: usize) -> Vec<u64> {
         let f = self.field;
         let outer = data.len() / (terms * inner);
+        claim(8 * (outer * count * inner + terms * inner) as u64);
         let mut out = vec![0; outer * count * inner];
         let direct = terms.min(count);
         let mut differences = vec![0; terms * inner];

@@ -1,6 +1,6 @@
 //! Products of polynomials as products of integers ([Kronecker1882](crate::bibliography#kronecker1882)).
 
-use crate::limits::checkpoint;
+use crate::limits::{checkpoint, claim};
 use crate::number::Integer;
 
 /// The polynomials are multiplied as integers when the shorter one has at least this many
@@ -9,6 +9,7 @@ pub const KRONECKER_MIN_LENGTH: usize = 16;
 
 /// The schoolbook product of two non-empty coefficient lists: `O(n m)` products, the reference.
 pub fn convolve_schoolbook(a: &[Integer], b: &[Integer]) -> Vec<Integer> {
+    claim(((a.len() + b.len()) * size_of::<Integer>()) as u64);
     let mut out = vec![Integer::ZERO; a.len() + b.len() - 1];
     for (i, x) in a.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
         checkpoint(2 * b.len() as u64);
@@ -31,6 +32,8 @@ pub fn convolve_kronecker(a: &[Integer], b: &[Integer]) -> Vec<Integer> {
     let bits = height(a) + height(b) + terms + 1;
     let width = usize::try_from(bits.div_ceil(64)).expect("a coefficient fits into memory");
     checkpoint(((a.len() + b.len()) * (width / 2 + 8)) as u64);
+    // Both parts of each factor, and the product.
+    claim(24 * (a.len() + b.len()) as u64 * width as u64);
     let product = &pack(a, width) * &pack(b, width);
     unpack(&product, width, a.len() + b.len() - 1)
 }

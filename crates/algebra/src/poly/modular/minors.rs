@@ -2,7 +2,7 @@
 //! above a bound of the result.
 
 use super::resultant::DensePair;
-use crate::limits::checkpoint;
+use crate::limits::{checkpoint, claim};
 use crate::number::Integer;
 
 /// Beyond this degree there are too many minors.
@@ -229,6 +229,7 @@ impl DensePair<'_> {
                 minors[columns] = sum.take();
             }
         }
+        claim((size * size_of::<Integer>()) as u64);
         let mut out = vec![Integer::ZERO; size];
         for (place, c) in minors.pop().map_or(Vec::new(), |all| all.terms) {
             let value = Integer::from_twos_complement(&c);

@@ -2,7 +2,7 @@
 
 use super::lines::coefficients_are_coprime;
 use super::{Monomial, MultiPoly};
-use crate::limits::checkpoint;
+use crate::limits::{checkpoint, claim};
 use crate::number::Integer;
 use crate::poly::{Domain, Poly};
 use std::cmp::Ordering;
@@ -11,6 +11,9 @@ use std::ops::{Add, Mul, Neg, Sub};
 /// A product goes through one packed univariate product when the packed result has at most this
 /// many coefficients for each product of terms; else the products are sorted.
 const DENSE_FACTOR: usize = 2;
+
+/// What a term with a small coefficient takes in a list.
+const TERM_BYTES: u64 = size_of::<(Monomial, Integer)>() as u64;
 
 impl MultiPoly {
     /// The product; `None` when it would exceed [`MultiPoly::MAX_DEGREE`] or could exceed
@@ -94,6 +97,7 @@ impl MultiPoly {
     /// `p + q` or `p - q` by merging.
     fn merged(&self, other: &MultiPoly, subtract: bool) -> MultiPoly {
         checkpoint(4 * (self.terms.len() + other.terms.len()) as u64);
+        claim((self.terms.len() + other.terms.len()) as u64 * TERM_BYTES);
         let signed = |c: &Integer| if subtract { -c } else { c.clone() };
         let mut terms = Vec::with_capacity(self.terms.len() + other.terms.len());
         let (mut a, mut b) = (self.terms.iter().peekable(), other.terms.iter().peekable());
@@ -124,7 +128,9 @@ impl MultiPoly {
 
     /// The product by sorting all products of terms: the reference.
     fn times_sorted(&self, other: &MultiPoly) -> MultiPoly {
-        let mut products = Vec::with_capacity(self.terms.len() * other.terms.len());
+        let count = self.terms.len() * other.terms.len();
+        claim(count as u64 * TERM_BYTES);
+        let mut products = Vec::with_capacity(count);
         for (m, c) in &self.terms {
             checkpoint(4 * other.terms.len() as u64);
             for (n, d) in &other.terms {
@@ -178,6 +184,7 @@ impl Packing {
     /// The coefficients by number, up to the leading term's.
     pub(super) fn pack(&self, p: &MultiPoly) -> Vec<Integer> {
         let length = p.terms.first().map_or(0, |(m, _)| self.number(m) + 1);
+        claim((length * size_of::<Integer>()) as u64);
         let mut out = vec![Integer::ZERO; length];
         for (m, c) in &p.terms {
             out[self.number(m)] = c.clone();

@@ -1,12 +1,14 @@
 //! Views as univariate polynomials, renaming of variables.
 
 use super::{Monomial, MultiPoly};
+use crate::limits::claim;
 use crate::number::Integer;
 use crate::poly::{Domain, Poly, UniPoly};
 
 impl MultiPoly {
     /// The polynomial in the single variable `i`; `None` when another variable occurs.
     pub fn to_univariate(&self, i: usize) -> Option<UniPoly> {
+        claim((u64::from(self.degree_in(i)) + 1) * size_of::<Integer>() as u64);
         let mut coefficients = vec![Integer::ZERO; self.degree_in(i) as usize + 1];
         for (m, c) in &self.terms {
             let exponents = m.exponents();
@@ -30,6 +32,7 @@ impl MultiPoly {
 
     /// The same polynomial, as one in variable `i` with coefficients in which `i` does not occur.
     pub fn as_poly_in(&self, i: usize) -> Poly<MultiPoly> {
+        claim((u64::from(self.degree_in(i)) + 1) * size_of::<MultiPoly>() as u64);
         let mut coefficients = vec![MultiPoly::default(); self.degree_in(i) as usize + 1];
         for (m, c) in &self.terms {
             // Terms with equal exponents of `i` keep their order without it.

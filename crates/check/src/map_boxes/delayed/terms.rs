@@ -106,7 +106,7 @@ impl Terms {
             return Err("a divisor depends on the dead time".into());
         }
         let mut sorted: BTreeMap<Time, Vec<Multi>> = BTreeMap::new();
-        for (j, coefficient) in primitive(own.coefficients).into_iter().enumerate() {
+        for (j, coefficient) in primitive(own.coefficients, clock)?.into_iter().enumerate() {
             for (e, c) in coefficient.0 {
                 clock.tick()?;
                 let mut total = Time::zero();

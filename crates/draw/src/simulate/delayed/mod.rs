@@ -84,7 +84,7 @@ impl DelayedModel {
     /// # Errors
     /// [`Error`] as for the closed loop; `E-dead-time` where dead time acts at once on itself, as in loops of neutral type.
     pub fn from_loop(problem: &Problem, step: f64, budget: &Budget) -> Result<Option<DelayedModel>, Error> {
-        let (closed, symbols) = problem.closed_loop_over_symbols(budget)?;
+        let (closed, symbols, _) = problem.closed_loop_in_numbers(budget)?;
         if symbols.delays().is_empty() {
             return Ok(None);
         }

@@ -185,3 +185,31 @@ fn a_dead_time_is_never_negative_whatever_the_domain_says() {
         assert_eq!(found, expected.into_iter().collect::<Vec<_>>(), "{characteristic} {domain:?}");
     }
 }
+
+/// `s + 1/2 + exp(-(tau - 2) s)` is `s + 3/2` at 2, and the loop has no meaning below.
+#[test]
+fn the_value_without_dead_time_belongs_to_the_answer_where_the_domain_goes_beyond() {
+    let model = |text: &str| {
+        load(&format!("time = 'continuous'\n[parameters]\nK = 0.5\ntau = 3\n[loop]\ncharacteristic = '{text}'\n"))
+    };
+    let shown = |text: &str, domain: Range| {
+        let question = model(text).ask().free("tau").domain("tau", domain);
+        let answer = question.stable_set(&Budget::unlimited()).unwrap();
+        lines_of(&answer)
+    };
+    let whole = Range::all();
+    assert_eq!(shown("s + K + exp(-(tau-2)*s)", whole.clone()), ["2 <= tau < 4.418"]);
+    assert_eq!(shown("s + K + exp(-(2-tau)*s)", whole.clone()), ["-0.4184 < tau <= 2"]);
+    assert_eq!(shown("s + K + exp(-(tau-2)*s)", Range::between(Some(number("2")), None)), ["2 < tau < 4.418"]);
+    // Advanced: stable without dead time alone. The degree is lost there: not even so.
+    assert_eq!(shown("s + 1 + 2*s*exp(-(tau-2)*s)", whole.clone()), ["tau = 2"]);
+    assert_eq!(shown("s^2*(1 - exp(-(tau-2)*s)) + s + K", whole.clone()), [""; 0]);
+    // A parameter that is elsewhere as well.
+    let bounded = Range::between(Some(number("1")), Some(number("5")));
+    let lines = shown("s + tau/8 + exp(-(tau-2)*s)", bounded);
+    assert!(lines.len() == 1 && lines[0].starts_with("2 <= tau < "), "{lines:?}");
+}
+
+fn lines_of(answer: &crate::answer::Answer<crate::stability::StableSet>) -> Vec<String> {
+    crate::show::intervals::stable_lines("tau", answer.value(), 4)
+}

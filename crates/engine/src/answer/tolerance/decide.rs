@@ -23,14 +23,23 @@ const END_SHARE: (u32, u32) = (1, 3);
 /// The part of the time that may be spent on the bracket of the largest factor.
 const BRACKET_SHARE: (u32, u32) = (4, 5);
 
+/// What is asked, and who is told of the box before the rest is known.
+#[derive(Clone, Copy)]
+pub(super) struct Asked<'a> {
+    pub request: &'a ToleranceRequest,
+    pub told: &'a dyn Fn(&Answer<ToleranceAnswer>),
+}
+
 impl Problem {
     pub(super) fn tolerance(
         self: &Arc<Self>,
         sides: Vec<Side>,
-        request: &ToleranceRequest,
+        asked: Asked<'_>,
         budget: &Budget,
     ) -> Result<Answer<ToleranceAnswer>, Error> {
+        let request = asked.request;
         refuse_beside_requirements(request)?;
+        refuse_volume(sides.len(), request)?;
         let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
         if self.positive().iter().any(|p| !p.eval(&nominal).sign().is_gt()) {
             let decision = BoxDecision::NotStable { witness: None };
@@ -47,17 +56,17 @@ impl Problem {
                 let decision = BoxDecision::NotStable { witness: None };
                 return Ok(self.answered(sides, AtPoint::Zero, decision));
             };
-            return self.tolerance_of(&p, &Truth::of_points(self), sides, request, budget);
+            return self.tolerance_of(&p, &Truth::of_points(self), sides, asked, budget);
         }
         if let Some(p) = self.moving_family(budget)? {
             refuse_beside_functions(request)?;
-            return self.tolerance_of(&p, &Truth::of_points(self), sides, request, budget);
+            return self.tolerance_of(&p, &Truth::of_points(self), sides, asked, budget);
         }
         let truth = Truth::of(self, budget)?;
         let poles = d.poles.iter().cloned().chain(self.positive()).collect();
         let d = &CharacteristicPolynomial { poles, ..d.clone() };
         let p = budget.enter(|| BoxPolynomial::over(d, truth.beside(&sides).len(), self.shape()))?;
-        self.tolerance_of(&p, &truth, sides, request, budget)
+        self.tolerance_of(&p, &truth, sides, asked, budget)
     }
 
     /// The answer about a family of loops.
@@ -66,9 +75,10 @@ impl Problem {
         p: &F,
         truth: &Truth,
         sides: Vec<Side>,
-        request: &ToleranceRequest,
+        asked: Asked<'_>,
         budget: &Budget,
     ) -> Result<Answer<ToleranceAnswer>, Error> {
+        let request = asked.request;
         let all = truth.beside(&sides);
         let degree = self.algebra_over_symbols(budget)?.formal_degree();
         let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
@@ -107,6 +117,10 @@ impl Problem {
             BoxDecision::Stable(proof) => Some(proof.clone()),
             _ => None,
         };
+        // A proof stands, whatever is found of larger boxes.
+        if decision.is_stable() && request.requirements.is_empty() {
+            (asked.told)(&self.answered(sides.clone(), at.clone(), decision.clone()));
+        }
         let part = budget.share(BRACKET_SHARE.0, BRACKET_SHARE.1);
         let factor = boxes.bracket(search, known, &|_| request.gap.clone(), domain_factor.as_ref(), &part)?;
         let factor = truth.factor(p, factor, budget)?;
@@ -148,7 +162,7 @@ impl Problem {
             _ => None,
         };
         let volume = match &polynomial {
-            Some(boxes) => self.volume(boxes, sides.len(), request, budget)?,
+            Some(boxes) => self.volume(boxes, request, budget)?,
             None => None,
         };
         let decision = agreed(decision, &factor, exact.as_ref());
@@ -171,17 +185,10 @@ impl Problem {
     fn volume(
         &self,
         boxes: &ToleranceProblem,
-        parameters: usize,
         request: &ToleranceRequest,
         budget: &Budget,
     ) -> Result<Option<BoxVolume>, Error> {
         let Some(undecided) = &request.volume else { return Ok(None) };
-        if parameters > MOST_PARAMETERS {
-            let message = format!("the volume of a box is found for up to {MOST_PARAMETERS} parameters");
-            return Err(Diagnostic::error("E-tolerance", message)
-                .help("leave some out with --fix; the shares of the margin are found for any number")
-                .into());
-        }
         Ok(Some(boxes.volume(&Rational::ONE, undecided, budget)?))
     }
 
@@ -288,6 +295,17 @@ pub(super) fn agreed(decision: BoxDecision, factor: &LargestFactor, exact: Optio
         }
         _ => decision,
     }
+}
+
+/// The volume of a box of many parameters, refused before any work.
+fn refuse_volume(parameters: usize, request: &ToleranceRequest) -> Result<(), Error> {
+    if request.volume.is_none() || parameters <= MOST_PARAMETERS {
+        return Ok(());
+    }
+    let message = format!("the volume of a box is found for up to {MOST_PARAMETERS} parameters");
+    Err(Diagnostic::error("E-tolerance", message)
+        .help("leave some out with --fix; the shares of the margin are found for any number")
+        .into())
 }
 
 /// What is not asked of loops with functions of parameters, and with dead time.

@@ -123,6 +123,9 @@ impl Modes {
             [minus_rate, _] => symbols.exponential(&-minus_rate * time),
             [c, b, _] if self.is_rational && time.as_constant().is_some() => oscillation(b, c, time, s.index, symbols),
             factor => {
+                if let Some(turned) = self.turned(factor, time, s.index, symbols) {
+                    return &power(s.power) * &turned;
+                }
                 // The first solutions of a polynomial with the factor s^j are powers of t over factorials.
                 let j = factor.iter().take_while(|c| c.is_zero()).count();
                 if s.index < j {
@@ -135,6 +138,25 @@ impl Modes {
             }
         };
         &power(s.power) * &base
+    }
+}
+
+impl Modes {
+    /// The fundamental solution of a factor of degree 2 where its angle is a rational multiple of the circle number.
+    fn turned(
+        &self,
+        factor: &[RationalFunction],
+        time: &RationalFunction,
+        index: usize,
+        symbols: &mut Symbols,
+    ) -> Option<RationalFunction> {
+        let [c, b, _] = factor else { return None };
+        let half = RationalFunction::from(Rational::new(1.into(), 2.into()));
+        let half_b = b * &half;
+        let (sine, cosine) = symbols.turned(&(c - &(&half_b * &half_b)).as_constant()?, time)?;
+        let decay = symbols.exponential(-(&half_b * time));
+        let sine = &decay * &sine;
+        Some(if index == 1 { sine } else { &(&decay * &cosine) + &(&half_b * &sine) })
     }
 }
 

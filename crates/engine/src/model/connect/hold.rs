@@ -46,9 +46,10 @@ pub(in crate::model) fn held(
     let mut symbols = symbols.borrow_mut();
     let (samples, fraction) = samples(&delay, &time, hold, block, &mut symbols)?;
     let zeros = if hold.is_first_order { 2 } else { 1 };
-    let modes = Modes::of(&s.a, zeros, budget)?;
+    // Where only numbers are asked for the exponential stays whole, and nobody asks for modes.
+    let modes = if symbols.keeps_flows() { None } else { Some(Modes::of(&s.a, zeros, budget)?) };
     let mut respond =
-        |share: &RationalFunction| response(&s, &modes, &(&time * share), hold, &time, &mut symbols, budget);
+        |share: &RationalFunction| response(&s, modes.as_ref(), &(&time * share), hold, &time, &mut symbols, budget);
     let one = RationalFunction::one();
     let (n, inputs) = (s.a.rows(), block.inputs.len());
     let none = || RationalMatrix::zeros(n, inputs);
@@ -84,7 +85,12 @@ pub(in crate::model) fn held(
         past: samples + usize::from(!fraction.is_zero()),
         inputs,
     };
-    Ok(parts.system())
+    let System { a, b, c, d } = parts.system();
+    if !symbols.keeps_flows() {
+        return Ok(System { a, b, c, d });
+    }
+    let mut short = |m: &RationalMatrix| symbols.shortened(m);
+    Ok(System { a: short(&a), b: short(&b), c: short(&c), d: short(&d) })
 }
 
 /// Refuses times that cannot be: a sample time that is not positive, dead time that is negative.
@@ -154,7 +160,7 @@ fn samples(
 /// The response over a span.
 fn response(
     s: &System,
-    modes: &Modes,
+    modes: Option<&Modes>,
     span: &RationalFunction,
     hold: &Hold,
     step: &RationalFunction,
@@ -171,7 +177,10 @@ fn response(
         (false, j) if j >= n + m && i + m == j => slope.clone(),
         _ => RationalFunction::zero(),
     });
-    let whole = modes.exponential(&matrix, span, symbols, budget)?;
+    let whole = match modes {
+        Some(modes) => modes.exponential(&matrix, span, symbols, budget)?,
+        None => symbols.flow(&matrix, span),
+    };
     let part = |from: usize, count: usize| RationalMatrix::from_fn(n, count, |i, j| whole[(i, from + j)].clone());
     let slope = if hold.is_first_order { part(n + m, m) } else { RationalMatrix::zeros(n, m) };
     Ok(Response { state: part(0, n), input: part(n, m), slope })

@@ -2,6 +2,7 @@
 //! ([`scalar`]), linear in signals ([`linear`]), rational in z or s ([`transfer`]), and of a whole model
 //! ([`symbolic`]).
 
+mod identities;
 pub(in crate::model) mod linear;
 pub(in crate::model) mod scalar;
 pub(in crate::model) mod symbolic;

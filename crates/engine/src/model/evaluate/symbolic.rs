@@ -232,6 +232,13 @@ impl Evaluator<'_, '_> {
         self.keep(value)
     }
 
+    /// A ratio whose degrees count only what is not zero whatever the parameters are.
+    fn without_identities(&mut self, ratio: Fraction) -> Option<Fraction> {
+        let [numerator, denominator] =
+            [ratio.numerator, ratio.denominator].map(|p| self.scope.without_identities(p).map_err(Failure::from));
+        Some(Fraction { numerator: self.keep(numerator)?, denominator: self.keep(denominator)? })
+    }
+
     /// What a block does; behind a hold its dead time is added up beside it.
     fn dynamics(&mut self, block: &Block, variable: &str, dead_time: &mut RationalFunction) -> Option<DynamicValues> {
         let is_held = block.discretization.as_ref().is_some_and(|d| d.method.is_hold());
@@ -292,6 +299,7 @@ impl Evaluator<'_, '_> {
                 });
             }
         };
+        let ratio = self.without_identities(ratio)?;
         if ratio.denominator.is_zero() {
             (self.report)(division_by_zero(span));
             return None;
@@ -356,6 +364,7 @@ pub(in crate::model) fn symbolic(
     match &model.form {
         Form::Characteristic(e) => {
             let value = polynomial(e, model.time.variable(), evaluator.scope);
+            let value = value.and_then(|p| Ok(evaluator.scope.without_identities(p)?));
             evaluator.keep(value).map(Values::Characteristic)
         }
         Form::Matrix { matrix, ports } => {

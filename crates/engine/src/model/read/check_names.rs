@@ -10,6 +10,9 @@ use crate::model::text::names::{did_you_mean, known_names, nearest_name, shorten
 use crate::model::text::{Expression, Function, PI, hint};
 use std::collections::{HashMap, HashSet};
 
+/// Unknown names for which a known one is looked for: no more are shown.
+const HINTED: usize = 100;
+
 /// Names with a meaning of their own.
 const RESERVED: [(&str, &str); 2] =
     [("radius", "the radius of the stability region"), ("decay", "the decay rate of the stability region")];
@@ -166,6 +169,11 @@ impl<'m> Names<'m, '_> {
                 let error = error.also(matrix.name.span, "a matrix here");
                 self.reader.report(error.help("blocks take matrices by name as a whole: A = \"..\""));
             } else if !self.reader.refused.contains(name) && self.reported.insert(name) {
+                if self.reported.len() > HINTED {
+                    return self
+                        .reader
+                        .report(Diagnostic::error("E-unknown-name", "unknown name").at(span, "not defined"));
+                }
                 let allowed = Allowed { model: self.model, further: further.iter().copied().collect(), what };
                 let error = unknown(name, span, &allowed);
                 let is_follow_up = self.misnamed && !what.is_empty() && nearest(name, &allowed).is_none();

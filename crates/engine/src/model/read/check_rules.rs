@@ -1,6 +1,7 @@
 //! Remarks on how continuous blocks are made discrete: by a rule where nothing is behind a hold, and with sample times that
 //! differ.
 
+use super::check_holds::{between_holds, is_held};
 use super::reader::Reader;
 use crate::error::{Diagnostic, Span};
 use crate::model::definition::{Block, Dynamics, Form, Model, Time};
@@ -9,7 +10,6 @@ use crate::model::text::Expression;
 use crate::model::text::names::shorten;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::poly::RationalFunction;
-use std::collections::BTreeSet;
 
 /// Units of work that the comparison of sample times may take. What is not found within it is not remarked upon.
 const COMPARISON_WORK: u64 = 10_000_000;
@@ -21,7 +21,7 @@ pub(super) fn rules(model: &Model, reader: &mut Reader) {
         return;
     }
     without_hold(&diagram.blocks, reader);
-    between_holds(&diagram.blocks, reader);
+    between_holds(diagram, reader);
     let times: Vec<(&Expression, Span)> = diagram
         .blocks
         .iter()
@@ -49,8 +49,7 @@ pub(super) fn rules(model: &Model, reader: &mut Reader) {
 
 /// That no block is behind a hold although continuous blocks are made discrete, said once.
 fn without_hold(blocks: &[Block], reader: &mut Reader) {
-    let held = |b: &Block| b.discretization.as_ref().is_some_and(|d| d.method.is_hold());
-    if blocks.iter().any(held) {
+    if blocks.iter().any(is_held) {
         return;
     }
     let by_rule = |b: &&Block| !matches!(b.dynamics, Dynamics::Gain(_) | Dynamics::Static(_));
@@ -61,21 +60,6 @@ fn without_hold(blocks: &[Block], reader: &mut Reader) {
     let message = message.replace("the Tustin's", "Tustin's");
     let warning = Diagnostic::warning("W-rule", message).at(d.span, "the answer is about this rule");
     reader.report(warning.help("a plant behind a digital controller sees a hold: method = \"zoh\" is exact for it"));
-}
-
-/// That a held block reads a signal of a held block: between continuous blocks there is no hold.
-fn between_holds(blocks: &[Block], reader: &mut Reader) {
-    let held = |b: &&Block| b.discretization.as_ref().is_some_and(|d| d.method.is_hold());
-    for block in blocks.iter().filter(held) {
-        let read: BTreeSet<&str> = block.inputs.iter().flat_map(Expression::names).collect();
-        let source = blocks.iter().filter(held).find(|b| b.outputs.iter().any(|o| read.contains(o.name.as_str())));
-        let Some((source, d)) = source.zip(block.discretization.as_ref()) else { continue };
-        let (name, other) = (shorten(&block.name), shorten(&source.name));
-        let message = format!("'{name}' is behind a hold of its own and reads '{other}', which is continuous");
-        let warning = Diagnostic::warning("W-rule", message).at(d.span, "a hold where no signal is sampled");
-        let warning = warning.also(source.span, "continuous as well");
-        reader.report(warning.help("write both as one block: its product, or one A, B, C, D"));
-    }
 }
 
 #[cfg(test)]
@@ -100,16 +84,6 @@ mod tests {
         let by_rule = warnings("T", "transfer = '1/(s + 1)'\ndiscretize = 'forward'");
         assert_eq!(by_rule, [("W-rule", "'plant' is made discrete by the forward rule".to_owned())]);
         assert_eq!(warnings("T", "transfer = '1/(s + 1)'\ndiscretize = 'zoh'"), []);
-    }
-
-    #[test]
-    fn a_hold_between_continuous_blocks_is_remarked_upon() {
-        let text = "time = 'discrete'\nsample_time = 1\n[loop]\ninputs = ['r']\n[[block]]\nname = 'a'\ninput = 'r - y'\noutput = 'x'\n\
-            transfer = '1/(s + 1)'\ndiscretize = 'zoh'\n[[block]]\nname = 'b'\ninput = '2*x'\noutput = 'y'\n\
-            transfer = '1/(s + 2)'\ndiscretize = 'zoh'\n";
-        let (_, warnings) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
-        let found: Vec<&str> = warnings.iter().map(|w| w.code).collect();
-        assert_eq!(found, ["W-rule", "W-rule"], "each reads the other");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 //! values make sense. Nothing below imports this.
 
 mod blocks;
+mod check_holds;
 mod check_names;
 mod check_rules;
 mod check_values;

@@ -15,11 +15,11 @@ use crate::model::text::toml_value::{Kind, Table};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Errors shown of one file.
+/// Errors shown of one file, and warnings of one kind.
 const MAX_SHOWN: usize = 20;
 
 impl Model {
-    /// Reads a model file. Warnings come with the loop; errors come all together.
+    /// Reads a model file. Warnings come with the loop, up to twenty of a kind; errors come all together.
     ///
     /// Cost: linear in the text, but for the conversion of its numbers and the values of constants that are
     /// computed to be checked; no characteristic polynomial is made.
@@ -44,7 +44,7 @@ impl Model {
         diagnostics.sort_by_key(|d| d.primary.as_ref().map_or(0, |l| l.span.start));
         let errors = diagnostics.iter().any(|d| d.severity == Severity::Error);
         match model {
-            Some(model) if !errors => Ok((model, diagnostics)),
+            Some(model) if !errors => Ok((model, counted(diagnostics))),
             _ => {
                 diagnostics.retain(|d| d.severity == Severity::Error);
                 diagnostics.truncate(MAX_SHOWN);
@@ -73,8 +73,29 @@ impl Model {
     }
 }
 
+/// The first warnings of each kind, and how many more there are of it: nobody reads thousands.
+fn counted(warnings: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let mut out = Vec::new();
+    let mut counts: Vec<(&'static str, usize)> = Vec::new();
+    for warning in warnings {
+        let at = counts.iter().position(|(code, _)| *code == warning.code).unwrap_or_else(|| {
+            counts.push((warning.code, 0));
+            counts.len() - 1
+        });
+        counts[at].1 += 1;
+        if counts[at].1 <= MAX_SHOWN {
+            out.push(warning);
+        }
+    }
+    for (code, count) in counts.into_iter().filter(|(_, count)| *count > MAX_SHOWN) {
+        let message = format!("{} more warnings of this kind are not shown", count - MAX_SHOWN);
+        out.push(Diagnostic::warning(code, message));
+    }
+    out
+}
+
 /// The text of the built-in model.
-pub const DRIVE: &str = include_str!("../../../../../examples/drive.toml");
+pub const DRIVE: &str = include_str!("../../../models/drive.toml");
 
 /// A source text from bytes.
 ///

@@ -6,9 +6,9 @@ use crate::model::definition::{Matrix, Name, Output};
 use crate::model::evaluate::work::constant_value;
 use crate::model::text::Expression;
 use crate::model::text::Text;
-use crate::model::text::is_name;
 use crate::model::text::names::{did_you_mean, list, nearest_name, shorten};
 use crate::model::text::toml_value::{Entry, Kind, Table, Value};
+use crate::model::text::{is_blank_letter, is_name};
 use jurist_algebra::number::{Rational, parse_number};
 use std::collections::HashSet;
 
@@ -188,6 +188,14 @@ impl Reader {
     pub fn name(&mut self, text: &str, span: Span, what: &str) -> Option<Name> {
         if is_name(text) {
             return Some(Name { name: text.to_owned(), span });
+        }
+        if let Some(blank) = text.chars().find(|c| is_blank_letter(*c)) {
+            let message =
+                format!("the name of {what} has a character that cannot be seen, '{}'", blank.escape_unicode());
+            self.report(
+                Diagnostic::error("E-name", message).at(span, "not a name").help("delete it, or write the name anew"),
+            );
+            return None;
         }
         let message = format!("'{}' is no name for {what}", shorten(text));
         let error = Diagnostic::error("E-name", message).at(span, "not a name");

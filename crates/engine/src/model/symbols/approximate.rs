@@ -26,6 +26,9 @@ impl Symbols {
     /// When `kept` does not give every kept name its value.
     pub fn values_approximate(&self, kept: &[f64]) -> Vec<f64> {
         assert_eq!(kept.len(), self.kept.len(), "every kept name has a value");
+        if self.has_flows() {
+            return self.values_of_flows_approximate();
+        }
         let mut values = kept.to_vec();
         for symbol in &self.table {
             let at = |f: &RationalFunction| value_approximate(f, &values);

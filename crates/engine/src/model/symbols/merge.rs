@@ -42,8 +42,12 @@ fn ratio(a: &RationalFunction, b: &RationalFunction) -> Option<Rational> {
 impl Symbols {
     /// The symbols without relations of this kind, and for each old variable what it is in the new ones.
     pub(in crate::model) fn merged(&self) -> Option<(Symbols, Vec<RationalFunction>)> {
-        let families = self.families();
         let first = self.first();
+        if self.keeps_flows {
+            // Enclosures need no relations.
+            return Some((self.clone(), (0..first + self.table.len()).map(RationalFunction::variable).collect()));
+        }
+        let families = self.families();
         let mut merged = self.cleared();
         let mut images: Vec<RationalFunction> = (0..first).map(RationalFunction::variable).collect();
         // The variable of each family, once its first member is there.

@@ -45,12 +45,18 @@ impl TokenKind {
 
 /// Whether `c` may begin a name.
 pub(in crate::model) fn begins_name(c: char) -> bool {
-    c == '_' || c.is_alphabetic()
+    c == '_' || (c.is_alphabetic() && !is_blank_letter(c))
 }
 
 /// Whether `c` may stand in a name.
 pub(in crate::model) fn continues_name(c: char) -> bool {
-    c == '_' || c.is_alphanumeric()
+    c == '_' || (c.is_alphanumeric() && !is_blank_letter(c))
+}
+
+/// Whether `c` is a letter that is not seen: the fillers of the Korean script. All letters of Unicode that text may be drawn
+/// without (`Default_Ignorable_Code_Point`) are among them; in a name they would hide what is meant.
+pub(crate) fn is_blank_letter(c: char) -> bool {
+    matches!(c, '\u{115f}' | '\u{1160}' | '\u{3164}' | '\u{ffa0}')
 }
 
 /// Whether `text` is a name as expressions know them.
@@ -117,6 +123,10 @@ fn number(text: &Text, at: usize) -> Result<(TokenKind, usize), Diagnostic> {
 
 fn strange_character(text: &Text, at: usize, c: char) -> Diagnostic {
     let span = text.source_span(at, at + c.len_utf8());
+    if is_blank_letter(c) {
+        let message = format!("a character that cannot be seen, '{}'", c.escape_unicode());
+        return Diagnostic::error("E-syntax", message).at(span, "not part of a name").help("delete it");
+    }
     let error = Diagnostic::error("E-syntax", format!("unexpected character '{}'", c.escape_debug()));
     let error = error.at(span, "not part of an expression");
     match c {

@@ -14,6 +14,7 @@ pub(in crate::model) mod toml_value;
 pub use expression::{Expression, Factor, Node, Sign};
 pub use function::Function;
 pub(in crate::model) use function::{PI, hint};
+pub(crate) use lexer::is_blank_letter;
 pub(in crate::model) use lexer::is_name;
 pub(in crate::model) use located::Text;
 pub use names::nearest_name;

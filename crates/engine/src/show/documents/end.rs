@@ -122,7 +122,7 @@ impl End {
             boundary: region::exact_boundary(&end.causes, problem),
             requirement: None,
             frequency: FrequencyOfPair::new(digits, |bits| problem.frequency(end, bits)),
-            closed: false,
+            closed: end.closed,
             margin_db: margin.as_ref().and_then(|m| real::json_number(m.decibels.as_deref()?)),
             margin_factor: margin.map(|m| m.factor),
         }

@@ -105,9 +105,11 @@ impl Jet {
 
     /// Value and two derivatives, each times a power of the rate's denominator, in units of `2^-scale`.
     fn values(&self, w: &Dyadic, scale: u64) -> [Fixed; 3] {
-        checkpoint(512);
         let guarded = scale + 8;
         let degree = self.forms[0].coeffs.len() - 1;
+        // Some ten operations for each product of two numbers, and two for each term.
+        let terms: usize = self.forms[..3].iter().flat_map(|form| &form.coeffs).map(|p| p.coeffs().len()).sum();
+        checkpoint(512 + (scale / 64) * (6 * 64 * (degree as u64 + 1) + 12 * terms as u64));
         let basis = powers(w, &self.forms[0].rate, degree, guarded);
         [0, 1, 2].map(|i| {
             let zero = Fixed { re: Integer::ZERO, im: Integer::ZERO, error: Integer::ZERO };

@@ -6,7 +6,7 @@ use super::over_symbols::OverSymbols;
 use crate::stability::{AtPoint, Cause, Causes, HalfSizePair, ParametricPolynomial, Shape, count_roots};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
-use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly};
 use jurist_algebra::symbols::{Function, Symbols};
 use std::sync::Arc;
@@ -98,6 +98,11 @@ impl PlanePolynomial {
     /// The numerator of the leading coefficient.
     pub(super) fn degree_loss(&self) -> &MultiPoly {
         &self.degree_loss
+    }
+
+    /// All values on a box of a polynomial whose variables are numbered as those of this one.
+    pub(crate) fn enclose(&self, f: &MultiPoly, x: &Enclosure, y: &Enclosure, bits: u64) -> Enclosure {
+        self.ground.enclose(f, x, y, bits)
     }
 
     /// The same with the two parameters exchanged.
@@ -245,11 +250,10 @@ pub fn boundary_curves(p: &PlanePolynomial, region: Shape, budget: &Budget) -> R
         if p.ground.vanishes(&polynomial, budget)? {
             return Ok(None);
         }
+        let factors = p.ground.separated(&polynomial, budget)?;
         budget.enter(|| {
-            for factor in separated(&polynomial) {
-                let mut causes = Causes::default();
-                causes.insert(cause);
-                insert_coprime(&mut curves, &causes, factor.square_free_part());
+            for factor in factors {
+                insert_coprime(&mut curves, &cause.into(), factor.square_free_part());
             }
         })?;
         budget.check()?;
@@ -261,10 +265,17 @@ pub fn boundary_curves(p: &PlanePolynomial, region: Shape, budget: &Budget) -> R
 ///
 /// # Errors
 /// [`Exhausted`] when the budget runs out.
-pub(super) fn add_curves(curves: &mut Vec<Curve>, further: &[MultiPoly], budget: &Budget) -> Result<(), Exhausted> {
-    for factor in further.iter().flat_map(separated) {
-        budget.check()?;
-        insert_coprime(curves, &Causes::default(), factor.square_free_part());
+pub(super) fn add_curves(
+    curves: &mut Vec<Curve>,
+    further: &[MultiPoly],
+    ground: &dyn Ground,
+    budget: &Budget,
+) -> Result<(), Exhausted> {
+    for polynomial in further {
+        for factor in ground.separated(polynomial, budget)? {
+            budget.check()?;
+            insert_coprime(curves, &Causes::default(), factor.square_free_part());
+        }
     }
     Ok(())
 }
@@ -302,7 +313,7 @@ pub(super) fn exchanged(p: &MultiPoly) -> MultiPoly {
 }
 
 /// Whether no parameter occurs.
-fn is_number(p: &MultiPoly) -> bool {
+pub(super) fn is_number(p: &MultiPoly) -> bool {
     p.degree_in(X) == 0 && p.degree_in(Y) == 0
 }
 
@@ -321,18 +332,6 @@ pub(super) fn without_number(p: &MultiPoly) -> MultiPoly {
         }
     }
     p.div_exact(&content).expect("the content divides").primitive_over_integers()
-}
-
-/// The factor in `x` alone, the factor in `y` alone, and what is left.
-fn separated(p: &MultiPoly) -> Vec<MultiPoly> {
-    let content = |p: &MultiPoly, main: usize| p.as_poly_in(main).content();
-    let exact = |a: &MultiPoly, b: &MultiPoly| a.div_exact(b).expect("the content divides");
-    let p = without_number(p);
-    let in_x = content(&p, Y);
-    let rest = exact(&p, &in_x);
-    let in_y = content(&rest, X);
-    let rest = exact(&rest, &in_y);
-    [in_x, in_y, rest].into_iter().filter(|f| !is_number(f)).collect()
 }
 
 /// Adds a square-free polynomial to a list of coprime ones: what is shared with a member is split off and

@@ -34,6 +34,16 @@ pub(crate) struct Beside<'a> {
     pub beyond: [Option<Rational>; 2],
 }
 
+/// The point of a wall that a curve ends in, as a wall between numbers on either side and an interval of heights.
+pub(crate) struct Corner<'a> {
+    pub wall: &'a Real,
+    /// Numbers on either side of the wall, between which no other wall is; one is the wall itself at the end of the domain.
+    pub sides: [Rational; 2],
+    pub heights: [&'a Rational; 2],
+    /// The height where that is an edge of the domain.
+    pub edge: Option<&'a Rational>,
+}
+
 /// What is asked of coefficients. `x` and `y` are the variables 0 and 1 of all polynomials, constants those from 2 on.
 pub(crate) trait Ground: fmt::Debug + Send + Sync {
     /// Whether a polynomial is zero for all values of both parameters.
@@ -41,6 +51,9 @@ pub(crate) trait Ground: fmt::Debug + Send + Sync {
     /// # Errors
     /// [`Exhausted`] when the budget runs out, and where the sign of a constant is not found; so for all that follow.
     fn vanishes(&self, f: &MultiPoly, budget: &Budget) -> Result<bool, Exhausted>;
+
+    /// Factors of a polynomial that does not vanish: those in which one parameter alone occurs, and what is left. Numbers are left out.
+    fn separated(&self, f: &MultiPoly, budget: &Budget) -> Result<Vec<MultiPoly>, Exhausted>;
 
     /// The sign of a polynomial in which no parameter occurs.
     fn sign(&self, f: &MultiPoly, budget: &Budget) -> Result<Sign, Exhausted>;
@@ -91,6 +104,16 @@ pub(crate) trait Ground: fmt::Debug + Send + Sync {
         within: (&Range, Shape),
         budget: &Budget,
     ) -> Result<Vec<End>, Exhausted>;
+
+    /// Whether it is seen that the second of two curves passes through the point that the first one ends in. The numbers of both are
+    /// given.
+    fn passes(
+        &self,
+        curves: &[Curve],
+        pair: [usize; 2],
+        corner: &Corner<'_>,
+        budget: &Budget,
+    ) -> Result<bool, Exhausted>;
 
     /// All values of a polynomial on a box.
     fn enclose(&self, f: &MultiPoly, x: &Enclosure, y: &Enclosure, bits: u64) -> Enclosure;

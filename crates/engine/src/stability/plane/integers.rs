@@ -1,9 +1,10 @@
 //! Curves whose coefficients are integers.
 
+use super::content::separated;
 use super::curves::{Curve, PlanePolynomial};
 use super::decompose::{at_y, in_y};
 use super::glue::{Links, Wall};
-use super::ground::{Beside, Ground, Projected};
+use super::ground::{Beside, Corner, Ground, Projected};
 use super::limit::multi_value;
 use super::sturm_at::SturmAt;
 use crate::stability::interval_set::merge_points;
@@ -27,6 +28,10 @@ fn in_one(f: &MultiPoly, parameter: usize) -> UniPoly {
 impl Ground for Integers {
     fn vanishes(&self, f: &MultiPoly, _: &Budget) -> Result<bool, Exhausted> {
         Ok(f.is_zero())
+    }
+
+    fn separated(&self, f: &MultiPoly, budget: &Budget) -> Result<Vec<MultiPoly>, Exhausted> {
+        budget.enter(|| separated(f))
     }
 
     fn sign(&self, f: &MultiPoly, _: &Budget) -> Result<Sign, Exhausted> {
@@ -138,12 +143,34 @@ impl Ground for Integers {
                 if pair.is_some() {
                     causes.insert(Cause::ComplexPair);
                 }
-                ends.push(End { value: value.clone().into(), causes, pair });
+                ends.push(End::new(value.clone(), causes, pair));
             } else {
                 ends.extend(end_at(&p, value, range, region, budget)?);
             }
         }
         Ok(ends)
+    }
+
+    /// By Sturm's theorem: of the zeros of both curves on the wall, how many are those of their product.
+    fn passes(
+        &self,
+        curves: &[Curve],
+        pair: [usize; 2],
+        corner: &Corner<'_>,
+        budget: &Budget,
+    ) -> Result<bool, Exhausted> {
+        let Some(wall) = corner.wall.algebraic() else { return Ok(false) };
+        let [f, g] = pair.map(|k| in_y(&curves[k].polynomial));
+        if let Some(edge) = corner.edge {
+            return budget.enter(|| wall.sign_of(&at_y(&g, edge)).is_eq());
+        }
+        let zeros = |h: &Poly<UniPoly>| -> Result<Option<usize>, Exhausted> {
+            let [lower, upper] = corner.heights.map(Some);
+            Ok(SturmAt::new(h, wall, lower, upper, budget)?.and_then(|sturm| sturm.count_inside()))
+        };
+        // The first curve has one zero there; of several it is not told which one is the point.
+        let (Some(1), Some(own), Some(all)) = (zeros(&f)?, zeros(&g)?, zeros(&f.times(&g))?) else { return Ok(false) };
+        Ok(all == own)
     }
 
     fn enclose(&self, f: &MultiPoly, x: &Enclosure, y: &Enclosure, bits: u64) -> Enclosure {

@@ -43,7 +43,7 @@ pub(crate) fn layers(
     let Some(mut curves) = boundary_curves(p, shape, budget)? else {
         return Ok(asked.sets.iter().map(|_| StabilityMap::never_stable()).collect());
     };
-    add_curves(&mut curves, &asked.curves, budget)?;
+    add_curves(&mut curves, &asked.curves, &**p.ground(), budget)?;
     let strips = decompose(p, &curves, domain, shape, budget)?;
     let met = met_in(&strips, asked.met, false, budget)?;
     let swapped_curves: Vec<Curve> = curves.iter().map(swapped_curve).collect();

@@ -86,27 +86,27 @@ pub fn region_limits(
 }
 
 /// The search for limits in the first parameter of a decomposition.
-struct Search<'a> {
-    p: &'a PlanePolynomial,
-    curves: &'a [Curve],
-    strips: &'a [Strip],
-    domain: &'a [Range; 2],
-    region: Shape,
+pub(super) struct Search<'a> {
+    pub(super) p: &'a PlanePolynomial,
+    pub(super) curves: &'a [Curve],
+    pub(super) strips: &'a [Strip],
+    pub(super) domain: &'a [Range; 2],
+    pub(super) region: Shape,
     /// The half-size pair.
-    pair: &'a [Poly<MultiPoly>; 2],
+    pub(super) pair: &'a [Poly<MultiPoly>; 2],
     digits: usize,
-    budget: &'a Budget,
+    pub(super) budget: &'a Budget,
 }
 
 /// The end of a cell: a vertical line from `near`, inside the strip, to `far`, on or just beyond the wall.
-struct Approach<'a> {
-    wall: &'a Real,
-    near: Rational,
-    far: Rational,
+pub(super) struct Approach<'a> {
+    pub(super) wall: &'a Real,
+    pub(super) near: Rational,
+    pub(super) far: Rational,
     below: Option<Real>,
     above: Option<Real>,
     /// The curves below and above.
-    sides: [Option<usize>; 2],
+    pub(super) sides: [Option<usize>; 2],
     /// Points of the cells below and above, where those are stable too.
     beyond: [Option<Rational>; 2],
 }
@@ -176,6 +176,7 @@ impl Search<'_> {
                     self.add_causes(&mut limit, &ends, &approach, at_domain);
                     on_lines.iter().for_each(|cause| limit.causes.insert(*cause));
                     limit.half_size_root = roots.into_iter().fold(None, lower_frequency);
+                    self.add_touching(&mut limit, &approach, (strip, greatest), [&x, &y], 4 * bits + 256)?;
                     limit.at.push([x, y]);
                     return Ok(limit);
                 }
@@ -384,7 +385,7 @@ fn ordered(a: &Rational, b: &Rational) -> Enclosure {
 }
 
 /// Of two half-size roots the greater: `2 cos(theta)` and `-omega^2` fall as the frequency rises.
-fn lower_frequency(a: Option<Enclosure>, b: Option<Enclosure>) -> Option<Enclosure> {
+pub(super) fn lower_frequency(a: Option<Enclosure>, b: Option<Enclosure>) -> Option<Enclosure> {
     match (a, b) {
         (Some(a), Some(b)) => Some(if a.lower() >= b.lower() { a } else { b }),
         (a, b) => a.or(b),
@@ -392,7 +393,7 @@ fn lower_frequency(a: Option<Enclosure>, b: Option<Enclosure>) -> Option<Enclosu
 }
 
 /// All values of a polynomial in two variables on a box, by Horner's rule in both.
-pub(crate) fn multi_value(f: &MultiPoly, x: &Enclosure, y: &Enclosure, bits: u64) -> Enclosure {
+pub(super) fn multi_value(f: &MultiPoly, x: &Enclosure, y: &Enclosure, bits: u64) -> Enclosure {
     let zero = Enclosure::from_rational(Rational::ZERO);
     let rows = in_y(f);
     rows.coeffs().iter().rev().fold(zero, |sum, row| sum.mul(y, bits).add(&row.eval_enclosure(x, bits), bits))

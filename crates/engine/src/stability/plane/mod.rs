@@ -2,6 +2,7 @@
 
 pub mod boxes;
 mod certified;
+mod content;
 mod curves;
 mod decompose;
 mod glue;
@@ -14,6 +15,7 @@ mod over_symbols;
 mod projection;
 mod query;
 mod sturm_at;
+mod through;
 mod touching;
 
 pub(crate) use certified::{at_height, critical_polynomials, over};
@@ -21,5 +23,4 @@ pub use curves::{Curve, PlanePolynomial, boundary_curves, vanishing_boundary};
 pub use decompose::{Branch, Cell, StabilityMap, StableRegion, Strip, stability_map};
 pub(crate) use glue::{Join, joins};
 pub(crate) use layers::{Asked, layers};
-pub(crate) use limit::multi_value;
 pub use limit::{Limit, RegionLimits, region_limits};

@@ -1,10 +1,11 @@
 //! Curves whose coefficients are polynomials in transcendental constants.
 
+use super::content::separated_over_numbers;
 use super::curves::{Curve, PlanePolynomial, X, Y};
 use super::glue::{Links, Wall};
-use super::ground::{Beside, Ground, Projected, put};
+use super::ground::{Beside, Corner, Ground, Projected, put};
 use super::nodes::Nodes;
-use super::touching::links_over_symbols;
+use super::touching::{links_over_symbols, passes_over_symbols};
 use crate::stability::symbolic::{zeros_of_all, zeros_of_resultant};
 use crate::stability::{AtPoint, End, Range, Shape, SymbolicPolynomial, symbolic_stable_set};
 use jurist_algebra::ball::Ball;
@@ -81,12 +82,11 @@ impl OverSymbols {
         let mut rest = expanded.primitive_over_integers();
         let mut parts = Vec::new();
         if let Some(node) = node {
-            let before = rest.terms().len();
             while let Some(quotient) = budget.enter(|| rest.div_exact(node))? {
                 rest = quotient;
-            }
-            if rest.terms().len() != before {
-                parts.push(node.clone());
+                if parts.is_empty() {
+                    parts.push(node.clone());
+                }
             }
         }
         parts.push(rest);
@@ -138,6 +138,11 @@ impl OverSymbols {
         Ok(false)
     }
 
+    /// The value of a polynomial in which no parameter occurs.
+    pub(super) fn constant(&self, f: &MultiPoly, bits: u64) -> Ball {
+        self.symbols.enclose(&number(f), bits)
+    }
+
     /// The coefficients of the powers of `y` where `x` is anywhere in an interval.
     pub(super) fn over(&self, f: &Poly<MultiPoly>, x: &Ball) -> Vec<Ball> {
         f.coeffs().iter().map(|c| self.horner(c, X, x)).collect()
@@ -152,7 +157,7 @@ impl OverSymbols {
     /// The values of a polynomial in one parameter on an interval.
     fn horner(&self, f: &MultiPoly, parameter: usize, at: &Ball) -> Ball {
         let zero = Ball::zero(at.bits());
-        let value = |c: &MultiPoly| self.symbols.enclose(&number(c), at.bits());
+        let value = |c: &MultiPoly| self.constant(c, at.bits());
         f.as_poly_in(parameter).coeffs().iter().rev().fold(zero, |sum, c| sum.mul(at).add(&value(c)))
     }
 }
@@ -213,6 +218,10 @@ impl Ground for OverSymbols {
             }
         }
         Ok(true)
+    }
+
+    fn separated(&self, f: &MultiPoly, budget: &Budget) -> Result<Vec<MultiPoly>, Exhausted> {
+        separated_over_numbers(self, f, budget)
     }
 
     fn sign(&self, f: &MultiPoly, budget: &Budget) -> Result<Sign, Exhausted> {
@@ -314,6 +323,16 @@ impl Ground for OverSymbols {
         let is_end = |beyond: &Option<Rational>| beyond.as_ref().is_none_or(|point| !around.contains(point));
         let ends = sides.filter_map(|((end, beyond), wall)| wall.and(end.clone()).filter(|_| is_end(beyond)));
         Ok(ends.collect())
+    }
+
+    fn passes(
+        &self,
+        curves: &[Curve],
+        pair: [usize; 2],
+        corner: &Corner<'_>,
+        budget: &Budget,
+    ) -> Result<bool, Exhausted> {
+        passes_over_symbols(self, curves, pair, corner, budget)
     }
 
     fn enclose(&self, f: &MultiPoly, x: &Enclosure, y: &Enclosure, bits: u64) -> Enclosure {

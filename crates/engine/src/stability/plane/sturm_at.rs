@@ -45,6 +45,11 @@ impl<'a> SturmAt<'a> {
         Ok(Some(SturmAt { sequence, c, lower, upper }))
     }
 
+    /// The number of distinct real roots strictly between the ends, both of which are finite.
+    pub fn count_inside(&self) -> Option<usize> {
+        Some(self.count(self.lower?, self.upper?))
+    }
+
     fn is_root(&self, y: &Rational) -> bool {
         sign_at(&self.sequence[0], self.c, y).is_eq()
     }

@@ -1,10 +1,10 @@
 //! Whether cells on either side of a wall touch, where the wall is a zero of a polynomial over symbols.
 
-use super::curves::{X, Y};
+use super::curves::{Curve, X, Y};
 use super::decompose::Branch;
 use super::glue::{Links, Wall, cell_of, separates};
-use super::ground::{Ground, Projected, put};
-use super::over_symbols::OverSymbols;
+use super::ground::{Corner, Ground, Projected, put};
+use super::over_symbols::{OverSymbols, in_one};
 use crate::stability::Range;
 use jurist_algebra::ball::{Ball, common_root};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -163,14 +163,6 @@ impl<'a> Near<'a> {
         Ok(true)
     }
 
-    /// The wall, as narrowly as it is known here.
-    fn at_wall(&self) -> Ball {
-        let bits = 128 + 2 * (&self.x[1] - &self.x[0]).denominator().bit_length();
-        let width = Rational::dyadic(&1.into(), bits);
-        let (lo, hi) = self.wall.value.refined(&width).enclosure();
-        Ball::between(&lo, &hi, bits)
-    }
-
     /// Whether two curves have exactly one common zero on the wall, and that in a box.
     fn meet(
         &self,
@@ -179,14 +171,7 @@ impl<'a> Near<'a> {
         inside: [&Rational; 2],
         budget: &Budget,
     ) -> Result<bool, Exhausted> {
-        let curves = self.wall.curves;
-        if !ground.changes_sign(Projected::Resultant(i, j), curves, [&self.x[0], &self.x[1]], budget)? {
-            return Ok(false);
-        }
-        let x = self.at_wall();
-        let over = |k: usize| ground.over(&curves[k].polynomial.as_poly_in(Y), &x);
-        let root = budget.enter(|| common_root(&over(i), &over(j)))?;
-        Ok(root.is_some_and(|root| is_between(&root, inside)))
+        meet_on(ground, self.wall.curves, [i, j], (self.wall.value, &self.x), inside, budget)
     }
 
     /// Whether a curve has a double zero on the wall in a box, and no other zero there.
@@ -201,7 +186,7 @@ impl<'a> Near<'a> {
         if !ground.changes_sign(Projected::Discriminant(curve), curves, [&self.x[0], &self.x[1]], budget)? {
             return Ok(false);
         }
-        let x = self.at_wall();
+        let x = narrow(self.wall.value, &self.x);
         let f = curves[curve].polynomial.as_poly_in(Y);
         let slope = f.derivative();
         let (value, first) = (ground.over(&f, &x), ground.over(&slope, &x));
@@ -215,6 +200,61 @@ impl<'a> Near<'a> {
         let zero = Ball::zero(x.bits());
         Ok(second.iter().rev().fold(zero, |sum, c| sum.mul(&y).add(c)).sign().is_some())
     }
+}
+
+/// Whether two curves have exactly one common zero on a wall, and that between two heights.
+fn meet_on(
+    ground: &OverSymbols,
+    curves: &[Curve],
+    [i, j]: [usize; 2],
+    (wall, x): (&Real, &[Rational; 2]),
+    inside: [&Rational; 2],
+    budget: &Budget,
+) -> Result<bool, Exhausted> {
+    if !ground.changes_sign(Projected::Resultant(i, j), curves, [&x[0], &x[1]], budget)? {
+        return Ok(false);
+    }
+    let x = narrow(wall, x);
+    let over = |k: usize| ground.over(&curves[k].polynomial.as_poly_in(Y), &x);
+    let root = budget.enter(|| common_root(&over(i), &over(j)))?;
+    Ok(root.is_some_and(|root| is_between(&root, inside)))
+}
+
+/// Whether the second curve passes through the point that the first one ends in ([`Ground::passes`]).
+pub(super) fn passes_over_symbols(
+    ground: &OverSymbols,
+    curves: &[Curve],
+    [i, j]: [usize; 2],
+    corner: &Corner<'_>,
+    budget: &Budget,
+) -> Result<bool, Exhausted> {
+    match (corner.wall.exact(), corner.edge) {
+        (Some(x), Some(y)) => Ok(ground.sign(&put(&put(&curves[j].polynomial, X, &x), Y, y), budget)?.is_eq()),
+        (None, Some(y)) => {
+            let [left, right] = &corner.sides;
+            ground.changes_sign(Projected::AtEdge(j, y), curves, [left, right], budget)
+        }
+        (Some(x), None) => {
+            // Both on the wall, as polynomials in one unknown.
+            let [f, g] = [i, j].map(|k| in_one(&put(&curves[k].polynomial, X, &x), Y));
+            if !ground.symbols.have_common_zero(&f, &g, budget)? {
+                return Ok(false);
+            }
+            let near = narrow(corner.wall, &corner.sides);
+            let over = |k: usize| ground.over(&curves[k].polynomial.as_poly_in(Y), &near);
+            let root = budget.enter(|| common_root(&over(i), &over(j)))?;
+            Ok(root.is_some_and(|root| is_between(&root, corner.heights)))
+        }
+        (None, None) => meet_on(ground, curves, [i, j], (corner.wall, &corner.sides), corner.heights, budget),
+    }
+}
+
+/// A wall between two numbers, as narrowly as it is known there.
+fn narrow(wall: &Real, [left, right]: &[Rational; 2]) -> Ball {
+    let bits = 128 + 2 * (right - left).denominator().bit_length();
+    let width = Rational::dyadic(&1.into(), bits);
+    let (lo, hi) = wall.refined(&width).enclosure();
+    Ball::between(&lo, &hi, bits)
 }
 
 /// Whether a number is between two others for certain.

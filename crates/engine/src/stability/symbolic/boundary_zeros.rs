@@ -42,7 +42,7 @@ pub(crate) type ZeroOf = (Real, Vec<usize>);
 
 /// The zeros of functions in a range, ascending, each with which of the functions it is a zero of, and where there may be others.
 ///
-/// `usual` is a value on whose scale zeros are looked for first.
+/// `usual` is a value on whose scale zeros are looked for first; zeros that are not wanted are left out before they are compared.
 ///
 /// Cost: as of [`MovingSymbols::zeros_in`] for each factor of the functions.
 ///
@@ -53,12 +53,13 @@ pub(crate) fn zeros_of_functions(
     symbols: &Arc<MovingSymbols>,
     range: &Range,
     usual: &Rational,
+    is_wanted: &dyn Fn(&Real) -> bool,
     budget: &Budget,
 ) -> Result<(Vec<ZeroOf>, Vec<Bracket>), Exhausted> {
-    let reach = Reach::without_tail(symbols, range, None, usual);
+    let reach = Reach::without_tail(symbols, range, None, usual, MULTIPLE);
     let conditions = functions.into_iter().map(|f| (Cause::Undecided, f)).collect();
     let (boundaries, basis) = split(conditions, symbols, budget)?;
-    let (zeros, undecided) = zeros_within(&boundaries, &basis, symbols, &reach, usual, budget)?;
+    let (zeros, undecided) = zeros_within((&boundaries, &basis), symbols, &reach, usual, is_wanted, budget)?;
     let which = |zero: &Zero| (0..boundaries.len()).filter(|&k| boundaries[k].has(zero)).collect();
     Ok((zeros.iter().map(|zero| (zero.value.clone(), which(zero))).collect(), undecided))
 }
@@ -76,37 +77,82 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// As far as a range goes; where it has no end to a large multiple of the usual value, and beyond by the reciprocal of the
+    /// As far as a range goes; where it has no end to a multiple of the usual value, and beyond by the reciprocal of the
     /// parameter if all symbols have values at its zero. Below `start` nothing happens.
-    pub fn without_tail(symbols: &MovingSymbols, range: &Range, start: Option<Rational>, usual: &Rational) -> Reach {
+    pub fn without_tail(
+        symbols: &MovingSymbols,
+        range: &Range,
+        start: Option<Rational>,
+        usual: &Rational,
+        multiple: i64,
+    ) -> Reach {
         let usual = usual.abs().max(Rational::dyadic(&Integer::ONE, 64));
-        let large = |x: &Rational| (x.abs() + &usual) * Rational::from(MULTIPLE);
-        let mut undecided = Vec::new();
-        let from = match (&range.lower, &range.upper) {
-            (Some(lower), _) => lower.clone(),
-            (None, upper) => {
-                let from = -large(upper.as_ref().unwrap_or(&Rational::ZERO));
-                undecided.push((None, Some(from.clone())));
-                from
-            }
+        let large = |x: &Option<Rational>| {
+            (x.as_ref().map_or(Rational::ZERO, Rational::abs) + &usual) * Rational::from(multiple)
         };
-        let lower = Some(from.clone());
-        let from = start.unwrap_or(from);
-        if let Some(to) = &range.upper {
-            return Reach { from, to: to.clone(), inverted: None, lower, upper: Some(to.clone()), undecided };
+        let from = range.lower.clone().unwrap_or_else(|| -large(&range.upper));
+        let mut reach = Reach {
+            from: start.unwrap_or_else(|| from.clone()),
+            to: range.upper.clone().unwrap_or_else(|| large(&range.lower)),
+            inverted: None,
+            lower: Some(from.clone()),
+            upper: range.upper.clone(),
+            undecided: Vec::new(),
+        };
+        if range.lower.is_none() {
+            reach.undecided.push((None, Some(from)));
         }
-        let to = large(&from);
-        let inverted = symbols.inverted().filter(|s| s.at(&Rational::ZERO).is_some());
-        if let Some(inverted) = inverted {
-            return Reach { from, to, inverted: Some(Arc::new(inverted)), lower, upper: None, undecided };
+        if range.upper.is_none() {
+            let inverted = symbols.inverted().filter(|s| s.at(&Rational::ZERO).is_some());
+            reach.inverted = inverted.map(Arc::new);
+            if reach.inverted.is_none() {
+                reach.upper = Some(reach.to.clone());
+                reach.undecided.push((Some(reach.to.clone()), None));
+            }
         }
-        undecided.push((Some(to.clone()), None));
-        Reach { from, to: to.clone(), inverted: None, lower, upper: Some(to), undecided }
+        reach
+    }
+
+    /// Between two numbers, and nothing of what lies beyond.
+    pub fn between(from: &Rational, to: &Rational) -> Reach {
+        let end = |x: &Rational| Some(x.clone());
+        Reach {
+            from: from.clone(),
+            to: to.clone(),
+            inverted: None,
+            lower: end(from),
+            upper: end(to),
+            undecided: Vec::new(),
+        }
+    }
+
+    /// Whether there is more below that is not looked at.
+    pub fn is_open_below(&self) -> bool {
+        self.undecided.iter().any(|(lo, _)| lo.is_none())
+    }
+
+    /// Whether there is more above that is not looked at.
+    pub fn is_open_above(&self) -> bool {
+        self.undecided.iter().any(|(_, hi)| hi.is_none())
+    }
+
+    /// Down to a number.
+    pub fn widen_below(&mut self, from: Rational) {
+        self.undecided.retain(|(lo, _)| lo.is_some());
+        self.undecided.push((None, Some(from.clone())));
+        (self.lower, self.from) = (Some(from.clone()), from);
+    }
+
+    /// Up to a number.
+    pub fn widen_above(&mut self, to: Rational) {
+        self.undecided.retain(|(_, hi)| hi.is_some());
+        self.undecided.push((Some(to.clone()), None));
+        (self.upper, self.to) = (Some(to.clone()), to);
     }
 }
 
-/// Where nothing bounds a parameter and nothing dies away, it is looked at up to this multiple of its usual value.
-pub(super) const MULTIPLE: i64 = 1024;
+/// Where nothing bounds a parameter in a question of functions alone, they are looked at up to this multiple of its usual value.
+const MULTIPLE: i64 = 1024;
 
 /// Functions with more terms that may have repeated factors are not divided into them: a zero of even order then stays an
 /// undecided bracket.
@@ -117,11 +163,11 @@ const BRACKET_BITS: u64 = 256;
 
 /// The zeros of all boundaries as far as the reach goes, ascending, each once, and where there may be others.
 pub(super) fn zeros_within(
-    boundaries: &[Boundary],
-    basis: &[Function],
+    (boundaries, basis): (&[Boundary], &[Function]),
     symbols: &Arc<MovingSymbols>,
     reach: &Reach,
     usual: &Rational,
+    is_wanted: &dyn Fn(&Real) -> bool,
     budget: &Budget,
 ) -> Result<(Vec<Zero>, Vec<Bracket>), Exhausted> {
     budget.step("isolating the boundaries' zeros");
@@ -137,8 +183,9 @@ pub(super) fn zeros_within(
     let found: Vec<Result<Zeros, Exhausted>> =
         parallel_map(basis.iter().collect::<Vec<_>>(), |part| zeros_of(part, symbols, reach, usual, budget));
     for (k, found) in found.into_iter().enumerate() {
-        let (zeros, brackets) = found?;
+        let (mut zeros, brackets) = found?;
         undecided.extend(brackets);
+        zeros.retain(|zero| is_wanted(zero));
         from.extend(zeros.iter().map(|zero| (k, zero.clone())));
         all = told_apart(all, zeros, &mut undecided, budget)?;
     }
@@ -247,10 +294,14 @@ pub(super) fn split(
         };
         let parts = match rest {
             Some(rest) => budget.enter(|| (0..expanded.len()).filter(|&k| divides(&expanded[k], &rest)).collect())?,
-            None => {
-                basis.push(function.clone());
-                vec![basis.len() - 1]
-            }
+            // Zeros of the same function are not compared, as they are the same numbers.
+            None => match basis.iter().position(|known| *known == function) {
+                Some(known) => vec![known],
+                None => {
+                    basis.push(function.clone());
+                    vec![basis.len() - 1]
+                }
+            },
         };
         boundaries.push(Boundary { cause, function, algebraic, parts });
     }
@@ -272,7 +323,7 @@ fn without_exponentials(p: MultiPoly, symbols: &MovingSymbols) -> MultiPoly {
 }
 
 /// Brackets in ascending order, those that overlap as one.
-fn disjoint(mut brackets: Vec<Bracket>) -> Vec<Bracket> {
+pub(super) fn disjoint(mut brackets: Vec<Bracket>) -> Vec<Bracket> {
     brackets.sort();
     let mut out: Vec<Bracket> = Vec::new();
     for (lo, hi) in brackets {

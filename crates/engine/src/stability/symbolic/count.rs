@@ -26,7 +26,8 @@ pub(super) fn at_point(
     budget: &Budget,
 ) -> Result<AtPoint, Exhausted> {
     while let Some(last) = coefficients.last() {
-        if !symbols.is_zero(last, budget)? {
+        let named = format!("a_{}", coefficients.len() - 1);
+        if !is_zero(last, &named, symbols, budget)? {
             break;
         }
         coefficients.pop();
@@ -38,6 +39,21 @@ pub(super) fn at_point(
     Ok(AtPoint::Defined { count, infinite: formal_degree - count.total() })
 }
 
+/// An equation is written out where it is no longer than this.
+const MOST_SHOWN: usize = 160;
+
+/// Whether a number is zero; where that is not found out, the number and its name are said.
+pub(super) fn is_zero(p: &MultiPoly, name: &str, symbols: &Symbols, budget: &Budget) -> Result<bool, Exhausted> {
+    symbols.is_zero(p, budget).map_err(|stopped| {
+        if !stopped.budget.starts_with("precision") {
+            return stopped;
+        }
+        let shown = p.display(&symbols.names()).to_string();
+        let equation = if shown.len() <= MOST_SHOWN { format!("{name} = {shown}") } else { name.to_owned() };
+        stopped.with_open(&format!("whether {equation} is zero"))
+    })
+}
+
 /// The root count of a polynomial over symbols with a leading coefficient that is not zero.
 fn count(
     mut d: Poly<MultiPoly>,
@@ -46,6 +62,7 @@ fn count(
     budget: &Budget,
 ) -> Result<RootCount, Exhausted> {
     let mut found = RootCount::default();
+    let mut open = String::new();
     let mut bits = FIRST_BITS;
     while bits <= MOST_BITS {
         let n = d.coeffs().len() - 1;
@@ -70,9 +87,10 @@ fn count(
         {
             return Ok(plus(plus(found, pairs), count(rest, symbols, region, budget)?));
         }
+        open = open_equation(&balls, region);
         bits *= 2;
     }
-    Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "counting the roots"))
+    Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "counting the roots").with_open(&open))
 }
 
 fn plus(a: RootCount, b: RootCount) -> RootCount {
@@ -83,24 +101,72 @@ fn plus(a: RootCount, b: RootCount) -> RootCount {
 /// mirror images in it, and none is at infinity: no root then crosses the boundary between any two of them.
 pub(crate) fn certain_count(coefficients: &[Ball], region: Shape) -> Option<RootCount> {
     let n = coefficients.len() - 1;
-    let bits = coefficients[0].bits();
     let certain = |b: &Ball| !b.contains_zero();
     if !certain(&coefficients[n]) {
         return None;
     }
-    let sum = |sign: i64| {
-        let signed = |(k, c): (usize, &Ball)| if sign < 0 && k % 2 == 1 { c.neg() } else { c.clone() };
-        coefficients.iter().enumerate().map(signed).fold(Ball::zero(bits), |a, b| a.add(&b))
-    };
-    let ends = match region {
-        Shape::UnitDisc => certain(&sum(1)) && certain(&sum(-1)),
-        Shape::LeftHalfPlane => certain(&coefficients[0]),
-    };
+    let ends = [1, -1].iter().all(|sign| certain(&at_end(coefficients, region, *sign)));
     if !ends || (n >= 2 && !resultant_is_certain(coefficients, region)) {
         return None;
     }
     let middle = Poly::new(coefficients.iter().map(Ball::middle_units).collect::<Vec<Integer>>());
     Some(count_roots(&middle, region))
+}
+
+/// What is certain of all polynomials with enclosed coefficients.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct EnclosedLoop {
+    /// Where the roots are.
+    pub count: RootCount,
+    /// Whether an odd number of real roots lies beyond the point where the real axis leaves the region to the right.
+    pub drifts: bool,
+}
+
+impl EnclosedLoop {
+    /// The same of all polynomials with coefficients in the balls; `None` where they are not all alike.
+    pub fn of(coefficients: &[Ball], region: Shape) -> Option<EnclosedLoop> {
+        let [.., lead] = coefficients else { return None };
+        let count = if coefficients.len() == 1 { RootCount::default() } else { certain_count(coefficients, region)? };
+        let drifts = at_end(coefficients, region, 1).sign()? != lead.sign()?;
+        Some(EnclosedLoop { count, drifts })
+    }
+}
+
+/// The value at an end of the boundary: 1 or -1 of this sign, or 0.
+fn at_end(coefficients: &[Ball], region: Shape, sign: i64) -> Ball {
+    if region == Shape::LeftHalfPlane {
+        return coefficients[0].clone();
+    }
+    let signed = |(k, c): (usize, &Ball)| if sign < 0 && k % 2 == 1 { c.neg() } else { c.clone() };
+    let zero = Ball::zero(coefficients[0].bits());
+    coefficients.iter().enumerate().map(signed).fold(zero, |a, b| a.add(&b))
+}
+
+/// What would have to be known to count the roots of a polynomial with coefficients in the balls.
+pub(crate) fn open_equation(coefficients: &[Ball], region: Shape) -> String {
+    let n = coefficients.len() - 1;
+    let small = |of: &Ball| {
+        let bits = of.bits() as i64 - of.magnitude_units().bit_length() as i64;
+        let digits = bits * 301 / 1000;
+        if digits > 0 { format!(" (it is below 1e-{digits})") } else { String::new() }
+    };
+    if coefficients[n].contains_zero() {
+        return format!("whether a_{n} is zero{}", small(&coefficients[n]));
+    }
+    let (variable, ends): (&str, &[i64]) = match region {
+        Shape::UnitDisc => ("z", &[1, -1]),
+        Shape::LeftHalfPlane => ("s", &[0]),
+    };
+    for &end in ends {
+        let value = at_end(coefficients, region, end);
+        if value.contains_zero() {
+            return format!("whether D({end}) is zero, a root at {variable} = {end}{}", small(&value));
+        }
+    }
+    match region {
+        Shape::UnitDisc => "whether two roots have the product 1, as a pair on the circle".to_owned(),
+        Shape::LeftHalfPlane => "whether two roots have the sum 0, as a pair on the axis".to_owned(),
+    }
 }
 
 /// Whether the resultant of the half-size pair is not zero for all polynomials with coefficients in the balls.
@@ -165,7 +231,7 @@ fn split_ends(
     let (mut rest, mut on) = (d.clone(), 0);
     for &end in ends {
         let at = MultiPoly::constant(Integer::from(end));
-        while rest.coeffs().len() > 1 && symbols.is_zero(&rest.eval(&at), budget)? {
+        while rest.coeffs().len() > 1 && is_zero(&rest.eval(&at), &format!("D({end})"), symbols, budget)? {
             rest = without_root(&rest, &at);
             on += 1;
         }

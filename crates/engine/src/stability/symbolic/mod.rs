@@ -6,13 +6,16 @@
 
 mod basis;
 mod boundary_zeros;
+mod brackets;
 mod conditions;
 mod count;
 mod deflated;
+mod factors;
 mod interpolation;
 mod jury;
 mod minors;
 mod moving;
+mod outward;
 mod pair;
 mod plane;
 mod resultant;
@@ -24,12 +27,13 @@ mod statements;
 pub(crate) use basis::zeros_of_all;
 pub(crate) use boundary_zeros::{Bracket, told_apart, zeros_of_functions};
 pub use conditions::{RealIntervals, SymbolicCondition, SymbolicTest};
-pub(crate) use count::certain_count;
+pub(crate) use count::{EnclosedLoop, certain_count, open_equation};
 pub(crate) use deflated::zeros_of_resultant;
 pub use jury::{Comparison, EnclosedCondition, EnclosedRow, EnclosedTable};
 pub use plane::SymbolicPlane;
 pub use rounded::Rounding;
 pub use rows::SymbolicRow;
+pub(crate) use set::stable_set_of_parts;
 pub use set::symbolic_stable_set;
 
 use super::{AtPoint, Cause, HalfSizePair, Shape};
@@ -190,7 +194,7 @@ impl SymbolicPolynomial {
         let Some(symbols) = self.symbols_at(value) else { return Ok(AtPoint::Undefined) };
         let number = |p: &MultiPoly| p.substitute(0, value).0.map_variables(|i| i.saturating_sub(1));
         for pole in &self.poles {
-            if symbols.is_zero(&number(pole), budget)? {
+            if count::is_zero(&number(pole), "what the loop divides by", &symbols, budget)? {
                 return Ok(AtPoint::Undefined);
             }
         }

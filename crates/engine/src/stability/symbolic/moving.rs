@@ -1,14 +1,16 @@
 //! The stable set where the parameter is inside of exponentials, such as the sample time of a held plant.
 
-use super::boundary_zeros::{Boundary, Reach, Zero, split, zeros_within};
+use super::boundary_zeros::{Boundary, Bracket, Reach, Zero, split};
+use super::brackets::{Counter, Decided, looked_at};
 use super::count::certain_count;
+use super::outward::{Found, Looked, MULTIPLES};
 use super::pair::{Common, CommonRoots, Pair, Values};
 use super::set::{Place, intervals, named_end};
 use super::{Condition, MOST_EXPANDED, SymbolicPolynomial};
-use crate::stability::{Cause, Causes, End, Range, Shape, StableSet, UndecidedBracket};
+use crate::stability::{Cause, Causes, End, Range, Shape, StableInterval, StableSet, UndecidedBracket};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::number::{Integer, Rational, to_decimal};
 use jurist_algebra::poly::MultiPoly;
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Function, MovingSymbols};
@@ -31,18 +33,28 @@ pub(super) fn moving_stable_set(
     let Some(conditions) = p.conditions(region, MOST_EXPANDED, budget)? else {
         return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
     };
-    let reach = reach(p, symbols, &conditions, range, region, budget)?;
+    let counter = Counter::new(p, symbols, region);
+    let usual = if p.usual.is_zero() { counter.scale(range) } else { p.usual.clone() };
+    // What lies beyond a number at which functions are undefined is another question.
+    let (part, beyond) = connected(symbols, range, &p.usual);
+    let reach = reach(p, symbols, &conditions, &part, region, &usual, budget)?;
     let (boundaries, basis) = split(conditions, symbols, budget)?;
-    let (zeros, undecided) = zeros_within(&boundaries, &basis, symbols, &reach, &p.usual, budget)?;
+    let (boundaries, basis) = (&boundaries[..], &basis[..]);
+    let looked = Looked { boundaries, basis, symbols, usual: &usual, is_scale: p.usual.is_zero(), budget };
+    let Found { reach, zeros, undecided } = looked.outward(reach)?;
     let common = (p.formal_degree > 1).then(|| {
         let pair = Arc::new(Pair::of(&p.pair(region)));
         CommonRoots::new(pair, Arc::clone(symbols) as Arc<dyn Values>)
     });
-    let examiner = Examiner { symbols, range, boundaries: &boundaries, common, budget };
-    let mut stable = Vec::new();
+    let examiner = Examiner { symbols, range, boundaries, common, budget };
+    let is_looked_at = looked_at(&undecided, &p.usual);
+    let mut stable = Assembly::default();
     let mut lower = reach.lower.clone();
-    for k in 0..=undecided.len() {
-        let bracket = undecided.get(k);
+    // After the last bracket there is one more piece.
+    let brackets = undecided.iter().zip(is_looked_at).map(Some).chain([None]);
+    for bracket in brackets {
+        let is_looked_at = bracket.is_some_and(|(_, is_looked_at)| is_looked_at);
+        let bracket = bracket.map(|(bracket, _)| bracket);
         let upper = bracket.map_or_else(|| reach.upper.clone(), |b| b.0.clone());
         let is_piece = match (&lower, &upper) {
             (Some(lower), Some(upper)) => lower < upper,
@@ -70,17 +82,24 @@ pub(super) fn moving_stable_set(
                 }
                 Place::Zero(k) => examiner.at_zero(zeros[k], is_between),
             };
-            stable.extend(intervals(&piece, values, p.formal_degree(), at, end, budget)?);
+            for interval in intervals(&piece, values, p.formal_degree(), at, end, budget)? {
+                stable.push(interval);
+            }
         }
         let Some(bracket) = bracket else { break };
+        let known = match bracket {
+            (Some(lo), Some(hi)) if is_looked_at => counter.decided(lo, hi, &p.usual, budget)?,
+            _ => Vec::new(),
+        };
+        stable.bracket(bracket, known);
         lower = bracket.1.clone();
         if lower.is_none() {
             break;
         }
     }
-    let brackets = undecided.into_iter().map(|(lo, hi)| {
+    let brackets = stable.open.into_iter().map(|(lo, hi)| {
         let why = match (&lo, &hi) {
-            (Some(lo), Some(_)) if lo.is_zero() && range.lower.as_ref().is_some_and(Rational::is_zero) => {
+            (Some(lo), Some(_)) if lo.is_zero() && part.lower.as_ref().is_some_and(Rational::is_zero) => {
                 "not resolved so near to 0"
             }
             (Some(_), Some(_)) => "touching or crossing",
@@ -88,7 +107,80 @@ pub(super) fn moving_stable_set(
         };
         UndecidedBracket::new(lo, hi, why)
     });
-    Ok(StableSet::from_intervals(stable, brackets.collect()))
+    let mut brackets: Vec<UndecidedBracket> = brackets.collect();
+    brackets.extend(beyond);
+    brackets.sort_by(|a, b| a.lower.cmp(&b.lower));
+    Ok(StableSet::from_intervals(stable.intervals, brackets))
+}
+
+/// The part of a range between numbers at which an argument of a function divides by zero, where the range itself has no end, and
+/// what lies beyond: near to such a number functions have zeros without end, and beyond it the loop is another one.
+fn connected(symbols: &MovingSymbols, range: &Range, usual: &Rational) -> (Range, Vec<UndecidedBracket>) {
+    let roots: Vec<Rational> = symbols.undefined_at().into_iter().filter(|x| range.contains(x)).collect();
+    let (mut part, mut beyond) = (range.clone(), Vec::new());
+    let why = |x: &Rational| {
+        let x = to_decimal(x, 12);
+        format!("not looked at, as functions of the loop divide by zero at {x}: give bounds of the domain")
+    };
+    if range.lower.is_none()
+        && let Some(x) = roots.iter().filter(|x| *x < usual).max()
+    {
+        part.lower = Some(x.clone());
+        beyond.push(UndecidedBracket::new(None, Some(x.clone()), why(x)));
+    }
+    if range.upper.is_none()
+        && let Some(x) = roots.iter().filter(|x| *x > usual).min()
+    {
+        part.upper = Some(x.clone());
+        beyond.push(UndecidedBracket::new(Some(x.clone()), None, why(x)));
+    }
+    (part, beyond)
+}
+
+/// The stable intervals from below, and what is left of the brackets between them.
+#[derive(Default)]
+struct Assembly {
+    intervals: Vec<StableInterval>,
+    open: Vec<Bracket>,
+    /// A number at which the loop is known to be stable: an interval that ends there goes on.
+    joint: Option<Rational>,
+}
+
+impl Assembly {
+    fn push(&mut self, interval: StableInterval) {
+        let exact = |end: &Option<End>| end.as_ref().and_then(|end| end.value.exact());
+        match self.intervals.last_mut() {
+            Some(last)
+                if self.joint.is_some() && exact(&last.upper) == self.joint && exact(&interval.lower) == self.joint =>
+            {
+                last.upper = interval.upper;
+            }
+            _ => self.intervals.push(interval),
+        }
+    }
+
+    /// A bracket, of which parts are known.
+    fn bracket(&mut self, bracket: &Bracket, known: Vec<Decided>) {
+        let mut lower = bracket.0.clone();
+        // An infinite end is never reached.
+        let mut is_open = true;
+        for Decided { lower: lo, upper: hi, is_stable } in known {
+            if lower.as_ref() != Some(&lo) {
+                self.open.push((lower, Some(lo.clone())));
+            }
+            is_open = bracket.1.as_ref() != Some(&hi);
+            lower = Some(hi.clone());
+            if is_stable {
+                let end = |x: &Rational| Some(End::new(x.clone(), Causes::default(), None));
+                self.joint = Some(lo.clone());
+                self.push(StableInterval::new(end(&lo), end(&hi)));
+                self.joint = Some(hi);
+            }
+        }
+        if is_open {
+            self.open.push((lower, bracket.1.clone()));
+        }
+    }
 }
 
 /// How far a parameter goes that is not bounded: to where nothing happens any more, or, by its reciprocal, all the way, or
@@ -99,13 +191,14 @@ fn reach(
     conditions: &[Condition],
     range: &Range,
     region: Shape,
+    usual: &Rational,
     budget: &Budget,
 ) -> Result<Reach, Exhausted> {
     let start = match &range.lower {
         Some(lower) if lower.is_zero() => Some(p.after_death(symbols, conditions, range.upper.as_ref(), budget)?),
         _ => None,
     };
-    let reach = Reach::without_tail(symbols, range, start, &p.usual);
+    let reach = Reach::without_tail(symbols, range, start, usual, MULTIPLES[0]);
     if range.upper.is_none()
         && let Some(to) = p.tail_start(symbols, conditions, &reach.from, region, budget)?
     {

@@ -39,6 +39,36 @@ pub fn symbolic_stable_set(
     Way::in_order(symbols, MOST_EXPANDED, |way| set_over(p, symbols, range, region, way, budget))
 }
 
+/// The stable set of a loop whose polynomial has been split: what lies in the stable sets of all parts.
+///
+/// Cost: that of [`symbolic_stable_set`] for each part, the short ones first, until one is stable nowhere.
+///
+/// # Errors
+/// As [`symbolic_stable_set`].
+pub(crate) fn stable_set_of_parts(
+    parts: &[SymbolicPolynomial],
+    range: &Range,
+    region: Shape,
+    budget: &Budget,
+) -> Result<StableSet, Exhausted> {
+    let size = |p: &&SymbolicPolynomial| p.polynomial.coeffs().iter().map(|c| c.terms().len()).sum::<usize>();
+    let mut parts: Vec<&SymbolicPolynomial> = parts.iter().collect();
+    parts.sort_by_key(size);
+    let mut common: Option<StableSet> = None;
+    for part in parts {
+        let found = symbolic_stable_set(part, range, region, budget)?;
+        let found = match common {
+            Some(common) => common.intersection(&found, budget)?,
+            None => found,
+        };
+        if found.is_empty() && found.undecided().is_empty() {
+            return Ok(found);
+        }
+        common = Some(found);
+    }
+    Ok(common.unwrap_or_else(|| StableSet::from_intervals(Vec::new(), Vec::new())))
+}
+
 /// The stable set, found in one way.
 pub(super) fn set_over(
     p: &SymbolicPolynomial,

@@ -5,6 +5,7 @@ use super::*;
 use crate::stability::{End, Range, RootCount, StableSet};
 use jurist_algebra::number::{Integer, parse_number};
 use jurist_algebra::poly::RationalFunction;
+use jurist_algebra::real::Real;
 use jurist_algebra::symbols::Definition;
 
 fn number(text: &str) -> Rational {
@@ -310,4 +311,21 @@ fn a_time_constant_is_decided_down_to_zero_where_its_mode_dies_away() {
         // 1/ln 2 for a gain of 3.
         assert_eq!(lower, limit.unwrap_or("0 domain"));
     }
+}
+
+/// Else the two numbers are compared to thousands of bits, and a bracket stays.
+#[test]
+fn a_function_that_is_given_twice_has_its_zeros_once() {
+    let [k, x] = [0, 1].map(MultiPoly::variable);
+    let symbols =
+        Arc::new(MovingSymbols::new(vec![("X".into(), Definition::Exponential(-&RationalFunction::variable(0)))]));
+    // Res(u - K, u - X) with X = exp(-K).
+    let f = Function::resultant(vec![k.negated(), MultiPoly::one()], vec![x.negated(), MultiPoly::one()]);
+    let range = Range::between(Some(Rational::ZERO), Some(Rational::from(2)));
+    let all = |_: &Real| true;
+    let (zeros, open) =
+        zeros_of_functions(vec![f.clone(), f], &symbols, &range, &Rational::ONE, &all, &Budget::unlimited()).unwrap();
+    let found: Vec<_> = zeros.iter().map(|(value, of)| (value.decimal(10), of.clone())).collect();
+    assert_eq!(found, [("0.5671432904".to_string(), vec![0, 1])]);
+    assert!(open.is_empty(), "{open:?}");
 }

@@ -1,0 +1,128 @@
+//! Numbers in statements: short fractions as they are, all others by twelve digits of which it is said, or plain, which way they are rounded.
+
+use super::number::{Q, Z};
+use num_traits::{Signed, Zero};
+
+/// So many digits of a decimal are written.
+const DIGITS: i64 = 12;
+
+/// Fractions that take no more characters are written as such.
+const SHORT: usize = 12;
+
+/// Whole numbers that take no more characters are.
+const WHOLE: usize = 15;
+
+/// Decimals from one to the other power of ten have no exponent.
+const PLAIN: std::ops::Range<i64> = -5..12;
+
+/// A number: its fraction if that is short; its decimal; or the first digits of that and three dots.
+pub(super) fn exact(q: &Q) -> String {
+    let fraction = q.to_string();
+    if fraction.len() <= SHORT || q.is_integer() && fraction.len() <= WHOLE {
+        return fraction;
+    }
+    let power = exponent(q) - DIGITS + 1;
+    let digits = over_power(&q.abs(), power);
+    let sign = if q.is_negative() { "-" } else { "" };
+    let dots = if digits.is_integer() { "" } else { "..." };
+    format!("{sign}{}", layout(&digits.floor().to_integer(), power, dots))
+}
+
+/// The ends of an interval, which is not made wider.
+pub(super) fn inward(low: &Q, high: &Q) -> [String; 2] {
+    [rounded(low, exponent(low), true), rounded(high, exponent(high), false)]
+}
+
+/// The ends of an enclosure, which is not made narrower: both with as many decimals.
+pub(super) fn outward(low: &Q, high: &Q) -> [String; 2] {
+    let power = exponent(low).max(exponent(high));
+    [rounded(low, power, false), rounded(high, power, true)]
+}
+
+/// A number, or a decimal that is not below, or not above it.
+fn rounded(q: &Q, leading: i64, up: bool) -> String {
+    let fraction = q.to_string();
+    if fraction.len() <= SHORT || q.is_integer() && fraction.len() <= WHOLE {
+        return fraction;
+    }
+    let power = leading - DIGITS + 1;
+    let digits = over_power(q, power);
+    let digits = if up { digits.ceil() } else { digits.floor() }.to_integer();
+    let sign = if digits.is_negative() { "-" } else { "" };
+    format!("{sign}{}", layout(&digits.abs(), power, ""))
+}
+
+/// Of the leading digit the power of ten; the least one of zero.
+fn exponent(q: &Q) -> i64 {
+    if q.is_zero() {
+        return i64::MIN / 2;
+    }
+    let length = |n: &Z| n.abs().to_string().len() as i64;
+    let about = length(q.numer()) - length(q.denom());
+    if over_power(&q.abs(), about) < Q::from(Z::from(1)) { about - 1 } else { about }
+}
+
+fn over_power(q: &Q, power: i64) -> Q {
+    let ten = Q::from(Z::from(10).pow(power.unsigned_abs() as u32));
+    if power >= 0 { q / ten } else { q * ten }
+}
+
+/// A whole number that is not negative times a power of ten, with something behind its digits.
+fn layout(digits: &Z, power: i64, dots: &str) -> String {
+    if digits.is_zero() {
+        return "0".into();
+    }
+    let all = digits.to_string();
+    let leading = all.len() as i64 + power - 1;
+    let digits = if dots.is_empty() { all.trim_end_matches('0') } else { &all };
+    if !PLAIN.contains(&leading) {
+        let point = if digits.len() > 1 { "." } else { "" };
+        return format!("{}{point}{}{dots}e{leading}", &digits[..1], &digits[1..]);
+    }
+    if leading < 0 {
+        return format!("0.{}{digits}{dots}", "0".repeat((-leading - 1) as usize));
+    }
+    let whole = leading as usize + 1;
+    match digits.len() > whole {
+        true => format!("{}.{}{dots}", &digits[..whole], &digits[whole..]),
+        false => {
+            format!("{digits}{}{}{dots}", "0".repeat(whole - digits.len()), if dots.is_empty() { "" } else { "." })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn q(text: &str) -> Q {
+        super::super::number::rational(text).unwrap()
+    }
+
+    #[test]
+    fn numbers_are_short_exact_or_marked() {
+        for (number, words) in [
+            ("8/3", "8/3"),
+            ("-1/10000", "-1/10000"),
+            ("123456789012345", "123456789012345"),
+            ("100000000000000000000", "1e20"),
+            ("1234567890123456789", "1.23456789012...e18"),
+            ("-1/1048576000", "-9.53674316406...e-10"),
+            ("1453635/2097152", "0.693147182464..."),
+            ("-100000001/100000000", "-1.00000001"),
+            ("1234567890123456/10", "1.23456789012...e14"),
+            ("0", "0"),
+        ] {
+            assert_eq!(exact(&q(number)), words);
+        }
+    }
+
+    #[test]
+    fn ends_are_rounded_the_way_that_is_true() {
+        let (low, high) = (q("20000000000001/30000000000000"), q("20000000000001/10000000000000"));
+        assert_eq!(inward(&low, &high), ["0.666666666667", "2"]);
+        assert_eq!(outward(&low, &high), ["0.66666666666", "2.00000000001"]);
+        assert_eq!(outward(&-high, &-low), ["-2.00000000001", "-0.66666666666"]);
+        assert_eq!(outward(&q("0"), &q("1/3000000000000")), ["0", "3.33333333334e-13"]);
+    }
+}

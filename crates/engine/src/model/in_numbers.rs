@@ -1,0 +1,55 @@
+//! Closed loops of which only numbers are asked for.
+
+use super::closed_loop::{ClosedLoop, Evaluated};
+use super::definition::Model;
+use super::evaluate::symbolic::Values;
+use super::symbols::Symbols;
+use crate::error::Error;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::RationalFunction;
+use std::cell::RefCell;
+
+/// A closed loop without free names, of which only numbers are asked for.
+#[derive(Clone, Debug)]
+pub(crate) struct InNumbers {
+    /// The closed loop, its entries in the symbols.
+    pub closed_loop: ClosedLoop,
+    /// The sample time.
+    pub sample_time: Option<RationalFunction>,
+    /// What the variables stand for.
+    pub symbols: Symbols,
+}
+
+impl InNumbers {
+    /// The evaluated model, where all is rational and nothing has stayed whole.
+    pub fn evaluated(&self, budget: &Budget) -> Result<Option<Evaluated>, Error> {
+        if !self.symbols.is_empty() {
+            return Ok(None);
+        }
+        Evaluated::of(self.closed_loop.clone(), self.sample_time.clone(), self.symbols.clone(), budget).map(Some)
+    }
+}
+
+impl Model {
+    /// The closed loop where every name has a value and numbers are all that is asked for: the exponentials of matrices behind holds
+    /// stay whole. `None` for the form `characteristic`, which has no closed loop.
+    ///
+    /// Cost: that of [`Model::evaluate`] without a characteristic polynomial, and without an expansion of what blocks do behind holds.
+    ///
+    /// # Errors
+    /// As [`Model::evaluate`].
+    pub(crate) fn closed_loop_in_numbers(
+        &self,
+        values: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Option<InNumbers>, Error> {
+        let mut answer = self.answer(&[], values, budget)?;
+        if let Values::Characteristic(_) = &answer.values {
+            return Ok(None);
+        }
+        answer.symbols = RefCell::new(answer.symbols.into_inner().keeping_flows());
+        let (closed_loop, sample_time, symbols) = self.connected(answer, budget)?;
+        Ok(Some(InNumbers { closed_loop, sample_time, symbols }))
+    }
+}

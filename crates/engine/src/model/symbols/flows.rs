@@ -1,0 +1,152 @@
+//! Loops of which only numbers are asked for: what a block does behind a hold stays whole.
+//!
+//! The entries of `exp(M t)` are symbols of their own there, and so are longer functions of them. Nothing is expanded, so that the
+//! closed loop is as short as its diagram; its symbols have enclosures and no other meaning.
+
+use super::{Meaning, Symbol, Symbols};
+use crate::model::symbols::Definition;
+use jurist_algebra::ball::{Ball, BallMatrix, exponential};
+use jurist_algebra::matrix::RationalMatrix;
+use jurist_algebra::number::Integer;
+use jurist_algebra::poly::RationalFunction;
+use jurist_algebra::symbols::{Symbols as Values, value_at_balls};
+
+/// Functions of more terms become symbols of their own.
+const MOST_TERMS: usize = 2;
+
+/// Bits that exponentials are computed with beside those that are asked for.
+const GUARD_BITS: u64 = 64;
+
+/// Bits after the point of values that are rounded to floating point.
+const ROUNDED_BITS: u64 = 256;
+
+impl Symbols {
+    /// The same where exponentials of matrices stay whole.
+    pub(in crate::model) fn keeping_flows(self) -> Symbols {
+        Symbols { keeps_flows: true, ..self }
+    }
+
+    /// Whether exponentials of matrices stay whole.
+    pub(in crate::model) fn keeps_flows(&self) -> bool {
+        self.keeps_flows
+    }
+
+    /// Whether an exponential of a matrix has stayed whole.
+    pub(crate) fn has_flows(&self) -> bool {
+        !self.flows.is_empty()
+    }
+
+    /// `exp(M t)` with a symbol for each entry that is not that of the identity for every matrix with the zeros of `M`.
+    pub(in crate::model) fn flow(&mut self, m: &RationalMatrix, time: &RationalFunction) -> RationalMatrix {
+        let n = m.rows();
+        let leads = reachable(m);
+        let scaled = m.scaled(time);
+        let of = self.flows.iter().position(|known| *known == scaled);
+        let of = of.unwrap_or_else(|| {
+            self.flows.push(scaled);
+            self.flows.len() - 1
+        });
+        RationalMatrix::from_fn(n, n, |row, column| {
+            if leads[row * n + column] {
+                return self.unnamed(Meaning::Flow { of, row, column }, format!("e{of}_{row}_{column}"));
+            }
+            if row == column { RationalFunction::one() } else { RationalFunction::zero() }
+        })
+    }
+
+    /// The matrix with a symbol in the place of each longer entry.
+    pub(in crate::model) fn shortened(&mut self, m: &RationalMatrix) -> RationalMatrix {
+        let is_long =
+            |f: &RationalFunction| f.numerator().terms().len() + f.denominator().terms().len() > MOST_TERMS + 1;
+        RationalMatrix::from_fn(m.rows(), m.columns(), |i, j| match &m[(i, j)] {
+            f if is_long(f) => {
+                let name = format!("v{}", self.table.len());
+                self.unnamed(Meaning::Value(f.clone()), name)
+            }
+            f => f.clone(),
+        })
+    }
+
+    /// A symbol that nobody sees, without a look for one that means the same.
+    fn unnamed(&mut self, meaning: Meaning, name: String) -> RationalFunction {
+        if let Meaning::Flow { .. } = meaning
+            && let Some(known) = self.table.iter().position(|s| s.name == name && s.meaning == meaning)
+        {
+            return RationalFunction::variable(self.kept.len() + known);
+        }
+        self.table.push(Symbol { name, meaning, is_moving: false });
+        RationalFunction::variable(self.kept.len() + self.table.len() - 1)
+    }
+
+    /// Enclosures of all symbols with so many bits after the point; `None` where one has no value, or a divisor may vanish.
+    ///
+    /// Cost: an exponential of each matrix, and of a small one for each function.
+    ///
+    /// # Panics
+    /// When a name is kept.
+    pub(crate) fn enclosed(&self, bits: u64) -> Option<Vec<Ball>> {
+        assert!(self.kept.is_empty(), "every name has a value");
+        let working = bits + GUARD_BITS;
+        let mut table = Values::new();
+        for symbol in &self.table {
+            // Something has to stand in the place of what is no function; no function depends on it.
+            let own = match &symbol.meaning {
+                Meaning::Constant(definition) => definition.clone(),
+                Meaning::Flow { .. } | Meaning::Value(_) => Definition::Pi,
+                Meaning::Delay(_) => return None,
+            };
+            table.push(&symbol.name, own);
+        }
+        let mut values: Vec<Ball> = table.values(working).to_vec();
+        let at = |f: &RationalFunction, values: &[Ball]| quotient_at(f, values, working);
+        let mut flows = Vec::with_capacity(self.flows.len());
+        for m in &self.flows {
+            let n = m.rows();
+            let entries = m.entries().iter().map(|f| at(f, &values)).collect::<Option<Vec<Ball>>>()?;
+            flows.push(exponential(&BallMatrix::from_fn(n, |i, j| entries[i * n + j].clone())));
+        }
+        for (i, symbol) in self.table.iter().enumerate() {
+            match &symbol.meaning {
+                Meaning::Flow { of, row, column } => values[i] = flows[*of].at(*row, *column).clone(),
+                Meaning::Value(f) => values[i] = at(f, &values)?,
+                _ => {}
+            }
+        }
+        Some(values.iter().map(|v| v.with_bits(bits)).collect())
+    }
+
+    /// The values of all symbols in floating point, from enclosures.
+    pub(super) fn values_of_flows_approximate(&self) -> Vec<f64> {
+        let Some(values) = self.enclosed(ROUNDED_BITS) else { return vec![f64::NAN; self.table.len()] };
+        let middle = |v: &Ball| v.lower().midpoint(&v.upper()).to_f64_approximate();
+        values.iter().map(middle).collect()
+    }
+}
+
+/// The value of a rational function where its variables have these; `None` where the denominator may vanish.
+pub(crate) fn quotient_at(f: &RationalFunction, values: &[Ball], bits: u64) -> Option<Ball> {
+    let numerator = value_at_balls(f.numerator(), values, bits);
+    if f.denominator().is_constant()
+        && let Some(c) = f.denominator().as_constant()
+        && c == Integer::ONE
+    {
+        return Some(numerator);
+    }
+    numerator.div(&value_at_balls(f.denominator(), values, bits))
+}
+
+/// For each pair of indices, row by row, whether a chain of entries that are not zero leads from the one to the other.
+fn reachable(m: &RationalMatrix) -> Vec<bool> {
+    let n = m.rows();
+    let mut leads: Vec<bool> = m.entries().iter().map(|f| !f.is_zero()).collect();
+    for via in 0..n {
+        for from in 0..n {
+            if leads[from * n + via] {
+                for to in 0..n {
+                    leads[from * n + to] |= leads[via * n + to];
+                }
+            }
+        }
+    }
+    leads
+}

@@ -1,0 +1,120 @@
+//! A loop whose parameters all have values, decided by enclosures of its numbers.
+
+use super::{Bound, Problem, Region};
+use crate::error::Error;
+use crate::model::{ClosedLoop, InNumbers, Symbols, quotient_at};
+use crate::stability::{AtPoint, EnclosedLoop, Shape, open_equation};
+use jurist_algebra::ball::{Ball, BallMatrix};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+
+/// Bits of the first attempt.
+const FIRST_BITS: u64 = 128;
+
+/// Bits after which a loop is so near to the boundary that exact algebra is asked.
+const MOST_BITS: u64 = 1 << 11;
+
+/// What enclosures say of a loop.
+#[derive(Clone, Debug)]
+pub(crate) enum FromNumbers {
+    /// Where the roots are, of how many, and whether an odd number of real ones lies beyond the boundary.
+    Known { at: AtPoint, degree: usize, drifts: bool },
+    /// What is not known: whether an equation holds.
+    Open(String),
+}
+
+impl Problem {
+    /// The closed loop in a form of which only numbers are to be asked: the closed loop, what its variables stand for, and the sample
+    /// time. Without holds, and where a name is free, they are those of [`Problem::closed_loop_over_symbols`].
+    ///
+    /// Cost: on the first call that of the closed loop without a characteristic polynomial.
+    ///
+    /// # Errors
+    /// As [`Problem::closed_loop_over_symbols`].
+    pub fn closed_loop_in_numbers(
+        &self,
+        budget: &Budget,
+    ) -> Result<(&ClosedLoop, &Symbols, Option<&RationalFunction>), Error> {
+        if let Some(found) = self.in_numbers(budget)?.filter(|found| found.symbols.has_flows()) {
+            return Ok((&found.closed_loop, &found.symbols, found.sample_time.as_ref()));
+        }
+        let (closed_loop, symbols) = self.closed_loop_over_symbols(budget)?;
+        Ok((closed_loop, symbols, self.algebra_over_symbols(budget)?.sample_time()))
+    }
+
+    /// Where the roots are as far as enclosures tell; `None` for a loop that is rational, has dead time, or is given by its
+    /// characteristic polynomial.
+    ///
+    /// Cost: enclosures of the closed loop's matrix and of its characteristic polynomial, with twice as many bits until the boundary is
+    /// left aside for certain.
+    ///
+    /// # Errors
+    /// As [`Problem::closed_loop_over_symbols`].
+    pub(crate) fn roots_in_numbers(&self, budget: &Budget) -> Result<Option<FromNumbers>, Error> {
+        let is_asked = |found: &&InNumbers| !found.symbols.is_empty() && found.symbols.delays().is_empty();
+        let Some(found) = self.in_numbers(budget)?.filter(is_asked) else { return Ok(None) };
+        budget.step("counting the roots");
+        let shape = self.shape();
+        let mut open: Option<String> = None;
+        let mut bits = FIRST_BITS;
+        while bits <= MOST_BITS {
+            let attempt = budget.enter(|| attempt(found, self.region(), shape, bits));
+            match attempt.and_then(|found| budget.check().map(|()| found)) {
+                Ok(FromNumbers::Open(question)) => open = Some(question),
+                Ok(known) => return Ok(Some(known)),
+                Err(stopped) => {
+                    return Err(open.map_or(stopped.clone(), |question| stopped.with_open(&question)).into());
+                }
+            }
+            bits *= 2;
+        }
+        Ok(open.map(FromNumbers::Open))
+    }
+}
+
+/// What is known with so many bits.
+fn attempt(of: &InNumbers, region: &Region, shape: Shape, bits: u64) -> FromNumbers {
+    let Some(polynomial) = enclosed(of, region, bits) else {
+        return FromNumbers::Open("whether something is divided by zero".to_owned());
+    };
+    match EnclosedLoop::of(&polynomial, shape) {
+        Some(EnclosedLoop { count, drifts }) => {
+            let at = AtPoint::Defined { count, infinite: 0 };
+            FromNumbers::Known { at, degree: polynomial.len() - 1, drifts }
+        }
+        None => FromNumbers::Open(open_equation(&polynomial, shape)),
+    }
+}
+
+/// The characteristic polynomial with the bound of the region put in, as balls; `None` where a divisor may vanish.
+fn enclosed(of: &InNumbers, region: &Region, bits: u64) -> Option<Vec<Ball>> {
+    let values = of.symbols.enclosed(bits)?;
+    let a = &of.closed_loop.a;
+    let mut poles = of.closed_loop.poles.iter().chain(a.entries().iter().map(RationalFunction::denominator));
+    let may_vanish = |p: &MultiPoly| quotient_at(&p.clone().into(), &values, bits).is_none_or(|v| v.contains_zero());
+    if poles.any(|p| !p.is_one() && may_vanish(p)) {
+        return None;
+    }
+    let n = a.rows();
+    let entries = a.entries().iter().map(|f| quotient_at(f, &values, bits)).collect::<Option<Vec<Ball>>>()?;
+    let matrix = BallMatrix::from_fn(n, |i, j| entries[i * n + j].clone());
+    Some(match region {
+        Region::Disc(Bound::Number(r)) if !r.is_one() => in_disc(matrix.characteristic_polynomial(bits), r, bits),
+        Region::HalfPlane(Bound::Number(decay)) if !decay.is_zero() => {
+            let decay = Ball::from_rational(decay, bits);
+            let moved = |i: usize, j: usize| if i == j { matrix.at(i, i).add(&decay) } else { matrix.at(i, j).clone() };
+            BallMatrix::from_fn(n, moved).characteristic_polynomial(bits)
+        }
+        _ => matrix.characteristic_polynomial(bits),
+    })
+}
+
+/// `D(r z)`.
+fn in_disc(polynomial: Vec<Ball>, r: &Rational, bits: u64) -> Vec<Ball> {
+    let r = Ball::from_rational(r, bits);
+    polynomial.iter().enumerate().map(|(k, c)| c.mul(&r.power(k as u64))).collect()
+}
+
+#[cfg(test)]
+mod tests;

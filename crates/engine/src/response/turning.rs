@@ -1,0 +1,174 @@
+//! How far the open loop has turned at a frequency: its phase, continued from the lowest frequency on.
+
+use super::crossings::samples_between;
+use super::ground::Ground;
+use super::open_loop::{OpenLoop, Parts, with_parts};
+use super::place::inner;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Rational, Sign};
+use jurist_algebra::poly::{Domain, Poly};
+use jurist_algebra::real::Real;
+
+/// The quarter of a turn that the phase of an open loop without its dead time lies in, at every frequency.
+///
+/// The phase leaves a quarter only where the real or the imaginary part of `N conj(D0)` vanishes. Between neighbouring zeros one rational
+/// point tells the quarter, and at one zero only one of the parts changes its sign, so that the quarters follow one another without
+/// doubt. Where both vanish the open loop has poles or zeros on the boundary: these count as inside of it, so that each
+/// pole takes half a turn off and each zero adds one.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{BlockBuilder, Model, Time};
+/// use jurist_engine::response::{OpenLoop, Turning};
+/// let plant = BlockBuilder::new("plant", "r - y", "y").transfer("9/(s + 1)^5");
+/// let (model, _) = Model::builder(Time::Continuous).inputs(["r"]).outputs(["y"]).block(plant).build()?;
+/// let (problem, budget) = (model.ask().problem()?, Budget::unlimited());
+/// let turning = Turning::of(&OpenLoop::of(&problem, None, &budget)?, &budget)?;
+/// assert_eq!(turning.middle(&"-1/100".parse().unwrap()), -45);
+/// assert_eq!(turning.middle(&(-100).into()), -405); // -5 arctan 10 = -421 degrees
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Turning {
+    /// Where the phase leaves its quarter, ascending in `x = z + 1/z` or `x = s^2`.
+    zeros: Vec<Rational>,
+    /// Between them: the quarter from 90 degrees times this number on.
+    quarters: Vec<i64>,
+}
+
+/// Digits that tell on which side of a zero a frequency is.
+const DIGITS: usize = 17;
+
+impl Turning {
+    /// Of an open loop; its dead time turns it further by `-omega tau`.
+    ///
+    /// Cost: isolation of the zeros of a polynomial of about twice the order, and a few signs between any two.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out, or two zeros are not told apart.
+    pub fn of(open_loop: &OpenLoop, budget: &Budget) -> Result<Turning, Exhausted> {
+        with_parts!(open_loop, parts => Turning::over(parts, budget))
+    }
+
+    /// The middle of the quarter, in degrees, at a point of the boundary given by `x = z + 1/z` or `x = s^2`: the phase is at most 45
+    /// degrees away, or one quarter more next to a zero.
+    pub fn middle(&self, x: &Rational) -> i64 {
+        90 * self.quarters[self.zeros.partition_point(|zero| zero < x)] + 45
+    }
+
+    fn over<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<Turning, Exhausted> {
+        let (r, ground, shape) = (&parts.reduced, &parts.ground, parts.shape);
+        let sides = budget.enter(|| Sides::of([&r.twice_real, &r.imaginary], &r.denominator_squared))?;
+        let all = sides.product();
+        let zeros = if all.is_constant() { Vec::new() } else { ground.zeros(&all, &inner(shape), budget)? };
+        let mut found = Vec::with_capacity(zeros.len() + 1);
+        for sample in samples_between(&zeros, shape, budget)? {
+            found.push(Cell::at(&sides, &Real::from(sample), ground, budget)?);
+        }
+        // From the lowest frequency on, where x is greatest.
+        let mut quarters = vec![0; found.len()];
+        let mut last = found.len() - 1;
+        quarters[last] = found[last].first();
+        for next in (0..last).rev() {
+            quarters[next] = quarters[last] + found[last].turn_to(&found[next]);
+            last = next;
+        }
+        let middle = |zero: &Real| {
+            let (lo, hi) = zero.refined_to_digits(DIGITS).enclosure();
+            lo.midpoint(&hi)
+        };
+        let zeros = budget.enter(|| zeros.iter().map(middle).collect())?;
+        Ok(Turning { zeros, quarters })
+    }
+}
+
+/// Twice the real part of `N conj(D0)` and its imaginary part over `sin theta` or `omega`, in factors.
+struct Sides<R: Domain> {
+    /// Both without what they have in common.
+    real: Poly<R>,
+    imaginary: Poly<R>,
+    /// What they have in common, where it is negative the open loop has turned by half a turn.
+    common: Poly<R>,
+    /// The zeros of what they have in common: those of the denominator and of the numerator, as products of powers: the factor at `k`
+    /// has the zeros of multiplicity `k + 1` at least.
+    poles: Vec<Poly<R>>,
+    zeros: Vec<Poly<R>>,
+}
+
+impl<R: Domain> Sides<R> {
+    fn of([real, imaginary]: [&Poly<R>; 2], denominator_squared: &Poly<R>) -> Sides<R> {
+        let common = real.gcd(imaginary);
+        let divided = |p: &Poly<R>, by: &Poly<R>| p.div_exact(by).expect("a gcd divides");
+        let of_poles = common.gcd(denominator_squared);
+        let of_zeros = divided(&common, &of_poles);
+        let [real, imaginary] = [real, imaginary].map(|p| divided(p, &common));
+        Sides { real, imaginary, poles: multiple(of_poles), zeros: multiple(of_zeros), common }
+    }
+
+    /// A polynomial that vanishes wherever a part changes its sign.
+    fn product(&self) -> Poly<R> {
+        let all = [&self.real, &self.imaginary].into_iter().chain(self.poles.first()).chain(self.zeros.first());
+        let product = all.filter(|p| !p.is_zero()).fold(Poly::one(), |product, p| product.times(p));
+        let repeated = product.gcd(&product.derivative());
+        if product.is_constant() { product } else { product.div_exact(&repeated).expect("a gcd divides") }
+    }
+}
+
+/// Polynomials with simple zeros: the first has all zeros of this one, the second those that are at least double, and so on.
+fn multiple<R: Domain>(p: Poly<R>) -> Vec<Poly<R>> {
+    let (mut out, mut p) = (Vec::new(), p);
+    while !p.is_constant() {
+        let repeated = p.gcd(&p.derivative());
+        out.push(p.div_exact(&repeated).expect("a gcd divides"));
+        p = repeated;
+    }
+    out
+}
+
+/// The signs in a cell between two zeros.
+struct Cell {
+    /// Of both parts without their common factor.
+    sides: [Sign; 2],
+    common: Sign,
+    poles: Vec<Sign>,
+    zeros: Vec<Sign>,
+}
+
+impl Cell {
+    fn at<G: Ground>(sides: &Sides<G::Number>, x: &Real, ground: &G, budget: &Budget) -> Result<Cell, Exhausted> {
+        let sign = |p: &Poly<G::Number>| ground.sign_at(p, x, budget);
+        let each = |list: &[Poly<G::Number>]| list.iter().map(sign).collect::<Result<Vec<Sign>, Exhausted>>();
+        Ok(Cell {
+            sides: [sign(&sides.real)?, sign(&sides.imaginary)?],
+            common: sign(&sides.common)?,
+            poles: each(&sides.poles)?,
+            zeros: each(&sides.zeros)?,
+        })
+    }
+
+    /// The quarter from 0 on, without the common factor; a part that is zero everywhere counts as positive.
+    fn quarter(&self) -> i64 {
+        match self.sides.map(Sign::is_lt) {
+            [false, false] => 0,
+            [true, false] => 1,
+            [true, true] => 2,
+            [false, true] => 3,
+        }
+    }
+
+    /// The quarter of the lowest frequencies, between -180 and 180 degrees.
+    fn first(&self) -> i64 {
+        let quarter = (self.quarter() + if self.common.is_lt() { 2 } else { 0 }) % 4;
+        if quarter < 2 { quarter } else { quarter - 4 }
+    }
+
+    /// The quarters turned to a neighbour at higher frequencies.
+    fn turn_to(&self, next: &Cell) -> i64 {
+        let own = match (next.quarter() - self.quarter()).rem_euclid(4) {
+            3 => -1,
+            turn => turn,
+        };
+        let passed = |a: &[Sign], b: &[Sign]| a.iter().zip(b).filter(|(a, b)| a != b).count() as i64;
+        own - 2 * passed(&self.poles, &next.poles) + 2 * passed(&self.zeros, &next.zeros)
+    }
+}
