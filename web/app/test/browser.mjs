@@ -60,9 +60,13 @@ export async function opened(url, { width = 1200, height = 900, mobile = false, 
       await page.until(asked, "the first map");
       await page.answered();
     },
+    /** Until pictures are drawn: they are asked for with the sentences and come with the next frame. */
+    drawn: () => browser.value("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))"),
     /** Until there is nothing more to answer, but for a map that takes minutes. */
-    answered: ({ map = true } = {}) =>
-      until(browser, `Object.entries(jurist.engine.seats).every(([name, s]) => (s.ready || !s.worker) && s.waiting.length === 0 && !s.busy || ${!map} && name === "long") && ` + 'document.getElementById("verdict-word").textContent !== "…" && document.querySelector(".cm-content")', "answers"),
+    async answered({ map = true } = {}) {
+      await until(browser, `Object.entries(jurist.engine.seats).every(([name, s]) => (s.ready || !s.worker) && s.waiting.length === 0 && !s.busy || ${!map} && name === "long") && ` + 'document.getElementById("verdict-word").textContent !== "…" && document.querySelector(".cm-content")', "answers");
+      await page.drawn();
+    },
     async take(text, options) {
       await browser.value(`jurist.page.open(${JSON.stringify(text)}, { m: "" })`);
       await page.settled(options);
