@@ -1,6 +1,6 @@
 //! Certificates of maps by boxes, made with what the check sees as the judge of each box.
 
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, checkpoint};
 use jurist_algebra::number::Rational;
 use jurist_check::{BoxJudge, JudgedBox, Limits};
 use jurist_engine::answer::{Answer, MapBoxes};
@@ -24,6 +24,9 @@ const LEFT_BITS: u64 = 3;
 
 /// More work is not done, counted by the judge: the slower checker takes half a minute at most for what comes out.
 const MOST_WORK: u64 = 40_000_000_000;
+
+/// So many of the judge's units are a unit of a budget.
+const UNITS_OF_JUDGE: u64 = 32;
 
 /// No box is halved more often.
 const MOST_HALVINGS: usize = 60;
@@ -109,8 +112,9 @@ pub fn certify_boxes(answer: &Answer<MapBoxes>, budget: &Budget) -> Result<Certi
     let judge = judge(problem, window, budget)?;
     let map = &answer.value().boxes;
     let goal = &answer.value().goal * &Rational::dyadic(&1.into(), LEFT_BITS);
-    let (tree, [stable, unstable]) = Search::new(&map.boxes, &map.window, goal, &judge, false).tree(MOST_WORK, budget);
     let (order, bits) = precision(problem, budget)?;
+    let search = Search::new(&map.boxes, &map.window, goal, &judge, false);
+    let (tree, [stable, unstable]) = search.tree(problem.model().source().text.len(), MOST_WORK, budget);
     Ok(CertifiedBoxes { text: problem.boxes_certificate(window, &tree, order, bits)?, stable, unstable })
 }
 
@@ -161,13 +165,22 @@ impl<'a> Search<'a> {
         search
     }
 
-    /// The tree as text, and the shares that are stable and not stable in it; the judge does no more work than that.
-    pub fn tree(mut self, most_work: u64, budget: &Budget) -> (String, [Rational; 2]) {
+    /// The tree as text, and the shares that are stable and not stable in it; the judge does no more work than that, nor than a check of this
+    /// tree and a model of so many bytes may be.
+    pub fn tree(mut self, model_bytes: usize, most_work: u64, budget: &Budget) -> (String, [Rational; 2]) {
         let mut shares = [Rational::ZERO, Rational::ZERO];
         let mut leaves = 0;
         // What is decided, and waits.
         let mut waiting = self.decided_share();
-        while waiting > self.goal && self.judge.work() < most_work && budget.check().is_ok() {
+        // A node is a letter of the tree.
+        let allowed = |nodes: usize| most_work.min(BoxJudge::allowed(model_bytes + nodes));
+        let mut counted = self.judge.work();
+        while waiting > self.goal && self.judge.work() < allowed(self.nodes.len()) {
+            let done = self.judge.work() - counted;
+            counted += done;
+            if budget.enter(|| checkpoint(1 + done / UNITS_OF_JUDGE)).is_err() {
+                break;
+            }
             let Some(mut open) = self.open.pop_front() else { break };
             let share = Rational::dyadic(&1.into(), open.halvings as u64);
             let axis = match &open.wanted {

@@ -106,13 +106,13 @@ fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<Certif
     let mut pieces = Vec::new();
     cut(answer.value(), ends.clone(), 0, &mut |x, verdict| pieces.push(PlaneBox { window: over(x), verdict }));
     let goal = Rational::dyadic(&1.into(), LEFT_BITS);
-    let (tree, [stable, unstable]) =
-        Search::new(&pieces, &over(ends.clone()), goal, &judge, true).tree(MOST_WORK, budget);
+    let (order, bits) = precision(&plane, budget)?;
+    let search = Search::new(&pieces, &over(ends.clone()), goal, &judge, true);
+    let (tree, [stable, unstable]) = search.tree(problem.model().source().text.len(), MOST_WORK, budget);
     let proved = &stable + &unstable;
     if proved.is_zero() {
         return Ok(None);
     }
-    let (order, bits) = precision(&plane, budget)?;
     let text = plane.boxes_certificate(&window, &tree, order, bits)?;
     Ok(Some(CertifiedIntervals { text, window: Some(ends), proved }))
 }

@@ -84,10 +84,14 @@ impl Clock {
 
     /// With the work that texts of so many bytes may be: a short text costs seconds at most.
     pub fn of_texts(timeout: Duration, bytes: usize) -> Self {
-        let total = WORK.saturating_add(WORK_OF_BYTE.saturating_mul(bytes as u64));
         let mut clock = Clock::new(timeout);
-        clock.total = total;
+        clock.total = Clock::allowed(bytes);
         clock
+    }
+
+    /// The work that a check of texts of so many bytes may be.
+    pub fn allowed(bytes: usize) -> u64 {
+        WORK.saturating_add(WORK_OF_BYTE.saturating_mul(bytes as u64))
     }
 
     /// An error for what would be too much, which is told from what is wrong.

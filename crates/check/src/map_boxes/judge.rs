@@ -167,6 +167,12 @@ impl BoxJudge {
         self.clock.work()
     }
 
+    /// The work that a check may be, in the units of [`work`](BoxJudge::work), where the texts of model and certificate have so many bytes together:
+    /// what takes more is refused.
+    pub fn allowed(bytes: usize) -> u64 {
+        Clock::allowed(bytes)
+    }
+
     /// Whether the loop is shown to be stable at every point of the closed box, or, with `stable` false, at none.
     ///
     /// Cost: the functions over the box, where those of a larger box are not enough; for each part of the imaginary axis, halved until it
