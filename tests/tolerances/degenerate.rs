@@ -122,6 +122,23 @@ fn a_box_that_touches_at_an_irrational_point_is_undecided_with_the_cell() {
     assert_eq!(pair.exact.unwrap().value.exact(), Some(Rational::ONE));
 }
 
+/// `s + (a - u)^2 + (b - v)^2`, also with sides that are askew, is marginal at one point inside of the box and stable at all others.
+#[test]
+fn a_point_inside_that_is_touched_bounds_the_factor() {
+    let parameters = "a = { nominal = 0, tolerance = 1 }\nb = { nominal = 0, tolerance = 1 }";
+    for characteristic in
+        ["s + (a - 1/3)^2 + (b - 1/3)^2", "s + (a - b/2 - 1/6)^2 + (b - 1/3)^2", "s + (a - 1/3)^2 + (b + 1/7)^2"]
+    {
+        let touched = answer(parameters, characteristic);
+        assert!(!touched.decision.is_stable(), "{characteristic}");
+        bracket_holds(&touched, "1/3");
+    }
+    // Where the point has no rational coordinates, what is below it is proved all the same: sqrt(1/8) = 0.35355339...
+    let irrational = answer(parameters, "s + (8*a^2 - 1)^2 + (b - a)^2");
+    let factor = irrational.factor.as_ref().unwrap();
+    assert!(factor.lower > number("0.353") && factor.lower < number("0.35356"), "{} is proved", factor.lower);
+}
+
 #[test]
 fn a_division_by_what_keeps_its_sign_is_no_obstacle() {
     let quotient =

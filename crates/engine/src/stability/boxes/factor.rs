@@ -18,6 +18,9 @@ const MOST_CELLS: usize = 1 << 18;
 /// How often a box that is not decided is made smaller.
 const RETREATS: u32 = 6;
 
+/// How often a box is made as small as leaves out the cell at which its proof ended, before it is made smaller by a share.
+const WITHDRAWALS: u32 = 8;
+
 /// How often the upper end moves to a point at which a proof failed.
 const REFUTATIONS: u32 = 64;
 
@@ -250,12 +253,14 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         let mut proved = known.map(|proof| (Rational::ONE, proof));
         let mut open = None;
         let mut coarser = Rational::ONE;
-        let (mut retreats, mut refutations) = (0, 0);
+        // The box does not reach the cell at which a proof ended: there stability may be touched and not lost.
+        let mut beneath: Option<Rational> = None;
+        let (mut withdrawals, mut retreats, mut refutations) = (0, 0, 0);
         // At first not so near to the end: if that is not the nearest one, a box is refuted sooner than it is left open.
         let mut is_rough = true;
         budget.step("proving the largest box");
         loop {
-            let end = search.best.as_ref().map(|b| &b.lo).into_iter().chain(most).min();
+            let end = search.best.as_ref().map(|b| &b.lo).into_iter().chain(most).chain(&beneath).min();
             let target = match end {
                 None => Rational::from(FAR),
                 Some(end) => {
@@ -291,7 +296,8 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
                     budget.step("looking for the worst point");
                     let nearer = budget.enter(|| search.run_from(&point));
                     budget.step("proving the largest box");
-                    if matches!(nearer, Ok(false)) && !self.reaches(&mut search, &point) {
+                    let is_bounded = nearer.is_err() || self.reaches(&mut search, &point);
+                    if !is_bounded && matches!(nearer, Ok(false)) {
                         open = Some(("a point that no line from the nominal one shows", Vec::new()));
                         break;
                     }
@@ -318,7 +324,14 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
                         (coarser, retreats, open, is_rough) = (Rational::ONE, 0, None, proved.is_none());
                         continue;
                     }
+                    let nearest = self.nearest_factor(&cell);
                     open.get_or_insert((why, cell));
+                    let is_progress = proved.as_ref().map_or(!nearest.is_zero(), |(lower, _)| *lower < nearest);
+                    if withdrawals < WITHDRAWALS && is_progress && nearest < target {
+                        withdrawals += 1;
+                        beneath = Some(nearest);
+                        continue;
+                    }
                     retreats += 1;
                     if retreats > RETREATS {
                         break;
@@ -372,6 +385,13 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
             offset.abs().checked_div(side.width(offset.sign())).unwrap_or(Rational::ZERO)
         });
         shares.max().unwrap_or(Rational::ZERO)
+    }
+
+    /// The least factor whose box holds a point of a cell.
+    fn nearest_factor(&self, cell: &[[Rational; 2]]) -> Rational {
+        let sides = self.sides.iter().zip(cell);
+        let nearest = |(side, [low, high]): (&Side, &[Rational; 2])| side.nominal().max(low).min(high).clone();
+        self.factor_of(&sides.map(nearest).collect::<Vec<_>>())
     }
 
     fn bracketed(

@@ -2,7 +2,7 @@
 
 use super::line::{Line, unit};
 use super::polynomial::{BoxPolynomial, Bundle};
-use super::prove::{Closing, Outcome, closed_by_constant, closed_by_vector, prove, signs_at};
+use super::prove::{Closing, Outcome, closed_by_constant, closed_by_vector, not_stable_near, prove, signs_at};
 use crate::stability::AtPoint;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
@@ -274,7 +274,13 @@ impl Family for BoxPolynomial {
     ) -> Result<Outcome, Exhausted> {
         let by = |closing: Closing, cells: usize| prove(self, sides, known.0, known.1, (closing, cells), budget);
         match by(closed_by_constant, cells.min(CONSTANT_CELLS))? {
-            Outcome::Open { .. } => by(closed_by_vector, cells),
+            Outcome::Open { .. } => Ok(match by(closed_by_vector, cells)? {
+                Outcome::Open { why, cell } => match not_stable_near(self, &cell, sides) {
+                    Some(point) => Outcome::Refuted(point),
+                    None => Outcome::Open { why, cell },
+                },
+                outcome => outcome,
+            }),
             outcome => Ok(outcome),
         }
     }

@@ -130,6 +130,22 @@ fn not_stable_in(p: &BoxPolynomial, sides: &[[Rational; 2]]) -> Option<Vec<Ratio
     })
 }
 
+/// The simplest point of a box in or beside a cell, if it is not stable: a point that is touched keeps the proof of the cells around it open, too.
+pub(super) fn not_stable_near(
+    p: &BoxPolynomial,
+    cell: &[[Rational; 2]],
+    sides: &[[Rational; 2]],
+) -> Option<Vec<Rational>> {
+    let wider = |([low, high], [least, most]): (&[Rational; 2], &[Rational; 2])| {
+        let width = high - low;
+        let wider = [(low - &width).max(least.clone()), (high + &width).min(most.clone())];
+        (wider[0] <= wider[1]).then_some(wider)
+    };
+    let wider = cell.iter().zip(sides).map(wider).collect::<Option<Vec<_>>>()?;
+    let point = simplest_point(&wider);
+    (point.len() == sides.len() && !p.is_stable_at(&point)).then_some(point)
+}
+
 /// Decides one box, with at most so many cells, closed in this way.
 ///
 /// No root crosses the imaginary axis in a connected set on which no divisor, the constant and the leading coefficient and the
