@@ -152,7 +152,8 @@ fn in_text(text: &str, draw: &mut Draw) -> String {
         0 => format!("{before}{after}"),
         1 => format!("{before}{cut}{cut}{after}"),
         2 => {
-            let mut lines: Vec<&str> = text.lines().collect();
+            // An empty text has an empty line.
+            let mut lines: Vec<&str> = text.split('\n').collect();
             let (a, b) = (draw.below(lines.len()), draw.below(lines.len()));
             match draw.below(3) {
                 0 => lines.swap(a, b),
