@@ -310,7 +310,7 @@ impl PhaseMargin {
 }
 
 /// The least value of `|1 + L|^2`.
-pub(super) fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
+fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
     with_parts!(open_loop, parts => {
         let r = &parts.reduced;
         extreme_over(&parts.ground, &r.sum_squared, &r.denominator_squared, parts.shape, Ordering::Less, budget)
