@@ -206,8 +206,10 @@ impl<R: Domain> Quotient<R> {
         Ok(match requirement.rule() {
             Rule::Circle(circle) => {
                 let excess = circle.excess(&squared(&d.plus(&n)), &squared(&circle.combination(&d, &n)));
-                let excess = budget.enter(|| excess.square_free_part())?;
+                // Where the content is zero, all frequencies pass to the other side at once.
+                let (content, excess) = budget.enter(|| (excess.content(), excess.square_free_part()))?;
                 let mut zeros = at_ends(&excess);
+                zeros.extend((!content.is_zero()).then(|| by.function(content)));
                 zeros.push(repeated(&excess)?);
                 Boundaries { zeros, values: Vec::new(), touches: one() }
             }

@@ -1,0 +1,197 @@
+//! Requirements that are a circle which the open loop keeps to one side of: answers by hand, and peaks over sampled frequencies.
+
+use crate::helpers::model::load;
+use crate::helpers::number::ratio;
+use crate::helpers::random::Random;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, UniPoly};
+use jurist_engine::model::Model;
+use jurist_engine::response::{RequiredSet, Requirement};
+use jurist_engine::stability::{Shape, is_stable};
+
+/// A single loop; `K` is free.
+fn loop_with(time: &str, transfer: &str) -> Model {
+    load(&text_of(time, transfer))
+}
+
+fn text_of(time: &str, transfer: &str) -> String {
+    format!(
+        "time = '{time}'\n[parameters]\nK = {{ nominal = '1/10', tolerance = '50%' }}\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+         [[block]]\nname = 'L'\ninput = 'r - y'\noutput = 'y'\ntransfer = '{transfer}'\n"
+    )
+}
+
+fn requirement(model: &Model, name: &str, value: &str) -> Requirement {
+    let asked = model.requirements(&[(name, value)], &[], &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}"));
+    asked.list.into_iter().next().expect("no region")
+}
+
+fn required(model: &Model, requirement: &Requirement) -> RequiredSet {
+    let problem = model.ask().free("K").problem().unwrap();
+    let list = std::slice::from_ref(requirement);
+    problem.required_set(list, None, &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}")).into_value()
+}
+
+fn contains(set: &RequiredSet, x: &Rational) -> bool {
+    set.intervals.iter().any(|interval| interval.contains(x))
+}
+
+/// The set as text, with brackets where an end belongs to it.
+fn written(set: &RequiredSet) -> String {
+    assert!(set.undecided.is_empty());
+    let parts: Vec<String> = set
+        .intervals
+        .iter()
+        .map(|i| {
+            let value = |end: &jurist_engine::response::RequiredEnd| end.value().decimal(12);
+            let (lower, upper) = (i.lower.as_ref().map(value), i.upper.as_ref().map(value));
+            let is_in = |end: &Option<jurist_engine::response::RequiredEnd>| {
+                end.as_ref().and_then(|end| end.value().exact()).is_some_and(|x| i.contains(&x))
+            };
+            let is_closed = |end: &Option<jurist_engine::response::RequiredEnd>| match end {
+                Some(jurist_engine::response::RequiredEnd::Requirement { closed, .. }) => *closed,
+                other => is_in(other),
+            };
+            format!(
+                "{}{}, {}{}",
+                if is_closed(&i.lower) { '[' } else { '(' },
+                lower.unwrap_or_else(|| "-".to_owned()),
+                upper.unwrap_or_else(|| "-".to_owned()),
+                if is_closed(&i.upper) { ']' } else { ')' },
+            )
+        })
+        .collect();
+    parts.join(" ")
+}
+
+const CONTINUOUS: &str = "continuous";
+const DISCRETE: &str = "discrete";
+
+/// Sets by hand: time, open loop, requirement, number, set.
+const BY_HAND: [(&str, &str, &str, &str, &str); 6] = [
+    (CONTINUOUS, "K/(s + 1)", "modulus_margin", "1/2", "[-0.5, -)"),
+    // |1 + L|^2 - 1 = (K^2 + 2 K)/(1 + w^2) has one sign at all frequencies.
+    (CONTINUOUS, "K/(s + 1)", "modulus_margin", "1", "[0, -)"),
+    (CONTINUOUS, "K/s", "modulus_margin", "1", "(0, -)"),
+    (CONTINUOUS, "K", "modulus_margin", "2", "(-, -3] [1, -)"),
+    (DISCRETE, "K/z", "modulus_margin", "1/2", "[-0.5, 0.5]"),
+    (DISCRETE, "K/z", "modulus_margin", "2", ""),
+];
+
+#[test]
+fn sets_that_are_known_by_hand() {
+    for (time, transfer, name, value, expected) in BY_HAND {
+        let model = loop_with(time, transfer);
+        let requirement = requirement(&model, name, value);
+        assert_eq!(written(&required(&model, &requirement)), expected, "{transfer}: {}", requirement.text());
+    }
+}
+
+/// A requirement, and the least of which ratio of moduli it asks for: `|1 + L|` over `|u + v L|`.
+fn asked(which: usize, model: &Model, random: &mut Random) -> (Requirement, [f64; 2], f64) {
+    let number = ratio(2 + random.below(14) as i64, 8);
+    let value = number.to_f64_approximate();
+    let (name, combined, least) = match which {
+        _ => ("modulus_margin", [1.0, 0.0], value),
+    };
+    (requirement(model, name, &number.to_string()), combined, least)
+}
+
+/// How many requirements [`asked`] knows.
+const KINDS: usize = 1;
+
+type Complex = (f64, f64);
+
+fn times(a: Complex, b: Complex) -> Complex {
+    (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
+}
+
+fn value_at(p: &[f64], x: Complex) -> Complex {
+    p.iter().rev().fold((0.0, 0.0), |sum, c| {
+        let (re, im) = times(sum, x);
+        (re + c, im)
+    })
+}
+
+/// The least `|D + N|/|u D + v N|` over frequencies, in floating point: samples, and thirds of what is left around the least one.
+fn least_ratio(d: &[f64], n: &[f64], [u, v]: [f64; 2], shape: Shape) -> f64 {
+    let ratio = |t: f64| {
+        let x = match shape {
+            Shape::UnitDisc => ((std::f64::consts::PI * t).cos(), (std::f64::consts::PI * t).sin()),
+            Shape::LeftHalfPlane => (0.0, t / (1.0 - t)),
+        };
+        let (d, n) = (value_at(d, x), value_at(n, x));
+        let size = |z: Complex| z.0.hypot(z.1);
+        size((d.0 + n.0, d.1 + n.1)) / size((u * d.0 + v * n.0, u * d.1 + v * n.1))
+    };
+    const SAMPLES: usize = 4000;
+    let at = |k: usize| (k as f64 + 0.5) / (SAMPLES as f64 + 1.0);
+    let best = (0..SAMPLES).min_by(|a, b| ratio(at(*a)).total_cmp(&ratio(at(*b)))).unwrap();
+    let (mut lo, mut hi) = (at(best.saturating_sub(1)), at(best + 1).min(1.0 - 1e-9));
+    if best == 0 {
+        lo = 1e-9;
+    }
+    for _ in 0..80 {
+        let (a, b) = (lo + (hi - lo) / 3.0, hi - (hi - lo) / 3.0);
+        if ratio(a) < ratio(b) { hi = b } else { lo = a }
+    }
+    ratio(lo)
+}
+
+/// Random loops and values: `K N/D0`, and `N/(D0 + K)`.
+#[test]
+fn sets_of_random_loops_agree_with_sampled_peaks() {
+    let mut random = Random::new(20);
+    let mut seen = [[0; 2]; KINDS];
+    for round in 0..60 {
+        let (time, shape) = [(CONTINUOUS, Shape::LeftHalfPlane), (DISCRETE, Shape::UnitDisc)][round % 2];
+        let mut coefficients = |terms: usize, most: usize| -> Vec<i64> {
+            (0..terms).map(|_| random.below(2 * most + 1) as i64 - most as i64).collect()
+        };
+        let mut d = coefficients(3 - round / 30, 4);
+        let mut n = coefficients(1 + round / 20, 3);
+        d.push(if time == DISCRETE { 9 } else { 5 });
+        n[0] += i64::from(n.iter().all(|c| *c == 0));
+        let variable = if time == DISCRETE { "z" } else { "s" };
+        let terms = |p: &[i64]| {
+            let all: Vec<String> = p.iter().enumerate().map(|(i, c)| format!("({c})*{variable}^{i}")).collect();
+            all.join(" + ")
+        };
+        let is_gain = round % 3 != 2;
+        let transfer = match is_gain {
+            true => format!("K*({})/({})", terms(&n), terms(&d)),
+            false => format!("({})/({} + K)", terms(&n), terms(&d)),
+        };
+        let model = loop_with(time, &transfer);
+        for which in 0..KINDS {
+            let (requirement, combined, least) = asked(which, &model, &mut random);
+            let set = required(&model, &requirement);
+            for _ in 0..12 {
+                let x = ratio(random.below(4001) as i64 - 2000, 300);
+                let factor = x.to_f64_approximate();
+                let floats = |p: &[i64]| p.iter().map(|c| *c as f64).collect::<Vec<_>>();
+                let (mut df, mut nf) = (floats(&d), floats(&n));
+                let (top, bottom) = (x.numerator(), x.denominator());
+                let [whole_d, whole_n] = [&d, &n].map(|p| UniPoly::from_i64(p).scaled(&bottom));
+                let closed = if is_gain {
+                    nf.iter_mut().for_each(|c| *c *= factor);
+                    whole_d.plus(&UniPoly::from_i64(&n).scaled(&top))
+                } else {
+                    df[0] += factor;
+                    whole_d.plus(&whole_n).plus(&UniPoly::one().scaled(&top))
+                };
+                // The degree may fall with the parameter only where numerator and denominator have the same.
+                let is_full = closed.degree() == Some(d.len() - 1);
+                let found = least_ratio(&df, &nf, combined, shape);
+                if (found / least - 1.0).abs() < 1e-3 {
+                    continue;
+                }
+                let expected = is_full && is_stable(&closed, shape) && found > least;
+                assert_eq!(contains(&set, &x), expected, "{transfer}, K = {x}: {} {found} {least}", requirement.text());
+                seen[which][usize::from(expected)] += 1;
+            }
+        }
+    }
+    assert!(seen.iter().flatten().all(|count| *count > 40), "{seen:?}");
+}
