@@ -61,11 +61,10 @@ impl<'a> DeadTime<'a> {
         along.plus(&turned.times(&MultiPoly::variable(2)))
     }
 
-    /// Twice its imaginary part.
-    fn twice_imaginary(&self) -> MultiPoly {
-        let r = &self.parts.reduced;
-        let turned = DeadTime::in_omega(&r.imaginary).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
-        turned.times(&MultiPoly::variable(1)).minus(&DeadTime::in_omega(&r.twice_real).times(&MultiPoly::variable(2)))
+    /// Twice its imaginary part, from twice the real part of `N conj(D0)` and from the imaginary part over `omega`.
+    fn twice_imaginary(along: &UniPoly, across: &UniPoly) -> MultiPoly {
+        let turned = DeadTime::in_omega(across).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
+        turned.times(&MultiPoly::variable(1)).minus(&DeadTime::in_omega(along).times(&MultiPoly::variable(2)))
     }
 
     /// The derivative by `omega`, times the denominator of the dead time.
@@ -133,9 +132,15 @@ impl<'a> DeadTime<'a> {
         rational.phase.retain(|c| matches!(c.place, Place::Lowest));
         rational.phase_everywhere = false;
         let end = self.beyond(LISTED, budget)?;
+        // At a zero of the open loop on the axis both parts vanish: no factor makes it -1 there.
+        let r = &self.parts.reduced;
+        let common = budget.enter(|| r.twice_real.gcd(&r.imaginary))?;
+        let [along, across] =
+            [&r.twice_real, &r.imaginary].map(|p| p.div_exact(&common).expect("a gcd divides both parts"));
+        let imaginary = DeadTime::twice_imaginary(&along, &across);
         let real = self.twice_real();
         let below = DeadTime::in_omega(&self.parts.reduced.denominator_squared).scaled_by(&Integer::from(-2));
-        for omega in self.zeros(&self.twice_imaginary(), &end, budget)? {
+        for omega in self.zeros(&imaginary, &end, budget)? {
             let factor = self.quotient(&below, &real, &omega);
             if budget.enter(|| factor.sign())?.is_gt() {
                 rational.phase.push(PhaseCrossing { place: DeadTime::place(&omega), factor: Value::Number(factor) });
