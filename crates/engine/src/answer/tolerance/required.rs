@@ -43,12 +43,18 @@ impl Problem {
             factor: None,
             cells: 0,
         };
-        for (index, (p, own)) in
-            self.families(requirement, request.at.as_deref(), sides.len(), budget)?.iter().enumerate()
+        let families = self.families(requirement, request.at.as_deref(), sides.len(), budget)?;
+        let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
+        // An open loop that crosses a circle nowhere over the box can lie on its wrong side.
+        if matches!(requirement.rule(), Rule::Circle(_))
+            && let Some(witness) = of(&nominal)?
         {
+            found.decision = BoxDecision::NotStable { witness: Some(witness) };
+            return Ok(found);
+        }
+        for (index, (p, own)) in families.iter().enumerate() {
             let all: Vec<Side> = sides.iter().chain(own).cloned().collect();
             let Some(boxes) = budget.enter(|| ToleranceProblem::new(p, all.clone()))? else {
-                let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
                 found.decision = match of(&nominal)? {
                     Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
                     None => BoxDecision::Undecided { why: "no room at the nominal point", cell: Vec::new() },
