@@ -134,6 +134,8 @@ fn a_loop_with_dead_time_and_a_zero_on_the_axis_has_margins() {
     };
     let modulus: f64 = margins.modulus.decimal(12).parse().unwrap();
     assert!((least(&|l| (1.0 + l.0).hypot(l.1)) - modulus).abs() < 1e-6, "{modulus}");
+    let peak: f64 = margins.peak_complementary.decimal(12).parse().unwrap();
+    assert!((least(&|l| (1.0 + l.0).hypot(l.1) / l.0.hypot(l.1)) - 1.0 / peak).abs() < 1e-6, "{peak}");
     // Sign changes of the imaginary part where the real part is negative, down to a hundredth.
     let crossings = (1..1_000_000).filter(|k| {
         let [a, b] = [f64::from(k - 1), f64::from(*k)].map(|k| of(k / 3e3));
