@@ -3,6 +3,7 @@
 - ``gain_margin``: a factor both ways, or decibels: "6 dB".
 - ``phase_margin``: an angle: "45 deg".
 - ``modulus_margin``: the least |1 + L|, the inverse of the greatest sensitivity.
+- ``complementary_peak``: the greatest |L/(1 + L)|, the peak of the complementary sensitivity.
 - ``delay_margin``: a dead time in units of time.
 - ``damping``: the least damping of all roots; in discrete time of ln(z)/T.
 - ``settling_time``: a decay of at least 4 over this time.
@@ -18,6 +19,7 @@ REQUIREMENTS = (
     "gain_margin",
     "phase_margin",
     "modulus_margin",
+    "complementary_peak",
     "delay_margin",
     "damping",
     "settling_time",
@@ -31,6 +33,7 @@ class Requiring(TypedDict, total=False):
     gain_margin: Exact | None
     phase_margin: Exact | None
     modulus_margin: Exact | None
+    complementary_peak: Exact | None
     delay_margin: Exact | None
     damping: Exact | None
     settling_time: Exact | None

@@ -1,14 +1,15 @@
 //! Requirements that are a circle which the open loop keeps to one side of: answers by hand, and peaks over sampled frequencies.
 
-use crate::helpers::model::load;
-use crate::helpers::number::ratio;
+use crate::helpers::model::{example, load};
+use crate::helpers::number::{number, ratio};
+use crate::helpers::program::jurist_with_input;
 use crate::helpers::random::Random;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, UniPoly};
 use jurist_engine::model::Model;
 use jurist_engine::response::{RequiredSet, Requirement};
-use jurist_engine::stability::{Shape, is_stable};
+use jurist_engine::stability::{Range, Shape, is_stable};
 
 /// A single loop; `K` is free.
 fn loop_with(time: &str, transfer: &str) -> Model {
@@ -69,7 +70,7 @@ const CONTINUOUS: &str = "continuous";
 const DISCRETE: &str = "discrete";
 
 /// Sets by hand: time, open loop, requirement, number, set.
-const BY_HAND: [(&str, &str, &str, &str, &str); 6] = [
+const BY_HAND: [(&str, &str, &str, &str, &str); 19] = [
     (CONTINUOUS, "K/(s + 1)", "modulus_margin", "1/2", "[-0.5, -)"),
     // |1 + L|^2 - 1 = (K^2 + 2 K)/(1 + w^2) has one sign at all frequencies.
     (CONTINUOUS, "K/(s + 1)", "modulus_margin", "1", "[0, -)"),
@@ -77,6 +78,25 @@ const BY_HAND: [(&str, &str, &str, &str, &str); 6] = [
     (CONTINUOUS, "K", "modulus_margin", "2", "(-, -3] [1, -)"),
     (DISCRETE, "K/z", "modulus_margin", "1/2", "[-0.5, 0.5]"),
     (DISCRETE, "K/z", "modulus_margin", "2", ""),
+    // T = K/(s + K) has its peak 1 at frequency 0, where L has a pole.
+    (CONTINUOUS, "K/s", "complementary_peak", "6/5", "(0, -)"),
+    (CONTINUOUS, "K/s", "complementary_peak", "1", "(0, -)"),
+    (CONTINUOUS, "K/s", "complementary_peak", "9/10", ""),
+    // 2 K/sqrt(4 K - 1) for K > 1/2, else 1: 2 at K = 2 + sqrt(3).
+    (CONTINUOUS, "K/(s*(s + 1))", "complementary_peak", "2", "(0, 3.73205080757]"),
+    (CONTINUOUS, "K/(s*(s + 1))", "complementary_peak", "1", "(0, 0.5]"),
+    (CONTINUOUS, "K/(s*(s + 1))", "complementary_peak", "1/2", ""),
+    // |K/(1 + K)| at frequency 0.
+    (CONTINUOUS, "K/(s + 1)", "complementary_peak", "1/2", "[-0.333333333333, 1]"),
+    (CONTINUOUS, "K/(s + 1)", "complementary_peak", "2", "[-0.666666666667, -)"),
+    // Degree 0.
+    (CONTINUOUS, "K", "complementary_peak", "2", "(-, -2] [-0.666666666667, -)"),
+    (CONTINUOUS, "K", "complementary_peak", "1", "[-0.5, -)"),
+    (CONTINUOUS, "K", "complementary_peak", "1/2", "[-0.333333333333, 1]"),
+    // |K|/(1 - |K|).
+    (DISCRETE, "K/z", "complementary_peak", "1/2", "[-0.333333333333, 0.333333333333]"),
+    // K/|z - 1 + K|: 1 at z = 1, K/(2 - K) at z = -1.
+    (DISCRETE, "K/(z - 1)", "complementary_peak", "1", "(0, 1]"),
 ];
 
 #[test]
@@ -88,18 +108,93 @@ fn sets_that_are_known_by_hand() {
     }
 }
 
+const SERVO: &str = "K/(s*(s + 1))";
+
+/// At a point, on the command line and from the model file: the value, and the exit status.
+#[test]
+fn the_program_says_whether_a_point_meets_them() {
+    let text = text_of(CONTINUOUS, SERVO);
+    // 2 K/sqrt(4 K - 1) at K = 4: 8/sqrt(15).
+    for (option, key, status, said) in [
+        ("--complementary-peak=5/2", "complementary_peak = '5/2'", 0, "complementary_peak <= 5/2: met (2.06559111798)"),
+        ("--complementary-peak=2", "complementary_peak = 2", 1, "complementary_peak <= 2: not met (2.06559111798)"),
+    ] {
+        let with_key = format!("{text}[require]\n{key}\n");
+        for (words, text) in
+            [(vec!["verdict", "-", "--set=K=4", option], &text), (vec!["verdict", "-", "--set=K=4"], &with_key)]
+        {
+            let run = jurist_with_input(&words, text.as_bytes());
+            assert_eq!(run.status, status, "{option}: {}", run.stderr);
+            assert!(run.stdout.contains(said), "{said}: {}", run.stdout);
+        }
+    }
+    for option in ["--complementary-peak=0", "--complementary-peak=-1"] {
+        let run = jurist_with_input(&["verdict", "-", "--set=K=4", option], text.as_bytes());
+        assert!(run.status == 2 && run.stderr.contains("E-require"), "{option}: {}", run.stderr);
+    }
+}
+
+/// Behind a hold: the margin at the end of the set is the required one.
+#[test]
+fn sets_of_a_loop_behind_a_hold_end_where_the_margin_is_the_required_one() {
+    let model = example("dc-servo");
+    for (name, value) in [("modulus_margin", "1/2"), ("complementary_peak", "3/2")] {
+        let requirement = requirement(&model, name, value);
+        let range = Range::between(Some(number("1")), Some(number("200")));
+        let problem = model.ask().free("K").domain("K", range).problem().unwrap();
+        let list = std::slice::from_ref(&requirement);
+        let set = problem.required_set(list, None, &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}")).into_value();
+        assert!(set.undecided.is_empty(), "{name}: {:?}", set.undecided);
+        let end = set.intervals.last().unwrap().upper.as_ref().unwrap().value();
+        let (lo, hi) = end.refined(&number("1e-12")).enclosure();
+        let is_met = |value: Rational| {
+            let problem = model.ask().set("K", value).problem().unwrap();
+            let found = problem.requirements_met(list, None, &Budget::unlimited()).unwrap();
+            let value: f64 = found[0].value(12).unwrap().parse().unwrap();
+            assert!((value - number(&requirement.required()).to_f64_approximate()).abs() < 1e-9, "{name}: {value}");
+            found[0].met
+        };
+        assert!(is_met(lo - number("1e-12")) && !is_met(hi + number("1e-12")), "{name}");
+    }
+}
+
+/// With dead time, at points: against samples of `K exp(-j w/2)/(j w)`.
+#[test]
+fn points_of_a_loop_with_dead_time_are_decided_by_the_margin() {
+    let model = loop_with(CONTINUOUS, "K*exp(-s/2)/s");
+    for k in ["1/2", "1", "2"] {
+        let gain = number(k).to_f64_approximate();
+        let ratio = |w: f64, [u, v]: [f64; 2]| {
+            let l = (-gain / w * (w / 2.0).sin(), -gain / w * (w / 2.0).cos());
+            (1.0 + l.0).hypot(l.1) / (u + v * l.0).hypot(v * l.1)
+        };
+        for (name, combined) in [("modulus_margin", [1.0, 0.0]), ("complementary_peak", [0.0, 1.0])] {
+            let least = (1..1_000_000).map(|i| ratio(f64::from(i) / 1e4, combined)).min_by(f64::total_cmp).unwrap();
+            let bound = if name == "complementary_peak" { 1.0 / least } else { least };
+            for (factor, is_above) in [(0.999, false), (1.001, true)] {
+                let requirement = requirement(&model, name, &format!("{:.9}", bound * factor));
+                let problem = model.ask().set("K", number(k)).problem().unwrap();
+                let list = std::slice::from_ref(&requirement);
+                let met = problem.requirements_met(list, None, &Budget::unlimited()).unwrap()[0].met;
+                assert_eq!(met, is_above == (name == "complementary_peak"), "K = {k}: {}", requirement.text());
+            }
+        }
+    }
+}
+
 /// A requirement, and the least of which ratio of moduli it asks for: `|1 + L|` over `|u + v L|`.
 fn asked(which: usize, model: &Model, random: &mut Random) -> (Requirement, [f64; 2], f64) {
     let number = ratio(2 + random.below(14) as i64, 8);
     let value = number.to_f64_approximate();
     let (name, combined, least) = match which {
-        _ => ("modulus_margin", [1.0, 0.0], value),
+        0 => ("modulus_margin", [1.0, 0.0], value),
+        _ => ("complementary_peak", [0.0, 1.0], 1.0 / value),
     };
     (requirement(model, name, &number.to_string()), combined, least)
 }
 
 /// How many requirements [`asked`] knows.
-const KINDS: usize = 1;
+const KINDS: usize = 2;
 
 type Complex = (f64, f64);
 
@@ -164,7 +259,7 @@ fn sets_of_random_loops_agree_with_sampled_peaks() {
             false => format!("({})/({} + K)", terms(&n), terms(&d)),
         };
         let model = loop_with(time, &transfer);
-        for which in 0..KINDS {
+        for (which, seen) in seen.iter_mut().enumerate() {
             let (requirement, combined, least) = asked(which, &model, &mut random);
             let set = required(&model, &requirement);
             for _ in 0..12 {
@@ -189,7 +284,7 @@ fn sets_of_random_loops_agree_with_sampled_peaks() {
                 }
                 let expected = is_full && is_stable(&closed, shape) && found > least;
                 assert_eq!(contains(&set, &x), expected, "{transfer}, K = {x}: {} {found} {least}", requirement.text());
-                seen[which][usize::from(expected)] += 1;
+                seen[usize::from(expected)] += 1;
             }
         }
     }

@@ -43,12 +43,13 @@ fn is_met(answer: &Answer<ToleranceAnswer>, requirement: &Requirement, point: &[
     }
 }
 
-const MARGINS: [(&str, &str); 6] = [
+const MARGINS: [(&str, &str); 7] = [
     ("phase_margin", "45 deg"),
     ("phase_margin", "60"),
     ("gain_margin", "6 dB"),
     ("gain_margin", "5"),
     ("modulus_margin", "0.6"),
+    ("complementary_peak", "1.3"),
     ("damping", "0.5"),
 ];
 

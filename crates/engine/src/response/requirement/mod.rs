@@ -5,6 +5,7 @@
 //! answers it. A rule says what is decided; several requirements can share one.
 
 mod circle;
+mod complementary_peak;
 mod damping;
 mod decay;
 mod delay_margin;
@@ -30,10 +31,11 @@ use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::real::Real;
 
 /// All requirements, in the order in which they are decided and listed.
-pub(crate) const LIST: [&RequirementKind; 8] = [
+pub(crate) const LIST: &[&RequirementKind] = &[
     &gain_margin::KIND,
     &phase_margin::KIND,
     &modulus_margin::KIND,
+    &complementary_peak::KIND,
     &delay_margin::KIND,
     &damping::KIND,
     &decay::KIND,
@@ -72,7 +74,7 @@ pub struct RequirementKind {
 impl RequirementKind {
     /// The whole list, in the order in which requirements are decided.
     pub fn all() -> &'static [&'static RequirementKind] {
-        &LIST
+        LIST
     }
 
     /// The number of a text, and the unit that follows it.
