@@ -4,6 +4,7 @@
 - ``phase_margin``: an angle: "45 deg".
 - ``modulus_margin``: the least |1 + L|, the inverse of the greatest sensitivity.
 - ``complementary_peak``: the greatest |L/(1 + L)|, the peak of the complementary sensitivity.
+- ``disk_margin``: the least 2 |1 + L|/|1 - L|, the size of the balanced disk of gains and phases.
 - ``delay_margin``: a dead time in units of time.
 - ``damping``: the least damping of all roots; in discrete time of ln(z)/T.
 - ``settling_time``: a decay of at least 4 over this time.
@@ -20,6 +21,7 @@ REQUIREMENTS = (
     "phase_margin",
     "modulus_margin",
     "complementary_peak",
+    "disk_margin",
     "delay_margin",
     "damping",
     "settling_time",
@@ -34,6 +36,7 @@ class Requiring(TypedDict, total=False):
     phase_margin: Exact | None
     modulus_margin: Exact | None
     complementary_peak: Exact | None
+    disk_margin: Exact | None
     delay_margin: Exact | None
     damping: Exact | None
     settling_time: Exact | None

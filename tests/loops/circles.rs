@@ -70,7 +70,7 @@ const CONTINUOUS: &str = "continuous";
 const DISCRETE: &str = "discrete";
 
 /// Sets by hand: time, open loop, requirement, number, set.
-const BY_HAND: [(&str, &str, &str, &str, &str); 19] = [
+const BY_HAND: [(&str, &str, &str, &str, &str); 30] = [
     (CONTINUOUS, "K/(s + 1)", "modulus_margin", "1/2", "[-0.5, -)"),
     // |1 + L|^2 - 1 = (K^2 + 2 K)/(1 + w^2) has one sign at all frequencies.
     (CONTINUOUS, "K/(s + 1)", "modulus_margin", "1", "[0, -)"),
@@ -97,6 +97,22 @@ const BY_HAND: [(&str, &str, &str, &str, &str); 19] = [
     (DISCRETE, "K/z", "complementary_peak", "1/2", "[-0.333333333333, 0.333333333333]"),
     // K/|z - 1 + K|: 1 at z = 1, K/(2 - K) at z = -1.
     (DISCRETE, "K/(z - 1)", "complementary_peak", "1", "(0, 1]"),
+    // |s + K| = |s - K| on the axis.
+    (CONTINUOUS, "K/s", "disk_margin", "1", "(0, -)"),
+    (CONTINUOUS, "K/s", "disk_margin", "2", "(0, -)"),
+    (CONTINUOUS, "K/s", "disk_margin", "21/10", ""),
+    // alpha = 2/sqrt(4 K + 1), at the frequency sqrt(K).
+    (CONTINUOUS, "K/(s*(s + 1))", "disk_margin", "1", "(0, 0.75]"),
+    (CONTINUOUS, "K/(s*(s + 1))", "disk_margin", "2/3", "(0, 2]"),
+    (CONTINUOUS, "K/(s*(s + 1))", "disk_margin", "2", ""),
+    // 2 (1 + K)/(1 - K) for negative K, and 2 in the limit of high frequencies for positive ones.
+    (CONTINUOUS, "K/(s + 1)", "disk_margin", "1", "[-0.333333333333, -)"),
+    (CONTINUOUS, "K/(s + 1)", "disk_margin", "2", "[0, -)"),
+    // |1 + K| >= 2 |1 - K|, with a margin that has no bound at K = 1.
+    (CONTINUOUS, "K", "disk_margin", "4", "[0.333333333333, 3]"),
+    // 2 (1 - |K|)/(1 + |K|).
+    (DISCRETE, "K/z", "disk_margin", "1", "[-0.333333333333, 0.333333333333]"),
+    (DISCRETE, "K/z", "disk_margin", "3", ""),
 ];
 
 #[test]
@@ -114,10 +130,12 @@ const SERVO: &str = "K/(s*(s + 1))";
 #[test]
 fn the_program_says_whether_a_point_meets_them() {
     let text = text_of(CONTINUOUS, SERVO);
-    // 2 K/sqrt(4 K - 1) at K = 4: 8/sqrt(15).
+    // At K = 4 the peak 2 K/sqrt(4 K - 1) is 8/sqrt(15), and the disk margin 2/sqrt(17).
     for (option, key, status, said) in [
         ("--complementary-peak=5/2", "complementary_peak = '5/2'", 0, "complementary_peak <= 5/2: met (2.06559111798)"),
         ("--complementary-peak=2", "complementary_peak = 2", 1, "complementary_peak <= 2: not met (2.06559111798)"),
+        ("--disk-margin=2/5", "disk_margin = '2/5'", 0, "disk_margin >= 2/5: met (0.485071250073)"),
+        ("--disk-margin=1/2", "disk_margin = 0.5", 1, "disk_margin >= 1/2: not met (0.485071250073)"),
     ] {
         let with_key = format!("{text}[require]\n{key}\n");
         for (words, text) in
@@ -128,7 +146,7 @@ fn the_program_says_whether_a_point_meets_them() {
             assert!(run.stdout.contains(said), "{said}: {}", run.stdout);
         }
     }
-    for option in ["--complementary-peak=0", "--complementary-peak=-1"] {
+    for option in ["--complementary-peak=0", "--complementary-peak=-1", "--disk-margin=0", "--disk-margin=-1"] {
         let run = jurist_with_input(&["verdict", "-", "--set=K=4", option], text.as_bytes());
         assert!(run.status == 2 && run.stderr.contains("E-require"), "{option}: {}", run.stderr);
     }
@@ -138,7 +156,7 @@ fn the_program_says_whether_a_point_meets_them() {
 #[test]
 fn sets_of_a_loop_behind_a_hold_end_where_the_margin_is_the_required_one() {
     let model = example("dc-servo");
-    for (name, value) in [("modulus_margin", "1/2"), ("complementary_peak", "3/2")] {
+    for (name, value) in [("modulus_margin", "1/2"), ("complementary_peak", "3/2"), ("disk_margin", "3/5")] {
         let requirement = requirement(&model, name, value);
         let range = Range::between(Some(number("1")), Some(number("200")));
         let problem = model.ask().free("K").domain("K", range).problem().unwrap();
@@ -168,9 +186,15 @@ fn points_of_a_loop_with_dead_time_are_decided_by_the_margin() {
             let l = (-gain / w * (w / 2.0).sin(), -gain / w * (w / 2.0).cos());
             (1.0 + l.0).hypot(l.1) / (u + v * l.0).hypot(v * l.1)
         };
-        for (name, combined) in [("modulus_margin", [1.0, 0.0]), ("complementary_peak", [0.0, 1.0])] {
+        for (name, combined) in
+            [("modulus_margin", [1.0, 0.0]), ("complementary_peak", [0.0, 1.0]), ("disk_margin", [1.0, -1.0])]
+        {
             let least = (1..1_000_000).map(|i| ratio(f64::from(i) / 1e4, combined)).min_by(f64::total_cmp).unwrap();
-            let bound = if name == "complementary_peak" { 1.0 / least } else { least };
+            let bound = match name {
+                "modulus_margin" => least,
+                "complementary_peak" => 1.0 / least,
+                _ => 2.0 * least,
+            };
             for (factor, is_above) in [(0.999, false), (1.001, true)] {
                 let requirement = requirement(&model, name, &format!("{:.9}", bound * factor));
                 let problem = model.ask().set("K", number(k)).problem().unwrap();
@@ -188,13 +212,14 @@ fn asked(which: usize, model: &Model, random: &mut Random) -> (Requirement, [f64
     let value = number.to_f64_approximate();
     let (name, combined, least) = match which {
         0 => ("modulus_margin", [1.0, 0.0], value),
-        _ => ("complementary_peak", [0.0, 1.0], 1.0 / value),
+        1 => ("complementary_peak", [0.0, 1.0], 1.0 / value),
+        _ => ("disk_margin", [1.0, -1.0], value / 2.0),
     };
     (requirement(model, name, &number.to_string()), combined, least)
 }
 
 /// How many requirements [`asked`] knows.
-const KINDS: usize = 2;
+const KINDS: usize = 3;
 
 type Complex = (f64, f64);
 

@@ -41,6 +41,7 @@ fn sets_of_a_gain_agree_with_a_second_decision_at_random_points() {
             (Requirement::modulus_margin(number("1/2")), Known::Circle([1, 0], number("1/2"))),
             (Requirement::modulus_margin(number("3/4")), Known::Circle([1, 0], number("3/4"))),
             (Requirement::complementary_peak(number("5/4")), Known::Circle([0, 1], number("4/5"))),
+            (Requirement::disk_margin(number("3/4")), Known::Circle([1, -1], number("3/8"))),
             (Requirement::complementary_peak(number("2")), Known::Circle([0, 1], number("1/2"))),
         ] {
             let requirement = requirement.unwrap();

@@ -72,12 +72,14 @@ fn cells_of_a_map_agree_with_a_second_decision_at_random_points() {
             Known::Phase(ratio(1, 3)),
             Known::Circle([1, 0], number("1/2")),
             Known::Circle([0, 1], number("2/3")),
+            Known::Circle([1, -1], number("1/4")),
         ];
         let requirements = [
             Requirement::gain_margin(&number("3/2")).unwrap(),
             Requirement::phase_margin(&number("60")).unwrap(),
             Requirement::modulus_margin(number("1/2")).unwrap(),
             Requirement::complementary_peak(number("3/2")).unwrap(),
+            Requirement::disk_margin(number("1/2")).unwrap(),
         ];
         let answer = required(&model, &names, &requirements);
         let mut seen = [0; 2];

@@ -43,13 +43,14 @@ fn is_met(answer: &Answer<ToleranceAnswer>, requirement: &Requirement, point: &[
     }
 }
 
-const MARGINS: [(&str, &str); 7] = [
+const MARGINS: [(&str, &str); 8] = [
     ("phase_margin", "45 deg"),
     ("phase_margin", "60"),
     ("gain_margin", "6 dB"),
     ("gain_margin", "5"),
     ("modulus_margin", "0.6"),
     ("complementary_peak", "1.3"),
+    ("disk_margin", "0.6"),
     ("damping", "0.5"),
 ];
 

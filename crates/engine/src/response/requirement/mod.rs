@@ -9,6 +9,7 @@ mod complementary_peak;
 mod damping;
 mod decay;
 mod delay_margin;
+mod disk_margin;
 mod gain_margin;
 #[cfg(test)]
 mod lists;
@@ -36,6 +37,7 @@ pub(crate) const LIST: &[&RequirementKind] = &[
     &phase_margin::KIND,
     &modulus_margin::KIND,
     &complementary_peak::KIND,
+    &disk_margin::KIND,
     &delay_margin::KIND,
     &damping::KIND,
     &decay::KIND,
