@@ -128,7 +128,7 @@ impl Fraction {
 
 impl InVariable<'_, '_> {
     fn divided(&mut self, a: Fraction, b: &Fraction, span: Span) -> Result<Fraction, Failure> {
-        if b.numerator.is_zero() {
+        if b.numerator.is_zero() || self.scope.without_identities(b.numerator.clone())?.is_zero() {
             return Err(division_by_zero(span));
         }
         if (b.numerator.degree() > 0 || self.scope.is_delayed(&b.numerator.leading())) && !self.rational {

@@ -51,7 +51,7 @@ impl Symbols {
     }
 
     /// The table of what the symbols stand for; `None` where one is no number.
-    fn fixed_values(&self) -> Option<Values> {
+    pub(in crate::model) fn fixed_values(&self) -> Option<Values> {
         let mut values = Values::new();
         for symbol in &self.table {
             let definition = symbol.definition().filter(|_| !symbol.is_moving)?;
