@@ -50,7 +50,7 @@ pub(crate) fn raised(py: Python<'_>, error: Error, about: About, document: Optio
             raised(py, Diagnostics::from(diagnostic).into(), About::Question, None)
         }
         Error::Stopped(stopped) => {
-            made(py, "undecided", (stopped.to_string(), stopped.budget, stopped.reached, document))
+            made(py, "undecided", (stopped.to_string(), stopped.stop.to_string(), stopped.reached(), document))
         }
         other => made(py, "defect", (other.to_string(),)),
     }

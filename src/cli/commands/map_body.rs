@@ -52,7 +52,10 @@ pub(super) fn run(
     let open = body.open_slices().count();
     let stopped = body.stopped().map(|stopped| match open {
         0 => stopped.clone(),
-        _ => Exhausted::new(&stopped.budget, format!("{} of {} slices", body.slices.len() - open, body.slices.len())),
+        _ => Exhausted::new(
+            stopped.stop.clone(),
+            format!("{} of {} slices", body.slices.len() - open, body.slices.len()),
+        ),
     });
     let output = &options.output;
     match (picture, stopped) {

@@ -9,7 +9,7 @@ use crate::cli::picture::{WRITES, pdf, png, write};
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::percent_below;
 use clap::{Args, ValueEnum};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::Rational;
 use jurist_draw::figures::map::boxes_figure;
 use jurist_draw::page::map_boxes_page;
@@ -145,7 +145,7 @@ pub(super) fn answer(boxes: &Answer<MapBoxes>, output: &OutputOptions, context: 
         write(Path::new(file), &bytes)?;
         return Ok(match &boxes.value().boxes.stopped {
             None => Status::Holds,
-            Some(budget) => context.say_undecided(&stopped_at(budget)),
+            Some(stop) => context.say_undecided(&stopped_at(stop)),
         });
     }
     match &boxes.value().boxes.stopped {
@@ -153,13 +153,13 @@ pub(super) fn answer(boxes: &Answer<MapBoxes>, output: &OutputOptions, context: 
             context.answer(output, || boxes.text(digits), || boxes.json())?;
             Ok(Status::Holds)
         }
-        Some(budget) => context.undecided(output, &stopped_at(budget), || Some(boxes.text(digits)), || boxes.json()),
+        Some(stop) => context.undecided(output, &stopped_at(stop), || Some(boxes.text(digits)), || boxes.json()),
     }
 }
 
 /// The subdivision ended before its goal.
-fn stopped_at(budget: &str) -> Exhausted {
-    Exhausted::new(budget, "subdividing the window")
+fn stopped_at(stop: &Stop) -> Exhausted {
+    Exhausted::new(stop.clone(), "subdividing the window")
 }
 
 /// How much of the window the certificate speaks of.

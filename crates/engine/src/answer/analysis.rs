@@ -88,7 +88,7 @@ fn open_in_functions<T>(result: Result<T, Error>) -> Result<T, Error> {
     match result {
         Err(Error::Refused(why)) if why.code() == "E-function" => {
             let reason = why.diagnostics().first().map(|d| d.message.clone()).unwrap_or_default();
-            Err(Error::Stopped(Exhausted::new("the bounds of its domain", reason)))
+            Err(Error::Stopped(Exhausted::by_method("the bounds of its domain", reason)))
         }
         other => other,
     }
@@ -100,7 +100,7 @@ fn stopped<T>(result: Result<T, Error>) -> Result<Result<T, Exhausted>, Error> {
         // Not every parameter of a loop with dead time can be asked for: the others are.
         Err(Error::Refused(refused)) if refused.diagnostics().iter().all(|d| d.code == "E-dead-time") => {
             let why = refused.diagnostics().first().map_or_else(String::new, |d| d.message.clone());
-            Ok(Err(Exhausted::new(why, "dead time")))
+            Ok(Err(Exhausted::by_method(why, "dead time")))
         }
         Err(failure) => failure.stopped().map(Err),
     }

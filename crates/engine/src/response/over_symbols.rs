@@ -284,7 +284,7 @@ impl<'a> SymbolicFamily<'a> {
                 match is_inside(&value, interval, budget) {
                     Ok(true) => list.push((value, of.iter().any(|&k| k < touches))),
                     Ok(false) => {}
-                    Err(stopped) if stopped.budget.starts_with("precision") => open.push(around(&value)),
+                    Err(stopped) if stopped.stop.is_precision() => open.push(around(&value)),
                     Err(stopped) => return Err(stopped.into()),
                 }
             }

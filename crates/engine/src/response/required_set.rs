@@ -15,7 +15,7 @@ use crate::problem::Problem;
 use crate::stability::{
     End, Range, Shape, StableSet, SymbolicPolynomial, UndecidedBracket, boundary_polynomials, symbolic_stable_set,
 };
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
@@ -331,5 +331,5 @@ fn is_at_least(
             _ => bits *= 2,
         }
     }
-    Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "comparing a delay with the required one"))
+    Err(Exhausted::new(Stop::Precision(MOST_BITS), "comparing a delay with the required one"))
 }
