@@ -14,7 +14,7 @@ use jurist_algebra::number::Rational;
 use jurist_draw::figures::map::boxes_figure;
 use jurist_draw::page::map_boxes_page;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod};
-use jurist_engine::error::{Diagnostic, Error as EngineError};
+use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
 use jurist_engine::problem::Problem;
 use jurist_engine::response::Requirements;
 use jurist_engine::stability::Range;
@@ -60,7 +60,7 @@ impl MethodOptions {
             return Ok(self.method());
         }
         if self.method == MethodName::Boxes {
-            let error = Diagnostic::error("E-require", "boxes decide stability only, no requirements");
+            let error = Diagnostic::error(Code::Require, "boxes decide stability only, no requirements");
             return Err(error.help("leave out '--method boxes'").into());
         }
         Ok(MapMethod::Exact)
@@ -101,7 +101,7 @@ impl MethodOptions {
                 let share = plain_number(context.line, "--undecided", text)?;
                 if !share.sign().is_gt() || share > Rational::ONE {
                     let span = context.line.option_value("--undecided", text).span;
-                    let error = Diagnostic::error("E-option-value", "the undecided share is not between 0 and 1")
+                    let error = Diagnostic::error(Code::OptionValue, "the undecided share is not between 0 and 1")
                         .at(span, "a share of the window's area, such as 0.01");
                     return Err(in_line(context.line, vec![error]).into());
                 }

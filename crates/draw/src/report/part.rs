@@ -119,7 +119,7 @@ impl<'b> Parts<'b> {
 mod tests {
     use super::*;
     use jurist_algebra::limits::checkpoint;
-    use jurist_engine::error::Diagnostic;
+    use jurist_engine::error::{Code, Diagnostic};
 
     fn endless(_: &Budget) -> Result<(), Error> {
         loop {
@@ -132,7 +132,8 @@ mod tests {
         let unlimited = Budget::unlimited();
         let parts = Parts::new(&unlimited);
         assert_eq!(parts.part("a", Work::Any, |_| Ok(1)), Ok(1));
-        let refuse = |_: &Budget| -> Result<(), Error> { Err(Diagnostic::error("E-cut", "no cut").help("cut").into()) };
+        let refuse =
+            |_: &Budget| -> Result<(), Error> { Err(Diagnostic::error(Code::Cut, "no cut").help("cut").into()) };
         let refused = parts.part("b", Work::Any, refuse).unwrap_err();
         assert_eq!(refused.sentence(), "No cut (cut)");
         assert_eq!(parts.part("c", Work::Units(1000), endless), Err(Missing::TooLong));
