@@ -22,7 +22,7 @@ fn errors(text: &str) -> Vec<String> {
                     let (line, column) = source.line_column(label.span.start);
                     format!("{}@{line}:{column}", d.code)
                 }
-                None => d.code.to_owned(),
+                None => d.code.to_string(),
             };
             error.diagnostics().iter().map(place).collect()
         }
@@ -276,7 +276,7 @@ fn warnings_come_with_the_loop() {
         [loop]\ncharacteristic = 'z - K'\n";
     let source = Source::new("m.toml", text);
     let (_, warnings) = Model::from_toml(&source).unwrap();
-    let codes: Vec<&str> = warnings.iter().map(|w| w.code).collect();
+    let codes: Vec<&str> = warnings.iter().map(|w| w.code.as_str()).collect();
     assert_eq!(codes, ["W-unused", "W-outside-domain"]);
     insta::assert_snapshot!(render(&warnings, Some(&source), false), @r"
     warning[W-unused]: the constant 'c' is not used

@@ -1,7 +1,7 @@
 //! All that is required of a loop: by its model file, and by who asks.
 
 use super::Requirement;
-use crate::error::{Diagnostic, Diagnostics, Error, Span};
+use crate::error::{Code, Diagnostic, Diagnostics, Error, Span};
 use crate::model::{Expression, Model, Time};
 use crate::problem::{Bound, Region};
 use jurist_algebra::limits::Budget;
@@ -154,7 +154,7 @@ impl Model {
 }
 
 fn not_understood(name: &str, why: &str) -> Error {
-    Diagnostic::error("E-require", format!("{name}: {why}")).into()
+    Diagnostic::error(Code::Require, format!("{name}: {why}")).into()
 }
 
 /// The number of a text, and its unit: decibels. Degrees are those of a number without unit.

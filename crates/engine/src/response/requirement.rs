@@ -1,6 +1,6 @@
 //! Requirements on margins, and whether a loop meets them at a point.
 
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::stability::{ParametricPolynomial, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
@@ -225,7 +225,7 @@ pub(crate) fn radius_below(exponent: &Rational, bits: u64) -> Rational {
 }
 
 fn refused(message: &str) -> Error {
-    Diagnostic::error("E-require", message).into()
+    Diagnostic::error(Code::Require, message).into()
 }
 
 fn greatest_root(p: &UniPoly, budget: &Budget) -> Result<Option<RealAlgebraic>, Exhausted> {

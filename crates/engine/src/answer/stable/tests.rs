@@ -131,7 +131,7 @@ fn a_dead_time_beside_another_one_says_what_to_ask_instead() {
     let model = Model::from_toml(&Source::new("model.toml", text)).unwrap().0;
     let refused = model.ask().free("theta").stable_set(&Budget::unlimited()).unwrap_err();
     let said = format!("{refused:?}");
-    let words = ["E-dead-time", "not rational multiples", "'map'", "tolerance --tol", "verdict --set"];
+    let words = ["DeadTime", "not rational multiples", "'map'", "tolerance --tol", "verdict --set"];
     assert!(words.iter().all(|word| said.contains(word)) && !said.contains("budget"), "{said}");
 }
 

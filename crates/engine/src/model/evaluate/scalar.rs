@@ -2,7 +2,7 @@
 
 use super::walk::{Failure, Meaning, division_by_zero, evaluate, too_large};
 use super::work::count_work;
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{Constant, Parameter};
 use crate::model::text::{Expression, Function, PI, Sign};
 use jurist_algebra::ball::Ball;
@@ -121,7 +121,7 @@ impl<'a> Scope<'a> {
         self.budget.check()?;
         if let Some(x) = value.as_constant() {
             if function == Function::Sqrt && x.is_negative() {
-                let error = Diagnostic::error("E-value", "the square root of a negative number");
+                let error = Diagnostic::error(Code::Value, "the square root of a negative number");
                 return Err(error.at(span, "not a real number").into());
             }
             if let Some(exact) = rational_value(function, &x) {
@@ -172,7 +172,7 @@ impl<'a> Scope<'a> {
             return Ok(RationalFunction::one());
         }
         if time.as_constant().is_some_and(|x| x.is_negative()) {
-            let error = Diagnostic::error("E-dead-time", "a negative dead time looks ahead").at(span, "a prediction");
+            let error = Diagnostic::error(Code::DeadTime, "a negative dead time looks ahead").at(span, "a prediction");
             return Err(error.help("a dead time tau is written exp(-tau*s), with a minus sign").into());
         }
         Ok(self.variable(Variable::Delay(time)))
@@ -277,7 +277,7 @@ impl Meaning for Scope<'_> {
             None if name == PI => Ok(self.variable(Variable::Pi)),
             None => {
                 let message = format!("unknown name '{}'", crate::model::text::names::shorten(name));
-                Err(Diagnostic::error("E-unknown-name", message).at(span, "not defined").into())
+                Err(Diagnostic::error(Code::UnknownName, message).at(span, "not defined").into())
             }
         }
     }

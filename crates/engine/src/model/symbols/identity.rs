@@ -31,7 +31,7 @@ impl Symbols {
             match values.is_zero(number, budget) {
                 Ok(true) => {}
                 // A zero that no identity shows is not left out.
-                Err(stopped) if !stopped.budget.starts_with("precision") => return Err(stopped),
+                Err(stopped) if !stopped.stop.is_precision() => return Err(stopped),
                 _ => return Ok(false),
             }
         }
