@@ -136,14 +136,14 @@ impl<'a> Scope<'a> {
     fn refuse_without_value(&self, function: Function, x: &RationalFunction, span: Span) -> Result<(), Failure> {
         let wrong = match function {
             Function::Sqrt if self.enclosure(x).is_some_and(|x| x.sign() == Some(Ordering::Less)) => {
-                Diagnostic::error("E-value", "the square root of a negative number").at(span, "not a real number")
+                Diagnostic::error(Code::Value, "the square root of a negative number").at(span, "not a real number")
             }
             Function::Tan if self.has_no_value(function, x) => {
-                let error = Diagnostic::error("E-value", "the tangent of an odd multiple of pi/2");
+                let error = Diagnostic::error(Code::Value, "the tangent of an odd multiple of pi/2");
                 error.at(span, "has no value there")
             }
             Function::Exp if self.enclosure(x).is_some_and(|x| is_beyond(&x)) => {
-                let error = Diagnostic::error("E-too-large", "the exponential of a large number");
+                let error = Diagnostic::error(Code::TooLarge, "the exponential of a large number");
                 let help = format!("an exponent may be as large as {MAX_EXPONENT}; are its units right?");
                 error.at(span, "too large to compute with").help(help)
             }
