@@ -4,7 +4,7 @@ use jurist_algebra::limits::{Budget, checkpoint};
 use jurist_algebra::number::Rational;
 use jurist_check::{BoxJudge, JudgedBox, Limits};
 use jurist_engine::answer::{Answer, MapBoxes};
-use jurist_engine::error::{Diagnostic, Error};
+use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::Problem;
 use jurist_engine::stability::plane::boxes::{BoxVerdict, PlaneBox, Window};
 use std::collections::VecDeque;
@@ -128,7 +128,7 @@ pub(crate) fn judge(problem: &Problem, window: &Window, budget: &Budget) -> Resu
     // Reading a model is counted work; between boxes the budget is asked.
     let judge = BoxJudge::new(&problem.model().source().text, &draft, &Limits::within(Duration::MAX));
     judge.map_err(|rejection| {
-        Diagnostic::error("E-no-certificate", format!("no certificate of this map by boxes: {}", rejection.reason))
+        Diagnostic::error(Code::NoCertificate, format!("no certificate of this map by boxes: {}", rejection.reason))
             .help("the checkers read the model themselves; the answer is printed without '--certificate'")
             .into()
     })

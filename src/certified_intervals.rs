@@ -4,7 +4,7 @@ use crate::certified_boxes::{Search, judge, precision};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, parse_number, to_scientific};
 use jurist_engine::answer::Answer;
-use jurist_engine::error::Error;
+use jurist_engine::error::{Code, Error};
 use jurist_engine::problem::Problem;
 use jurist_engine::stability::plane::boxes::{BoxVerdict, PlaneBox, Window};
 use jurist_engine::stability::{StableInterval, StableSet};
@@ -73,7 +73,7 @@ pub struct CertifiedIntervals {
 pub fn certify_intervals(answer: &Answer<StableSet>, budget: &Budget) -> Result<CertifiedIntervals, Error> {
     match answer.certificate(budget) {
         Ok(text) => Ok(CertifiedIntervals { text, window: None, proved: Rational::ONE }),
-        Err(Error::Refused(why)) if why.code() == "E-no-certificate" => {
+        Err(Error::Refused(why)) if why.code() == Code::NoCertificate => {
             by_boxes(answer, budget)?.ok_or(Error::Refused(why))
         }
         Err(other) => Err(other),

@@ -68,7 +68,7 @@ pub use jurist_engine::answer::{
     Analysis, Answer, Body, BoxRequest, Frequency, Map, MapBoxes, MapLimit, MapMethod, MapOrBoxes, ParametricTable,
     PointTable, PointVerdict, RegionExtent, SliceValues, ToleranceAnswer, ToleranceRequest, Verdict,
 };
-pub use jurist_engine::error::{Diagnostic, Diagnostics, Error, Label, Severity, Source, Span};
+pub use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Label, Severity, Source, Span};
 pub use jurist_engine::model::{
     BlockBuilder, ClosedLoop, Constant, Cut, Expression, Model, ModelBuilder, Parameter, ParameterBuilder, Time,
     Tolerance, TransferFunction,

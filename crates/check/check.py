@@ -3414,7 +3414,8 @@ def check_cells(model, document, statement, values, extent):
 
 # ---------------------------------------------------------------- words
 
-DIGITS, SHORT, WHOLE, PLAIN = 12, 12, 15, range(-5, 12)  # of a decimal, a fraction, an integer; powers of ten without exponent
+DIGITS, FEW, SHORT, WHOLE = 12, 3, 12, 15  # of a decimal, at least of an enclosure, of a fraction, an integer
+PLAIN = range(-5, 12)  # powers of ten without exponent
 
 def is_short(q):
     return len(str(q)) <= SHORT or q.denominator == 1 and len(str(q)) <= WHOLE
@@ -3440,7 +3441,7 @@ def layout(digits, power, dots=""):
     if leading < 0:
         return f"{sign}0.{'0' * (-leading - 1)}{every}{dots}"
     whole = every[:leading + 1].ljust(leading + 1, "0")
-    return f"{sign}{whole}" + (f".{every[leading + 1:]}{dots}" if len(every) > leading + 1 or dots else "")
+    return f"{sign}{whole}" + (f".{every[leading + 1:]}" if len(every) > leading + 1 else "") + dots
 
 def exact(q):
     """A number: its fraction if that is short; its decimal; or the first digits of that and three dots."""
@@ -3466,6 +3467,19 @@ def outward(low, high):
     leading = max(e for e in map(exponent, (low, high)) if e is not None)
     return rounded(low, leading, False), rounded(high, leading, True)
 
+def shared_digits(low, high):
+    """A number inside of an open interval: the first digits that all numbers in it have; where these are few, the interval."""
+    near, far = sorted((abs(low), abs(high)))
+    if low >= 0 < near or high <= 0 < near:
+        for count in range(DIGITS, FEW - 1, -1):
+            power = exponent(near) - count + 1
+            if power > 0 and exponent(near) in PLAIN:
+                break  # zeros would stand in the place of digits that are not known
+            digits = over_power(near, power) // 1
+            if over_power(far, power) <= digits + 1:
+                return ("-" if high < 0 else "") + layout(int(digits), power, "...")
+    return "[a number between {} and {}]".format(*outward(low, high))
+
 def within(discrete, extent):
     """The region, if it is not the usual one."""
     if extent == "parameter":
@@ -3488,29 +3502,33 @@ def root_counts(inside, on, outside, infinite):
     return f"{inside} roots inside, {on} on the boundary, {outside} outside, {infinite} infinite."
 
 def end_in_words(e, parameter):
-    """An end of an interval; None where it is infinite."""
+    """An end of an interval, and for an irrational one what it is; None where it is infinite."""
     if e is None or isinstance(e, Fraction):
-        return None if e is None else exact(e)
+        return (None if e is None else exact(e)), None
     if isinstance(e[0], Fraction):
-        return "[a dead time between {} and {} with roots on the axis]".format(*outward(*e))
+        return shared_digits(*e), "a dead time with roots on the axis"
     if any(k >> 2 * FIELD for k in e[0]):
-        of = "the polynomial over symbols in 'stable'"
+        of = "a polynomial over exponentials in 'stable'"
     else:
         powers = ["", f"*{parameter}"]
         of = " + ".join(f"{c}{powers[k] if k < 2 else f'*{parameter}^{k}'}" for k, c in enumerate(e[0].listed(1)) if c)
         of = of.replace("+ -", "- ")
         if len(of) > 200:
-            of = f"the polynomial of degree {e[0].degree(1)} in 'stable'"
-    return "[a root of {} between {} and {}]".format(of, *outward(*e[1]))
+            of = f"a polynomial of degree {e[0].degree(1)} in 'stable'"
+    return shared_digits(*e[1]), f"a root of {of}"
 
 def of_intervals(parameter, values, discrete, extent, low, high, stable):
     sentence = f"For all real {ranged(parameter, low, high)}{and_with(values)}, the loop is stable{within(discrete, extent)}"
-    pieces = []
+    pieces, origins = [], []
     for interval in stable:
-        lower, upper = (end_in_words(e, parameter) for e in interval)
+        (lower, below), (upper, above) = (end_in_words(e, parameter) for e in interval)
+        for number, origin in (lower, below), (upper, above):
+            if origin and f"{number} is {origin}" not in origins:
+                origins.append(f"{number} is {origin}")
         pieces.append("all of them" if lower is upper is None else f"{parameter} > {lower}" if upper is None else
                       f"{parameter} < {upper}" if lower is None else f"{lower} < {parameter} < {upper}")
-    return f"{sentence} exactly for {' or '.join(pieces)}." if pieces else f"{sentence} nowhere."
+    where = f", where {', and '.join(origins)}" if origins else ""
+    return f"{sentence} exactly for {' or '.join(pieces)}{where}." if pieces else f"{sentence} nowhere."
 
 # ---------------------------------------------------------------- the parts of a certificate
 

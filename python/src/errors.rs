@@ -1,6 +1,6 @@
 //! From the engine's one kind of "no" to Python's exceptions, which are classes written in Python.
 
-use jurist::{Diagnostic, Diagnostics, Error, Label, Severity, Source};
+use jurist::{Code, Diagnostic, Diagnostics, Error, Label, Severity, Source};
 use jurist_engine::show::diagnostics::render_error;
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
@@ -27,7 +27,7 @@ fn parts(d: &Diagnostic, source: Option<&Arc<Source>>) -> Parts {
     };
     let places = d.primary.iter().chain(&d.secondary).map(place).collect();
     let severity = if d.severity == Severity::Warning { "warning" } else { "error" };
-    (severity, d.code, d.message.clone(), places, d.help.clone())
+    (severity, d.code.as_str(), d.message.clone(), places, d.help.clone())
 }
 
 /// An exception made by a function of `jurist._errors`.
@@ -46,11 +46,11 @@ pub(crate) fn raised(py: Python<'_>, error: Error, about: About, document: Optio
         }
         Error::Undefined(why) => {
             let message = format!("the model is undefined for these values: {why}");
-            let diagnostic = Diagnostic::error("E-undefined", message).help("set the parameters to other values");
+            let diagnostic = Diagnostic::error(Code::Undefined, message).help("set the parameters to other values");
             raised(py, Diagnostics::from(diagnostic).into(), About::Question, None)
         }
         Error::Stopped(stopped) => {
-            made(py, "undecided", (stopped.to_string(), stopped.budget, stopped.reached, document))
+            made(py, "undecided", (stopped.to_string(), stopped.stop.to_string(), stopped.reached(), document))
         }
         other => made(py, "defect", (other.to_string(),)),
     }
@@ -60,7 +60,7 @@ pub(crate) fn raised(py: Python<'_>, error: Error, about: About, document: Optio
 pub(crate) fn warnings(all: &[Diagnostic], source: Option<&Arc<Source>>) -> Vec<(&'static str, String)> {
     let one = |d: &Diagnostic| {
         let alone = Diagnostics::new(source.cloned(), vec![d.clone()]);
-        (d.code, render_error(&alone, false).trim_end().to_owned())
+        (d.code.as_str(), render_error(&alone, false).trim_end().to_owned())
     };
     all.iter().map(one).collect()
 }

@@ -34,7 +34,7 @@ pub(crate) fn check(
 /// Every error code with its explanation.
 #[pyfunction]
 pub(crate) fn codes() -> Vec<(String, String)> {
-    jurist_engine::error::codes().map(|(code, text)| (code.to_owned(), text)).collect()
+    jurist_engine::error::codes().map(|(code, text)| (code.to_string(), text)).collect()
 }
 
 /// Breaks off as a defect would: shows that no panic leaves the package.

@@ -1,7 +1,7 @@
 //! Questions as texts: values, domains, the region.
 
 use crate::wait::Patience;
-use jurist::{Diagnostic, Error, Model, Question, Range, Rational, Region, parse_number};
+use jurist::{Code, Diagnostic, Error, Model, Question, Range, Rational, Region, parse_number};
 use pyo3::prelude::*;
 
 /// What is asked besides what is free. Numbers are texts, so that they stay exact.
@@ -49,7 +49,7 @@ impl Asked {
 
 /// An exact number from its text.
 pub(crate) fn number(text: &str) -> Result<Rational, Error> {
-    parse_number(text).map_err(|e| Diagnostic::error("E-number", format!("'{text}' is not a number: {e}")).into())
+    parse_number(text).map_err(|e| Diagnostic::error(Code::Number, format!("'{text}' is not a number: {e}")).into())
 }
 
 fn bound(text: &Option<String>) -> Result<Option<Rational>, Error> {

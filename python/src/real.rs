@@ -4,7 +4,8 @@ use crate::errors::{About, raised};
 use crate::question::number;
 use crate::wait::{Patience, guarded, waited};
 use jurist::{
-    Budget, Diagnostic, Error, Integer, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots, isolate_real_roots_in,
+    Budget, Code, Diagnostic, Error, Integer, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots,
+    isolate_real_roots_in,
 };
 use pyo3::prelude::*;
 use std::cmp::Ordering;
@@ -16,7 +17,7 @@ pub(crate) struct Algebraic(Arc<RealAlgebraic>);
 
 fn polynomial(coefficients: &[String]) -> Result<UniPoly, Error> {
     let integer = |text: &String| {
-        let wrong = || Diagnostic::error("E-number", format!("the coefficient '{text}' is not an integer"));
+        let wrong = || Diagnostic::error(Code::Number, format!("the coefficient '{text}' is not an integer"));
         Integer::from_decimal(text).ok_or_else(wrong)
     };
     Ok(UniPoly::new(coefficients.iter().map(integer).collect::<Result<Vec<_>, _>>()?))
@@ -29,7 +30,7 @@ impl Algebraic {
     fn root(py: Python<'_>, coefficients: Vec<String>, lower: String, upper: String) -> PyResult<Algebraic> {
         let work = move |budget: &Budget| {
             let (p, lower, upper) = (polynomial(&coefficients)?, number(&lower)?, number(&upper)?);
-            let wrong = |what: &str| Error::from(Diagnostic::error("E-value", what));
+            let wrong = |what: &str| Error::from(Diagnostic::error(Code::Value, what));
             let p = SquareFree::part_of(&p).ok_or_else(|| wrong("the polynomial is zero"))?;
             let mut roots = isolate_real_roots_in(&p, Some(&lower), Some(&upper), budget)?;
             for end in [&lower, &upper] {
@@ -55,7 +56,7 @@ impl Algebraic {
     fn roots(py: Python<'_>, coefficients: Vec<String>) -> PyResult<Vec<Algebraic>> {
         let work = move |budget: &Budget| {
             let p = SquareFree::part_of(&polynomial(&coefficients)?);
-            let p = p.ok_or_else(|| Error::from(Diagnostic::error("E-value", "the polynomial is zero")))?;
+            let p = p.ok_or_else(|| Error::from(Diagnostic::error(Code::Value, "the polynomial is zero")))?;
             Ok(isolate_real_roots(&p, budget)?)
         };
         let roots = waited(py, &Patience::unlimited(), work)?.map_err(|e| raised(py, e, About::Question, None))?;

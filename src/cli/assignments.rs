@@ -3,7 +3,7 @@
 use super::command_line::{CommandLine, Place};
 use jurist_algebra::number::{ParseNumberErrorKind, Rational, parse_number};
 use jurist_engine::answer::SliceValues;
-use jurist_engine::error::{Diagnostic, Diagnostics, Span};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics, Span};
 use std::sync::Arc;
 
 /// A name with its value.
@@ -39,7 +39,7 @@ pub(super) fn assignments(line: &CommandLine, option: &str, values: &[String]) -
             Err(d) => wrong.push(d),
             Ok(new) => match out.iter().find(|old| old.name == new.name) {
                 Some(old) if old.value != new.value => wrong.push(
-                    Diagnostic::error("E-set-twice", format!("'{}' is set to two values", new.name))
+                    Diagnostic::error(Code::SetTwice, format!("'{}' is set to two values", new.name))
                         .at(new.name_span, "a second value")
                         .also(old.name_span, "the first value"),
                 ),
@@ -61,7 +61,7 @@ pub(super) fn domains(line: &CommandLine, values: &[String]) -> Result<Vec<Domai
             Err(d) => wrong.push(d),
             Ok(new) => match out.iter().find(|old| old.name == new.name) {
                 Some(old) => wrong.push(
-                    Diagnostic::error("E-set-twice", format!("'{}' is given two domains", new.name))
+                    Diagnostic::error(Code::SetTwice, format!("'{}' is given two domains", new.name))
                         .at(new.name_span, "a second domain")
                         .also(old.name_span, "the first domain"),
                 ),
@@ -89,7 +89,7 @@ pub(super) fn axis(line: &CommandLine, option: &str, text: &str) -> Result<AxisR
         return Ok(AxisRequest { name: text.trim().to_owned(), lower: None, upper: None, name_span: place.span });
     };
     let read = range(text, place, option).and_then(|(name, lower, upper)| match (&lower, &upper) {
-        (Some(l), Some(u)) if l >= u => Err(Diagnostic::error("E-option-value", "the window is empty")
+        (Some(l), Some(u)) if l >= u => Err(Diagnostic::error(Code::OptionValue, "the window is empty")
             .at(place.part(equals + 1, text.len()), "the lower end is not below the upper end")),
         _ => Ok(AxisRequest { name, lower, upper, name_span: place.part(0, equals) }),
     });
@@ -111,7 +111,7 @@ pub(super) fn slices(line: &CommandLine, option: &str, text: &str) -> Result<Sli
     let place = line.option_value(option, text);
     let start = text.find('=').map_or(0, |i| i + 1);
     let expects = |from: usize, what: &str| {
-        Diagnostic::error("E-option-value", format!("{option} expects NAME=LO..HI:N"))
+        Diagnostic::error(Code::OptionValue, format!("{option} expects NAME=LO..HI:N"))
             .at(place.part(from, text.len()), what)
             .help(format!("for example {option} K=0..10:11, for 11 slices, both ends included"))
     };
@@ -122,7 +122,7 @@ pub(super) fn slices(line: &CommandLine, option: &str, text: &str) -> Result<Sli
         let colon = text.rfind(':').filter(|&i| i >= start).ok_or_else(|| expects(start, "there is no ':N'"))?;
         let count = text[colon + 1..].trim().parse().map_err(|_| expects(colon + 1, "not a number of slices"))?;
         let (name, lower, upper) = range(&text[..colon], place, option).map_err(|d| match d.code {
-            "E-option-value" => expects(start, "there is no '..'"),
+            Code::OptionValue => expects(start, "there is no '..'"),
             _ => d,
         })?;
         let (Some(lower), Some(upper)) = (lower, upper) else {
@@ -159,7 +159,7 @@ fn refuse(line: &CommandLine, wrong: Vec<Diagnostic>) -> Result<(), Diagnostics>
 /// The name, and where the value begins.
 fn split_name<'t>(text: &'t str, place: Place, option: &str, value: &str) -> Result<(&'t str, usize), Diagnostic> {
     let malformed = |span, label: &str| {
-        Diagnostic::error("E-option-value", format!("{option} expects NAME={value}"))
+        Diagnostic::error(Code::OptionValue, format!("{option} expects NAME={value}"))
             .at(span, label)
             .help(format!("for example {option} {}", if value == "VALUE" { "K=1/3" } else { "K=0..10" }))
     };
@@ -189,7 +189,7 @@ fn number_between(text: &str, start: usize, end: usize, place: Place) -> Result<
             }
             _ => (whole, e.to_string()),
         };
-        let diagnostic = Diagnostic::error("E-number", "this is not a number").at(span, label);
+        let diagnostic = Diagnostic::error(Code::Number, "this is not a number").at(span, label);
         match e.kind {
             ParseNumberErrorKind::Empty | ParseNumberErrorKind::UnexpectedCharacter => {
                 diagnostic.help("numbers look like 12, 0.046, 46e-3 or 1/3")
@@ -203,7 +203,7 @@ fn number_between(text: &str, start: usize, end: usize, place: Place) -> Result<
 fn range(text: &str, place: Place, option: &str) -> Result<(String, Option<Rational>, Option<Rational>), Diagnostic> {
     let (name, start) = split_name(text, place, option, "LO..HI")?;
     let Some(dots) = text[start..].find("..").map(|i| start + i) else {
-        return Err(Diagnostic::error("E-option-value", format!("{option} expects NAME=LO..HI"))
+        return Err(Diagnostic::error(Code::OptionValue, format!("{option} expects NAME=LO..HI"))
             .at(place.part(start, text.len()), "there is no '..'")
             .help(format!("for example {option} K=0..10, {option} K=0.. or {option} K=..10")));
     };
@@ -226,7 +226,7 @@ fn domain(text: &str, place: Place) -> Result<DomainChange, Diagnostic> {
         && l >= u
     {
         let message = if l == u { "the domain is empty: it is open" } else { "the domain is empty" };
-        return Err(Diagnostic::error("E-empty-domain", message)
+        return Err(Diagnostic::error(Code::EmptyDomain, message)
             .at(place.part(start, text.len()), "the lower end is not below the upper end"));
     }
     let name_span = place.part(0, text.find('=').unwrap_or(0));
@@ -268,13 +268,13 @@ mod tests {
     #[test]
     fn mistakes_are_marked() {
         for (value, code, mark) in [
-            ("K", "E-option-value", "K"),
-            ("=1", "E-option-value", ""),
-            ("K=", "E-number", ""),
-            ("K=1.x", "E-number", "x"),
-            ("K=1/0", "E-number", "1/0"),
-            ("K=1e999999999", "E-number", "1e999999999"),
-            ("K=ü", "E-number", "ü"),
+            ("K", Code::OptionValue, "K"),
+            ("=1", Code::OptionValue, ""),
+            ("K=", Code::Number, ""),
+            ("K=1.x", Code::Number, "x"),
+            ("K=1/0", Code::Number, "1/0"),
+            ("K=1e999999999", Code::Number, "1e999999999"),
+            ("K=ü", Code::Number, "ü"),
         ] {
             let error = set(&[value]).unwrap_err();
             assert_eq!((error.code(), marked(&error).as_str()), (code, mark), "{value}");
@@ -289,20 +289,20 @@ mod tests {
         let values: Vec<String> = found.values.values().iter().map(ToString::to_string).collect();
         assert_eq!((found.values.name(), values.join(" ")), ("K", "0 1/3 2/3 1".to_owned()));
         for (value, code, mark) in [
-            ("K", "E-option-value", "K"),
-            ("K=0..1", "E-option-value", "0..1"),
-            ("K=0.1:3", "E-option-value", "0.1:3"),
-            ("K=0..:3", "E-option-value", "0..:3"),
-            ("K=0..inf:3", "E-option-value", "0..inf:3"),
-            ("K=0..1:x", "E-option-value", "x"),
-            ("K=0..1:", "E-option-value", ""),
-            ("K=0..1:1", "E-option-value", "1"),
-            ("K=0..1:101", "E-option-value", "101"),
-            ("K=0..1:99999999999999999999999", "E-option-value", "99999999999999999999999"),
-            ("K=1..0:3", "E-option-value", "1..0"),
-            ("K=1..1:3", "E-option-value", "1..1"),
-            ("K=a..1:3", "E-number", "a"),
-            ("=0..1:3", "E-option-value", "0..1:3"),
+            ("K", Code::OptionValue, "K"),
+            ("K=0..1", Code::OptionValue, "0..1"),
+            ("K=0.1:3", Code::OptionValue, "0.1:3"),
+            ("K=0..:3", Code::OptionValue, "0..:3"),
+            ("K=0..inf:3", Code::OptionValue, "0..inf:3"),
+            ("K=0..1:x", Code::OptionValue, "x"),
+            ("K=0..1:", Code::OptionValue, ""),
+            ("K=0..1:1", Code::OptionValue, "1"),
+            ("K=0..1:101", Code::OptionValue, "101"),
+            ("K=0..1:99999999999999999999999", Code::OptionValue, "99999999999999999999999"),
+            ("K=1..0:3", Code::OptionValue, "1..0"),
+            ("K=1..1:3", Code::OptionValue, "1..1"),
+            ("K=a..1:3", Code::Number, "a"),
+            ("=0..1:3", Code::OptionValue, "0..1:3"),
         ] {
             let error = read(value).unwrap_err();
             assert_eq!((error.code(), marked(&error).as_str()), (code, mark), "{value}");
@@ -320,11 +320,11 @@ mod tests {
         assert_eq!(shown("K=-1.."), (Some("-1".into()), None));
         assert_eq!(shown("K=...5"), (None, Some("1/2".into())));
         for (value, code, mark) in [
-            ("K=1", "E-option-value", "1"),
-            ("K=2..1", "E-empty-domain", "2..1"),
-            ("K=1..1", "E-empty-domain", "1..1"),
-            ("K=a..1", "E-number", "a"),
-            ("K=1..b", "E-number", "b"),
+            ("K=1", Code::OptionValue, "1"),
+            ("K=2..1", Code::EmptyDomain, "2..1"),
+            ("K=1..1", Code::EmptyDomain, "1..1"),
+            ("K=a..1", Code::Number, "a"),
+            ("K=1..b", Code::Number, "b"),
         ] {
             let error = domain_of(value).unwrap_err();
             assert_eq!((error.code(), marked(&error).as_str()), (code, mark), "{value}");

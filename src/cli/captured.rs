@@ -103,7 +103,7 @@ pub(super) fn note(line: &str) -> bool {
 pub(super) fn warn(source: Option<&Arc<Source>>, warnings: &[Diagnostic]) -> bool {
     let one = |warning: &Diagnostic| {
         let alone = Diagnostics::new(source.cloned(), vec![warning.clone()]);
-        (warning.code, render_error(&alone, false))
+        (warning.code.as_str(), render_error(&alone, false))
     };
     with(|sink| sink.captured.warnings.extend(warnings.iter().map(one))).is_some()
 }

@@ -3,7 +3,7 @@
 use super::arguments::Arguments;
 use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use jurist_engine::error::{Diagnostic, Diagnostics, Source, Span};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source, Span};
 use std::ffi::OsString;
 use std::sync::Arc;
 
@@ -138,7 +138,7 @@ impl CommandLine {
         if let Some(command) = self.command_meant(error) {
             help = vec![command];
         }
-        let mut diagnostic = Diagnostic::error("E-usage", message).help(help.join("; "));
+        let mut diagnostic = Diagnostic::error(Code::Usage, message).help(help.join("; "));
         if let Some(span) = self.place_of(error) {
             diagnostic = diagnostic.at(span, "");
         }

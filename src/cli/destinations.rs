@@ -7,7 +7,7 @@ use super::output::{ending, write_error};
 use super::picture::WRITES;
 use super::replace::Destination;
 use super::status::Error;
-use jurist_engine::error::Diagnostic;
+use jurist_engine::error::{Code, Diagnostic};
 use std::ffi::{OsStr, OsString};
 use std::fs::{Metadata, OpenOptions};
 use std::path::{Path, PathBuf};
@@ -34,14 +34,14 @@ pub(super) fn check(arguments: &Arguments, context: &Context) -> Result<(), Erro
     let mut outputs: Vec<(&str, Identity)> = Vec::new();
     for (what, name) in &names.outputs {
         if !WRITES && name != "-" {
-            let error = Diagnostic::error("E-write", format!("{what} goes to standard output here, not to a file"));
+            let error = Diagnostic::error(Code::Write, format!("{what} goes to standard output here, not to a file"));
             return Err(refuse(error.help("the program 'jurist' writes files"), name));
         }
         let identity = Identity::of_output(name)?;
         if let Some((input, path, _)) = inputs.iter().find(|(_, _, input)| identity.is_some() && *input == identity) {
             let shown = if **path == "-" { "standard input".into() } else { path.to_string_lossy() };
             let message = format!("{what} would replace {input} itself, {shown}");
-            return Err(refuse(Diagnostic::error("E-output-name", message).help("give it another name"), name));
+            return Err(refuse(Diagnostic::error(Code::OutputName, message).help("give it another name"), name));
         }
         let Some(identity) = identity else { continue };
         if let Some((other, _)) = outputs.iter().find(|(_, other)| *other == identity) {
@@ -51,7 +51,7 @@ pub(super) fn check(arguments: &Arguments, context: &Context) -> Result<(), Erro
                 (name.to_string_lossy(), "give each of them a name of its own")
             };
             let message = format!("{other} and {what} would both be written to {place}");
-            return Err(refuse(Diagnostic::error("E-output-name", message).help(help), name));
+            return Err(refuse(Diagnostic::error(Code::OutputName, message).help(help), name));
         }
         outputs.push((what, identity));
     }
@@ -138,7 +138,7 @@ impl<'a> Names<'a> {
         }
         let Some(file) = options.output.as_ref().filter(|file| *file != "-") else {
             let help = "name the picture's file: -o FILE.svg; without '--csv' a table goes to a pipe";
-            return Err(Diagnostic::error("E-usage", "'--csv' writes beside a picture, and there is none")
+            return Err(Diagnostic::error(Code::Usage, "'--csv' writes beside a picture, and there is none")
                 .help(help)
                 .into());
         };
@@ -166,7 +166,7 @@ impl Identity {
     /// Of a name to be written; `None` for what takes any number of outputs, such as `/dev/null`.
     fn of_output(name: &OsStr) -> Result<Option<Identity>, Error> {
         if name.is_empty() {
-            return Err(Diagnostic::error("E-write", "the name of an output file is empty")
+            return Err(Diagnostic::error(Code::Write, "the name of an output file is empty")
                 .help("name a file, or '-' for standard output")
                 .into());
         }

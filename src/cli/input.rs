@@ -5,7 +5,7 @@ use super::assignments::{assignments, domains, in_line, plain_number};
 use super::captured;
 use super::commands::Context;
 use super::output::plain;
-use jurist_engine::error::{Diagnostic, Diagnostics, Error, Span};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Span};
 use jurist_engine::model::Model;
 use jurist_engine::problem::{DECAY, Question, RADIUS, Region};
 use jurist_engine::show::layout::visible;
@@ -53,7 +53,7 @@ pub(super) fn read_model(model: Option<&OsString>, context: &Context) -> Result<
     let bytes = bytes.map_err(|e| unreadable(context, path, &name, &e, &MODEL))?;
     if bytes.len() as u64 > MAX_MODEL_BYTES {
         let message = format!("{name} is longer than {} megabytes", MAX_MODEL_BYTES >> 20);
-        return Err(Diagnostic::error("E-read", message).into());
+        return Err(Diagnostic::error(Code::Read, message).into());
     }
     Ok((name, bytes))
 }
@@ -85,7 +85,7 @@ pub(super) const CERTIFICATE: Wanted = Wanted {
 };
 
 fn unreadable(context: &Context, path: &OsString, name: &str, error: &std::io::Error, wanted: &Wanted) -> Error {
-    let diagnostic = Diagnostic::error("E-read", format!("cannot read {name}: {}", plain(error)));
+    let diagnostic = Diagnostic::error(Code::Read, format!("cannot read {name}: {}", plain(error)));
     let diagnostic = match context.line.argument(&path.to_string_lossy()) {
         Some(span) => diagnostic.at(span, format!("no {} can be read from here", wanted.noun)),
         None => diagnostic,
@@ -146,7 +146,7 @@ pub(super) fn only_parameter(model: &Model) -> Result<String, Error> {
         false => format!("the question is about one of them: {}", names.join(", ")),
     };
     let message = format!("the model has {} parameters, so one has to be named", names.len());
-    Err(Diagnostic::error("E-usage", message).help(help).into())
+    Err(Diagnostic::error(Code::Usage, message).help(help).into())
 }
 
 /// Refuses names that cannot vary; the caret points into the command line.

@@ -33,7 +33,7 @@ use arguments::Arguments;
 use clap::Parser;
 use command_line::CommandLine;
 use commands::Context;
-use jurist_engine::error::Diagnostic;
+use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::show::diagnostics::render_error;
 use status::{Error, Outcome, Status};
 use std::ffi::OsString;
@@ -109,7 +109,7 @@ fn run(line: &CommandLine, #[cfg_attr(not(feature = "cli"), allow(unused_variabl
         }
         Err(Error::Undefined(why)) => {
             show(
-                &Diagnostic::error("E-undefined", format!("the model is undefined for these values: {why}"))
+                &Diagnostic::error(Code::Undefined, format!("the model is undefined for these values: {why}"))
                     .help("set the parameters to other values")
                     .into(),
             );

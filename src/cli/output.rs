@@ -3,7 +3,7 @@
 use super::captured;
 use super::replace::{Destination, replace};
 use super::status::Error;
-use jurist_engine::error::Diagnostic;
+use jurist_engine::error::{Code, Diagnostic};
 use std::ffi::{OsStr, OsString};
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
@@ -120,7 +120,7 @@ pub(super) fn print_with(print: impl FnOnce() -> std::io::Result<()>) -> Result<
 
 /// What is said where a write fails.
 pub(super) fn write_error(what: &str, error: &std::io::Error) -> Error {
-    Error::from(Diagnostic::error("E-write", format!("cannot write {what}: {}", plain(error))))
+    Error::from(Diagnostic::error(Code::Write, format!("cannot write {what}: {}", plain(error))))
 }
 
 /// The system's message without its number.
@@ -151,7 +151,7 @@ pub(super) fn unknown_ending(file: &OsStr, known: &[&str]) -> Diagnostic {
         Some(e) => format!("this command does not write '.{e}' files"),
         None => "the file name's ending has to say the format".to_owned(),
     };
-    Diagnostic::error("E-output-format", message).help(format!("it writes {}", endings.join(", ")))
+    Diagnostic::error(Code::OutputFormat, message).help(format!("it writes {}", endings.join(", ")))
 }
 
 /// Whether errors are drawn in colour: on a terminal, unless `NO_COLOR` is set or the terminal is dumb.

@@ -5,7 +5,7 @@ pub(super) use super::output::write_file as write;
 use super::output::{ending, note_answered, unknown_ending, write_answer};
 use super::status::Error;
 use jurist_draw::figures::Figure;
-use jurist_engine::error::Diagnostic;
+use jurist_engine::error::{Code, Diagnostic};
 use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::path::Path;
@@ -101,5 +101,5 @@ pub(super) fn pdf(figure: &Figure) -> Result<Vec<u8>, Error> {
 }
 
 fn cannot_draw(message: String) -> Error {
-    Diagnostic::error("E-write", format!("cannot draw the picture: {message}")).into()
+    Diagnostic::error(Code::Write, format!("cannot draw the picture: {message}")).into()
 }

@@ -3,7 +3,7 @@
 use super::arguments::RegionOptions;
 use super::commands::Context;
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
-use jurist_engine::error::{Diagnostic, Error};
+use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
 use jurist_engine::response::{RequirementKind, Requirements};
@@ -134,14 +134,15 @@ pub(super) fn refuse_proofs(model: &Model, asked: &Requirements, any_proof: bool
     if !any_proof || (asked.list.is_empty() && model.require().is_empty()) {
         return Ok(());
     }
-    let error = Diagnostic::error("E-require", "an answer with requirements has no certificate and no proof yet");
+    let error = Diagnostic::error(Code::Require, "an answer with requirements has no certificate and no proof yet");
     Err(error.help("leave out the requirements, or the certificate").into())
 }
 
 /// Warns that a command does not look at the model's requirements.
 pub(super) fn warn_of_ignored(model: &Model, context: &Context) {
     if !model.require().is_empty() {
-        let warning = Diagnostic::warning("W-require", "[require] is not looked at here: stability alone is decided");
+        let warning =
+            Diagnostic::warning(Code::RequireWarning, "[require] is not looked at here: stability alone is decided");
         context.warn(None, &[warning.help("requirements are decided by 'verdict', 'intervals' and 'map'")]);
     }
 }

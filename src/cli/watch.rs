@@ -9,7 +9,7 @@ use super::commands::Context;
 use super::output::{instead_of_an_answer, note};
 use super::progress::Reporter;
 use super::status::Status;
-use jurist_algebra::limits::{Budget, Exhausted, Gauge, gauge_of_the_process};
+use jurist_algebra::limits::{Budget, Exhausted, Gauge, Stop, gauge_of_the_process};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -82,12 +82,8 @@ impl Watch {
 
     fn say(&self, is_late: bool) {
         self.reporter.finish();
-        let budget = if is_late {
-            format!("time ({} s)", self.timeout.as_secs_f64())
-        } else {
-            format!("memory ({} MB)", self.bytes as f64 / 1e6)
-        };
-        let stopped = Exhausted::new(budget, format!("{} (which did not end by itself)", self.budget.reached()));
+        let stop = if is_late { Stop::Time(self.timeout) } else { Stop::Memory(self.bytes) };
+        let stopped = Exhausted::new(stop, format!("{} (which did not end by itself)", self.budget.reached()));
         match self.status {
             Status::Rejected if is_late => {
                 let seconds = self.timeout.as_secs_f64();

@@ -5,7 +5,7 @@ use super::commands::Context;
 use super::output::note;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_check::{Limits, check};
-use jurist_engine::error::{Diagnostic, Error};
+use jurist_engine::error::{Code, Diagnostic, Error};
 use std::ffi::{OsStr, OsString};
 use std::time::Duration;
 
@@ -23,7 +23,8 @@ pub(super) fn check_certificate(context: &Context, options: &RunOptions, model: 
             format!("the certificate {file} has been written, but 'jurist verify' may not accept it: {reason}");
         context.warn(
             None,
-            &[Diagnostic::warning("W-certificate", message).help("the answer stands; it lacks its independent proof")],
+            &[Diagnostic::warning(Code::CertificateWarning, message)
+                .help("the answer stands; it lacks its independent proof")],
         );
     };
     if left == Duration::ZERO {

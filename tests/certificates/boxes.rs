@@ -11,7 +11,7 @@ use jurist_algebra::number::Rational;
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};
 use jurist_engine::answer::{ToleranceRequest, Verdict};
-use jurist_engine::error::Error;
+use jurist_engine::error::{Code, Error};
 use jurist_engine::problem::Region;
 use std::time::Duration;
 
@@ -205,7 +205,7 @@ fn a_loop_with_exponentials_has_no_certificate_of_its_box_yet() {
     let request = ToleranceRequest::new([("K", "1%".parse().unwrap())]);
     let text = "time = 'discrete'\nparameters.K = 1\nloop.characteristic = 'z - exp(-1) + K/9'";
     match certificate_of(text, &request, None) {
-        Err(Error::Refused(why)) => assert_eq!(why.code(), "E-no-certificate"),
+        Err(Error::Refused(why)) => assert_eq!(why.code(), Code::NoCertificate),
         other => panic!("{other:?}"),
     }
 }

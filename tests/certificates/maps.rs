@@ -263,7 +263,7 @@ fn what_has_no_certificate_is_refused() {
     let refused = |text: &str, x: &str, y: &str| {
         let map = read(text).ask().free(x).free(y).map(6, &Budget::unlimited()).unwrap();
         match map.certificate(&Budget::unlimited()) {
-            Err(Error::Refused(why)) => why.code().to_owned(),
+            Err(Error::Refused(why)) => why.code().as_str(),
             other => panic!("{other:?}"),
         }
     };

@@ -2,7 +2,7 @@
 
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
-use jurist_engine::error::Source;
+use jurist_engine::error::{Code, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ pub fn read(text: &str) -> Model {
 pub fn load(text: &str) -> Model {
     let (model, mut warnings) =
         Model::from_toml(&Source::new("model.toml", text)).unwrap_or_else(|e| panic!("{e}\n{text}"));
-    warnings.retain(|w| w.code != "W-rule");
+    warnings.retain(|w| w.code != Code::RuleWarning);
     assert_eq!(warnings, []);
     model
 }

@@ -1,6 +1,6 @@
 //! Budgets end kernels from the inside, in work that would take hours: at a count, and cancelled from another thread.
 
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, Stop};
 use jurist_fuzzing::endless::JOBS;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,7 +10,7 @@ fn counted_work_ends_in_the_middle_of_every_kernel() {
     for (name, work) in JOBS {
         for units in [1_000, 3_000_000] {
             let end = Budget::with_work(units).enter(work);
-            assert_eq!(end.expect_err(name).budget, format!("work ({units} units)"), "{name}");
+            assert_eq!(end.expect_err(name).stop, Stop::Work(units), "{name}");
         }
     }
 }
@@ -34,6 +34,6 @@ fn another_thread_cancels_every_kernel() {
             flag.store(true, Ordering::SeqCst);
             end.join().expect("no panic")
         });
-        assert_eq!(end.expect_err(name).budget, "cancelled", "{name}");
+        assert_eq!(end.expect_err(name).stop, Stop::Cancelled, "{name}");
     }
 }

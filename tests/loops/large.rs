@@ -2,7 +2,7 @@
 
 use crate::helpers::budget::{cancelled_at, endless_model};
 use crate::helpers::model::load;
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, Stop};
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::Model;
 use std::fmt::Write;
@@ -81,7 +81,7 @@ fn order_two_hundred_stops_where_it_is_cancelled() {
     let budget = cancelled_at(step);
     match lp.ask().free("K").stable_set(&budget) {
         Err(Error::Stopped(stopped)) => {
-            assert_eq!((stopped.budget.as_str(), stopped.reached.as_str()), ("cancelled", step))
+            assert_eq!((stopped.stop, stopped.step.as_str()), (Stop::Cancelled, step))
         }
         Err(refused) => panic!("{refused}"),
         Ok(answer) => panic!("{:?}", answer.value()),
@@ -94,7 +94,7 @@ fn work_without_end_stops_where_it_is_cancelled() {
     let step = "boundary polynomials";
     match lp.ask().free("K").stable_set(&cancelled_at(step)) {
         Err(Error::Stopped(stopped)) => {
-            assert_eq!((stopped.budget.as_str(), stopped.reached.as_str()), ("cancelled", step));
+            assert_eq!((stopped.stop, stopped.step.as_str()), (Stop::Cancelled, step));
         }
         other => panic!("{other:?}"),
     }

@@ -3,7 +3,7 @@
 use crate::helpers::budget::{cancelled_after, spent};
 use crate::helpers::number::number;
 use crate::helpers::plane::{c, first_order, polynomial, small_loop, square, x, y};
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, Stop};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
 use jurist_engine::stability::plane::boxes::{BoxMap, BoxVerdict, Window, stability_boxes};
@@ -177,7 +177,7 @@ fn a_budget_that_runs_out_leaves_more_undecided() {
     assert!(stability_boxes(&p, &w, Shape::UnitDisc, &number("1/2"), &spent()).is_err());
     let map = stability_boxes(&p, &w, Shape::UnitDisc, &number("1e-12"), &cancelled_after(20)).unwrap();
     tiles_the_window(&map);
-    assert_eq!(map.stopped.as_deref(), Some("cancelled"));
+    assert_eq!(map.stopped, Some(Stop::Cancelled));
     assert!(map.areas.undecided > Rational::ZERO);
 }
 

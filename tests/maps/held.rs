@@ -219,7 +219,7 @@ fn is_scaled(p: &PlanePolynomial, coefficients: &[RationalFunction], region: Sha
         Ok(over) => over,
         // Said, not guessed.
         Err(stopped) => {
-            assert!(stopped.budget.starts_with("precision"), "{coefficients:?}: {stopped}");
+            assert!(stopped.stop.is_precision(), "{coefficients:?}: {stopped}");
             return None;
         }
     };

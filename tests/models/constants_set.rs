@@ -20,7 +20,7 @@ fn ask(question: Question) -> Result<CharacteristicPolynomial, String> {
         algebra.polynomial().cloned().ok_or_else(|| Error::Undefined(algebra.undefined().unwrap_or_default().into()))
     });
     asked.map_err(|failure| match failure {
-        Error::Refused(error) => error.code().to_owned(),
+        Error::Refused(error) => error.code().to_string(),
         other => other.to_string(),
     })
 }
@@ -90,7 +90,7 @@ fn a_constant_that_is_set_is_another_number_in_the_text() {
                 Ok(model) => ask(free(&model, ["K"])),
                 Err(error) => {
                     refused += 1;
-                    Err(error.code().to_owned())
+                    Err(error.code().to_string())
                 }
             };
             let found = ask(free(&written, ["K"]).set("c", number(value)));

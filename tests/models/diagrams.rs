@@ -5,7 +5,7 @@ use crate::helpers::certificates::checkers::certified_set_of;
 use crate::helpers::model::{continuous, discrete};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_engine::error::{Error, Source};
+use jurist_engine::error::{Code, Error, Source};
 use jurist_engine::model::Model;
 use jurist_engine::stability::{Cause, End};
 use proptest::collection::vec;
@@ -159,7 +159,7 @@ proptest! {
         let lp = match Model::from_toml(&Source::new("diagram.toml", diagram_text(&blocks, &wires))) {
             Ok((lp, _)) => lp,
             Err(error) => {
-                prop_assert_eq!(error.code(), "E-algebraic-loop");
+                prop_assert_eq!(error.code(), Code::AlgebraicLoop);
                 prop_assert!(values.iter().all(|k| lead(k).is_zero()), "refused, though well posed");
                 return Ok(());
             }

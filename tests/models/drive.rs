@@ -5,7 +5,7 @@ use crate::helpers::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::faddeev_leverrier;
 use jurist_algebra::poly::RationalFunction;
-use jurist_engine::error::Error;
+use jurist_engine::error::{Code, Error};
 use jurist_engine::model::{DRIVE, Model};
 use jurist_engine::problem::Question;
 
@@ -128,14 +128,14 @@ fn questions() {
     assert_eq!(p.poles.len(), 1);
     assert_eq!(p.poles[0].display(&p.variables).to_string(), "J");
     let code = |question: Question| match question.problem() {
-        Err(Error::Refused(error)) => error.code().to_owned(),
+        Err(Error::Refused(error)) => error.code(),
         other => panic!("{other:?}"),
     };
-    assert_eq!(code(drive.ask().free("T").set("T", 1)), "E-kept-and-set");
-    assert_eq!(code(drive.ask().free("K_pmw")), "E-unknown-parameter");
-    assert_eq!(code(drive.ask().free("T").free("T")), "E-kept-twice");
+    assert_eq!(code(drive.ask().free("T").set("T", 1)), Code::KeptAndSet);
+    assert_eq!(code(drive.ask().free("K_pmw")), Code::UnknownParameter);
+    assert_eq!(code(drive.ask().free("T").free("T")), Code::KeptTwice);
     let outside = drive.ask().set("T", -1).problem().unwrap();
-    assert_eq!(outside.warnings()[0].code, "W-outside-domain");
+    assert_eq!(outside.warnings()[0].code, Code::OutsideDomainWarning);
     let period = drive.ask().free("T").problem().unwrap();
     let time = period.algebra(&Budget::unlimited()).unwrap().sample_time();
     assert_eq!(time, Some(&RationalFunction::variable(0)));

@@ -22,7 +22,7 @@ fn errors(text: &str) -> Vec<String> {
                     let (line, column) = source.line_column(label.span.start);
                     format!("{}@{line}:{column}", d.code)
                 }
-                None => d.code.to_owned(),
+                None => d.code.to_string(),
             };
             error.diagnostics().iter().map(place).collect()
         }
@@ -62,6 +62,17 @@ fn expressions() {
         ("z + sin K", "E-syntax@5:27"),
         ("z + sin(K", "E-syntax@5:28"),
         ("z + sqrt(-2)", "E-value@5:23"),
+        ("z + sqrt(1 - sqrt(2))", "E-value@5:23"),
+        ("z + sqrt(2 - pi)", "E-value@5:23"),
+        ("z - K*tan(pi/2)", "E-value@5:25"),
+        ("z - tan(pi/2 + 0*K)", "E-value@5:23"),
+        ("z - tan(3*pi*K/K/2)", "E-value@5:23"),
+        ("z - K/cos(pi/2)", "E-division-by-zero@5:25"),
+        ("z - K/(sqrt(2)^2 - 2)", "E-division-by-zero@5:25"),
+        ("z^2/(sin(K)^2 + cos(K)^2 - 1) - K", "E-division-by-zero@5:23"),
+        ("z - (sqrt(2)^2 - 2)^-1", "E-division-by-zero@5:23"),
+        ("z - K*exp(1e300)", "E-too-large@5:25"),
+        ("z - K*exp(-exp(exp(10)))", "E-too-large@5:25"),
         ("z + exp(z)", "E-function@5:23"),
         ("z = K", "E-syntax@5:21"),
         ("z − K", "E-syntax@5:21"),
@@ -72,7 +83,16 @@ fn expressions() {
         assert_eq!(characteristic(text), [expected], "{text}");
     }
     assert_eq!(characteristic("z^-1 + 1"), ["E-not-polynomial@5:19"]);
-    assert_eq!(characteristic("z^(2^3) - K^2*z^3/7 + 1_000"), [""; 0]);
+    for right in [
+        "z^(2^3) - K^2*z^3/7 + 1_000",
+        "z - tan(K)",
+        "z - 1/cos(K*pi/2)",
+        "z - sqrt(K - 9)/(sqrt(2) - 2)",
+        "z - tan(pi/2 - 1e-50)",
+        "z - exp(-1000)*sqrt(sqrt(2)^2 - 2)",
+    ] {
+        assert_eq!(characteristic(right), [""; 0], "{right}");
+    }
 }
 
 #[test]
@@ -256,7 +276,7 @@ fn warnings_come_with_the_loop() {
         [loop]\ncharacteristic = 'z - K'\n";
     let source = Source::new("m.toml", text);
     let (_, warnings) = Model::from_toml(&source).unwrap();
-    let codes: Vec<&str> = warnings.iter().map(|w| w.code).collect();
+    let codes: Vec<&str> = warnings.iter().map(|w| w.code.as_str()).collect();
     assert_eq!(codes, ["W-unused", "W-outside-domain"]);
     insta::assert_snapshot!(render(&warnings, Some(&source), false), @r"
     warning[W-unused]: the constant 'c' is not used

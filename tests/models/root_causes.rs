@@ -130,7 +130,7 @@ fn a_sample_time_is_positive() {
 fn a_sample_time_in_continuous_time_is_remarked_upon() {
     let text = "time = 'continuous'\nsample_time = 1\nparameters.K = 1\nloop.characteristic = 's + K'\n";
     let (_, warnings) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
-    assert_eq!(warnings.iter().map(|w| w.code).collect::<Vec<_>>(), ["W-unused"]);
+    assert_eq!(warnings.iter().map(|w| w.code.as_str()).collect::<Vec<_>>(), ["W-unused"]);
 }
 
 #[test]

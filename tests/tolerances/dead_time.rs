@@ -5,7 +5,7 @@ use crate::helpers::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, BoxRequest, MapMethod, MapOrBoxes, ToleranceAnswer, ToleranceRequest, Verdict};
-use jurist_engine::error::Error;
+use jurist_engine::error::{Code, Error};
 use jurist_engine::model::Model;
 use jurist_engine::stability::boxes::BoxDecision;
 use jurist_engine::stability::plane::boxes::BoxVerdict;
@@ -263,19 +263,19 @@ fn what_is_not_asked_of_dead_time_is_refused() {
     let all = request(&[("T", "5%"), ("K", "5%")], "1e-3");
     for request in [all.clone().exact(), all.clone().volume(number("0.01"))] {
         match first_order().ask().tolerance(&request, &Budget::unlimited()) {
-            Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, "E-tolerance"),
+            Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, Code::Tolerance),
             other => panic!("{other:?}"),
         }
     }
     let answer = first_order().ask().tolerance(&all.clone().box_alone(), &Budget::unlimited()).unwrap();
     assert!(answer.value().decision.is_stable() && answer.value().factor.is_none());
     match answer.certificate(&Budget::unlimited()) {
-        Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, "E-no-certificate"),
+        Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, Code::NoCertificate),
         other => panic!("{other:?}"),
     }
     let other = function("K = { nominal = 1 }\na = { nominal = 1 }", "s + K*exp(-s) + exp(-a)");
     match other.ask().tolerance(&request(&[("K", "5%")], "1e-3"), &Budget::unlimited()) {
-        Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, "E-dead-time"),
+        Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, Code::DeadTime),
         other => panic!("{other:?}"),
     }
 }

@@ -12,7 +12,7 @@ fn answer(parameters: &str, characteristic: &str) -> ToleranceAnswer {
     let text =
         format!("time = 'continuous'\n[parameters]\n{parameters}\n[loop]\ncharacteristic = '{characteristic}'\n");
     let model = load(&text);
-    let request = ToleranceRequest::of_model(&model).exact();
+    let request = ToleranceRequest::of_model(&model).exact().volume(number("1/100"));
     model.ask().tolerance(&request, &Budget::unlimited()).unwrap().into_value()
 }
 
@@ -132,6 +132,10 @@ fn a_point_inside_that_is_touched_bounds_the_factor() {
         let touched = answer(parameters, characteristic);
         assert!(!touched.decision.is_stable(), "{characteristic}");
         bracket_holds(&touched, "1/3");
+        let upper = touched.factor.as_ref().and_then(|f| f.upper.clone()).unwrap();
+        assert!(upper < number("0.33334"), "{characteristic}: {upper} is refuted");
+        let volume = touched.volume.as_ref().unwrap();
+        assert!(volume.unstable.is_zero() && volume.undecided <= number("1/100"), "{characteristic}: {volume:?}");
     }
     // Where the point has no rational coordinates, what is below it is proved all the same: sqrt(1/8) = 0.35355339...
     let irrational = answer(parameters, "s + (8*a^2 - 1)^2 + (b - a)^2");

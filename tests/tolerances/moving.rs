@@ -6,7 +6,7 @@ use jurist_algebra::ball::{Ball, exp};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_engine::answer::{Answer, BoxRequest, MapMethod, MapOrBoxes, ToleranceAnswer, ToleranceRequest, Verdict};
-use jurist_engine::error::Error;
+use jurist_engine::error::{Code, Error};
 use jurist_engine::model::Model;
 use jurist_engine::stability::boxes::BoxDecision;
 use jurist_engine::stability::plane::boxes::BoxVerdict;
@@ -232,13 +232,13 @@ fn what_is_not_asked_of_functions_is_refused() {
     let all = ToleranceRequest::new([("tau", "20%".parse().unwrap())]);
     for request in [all.clone().exact(), all.clone().volume(number("0.01"))] {
         match first_order().ask().tolerance(&request, &Budget::unlimited()) {
-            Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, "E-tolerance"),
+            Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, Code::Tolerance),
             other => panic!("{other:?}"),
         }
     }
     let answer = first_order().ask().tolerance(&all, &Budget::unlimited()).unwrap();
     match answer.certificate(&Budget::unlimited()) {
-        Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, "E-no-certificate"),
+        Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, Code::NoCertificate),
         other => panic!("{other:?}"),
     }
 }

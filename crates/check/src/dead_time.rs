@@ -14,7 +14,7 @@ use super::statement::{
 };
 use super::symbols::Table;
 use super::univariate::Uni;
-use super::words::outward;
+use super::words::shared_digits;
 use super::{Proved, Rejection, Step, is_discrete, model, verdict};
 use crate::format::Json;
 use num_traits::{One, Signed, Zero};
@@ -338,15 +338,12 @@ fn same(claim: &Json, limits: &[(Limit, Limit)], found: &Counted, scale: &Q) -> 
     Ok(())
 }
 
-/// The intervals for a sentence: a switch by a number of few digits on each side.
+/// The intervals for a sentence: a switch by its first digits.
 fn in_words(limits: &[(Limit, Limit)]) -> Json {
     let end = |limit: &Limit| match limit {
         Limit::Infinite => Json::Null,
         Limit::Number(q) => q.to_string().into(),
-        Limit::Switch(_, _, lo, hi) => {
-            let between = Json::List(outward(lo, hi).into_iter().map(Json::from).collect());
-            Json::Object(vec![("switch".to_owned(), between)])
-        }
+        Limit::Switch(_, _, lo, hi) => Json::Object(vec![("switch".to_owned(), shared_digits(lo, hi).into())]),
     };
     let interval = |(lower, upper): &(Limit, Limit)| {
         Json::Object(vec![("lower".to_owned(), end(lower)), ("upper".to_owned(), end(upper))])

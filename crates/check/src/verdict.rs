@@ -5,7 +5,7 @@ use super::number::Q;
 use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
 use super::statement::{self, End, Extent, count, fixed_extent, list, object, polynomial, polynomials, text, values};
 use super::univariate::Uni;
-use super::words::{exact, outward};
+use super::words::{exact, shared_digits};
 use super::{Proved, Rejection, Step, further_keys, held, is_discrete, model, region, same_characteristic, table};
 use crate::format::Json;
 use num_traits::Zero;
@@ -158,17 +158,25 @@ pub(super) fn sentence_of_intervals(
         return out;
     }
     out.push_str(" exactly for ");
+    let mut origins: Vec<String> = Vec::new();
     for (i, interval) in intervals.iter().enumerate() {
         if i > 0 {
             out.push_str(" or ");
         }
-        let [lower, upper] = ["lower", "upper"].map(|key| interval.get(key).and_then(|e| end(e, parameter)));
+        let [lower, upper] = ["lower", "upper"].map(|key| {
+            let (number, origin) = interval.get(key).and_then(|e| end(e, parameter))?;
+            origins.extend(origin.map(|o| format!("{number} is {o}")).filter(|o| !origins.contains(o)));
+            Some(number)
+        });
         out.push_str(&match (lower, upper) {
             (None, None) => "all of them".to_owned(),
             (Some(l), None) => format!("{parameter} > {l}"),
             (None, Some(u)) => format!("{parameter} < {u}"),
             (Some(l), Some(u)) => format!("{l} < {parameter} < {u}"),
         });
+    }
+    if !origins.is_empty() {
+        let _ = write!(out, ", where {}", origins.join(", and "));
     }
     out.push('.');
     out
@@ -177,20 +185,18 @@ pub(super) fn sentence_of_intervals(
 /// Polynomials that take more characters than this are not written out.
 const SHOWN: usize = 200;
 
-/// An end in words; `None` for an infinite one.
-fn end(json: &Json, parameter: &str) -> Option<String> {
-    if let Some(Json::List(between)) = json.get("switch")
-        && let [Json::Text(a), Json::Text(b)] = between.as_slice()
-    {
-        return Some(format!("[a dead time between {a} and {b} with roots on the axis]"));
+/// An end as a number, and for an irrational one what it is; `None` for an infinite one.
+fn end(json: &Json, parameter: &str) -> Option<(String, Option<String>)> {
+    if let Some(Json::Text(number)) = json.get("switch") {
+        return Some((number.clone(), Some("a dead time with roots on the axis".into())));
     }
     let (f, a, b) = match statement::end(json, |p: &Json, _: &str| Ok(p.clone())).ok()? {
         End::Infinite => return None,
-        End::Rational(q) => return Some(exact(&q)),
+        End::Rational(q) => return Some((exact(&q), None)),
         End::Root(f, a, b) => (f, a, b),
     };
     let polynomial = match polynomial(&f, "") {
-        Err(_) => "the polynomial over symbols in 'stable'".to_owned(),
+        Err(_) => "a polynomial over exponentials in 'stable'".to_owned(),
         Ok(f) => {
             let terms = f.0.iter().enumerate().filter(|(_, c)| !c.is_zero()).map(|(k, c)| match k {
                 0 => c.to_string(),
@@ -199,12 +205,11 @@ fn end(json: &Json, parameter: &str) -> Option<String> {
             });
             let polynomial = terms.collect::<Vec<_>>().join(" + ").replace("+ -", "- ");
             if polynomial.len() > SHOWN {
-                format!("the polynomial of degree {} in 'stable'", f.degree())
+                format!("a polynomial of degree {} in 'stable'", f.degree())
             } else {
                 polynomial
             }
         }
     };
-    let [a, b] = outward(&a, &b);
-    Some(format!("[a root of {polynomial} between {a} and {b}]"))
+    Some((shared_digits(&a, &b), Some(format!("a root of {polynomial}"))))
 }

@@ -6,6 +6,9 @@ use num_traits::{Signed, Zero};
 /// So many digits of a decimal are written.
 const DIGITS: i64 = 12;
 
+/// An enclosure that tells fewer digits is written by its ends.
+const FEW: i64 = 3;
+
 /// Fractions that take no more characters are written as such.
 const SHORT: usize = 12;
 
@@ -37,6 +40,27 @@ pub(super) fn inward(low: &Q, high: &Q) -> [String; 2] {
 pub(super) fn outward(low: &Q, high: &Q) -> [String; 2] {
     let power = exponent(low).max(exponent(high));
     [rounded(low, power, false), rounded(high, power, true)]
+}
+
+/// A number inside of an open interval: the first digits that all numbers in it have, and three dots; where these are few, the interval.
+pub(super) fn shared_digits(low: &Q, high: &Q) -> String {
+    let (sign, near, far) = if high <= &Q::zero() { ("-", -high, -low) } else { ("", low.clone(), high.clone()) };
+    if near > Q::zero() {
+        let leading = exponent(&near);
+        for count in (FEW..=DIGITS).rev() {
+            let power = leading - count + 1;
+            let digits = over_power(&near, power).floor();
+            // Zeros would stand in the place of digits that are not known.
+            if power > 0 && PLAIN.contains(&leading) {
+                break;
+            }
+            if over_power(&far, power) <= &digits + Q::from(Z::from(1)) {
+                return format!("{sign}{}", layout(&digits.to_integer(), power, "..."));
+            }
+        }
+    }
+    let [a, b] = outward(low, high);
+    format!("[a number between {a} and {b}]")
 }
 
 /// A number, or a decimal that is not below, or not above it.
@@ -85,9 +109,7 @@ fn layout(digits: &Z, power: i64, dots: &str) -> String {
     let whole = leading as usize + 1;
     match digits.len() > whole {
         true => format!("{}.{}{dots}", &digits[..whole], &digits[whole..]),
-        false => {
-            format!("{digits}{}{}{dots}", "0".repeat(whole - digits.len()), if dots.is_empty() { "" } else { "." })
-        }
+        false => format!("{digits}{}{dots}", "0".repeat(whole - digits.len())),
     }
 }
 
@@ -111,9 +133,29 @@ mod tests {
             ("1453635/2097152", "0.693147182464..."),
             ("-100000001/100000000", "-1.00000001"),
             ("1234567890123456/10", "1.23456789012...e14"),
+            ("1234567890123/10", "123456789012..."),
             ("0", "0"),
         ] {
             assert_eq!(exact(&q(number)), words);
+        }
+    }
+
+    #[test]
+    fn enclosures_are_the_digits_that_they_tell() {
+        for (low, high, words) in [
+            ("1414213562373/1000000000000", "1414213562374/1000000000000", "1.41421356237..."),
+            ("-1414213562374/1000000000000", "-1414213562373/1000000000000", "-1.41421356237..."),
+            ("1414213/1000000", "1414214/1000000", "1.414213..."),
+            ("1/3000000000000", "10001/30000000000000000", "3.333...e-13"),
+            ("199/100", "2", "1.99..."),
+            ("345", "346", "345..."),
+            ("34500", "34600", "[a number between 34500 and 34600]"),
+            ("34500000000000", "34600000000000", "3.45...e13"),
+            ("99/100", "101/100", "[a number between 99/100 and 101/100]"),
+            ("0", "1/1000", "[a number between 0 and 1/1000]"),
+            ("-1", "1", "[a number between -1 and 1]"),
+        ] {
+            assert_eq!(shared_digits(&q(low), &q(high)), words);
         }
     }
 

@@ -4,11 +4,13 @@
 //! terminal is decided elsewhere (the command line draws them with carets); `Display` gives one
 //! line each.
 
+mod code;
 mod codes;
 mod kinds;
 #[doc = include_str!("error/codes.md")]
 pub mod code_list {}
 
+pub use code::Code;
 pub use codes::codes;
 pub use kinds::Error;
 
@@ -79,8 +81,8 @@ impl Source {
 /// A place in the text and what is to be said about it.
 ///
 /// ```
-/// use jurist_engine::error::{Diagnostic, Span};
-/// let error = Diagnostic::error("E-unknown-name", "unknown name 'k'").at(Span::new(4, 5), "not defined");
+/// use jurist_engine::error::{Code, Diagnostic, Span};
+/// let error = Diagnostic::error(Code::UnknownName, "unknown name 'k'").at(Span::new(4, 5), "not defined");
 /// let label = error.primary.unwrap();
 /// assert_eq!((label.span.start, label.text.as_str()), (4, "not defined"));
 /// ```
@@ -96,8 +98,8 @@ pub struct Label {
 /// Whether the input is refused or only remarked upon.
 ///
 /// ```
-/// use jurist_engine::error::{Diagnostic, Severity};
-/// assert_eq!(Diagnostic::warning("W-unused", "the constant 'c' is not used").severity, Severity::Warning);
+/// use jurist_engine::error::{Code, Diagnostic, Severity};
+/// assert_eq!(Diagnostic::warning(Code::UnusedWarning, "the constant 'c' is not used").severity, Severity::Warning);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
@@ -110,8 +112,8 @@ pub enum Severity {
 /// One thing that is wrong, where, and what to do about it.
 ///
 /// ```
-/// use jurist_engine::error::{Diagnostic, Span};
-/// let error = Diagnostic::error("E-unknown-name", "unknown name 'k'").at(Span::new(4, 5), "not defined");
+/// use jurist_engine::error::{Code, Diagnostic, Span};
+/// let error = Diagnostic::error(Code::UnknownName, "unknown name 'k'").at(Span::new(4, 5), "not defined");
 /// let error = error.help("did you mean 'K'?");
 /// assert_eq!(error.to_string(), "error[E-unknown-name]: unknown name 'k'");
 /// assert_eq!(error.help.as_deref(), Some("did you mean 'K'?"));
@@ -122,7 +124,7 @@ pub struct Diagnostic {
     /// Error or warning.
     pub severity: Severity,
     /// Stable code such as `E-unknown-name`; every code is listed in [`code_list`].
-    pub code: &'static str,
+    pub code: Code,
     /// One sentence, no full stop.
     pub message: String,
     /// The place the message is about.
@@ -135,7 +137,7 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// An error without a place.
-    pub fn error(code: &'static str, message: impl Into<String>) -> Self {
+    pub fn error(code: Code, message: impl Into<String>) -> Self {
         Diagnostic {
             severity: Severity::Error,
             code,
@@ -147,7 +149,7 @@ impl Diagnostic {
     }
 
     /// A warning without a place.
-    pub fn warning(code: &'static str, message: impl Into<String>) -> Self {
+    pub fn warning(code: Code, message: impl Into<String>) -> Self {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, message) }
     }
 
@@ -183,8 +185,8 @@ impl fmt::Display for Diagnostic {
 /// Why an input was refused: at least one diagnostic, and the text they point into.
 ///
 /// ```
-/// use jurist_engine::error::{Diagnostic, Diagnostics, Source, Span};
-/// let error = Diagnostic::error("E-unknown-name", "unknown name 'k'").at(Span::new(4, 5), "not defined");
+/// use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source, Span};
+/// let error = Diagnostic::error(Code::UnknownName, "unknown name 'k'").at(Span::new(4, 5), "not defined");
 /// let errors = Diagnostics::from(error).in_source(&Source::new("model.toml", "z - k"));
 /// assert_eq!(errors.to_string(), "model.toml:1:5: error[E-unknown-name]: unknown name 'k'");
 /// ```
@@ -212,8 +214,8 @@ impl Diagnostics {
     }
 
     /// The code of the first diagnostic.
-    pub fn code(&self) -> &'static str {
-        self.diagnostics.first().map_or("E-internal", |d| d.code)
+    pub fn code(&self) -> Code {
+        self.diagnostics.first().map_or(Code::Internal, |d| d.code)
     }
 
     /// The same diagnostics, about `source` where none was set.

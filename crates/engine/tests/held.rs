@@ -2,7 +2,7 @@
 
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
-use jurist_engine::error::{Diagnostics, Error, Source};
+use jurist_engine::error::{Code, Diagnostics, Error, Source};
 use jurist_engine::model::{Definition, Evaluated, Model, value_approximate};
 
 type Dense = Vec<Vec<f64>>;
@@ -288,17 +288,17 @@ fn what_cannot_be_is_refused_with_its_place() {
         Err(e) => e.code(),
     };
     for (line, expected) in [
-        ("discretize = { method = 'zoh', T = -1 }", "E-value"),
-        ("discretize = { method = 'zoh', T = 1, delay = -1 }", "E-value"),
-        ("discretize = { method = 'zoh', T = 1, delay = 5000 }", "E-value"),
-        ("discretize = { method = 'tustin', T = 1, delay = 1 }", "E-discretize"),
-        ("discretize = { method = 'zoh', T = 1, prewarp = 1 }", "E-discretize"),
-        ("discretize = { method = 'tustin', T = 1, prewarp = 1, c = 2 }", "E-discretize"),
-        ("discretize = { method = 'tustin', T = 1, prewarp = 3.15 }", "E-discretize"),
-        ("discretize = { method = 'tustin', T = 1, prewarp = -1 }", "E-discretize"),
-        ("discretize = 'zho'", "E-discretize"),
-        ("discretize = 'zoh'", "E-discretize"),
-        ("discretize = { method = 'zoh', T = 'tau' }", "E-unknown-name"),
+        ("discretize = { method = 'zoh', T = -1 }", Code::Value),
+        ("discretize = { method = 'zoh', T = 1, delay = -1 }", Code::Value),
+        ("discretize = { method = 'zoh', T = 1, delay = 5000 }", Code::Value),
+        ("discretize = { method = 'tustin', T = 1, delay = 1 }", Code::Discretize),
+        ("discretize = { method = 'zoh', T = 1, prewarp = 1 }", Code::Discretize),
+        ("discretize = { method = 'tustin', T = 1, prewarp = 1, c = 2 }", Code::Discretize),
+        ("discretize = { method = 'tustin', T = 1, prewarp = 3.15 }", Code::Discretize),
+        ("discretize = { method = 'tustin', T = 1, prewarp = -1 }", Code::Discretize),
+        ("discretize = 'zho'", Code::Discretize),
+        ("discretize = 'zoh'", Code::Discretize),
+        ("discretize = { method = 'zoh', T = 'tau' }", Code::UnknownName),
     ] {
         assert_eq!(code(line), expected, "{line}");
     }

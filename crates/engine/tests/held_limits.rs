@@ -4,7 +4,7 @@
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_engine::answer::{Answer, Verdict};
-use jurist_engine::error::{Error, Source};
+use jurist_engine::error::{Code, Error, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
 use jurist_engine::stability::{End, Range, StableSet};
@@ -172,8 +172,8 @@ fn documents_and_refusals_of_transcendental_limits() {
     };
     let budget = Budget::unlimited();
     assert!(answer.certificate(&budget).unwrap().contains("jurist/certificate/2"));
-    assert_eq!(code(answer.smt2(&budget).unwrap_err()), "E-no-certificate");
-    assert_eq!(code(answer.coq(&budget).unwrap_err()), "E-coq");
+    assert_eq!(code(answer.smt2(&budget).unwrap_err()), Code::NoCertificate);
+    assert_eq!(code(answer.coq(&budget).unwrap_err()), Code::Coq);
     let verdict = unity("transfer = '1/(s + 1)'\ndiscretize = 'zoh'").ask().verdict(&budget).unwrap();
     assert!(verdict.certificate(&budget).unwrap().contains("jurist/certificate/2"));
     assert!(answer.text(12).contains("0 < K < 2.39221119118"));

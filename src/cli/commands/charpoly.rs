@@ -9,7 +9,7 @@ use crate::cli::status::{Error, Outcome, Status};
 use clap::{Args, ValueEnum};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::matrix::CharacteristicPolynomial;
-use jurist_engine::error::{Diagnostic, Diagnostics};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
 use jurist_engine::show::documents::{Charpoly, RootLocusForm, Transfer, to_text};
@@ -74,7 +74,7 @@ fn notation(options: &Options) -> Result<Notation, Error> {
     let by_option = match (options.format, options.output.json) {
         (None | Some(Format::Json), true) => Some(Notation::Json),
         (Some(_), true) => {
-            return Err(Diagnostic::error("E-usage", "'--json' contradicts '--format'")
+            return Err(Diagnostic::error(Code::Usage, "'--json' contradicts '--format'")
                 .help("leave out one of the two")
                 .into());
         }
@@ -194,7 +194,7 @@ fn root_locus(
     let Some((num, den)) = split else {
         let span = context.line.option_value("--root-locus-form", name).span;
         let message = format!("'{name}' does not enter the characteristic polynomial linearly");
-        let diagnostic = Diagnostic::error("E-no-root-locus", message)
+        let diagnostic = Diagnostic::error(Code::NoRootLocus, message)
             .at(span, "1 + NAME num/den has NAME to the first power only")
             .help("a root locus needs a parameter that multiplies one polynomial in z or s");
         return Err(in_line(context.line, vec![diagnostic]).into());

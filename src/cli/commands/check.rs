@@ -9,7 +9,7 @@ use crate::cli::status::{Outcome, Status};
 use clap::Args;
 use jurist_algebra::limits::Budget;
 use jurist_engine::answer::Verdict;
-use jurist_engine::error::{Diagnostic, Diagnostics, Error};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_engine::model::Model;
 use jurist_engine::show::documents::{Check, to_text};
 use std::ffi::OsString;
@@ -81,7 +81,7 @@ const DIGITS: usize = 6;
 /// A remark for each requirement of the model that the nominal loop does not meet, or one that they were not decided.
 fn unmet_requirements(model: &Model, budget: &Budget) -> Vec<Diagnostic> {
     let remark = |name: &str, message: String| {
-        let warning = Diagnostic::warning("W-not-met", message).help("'jurist verdict' has all values");
+        let warning = Diagnostic::warning(Code::NotMetWarning, message).help("'jurist verdict' has all values");
         match model.require().iter().find(|r| r.name == name).or(model.require().first()) {
             Some(required) => warning.at(required.span, "required here"),
             None => warning,

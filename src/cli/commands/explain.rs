@@ -3,7 +3,7 @@
 use crate::cli::output::write_answer;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
-use jurist_engine::error::{Diagnostic, codes};
+use jurist_engine::error::{Code, Diagnostic, codes};
 use jurist_engine::show::words;
 
 /// Options of `jurist explain`.
@@ -17,8 +17,8 @@ pub(in crate::cli) struct Options {
 /// Prints the explanation of one code or word, or the list of all.
 pub(in crate::cli) fn run(options: &Options) -> Outcome {
     if options.code.is_empty() {
-        let width = codes().map(|(c, _)| c.len()).max().unwrap_or(0);
-        let line = |(code, text): (&str, String)| format!("{code:width$}  {}", text.lines().next().unwrap_or_default());
+        let width = codes().map(|(code, _)| code.as_str().len()).max().unwrap_or(0);
+        let line = |(code, text): (Code, String)| format!("{code:width$}  {}", text.lines().next().unwrap_or_default());
         let mut lines: Vec<String> = codes().map(line).collect();
         let words: Vec<&str> = words().map(|(word, _)| word).collect();
         lines.push(format!("\nand the words {}", words.join(", ")));
@@ -31,7 +31,7 @@ pub(in crate::cli) fn run(options: &Options) -> Outcome {
         known.eq_ignore_ascii_case(wanted)
             || known.split_once('-').is_some_and(|(_, name)| name.eq_ignore_ascii_case(wanted))
     };
-    match codes().find(|(known, _)| same(known)) {
+    match codes().find(|(known, _)| same(known.as_str())) {
         Some((known, text)) => {
             write_answer(&format!("{known}\n\n{text}"), None)?;
             Ok(Status::Holds)
@@ -48,8 +48,8 @@ pub(in crate::cli) fn run(options: &Options) -> Outcome {
 
 fn unknown(wanted: &str) -> Error {
     let shown: String = wanted.chars().take(60).collect();
-    let diagnostic = Diagnostic::error("E-unknown-code", format!("there is no error code or word '{shown}'"));
-    let near = codes().map(|(c, _)| c).chain(words().map(|(word, _)| word)).max_by(|a, b| {
+    let diagnostic = Diagnostic::error(Code::UnknownCode, format!("there is no error code or word '{shown}'"));
+    let near = codes().map(|(code, _)| code.as_str()).chain(words().map(|(word, _)| word)).max_by(|a, b| {
         let likeness_for_display = |c: &str| strsim::jaro_winkler(c, &shown);
         likeness_for_display(a).total_cmp(&likeness_for_display(b))
     });

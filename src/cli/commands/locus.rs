@@ -12,7 +12,7 @@ use jurist_algebra::number::{Rational, parse_number};
 use jurist_draw::document::locus_json;
 use jurist_draw::figures::{locus_of, locus_range};
 use jurist_draw::simulate::ParameterScale;
-use jurist_engine::error::Diagnostic;
+use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::show::documents::to_text;
 use std::slice::from_ref;
 
@@ -52,7 +52,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let range = match &options.range {
         Some(text) => range_of(text, context)?,
         None => locus_range(&answer).ok_or_else(|| {
-            Diagnostic::error("E-usage", "the parameter's range is unknown").help("give it with --range LO..HI")
+            Diagnostic::error(Code::Usage, "the parameter's range is unknown").help("give it with --range LO..HI")
         })?,
     };
     let scale = if options.log { Some(ParameterScale::Logarithmic) } else { None };
@@ -72,7 +72,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
 fn range_of(text: &str, context: &Context) -> Result<(Rational, Rational), Error> {
     let wrong = |what: &str| {
         let place = context.line.option_value("--range", text).span;
-        let error = Diagnostic::error("E-option-value", "--range expects LO..HI with LO below HI");
+        let error = Diagnostic::error(Code::OptionValue, "--range expects LO..HI with LO below HI");
         Error::from(in_line(context.line, vec![error.at(place, what).help("for example --range 0.001..1000")]))
     };
     let Some((lo, hi)) = text.split_once("..") else { return Err(wrong("there is no '..'")) };

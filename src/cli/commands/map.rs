@@ -18,7 +18,7 @@ use jurist_draw::page::map_page;
 #[cfg(feature = "cli")]
 use jurist_drive::published_limits;
 use jurist_engine::answer::{Answer, BoxRequest, Map, MapMethod, MapOrBoxes};
-use jurist_engine::error::{Diagnostic, Error as EngineError};
+use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
 use jurist_engine::problem::{DECAY, Problem, RADIUS};
 use jurist_engine::response::Requirements;
 use jurist_engine::show::{documents, map_boxes_text, map_text};
@@ -101,7 +101,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     if let Some(z) = &options.z {
         if options.certificate.is_some() {
             let error = Diagnostic::error(
-                "E-no-certificate",
+                Code::NoCertificate,
                 "maps at several values of a third parameter have no certificate",
             );
             return Err(error.help("ask for the map at one value: '--set NAME=VALUE' in the place of '-z'").into());

@@ -14,7 +14,7 @@ use jurist_algebra::number::Rational;
 use jurist_draw::figures::map::{MapContents, MapTrace, common_windows, small_multiples, trace_map};
 use jurist_draw::page::body_page;
 use jurist_engine::answer::{Answer, Body};
-use jurist_engine::error::{Diagnostic, Span};
+use jurist_engine::error::{Code, Diagnostic, Span};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
 use std::path::Path;
@@ -52,7 +52,10 @@ pub(super) fn run(
     let open = body.open_slices().count();
     let stopped = body.stopped().map(|stopped| match open {
         0 => stopped.clone(),
-        _ => Exhausted::new(&stopped.budget, format!("{} of {} slices", body.slices.len() - open, body.slices.len())),
+        _ => Exhausted::new(
+            stopped.stop.clone(),
+            format!("{} of {} slices", body.slices.len() - open, body.slices.len()),
+        ),
     });
     let output = &options.output;
     match (picture, stopped) {
@@ -72,13 +75,13 @@ pub(super) fn run(
 /// Slices are exact, and of stability alone.
 fn fits(options: &Options) -> Result<(), Error> {
     if options.method.method == MethodName::Boxes {
-        let error = Diagnostic::error("E-usage", "the slices of '-z' are exact maps, and boxes are asked for");
+        let error = Diagnostic::error(Code::Usage, "the slices of '-z' are exact maps, and boxes are asked for");
         let help = "leave out '--method boxes', or '-z' and give its parameter one value with '--set'";
         return Err(error.help(help).into());
     }
     if let Some(option) = options.require.first() {
         let error =
-            Diagnostic::error("E-require", format!("the slices of '-z' are of stability alone, without '{option}'"));
+            Diagnostic::error(Code::Require, format!("the slices of '-z' are of stability alone, without '{option}'"));
         return Err(error.help("leave out '-z' and give its parameter one value with '--set'").into());
     }
     Ok(())
@@ -90,12 +93,12 @@ fn pointed(error: Error, request: &SlicesRequest, axes: &[AxisRequest; 2], conte
     let at =
         |span: Span, label: &str| in_line(context.line, vec![refused.diagnostics()[0].clone().at(span, label)]).into();
     match refused.code() {
-        "E-usage" => {
+        Code::Usage => {
             let third = axes.iter().any(|axis| axis.name == request.values.name());
             at(if third { request.name_span } else { axes[1].name_span }, "asked for a second time")
         }
-        "E-function" => at(request.range_span, "slices are asked for here"),
-        "E-value" => at(request.range_span, "not inside the domain"),
+        Code::Function => at(request.range_span, "slices are asked for here"),
+        Code::Value => at(request.range_span, "not inside the domain"),
         _ => error,
     }
 }

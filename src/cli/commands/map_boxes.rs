@@ -9,12 +9,12 @@ use crate::cli::picture::{WRITES, pdf, png, write};
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::percent_below;
 use clap::{Args, ValueEnum};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::Rational;
 use jurist_draw::figures::map::boxes_figure;
 use jurist_draw::page::map_boxes_page;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod};
-use jurist_engine::error::{Diagnostic, Error as EngineError};
+use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
 use jurist_engine::problem::Problem;
 use jurist_engine::response::Requirements;
 use jurist_engine::stability::Range;
@@ -60,7 +60,7 @@ impl MethodOptions {
             return Ok(self.method());
         }
         if self.method == MethodName::Boxes {
-            let error = Diagnostic::error("E-require", "boxes decide stability only, no requirements");
+            let error = Diagnostic::error(Code::Require, "boxes decide stability only, no requirements");
             return Err(error.help("leave out '--method boxes'").into());
         }
         Ok(MapMethod::Exact)
@@ -101,7 +101,7 @@ impl MethodOptions {
                 let share = plain_number(context.line, "--undecided", text)?;
                 if !share.sign().is_gt() || share > Rational::ONE {
                     let span = context.line.option_value("--undecided", text).span;
-                    let error = Diagnostic::error("E-option-value", "the undecided share is not between 0 and 1")
+                    let error = Diagnostic::error(Code::OptionValue, "the undecided share is not between 0 and 1")
                         .at(span, "a share of the window's area, such as 0.01");
                     return Err(in_line(context.line, vec![error]).into());
                 }
@@ -145,7 +145,7 @@ pub(super) fn answer(boxes: &Answer<MapBoxes>, output: &OutputOptions, context: 
         write(Path::new(file), &bytes)?;
         return Ok(match &boxes.value().boxes.stopped {
             None => Status::Holds,
-            Some(budget) => context.say_undecided(&stopped_at(budget)),
+            Some(stop) => context.say_undecided(&stopped_at(stop)),
         });
     }
     match &boxes.value().boxes.stopped {
@@ -153,13 +153,13 @@ pub(super) fn answer(boxes: &Answer<MapBoxes>, output: &OutputOptions, context: 
             context.answer(output, || boxes.text(digits), || boxes.json())?;
             Ok(Status::Holds)
         }
-        Some(budget) => context.undecided(output, &stopped_at(budget), || Some(boxes.text(digits)), || boxes.json()),
+        Some(stop) => context.undecided(output, &stopped_at(stop), || Some(boxes.text(digits)), || boxes.json()),
     }
 }
 
 /// The subdivision ended before its goal.
-fn stopped_at(budget: &str) -> Exhausted {
-    Exhausted::new(budget, "subdividing the window")
+fn stopped_at(stop: &Stop) -> Exhausted {
+    Exhausted::new(stop.clone(), "subdividing the window")
 }
 
 /// How much of the window the certificate speaks of.

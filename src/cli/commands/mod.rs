@@ -200,7 +200,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
         #[cfg(feature = "cli")]
         None => main_job::run(&arguments.main_job, context),
         #[cfg(not(feature = "cli"))]
-        None => Err(Diagnostic::error("E-usage", "a command is missing").into()),
+        None => Err(Diagnostic::error(jurist_engine::error::Code::Usage, "a command is missing").into()),
         Some(Command::Analyze(options)) => analyze::run(options, context),
         Some(Command::Intervals(options)) => intervals::run(options, context),
         Some(Command::Verdict(options)) => verdict::run(options, context),

@@ -3,7 +3,7 @@
 use crate::cli::output::write_answer;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
-use jurist_engine::error::Diagnostic;
+use jurist_engine::error::{Code, Diagnostic};
 use std::ffi::OsString;
 
 /// Options of `jurist new`.
@@ -63,7 +63,7 @@ pub(in crate::cli) fn run(options: &Options) -> Outcome {
     {
         let message = format!("{} exists already", file.to_string_lossy());
         let help = "name a new file, or remove this one first: a template replaces nothing";
-        return Err(Diagnostic::error("E-write", message).help(help).into());
+        return Err(Diagnostic::error(Code::Write, message).help(help).into());
     }
     write_answer(template.text, options.output.as_ref())?;
     Ok(Status::Holds)
@@ -72,7 +72,7 @@ pub(in crate::cli) fn run(options: &Options) -> Outcome {
 fn unknown(name: &str) -> Error {
     let shown: String = name.chars().take(60).collect();
     let names: Vec<&str> = TEMPLATES.iter().map(|t| t.name).collect();
-    Diagnostic::error("E-unknown-template", format!("there is no template '{shown}'"))
+    Diagnostic::error(Code::UnknownTemplate, format!("there is no template '{shown}'"))
         .help(format!("there are {}", names.join(", ")))
         .into()
 }

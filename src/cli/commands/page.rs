@@ -6,7 +6,7 @@ use crate::cli::output::{note, plain};
 use crate::cli::picture::write;
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
-use jurist_engine::error::Diagnostic;
+use jurist_engine::error::{Code, Diagnostic};
 use std::ffi::OsString;
 use std::path::Path;
 
@@ -24,11 +24,11 @@ pub(in crate::cli) struct Options {
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let Some(files) = packed::files() else {
         let help = "in the sources, 'web/build' makes it, and 'web/build --program' a program that has it inside";
-        return Err(Diagnostic::error("E-no-page", "this program was built without the page").help(help).into());
+        return Err(Diagnostic::error(Code::NoPage, "this program was built without the page").help(help).into());
     };
     let folder = Path::new(&options.output);
     std::fs::create_dir_all(folder).map_err(|e| {
-        Diagnostic::error("E-write", format!("cannot make the folder {}: {}", folder.display(), plain(&e)))
+        Diagnostic::error(Code::Write, format!("cannot make the folder {}: {}", folder.display(), plain(&e)))
     })?;
     for (name, content) in &files {
         write(&folder.join(name), content)?;

@@ -7,7 +7,7 @@ use crate::cli::picture::write;
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
 use jurist_drive::paper_report;
-use jurist_engine::error::Diagnostic;
+use jurist_engine::error::{Code, Diagnostic};
 use std::ffi::OsString;
 use std::path::Path;
 
@@ -28,7 +28,7 @@ pub(in crate::cli) struct Options {
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let folder = Path::new(&options.output);
     std::fs::create_dir_all(folder).map_err(|e| {
-        Diagnostic::error("E-write", format!("cannot make the folder {}: {}", folder.display(), plain(&e)))
+        Diagnostic::error(Code::Write, format!("cannot make the folder {}: {}", folder.display(), plain(&e)))
     })?;
     let report = context.budget.enter(|| paper_report(&context.budget))??;
     context.budget.step("writing");

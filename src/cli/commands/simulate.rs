@@ -12,7 +12,7 @@ use jurist_algebra::number::parse_number;
 use jurist_draw::document::{CircuitAnswer, SimulationAnswer, simulation_json};
 use jurist_draw::figures::response_figure;
 use jurist_draw::simulate::{Course, Excitation, Pulse, Record, SwitchedModel, excitation, signal_unit};
-use jurist_engine::error::{Diagnostic, Source};
+use jurist_engine::error::{Code, Diagnostic, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
 use jurist_engine::show::documents::to_text;
@@ -124,7 +124,7 @@ fn input_step(text: &str, context: &Context) -> Result<(String, f64, f64), Error
 fn parsed(option: &str, text: &str, context: &Context) -> Result<(String, f64, f64), Error> {
     let wrong = |what: &str| {
         let place = context.line.option_value(option, text).span;
-        let error = Diagnostic::error("E-option-value", format!("{option} expects NAME=VALUE"));
+        let error = Diagnostic::error(Code::OptionValue, format!("{option} expects NAME=VALUE"));
         Error::from(in_line(context.line, vec![error.at(place, what).help("for example T_L=5@1 after one second")]))
     };
     let (name, rest) = text.split_once('=').ok_or_else(|| wrong("there is no '='"))?;
@@ -180,7 +180,7 @@ fn switched(
     let start = match (options.steady, &circuit.operating) {
         (true, Some(operating)) => operating.state.clone(),
         (true, None) => {
-            return Err(Diagnostic::error("E-simulation", "there is no periodic steady state to start from").into());
+            return Err(Diagnostic::error(Code::Simulation, "there is no periodic steady state to start from").into());
         }
         (false, _) => system.start(&drive),
     };

@@ -12,7 +12,7 @@ use crate::cli::sweep::key::{Point, Question, VERDICT};
 use crate::cli::sweep::rows::{Row, order, rows};
 use clap::Args;
 use jurist_algebra::limits::{Budget, apart, parallel_map};
-use jurist_engine::error::Diagnostic;
+use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::model::Model;
 use serde_json::Value;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -96,7 +96,7 @@ fn kept(
     let keys: HashSet<&str> = questions.iter().map(|(key, _)| key.as_str()).collect();
     if let Some(why) = known.of_others(|key| keys.contains(key)) {
         let name = file.to_string_lossy();
-        let error = Diagnostic::error("E-resume", format!("{name} is not of this sweep: {why}"));
+        let error = Diagnostic::error(Code::Resume, format!("{name} is not of this sweep: {why}"));
         let error = match context.line.argument(&name) {
             Some(span) => error.at(span, "of another model, other values, or another version of jurist"),
             None => error,
@@ -126,7 +126,7 @@ type Keyed = Vec<(String, Question)>;
 fn questions(options: &Options, model: &Model, context: &Context) -> Result<(Keyed, BTreeSet<String>), Error> {
     known_names(context, model, "--param", &options.param)?;
     let refuse = |message: String, at| -> Error {
-        in_line(context.line, vec![Diagnostic::error("E-set-twice", message).at(at, "a second time")]).into()
+        in_line(context.line, vec![Diagnostic::error(Code::SetTwice, message).at(at, "a second time")]).into()
     };
     let mut fixed: Point = Vec::new();
     let mut axes: Vec<Axis> = Vec::new();
@@ -146,7 +146,7 @@ fn questions(options: &Options, model: &Model, context: &Context) -> Result<(Key
     fixed.sort();
     let names = fixed.iter().map(|(name, _)| name.clone()).chain(axes.iter().map(|a| a.name.clone())).collect();
     let Some(points) = points(&axes, &fixed) else {
-        return Err(Diagnostic::error("E-option-value", "there are too many combinations").into());
+        return Err(Diagnostic::error(Code::OptionValue, "there are too many combinations").into());
     };
     let verdict = [VERDICT.to_owned()];
     let asks = if options.param.is_empty() { &verdict[..] } else { &options.param };

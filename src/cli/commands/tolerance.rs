@@ -14,7 +14,7 @@ use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_draw::figures::tolerance_figure;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
-use jurist_engine::error::Diagnostic;
+use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::model::{Model, Tolerance};
 use jurist_engine::show::documents::{self, to_text};
 use jurist_engine::show::tolerance_text;
@@ -154,8 +154,10 @@ fn shown(
     let (output, value) = (&options.decision.output, answer.value());
     let digits = output.digits() as usize;
     if value.domain_factor.as_ref().is_some_and(|factor| *factor <= Rational::ONE) {
-        let warning =
-            Diagnostic::warning("W-outside-domain", "the box of tolerances reaches the end of a parameter's domain");
+        let warning = Diagnostic::warning(
+            Code::OutsideDomainWarning,
+            "the box of tolerances reaches the end of a parameter's domain",
+        );
         context.warn(None, &[warning]);
     }
     if let Some(kind) = picture.filter(|_| WRITES) {
@@ -174,7 +176,7 @@ fn shown(
     let text = || begun.rest_of(answer.text(text_digits(options)));
     match &value.decision {
         BoxDecision::Undecided { why, .. } => {
-            let stopped = Exhausted::new(*why, "proving the box");
+            let stopped = Exhausted::by_method(*why, "proving the box");
             context.undecided(output, &stopped, || Some(text()), || answer.json(digits))
         }
         decision => {
@@ -219,7 +221,7 @@ fn request(options: &Options, model: &Model, context: &Context) -> Result<Tolera
     for text in &options.tol {
         let place = context.line.option_value("--tol", text);
         let Some((names, value)) = text.split_once('=') else {
-            let error = Diagnostic::error("E-option-value", "--tol expects NAME=TOLERANCE")
+            let error = Diagnostic::error(Code::OptionValue, "--tol expects NAME=TOLERANCE")
                 .at(place.span, "there is no '='")
                 .help("for example --tol R=10% or --tol R,L=-20%..+30%");
             return Err(in_line(context.line, vec![error]).into());
@@ -264,7 +266,7 @@ fn request(options: &Options, model: &Model, context: &Context) -> Result<Tolera
 fn read(text: &str, option: &str, value: &str, start: usize, context: &Context) -> Result<Tolerance, Error> {
     value.parse().map_err(|why: String| {
         let place = context.line.option_value(option, text);
-        let error = Diagnostic::error("E-tolerance", format!("this is no tolerance: {why}"))
+        let error = Diagnostic::error(Code::Tolerance, format!("this is no tolerance: {why}"))
             .at(place.part(start, text.len()), "not accepted")
             .help("tolerances look like 10%, -20%..+30%, 0.01 or 0.4..0.7");
         in_line(context.line, vec![error]).into()

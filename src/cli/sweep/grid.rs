@@ -5,7 +5,7 @@ use crate::cli::assignments::in_line;
 use crate::cli::command_line::CommandLine;
 use crate::cli::status::Error;
 use jurist_algebra::number::{Rational, evenly_spaced, parse_number};
-use jurist_engine::error::{Diagnostic, Span};
+use jurist_engine::error::{Code, Diagnostic, Span};
 
 /// More questions than this are refused: they would not fit into the memory.
 const MOST: usize = 10_000_000;
@@ -23,7 +23,7 @@ pub(in crate::cli) struct Axis {
 pub(in crate::cli) fn axis(line: &CommandLine, text: &str) -> Result<Axis, Error> {
     let place = line.option_value("--over", text);
     let wrong = |start: usize, what: &str| -> Error {
-        let error = Diagnostic::error("E-option-value", "--over expects NAME=LO..HI:N or NAME=V1,V2,...");
+        let error = Diagnostic::error(Code::OptionValue, "--over expects NAME=LO..HI:N or NAME=V1,V2,...");
         let error = error.at(place.part(start, text.len()), what).help("for example --over T=1e-5..1e-3:200");
         in_line(line, vec![error]).into()
     };
@@ -32,7 +32,7 @@ pub(in crate::cli) fn axis(line: &CommandLine, text: &str) -> Result<Axis, Error
     let number = |part: &str| {
         parse_number(part.trim()).map_err(|e| {
             let from = start + part.as_ptr() as usize - given.as_ptr() as usize;
-            let error = Diagnostic::error("E-number", format!("'{}' is not a number: {e}", part.trim()));
+            let error = Diagnostic::error(Code::Number, format!("'{}' is not a number: {e}", part.trim()));
             Error::from(in_line(line, vec![error.at(place.part(from, from + part.len()), "")]))
         })
     };
@@ -94,11 +94,11 @@ mod tests {
     #[test]
     fn mistakes_are_refused() {
         for (text, code) in [
-            ("T", "E-option-value"),
-            ("T=1..2", "E-option-value"),
-            ("T=1..2:1", "E-option-value"),
-            ("T=1..x:3", "E-number"),
-            ("T=1,,2", "E-number"),
+            ("T", Code::OptionValue),
+            ("T=1..2", Code::OptionValue),
+            ("T=1..2:1", Code::OptionValue),
+            ("T=1..x:3", Code::Number),
+            ("T=1,,2", Code::Number),
         ] {
             let Err(Error::Refused(error)) = read(text) else { panic!("{text}") };
             assert_eq!(error.code(), code, "{text}");

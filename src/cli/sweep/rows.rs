@@ -5,7 +5,7 @@ use super::key::{Question, VERDICT};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
 use jurist_algebra::real::Real;
-use jurist_engine::error::{Diagnostic, Diagnostics, Error};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_engine::model::Model;
 use jurist_engine::show::diagnostics::render_error;
 use jurist_engine::stability::{End, StableSet};
@@ -42,7 +42,7 @@ pub(in crate::cli) fn rows(model: &Model, question: &Question, budget: &Budget) 
             return found.into_iter().map(row).collect();
         }
         Ok(Err(error)) => failure(error),
-        Err(_) => ("defect", "E-internal".to_owned(), "error[E-internal]: this is a defect of jurist".to_owned()),
+        Err(_) => ("defect", Code::Internal.to_string(), "error[E-internal]: this is a defect of jurist".to_owned()),
     };
     base.insert("status".into(), status.into());
     base.insert("code".into(), code.into());
@@ -116,15 +116,15 @@ fn nearest(value: &Real) -> f64 {
 /// Status, code and message of what has no answer.
 fn failure(error: Error) -> (&'static str, String, String) {
     let refused =
-        |error: &Diagnostics| ("refused", error.code().to_owned(), render_error(error, false).trim_end().to_owned());
+        |error: &Diagnostics| ("refused", error.code().to_string(), render_error(error, false).trim_end().to_owned());
     match error {
         Error::Refused(error) => refused(&error),
         Error::Undefined(why) => {
             let message = format!("the model is undefined for these values: {why}");
-            refused(&Diagnostic::error("E-undefined", message).help("set the parameters to other values").into())
+            refused(&Diagnostic::error(Code::Undefined, message).help("set the parameters to other values").into())
         }
         Error::Stopped(stopped) => ("undecided", "undecided".to_owned(), format!("undecided: {stopped}")),
-        other => ("defect", "E-internal".to_owned(), other.to_string()),
+        other => ("defect", Code::Internal.to_string(), other.to_string()),
     }
 }
 

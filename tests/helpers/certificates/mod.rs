@@ -99,7 +99,9 @@ pub fn emitted_if_any(model: &str, parameter: &str) -> Option<String> {
     let answer = read(model).ask().free(parameter).stable_set(&budget).expect(model);
     match answer.certificate(&budget) {
         Ok(text) => Some(text),
-        Err(jurist_engine::error::Error::Refused(why)) if why.code() == "E-no-certificate" => None,
+        Err(jurist_engine::error::Error::Refused(why)) if why.code() == jurist_engine::error::Code::NoCertificate => {
+            None
+        }
         Err(other) => panic!("{model}: {other}"),
     }
 }

@@ -1,6 +1,6 @@
 //! The model that is being asked about, read once, and the questions that are asked of it again and again.
 
-use jurist::{Diagnostic, Diagnostics, Error, Model, Problem, Question, Rational, parse_number};
+use jurist::{Code, Diagnostic, Diagnostics, Error, Model, Problem, Question, Rational, parse_number};
 use std::cell::RefCell;
 use std::sync::Arc;
 
@@ -68,6 +68,6 @@ pub(crate) fn problem(text: &str, set: &[(String, String)], free: &[&str]) -> Re
 pub(crate) fn number(text: &str) -> Result<Rational, Error> {
     parse_number(text.trim()).map_err(|error| {
         let message = format!("'{}' is not a number: {error}", text.chars().take(40).collect::<String>());
-        Diagnostic::error("E-number", message).help("a number such as 110, 1e-4 or 1/3").into()
+        Diagnostic::error(Code::Number, message).help("a number such as 110, 1e-4 or 1/3").into()
     })
 }

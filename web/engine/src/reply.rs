@@ -45,7 +45,7 @@ impl Reply {
 
 /// Diagnostics as the program draws them, and each for itself.
 pub(crate) fn refusal(refused: &Diagnostics) -> Value {
-    let one = |d: &jurist::Diagnostic| json!({ "code": d.code, "message": d.message, "help": d.help });
+    let one = |d: &jurist::Diagnostic| json!({ "code": d.code.as_str(), "message": d.message, "help": d.help });
     let all: Vec<Value> = refused.diagnostics().iter().map(one).collect();
     json!({ "refused": { "text": render_error(refused, false).trim_end(), "diagnostics": all } })
 }

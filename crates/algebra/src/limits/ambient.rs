@@ -29,7 +29,7 @@ thread_local! {
 }
 
 /// What leaves a kernel: the message, and whose door it is to leave by.
-struct Stop {
+struct Unwinding {
     exhausted: Exhausted,
     limits: Arc<Limits>,
 }
@@ -122,21 +122,21 @@ fn grant(units: u64) {
 
 impl Frame {
     /// Counts work; the first limit that has run out, from the inside.
-    fn charge(&self, units: u64) -> Option<Stop> {
+    fn charge(&self, units: u64) -> Option<Unwinding> {
         // A share counts for the whole, whose own frame may be further out.
         let mut counted = Vec::new();
         self.first(|limits| limits.spend_once(units, &mut counted))
     }
 
     /// Asks all limits from the inside; the first that has run out.
-    fn first(&self, mut ask: impl FnMut(&Limits) -> Result<(), Exhausted>) -> Option<Stop> {
+    fn first(&self, mut ask: impl FnMut(&Limits) -> Result<(), Exhausted>) -> Option<Unwinding> {
         let mut stop = None;
         let mut next = Some(self);
         while let Some(frame) = next {
             if let Err(exhausted) = ask(&frame.limits)
                 && stop.is_none()
             {
-                stop = Some(Stop { exhausted, limits: Arc::clone(&frame.limits) });
+                stop = Some(Unwinding { exhausted, limits: Arc::clone(&frame.limits) });
             }
             next = frame.outer.as_deref();
         }
@@ -267,7 +267,7 @@ impl Budget {
             work()
         };
         // A value that was being altered is dropped with the closure or seen by a caller who was told so above.
-        catch_unwind(AssertUnwindSafe(work)).map_err(|payload| match payload.downcast::<Stop>() {
+        catch_unwind(AssertUnwindSafe(work)).map_err(|payload| match payload.downcast::<Unwinding>() {
             Ok(stop) if Arc::ptr_eq(&stop.limits, limits) => self.at_step(stop.exhausted),
             Ok(stop) => resume_unwind(stop),
             Err(panic) => resume_unwind(panic),
@@ -381,6 +381,7 @@ fn apart_with(work: &mut dyn FnMut()) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::limits::Stop;
     use std::panic::panic_any;
     use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -412,7 +413,7 @@ mod tests {
                 }
             };
             let end: Result<(), Exhausted> = Budget::with_work(units).enter(work);
-            assert_eq!(end.unwrap_err().budget, format!("work ({units} units)"));
+            assert_eq!(end.unwrap_err().stop, Stop::Work(units));
             assert_eq!(done.get(), units);
         }
         let enough = Budget::with_work(100);
@@ -439,7 +440,7 @@ mod tests {
     fn what_is_done_apart_has_its_own_budget_only() {
         let (other, own) = (Budget::with_work(1000), Budget::with_work(1_000_000));
         let ended = other.enter(|| apart(|| own.enter(endless)));
-        assert_eq!(ended.unwrap().unwrap_err().budget, "work (1000000 units)");
+        assert_eq!(ended.unwrap().unwrap_err().stop, Stop::Work(1_000_000));
         // What is around it counts on as before.
         assert!(other.enter(|| (checkpoint(900), apart(|| checkpoint(1_000_000)))).is_ok());
         assert!(other.enter(|| checkpoint(200)).is_err());
@@ -502,7 +503,7 @@ mod tests {
                 std::thread::yield_now();
             }
             flag.store(true, Ordering::Relaxed);
-            assert_eq!(end.join().expect("no panic").unwrap_err().budget, "cancelled");
+            assert_eq!(end.join().expect("no panic").unwrap_err().stop, Stop::Cancelled);
         });
     }
 

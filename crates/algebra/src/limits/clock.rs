@@ -8,7 +8,7 @@ use std::time::Duration;
 /// themselves, and for hosts that have their own, as a page in a browser has.
 ///
 /// ```
-/// use jurist_algebra::limits::{Budget, Clock};
+/// use jurist_algebra::limits::{Budget, Clock, Stop};
 /// use std::sync::Arc;
 /// use std::sync::atomic::{AtomicU64, Ordering};
 /// use std::time::Duration;
@@ -23,7 +23,7 @@ use std::time::Duration;
 /// let budget = Budget::with_timeout_on(clock.clone(), Duration::from_secs(5));
 /// assert!(budget.check().is_ok());
 /// clock.0.store(105, Ordering::Relaxed);
-/// assert_eq!(budget.check().unwrap_err().budget, "time (5 s)");
+/// assert_eq!(budget.check().unwrap_err().stop, Stop::Time(Duration::from_secs(5)));
 /// ```
 pub trait Clock: Send + Sync {
     /// The time since some fixed moment.

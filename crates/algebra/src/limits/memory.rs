@@ -1,6 +1,6 @@
 //! The limit of memory, and the gauge behind it.
 
-use super::Exhausted;
+use super::{Exhausted, Stop};
 use std::sync::{Arc, OnceLock};
 
 /// Shows how much memory is in use.
@@ -8,7 +8,7 @@ use std::sync::{Arc, OnceLock};
 /// Only an allocator knows that, so it is the program that has one: see [`measure_by`]. Tests hold a gauge themselves.
 ///
 /// ```
-/// use jurist_algebra::limits::{Budget, Gauge};
+/// use jurist_algebra::limits::{Budget, Gauge, Stop};
 /// use std::sync::Arc;
 /// use std::sync::atomic::{AtomicU64, Ordering};
 ///
@@ -22,7 +22,7 @@ use std::sync::{Arc, OnceLock};
 /// let budget = Budget::unlimited().within_memory_on(gauge.clone(), 5_000_000);
 /// assert!(budget.check().is_ok());
 /// gauge.0.store(5_000_001, Ordering::Relaxed);
-/// assert_eq!(budget.check().unwrap_err().budget, "memory (5 MB)");
+/// assert_eq!(budget.check().unwrap_err().stop, Stop::Memory(5_000_000));
 /// ```
 pub trait Gauge: Send + Sync {
     /// The bytes that are allocated now.
@@ -57,7 +57,7 @@ impl Memory {
     }
 
     fn exhausted(&self) -> Exhausted {
-        Exhausted::of(format!("memory ({} MB)", self.bytes as f64 / 1e6))
+        Exhausted::of(Stop::Memory(self.bytes))
     }
 }
 
@@ -97,7 +97,7 @@ mod tests {
             }
         };
         let end = budget.enter(|| join(fill, || ()).0).unwrap_err();
-        assert_eq!((end.budget.as_str(), end.reached.as_str()), ("memory (0.001 MB)", "filling"));
+        assert_eq!((end.stop, end.step.as_str()), (Stop::Memory(1000), "filling"));
         // It looks at each of so long steps, and at the first over the limit.
         assert_eq!(gauge.bytes(), 1001);
         assert!(budget.check().is_err() && budget.share(1, 2).check().is_err());
@@ -123,8 +123,8 @@ mod tests {
             ("a power", &|| drop(long.pow(1 << 20))),
         ];
         for (what, kernel) in kernels {
-            let end = budget.enter(kernel).map_err(|end| end.budget);
-            assert_eq!(end, Err("memory (16.777216 MB)".to_owned()), "{what}");
+            let end = budget.enter(kernel).map_err(|end| end.stop);
+            assert_eq!(end, Err(Stop::Memory(1 << 24)), "{what}");
         }
         assert!(budget.enter(|| &sparse(0, 1) + &sparse(1, 1)).is_ok());
     }
@@ -133,9 +133,9 @@ mod tests {
     fn what_is_too_large_is_refused_before_it_is_made() {
         let gauge = Arc::new(Held::default());
         let budget = Budget::with_work(1000).within_memory_on(gauge.clone(), 1 << 30);
-        let asks = |bytes: u64| budget.enter(|| claim(bytes)).map_err(|end| end.budget);
+        let asks = |bytes: u64| budget.enter(|| claim(bytes)).map_err(|end| end.stop);
         assert_eq!(asks(1 << 30), Ok(()));
-        assert_eq!(asks((1 << 30) + 1), Err("memory (1073.741824 MB)".to_owned()));
+        assert_eq!(asks((1 << 30) + 1), Err(Stop::Memory(1 << 30)));
         assert!(asks(u64::MAX).is_err());
         gauge.take(1 << 29);
         assert_eq!(asks(1 << 29), Ok(()));

@@ -7,11 +7,13 @@
 mod ambient;
 mod clock;
 mod memory;
+mod stop;
 
 pub(crate) use ambient::is_limited;
 pub use ambient::{apart, checkpoint, claim, join, parallel_map};
 pub use clock::Clock;
 pub use memory::{Gauge, gauge_of_the_process, measure_by};
+pub use stop::{Exhausted, Stop};
 
 use memory::Memory;
 use std::fmt;
@@ -122,16 +124,16 @@ impl Limits {
             }
         }
         if let Some(units) = out {
-            return Err(Exhausted::of(format!("work ({units} units)")));
+            return Err(Exhausted::of(Stop::Work(units)));
         }
         if let Some(Deadline { clock, end, timeout }) = &self.deadline
             && clock.now() >= *end
         {
-            return Err(Exhausted::of(format!("time ({} s)", timeout.as_secs_f64())));
+            return Err(Exhausted::of(Stop::Time(*timeout)));
         }
         self.room(0)?;
         if self.cancelled.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)) {
-            return Err(Exhausted::of("cancelled".into()));
+            return Err(Exhausted::of(Stop::Cancelled));
         }
         Ok(())
     }
@@ -197,10 +199,10 @@ impl Budget {
     /// none, no value may be larger. What is in use already counts, and so does what other threads use.
     ///
     /// ```
-    /// use jurist_algebra::limits::{Budget, claim};
+    /// use jurist_algebra::limits::{Budget, Stop, claim};
     /// let budget = Budget::with_memory(10_000_000);
     /// assert!(budget.enter(|| claim(9_000_000)).is_ok());
-    /// assert_eq!(budget.enter(|| claim(11_000_000)).unwrap_err().budget, "memory (10 MB)");
+    /// assert_eq!(budget.enter(|| claim(11_000_000)).unwrap_err().stop, Stop::Memory(10_000_000));
     /// ```
     pub fn with_memory(bytes: u64) -> Self {
         Budget::unlimited().within_memory(bytes)
@@ -303,7 +305,7 @@ impl Budget {
     /// What ran out, and how far the work came.
     fn at_step(&self, exhausted: Exhausted) -> Exhausted {
         self.reached.lock().unwrap_or_else(PoisonError::into_inner).refusals += 1;
-        Exhausted { reached: self.reached(), ..exhausted }
+        Exhausted { step: self.reached(), ..exhausted }
     }
 
     /// The last step that began and, where known, how much of it is done: what an exhausted budget had reached.
@@ -349,47 +351,3 @@ impl fmt::Debug for Budget {
         f.debug_struct("Budget").field("timeout", &deadline.map(|d| d.timeout)).finish_non_exhaustive()
     }
 }
-
-/// A budget ran out before the exact answer was reached.
-///
-/// ```
-/// use jurist_algebra::limits::Budget;
-/// let budget = Budget::with_work(0);
-/// budget.step("isolating");
-/// let exhausted = budget.check().unwrap_err();
-/// assert_eq!((exhausted.budget.as_str(), exhausted.reached.as_str()), ("work (0 units)", "isolating"));
-/// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Exhausted {
-    /// Which budget, e.g. `time (2 s)`.
-    pub budget: String,
-    /// The last step that began and, where known, how much of it was done.
-    pub reached: String,
-}
-
-impl Exhausted {
-    /// A budget of one's own that ran out, and the step that was reached.
-    pub fn new(budget: impl Into<String>, reached: impl Into<String>) -> Self {
-        Exhausted { budget: budget.into(), reached: reached.into() }
-    }
-
-    /// The same with the question that stayed open, such as `whether D(1) is zero`.
-    #[must_use]
-    pub fn with_open(self, question: &str) -> Self {
-        Exhausted { reached: format!("{}; open: {question}", self.reached), ..self }
-    }
-
-    /// A budget that ran out at a step that is not known here.
-    fn of(budget: String) -> Self {
-        Exhausted { budget, reached: String::new() }
-    }
-}
-
-impl fmt::Display for Exhausted {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the budget ran out: {}; reached: {}", self.budget, self.reached)
-    }
-}
-
-impl std::error::Error for Exhausted {}

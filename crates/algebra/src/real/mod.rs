@@ -4,7 +4,7 @@ mod transcendental;
 
 pub use transcendental::{Enclosing, Origin, Transcendental};
 
-use crate::limits::{Budget, Exhausted};
+use crate::limits::{Budget, Exhausted, Stop};
 use crate::number::{Integer, Rational, Sign, enclosed_decimal, to_decimal};
 use crate::poly::RealAlgebraic;
 use crate::poly::algebraic::{rational_between as between_algebraic, simplest_between};
@@ -176,7 +176,7 @@ impl Real {
             }
             budget.check()?;
             if bits > MOST_BITS {
-                return Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "comparing two real numbers"));
+                return Err(Exhausted::new(Stop::Precision(MOST_BITS), "comparing two real numbers"));
             }
             let width = Rational::dyadic(&Integer::ONE, bits);
             (x, y) = budget.enter(|| (x.refined(&width), y.refined(&width)))?;
@@ -332,6 +332,6 @@ mod tests {
     #[test]
     fn equal_numbers_of_unknown_origin_end_the_comparison_with_a_message() {
         let refused = ln(4).compare(&ln(4), &Budget::unlimited()).unwrap_err();
-        assert_eq!(refused.budget, "precision (16384 bits)");
+        assert_eq!(refused.stop, Stop::Precision(16384));
     }
 }

@@ -6,7 +6,7 @@
 
 use super::roots::of_symbols;
 use super::{Definition, Symbols};
-use crate::limits::{Budget, Exhausted};
+use crate::limits::{Budget, Exhausted, Stop};
 use crate::poly::{Domain, MultiPoly, Poly};
 
 /// Polynomials with more terms are given up: over several symbols that are not square roots nothing keeps them short.
@@ -130,7 +130,7 @@ impl Symbols {
             if p.terms().len() > MOST_TERMS {
                 // As where bits do not suffice: it is not told whether zeros are apart.
                 let reached = "common factors over numbers that are long";
-                return Err(Exhausted::new(format!("precision ({MOST_TERMS} terms)"), reached));
+                return Err(Exhausted::new(Stop::Terms(MOST_TERMS as u64), reached));
             }
             let is_simple = p.variables().len() <= 2;
             let p = p.as_poly_in(0);

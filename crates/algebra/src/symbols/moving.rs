@@ -323,7 +323,7 @@ impl MovingSymbols {
             return Ok(Some(false));
         }
         match self.vanishes_at(f, value, budget) {
-            Err(stopped) if stopped.budget.starts_with("precision") => Ok(None),
+            Err(stopped) if stopped.stop.is_precision() => Ok(None),
             found => found.map(Some),
         }
     }

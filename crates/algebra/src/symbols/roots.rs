@@ -3,7 +3,7 @@
 use super::Symbols;
 use super::root::{Coefficients, EnclosedPoly, SymbolicRoot, derivative};
 use crate::ball::Ball;
-use crate::limits::{Budget, Exhausted};
+use crate::limits::{Budget, Exhausted, Stop};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::multivariate::is_square_free_in;
 use crate::poly::real_roots::isolate_real_roots;
@@ -312,7 +312,7 @@ fn positive_roots(
         }
         bits *= 2;
     }
-    Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "isolating real roots"))
+    Err(Exhausted::new(Stop::Precision(MOST_BITS), "isolating real roots"))
 }
 
 /// A number with few bits between two numbers, the smaller one first; `None` where they are equal. The simplest fraction between

@@ -1,7 +1,7 @@
 //! The sign of a number that is given as a polynomial in symbols.
 
 use super::Symbols;
-use crate::limits::{Budget, Exhausted};
+use crate::limits::{Budget, Exhausted, Stop};
 use crate::number::Sign;
 use crate::poly::{Domain, MultiPoly};
 
@@ -46,7 +46,7 @@ impl Symbols {
             }
             bits *= 2;
         }
-        Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "the sign of a constant"))
+        Err(Exhausted::new(Stop::Precision(MOST_BITS), "the sign of a constant"))
     }
 
     /// Whether a polynomial in symbols is zero.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::limits::Budget;
+use crate::limits::{Budget, Stop};
 use crate::number::parse_number;
 use crate::poly::{Domain, SquareFree, UniPoly};
 
@@ -115,7 +115,7 @@ fn a_zero_that_is_not_recognised_ends_with_a_message() {
     let y = symbol(&mut s, Definition::Exponential(&RationalFunction::one() + &a));
     let zero = x.minus(&y);
     let refused = s.sign(&zero, &Budget::unlimited()).unwrap_err();
-    assert_eq!(refused.budget, "precision (8192 bits)");
+    assert_eq!(refused.stop, Stop::Precision(8192));
 }
 
 /// Symbols `exp(-T)` and, for `1 + y'' = 0`, cosine and sine of `T`.

@@ -1,7 +1,7 @@
 //! A part of the report: found, or missing for a reason that stands in its place.
 
 use crate::page::{escaped, paragraph};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_engine::error::Error;
 use std::sync::Mutex;
 
@@ -13,7 +13,7 @@ pub(super) enum Missing {
     /// It takes more work than one page is worth.
     TooLong,
     /// The budget of the whole report ran out.
-    Stopped(String),
+    Stopped(Stop),
 }
 
 /// What a part found.
@@ -32,7 +32,7 @@ impl Missing {
             Missing::TooLong => {
                 "Left out: it takes longer than one page is worth; its own command has no such limit.".into()
             }
-            Missing::Stopped(budget) => format!("Left out: the budget of the report ran out ({budget})."),
+            Missing::Stopped(stop) => format!("Left out: the budget of the report ran out ({stop})."),
         }
     }
 
@@ -52,7 +52,7 @@ impl From<Error> for Missing {
                 },
                 None => "it was refused".to_owned(),
             }),
-            Error::Stopped(stopped) => Missing::Stopped(stopped.budget),
+            Error::Stopped(stopped) => Missing::Stopped(stopped.stop),
             other => Missing::Refused(other.to_string()),
         }
     }
@@ -102,7 +102,7 @@ impl<'b> Parts<'b> {
             Ok(Ok(Err(error))) => return Err(error.into()),
             Ok(Err(_)) => return Err(Missing::TooLong),
         };
-        let missing = Missing::Stopped(stopped.budget.clone());
+        let missing = Missing::Stopped(stopped.stop.clone());
         if let Ok(mut first) = self.stopped.lock() {
             first.get_or_insert(stopped);
         }
@@ -119,7 +119,7 @@ impl<'b> Parts<'b> {
 mod tests {
     use super::*;
     use jurist_algebra::limits::checkpoint;
-    use jurist_engine::error::Diagnostic;
+    use jurist_engine::error::{Code, Diagnostic};
 
     fn endless(_: &Budget) -> Result<(), Error> {
         loop {
@@ -132,7 +132,8 @@ mod tests {
         let unlimited = Budget::unlimited();
         let parts = Parts::new(&unlimited);
         assert_eq!(parts.part("a", Work::Any, |_| Ok(1)), Ok(1));
-        let refuse = |_: &Budget| -> Result<(), Error> { Err(Diagnostic::error("E-cut", "no cut").help("cut").into()) };
+        let refuse =
+            |_: &Budget| -> Result<(), Error> { Err(Diagnostic::error(Code::Cut, "no cut").help("cut").into()) };
         let refused = parts.part("b", Work::Any, refuse).unwrap_err();
         assert_eq!(refused.sentence(), "No cut (cut)");
         assert_eq!(parts.part("c", Work::Units(1000), endless), Err(Missing::TooLong));
@@ -140,7 +141,7 @@ mod tests {
         let limited = Budget::with_work(1000);
         let parts = Parts::new(&limited);
         let stopped = parts.part("d", Work::Any, endless).unwrap_err();
-        assert!(matches!(&stopped, Missing::Stopped(budget) if budget.contains("1000")), "{stopped:?}");
+        assert!(matches!(&stopped, Missing::Stopped(Stop::Work(1000))), "{stopped:?}");
         assert!(parts.stopped().is_some());
     }
 }

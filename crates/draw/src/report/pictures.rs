@@ -9,7 +9,7 @@ use crate::page::{figure, math, paragraph};
 use crate::simulate::Course;
 use jurist_algebra::limits::Budget;
 use jurist_engine::answer::{Answer, PointVerdict};
-use jurist_engine::error::{Diagnostic, Error};
+use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::{Problem, Question};
 use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::StableSet;
@@ -57,7 +57,7 @@ pub(super) fn locus(limits: &[Limits], parts: &Parts<'_>) -> String {
 }
 
 fn refused(why: &str) -> Error {
-    Diagnostic::error("E-usage", why).into()
+    Diagnostic::error(Code::Usage, why).into()
 }
 
 pub(super) fn response(

@@ -3,7 +3,7 @@
 use super::sampled::simulation_error;
 use super::{DelayedModel, SampledModel, Trace, excitation, natural_duration, signal_unit};
 use jurist_algebra::limits::Budget;
-use jurist_engine::error::{Diagnostic, Error};
+use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
 
@@ -106,7 +106,7 @@ impl Course {
         let count = (self.duration / period).round().max(self.least_samples);
         if count > most {
             let message = format!("{count:e} samples are too many for a simulation");
-            return Err(Diagnostic::error("E-simulation", message).help("shorten it with --duration").into());
+            return Err(Diagnostic::error(Code::Simulation, message).help("shorten it with --duration").into());
         }
         Ok(count as usize)
     }

@@ -5,7 +5,7 @@ use super::switched::{Controller, Plant, Pulse, Pwm, SwitchedModel, SwitchedStat
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
-use jurist_engine::error::{Diagnostic, Diagnostics, Error, Span};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Span};
 use jurist_engine::model::{
     Block, ClosedLoop, Diagram, Discretization, Form, Model, Name, Output, Symbols, Time, value_approximate,
 };
@@ -31,7 +31,7 @@ fn refuse_dead_time(symbols: &Symbols) -> Result<(), Error> {
     if symbols.delays().is_empty() {
         return Ok(());
     }
-    Err(Diagnostic::error("E-dead-time", "a loop with dead time has no finite number of states").into())
+    Err(Diagnostic::error(Code::DeadTime, "a loop with dead time has no finite number of states").into())
 }
 
 impl SampledModel {

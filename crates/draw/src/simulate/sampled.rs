@@ -2,7 +2,7 @@
 
 use super::trace::Trace;
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_engine::error::{Diagnostic, Diagnostics};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics};
 use nalgebra::{DMatrix, DVector};
 
 /// How many samples are computed between two looks at the clock.
@@ -244,7 +244,7 @@ impl SampledModel {
 
 /// An error of this module.
 pub(super) fn simulation_error(message: impl Into<String>) -> Diagnostics {
-    Diagnostic::error("E-simulation", message).into()
+    Diagnostic::error(Code::Simulation, message).into()
 }
 
 #[cfg(test)]
@@ -285,7 +285,7 @@ mod tests {
     fn shapes_are_checked() {
         let mut model = scalar(0.5);
         model.input = DMatrix::from_row_slice(1, 2, &[1.0, 2.0]);
-        assert_eq!(model.checked().unwrap_err().code(), "E-simulation");
+        assert_eq!(model.checked().unwrap_err().code(), Code::Simulation);
         let mut model = scalar(0.5);
         model.sample_time = 0.0;
         assert!(model.checked().is_err());

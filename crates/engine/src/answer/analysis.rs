@@ -1,7 +1,7 @@
 //! Everything that can be said about a loop one parameter at a time.
 
 use super::{Answer, PointVerdict};
-use crate::error::Error;
+use crate::error::{Code, Error};
 use crate::problem::{Problem, Question};
 use crate::stability::StableSet;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -86,9 +86,9 @@ impl Question {
 /// A parameter inside of a function whose domain is not bounded: this question of the analysis stays open, not the others.
 fn open_in_functions<T>(result: Result<T, Error>) -> Result<T, Error> {
     match result {
-        Err(Error::Refused(why)) if why.code() == "E-function" => {
+        Err(Error::Refused(why)) if why.code() == Code::Function => {
             let reason = why.diagnostics().first().map(|d| d.message.clone()).unwrap_or_default();
-            Err(Error::Stopped(Exhausted::new("the bounds of its domain", reason)))
+            Err(Error::Stopped(Exhausted::by_method("the bounds of its domain", reason)))
         }
         other => other,
     }
@@ -98,9 +98,9 @@ fn stopped<T>(result: Result<T, Error>) -> Result<Result<T, Exhausted>, Error> {
     match result {
         Ok(value) => Ok(Ok(value)),
         // Not every parameter of a loop with dead time can be asked for: the others are.
-        Err(Error::Refused(refused)) if refused.diagnostics().iter().all(|d| d.code == "E-dead-time") => {
+        Err(Error::Refused(refused)) if refused.diagnostics().iter().all(|d| d.code == Code::DeadTime) => {
             let why = refused.diagnostics().first().map_or_else(String::new, |d| d.message.clone());
-            Ok(Err(Exhausted::new(why, "dead time")))
+            Ok(Err(Exhausted::by_method(why, "dead time")))
         }
         Err(failure) => failure.stopped().map(Err),
     }

@@ -38,7 +38,7 @@ fn not_counted(reason: NotCounted) -> Error {
 }
 
 fn undecided(why: &str) -> Error {
-    Exhausted::new(format!("what is known of loops of neutral type: {why}"), "counting roots").into()
+    Exhausted::by_method(format!("what is known of loops of neutral type: {why}"), "counting roots").into()
 }
 
 /// The stable set of the free parameter.
@@ -118,7 +118,7 @@ fn not_solved(reason: NotSolved) -> Error {
         NotSolved::Unbounded => "infinitely many values with roots on the boundary",
         NotSolved::Coincidence => "roots stay on the boundary, meet there, or only touch it",
     };
-    Exhausted::new(format!("what is known of such loops: {why}"), "crossings of the imaginary axis").into()
+    Exhausted::by_method(format!("what is known of such loops: {why}"), "crossings of the imaginary axis").into()
 }
 
 /// The dead time `(theta + 2 pi k)/omega` as a value of the parameter, `(tau - offset)/slope`.

@@ -1,7 +1,7 @@
 //! The stable region in two parameters.
 
 use super::{Answer, MapLimit, RegionExtent};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Problem, Question};
 use crate::response::RequiredMap;
 use crate::stability::plane::{StabilityMap, stability_map, vanishing_boundary};
@@ -75,7 +75,7 @@ impl Question {
         if let [x, y] = self.free_names()
             && x == y
         {
-            return Err(Diagnostic::error("E-usage", format!("'{x}' is asked for on both axes"))
+            return Err(Diagnostic::error(Code::Usage, format!("'{x}' is asked for on both axes"))
                 .help("name two different parameters with '-x' and '-y'")
                 .into());
         }

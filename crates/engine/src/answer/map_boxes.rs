@@ -230,7 +230,7 @@ impl Problem {
 
 fn too_long(terms: u64) -> Exhausted {
     let reached = format!("the curve of complex pairs, with up to {terms} terms in the parameters and the constants");
-    Exhausted::new(format!("terms of a map by '--method auto' ({MOST_TERMS})"), reached)
+    Exhausted::by_method(format!("terms of a map by '--method auto' ({MOST_TERMS})"), reached)
 }
 
 mod window;

@@ -1,7 +1,7 @@
 //! The classical table: numeric at a point, or in one parameter with its conditions solved.
 
 use super::Answer;
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Problem, Question};
 use crate::stability::{
     ClassicalTest, EnclosedTable, End, Range, RealIntervals, Shape, StableSet, SymbolicTest, classical_test,
@@ -176,7 +176,7 @@ impl Problem {
 }
 
 fn ways_disagree() -> Error {
-    Diagnostic::error("E-internal", "the table's conditions and the boundary polynomials disagree")
+    Diagnostic::error(Code::Internal, "the table's conditions and the boundary polynomials disagree")
         .help("this is a defect of jurist: please report it with the model")
         .into()
 }

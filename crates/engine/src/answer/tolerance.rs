@@ -6,7 +6,7 @@ mod limit;
 mod required;
 
 use super::Answer;
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Model, Tolerance};
 use crate::problem::{Problem, Question};
 use crate::response::Requirement;
@@ -236,7 +236,7 @@ impl Question {
         budget: &Budget,
     ) -> Result<Answer<ToleranceAnswer>, Error> {
         if request.tolerances.is_empty() {
-            return Err(Diagnostic::error("E-tolerance", "no parameter has a tolerance")
+            return Err(Diagnostic::error(Code::Tolerance, "no parameter has a tolerance")
                 .help("give tolerances in the model, or with --tol NAME=10% or --all 10%")
                 .into());
         }
@@ -254,7 +254,7 @@ impl Question {
         let nominal_of = |name: &String| -> Result<Rational, Error> {
             let found = problem.free().iter().find(|free| free.name == *name).and_then(|free| free.nominal.clone());
             set.get(name).cloned().flatten().or(found).ok_or_else(|| {
-                Diagnostic::error("E-no-value", format!("the parameter '{name}' has no value"))
+                Diagnostic::error(Code::NoValue, format!("the parameter '{name}' has no value"))
                     .help(format!("give it a nominal value, or set it: --set {name}=..."))
                     .into()
             })
@@ -266,7 +266,7 @@ impl Question {
             let widths = match tolerance {
                 None => [Rational::ZERO, Rational::ZERO],
                 Some(tolerance) => tolerance.widths(&nominal).map_err(|why| {
-                    Error::from(Diagnostic::error("E-tolerance", format!("the tolerance of '{}': {why}", free.name)))
+                    Error::from(Diagnostic::error(Code::Tolerance, format!("the tolerance of '{}': {why}", free.name)))
                 })?,
             };
             sides.push(Side::scaled(nominal, widths));

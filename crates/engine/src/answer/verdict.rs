@@ -173,7 +173,7 @@ impl Problem {
                     PointVerdict { drifts, ..PointVerdict::of(at, degree) }
                 }
                 Ok(Some(FromNumbers::Open(question))) => match self.verdict_exactly(budget) {
-                    Err(Error::Stopped(stopped)) if !stopped.reached.contains("; open: ") => {
+                    Err(Error::Stopped(stopped)) if stopped.open.is_none() => {
                         return Err(Error::Stopped(stopped.with_open(&question)));
                     }
                     found => found?,
@@ -197,7 +197,7 @@ impl Problem {
                 Some(p) => {
                     drifts = match p.has_odd_real_roots_beyond(&Rational::ZERO, self.shape(), budget) {
                         // It is no more than a remark.
-                        Err(stopped) if stopped.budget.starts_with("precision") => false,
+                        Err(stopped) if stopped.stop.is_precision() => false,
                         found => found?,
                     };
                     p.at(&Rational::ZERO, self.shape(), budget)?

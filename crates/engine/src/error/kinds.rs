@@ -8,14 +8,14 @@ use std::fmt;
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
-/// use jurist_engine::error::Error;
+/// use jurist_engine::error::{Code, Error};
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("K").nominal("1"))
 ///     .characteristic("z^2 - z + K/2")
 ///     .build()?;
 /// match model.ask().free("k").stable_set(&Budget::unlimited()) {
-///     Err(Error::Refused(diagnostics)) => assert_eq!(diagnostics.code(), "E-unknown-parameter"),
+///     Err(Error::Refused(diagnostics)) => assert_eq!(diagnostics.code(), Code::UnknownParameter),
 ///     other => panic!("{other:?}"),
 /// }
 /// assert!(matches!(model.ask().verdict(&Budget::with_work(0)), Err(Error::Stopped(_))));

@@ -1,6 +1,6 @@
 //! From a loop and a question to polynomials and matrices.
 
-use super::connect::state_space::{Stop, assemble};
+use super::connect::state_space::{NotConnected, assemble};
 use super::definition::{Model, Time};
 use super::evaluate::scalar::{Scope, Symbol, Variable};
 use super::evaluate::symbolic::{Values, Wiring, symbolic};
@@ -8,7 +8,7 @@ use super::evaluate::walk::Failure as Wrong;
 use super::symbols::{Definition, Symbols};
 use super::text::Expression;
 use super::text::names::{did_you_mean, known_names, shorten};
-use crate::error::{Diagnostic, Diagnostics, Error};
+use crate::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
 use jurist_algebra::number::Rational;
@@ -282,14 +282,14 @@ impl Model {
         if value.variables().into_iter().all(named) {
             return Err(Error::Undefined("a parameter has no value".into()));
         }
-        let error = Diagnostic::error("E-function", "a rational number is needed here");
+        let error = Diagnostic::error(Code::Function, "a rational number is needed here");
         let error = error.at(expression.span, "not rational").help("write as many digits of it as you mean");
         Err(Diagnostics::new(Some(self.source().clone()), vec![error]).into())
     }
 
     /// That a model given by its characteristic polynomial has no states.
     pub fn has_no_states(&self) -> Error {
-        let error = Diagnostic::error("E-no-states", "a model given by its characteristic polynomial has no states");
+        let error = Diagnostic::error(Code::NoStates, "a model given by its characteristic polynomial has no states");
         let error = error.help("give the loop by matrices or blocks");
         Diagnostics::new(Some(self.source().clone()), vec![error]).into()
     }
@@ -397,7 +397,7 @@ impl Model {
             }
         }
         if diagnostics.is_empty() {
-            diagnostics.push(Diagnostic::error("E-missing", "the model is not complete"));
+            diagnostics.push(Diagnostic::error(Code::Missing, "the model is not complete"));
         }
         diagnostics.dedup();
         Error::Refused(Diagnostics::new(Some(self.source().clone()), diagnostics))
@@ -423,9 +423,9 @@ impl Model {
         let symbols = Some(&answer.symbols);
         let assembled = match assemble(self, &answer.wiring, &answer.values, &substitution, symbols, budget) {
             Ok(assembled) => assembled,
-            Err(Stop::Exhausted(exhausted)) => return Err(exhausted.into()),
-            Err(Stop::Undefined(diagnostic)) => return Err(Error::Undefined(diagnostic.message)),
-            Err(Stop::Refused(diagnostic)) => {
+            Err(NotConnected::Exhausted(exhausted)) => return Err(exhausted.into()),
+            Err(NotConnected::Undefined(diagnostic)) => return Err(Error::Undefined(diagnostic.message)),
+            Err(NotConnected::Refused(diagnostic)) => {
                 return Err(Diagnostics::new(Some(self.source().clone()), vec![*diagnostic]).into());
             }
         };
@@ -530,7 +530,7 @@ impl ClosedLoop {
         let find = |names: &[String], name: &str, what: &str| {
             names.iter().position(|n| n == name).ok_or_else(|| {
                 let message = format!("the loop has no {what} '{}'", shorten(name));
-                let mut error = Diagnostic::error("E-unknown-signal", message);
+                let mut error = Diagnostic::error(Code::UnknownSignal, message);
                 let names = || names.iter().map(String::as_str);
                 error.help = did_you_mean(name, names()).or_else(|| known_names(names()));
                 Error::from(error)

@@ -2,7 +2,7 @@
 
 use super::definition::{Constant, Model, Parameter};
 use super::text::names::{did_you_mean, known_names, list, shorten};
-use crate::error::{Diagnostic, Diagnostics};
+use crate::error::{Code, Diagnostic, Diagnostics};
 
 impl Model {
     /// What a name that is to be varied is: the parameter, or the constant as a parameter.
@@ -35,7 +35,7 @@ impl Model {
             Some(Constant { number: Some(_), .. }) => None,
             Some(c) => {
                 let message = format!("the constant '{}' is given by a formula, so it cannot vary", shorten(name));
-                let error = Diagnostic::error("E-not-a-number", message).at(c.span, "given by a formula");
+                let error = Diagnostic::error(Code::NotANumber, message).at(c.span, "given by a formula");
                 let used: Vec<&str> = c.expression.names().into_iter().collect();
                 Some(error.help(format!("vary what it depends on: {}", list(used.into_iter().take(8)))))
             }
@@ -47,7 +47,8 @@ impl Model {
 fn unknown_parameter(model: &Model, name: &str) -> Diagnostic {
     let numbers = model.constants().iter().filter(|c| c.number.is_some()).map(|c| c.name.as_str());
     let names = || model.parameters().iter().map(|p| p.name.as_str()).chain(numbers.clone());
-    let mut error = Diagnostic::error("E-unknown-parameter", format!("the model has no parameter '{}'", shorten(name)));
+    let mut error =
+        Diagnostic::error(Code::UnknownParameter, format!("the model has no parameter '{}'", shorten(name)));
     error.help = did_you_mean(name, names()).or_else(|| known_names(names()));
     error
 }

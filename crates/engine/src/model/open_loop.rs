@@ -6,7 +6,7 @@ use super::definition::{Block, Diagram, Form, Model};
 use super::evaluate::symbolic::{DiscretizationValues, PortValues, Row, Values};
 use super::symbols::Symbols;
 use super::text::names::{did_you_mean, list, shorten};
-use crate::error::{Diagnostic, Diagnostics, Error};
+use crate::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
@@ -14,6 +14,7 @@ use jurist_algebra::poly::RationalFunction;
 /// Where a loop is cut: what returns to the cut when a signal is put in there is the open loop.
 ///
 /// ```
+/// use jurist_engine::error::Code;
 /// use jurist_engine::model::{BlockBuilder, Cut, Model, Time};
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .inputs(["r"])
@@ -23,7 +24,7 @@ use jurist_algebra::poly::RationalFunction;
 ///     .build()?;
 /// assert_eq!(model.cut(None)?, Cut::Input("controller".into())); // the error of a single loop
 /// assert_eq!(model.cut(Some("u"))?, Cut::Signal("u".into()));
-/// assert_eq!(model.cut(Some("v")).unwrap_err().code(), "E-unknown-signal");
+/// assert_eq!(model.cut(Some("v")).unwrap_err().code(), Code::UnknownSignal);
 /// # Ok::<(), jurist_engine::error::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -101,7 +102,7 @@ impl Model {
                 if block.inputs.len() == 1 {
                     return Ok(Cut::Input(name.to_owned()));
                 }
-                let error = Diagnostic::error("E-cut", format!("the block '{}' has several inputs", shorten(name)));
+                let error = Diagnostic::error(Code::Cut, format!("the block '{}' has several inputs", shorten(name)));
                 return Err(refused(error.at(block.span, "which of them?").help(candidates(diagram))));
             }
         }
@@ -111,21 +112,25 @@ impl Model {
                 self.free(name).map(|_| Cut::Gain(name.to_owned()))
             }
             (Form::Blocks(diagram), None) => only_error(diagram).ok_or_else(|| {
-                let error =
-                    Diagnostic::error("E-cut", "the diagram has no single loop, so it has to be said where it is cut");
+                let error = Diagnostic::error(
+                    Code::Cut,
+                    "the diagram has no single loop, so it has to be said where it is cut",
+                );
                 refused(error.help(candidates(diagram)))
             }),
             (_, None) => match self.parameters() {
                 [only] => Ok(Cut::Gain(only.name.clone())),
                 parameters => {
-                    let error = Diagnostic::error("E-cut", "it has to be said which parameter is the loop's gain");
+                    let error = Diagnostic::error(Code::Cut, "it has to be said which parameter is the loop's gain");
                     let names = list(parameters.iter().take(8).map(|p| p.name.as_str()));
                     Err(refused(if names.is_empty() { error } else { error.help(format!("--at one of {names}")) }))
                 }
             },
             (form, Some(name)) => {
-                let mut error =
-                    Diagnostic::error("E-unknown-signal", format!("the loop has no signal '{}' to cut", shorten(name)));
+                let mut error = Diagnostic::error(
+                    Code::UnknownSignal,
+                    format!("the loop has no signal '{}' to cut", shorten(name)),
+                );
                 let parameters = self.parameters().iter().map(|p| p.name.as_str());
                 error.help = match form {
                     Form::Blocks(diagram) => {

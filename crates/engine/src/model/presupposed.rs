@@ -5,7 +5,7 @@ use super::closed_loop::substituted;
 use super::definition::{Form, Model};
 use super::evaluate::walk::Failure;
 use super::symbols::Symbols;
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
@@ -34,10 +34,10 @@ impl Presupposition {
     pub fn not_positive(&self) -> Diagnostic {
         match self.of {
             Presupposed::SampleTime => {
-                Diagnostic::error("E-value", "the sample time of a hold must be positive").at(self.span, "this hold")
+                Diagnostic::error(Code::Value, "the sample time of a hold must be positive").at(self.span, "this hold")
             }
             Presupposed::Frequency | Presupposed::Angle => {
-                Diagnostic::error("E-discretize", "the frequency of 'prewarp' must be positive")
+                Diagnostic::error(Code::Discretize, "the frequency of 'prewarp' must be positive")
                     .at(self.span, "not positive")
             }
         }
@@ -45,7 +45,7 @@ impl Presupposition {
 
     /// The refusal where an angle is not below pi.
     pub fn too_fast(&self) -> Diagnostic {
-        Diagnostic::error("E-discretize", "the frequency of 'prewarp' is not below half the sampling rate")
+        Diagnostic::error(Code::Discretize, "the frequency of 'prewarp' is not below half the sampling rate")
             .at(self.span, "an angle of pi or more in a sample")
             .help("'prewarp' is in radians per unit of time: 2*pi times the frequency")
     }
@@ -58,7 +58,7 @@ impl Presupposition {
                 "it is not known for which values the frequency of 'prewarp' is below half the sampling rate"
             }
         };
-        Diagnostic::error("E-discretize", message)
+        Diagnostic::error(Code::Discretize, message)
             .at(self.span, "a function of what is asked for")
             .help("set the parameters that it depends on")
     }

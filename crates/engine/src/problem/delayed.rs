@@ -3,7 +3,7 @@
 use super::evaluation::Algebra;
 use super::region::Bound;
 use super::resolved::Problem;
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::stability::ParametricPolynomial;
 use crate::stability::dead_time::{FamilyLoop, GainLoop, Line, QuasiPolynomial};
 use jurist_algebra::limits::Budget;
@@ -44,7 +44,7 @@ pub(crate) fn not_known() -> Error {
 
 /// The refusal of a question about a loop with dead time.
 pub(crate) fn refused(message: impl Into<String>, help: impl Into<String>) -> Error {
-    Diagnostic::error("E-dead-time", message).help(help).into()
+    Diagnostic::error(Code::DeadTime, message).help(help).into()
 }
 
 impl DelayedLoop {

@@ -1,7 +1,7 @@
 //! Questions about loops with transcendental constants, such as plants behind a hold.
 
 use super::{Algebra, Problem};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::model::{self, Symbol};
 use crate::stability::boxes::MovingPolynomial;
 use crate::stability::{SymbolicPlane, SymbolicPolynomial};
@@ -77,7 +77,7 @@ impl Problem {
             let name = &self.free()[axis].name;
             let message = format!("'{name}' is inside of functions, as behind a hold: there is no exact map");
             let help = format!("maps with '{name}' are made of boxes: '--method boxes' with windows of both axes");
-            return Err(Diagnostic::error("E-function", message).help(help).into());
+            return Err(Diagnostic::error(Code::Function, message).help(help).into());
         }
         fixed_symbols(symbols)
     }
@@ -118,7 +118,7 @@ impl Problem {
                 let message = format!("'{x}' and '{y}' are both inside of functions, as behind a hold");
                 let help =
                     "this plane has functions of one parameter: 'Problem::map_by' makes boxes where both are inside";
-                return Err(Diagnostic::error("E-function", message).help(help).into());
+                return Err(Diagnostic::error(Code::Function, message).help(help).into());
             }
             [false, false] => SymbolicPlane::new(polynomial, self.shape(), &Arc::new(fixed_symbols(symbols)?)),
             [first, _] => {

@@ -2,7 +2,7 @@
 
 use super::over_symbols::symbols_without;
 use super::resolved::Free;
-use crate::error::Diagnostic;
+use crate::error::{Code, Diagnostic};
 use crate::model::{Definition, Model, Presupposed, Presupposition, Symbols};
 use crate::stability::Range;
 use jurist_algebra::limits::Budget;
@@ -52,7 +52,7 @@ pub(super) fn positive_functions(
 
 fn too_long() -> Diagnostic {
     Diagnostic::error(
-        "E-too-large",
+        Code::TooLarge,
         "the sample time of a hold, or the frequency of 'prewarp', is too long an expression",
     )
     .help("set the parameters that it depends on, or write it shorter")
@@ -257,7 +257,7 @@ mod tests {
         Model::from_toml(&Source::new("model.toml", &text)).unwrap().0
     }
 
-    fn code(error: Error) -> &'static str {
+    fn code(error: Error) -> Code {
         let Error::Refused(diagnostics) = error else { panic!("{error}") };
         diagnostics.code()
     }
@@ -301,7 +301,7 @@ mod tests {
                 let is_refused = |x: Rational| match model.ask().set(free, x).verdict(&Budget::unlimited()) {
                     // The root of a negative number.
                     Ok(answer) => answer.value().verdict == Verdict::Undefined,
-                    Err(error) => ["E-discretize", "E-value"].contains(&code(error)),
+                    Err(error) => [Code::Discretize, Code::Value].contains(&code(error)),
                 };
                 assert!(is_refused(end + &step) && !is_refused(end - &step), "{discretize} at {end}");
             }
@@ -314,7 +314,7 @@ mod tests {
         for frequency in ["sqrt(sqrt(x))", "sqrt(exp(x))", "sqrt(x*sqrt(x))", "sqrt(1 - sqrt(x))"] {
             let rule = format!("{{ method = 'tustin', T = '1', prewarp = '{frequency}' }}");
             let found = model("x = { nominal = 0.5 }", "1/(s - 1)", &rule).ask().free("x").problem();
-            assert_eq!(found.map_err(code).err(), Some("E-discretize"), "{frequency}");
+            assert_eq!(found.map_err(code).err(), Some(Code::Discretize), "{frequency}");
         }
     }
 
@@ -341,11 +341,11 @@ mod tests {
         let model = Model::from_toml(&Source::new("model.toml", &both)).unwrap().0;
         let problem = model.ask().free("x").problem().unwrap();
         assert_eq!(problem.parameter().domain, Range::between(None, Some((-2).into())));
-        assert!(problem.warnings().iter().any(|w| w.code == "W-domain"));
+        assert!(problem.warnings().iter().any(|w| w.code == Code::DomainWarning));
         // Long expressions are refused and take no time.
         let long = text.replace("x^2 - 1", "(x^20 + 3*x^19 - x + 1)^120 + 1");
         let model = Model::from_toml(&Source::new("model.toml", &long)).unwrap().0;
-        assert_eq!(model.ask().free("x").problem().map_err(code).err(), Some("E-too-large"));
+        assert_eq!(model.ask().free("x").problem().map_err(code).err(), Some(Code::TooLarge));
     }
 
     #[test]
@@ -359,7 +359,7 @@ mod tests {
         ] {
             let rule = format!("{{ method = 'tustin', T = '0.001', prewarp = '{frequency}' }}");
             let found = model("", "1/(s + 1)", &rule).ask().free("K").stable_set(&Budget::unlimited());
-            assert_eq!(found.map_err(code).err(), is_refused.then_some("E-discretize"), "{frequency}");
+            assert_eq!(found.map_err(code).err(), is_refused.then_some(Code::Discretize), "{frequency}");
         }
     }
 
@@ -395,8 +395,8 @@ mod tests {
             ask.verdict(&Budget::unlimited()).map(|answer| answer.into_value().verdict)
         };
         assert_eq!(at("1", "1").unwrap(), Verdict::Unstable);
-        assert_eq!(at("3", "3/2").map_err(code).unwrap_err(), "E-discretize");
+        assert_eq!(at("3", "3/2").map_err(code).unwrap_err(), Code::Discretize);
         // Both negative: the angle is positive, and the factor of the rule is not.
-        assert_eq!(at("-1", "-1").map_err(code).unwrap_err(), "E-discretize");
+        assert_eq!(at("-1", "-1").map_err(code).unwrap_err(), Code::Discretize);
     }
 }

@@ -3,7 +3,7 @@
 use super::presupposed::{positive_functions, trimmed};
 use super::resolved::{Free, Problem};
 use super::{Bound, DECAY, RADIUS, Region};
-use crate::error::{Diagnostic, Diagnostics, Error};
+use crate::error::{Code, Diagnostic, Diagnostics, Error};
 use crate::model::{Model, Parameter};
 use crate::stability::Range;
 use jurist_algebra::number::Rational;
@@ -142,7 +142,7 @@ impl Question {
         }
         for one in &described {
             if one.domain.is_empty() {
-                return Err(Diagnostic::error("E-empty-domain", format!("the domain of '{}' is empty", one.name))
+                return Err(Diagnostic::error(Code::EmptyDomain, format!("the domain of '{}' is empty", one.name))
                     .help("the lower bound has to be below the upper one; both are excluded")
                     .into());
             }
@@ -168,14 +168,14 @@ impl Question {
                 let message =
                     format!("nowhere in the domain of '{}' have the model's sample times a meaning", one.name);
                 let help = "the sample time of a hold is positive, and the frequency of 'prewarp' below half the sampling rate";
-                return Err(Diagnostic::error("E-empty-domain", message).help(help).into());
+                return Err(Diagnostic::error(Code::EmptyDomain, message).help(help).into());
             };
             let is_cut = |asked: &Option<Rational>, left: &Option<Rational>| asked.is_some() && asked != left;
             if has_others || is_cut(&one.domain.lower, &domain.lower) || is_cut(&one.domain.upper, &domain.upper) {
                 let message =
                     format!("the domain of '{}' is larger than the values for which the model has a meaning", one.name);
                 let help = "the sample time of a hold is positive, and the frequency of 'prewarp' below half the sampling rate; the answer is about these";
-                warnings.push(Diagnostic::warning("W-domain", message).help(help));
+                warnings.push(Diagnostic::warning(Code::DomainWarning, message).help(help));
             }
             one.domain = domain;
         }
@@ -193,7 +193,7 @@ impl Question {
             let freed = if name == RADIUS { Region::Disc(Bound::Free) } else { Region::HalfPlane(Bound::Free) };
             freed.fits(time)?;
             if self.region.is_some() {
-                return Err(Diagnostic::error("E-kept-and-set", format!("'{name}' is the question and is also set"))
+                return Err(Diagnostic::error(Code::KeptAndSet, format!("'{name}' is the question and is also set"))
                     .help(format!("leave out either '--param {name}' or '--{name}'"))
                     .into());
             }
@@ -219,7 +219,7 @@ impl Question {
             };
             if let Some(value) = outside {
                 let message = format!("{name} = {value} is outside its domain");
-                warnings.push(Diagnostic::warning("W-outside-domain", message));
+                warnings.push(Diagnostic::warning(Code::OutsideDomainWarning, message));
             }
         }
         warnings
@@ -239,9 +239,9 @@ fn resolve(
     for (i, name) in free.iter().enumerate() {
         let shown = crate::model::shorten(name);
         if free[..i].contains(name) {
-            errors.push(Diagnostic::error("E-kept-twice", format!("'{shown}' is asked for twice")));
+            errors.push(Diagnostic::error(Code::KeptTwice, format!("'{shown}' is asked for twice")));
         } else if set.contains_key(name) {
-            let error = Diagnostic::error("E-kept-and-set", format!("'{shown}' is both kept symbolic and set"));
+            let error = Diagnostic::error(Code::KeptAndSet, format!("'{shown}' is both kept symbolic and set"));
             errors.push(error.help("leave out one of the two"));
         }
     }
@@ -262,7 +262,7 @@ fn resolve(
 
 fn no_value(parameter: &Parameter) -> Diagnostic {
     let name = crate::model::shorten(&parameter.name);
-    Diagnostic::error("E-no-value", format!("the parameter '{name}' has no value"))
+    Diagnostic::error(Code::NoValue, format!("the parameter '{name}' has no value"))
         .at(parameter.span, "no 'nominal' here")
         .help(format!("give it a nominal value, or set it: --set {name}=..."))
 }

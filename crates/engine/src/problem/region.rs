@@ -1,6 +1,6 @@
 //! The region in which all roots have to lie.
 
-use crate::error::Diagnostic;
+use crate::error::{Code, Diagnostic};
 use crate::model::Time;
 use crate::stability::Shape;
 use jurist_algebra::number::Rational;
@@ -73,7 +73,7 @@ impl Region {
     /// ```
     pub fn disc(radius: Rational) -> Result<Region, Diagnostic> {
         if !radius.sign().is_gt() {
-            return Err(Diagnostic::error("E-region", "the radius has to be positive"));
+            return Err(Diagnostic::error(Code::Region, "the radius has to be positive"));
         }
         Ok(Region::Disc(Bound::Number(radius)))
     }
@@ -132,19 +132,20 @@ impl Region {
         let free = self.is_free();
         match (self, time) {
             (Region::HalfPlane(_), Time::Discrete) if free => {
-                Err(Diagnostic::error("E-region", "the decay rate of a discrete loop is not a question")
+                Err(Diagnostic::error(Code::Region, "the decay rate of a discrete loop is not a question")
                     .help("ask for '--param radius'"))
             }
             (Region::Disc(_), Time::Continuous) if free => {
-                Err(Diagnostic::error("E-region", "the radius of a continuous loop's region is not a question")
+                Err(Diagnostic::error(Code::Region, "the radius of a continuous loop's region is not a question")
                     .help("ask for '--param decay'"))
             }
-            (Region::HalfPlane(_), Time::Discrete) => {
-                Err(Diagnostic::error("E-region", "a decay rate applies to continuous time, and this loop is discrete")
-                    .help("ask for '--radius R': all roots in |z| < R"))
-            }
+            (Region::HalfPlane(_), Time::Discrete) => Err(Diagnostic::error(
+                Code::Region,
+                "a decay rate applies to continuous time, and this loop is discrete",
+            )
+            .help("ask for '--radius R': all roots in |z| < R")),
             (Region::Disc(_), Time::Continuous) => {
-                Err(Diagnostic::error("E-region", "a radius applies to discrete time, and this loop is continuous")
+                Err(Diagnostic::error(Code::Region, "a radius applies to discrete time, and this loop is continuous")
                     .help("ask for '--decay S': all roots in Re s < -S"))
             }
             _ => Ok(()),

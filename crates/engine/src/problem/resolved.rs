@@ -3,7 +3,7 @@
 use super::Region;
 use super::delayed::{DelayedLoop, not_known};
 use super::evaluation::{Algebra, parametric};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::model::{ClosedLoop, InNumbers, Model, Symbols, Time};
 use crate::stability::plane::PlanePolynomial;
 use crate::stability::{ParametricPolynomial, Range, Shape};
@@ -103,7 +103,7 @@ impl Problem {
             return Ok(());
         }
         let message = "for which values the sample time of a hold is positive, or the frequency of 'prewarp' below half the sampling rate, depends on both names together";
-        Err(Diagnostic::error("E-discretize", message).help("set one of them").into())
+        Err(Diagnostic::error(Code::Discretize, message).help("set one of them").into())
     }
 
     /// The model.
@@ -184,7 +184,7 @@ impl Problem {
         let list: Vec<String> =
             algebra.symbols().definitions().iter().take(4).map(|(name, text)| format!("{name} = {text}")).collect();
         let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, locus, map (by boxes where a parameter is inside of functions), tolerance, jury in a parameter outside of functions and at a point, report";
-        Err(Diagnostic::error("E-function", message).help(format!("{help}; it contains {}", list.join(", "))).into())
+        Err(Diagnostic::error(Code::Function, message).help(format!("{help}; it contains {}", list.join(", "))).into())
     }
 
     /// The characteristic polynomial and what goes with it, for a question that can treat symbols: variables beyond those

@@ -16,7 +16,7 @@ mod smt2;
 mod statement;
 mod text;
 
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::StableSet;
 
@@ -39,7 +39,7 @@ fn refuse_requirements(problem: &Problem) -> Result<(), Error> {
 }
 
 fn no_certificate(why: impl Into<String>) -> Error {
-    Diagnostic::error("E-no-certificate", why)
+    Diagnostic::error(Code::NoCertificate, why)
         .help("known: loops behind a hold, or with prewarp, at fixed times, the dead time of a loop with one, a gain beside a fixed one; the answer is printed without it")
         .into()
 }

@@ -2,7 +2,7 @@
 
 use super::ground::Integers;
 use super::open_loop::{Over, Parts, integral};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::ParametricPolynomial;
 use jurist_algebra::limits::Budget;
@@ -91,7 +91,7 @@ fn over_constants(
 pub(super) fn by_gain(problem: &Problem, name: &str, budget: &Budget) -> Result<ByGain, Error> {
     affine(problem, name, budget)?.ok_or_else(|| {
         let message = format!("'{}' is not a gain of the loop", crate::model::shorten(name));
-        Diagnostic::error("E-cut", message)
+        Diagnostic::error(Code::Cut, message)
             .help("a parameter is one where it enters the characteristic polynomial to the first power and is not 0")
             .into()
     })

@@ -3,7 +3,7 @@
 use super::spiral::{Arc, OnSpiral, Values, Walk};
 use crate::stability::{Cause, End, StableInterval};
 use jurist_algebra::ball::Ball;
-use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
+use jurist_algebra::limits::{Budget, Exhausted, Stop, checkpoint};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
 
@@ -31,7 +31,7 @@ const BOXES: u32 = 40;
 /// roots touch the edge.
 pub(super) fn changes(p: &OnSpiral, interval: &StableInterval, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
     let (Some(lower), Some(upper)) = (&interval.lower, &interval.upper) else {
-        return Err(Exhausted::new("a stable interval without end", "the damping of a discrete loop"));
+        return Err(Exhausted::by_method("a stable interval without end", "the damping of a discrete loop"));
     };
     let (a, b) = (lower.value.refined_to_digits(15).enclosure(), upper.value.refined_to_digits(15).enclosure());
     let outer = [a.0.clone(), b.1.clone()];
@@ -80,7 +80,7 @@ impl Search<'_> {
         }
         if halvings == 0 {
             let near = from.to_f64_approximate();
-            return Err(Exhausted::new(format!("boxes halved {BOXES} times"), format!("the damping near {near:.6e}")));
+            return Err(Exhausted::new(Stop::Halvings(BOXES), format!("the damping near {near:.6e}")));
         }
         let middle = from.midpoint(to);
         self.cut(&[from.clone(), middle.clone()], halvings - 1, out)?;

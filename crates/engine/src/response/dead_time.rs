@@ -18,7 +18,7 @@ use crate::problem::refused;
 use crate::stability::dead_time::GainLoop;
 use crate::stability::{Range, zeros_in};
 use jurist_algebra::ball::{Ball, tan};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
 use jurist_algebra::real::Real;
@@ -101,7 +101,7 @@ impl<'a> DeadTime<'a> {
         let found = self.turning.zeros_in(&p.clone().into(), &Rational::ZERO, end, end, budget)?;
         match found.undecided.is_empty() {
             true => Ok(found.zeros),
-            false => Err(Exhausted::new("precision", "frequencies of a loop with dead time")),
+            false => Err(Exhausted::new(Stop::Separation, "frequencies of a loop with dead time")),
         }
     }
 

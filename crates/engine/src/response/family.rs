@@ -3,7 +3,7 @@
 use super::open_loop::OpenLoop;
 use super::place::{modulus_squared, product};
 use super::requirement::{Requirement, Rule};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::model::{ClosedLoop, Cut, Opened};
 use crate::problem::Problem;
 use crate::stability::Shape;
@@ -112,7 +112,7 @@ impl<R: Parameters> Family<R> {
         let cut = problem.model().cut(at)?;
         if let Cut::Gain(name) = &cut {
             let message = format!("requirements on margins need a cut at a signal, and '{name}' is a parameter");
-            return Err(Diagnostic::error("E-require", message).into());
+            return Err(Diagnostic::error(Code::Require, message).into());
         }
         let kept: Vec<String> = problem.free().iter().map(|f| f.name.clone()).collect();
         let Opened { system, sample_time, symbols } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
@@ -120,7 +120,7 @@ impl<R: Parameters> Family<R> {
             let message =
                 "requirements on margins are decided in one parameter for loops with functions that are not rational";
             let help = "ask 'intervals' for one of the parameters, or 'margins' with a value for each";
-            return Err(Diagnostic::error("E-require", message).help(help).into());
+            return Err(Diagnostic::error(Code::Require, message).help(help).into());
         }
         let (quotient, undefined) = Quotient::of(&system, problem.shape(), R::lowered, budget)?;
         if quotient.numerator.is_zero() {
@@ -328,7 +328,7 @@ impl Expanded {
 /// The refusal of a cut through which there is no loop.
 pub(super) fn nothing_comes_back(cut: &Cut) -> Error {
     let message = format!("nothing comes back to '{}': there is no loop through it", cut.name());
-    Diagnostic::error("E-cut", message).into()
+    Diagnostic::error(Code::Cut, message).into()
 }
 
 /// `a + alpha b` times the denominator of `alpha`.

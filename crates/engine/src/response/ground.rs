@@ -7,7 +7,7 @@ use crate::stability::{
     symbolic_stable_set, zeros_in,
 };
 use jurist_algebra::ball::Ball;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
@@ -240,7 +240,7 @@ impl Ground for Constants {
             }
             bits *= 2;
         }
-        Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "the open loop at a frequency"))
+        Err(Exhausted::new(Stop::Precision(MOST_BITS), "the open loop at a frequency"))
     }
 
     fn quotient(&self, a: &MultiPoly, b: &MultiPoly, budget: &Budget) -> Result<Value, Exhausted> {

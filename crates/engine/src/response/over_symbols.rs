@@ -7,7 +7,7 @@ use super::open_loop::OpenLoop;
 use super::over_boxes::{OverBoxes, certain, segments};
 use super::requirement::{Requirement, Rule};
 use super::{RequiredEnd, RequiredInterval, RequiredSet};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Cut, Opened};
 use crate::problem::{Problem, moving_symbols};
 use crate::stability::{
@@ -96,7 +96,7 @@ impl<'a> SymbolicFamily<'a> {
         if !symbols.delays().is_empty() {
             let message = "requirements on margins are decided at points for loops with dead time in continuous time";
             let help = "ask 'verdict' or 'margins' with a value for every parameter";
-            return Err(Diagnostic::error("E-require", message).help(help).into());
+            return Err(Diagnostic::error(Code::Require, message).help(help).into());
         }
         let (quotient, undefined) = Quotient::of(&system, problem.shape(), MultiPoly::clone, budget)?;
         if quotient.numerator.is_zero() {
@@ -120,7 +120,7 @@ impl<'a> SymbolicFamily<'a> {
                     "margins of loops with functions that are not rational are decided, roots in smaller regions not yet"
                 }
             };
-            return Err(Diagnostic::error("E-require", message).help(help).into());
+            return Err(Diagnostic::error(Code::Require, message).help(help).into());
         }
         let mut found = RequiredSet { intervals: Vec::new(), undecided: stable.undecided().to_vec() };
         let of = |requirement: &Requirement| {
@@ -275,7 +275,7 @@ impl<'a> SymbolicFamily<'a> {
             if functions.iter().any(|f| f.polynomial().is_some_and(MultiPoly::is_zero)) {
                 let message = format!("the requirement {} is not decided for this loop", requirement.name());
                 let help = "a polynomial of its boundary vanishes for every value";
-                return Err(Diagnostic::error("E-require", message).help(help).into());
+                return Err(Diagnostic::error(Code::Require, message).help(help).into());
             }
             let (zeros, brackets) = zeros_of_functions(functions, &symbols, &range, &usual, &changes, budget)?;
             let mut open: Vec<Bracket> = brackets;
@@ -284,7 +284,7 @@ impl<'a> SymbolicFamily<'a> {
                 match is_inside(&value, interval, budget) {
                     Ok(true) => list.push((value, of.iter().any(|&k| k < touches))),
                     Ok(false) => {}
-                    Err(stopped) if stopped.budget.starts_with("precision") => open.push(around(&value)),
+                    Err(stopped) if stopped.stop.is_precision() => open.push(around(&value)),
                     Err(stopped) => return Err(stopped.into()),
                 }
             }

@@ -4,7 +4,7 @@ use super::family::Family;
 use super::met::AtPoint;
 use super::requirement::{Requirement, Rule, on_sector_edge};
 use crate::answer::{Answer, Map};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::Shape;
 use crate::stability::plane::{Asked, StabilityMap, layers};
@@ -82,7 +82,7 @@ fn not_in_a_plane(requirement: &Requirement) -> Error {
         Rule::Sector(_) => "ask 'intervals' for one parameter: the curve of a discrete loop is not algebraic",
         _ => "ask 'verdict' with a value for every parameter",
     };
-    Diagnostic::error("E-require", message).help(help).into()
+    Diagnostic::error(Code::Require, message).help(help).into()
 }
 
 impl Problem {
@@ -154,7 +154,7 @@ impl Problem {
         };
         if found.iter().any(Domain::is_zero) {
             let message = format!("the requirement {} is not decided for this loop", requirement.name());
-            let error = Diagnostic::error("E-require", message);
+            let error = Diagnostic::error(Code::Require, message);
             return Err(error.help("a polynomial of its boundary vanishes for all values").into());
         }
         found.retain(|f| !f.is_constant());

@@ -10,12 +10,12 @@ use super::requirement::{Requirement, Rule, scaled_by_exponential, sector_in_par
 use super::spiral::OnSpiral;
 use super::{DelayMargin, HeldDelay};
 use crate::answer::{Answer, Verdict};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::{
     End, Range, Shape, StableSet, SymbolicPolynomial, UndecidedBracket, boundary_polynomials, symbolic_stable_set,
 };
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
@@ -140,7 +140,7 @@ impl Problem {
             let mut intervals = Vec::new();
             if !stable.undecided().is_empty() {
                 let message = "the stable set is undecided in places, and so are requirements";
-                return Err(Diagnostic::error("E-require", message).into());
+                return Err(Diagnostic::error(Code::Require, message).into());
             }
             for interval in stable.intervals() {
                 budget.step("testing a sample of each cell");
@@ -214,7 +214,7 @@ impl Problem {
         let undecided = || {
             let message = format!("the requirement {} is not decided for this loop", requirement.name());
             Error::from(
-                Diagnostic::error("E-require", message).help("a polynomial of its boundary vanishes for every value"),
+                Diagnostic::error(Code::Require, message).help("a polynomial of its boundary vanishes for every value"),
             )
         };
         let found = match (requirement.rule(), family) {
@@ -240,7 +240,7 @@ impl Problem {
             (Rule::DeadTime(_), _) => {
                 let message = "a delay margin is decided at points only, not as a set of a parameter";
                 let help = "ask 'verdict' with a value for every parameter";
-                return Err(Diagnostic::error("E-require", message).help(help).into());
+                return Err(Diagnostic::error(Code::Require, message).help(help).into());
             }
             (_, None) => return Err(undecided()),
             (_, Some(family)) => {
@@ -256,7 +256,7 @@ impl Problem {
     fn settled(&self, exponent: &Rational, budget: &Budget) -> Result<Vec<Real>, Error> {
         if self.shape() != Shape::UnitDisc || !self.has_fixed_sample_time(budget)? {
             let message = "a settling time is required of discrete loops with a sample time that is a number";
-            return Err(Diagnostic::error("E-require", message).into());
+            return Err(Diagnostic::error(Code::Require, message).into());
         }
         let Some(p) = self.parametric(budget)? else { return Ok(Vec::new()) };
         let lift = |c: &UniPoly| MultiPoly::from_univariate(c, 1);
@@ -308,7 +308,7 @@ fn bears(margins: &Margins, least: &Rational, budget: &Budget) -> Result<bool, E
         (DelayMargin::Samples(m) | DelayMargin::SamplesAtLeast(m), None) => {
             let Some(step) = margins.open_loop.sample_time() else {
                 let message = "a delay margin of a discrete loop needs its sample time";
-                return Err(Diagnostic::error("E-require", message).into());
+                return Err(Diagnostic::error(Code::Require, message).into());
             };
             Ok(&Rational::from(*m) * step >= *least)
         }
@@ -331,5 +331,5 @@ fn is_at_least(
             _ => bits *= 2,
         }
     }
-    Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "comparing a delay with the required one"))
+    Err(Exhausted::new(Stop::Precision(MOST_BITS), "comparing a delay with the required one"))
 }

@@ -6,7 +6,7 @@
 //! roots of a polynomial with rational coefficients are never on it: a count at a rational point ends.
 
 use jurist_algebra::ball::{Ball, cos_sin, exp};
-use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
+use jurist_algebra::limits::{Budget, Exhausted, Stop, checkpoint};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Poly, UniPoly};
 
@@ -150,7 +150,7 @@ impl OnSpiral {
             }
             bits *= 2;
         }
-        Err(Exhausted::new(format!("precision ({} bits)", BITS.1), "counting roots inside a spiral"))
+        Err(Exhausted::new(Stop::Precision(BITS.1), "counting roots inside a spiral"))
     }
 
     /// Walks along the edge, halving arcs so often at most, and only while no more of them are open.

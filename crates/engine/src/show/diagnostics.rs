@@ -79,7 +79,8 @@ fn render_one(diagnostic: &Diagnostic, source: Option<&Source>, color: bool) -> 
         Severity::Warning => Level::WARNING,
     };
     let mut lines: Vec<Line<'_>> = Vec::new();
-    let mut group = level.primary_title(plain(&diagnostic.message)).id(diagnostic.code).elements(Vec::<Origin>::new());
+    let mut group =
+        level.primary_title(plain(&diagnostic.message)).id(diagnostic.code.as_str()).elements(Vec::<Origin>::new());
     if let Some(source) = source {
         let primary = diagnostic.primary.iter().map(|l| (AnnotationKind::Primary, l));
         let secondary = diagnostic.secondary.iter().map(|l| (AnnotationKind::Context, l));

@@ -34,7 +34,7 @@ pub fn heading(problem: &Problem) -> String {
 
 /// What is asked for is not decided, and why.
 pub fn undecided_text(stopped: &Exhausted) -> String {
-    format!("undecided, the budget ran out: {}; reached: {}", stopped.budget, stopped.reached)
+    format!("undecided, {stopped}")
 }
 
 /// The intervals, and a line for each end.

@@ -2,7 +2,7 @@
 
 use super::stable_set::{End, StableInterval, StableSet, UndecidedBracket};
 use super::{Causes, ComplexPair};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
 use std::cmp::Ordering;
@@ -76,7 +76,7 @@ fn inner(
         Some(Ordering::Equal) => End::new(x.value.clone(), both_causes(x, y), lower_pair(&x.pair, &y.pair)),
         Some(order) => (if order == wanted { x } else { y }).clone(),
         None if x.value.algebraic().is_some() || y.value.algebraic().is_some() => {
-            return Err(Exhausted::new("precision", "comparing limits of two factors"));
+            return Err(Exhausted::new(Stop::Separation, "comparing limits of two factors"));
         }
         None => {
             let extreme = Extreme { values: [x.value.clone(), y.value.clone()], is_greater: wanted.is_gt() };
@@ -89,7 +89,7 @@ fn inner(
 /// The order of two numbers; `None` where some thousand bits do not tell them apart.
 fn order(a: &Real, b: &Real, budget: &Budget) -> Result<Option<Ordering>, Exhausted> {
     match a.compare(b, budget) {
-        Err(stopped) if stopped.budget.starts_with("precision") => Ok(None),
+        Err(stopped) if stopped.stop.is_precision() => Ok(None),
         found => found.map(Some),
     }
 }

@@ -9,7 +9,7 @@ use super::sampled::{Excitation, SAMPLES_BETWEEN_CHECKS};
 use super::trace::Trace;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
-use jurist_engine::error::{Diagnostic, Error};
+use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::model::{Symbols, value_approximate};
 use jurist_engine::problem::Problem;
 use nalgebra::{DMatrix, DVector};
@@ -204,7 +204,7 @@ impl DelayedModel {
         if !(most > 0.0 && end / most <= MOST_STEPS) {
             let message = format!("{:.0e} steps are too many for a simulation", end / most);
             let help = "a dead time or a time constant is that much shorter than the run: shorten it with --duration";
-            return Err(Diagnostic::error("E-simulation", message).help(help).into());
+            return Err(Diagnostic::error(Code::Simulation, message).help(help).into());
         }
         Ok(most)
     }
@@ -264,7 +264,7 @@ impl Reader {
         let refused = || {
             let message = "a loop in which dead time acts on itself at once is not simulated yet";
             Error::from(
-                Diagnostic::error("E-dead-time", message)
+                Diagnostic::error(Code::DeadTime, message)
                     .help("these are loops of neutral type; known of them: verdict, intervals, margins, bode, nyquist"),
             )
         };

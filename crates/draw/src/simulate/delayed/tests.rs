@@ -1,6 +1,6 @@
 use super::*;
 use crate::simulate::{Course, SampledModel, Step, natural_duration};
-use jurist_engine::error::Source;
+use jurist_engine::error::{Code, Source};
 use jurist_engine::model::Model;
 
 const INTEGRATOR: &str = "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y', 'v']\n\
@@ -20,7 +20,7 @@ fn unit_step() -> Excitation {
     Excitation { steps: vec![Step { sample: 0, input: 0, value: 1.0 }], ..Excitation::default() }
 }
 
-fn code(error: Error) -> &'static str {
+fn code(error: Error) -> Code {
     match error {
         Error::Refused(list) => list.code(),
         other => panic!("{other:?}"),
@@ -126,9 +126,9 @@ fn what_is_too_fine_or_neutral_is_refused() {
         [[block]]\ninput = 'r - v'\noutput = 'y'\ntransfer = '(s + 3)/(2*s + 1)'\n\
         [[block]]\ninput = 'y'\noutput = 'v'\ndelay = 1\n";
     let refused = DelayedModel::from_loop(&problem(neutral), 0.1, &Budget::unlimited());
-    assert_eq!(code(refused.unwrap_err()), "E-dead-time");
+    assert_eq!(code(refused.unwrap_err()), Code::DeadTime);
     let fine = model(&lag("1", "1", "1e-9"), 1.0).simulate_within(&unit_step(), 100, &Budget::unlimited());
-    assert_eq!(code(fine.unwrap_err()), "E-simulation");
+    assert_eq!(code(fine.unwrap_err()), Code::Simulation);
 }
 
 #[test]

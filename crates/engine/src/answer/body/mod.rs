@@ -5,7 +5,7 @@ mod extent;
 pub use extent::{Extreme, Extremes, Stretch, StretchEnd};
 
 use super::{Answer, Map};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Problem, Question};
 use crate::stability::RealInterval;
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
@@ -49,11 +49,11 @@ impl SliceValues {
         let most = SliceValues::MOST;
         if !(2..=most).contains(&count) {
             let message = format!("the number of slices is {count}");
-            return Err(Diagnostic::error("E-option-value", message)
+            return Err(Diagnostic::error(Code::OptionValue, message)
                 .help(format!("it is 2 to {most}: each slice is a whole map")));
         }
         if lower >= upper {
-            let error = Diagnostic::error("E-option-value", "the range of the slices is empty");
+            let error = Diagnostic::error(Code::OptionValue, "the range of the slices is empty");
             return Err(error.help("the lower end has to be below the upper end; both are slices"));
         }
         Ok(SliceValues { name: name.into(), values: evenly_spaced(lower, upper, count) })
@@ -195,7 +195,7 @@ impl Question {
         let (third, names) = (slices.name(), self.free_names());
         let twice = names.iter().find(|name| *name == third || names.iter().filter(|other| other == name).count() > 1);
         if let Some(name) = twice {
-            return Err(Diagnostic::error("E-usage", format!("'{name}' is asked for on two axes"))
+            return Err(Diagnostic::error(Code::Usage, format!("'{name}' is asked for on two axes"))
                 .help("name three different parameters with '-x', '-y' and '-z'")
                 .into());
         }
@@ -209,7 +209,7 @@ impl Question {
                 let message = format!("the slice at {third} = {value} is outside the domain, {text}");
                 let help =
                     format!("both ends are slices: begin and end inside, or change the domain: '--domain {third}=..'");
-                Err(Diagnostic::error("E-value", message).help(help).into())
+                Err(Diagnostic::error(Code::Value, message).help(help).into())
             }
         }
     }
@@ -270,11 +270,13 @@ impl Asked<'_> {
     /// What to do where a map is made of boxes.
     fn by_boxes(&self, error: Error, value: &Rational) -> Error {
         let Error::Refused(refused) = &error else { return error };
-        let ([x, y], "E-function" | "E-dead-time") = (self.question.free_names(), refused.code()) else { return error };
+        let ([x, y], Code::Function | Code::DeadTime) = (self.question.free_names(), refused.code()) else {
+            return error;
+        };
         let message = "slices are exact maps, and a parameter is inside of functions of this loop, as behind a hold";
         let one = format!("map -x {x}=LO..HI -y {y}=LO..HI --set {}={value}", self.name);
         let help = format!("boxes decide one slice at a time, with windows of both axes: '{one}'");
-        Diagnostic::error("E-function", message).help(help).into()
+        Diagnostic::error(Code::Function, message).help(help).into()
     }
 }
 

@@ -134,9 +134,9 @@ fn wrong_slices_are_refused() {
     };
     let ask = || loop_of("z^2 + a*z + b*c").ask();
     let values = of(3).unwrap();
-    assert_eq!(code(ask().free("a").free("c"), &values), "E-usage");
-    assert_eq!(code(ask().free("a").free("a"), &values), "E-usage");
+    assert_eq!(code(ask().free("a").free("c"), &values), Code::Usage);
+    assert_eq!(code(ask().free("a").free("a"), &values), Code::Usage);
     let domain = crate::stability::Range::between(Some(Rational::ZERO), None);
-    assert_eq!(code(ask().free("a").free("b").domain("c", domain), &values), "E-value");
-    assert_eq!(code(ask().free("a").free("b").set("c", 1), &values), "E-kept-and-set");
+    assert_eq!(code(ask().free("a").free("b").domain("c", domain), &values), Code::Value);
+    assert_eq!(code(ask().free("a").free("b").set("c", 1), &values), Code::KeptAndSet);
 }

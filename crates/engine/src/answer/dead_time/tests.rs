@@ -1,7 +1,7 @@
 //! Loops with dead time from their files: limits found another way, in floating point with 45 digits, and what is refused.
 
 use crate::answer::Verdict;
-use crate::error::{Error, Source};
+use crate::error::{Code, Error, Source};
 use crate::model::Model;
 use crate::problem::Question;
 use crate::stability::{End, Range};
@@ -126,11 +126,11 @@ fn dead_times_that_are_multiples_of_one_are_treated_together() {
     assert_eq!(found.len(), 1, "{found:?}");
 }
 
-fn refused(question: Question) -> (String, String) {
+fn refused(question: Question) -> (Code, String) {
     match question.stable_set(&Budget::unlimited()) {
         Err(Error::Refused(list)) => {
             let first = &list.diagnostics()[0];
-            (first.code.to_owned(), first.message.clone())
+            (first.code, first.message.clone())
         }
         other => panic!("{other:?}"),
     }
@@ -152,7 +152,7 @@ fn what_cannot_be_asked_of_dead_time_is_refused_with_a_reason() {
         ("s^2 + 2*s + 2 + 2*K*s*exp(-tau*s)", "tau", "roots touch the imaginary axis at infinitely many dead times"),
     ] {
         let (code, said) = refused(model(characteristic).ask().free(parameter));
-        assert_eq!(code, "E-dead-time", "{characteristic}");
+        assert_eq!(code, Code::DeadTime, "{characteristic}");
         assert!(said.starts_with(message), "{characteristic}: {said}");
     }
 }
@@ -161,7 +161,7 @@ fn what_cannot_be_asked_of_dead_time_is_refused_with_a_reason() {
 fn a_prediction_is_refused_where_it_stands() {
     let text = "time = 'continuous'\n[parameters]\nK = 1\n[loop]\ncharacteristic = 's + 1 + K*exp(2*s)'";
     let refused = Model::from_toml(&Source::new("model.toml", text)).unwrap_err();
-    assert_eq!(refused.code(), "E-dead-time");
+    assert_eq!(refused.code(), Code::DeadTime);
     assert!(refused.to_string().contains("looks ahead"), "{refused}");
 }
 

@@ -2,7 +2,7 @@
 
 use super::BoxRequest;
 use crate::answer::Verdict;
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::Range;
 use crate::stability::plane::boxes::Window;
@@ -92,13 +92,16 @@ pub(super) fn window_of(question: &Problem, request: &BoxRequest) -> Result<Wind
     let sides = [side(0), side(1)];
     for (range, axis) in sides.iter().zip(question.free()) {
         if range.lower.is_none() || range.upper.is_none() {
-            return Err(Diagnostic::error("E-usage", format!("boxes need a window of '{}' with two ends", axis.name))
-                .help(format!("say which values are to be covered, such as '-x {}=0..1'", axis.name))
-                .into());
+            return Err(Diagnostic::error(
+                Code::Usage,
+                format!("boxes need a window of '{}' with two ends", axis.name),
+            )
+            .help(format!("say which values are to be covered, such as '-x {}=0..1'", axis.name))
+            .into());
         }
         if range.is_empty() {
             return Err(Diagnostic::error(
-                "E-empty-domain",
+                Code::EmptyDomain,
                 format!("the window of '{}' is outside its domain", axis.name),
             )
             .help("boxes cover the part of the window that is in the domain")
@@ -192,7 +195,7 @@ mod tests {
         }
         for empty in [range(Some("5"), Some("6")), range(Some("0"), Some("1/4"))] {
             match asked(bounded, &[], 0, empty) {
-                Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, "E-empty-domain"),
+                Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, Code::EmptyDomain),
                 other => panic!("{other:?}"),
             }
         }

@@ -81,6 +81,23 @@ fn a_parameter_whose_nominal_value_is_zero_is_looked_at_outward_from_there() {
     agrees(&set, &model, "w", &["-9000", "-3000", "3000", "6000", "12000"].map(number));
 }
 
+/// `|cot a| < 2`, whose poles and zeros lie in the domain.
+#[test]
+fn a_cotangent_is_followed_over_its_poles() {
+    let (model, _) = Model::from_toml(&Source::new(
+        "model.toml",
+        "time = 'discrete'\n[parameters]\nK = 0.5\na = { nominal = 0.7, min = -4, max = 4 }\n[loop]\ncharacteristic = 'z - K/tan(a)'\n",
+    ))
+    .unwrap();
+    let set = set_of(model.ask().free("a"));
+    assert!(set.undecided().is_empty() && set.intervals().len() == 4, "{:?}", set.intervals());
+    // arctan(1/2) = 0.46364760900080...
+    for (inside, outside) in [("0.4636477", "0.4636476"), ("2.6779450", "2.6779451"), ("-0.4636477", "-0.4636476")] {
+        assert!(set.contains(&number(inside)) && !set.contains(&number(outside)), "{inside}");
+    }
+    assert!(!set.contains(&number("3.14159")) && !set.contains(&number("0.0001")));
+}
+
 #[test]
 fn the_interval_with_the_nominal_value_is_printed_first_and_the_document_is_ascending() {
     let (model, _) = Model::from_toml(&Source::new(
@@ -131,7 +148,7 @@ fn a_dead_time_beside_another_one_says_what_to_ask_instead() {
     let model = Model::from_toml(&Source::new("model.toml", text)).unwrap().0;
     let refused = model.ask().free("theta").stable_set(&Budget::unlimited()).unwrap_err();
     let said = format!("{refused:?}");
-    let words = ["E-dead-time", "not rational multiples", "'map'", "tolerance --tol", "verdict --set"];
+    let words = ["DeadTime", "not rational multiples", "'map'", "tolerance --tol", "verdict --set"];
     assert!(words.iter().all(|word| said.contains(word)) && !said.contains("budget"), "{said}");
 }
 

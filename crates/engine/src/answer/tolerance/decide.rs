@@ -4,7 +4,7 @@ use super::held::Truth;
 use super::required::{nearer, worse};
 use super::{ToleranceAnswer, ToleranceRequest, WorstEnd};
 use crate::answer::Answer;
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::boxes::{
     BoxDecision, BoxPolynomial, BoxVolume, ExactProof, Family, LargestFactor, MOST_PARAMETERS, Side, ToleranceProblem,
@@ -303,7 +303,7 @@ fn refuse_volume(parameters: usize, request: &ToleranceRequest) -> Result<(), Er
         return Ok(());
     }
     let message = format!("the volume of a box is found for up to {MOST_PARAMETERS} parameters");
-    Err(Diagnostic::error("E-tolerance", message)
+    Err(Diagnostic::error(Code::Tolerance, message)
         .help("leave some out with --fix; the shares of the margin are found for any number")
         .into())
 }
@@ -317,7 +317,7 @@ fn refuse_beside_functions(request: &ToleranceRequest) -> Result<(), Error> {
         _ => return Ok(()),
     };
     let message = format!("{what} not asked of tolerances inside of functions or with dead time yet");
-    Err(Diagnostic::error("E-tolerance", message)
+    Err(Diagnostic::error(Code::Tolerance, message)
         .help("known of it: whether the box is stable, the largest factor with its worst point and shares, and --limit")
         .into())
 }
@@ -332,12 +332,12 @@ fn refuse_beside_requirements(request: &ToleranceRequest) -> Result<(), Error> {
         _ => return Ok(()),
     };
     let message = format!("{what} is not decided with requirements on margins, damping or settling");
-    Err(Diagnostic::error("E-require", message).help("ask for the box alone, or leave out the requirements").into())
+    Err(Diagnostic::error(Code::Require, message).help("ask for the box alone, or leave out the requirements").into())
 }
 
 pub(super) fn too_many(boxes: &ToleranceProblem) -> Error {
     let message = format!("{} tolerances have too many Bernstein coefficients", boxes.parameters());
-    Diagnostic::error("E-tolerance", message)
+    Diagnostic::error(Code::Tolerance, message)
         .help("leave some out with --fix, or give a product of parameters that only occur together one tolerance")
         .into()
 }

@@ -2,7 +2,7 @@
 
 use super::decide::{agreed, too_many};
 use super::{RequiredBox, ToleranceRequest};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::response::{Family, Requirement, Rule, half_tangent, radius_below};
 use crate::stability::Shape;
@@ -199,7 +199,7 @@ impl Problem {
 
 fn not_over_a_box(requirement: &Requirement, help: &str) -> Error {
     let message = format!("the requirement {} is not decided over a box of tolerances", requirement.name());
-    Diagnostic::error("E-require", message).help(help).into()
+    Diagnostic::error(Code::Require, message).help(help).into()
 }
 
 /// The worse of two decisions that both have to be right.

@@ -6,7 +6,7 @@
 //! stay rational.
 
 use super::factor::factors;
-use super::state_space::{Stop, solve};
+use super::state_space::{NotConnected, solve};
 use crate::model::symbols::Symbols;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
@@ -34,7 +34,7 @@ impl Modes {
     ///
     /// A matrix of rational numbers has the factors of its polynomial; one with other entries has powers of `s` apart and
     /// the whole polynomial for the rest, so that nothing is divided by.
-    pub fn of(a: &RationalMatrix, zeros: usize, budget: &Budget) -> Result<Modes, Stop> {
+    pub fn of(a: &RationalMatrix, zeros: usize, budget: &Budget) -> Result<Modes, NotConnected> {
         let polynomial = a.characteristic_polynomial(Vec::new(), budget)?;
         let numbers: Option<Vec<Rational>> =
             polynomial.coefficients.iter().map(RationalFunction::as_constant).collect();
@@ -78,7 +78,7 @@ impl Modes {
         time: &RationalFunction,
         symbols: &mut Symbols,
         budget: &Budget,
-    ) -> Result<RationalMatrix, Stop> {
+    ) -> Result<RationalMatrix, NotConnected> {
         if self.is_rational {
             self.factors.iter().for_each(|(factor, _)| symbols.note_mode(factor));
         }

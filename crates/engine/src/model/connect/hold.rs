@@ -5,8 +5,8 @@
 //! after the block.
 
 use super::exponential::Modes;
-use super::state_space::{Stop, Substitution, System, substituted};
-use crate::error::{Diagnostic, Span};
+use super::state_space::{NotConnected, Substitution, System, substituted};
+use crate::error::{Code, Diagnostic, Span};
 use crate::model::evaluate::symbolic::{BlockValues, Hold};
 use crate::model::evaluate::transfer::MAX_ORDER;
 use crate::model::presupposed::{Presupposed, Presupposition};
@@ -18,7 +18,7 @@ use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 use std::cell::RefCell;
 
-fn refused(code: &'static str, message: String, span: Span, label: &str) -> Diagnostic {
+fn refused(code: Code, message: String, span: Span, label: &str) -> Diagnostic {
     Diagnostic::error(code, message).at(span, label)
 }
 
@@ -39,7 +39,7 @@ pub(in crate::model) fn held(
     set: &Substitution<'_>,
     symbols: Option<&RefCell<Symbols>>,
     budget: &Budget,
-) -> Result<System, Stop> {
+) -> Result<System, NotConnected> {
     let (time, delay) = (substituted(&hold.time, set)?, substituted(&hold.delay, set)?);
     positive(&time, &delay, hold)?;
     let Some(symbols) = symbols else { return Ok(stand_in(s, hold, &delay)) };
@@ -94,17 +94,17 @@ pub(in crate::model) fn held(
 }
 
 /// Refuses times that cannot be: a sample time that is not positive, dead time that is negative.
-fn positive(time: &RationalFunction, delay: &RationalFunction, hold: &Hold) -> Result<(), Stop> {
+fn positive(time: &RationalFunction, delay: &RationalFunction, hold: &Hold) -> Result<(), NotConnected> {
     let not_positive = |f: &RationalFunction| f.as_constant().is_some_and(|v| v.is_negative() || v.is_zero());
     let error = if not_positive(time) {
         let time = time.clone();
         Presupposition { of: Presupposed::SampleTime, function: time, span: hold.span }.not_positive()
     } else if delay.as_constant().is_some_and(|v| v.is_negative()) {
-        refused("E-value", "dead time must not be negative".into(), hold.span, "this hold")
+        refused(Code::Value, "dead time must not be negative".into(), hold.span, "this hold")
     } else {
         return Ok(());
     };
-    Err(Stop::Refused(Box::new(error)))
+    Err(NotConnected::Refused(Box::new(error)))
 }
 
 fn stand_in(s: System, hold: &Hold, delay: &RationalFunction) -> System {
@@ -127,7 +127,7 @@ fn samples(
     hold: &Hold,
     block: &BlockValues,
     symbols: &mut Symbols,
-) -> Result<(usize, RationalFunction), Stop> {
+) -> Result<(usize, RationalFunction), NotConnected> {
     let name = shorten(&block.name);
     let ratio = delay.checked_div(time);
     if let (Some(ratio), Some(whole)) = (&ratio, hold.whole) {
@@ -139,9 +139,9 @@ fn samples(
     });
     let (Some(ratio), Some(near)) = (ratio, near) else {
         let message = format!("the dead time of '{name}' is no fixed number of samples");
-        let error = refused("E-function", message, hold.span, "the dead time varies against the sample time");
+        let error = refused(Code::Function, message, hold.span, "the dead time varies against the sample time");
         let help = "give it as a multiple of the sample time (delay = \"1.5*T\"), or set all that it depends on";
-        return Err(Stop::Refused(Box::new(error.help(help))));
+        return Err(NotConnected::Refused(Box::new(error.help(help))));
     };
     if ratio.as_constant().is_none() {
         symbols.note_samples(&ratio);
@@ -152,7 +152,7 @@ fn samples(
         Some(samples) => Ok((samples, fraction)),
         None => {
             let message = format!("the dead time of '{name}' is more than {MAX_ORDER} samples");
-            Err(Stop::Refused(Box::new(refused("E-value", message, hold.span, "this hold"))))
+            Err(NotConnected::Refused(Box::new(refused(Code::Value, message, hold.span, "this hold"))))
         }
     }
 }
@@ -166,7 +166,7 @@ fn response(
     step: &RationalFunction,
     symbols: &mut Symbols,
     budget: &Budget,
-) -> Result<Response, Stop> {
+) -> Result<Response, NotConnected> {
     let (n, m) = (s.a.rows(), s.b.columns());
     let size = n + m * if hold.is_first_order { 2 } else { 1 };
     let slope = step.recip().unwrap_or_default();

@@ -4,7 +4,7 @@
 //! factors included: its characteristic polynomial is the denominator.
 
 use super::hold::held;
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{Dynamics, Form, Method, Model};
 use crate::model::evaluate::symbolic::{
     BlockValues, DiscretizationValues, DynamicValues, PortValues, Row, Values, Wiring,
@@ -22,7 +22,7 @@ use jurist_algebra::poly::{MultiPoly, RationalFunction};
 use std::cell::RefCell;
 
 /// Why there is no closed loop.
-pub(in crate::model) enum Stop {
+pub(in crate::model) enum NotConnected {
     /// The loop is undefined for these values of the parameters.
     Undefined(Box<Diagnostic>),
     /// What the model asks for has no meaning at these values.
@@ -31,17 +31,17 @@ pub(in crate::model) enum Stop {
     Exhausted(Exhausted),
 }
 
-impl From<Exhausted> for Stop {
+impl From<Exhausted> for NotConnected {
     fn from(exhausted: Exhausted) -> Self {
-        Stop::Exhausted(exhausted)
+        NotConnected::Exhausted(exhausted)
     }
 }
 
-impl From<Stop> for Failure {
-    fn from(stop: Stop) -> Self {
+impl From<NotConnected> for Failure {
+    fn from(stop: NotConnected) -> Self {
         match stop {
-            Stop::Undefined(diagnostic) | Stop::Refused(diagnostic) => Failure::Wrong(diagnostic),
-            Stop::Exhausted(exhausted) => Failure::Exhausted(exhausted),
+            NotConnected::Undefined(diagnostic) | NotConnected::Refused(diagnostic) => Failure::Wrong(diagnostic),
+            NotConnected::Exhausted(exhausted) => Failure::Exhausted(exhausted),
         }
     }
 }
@@ -67,16 +67,19 @@ pub(in crate::model) struct Assembled {
     pub leading: RationalFunction,
 }
 
-fn undefined(message: String, span: Span) -> Stop {
-    Stop::Undefined(Box::new(Diagnostic::error("E-division-by-zero", message).at(span, "undefined")))
+fn undefined(message: String, span: Span) -> NotConnected {
+    NotConnected::Undefined(Box::new(Diagnostic::error(Code::DivisionByZero, message).at(span, "undefined")))
 }
 
-pub(super) fn substituted(f: &RationalFunction, substitution: &Substitution<'_>) -> Result<RationalFunction, Stop> {
+pub(super) fn substituted(
+    f: &RationalFunction,
+    substitution: &Substitution<'_>,
+) -> Result<RationalFunction, NotConnected> {
     substitution(f)
         .ok_or_else(|| undefined("division by zero at these values of the parameters".into(), Span::default()))
 }
 
-fn substituted_matrix(m: &RationalMatrix, substitution: &Substitution<'_>) -> Result<RationalMatrix, Stop> {
+fn substituted_matrix(m: &RationalMatrix, substitution: &Substitution<'_>) -> Result<RationalMatrix, NotConnected> {
     let mut entries = Vec::with_capacity(m.entries().len());
     for f in m.entries() {
         entries.push(substituted(f, substitution)?);
@@ -94,7 +97,7 @@ pub(in crate::model) fn assemble(
     substitution: &Substitution<'_>,
     symbols: Option<&RefCell<Symbols>>,
     budget: &Budget,
-) -> Result<Assembled, Stop> {
+) -> Result<Assembled, NotConnected> {
     let set = |m: &RationalMatrix| substituted_matrix(m, substitution);
     let named = |n: usize| match &model.form {
         Form::Matrix { ports, .. } | Form::OutputFeedback { ports, .. } if ports.states.len() == n => {
@@ -102,7 +105,7 @@ pub(in crate::model) fn assemble(
         }
         _ => (1..=n).map(|i| format!("x_{i}")).collect::<Vec<String>>(),
     };
-    let with_ports = |a: RationalMatrix, ports: &PortValues| -> Result<Assembled, Stop> {
+    let with_ports = |a: RationalMatrix, ports: &PortValues| -> Result<Assembled, NotConnected> {
         let n = a.rows();
         let b = match &ports.input_matrix {
             Some(e) => set(e)?,
@@ -140,12 +143,12 @@ pub(in crate::model) fn assemble(
 }
 
 /// The matrix of linear expressions in the first `n` signals.
-fn selection(rows: &[Row], n: usize, substitution: &Substitution<'_>) -> Result<RationalMatrix, Stop> {
+fn selection(rows: &[Row], n: usize, substitution: &Substitution<'_>) -> Result<RationalMatrix, NotConnected> {
     part(rows, 0, n, substitution)
 }
 
 /// The matrix of the coefficients of signals `from .. from + n`.
-fn part(rows: &[Row], from: usize, n: usize, substitution: &Substitution<'_>) -> Result<RationalMatrix, Stop> {
+fn part(rows: &[Row], from: usize, n: usize, substitution: &Substitution<'_>) -> Result<RationalMatrix, NotConnected> {
     let mut out = RationalMatrix::zeros(rows.len(), n);
     for (i, row) in rows.iter().enumerate() {
         for (&j, c) in row.range(from..from + n) {
@@ -162,7 +165,7 @@ fn realise(
     block: &BlockValues,
     set: &Substitution<'_>,
     poles: &mut Vec<MultiPoly>,
-) -> Result<System, Stop> {
+) -> Result<System, NotConnected> {
     let n = denominator.degree();
     let leading = substituted(&denominator.coefficient(n), set)?;
     let Some(inverse) = leading.recip() else {
@@ -193,7 +196,7 @@ fn realise(
 }
 
 /// Refuses an angle `w T` that is a number and not below pi.
-fn below_half_the_sampling_rate(angle: &RationalFunction, span: Span) -> Result<(), Stop> {
+fn below_half_the_sampling_rate(angle: &RationalFunction, span: Span) -> Result<(), NotConnected> {
     let Some(angle) = angle.as_constant() else { return Ok(()) };
     // A rational number is no multiple of pi but 0.
     let is_below =
@@ -203,7 +206,7 @@ fn below_half_the_sampling_rate(angle: &RationalFunction, span: Span) -> Result<
     }
     let angle = Presupposition { of: Presupposed::Angle, function: angle.into(), span };
     let error = if is_below { angle.not_positive() } else { angle.too_fast() };
-    Err(Stop::Refused(Box::new(error)))
+    Err(NotConnected::Refused(Box::new(error)))
 }
 
 /// The discrete system that the rule makes of a continuous one.
@@ -214,7 +217,7 @@ fn discretised(
     block: &BlockValues,
     poles: &mut Vec<MultiPoly>,
     budget: &Budget,
-) -> Result<System, Stop> {
+) -> Result<System, NotConnected> {
     let n = s.a.rows();
     if n == 0 {
         return Ok(s);
@@ -338,7 +341,7 @@ fn connect(
     set: &Substitution<'_>,
     symbols: Option<&RefCell<Symbols>>,
     budget: &Budget,
-) -> Result<Assembled, Stop> {
+) -> Result<Assembled, NotConnected> {
     let (mut poles, mut leading) = (Vec::new(), RationalFunction::one());
     let mut systems = Vec::with_capacity(blocks.len());
     let mut states = Vec::new();
@@ -424,17 +427,17 @@ fn state_names(model: &Model, i: usize, values: &BlockValues, n: usize) -> Vec<S
     (1..=n).map(|k| format!("{}.{k}", values.name)).collect()
 }
 
-fn algebraic_loop(blocks: &[BlockValues], systems: &[System]) -> Stop {
+fn algebraic_loop(blocks: &[BlockValues], systems: &[System]) -> NotConnected {
     /// Blocks that are pointed at.
     const SHOWN: usize = 5;
     let direct = |s: &&(&BlockValues, &System)| s.1.d.entries().iter().any(|f| !f.is_zero());
     let pairs: Vec<(&BlockValues, &System)> = blocks.iter().zip(systems).collect();
     let mut members = pairs.iter().filter(direct).map(|(b, _)| b.span);
-    let error = Diagnostic::error("E-algebraic-loop", "an algebraic loop that is not well posed");
+    let error = Diagnostic::error(Code::AlgebraicLoop, "an algebraic loop that is not well posed");
     let mut error = error.at(members.next().unwrap_or_default(), "passes its input on at once");
     for span in members.take(SHOWN) {
         error = error.also(span, "and so does this");
     }
     let help = "around the loop the gain without delay is 1, so the signals have no unique value; change a gain or add a delay";
-    Stop::Undefined(Box::new(error.help(help)))
+    NotConnected::Undefined(Box::new(error.help(help)))
 }

@@ -1,12 +1,23 @@
-//! Coefficients that are zero whatever the parameters are, such as `sqrt(2)^2 - 2`: they are no coefficients, and do not count for a
-//! degree.
+//! Values that are zero whatever the parameters are, such as `sqrt(2)^2 - 2`: as coefficients they do not count for a degree, and nothing
+//! is divided by them. Arguments at which a function has no value, and constants as numbers.
 
 use super::scalar::{Scope, Variable};
 use super::zpoly::ZPoly;
+use crate::error::Error;
 use crate::model::closed_loop::substituted;
 use crate::model::definition::Model;
+use crate::model::symbols::Symbols;
+use crate::model::text::Function;
+use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::poly::RationalFunction;
+use std::collections::BTreeSet;
+
+/// Values of more functions and parameters than this are not looked at.
+const MOST: usize = 64;
+
+/// The bits after the point with which constants are enclosed to see their signs and sizes.
+const ENOUGH_BITS: u64 = 128;
 
 impl Scope<'_> {
     /// The polynomial without leading coefficients that are zero whatever the parameters are, as far as identities between functions
@@ -15,32 +26,100 @@ impl Scope<'_> {
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
     pub fn without_identities(&self, p: ZPoly) -> Result<ZPoly, Exhausted> {
-        let is_function = |i: usize| !matches!(self.variables[i], Variable::Named(_) | Variable::Delay(_));
-        let may_vanish = |c: &RationalFunction| c.variables().into_iter().any(is_function);
         let mut coefficients = p.coefficients().to_vec();
         while let Some(last) = coefficients.last()
-            && may_vanish(last)
-            && self.is_identity(last)?
+            && self.is_hidden_zero(last)?
         {
             coefficients.pop();
         }
         Ok(ZPoly::new(coefficients))
     }
 
+    /// True if a value has functions in it that identities show to be zero whatever the parameters are.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn is_hidden_zero(&self, f: &RationalFunction) -> Result<bool, Exhausted> {
+        let is_function = |i: usize| !matches!(self.variables[i], Variable::Named(_) | Variable::Delay(_));
+        Ok(f.variables().into_iter().any(is_function) && self.is_identity(f)?)
+    }
+
+    /// True if a function of this argument has no value whatever the parameters are: a tangent of half a turn.
+    pub fn has_no_value(&self, function: Function, argument: &RationalFunction) -> bool {
+        let call = Variable::Call(function, argument.clone());
+        let mut needed = self.needed(argument);
+        needed.push(self.variables.len());
+        needed.len() <= MOST
+            && self.images(&needed, Some(&call)).is_err()
+            && self.images(&self.needed(argument), None).is_ok()
+    }
+
+    /// An enclosure of a value without parameters; `None` where one is in it, or more functions than are looked at.
+    pub fn enclosure(&self, f: &RationalFunction) -> Option<Ball> {
+        let needed = self.needed(f);
+        let is_named = |&i: &usize| matches!(self.variables[i], Variable::Named(_) | Variable::Delay(_));
+        if needed.len() > MOST || needed.iter().any(is_named) {
+            return None;
+        }
+        let (images, symbols) = self.images(&needed, None).ok()?;
+        let (symbols, merged) = symbols.merged()?;
+        let f = substituted(&renumbered(f, &needed)?, &images).and_then(|f| substituted(&f, &merged))?;
+        symbols.fixed_values()?.quotient_at(&f, ENOUGH_BITS)
+    }
+
     /// Whether a value is seen to be zero whatever all names are.
     fn is_identity(&self, f: &RationalFunction) -> Result<bool, Exhausted> {
-        let names = self.variables.iter().filter_map(|v| match v {
+        let needed = self.needed(f);
+        if needed.len() > MOST {
+            return Ok(false);
+        }
+        // Values that do not exist are reported elsewhere.
+        let Ok((images, symbols)) = self.images(&needed, None) else { return Ok(false) };
+        let Some((symbols, merged)) = symbols.merged() else { return Ok(false) };
+        let image =
+            renumbered(f, &needed).and_then(|f| substituted(&f, &images)).and_then(|f| substituted(&f, &merged));
+        image.map_or(Ok(false), |f| symbols.is_identically_zero(&f, self.budget))
+    }
+
+    /// The variables that a value depends on, directly or through the arguments of functions, ascending.
+    fn needed(&self, f: &RationalFunction) -> Vec<usize> {
+        let mut found = BTreeSet::new();
+        let mut open: Vec<usize> = f.variables().into_iter().collect();
+        while let Some(i) = open.pop() {
+            if found.insert(i)
+                && let Variable::Call(_, x) | Variable::TangentOfRule(x) | Variable::Delay(x) = &self.variables[i]
+            {
+                open.extend(x.variables());
+            }
+        }
+        found.into_iter().collect()
+    }
+
+    /// What these variables, and one more, are in their names and in symbols; all arguments are of variables among them.
+    fn images(&self, needed: &[usize], more: Option<&Variable>) -> Result<(Vec<RationalFunction>, Symbols), Error> {
+        let own = |i: &usize| self.variables.get(*i).or(more);
+        let undefined = || Error::Undefined("two variables became one".into());
+        let mut variables = Vec::with_capacity(needed.len());
+        for variable in needed.iter().filter_map(own) {
+            let of = |x: &RationalFunction| renumbered(x, needed).ok_or_else(undefined);
+            variables.push(match variable {
+                Variable::Named(_) | Variable::Pi => variable.clone(),
+                Variable::Call(function, x) => Variable::Call(*function, of(x)?),
+                Variable::TangentOfRule(x) => Variable::TangentOfRule(of(x)?),
+                Variable::Delay(x) => Variable::Delay(of(x)?),
+            });
+        }
+        let names = variables.iter().filter_map(|v| match v {
             Variable::Named(name) => Some(name.clone()),
             _ => None,
         });
-        // What has no value is said elsewhere.
-        let Ok((images, symbols)) = Model::images(&self.variables, &names.collect::<Vec<String>>(), &[]) else {
-            return Ok(false);
-        };
-        let Some((symbols, merged)) = symbols.merged() else { return Ok(false) };
-        let image = substituted(f, &images).and_then(|f| substituted(&f, &merged));
-        image.map_or(Ok(false), |f| symbols.is_identically_zero(&f, self.budget))
+        Model::images(&variables, &names.collect::<Vec<String>>(), &[])
     }
+}
+
+/// A value in the variables of a list, by their places in it.
+fn renumbered(f: &RationalFunction, needed: &[usize]) -> Option<RationalFunction> {
+    f.map_variables(|i| needed.binary_search(&i).unwrap_or(i))
 }
 
 #[cfg(test)]

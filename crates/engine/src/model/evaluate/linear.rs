@@ -2,7 +2,7 @@
 
 use super::scalar::{Scope, checked_product, checked_sum};
 use super::walk::{Failure, Meaning, evaluate};
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use crate::model::text::{Expression, Function, Sign};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
@@ -29,7 +29,7 @@ pub(in crate::model) fn linear(
 ) -> Result<BTreeMap<usize, RationalFunction>, Failure> {
     let value = evaluate(e, &mut InSignals { scope, signals })?;
     if !value.constant.is_zero() {
-        return Err(Diagnostic::error("E-not-linear", "a linear expression in signals has no constant term")
+        return Err(Diagnostic::error(Code::NotLinear, "a linear expression in signals has no constant term")
             .at(e.span, "contains a term without a signal")
             .help("feed constant values in through an external input")
             .into());
@@ -38,7 +38,7 @@ pub(in crate::model) fn linear(
 }
 
 fn not_linear(message: &str, span: Span) -> Failure {
-    Diagnostic::error("E-not-linear", message)
+    Diagnostic::error(Code::NotLinear, message)
         .at(span, "not linear in the signals")
         .help("only sums of signals times constants and parameters are linear")
         .into()

@@ -2,16 +2,21 @@
 
 use super::walk::{Failure, Meaning, division_by_zero, evaluate, too_large};
 use super::work::count_work;
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{Constant, Parameter};
 use crate::model::text::{Expression, Function, PI, Sign};
+use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+use std::cmp::Ordering;
 use std::collections::{HashMap, HashSet};
 
 /// Polynomials whose coefficients could grow beyond this many bits are not computed.
 const MAX_BITS: u64 = 1 << 23;
+
+/// Exponentials of constants beyond this, either way, are refused.
+const MAX_EXPONENT: u32 = 100_000;
 
 /// What every name of a model stands for, and what has been divided by so far.
 pub(in crate::model) struct Scope<'a> {
@@ -116,14 +121,35 @@ impl<'a> Scope<'a> {
         self.budget.check()?;
         if let Some(x) = value.as_constant() {
             if function == Function::Sqrt && x.is_negative() {
-                let error = Diagnostic::error("E-value", "the square root of a negative number");
+                let error = Diagnostic::error(Code::Value, "the square root of a negative number");
                 return Err(error.at(span, "not a real number").into());
             }
             if let Some(exact) = rational_value(function, &x) {
                 return Ok(exact.into());
             }
         }
+        self.refuse_without_value(function, &value, span)?;
         Ok(self.variable(Variable::Call(function, value)))
+    }
+
+    /// An error where a function of this argument has no value, or one that is too large to compute with, whatever the parameters are.
+    fn refuse_without_value(&self, function: Function, x: &RationalFunction, span: Span) -> Result<(), Failure> {
+        let wrong = match function {
+            Function::Sqrt if self.enclosure(x).is_some_and(|x| x.sign() == Some(Ordering::Less)) => {
+                Diagnostic::error(Code::Value, "the square root of a negative number").at(span, "not a real number")
+            }
+            Function::Tan if self.has_no_value(function, x) => {
+                let error = Diagnostic::error(Code::Value, "the tangent of an odd multiple of pi/2");
+                error.at(span, "has no value there")
+            }
+            Function::Exp if self.enclosure(x).is_some_and(|x| is_beyond(&x)) => {
+                let error = Diagnostic::error(Code::TooLarge, "the exponential of a large number");
+                let help = format!("an exponent may be as large as {MAX_EXPONENT}; are its units right?");
+                error.at(span, "too large to compute with").help(help)
+            }
+            _ => return Ok(()),
+        };
+        Err(wrong.into())
     }
 
     /// The tangent that a prewarped rule brings.
@@ -146,7 +172,7 @@ impl<'a> Scope<'a> {
             return Ok(RationalFunction::one());
         }
         if time.as_constant().is_some_and(|x| x.is_negative()) {
-            let error = Diagnostic::error("E-dead-time", "a negative dead time looks ahead").at(span, "a prediction");
+            let error = Diagnostic::error(Code::DeadTime, "a negative dead time looks ahead").at(span, "a prediction");
             return Err(error.help("a dead time tau is written exp(-tau*s), with a minus sign").into());
         }
         Ok(self.variable(Variable::Delay(time)))
@@ -191,6 +217,12 @@ impl<'a> Scope<'a> {
             self.divisors.push(divisor);
         }
     }
+}
+
+/// True if a number is beyond the exponents that are computed with.
+fn is_beyond(x: &Ball) -> bool {
+    let most = Rational::from(i64::from(MAX_EXPONENT));
+    x.lower() > most || x.upper() < -most
 }
 
 /// The value of a function where it is rational: at 0, and the roots of squares.
@@ -245,7 +277,7 @@ impl Meaning for Scope<'_> {
             None if name == PI => Ok(self.variable(Variable::Pi)),
             None => {
                 let message = format!("unknown name '{}'", crate::model::text::names::shorten(name));
-                Err(Diagnostic::error("E-unknown-name", message).at(span, "not defined").into())
+                Err(Diagnostic::error(Code::UnknownName, message).at(span, "not defined").into())
             }
         }
     }
@@ -269,6 +301,9 @@ impl Meaning for Scope<'_> {
     }
 
     fn quotient(&mut self, a: RationalFunction, b: RationalFunction, span: Span) -> Result<RationalFunction, Failure> {
+        if self.is_hidden_zero(&b)? {
+            return Err(division_by_zero(span));
+        }
         let inverse = b.recip().ok_or_else(|| division_by_zero(span))?;
         self.divides_by(vec![b.numerator().clone()]);
         checked_product(&a, &inverse).ok_or_else(|| too_large(span))
@@ -276,7 +311,7 @@ impl Meaning for Scope<'_> {
 
     fn power(&mut self, base: RationalFunction, exponent: i64, span: Span) -> Result<RationalFunction, Failure> {
         if exponent < 0 {
-            if base.is_zero() {
+            if base.is_zero() || self.is_hidden_zero(&base)? {
                 return Err(division_by_zero(span));
             }
             self.divides_by(vec![base.numerator().clone()]);

@@ -5,7 +5,7 @@ use super::scalar::Scope;
 use super::transfer::{Fraction, MAX_ORDER, fraction, held_fraction, polynomial};
 use super::walk::{Failure, Meaning, division_by_zero};
 use super::zpoly::ZPoly;
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{Block, Discretization, Dynamics, Form, Matrix, Method, Model, Output, Ports, Time};
 use crate::model::text::Expression;
 use crate::model::text::names::shorten;
@@ -191,7 +191,7 @@ impl Evaluator<'_, '_> {
             return Some(DiscretizationValues::Rule { method: d.method, value: factor?, prewarp: None });
         }
         let Some((time, time_span)) = time else {
-            let error = Diagnostic::error("E-discretize", "'discretize' has no sample time");
+            let error = Diagnostic::error(Code::Discretize, "'discretize' has no sample time");
             (self.report)(error.at(d.span, "how long is a step?").help("give T = \"..\"").into());
             return None;
         };
@@ -214,7 +214,7 @@ impl Evaluator<'_, '_> {
         };
         let frequency = frequency?;
         if frequency.is_zero() {
-            let error = Diagnostic::error("E-discretize", "the frequency of 'prewarp' must be positive");
+            let error = Diagnostic::error(Code::Discretize, "the frequency of 'prewarp' must be positive");
             let help = "leave 'prewarp' out: the rule as it is has no error at frequency 0";
             (self.report)(error.at(span, "not positive").help(help).into());
             return None;
@@ -307,7 +307,7 @@ impl Evaluator<'_, '_> {
         if ratio.numerator.degree() > ratio.denominator.degree() {
             let (n, d) = (ratio.numerator.degree(), ratio.denominator.degree());
             let message = format!("the transfer function of '{}' is improper", shorten(&block.name));
-            let error = Diagnostic::error("E-improper", message);
+            let error = Diagnostic::error(Code::Improper, message);
             let error = error.at(span, format!("degree {n} over degree {d}"));
             (self.report)(
                 error
@@ -326,7 +326,7 @@ impl Evaluator<'_, '_> {
         let samples = samples.and_then(|n| usize::try_from(n).ok()).filter(|&n| n <= MAX_ORDER);
         if samples.is_none() {
             let message = format!("a delay is a whole number of samples from 0 to {MAX_ORDER}");
-            let error = Diagnostic::error("E-value", message);
+            let error = Diagnostic::error(Code::Value, message);
             (self.report)(
                 match value {
                     None => error

@@ -4,7 +4,7 @@
 use super::scalar::Scope;
 use super::walk::{Failure, Meaning, division_by_zero, evaluate, too_large};
 use super::zpoly::ZPoly;
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use crate::model::text::{Expression, Factor, Function, Node, Sign};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
@@ -32,7 +32,7 @@ pub(in crate::model) struct InVariable<'s, 'a> {
 pub(in crate::model) fn fraction(e: &Expression, variable: &str, scope: &mut Scope<'_>) -> Result<Fraction, Failure> {
     let fraction = evaluate(e, &mut InVariable { scope, variable, rational: true })?;
     if fraction.looks_ahead(scope) {
-        let error = Diagnostic::error("E-dead-time", "the transfer function looks ahead: it divides by a dead time");
+        let error = Diagnostic::error(Code::DeadTime, "the transfer function looks ahead: it divides by a dead time");
         return Err(error
             .at(e.span, "a prediction")
             .help("a dead time tau is written exp(-tau*s), a factor of the numerator")
@@ -128,15 +128,18 @@ impl Fraction {
 
 impl InVariable<'_, '_> {
     fn divided(&mut self, a: Fraction, b: &Fraction, span: Span) -> Result<Fraction, Failure> {
-        if b.numerator.is_zero() {
+        if b.numerator.is_zero() || self.scope.without_identities(b.numerator.clone())?.is_zero() {
             return Err(division_by_zero(span));
         }
         if (b.numerator.degree() > 0 || self.scope.is_delayed(&b.numerator.leading())) && !self.rational {
             let v = self.variable;
-            return Err(Diagnostic::error("E-not-polynomial", format!("the characteristic polynomial divides by {v}"))
-                .at(span, format!("contains {v}"))
-                .help("multiply the equation by its denominators, or use [[block]] with transfer functions")
-                .into());
+            return Err(Diagnostic::error(
+                Code::NotPolynomial,
+                format!("the characteristic polynomial divides by {v}"),
+            )
+            .at(span, format!("contains {v}"))
+            .help("multiply the equation by its denominators, or use [[block]] with transfer functions")
+            .into());
         }
         let polynomials = b.numerator.coefficients().iter().map(|c| c.numerator().clone()).collect();
         self.scope.divides_by(polynomials);
@@ -244,7 +247,7 @@ impl InVariable<'_, '_> {
     fn time(&mut self, exponent: &Fraction, span: Span) -> Result<RationalFunction, Failure> {
         let (n, d) = (&exponent.numerator, &exponent.denominator);
         if n.degree() != 1 || !n.coefficient(0).is_zero() || d.degree() > 0 {
-            let error = Diagnostic::error("E-dead-time", "the exponent is not a dead time times s");
+            let error = Diagnostic::error(Code::DeadTime, "the exponent is not a dead time times s");
             return Err(error
                 .at(span, "not of the form exp(-tau*s)")
                 .help("a dead time tau is written exp(-tau*s)")
@@ -257,7 +260,7 @@ impl InVariable<'_, '_> {
 /// The error of a function of z or s.
 fn of_the_variable(function: Function, variable: &str, span: Span) -> Diagnostic {
     let message = format!("'{}' of {variable} is not rational in {variable}", function.name());
-    let error = Diagnostic::error("E-function", message).at(span, format!("contains {variable}"));
+    let error = Diagnostic::error(Code::Function, message).at(span, format!("contains {variable}"));
     error.help(match (function, variable) {
         (Function::Exp, "s") => {
             "dead time of a plant behind a hold is a factor of the whole, exp(-tau*s)*G(s) with discretize = \"zoh\""

@@ -1,6 +1,6 @@
 //! Walking an expression with a meaning for each of its operations.
 
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use crate::model::text::{Expression, Factor, Function, Node, Sign};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;
@@ -95,14 +95,14 @@ pub(in crate::model) fn evaluate<M: Meaning>(e: &Expression, meaning: &mut M) ->
 
 /// The error of a division by something that is zero whatever the parameters are.
 pub(in crate::model) fn division_by_zero(span: Span) -> Failure {
-    Diagnostic::error("E-division-by-zero", "division by an expression that is identically zero")
+    Diagnostic::error(Code::DivisionByZero, "division by an expression that is identically zero")
         .at(span, "zero for all values of the parameters")
         .into()
 }
 
 /// The error of a value that grows beyond every use.
 pub(in crate::model) fn too_large(span: Span) -> Failure {
-    Diagnostic::error("E-too-large", "the expression is too large to be multiplied out")
+    Diagnostic::error(Code::TooLarge, "the expression is too large to be multiplied out")
         .at(span, "becomes too large here")
         .help("lower the exponents or the number of parameters")
         .into()

@@ -2,7 +2,7 @@
 
 use super::scalar::Scope;
 use super::walk::{Failure, evaluate};
-use crate::error::Diagnostic;
+use crate::error::{Code, Diagnostic};
 use crate::model::text::{Expression, Node};
 use jurist_algebra::limits::{Budget, checkpoint};
 use jurist_algebra::number::Rational;
@@ -34,7 +34,7 @@ pub(in crate::model) fn constant_value(e: &Expression) -> Result<Rational, Optio
         return Err(None);
     }
     let too_much =
-        || Diagnostic::error("E-too-large", "the number takes too much work to compute").at(e.span, "too large");
+        || Diagnostic::error(Code::TooLarge, "the number takes too much work to compute").at(e.span, "too large");
     let budget = Budget::with_work(NUMBER_WORK);
     let evaluated = budget.enter(|| {
         let mut scope = Scope::new(std::iter::empty(), std::iter::empty(), |_, _| None, &budget, &mut |_| {});
@@ -97,7 +97,7 @@ mod tests {
             let e = Expression::parse(&text).unwrap();
             match constant_value(&e) {
                 Ok(_) => false,
-                Err(error) => error.unwrap().code == "E-too-large",
+                Err(error) => error.unwrap().code == Code::TooLarge,
             }
         };
         let at = threshold(refused);
@@ -117,7 +117,7 @@ mod tests {
             match Model::from_toml(&Source::new("model.toml", text)) {
                 Ok(_) => true,
                 Err(error) => {
-                    assert_eq!(error.code(), "E-division-by-zero");
+                    assert_eq!(error.code(), Code::DivisionByZero);
                     false
                 }
             }

@@ -3,7 +3,7 @@
 use super::discretize::discretize;
 use super::keys;
 use super::reader::{Meant, Reader, count};
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{Block, Diagram, Dynamics, Pwm, Time};
 use crate::model::text::Expression;
 use crate::model::text::names::shorten;
@@ -24,12 +24,12 @@ pub(super) fn diagram(
     let outputs = table.get("outputs").map(|v| reader.outputs(v)).unwrap_or_default();
     for key in ["states", "E"] {
         if let Some(entry) = table.entry(key) {
-            let error = Diagnostic::error("E-unknown-key", format!("'{key}' does not go with [[block]]"));
+            let error = Diagnostic::error(Code::UnknownKey, format!("'{key}' does not go with [[block]]"));
             reader.report(error.at(entry.key_span, "blocks have their own states"));
         }
     }
     let Kind::Array(items) = &blocks.value.kind else {
-        let error = Diagnostic::error("E-type", "a block is an entry of an array of tables");
+        let error = Diagnostic::error(Code::Type, "a block is an entry of an array of tables");
         reader.report(error.at(blocks.key_span, "not an array of tables").help("write [[block]] with two brackets"));
         return None;
     };
@@ -47,7 +47,7 @@ fn distinct_names(items: &[Value], reader: &mut Reader) {
         let Some(Value { kind: Kind::String(text), span }) = table.get("name") else { continue };
         if let Some(first) = seen.insert(text.as_str(), *span) {
             let message = format!("two blocks have the name '{}'", shorten(text.as_str()));
-            let error = Diagnostic::error("E-duplicate-name", message).at(*span, "here again");
+            let error = Diagnostic::error(Code::DuplicateName, message).at(*span, "here again");
             reader.report(error.also(first, "first here").help("rename one of them, or leave the name out"));
         }
     }
@@ -64,11 +64,11 @@ fn block(value: &Value, time: Time, sample_time: Option<&Expression>, reader: &m
         if meant.includes(key) {
             return;
         }
-        let error = Diagnostic::error("E-missing", format!("the block '{}' has no '{key}'", shorten(&name)));
+        let error = Diagnostic::error(Code::Missing, format!("the block '{}' has no '{key}'", shorten(&name)));
         reader.report(error.at(value.span, "this block"));
     };
     if table.iter().next().is_none() {
-        let error = Diagnostic::error("E-missing", "the block is empty").at(value.span, "nothing follows");
+        let error = Diagnostic::error(Code::Missing, "the block is empty").at(value.span, "nothing follows");
         reader.report(error.help("give it 'input', 'output' and what it does, such as 'transfer'"));
         return None;
     }
@@ -91,7 +91,7 @@ fn block(value: &Value, time: Time, sample_time: Option<&Expression>, reader: &m
     let continuous = table.entry("discretize").is_some();
     let discretization = match table.entry("discretize") {
         Some(entry) if time == Time::Continuous => {
-            let error = Diagnostic::error("E-discretize", "a continuous loop has nothing to discretise");
+            let error = Diagnostic::error(Code::Discretize, "a continuous loop has nothing to discretise");
             let help =
                 "a loop with a hold is sampled: time = \"discrete\" and a sample_time; else leave 'discretize' out";
             reader.report(error.at(entry.key_span, "time = \"continuous\"").help(help));
@@ -139,7 +139,8 @@ fn dynamics(
         if DYNAMICS.iter().any(|key| meant.includes(key)) {
             return None;
         }
-        let error = Diagnostic::error("E-missing", format!("the block '{}' does not say what it does", shorten(name)));
+        let error =
+            Diagnostic::error(Code::Missing, format!("the block '{}' does not say what it does", shorten(name)));
         reader.report(
             error
                 .at(value.span, "this block")
@@ -154,7 +155,7 @@ fn dynamics(
             kind(&first.key),
             kind(&second.key)
         );
-        let error = Diagnostic::error("E-two-forms", message).at(second.key_span, "given here again");
+        let error = Diagnostic::error(Code::TwoForms, message).at(second.key_span, "given here again");
         let is_delayed = [kind(&first.key), kind(&second.key)].contains(&"delay");
         let help = match (is_delayed, time, continuous) {
             (false, ..) => "keep one of them",
@@ -171,7 +172,7 @@ fn dynamics(
         if table.get(key).is_none() && !meant.includes(key) {
             let message = format!("the block '{}' has no '{key}'", shorten(name));
             reader.report(
-                Diagnostic::error("E-missing", message).at(first.key_span, format!("this needs '{key}' as well")),
+                Diagnostic::error(Code::Missing, message).at(first.key_span, format!("this needs '{key}' as well")),
             );
         }
     };
@@ -182,7 +183,7 @@ fn dynamics(
             let delay = reader.expression(&first.value, "'delay'")?;
             if continuous {
                 let error =
-                    Diagnostic::error("E-value", "a delay has nothing to discretise").at(first.key_span, "a delay");
+                    Diagnostic::error(Code::Value, "a delay has nothing to discretise").at(first.key_span, "a delay");
                 reader.report(error.help("dead time of a held block goes into its 'discretize': delay = \"..\""));
                 return None;
             }
@@ -196,7 +197,7 @@ fn dynamics(
                 if let Kind::String(text) = &value.kind
                     && text.as_str().trim_start().starts_with('[')
                 {
-                    let error = Diagnostic::error("E-type", format!("'{key}' must be a list of coefficients"));
+                    let error = Diagnostic::error(Code::Type, format!("'{key}' must be a list of coefficients"));
                     let error = error.at(value.span, "this is a string");
                     reader.report(error.help(format!("without the quotes, with commas: {key} = [1, \"-a\"]")));
                     return None;
@@ -207,7 +208,7 @@ fn dynamics(
             let (numerator, denominator) = (numerator?, denominator?);
             for (list, key) in [(&numerator, "num"), (&denominator, "den")] {
                 if list.is_empty() {
-                    let error = Diagnostic::error("E-value", format!("'{key}' has no coefficients"));
+                    let error = Diagnostic::error(Code::Value, format!("'{key}' has no coefficients"));
                     reader.report(error.at(table.get(key).map_or(value.span, |v| v.span), "empty"));
                 }
             }
@@ -250,7 +251,7 @@ fn sizes(block: &Block, in_span: Span, out_span: Span, reader: &mut Reader) -> b
                 }
                 None if outputs != n => {
                     let message = format!("without 'C' the outputs are the {}", count(n, "state", "states"));
-                    let error = Diagnostic::error("E-size", message).at(out_span, out_text.clone());
+                    let error = Diagnostic::error(Code::Size, message).at(out_span, out_text.clone());
                     reader.report(error.also(order.0, order.1.clone()));
                 }
                 None => {}
@@ -268,7 +269,7 @@ fn sizes(block: &Block, in_span: Span, out_span: Span, reader: &mut Reader) -> b
             for (n, span, what) in [(inputs, in_span, "input"), (outputs, out_span, "output")] {
                 if n != 1 {
                     let message = format!("the block '{}' has one {what}, but {n} are given", shorten(&block.name));
-                    let error = Diagnostic::error("E-size", message).at(span, format!("must be one {what}"));
+                    let error = Diagnostic::error(Code::Size, message).at(span, format!("must be one {what}"));
                     reader.report(error.help("blocks with several signals are given by A, B, C, D"));
                 }
             }
@@ -295,7 +296,7 @@ fn pwm(entry: &Entry, reader: &mut Reader) -> Option<Pwm> {
     let mut part = |key: &str| {
         let Some(value) = table.get(key) else {
             if !meant.includes(key) {
-                let error = Diagnostic::error("E-missing", format!("'pwm' has no '{key}'"));
+                let error = Diagnostic::error(Code::Missing, format!("'pwm' has no '{key}'"));
                 reader.report(error.at(entry.key_span, "incomplete"));
             }
             return None;
@@ -308,24 +309,24 @@ fn pwm(entry: &Entry, reader: &mut Reader) -> Option<Pwm> {
 
 #[cfg(test)]
 mod tests {
-    use crate::error::Source;
+    use crate::error::{Code, Source};
     use crate::model::Model;
 
     /// Code and source text of all warnings of a discrete loop whose plant has this line.
-    fn warnings(plant: &str) -> Vec<(&'static str, String)> {
+    fn warnings(plant: &str) -> Vec<(Code, String)> {
         let text = format!(
             "time = 'discrete'\n[parameters]\nT = {{ nominal = 1, min = 0 }}\nc = {{ nominal = 2 }}\n[loop]\ninputs = ['r']\n\
              [[block]]\ninput = 'r - T*c*y'\noutput = 'e'\ngain = 1\n[[block]]\ninput = 'e'\noutput = 'y'\n{plant}\n"
         );
         let (_, warnings) = Model::from_toml(&Source::new("model.toml", text.as_str())).unwrap();
         let place = |span: crate::error::Span| text[span.start..span.end].to_owned();
-        let warnings = warnings.iter().filter(|w| w.code != "W-rule");
+        let warnings = warnings.iter().filter(|w| w.code != Code::RuleWarning);
         warnings.map(|w| (w.code, w.primary.as_ref().map_or(String::new(), |l| place(l.span)))).collect()
     }
 
     #[test]
     fn keys_without_effect_are_warned_about() {
-        let unused = |key: &str| vec![("W-unused", key.to_owned())];
+        let unused = |key: &str| vec![(Code::UnusedWarning, key.to_owned())];
         let continuous = |rule: &str| format!("transfer = '1/(s + 1)'\ndiscretize = {rule}");
         assert_eq!(warnings(&continuous("{ method = 'tustin', T = 'T', c = '2/T' }")), unused("T"));
         assert_eq!(warnings(&continuous("{ method = 'tustin', c = '2/T' }")), []);

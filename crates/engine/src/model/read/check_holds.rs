@@ -5,7 +5,7 @@
 //! to the next, in series or back (an electromotive force): that is continuous, and a hold there changes the loop.
 
 use super::reader::Reader;
-use crate::error::Diagnostic;
+use crate::error::{Code, Diagnostic};
 use crate::model::definition::{Block, Diagram};
 use crate::model::text::names::shorten;
 use crate::model::text::{Expression, Node, Sign};
@@ -18,7 +18,7 @@ pub(super) fn between_holds(diagram: &Diagram, reader: &mut Reader) {
         let Some(source) = block.inputs.iter().find_map(|input| unsampled(diagram, at, input)) else { continue };
         let (name, other) = (shorten(&block.name), shorten(&source.name));
         let message = format!("'{name}' is behind a hold of its own and reads '{other}', which is continuous");
-        let warning = Diagnostic::warning("W-rule", message).at(d.span, "a hold where no signal is sampled");
+        let warning = Diagnostic::warning(Code::RuleWarning, message).at(d.span, "a hold where no signal is sampled");
         let warning = warning.also(source.span, "continuous as well");
         reader.report(warning.help("write both as one block: its product, or one A, B, C, D"));
     }
@@ -86,7 +86,7 @@ fn reached(diagram: &Diagram, at: usize) -> BTreeSet<&str> {
 
 #[cfg(test)]
 mod tests {
-    use crate::error::Source;
+    use crate::error::{Code, Source};
     use crate::model::Model;
 
     /// The blocks that a remark is about, of a loop of blocks `name: input -> output`; those in capitals are behind a hold.
@@ -106,7 +106,7 @@ mod tests {
         };
         let text = head + &blocks.iter().map(block).collect::<String>();
         let (_, warnings) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
-        let rules = warnings.iter().filter(|w| w.code == "W-rule");
+        let rules = warnings.iter().filter(|w| w.code == Code::RuleWarning);
         rules.map(|w| w.message.split('\'').nth(1).unwrap().to_owned()).collect()
     }
 

@@ -2,7 +2,7 @@
 
 use super::reader::Reader;
 use super::simulation;
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{
     Block, Constant, Discretization, Dynamics, Form, Matrix, Model, Name, Output, Parameter, Ports, Position, Time,
 };
@@ -26,7 +26,7 @@ fn reserved(name: &str, time: Time) -> Option<&'static str> {
 
 fn check_reserved(name: &str, span: Span, time: Time, reader: &mut Reader) {
     if let Some(meaning) = reserved(name, time) {
-        let error = Diagnostic::error("E-reserved-name", format!("the name '{name}' is reserved"));
+        let error = Diagnostic::error(Code::ReservedName, format!("the name '{name}' is reserved"));
         reader.report(error.at(span, format!("stands for {meaning}")).help("choose another name"));
     }
 }
@@ -43,12 +43,14 @@ pub(super) fn definitions(
     for (name, span) in named.filter(|(name, _)| *name == PI || Function::named(name).is_some()) {
         let what = if name == PI { "the circle number" } else { "a function" };
         let message = format!("here '{name}' is not {what}");
-        reader.report(Diagnostic::warning("W-own-meaning", message).at(span, "has a meaning of its own in this model"));
+        reader.report(
+            Diagnostic::warning(Code::OwnMeaningWarning, message).at(span, "has a meaning of its own in this model"),
+        );
     }
     for matrix in &reader.matrices {
         if let Some(p) = parameters.iter().find(|p| p.name == matrix.name.name) {
             let message = format!("'{}' is both a constant and a parameter", shorten(&p.name));
-            let error = Diagnostic::error("E-duplicate-name", message).at(p.span, "a parameter here");
+            let error = Diagnostic::error(Code::DuplicateName, message).at(p.span, "a parameter here");
             reader.diagnostics.push(error.also(matrix.name.span, "a constant here").help("rename one of them"));
         }
     }
@@ -60,7 +62,7 @@ pub(super) fn definitions(
         check_reserved(&p.name, p.span, time, reader);
         if let Some(Position::Constant(first)) = index.insert(p.name.clone(), Position::Parameter(i)) {
             let message = format!("'{}' is both a constant and a parameter", shorten(&p.name));
-            let error = Diagnostic::error("E-duplicate-name", message).at(p.span, "a parameter here");
+            let error = Diagnostic::error(Code::DuplicateName, message).at(p.span, "a parameter here");
             let error = error.also(constants[first].span, "a constant here");
             reader.report(error.help("a constant given as a number can be varied as it is: remove the parameter"));
         }
@@ -132,7 +134,7 @@ fn cycle_error(cycle: &[&Constant]) -> Diagnostic {
     }
     path.push(shorten(&first.name).into_owned());
     let message = format!("constants are defined by each other: {}", path.join(" -> "));
-    let mut error = Diagnostic::error("E-cycle", message).at(first.span, "depends on itself");
+    let mut error = Diagnostic::error(Code::Cycle, message).at(first.span, "depends on itself");
     for c in cycle.iter().skip(1).take(SHOWN) {
         error = error.also(c.span, "by way of this");
     }
@@ -165,14 +167,14 @@ impl<'m> Names<'m, '_> {
                 // The circle number.
             } else if let Some(matrix) = self.reader.matrices.iter().find(|m| m.name.name == name) {
                 let message = format!("'{}' is a matrix", shorten(name));
-                let error = Diagnostic::error("E-type", message).at(span, "a number belongs here");
+                let error = Diagnostic::error(Code::Type, message).at(span, "a number belongs here");
                 let error = error.also(matrix.name.span, "a matrix here");
                 self.reader.report(error.help("blocks take matrices by name as a whole: A = \"..\""));
             } else if !self.reader.refused.contains(name) && self.reported.insert(name) {
                 if self.reported.len() > HINTED {
                     return self
                         .reader
-                        .report(Diagnostic::error("E-unknown-name", "unknown name").at(span, "not defined"));
+                        .report(Diagnostic::error(Code::UnknownName, "unknown name").at(span, "not defined"));
                 }
                 let allowed = Allowed { model: self.model, further: further.iter().copied().collect(), what };
                 let error = unknown(name, span, &allowed);
@@ -211,7 +213,7 @@ fn unknown(name: &str, span: Span, allowed: &Allowed<'_>) -> Diagnostic {
     } else {
         format!("neither defined nor {}", allowed.what)
     };
-    let mut error = Diagnostic::error("E-unknown-name", format!("unknown name '{}'", shorten(name))).at(span, label);
+    let mut error = Diagnostic::error(Code::UnknownName, format!("unknown name '{}'", shorten(name))).at(span, label);
     error.help = hint(name).or_else(|| did_you_mean(name, allowed.names()));
     if error.help.is_none() {
         let variable = model.time.variable();
@@ -267,7 +269,7 @@ pub(super) fn names(model: &Model, form_is_broken: bool, reader: &mut Reader) {
                 }
                 if let Some((first, before)) = places.insert(&name.name, (name.span, what)) {
                     let message = format!("the signal '{}' has two drivers", shorten(&name.name));
-                    let error = Diagnostic::error("E-two-drivers", message).at(name.span, what).also(first, before);
+                    let error = Diagnostic::error(Code::TwoDrivers, message).at(name.span, what).also(first, before);
                     names.reader.report(error.help("add the two in a block's input: input = \"a + b\""));
                 }
             }
@@ -316,7 +318,7 @@ fn own_name(names: &mut Names<'_, '_>, name: &Name) {
     };
     names.misnamed = true;
     let message = format!("'{}' has two meanings", shorten(&name.name));
-    let error = Diagnostic::error("E-duplicate-name", message).at(name.span, "a signal here").also(place, what);
+    let error = Diagnostic::error(Code::DuplicateName, message).at(name.span, "a signal here").also(place, what);
     names.reader.report(error.help("rename one of them"));
 }
 
@@ -331,7 +333,7 @@ fn once<'n>(list: impl Iterator<Item = &'n Name>, what: &str, reader: &mut Reade
     for name in list {
         if let Some(first) = seen.get(name.name.as_str()) {
             let message = format!("the {what} '{}' is named twice", shorten(&name.name));
-            let error = Diagnostic::error("E-duplicate-name", message).at(name.span, "here again");
+            let error = Diagnostic::error(Code::DuplicateName, message).at(name.span, "here again");
             reader.report(error.also(*first, "first here").help("name it once"));
         } else {
             seen.insert(&name.name, name.span);
@@ -371,7 +373,7 @@ fn check_block<'m>(names: &mut Names<'m, '_>, block: &'m Block, signals: &HashSe
                     Position::Constant(i) => names.model.constants[*i].span,
                     Position::Parameter(i) => names.model.parameters[*i].span,
                 };
-                let error = Diagnostic::error("E-reserved-name", format!("the name '{variable}' is reserved"));
+                let error = Diagnostic::error(Code::ReservedName, format!("the name '{variable}' is reserved"));
                 let error = error.at(span, "a discretised block uses this name for its variable");
                 names.reader.report(error.also(e.span, "here"));
             }

@@ -3,7 +3,7 @@
 
 use super::check_holds::{between_holds, is_held};
 use super::reader::Reader;
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{Block, Dynamics, Form, Model, Time};
 use crate::model::evaluate::scalar::{Scope, Symbol};
 use crate::model::text::Expression;
@@ -42,7 +42,7 @@ pub(super) fn rules(model: &Model, reader: &mut Reader) {
         let span = if e.span == place { span } else { e.span };
         let message = "two different sample times in one loop";
         let warning =
-            Diagnostic::warning("W-sample-times", message).at(span, "one here").also(place, "another one here");
+            Diagnostic::warning(Code::SampleTimesWarning, message).at(span, "one here").also(place, "another one here");
         reader.report(warning.help("z is one step for all blocks: give all the same, by the name of one parameter"));
     }
 }
@@ -58,17 +58,17 @@ fn without_hold(blocks: &[Block], reader: &mut Reader) {
     };
     let message = format!("'{}' is made discrete by the {}", shorten(&block.name), d.method.words());
     let message = message.replace("the Tustin's", "Tustin's");
-    let warning = Diagnostic::warning("W-rule", message).at(d.span, "the answer is about this rule");
+    let warning = Diagnostic::warning(Code::RuleWarning, message).at(d.span, "the answer is about this rule");
     reader.report(warning.help("a plant behind a digital controller sees a hold: method = \"zoh\" is exact for it"));
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::error::Source;
+    use crate::error::{Code, Source};
     use crate::model::Model;
 
     /// Messages of all warnings of a loop with a sampled controller and this plant.
-    fn warnings(sample_time: &str, plant: &str) -> Vec<(&'static str, String)> {
+    fn warnings(sample_time: &str, plant: &str) -> Vec<(Code, String)> {
         let text = format!(
             "time = 'discrete'\nsample_time = '{sample_time}'\n[parameters]\nT = {{ nominal = 1, min = 0 }}\n[loop]\ninputs = ['r']\n\
              [[block]]\nname = 'controller'\ninput = 'r - y*T'\noutput = 'u'\ngain = 1\n\
@@ -82,14 +82,14 @@ mod tests {
     #[test]
     fn rules_without_a_hold_are_remarked_upon_once() {
         let by_rule = warnings("T", "transfer = '1/(s + 1)'\ndiscretize = 'forward'");
-        assert_eq!(by_rule, [("W-rule", "'plant' is made discrete by the forward rule".to_owned())]);
+        assert_eq!(by_rule, [(Code::RuleWarning, "'plant' is made discrete by the forward rule".to_owned())]);
         assert_eq!(warnings("T", "transfer = '1/(s + 1)'\ndiscretize = 'zoh'"), []);
     }
 
     #[test]
     fn two_sample_times_in_one_loop_are_remarked_upon() {
         let held = |time: &str| format!("transfer = '1/(s + 1)'\ndiscretize = {{ method = 'zoh', T = '{time}' }}");
-        let other = [("W-sample-times", "two different sample times in one loop".to_owned())];
+        let other = [(Code::SampleTimesWarning, "two different sample times in one loop".to_owned())];
         assert_eq!(warnings("T", &held("T")), []);
         assert_eq!(warnings("T", &held("T + T - T")), []);
         assert_eq!(warnings("T", &held("2*T")), other);

@@ -2,7 +2,7 @@
 //! sample time that is not positive.
 
 use super::reader::Reader;
-use crate::error::Diagnostic;
+use crate::error::{Code, Diagnostic};
 use crate::model::connect::state_space::assemble;
 use crate::model::definition::Model;
 use crate::model::evaluate::scalar::{Scope, Symbol};
@@ -58,7 +58,7 @@ pub(super) fn sample_time(model: &Model, reader: &mut Reader) {
     if let Ok(Some(value)) = value
         && !value.sign().is_gt()
     {
-        let error = Diagnostic::error("E-value", "the sample time must be positive");
+        let error = Diagnostic::error(Code::Value, "the sample time must be positive");
         reader.report(error.at(e.span, format!("this is {}", shorten(&value.to_string()))));
     }
 }

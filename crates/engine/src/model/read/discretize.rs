@@ -2,7 +2,7 @@
 
 use super::keys;
 use super::reader::Reader;
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{Discretization, Method};
 use crate::model::text::Expression;
 use crate::model::text::Text;
@@ -10,7 +10,7 @@ use crate::model::text::names::{did_you_mean, list, shorten};
 use crate::model::text::toml_value::{Entry, Kind, Table};
 
 fn wrong(message: &str, span: Span, label: &str, help: &str) -> Diagnostic {
-    Diagnostic::error("E-discretize", message).at(span, label).help(help)
+    Diagnostic::error(Code::Discretize, message).at(span, label).help(help)
 }
 
 /// The entry of a block in a loop with this sample time.

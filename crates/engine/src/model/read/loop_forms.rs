@@ -3,7 +3,7 @@
 use super::blocks;
 use super::keys;
 use super::reader::{Meant, Reader, count};
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{Form, Matrix, Ports, Time};
 use crate::model::text::Expression;
 use crate::model::text::toml_value::{Entry, Kind, Table};
@@ -24,7 +24,7 @@ pub(super) fn read_form(
         if meant.includes("loop") {
             return None;
         }
-        let mut error = Diagnostic::error("E-missing", "the model has no [loop]");
+        let mut error = Diagnostic::error(Code::Missing, "the model has no [loop]");
         if let Some(block) = blocks {
             error = error.at(block.key_span, "these blocks need a [loop] with inputs and outputs");
         }
@@ -57,7 +57,7 @@ pub(super) fn read_form(
         // What is missing is probably there under the wrong name.
         [] if misspelt => None,
         [] => {
-            let error = Diagnostic::error("E-missing", "[loop] does not say what the loop is");
+            let error = Diagnostic::error(Code::Missing, "[loop] does not say what the loop is");
             let error = error.at(entry.key_span, "empty");
             reader.report(error.help("give 'characteristic', 'matrix', 'A', 'B', 'C' and 'K', or [[block]] entries"));
             None
@@ -76,7 +76,7 @@ pub(super) fn read_form(
         },
         [(a, first), (b, second), ..] => {
             let message = format!("the loop is given twice: by {a} and by {b}");
-            let error = Diagnostic::error("E-two-forms", message).at(*second, "given here again");
+            let error = Diagnostic::error(Code::TwoForms, message).at(*second, "given here again");
             reader.report(error.also(*first, "first given here").help("keep exactly one form"));
             None
         }
@@ -93,10 +93,10 @@ fn read_matrix_form(table: &Table, meant: &Meant, reader: &mut Reader) -> Option
 fn square(matrix: &Matrix, what: &str, reader: &mut Reader) -> bool {
     let (r, c) = matrix.size();
     if r != c {
-        let error = Diagnostic::error("E-size", format!("{what} is {r} x {c}, but must be square"));
+        let error = Diagnostic::error(Code::Size, format!("{what} is {r} x {c}, but must be square"));
         reader.report(error.at(matrix.span, format!("{}, {}", count(r, "row", "rows"), count(c, "column", "columns"))));
     } else if r == 0 {
-        let error = Diagnostic::error("E-size", format!("{what} is empty")).at(matrix.span, "no rows");
+        let error = Diagnostic::error(Code::Size, format!("{what} is empty")).at(matrix.span, "no rows");
         reader.report(error.help("a loop has at least one state: [[\"a\"]]"));
     }
     r == c && r > 0
@@ -109,7 +109,7 @@ fn read_feedback_form(table: &Table, meant: &Meant, given: &[&Entry], reader: &m
                 return None;
             }
             let place = given.first().map_or(Span::default(), |e| e.key_span);
-            let error = Diagnostic::error("E-missing", format!("[loop] has no '{key}'"));
+            let error = Diagnostic::error(Code::Missing, format!("[loop] has no '{key}'"));
             reader.report(error.at(place, "the form A, B, C, K begins here").help("the closed loop is A - B*K*C"));
             return None;
         };
@@ -144,7 +144,7 @@ fn read_ports(table: &Table, meant: &Meant, matrix: Option<&Matrix>, what: &str,
         let given = if let Kind::Array(items) = &entry.value.kind { items.len() } else { 1 };
         if given != n {
             let message = format!("{} for {}", count(given, "state", "states"), count(n, "row", "rows"));
-            let error = Diagnostic::error("E-size", message).at(entry.value.span, "the states");
+            let error = Diagnostic::error(Code::Size, message).at(entry.value.span, "the states");
             reader.report(error.also(matrix.span, format!("{what} has {}", count(n, "row", "rows"))));
         }
     }
@@ -158,7 +158,7 @@ fn read_ports(table: &Table, meant: &Meant, matrix: Option<&Matrix>, what: &str,
             reader.size(e, "E", r, inputs.len(), (place, &because));
         }
         (None, Some(entry), None) if !meant.includes("E") => {
-            let error = Diagnostic::error("E-missing", "[loop] has inputs but no 'E'");
+            let error = Diagnostic::error(Code::Missing, "[loop] has inputs but no 'E'");
             reader.report(
                 error
                     .at(entry.key_span, "how do these enter?")
@@ -166,7 +166,7 @@ fn read_ports(table: &Table, meant: &Meant, matrix: Option<&Matrix>, what: &str,
             );
         }
         (_, None, Some(entry)) if !meant.includes("inputs") => {
-            let error = Diagnostic::error("E-missing", "[loop] has 'E' but no 'inputs'");
+            let error = Diagnostic::error(Code::Missing, "[loop] has 'E' but no 'inputs'");
             reader
                 .report(error.at(entry.key_span, "what enters here?").help("name the columns of E: inputs = [\"..\"]"));
         }

@@ -6,7 +6,7 @@ use super::reader::{Meant, NamedMatrix, Reader};
 use super::tolerance::read_tolerance;
 use super::{check_names, check_rules, check_values};
 use super::{require, simulation};
-use crate::error::{Diagnostic, Diagnostics, Severity, Source, Span};
+use crate::error::{Code, Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::model::definition::{Constant, Diagram, Form, Model, Name, Parameter, Time};
 use crate::model::evaluate::work::constant_value;
 use crate::model::text::names::{did_you_mean, shorten};
@@ -50,7 +50,7 @@ impl Model {
                 diagnostics.truncate(MAX_SHOWN);
                 if diagnostics.is_empty() {
                     // Parts are left out only together with an error.
-                    diagnostics.push(Diagnostic::error("E-missing", "the model is not complete"));
+                    diagnostics.push(Diagnostic::error(Code::Missing, "the model is not complete"));
                 }
                 Err(fail(diagnostics))
             }
@@ -76,7 +76,7 @@ impl Model {
 /// The first warnings of each kind, and how many more there are of it: nobody reads thousands.
 fn counted(warnings: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let mut out = Vec::new();
-    let mut counts: Vec<(&'static str, usize)> = Vec::new();
+    let mut counts: Vec<(Code, usize)> = Vec::new();
     for warning in warnings {
         let at = counts.iter().position(|(code, _)| *code == warning.code).unwrap_or_else(|| {
             counts.push((warning.code, 0));
@@ -105,7 +105,7 @@ pub fn source_from_bytes(name: &str, bytes: &[u8]) -> Result<Arc<Source>, Diagno
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok(Source::new(name, text)),
         Err(_) if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) => {
-            let error = Diagnostic::error("E-utf8", "the file is UTF-16")
+            let error = Diagnostic::error(Code::Utf8, "the file is UTF-16")
                 .help("save it as UTF-8; in PowerShell: 'Set-Content -Encoding utf8' in place of '>'");
             Err(Diagnostics::new(Some(Source::new(name, "")), vec![error]))
         }
@@ -113,7 +113,7 @@ pub fn source_from_bytes(name: &str, bytes: &[u8]) -> Result<Arc<Source>, Diagno
             let offset = error.valid_up_to();
             let text = String::from_utf8_lossy(bytes).into_owned();
             let length = text[offset..].chars().next().map_or(0, char::len_utf8);
-            let diagnostic = Diagnostic::error("E-utf8", format!("byte {} is not valid UTF-8", offset + 1))
+            let diagnostic = Diagnostic::error(Code::Utf8, format!("byte {} is not valid UTF-8", offset + 1))
                 .at(Span::new(offset, offset + length), "not UTF-8")
                 .help("save the file as UTF-8");
             Err(Diagnostics::new(Some(Source::new(name, text)), vec![diagnostic]))
@@ -165,7 +165,7 @@ fn read_time(root: &Table, meant: &Meant, reader: &mut Reader) -> Option<Time> {
         if meant.includes("time") {
             return None;
         }
-        let error = Diagnostic::error("E-missing", "the model does not say whether time is discrete or continuous");
+        let error = Diagnostic::error(Code::Missing, "the model does not say whether time is discrete or continuous");
         reader.report(error.help("add a line: time = \"discrete\" or time = \"continuous\""));
         return None;
     };
@@ -174,7 +174,7 @@ fn read_time(root: &Table, meant: &Meant, reader: &mut Reader) -> Option<Time> {
         "discrete" => Some(Time::Discrete),
         "continuous" => Some(Time::Continuous),
         other => {
-            let mut error = Diagnostic::error("E-value", format!("unknown kind of time '{}'", shorten(other)))
+            let mut error = Diagnostic::error(Code::Value, format!("unknown kind of time '{}'", shorten(other)))
                 .at(value.span, "neither \"discrete\" nor \"continuous\"");
             error.help = did_you_mean(other, keys::TIMES);
             reader.report(error);
@@ -208,7 +208,7 @@ fn read_constants(root: &Table, reader: &mut Reader) -> Vec<Constant> {
                 reader.plain_string(table, "unit");
                 reader.plain_string(table, "description");
                 let Some(value) = table.get("value") else {
-                    let error = Diagnostic::error("E-missing", format!("{what} has no 'value'"));
+                    let error = Diagnostic::error(Code::Missing, format!("{what} has no 'value'"));
                     reader.report(error.at(entry.value.span, "a table without a value"));
                     reader.refused.insert(name.name);
                     continue;
@@ -232,7 +232,7 @@ fn read_constants(root: &Table, reader: &mut Reader) -> Vec<Constant> {
         };
         if let (None, Some((_, span))) = (&number, &tolerance) {
             let error =
-                Diagnostic::error("E-tolerance", format!("{what} is given by a formula, so it has no tolerance"));
+                Diagnostic::error(Code::Tolerance, format!("{what} is given by a formula, so it has no tolerance"));
             reader.report(error.at(*span, "not accepted").help("give what it depends on a tolerance"));
         }
         let tolerance = tolerance.map(|(tolerance, _)| tolerance);
@@ -283,7 +283,7 @@ fn read_parameter(table: &Table, parameter: &mut Parameter, reader: &mut Reader)
     {
         let message = format!("the domain of '{}' is empty", shorten(&parameter.name));
         reader.report(
-            Diagnostic::error("E-empty-domain", message)
+            Diagnostic::error(Code::EmptyDomain, message)
                 .at(span("max"), "the upper bound")
                 .also(span("min"), "is not above this lower bound")
                 .help("'min' must be less than 'max'; both are open bounds"),
@@ -294,7 +294,8 @@ fn read_parameter(table: &Table, parameter: &mut Parameter, reader: &mut Reader)
         let message = format!("the nominal value of '{}' is outside its domain", shorten(&parameter.name));
         let outside_below = parameter.min.as_ref().is_some_and(|min| nominal <= min);
         let bound = if outside_below { span("min") } else { span("max") };
-        let warning = Diagnostic::warning("W-outside-domain", message).at(span("nominal"), "not in the open domain");
+        let warning =
+            Diagnostic::warning(Code::OutsideDomainWarning, message).at(span("nominal"), "not in the open domain");
         reader.report(warning.also(bound, "which ends here"));
     }
 }

@@ -1,7 +1,7 @@
 //! TOML values to typed parts of a model, with an error for whatever does not fit.
 
 use super::keys::Key;
-use crate::error::{Diagnostic, Severity, Span};
+use crate::error::{Code, Diagnostic, Severity, Span};
 use crate::model::definition::{Matrix, Name, Output};
 use crate::model::evaluate::work::constant_value;
 use crate::model::text::Expression;
@@ -46,7 +46,7 @@ impl Reader {
 
     /// A part of the model that has no effect.
     pub fn unused(&mut self, message: impl Into<String>, span: Span) {
-        self.report(Diagnostic::warning("W-unused", message).at(span, "not used"));
+        self.report(Diagnostic::warning(Code::UnusedWarning, message).at(span, "not used"));
     }
 
     /// How many errors there are so far; warnings do not count.
@@ -56,7 +56,7 @@ impl Reader {
 
     /// A value of another kind than was expected.
     pub fn wrong_type(&mut self, value: &Value, what: &str, expected: &str) {
-        let error = Diagnostic::error("E-type", format!("{what} must be {expected}"));
+        let error = Diagnostic::error(Code::Type, format!("{what} must be {expected}"));
         self.report(error.at(value.span, format!("this is {}", value.describe())));
     }
 
@@ -66,7 +66,7 @@ impl Reader {
         let mut meant = Meant::default();
         for entry in table.iter().filter(|e| !known.contains(&e.key.as_str())) {
             let message = format!("unknown key '{}' in {place}", shorten(&entry.key));
-            let mut error = Diagnostic::error("E-unknown-key", message).at(entry.key_span, "not known here");
+            let mut error = Diagnostic::error(Code::UnknownKey, message).at(entry.key_span, "not known here");
             let is_rate = ["sample_rate", "sampling_rate", "fs", "f_s"].contains(&entry.key.as_str());
             let rate = (is_rate && known.contains(&"sample_time"))
                 .then(|| "give the sample time, 1 over the rate: sample_time = \"1/10000\"".to_owned());
@@ -152,14 +152,14 @@ impl Reader {
     fn literal(&mut self, text: &str, span: Span) -> Option<Rational> {
         let word = text.trim_start_matches(['+', '-']);
         if word.eq_ignore_ascii_case("inf") || word.eq_ignore_ascii_case("nan") {
-            let error = Diagnostic::error("E-number", format!("{word} is not a number of a model"));
+            let error = Diagnostic::error(Code::Number, format!("{word} is not a number of a model"));
             self.report(error.at(span, "not finite").help("leave the key out where there is no bound"));
             return None;
         }
         match parse_number(text) {
             Ok(number) => Some(number),
             Err(error) => {
-                self.report(Diagnostic::error("E-number", error.to_string()).at(span, "not accepted"));
+                self.report(Diagnostic::error(Code::Number, error.to_string()).at(span, "not accepted"));
                 None
             }
         }
@@ -175,7 +175,7 @@ impl Reader {
                 None
             }
             Err(None) => {
-                let error = Diagnostic::error("E-not-a-number", format!("{what} must be a number"));
+                let error = Diagnostic::error(Code::NotANumber, format!("{what} must be a number"));
                 let help = "write a number, or a formula of numbers such as \"1/3\"";
                 let label = if expression.has_function() { "contains a function" } else { "contains a name" };
                 self.report(error.at(expression.span, label).help(help));
@@ -193,12 +193,12 @@ impl Reader {
             let message =
                 format!("the name of {what} has a character that cannot be seen, '{}'", blank.escape_unicode());
             self.report(
-                Diagnostic::error("E-name", message).at(span, "not a name").help("delete it, or write the name anew"),
+                Diagnostic::error(Code::Name, message).at(span, "not a name").help("delete it, or write the name anew"),
             );
             return None;
         }
         let message = format!("'{}' is no name for {what}", shorten(text));
-        let error = Diagnostic::error("E-name", message).at(span, "not a name");
+        let error = Diagnostic::error(Code::Name, message).at(span, "not a name");
         self.report(error.help("names are made of letters, digits and '_', and do not begin with a digit"));
         None
     }
@@ -255,11 +255,11 @@ impl Reader {
         }
         let names = || self.matrices.iter().map(|m| m.name.name.as_str());
         let error = if is_name(name) {
-            let error = Diagnostic::error("E-unknown-name", format!("no constant '{}' is a matrix", shorten(name)));
+            let error = Diagnostic::error(Code::UnknownName, format!("no constant '{}' is a matrix", shorten(name)));
             let help = || format!("write rows, or name them in [constants]: {name} = [[0, 1], [\"-k\", -2]]");
             error.at(span, "not a matrix").help(did_you_mean(name, names()).unwrap_or_else(help))
         } else {
-            let error = Diagnostic::error("E-type", format!("{what} must be an array of rows"));
+            let error = Diagnostic::error(Code::Type, format!("{what} must be an array of rows"));
             let help = "rows in brackets, expressions in quotes: [[0, 1], [\"-k\", -2]]; or the name of a matrix";
             error.at(span, "this is a string").help(help)
         };
@@ -281,7 +281,7 @@ impl Reader {
         let mut first: Option<(usize, Span)> = None;
         for row in rows {
             let Kind::Array(items) = &row.kind else {
-                let error = Diagnostic::error("E-type", format!("a row of {what} must be an array"));
+                let error = Diagnostic::error(Code::Type, format!("a row of {what} must be an array"));
                 let error = error.at(row.span, format!("this is {}", row.describe()));
                 self.report(error.help("rows in brackets, expressions in quotes: [[0, 1], [\"-k\", -2]]"));
                 continue;
@@ -291,7 +291,7 @@ impl Reader {
                 Some((length, span)) if length != items.len() => {
                     let message = format!("the rows of {what} differ in length");
                     self.report(
-                        Diagnostic::error("E-size", message)
+                        Diagnostic::error(Code::Size, message)
                             .at(row.span, format!("{} here", count(items.len(), "entry", "entries")))
                             .also(span, format!("{} here", count(length, "entry", "entries"))),
                     );
@@ -311,7 +311,7 @@ impl Reader {
             return true;
         }
         let message = format!("{what} is {r} x {c}, but must be {rows} x {columns}");
-        let error = Diagnostic::error("E-size", message).at(matrix.span, format!("{r} x {c}"));
+        let error = Diagnostic::error(Code::Size, message).at(matrix.span, format!("{r} x {c}"));
         self.report(error.also(because.0, because.1));
         false
     }

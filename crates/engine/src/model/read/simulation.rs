@@ -4,7 +4,7 @@
 use super::keys;
 use super::model_file::section;
 use super::reader::Reader;
-use crate::error::Diagnostic;
+use crate::error::{Code, Diagnostic};
 use crate::model::definition::{Block, Dynamics, Form, Model, Name, Simulation};
 use crate::model::text::names::{did_you_mean, known_names, shorten};
 use crate::model::text::toml_value::{Entry, Table};
@@ -21,7 +21,7 @@ pub(super) fn read(root: &Table, reader: &mut Reader) -> Simulation {
     let duration = table.get("duration").and_then(|v| {
         let number = reader.number(v, "'duration'")?;
         if number.is_negative() || number.is_zero() {
-            let error = Diagnostic::error("E-value", "the duration of a simulation must be positive");
+            let error = Diagnostic::error(Code::Value, "the duration of a simulation must be positive");
             reader.report(error.at(v.span, "not positive"));
             return None;
         }
@@ -73,7 +73,7 @@ pub(super) fn check(model: &Model, reader: &mut Reader) {
 fn unknown<'n>(names: impl Iterator<Item = &'n Name>, known: &[&str], what: &str, reader: &mut Reader) {
     for name in names.filter(|n| !known.contains(&n.name.as_str())) {
         let message = format!("unknown {what} '{}'", shorten(&name.name));
-        let mut error = Diagnostic::error("E-unknown-name", message).at(name.span, format!("no {what} of the loop"));
+        let mut error = Diagnostic::error(Code::UnknownName, message).at(name.span, format!("no {what} of the loop"));
         error.help = did_you_mean(&name.name, known.iter().copied()).or_else(|| known_names(known.iter().copied()));
         reader.report(error);
     }

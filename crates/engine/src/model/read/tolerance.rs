@@ -2,7 +2,7 @@
 
 use super::keys;
 use super::reader::Reader;
-use crate::error::Diagnostic;
+use crate::error::{Code, Diagnostic};
 use crate::model::text::toml_value::{Kind, Table, Value};
 use crate::model::tolerance::Tolerance;
 
@@ -21,7 +21,7 @@ pub(super) fn read_tolerance(table: &Table, reader: &mut Reader) -> Option<Toler
             let mut end = |key: &str| match range.get(key) {
                 Some(value) => reader.number(value, &format!("'{key}'")),
                 None => {
-                    let error = Diagnostic::error("E-missing", format!("the tolerance has no '{key}'"));
+                    let error = Diagnostic::error(Code::Missing, format!("the tolerance has no '{key}'"));
                     reader.report(
                         error.at(value.span, "both ends are needed").help("for example { low = 0.4, high = 0.7 }"),
                     );
@@ -53,7 +53,7 @@ fn bound(value: &Value, reader: &mut Reader) -> Option<String> {
 
 fn refused(read: Result<Tolerance, String>, value: &Value, reader: &mut Reader) -> Option<Tolerance> {
     read.map_err(|why| {
-        let error = Diagnostic::error("E-tolerance", format!("this is no tolerance: {why}"));
+        let error = Diagnostic::error(Code::Tolerance, format!("this is no tolerance: {why}"));
         reader.report(
             error
                 .at(value.span, "not accepted")

@@ -31,7 +31,7 @@ impl Symbols {
             match values.is_zero(number, budget) {
                 Ok(true) => {}
                 // A zero that no identity shows is not left out.
-                Err(stopped) if !stopped.budget.starts_with("precision") => return Err(stopped),
+                Err(stopped) if !stopped.stop.is_precision() => return Err(stopped),
                 _ => return Ok(false),
             }
         }
@@ -51,7 +51,7 @@ impl Symbols {
     }
 
     /// The table of what the symbols stand for; `None` where one is no number.
-    fn fixed_values(&self) -> Option<Values> {
+    pub(in crate::model) fn fixed_values(&self) -> Option<Values> {
         let mut values = Values::new();
         for symbol in &self.table {
             let definition = symbol.definition().filter(|_| !symbol.is_moving)?;

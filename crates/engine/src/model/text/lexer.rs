@@ -1,7 +1,7 @@
 //! Expression text to tokens.
 
 use super::located::Text;
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use jurist_algebra::number::{Rational, parse_decimal_literal, scan_decimal_literal};
 
 /// A token and its place in the source text.
@@ -104,7 +104,7 @@ fn number(text: &Text, at: usize) -> Result<(TokenKind, usize), Diagnostic> {
     let after = rest[length..].chars().next();
     if length == 0 || after.is_some_and(|c| c == '.' || continues_name(c)) {
         let run = rest.find(|c| !(c == '.' || continues_name(c))).unwrap_or(rest.len());
-        let error = Diagnostic::error("E-number", "this is not a number")
+        let error = Diagnostic::error(Code::Number, "this is not a number")
             .at(text.source_span(at, at + run.max(1)), "neither a number nor a name");
         let with_name = length > 0 && after.is_some_and(begins_name);
         return Err(if with_name {
@@ -115,7 +115,7 @@ fn number(text: &Text, at: usize) -> Result<(TokenKind, usize), Diagnostic> {
     }
     match parse_decimal_literal(&rest[..length]) {
         Ok(value) => Ok((TokenKind::Number(value), length)),
-        Err(error) => Err(Diagnostic::error("E-number", error.to_string())
+        Err(error) => Err(Diagnostic::error(Code::Number, error.to_string())
             .at(text.source_span(at, at + length), "not accepted")
             .help("write a shorter number")),
     }
@@ -125,9 +125,9 @@ fn strange_character(text: &Text, at: usize, c: char) -> Diagnostic {
     let span = text.source_span(at, at + c.len_utf8());
     if is_blank_letter(c) {
         let message = format!("a character that cannot be seen, '{}'", c.escape_unicode());
-        return Diagnostic::error("E-syntax", message).at(span, "not part of a name").help("delete it");
+        return Diagnostic::error(Code::Syntax, message).at(span, "not part of a name").help("delete it");
     }
-    let error = Diagnostic::error("E-syntax", format!("unexpected character '{}'", c.escape_debug()));
+    let error = Diagnostic::error(Code::Syntax, format!("unexpected character '{}'", c.escape_debug()));
     let error = error.at(span, "not part of an expression");
     match c {
         '−' | '–' | '—' => error.help("write the minus sign as '-'"),

@@ -7,7 +7,7 @@ use super::expression::{Expression, Factor, Node, Sign};
 use super::function::{Function, call_hint};
 use super::lexer::{Token, TokenKind, lex};
 use super::located::Text;
-use crate::error::{Diagnostic, Diagnostics, Source, Span};
+use crate::error::{Code, Diagnostic, Diagnostics, Source, Span};
 use jurist_algebra::number::{Integer, Rational};
 
 /// Parentheses, signs and powers may nest this deep. The parser recurses a few frames per level
@@ -44,7 +44,7 @@ impl Expression {
 pub(in crate::model) fn parse(text: &Text) -> Result<Expression, Diagnostic> {
     let tokens = lex(text)?;
     if tokens.len() == 1 {
-        let error = Diagnostic::error("E-syntax", "an expression is missing").at(text.span(), "empty");
+        let error = Diagnostic::error(Code::Syntax, "an expression is missing").at(text.span(), "empty");
         return Err(error.help("write a number, a name, or a formula of them"));
     }
     let mut parser = Parser { tokens: &tokens, position: 0, depth: 0 };
@@ -52,7 +52,7 @@ pub(in crate::model) fn parse(text: &Text) -> Result<Expression, Diagnostic> {
     match &parser.peek().kind {
         TokenKind::End => Ok(expression),
         TokenKind::Close => {
-            Err(Diagnostic::error("E-syntax", "unmatched ')'").at(parser.peek().span, "nothing to close"))
+            Err(Diagnostic::error(Code::Syntax, "unmatched ')'").at(parser.peek().span, "nothing to close"))
         }
         other => Err(parser.missing_operator(other)),
     }
@@ -86,7 +86,7 @@ impl Parser<'_> {
             }
             _ => "multiplication is written out: 'a*b', not 'a b'",
         };
-        Diagnostic::error("E-syntax", format!("an operator is missing before {}", found.describe()))
+        Diagnostic::error(Code::Syntax, format!("an operator is missing before {}", found.describe()))
             .at(self.peek().span, "expected an operator")
             .help(help)
     }
@@ -95,7 +95,7 @@ impl Parser<'_> {
         self.depth += 1;
         if self.depth > MAX_DEPTH {
             let message = format!("the expression is nested more than {MAX_DEPTH} levels deep");
-            return Err(Diagnostic::error("E-too-deep", message)
+            return Err(Diagnostic::error(Code::TooDeep, message)
                 .at(span, "too deep here")
                 .help("give parts of it a name in [constants]"));
         }
@@ -144,7 +144,7 @@ impl Parser<'_> {
             let operator = self.advance();
             if factor == Factor::Times && self.peek().kind == TokenKind::Times {
                 let span = operator.span.to(self.peek().span);
-                let error = Diagnostic::error("E-syntax", "unexpected '**'").at(span, "not an operator");
+                let error = Diagnostic::error(Code::Syntax, "unexpected '**'").at(span, "not an operator");
                 return Err(error.help("powers are written with '^'"));
             }
             let operand = self.expression(PREFIX)?;
@@ -187,7 +187,7 @@ impl Parser<'_> {
                 Ok(Expression { span, node: inner.node })
             }
             kind => Err(Diagnostic::error(
-                "E-syntax",
+                Code::Syntax,
                 format!("expected a number, a name or '(', found {}", kind.describe()),
             )
             .at(token.span, "unexpected")),
@@ -202,7 +202,7 @@ impl Parser<'_> {
         let close = self.peek().clone();
         if close.kind != TokenKind::Close {
             if close.kind == TokenKind::End {
-                return Err(Diagnostic::error("E-syntax", "')' is missing")
+                return Err(Diagnostic::error(Code::Syntax, "')' is missing")
                     .at(close.span, "expected ')'")
                     .also(open, "to close this"));
             }
@@ -218,7 +218,8 @@ impl Parser<'_> {
         let Some(function) = Function::named(name) else {
             let message =
                 format!("'{}(' looks like a call, but there is no such function", super::names::shorten(name));
-            let error = Diagnostic::error("E-syntax", message).at(place.to(open), "no function, and no operator here");
+            let error =
+                Diagnostic::error(Code::Syntax, message).at(place.to(open), "no function, and no operator here");
             return Err(error.help(call_hint(name)));
         };
         let (value, end) = self.group(open)?;
@@ -233,22 +234,22 @@ fn integer_exponent(base: &Expression, exponent: &Expression) -> Result<i64, Dia
             Node::Name(name) if name == "e" => "the exponential of x is written 'exp(x)'",
             _ => "exponents fix the order of the loop: write its value as a number, such as 'z^3'",
         };
-        return Err(Diagnostic::error("E-exponent", "an exponent must be a whole number, written as a number")
+        return Err(Diagnostic::error(Code::Exponent, "an exponent must be a whole number, written as a number")
             .at(exponent.span, "contains a name or a function")
             .help(help));
     }
     let too_large = || {
-        Diagnostic::error("E-exponent", "the exponent is too large")
+        Diagnostic::error(Code::Exponent, "the exponent is too large")
             .at(exponent.span, format!("beyond {MAX_EXPONENT}"))
             .help(format!("exponents from -{MAX_EXPONENT} to {MAX_EXPONENT} are accepted"))
     };
     let value = small_value(exponent).ok_or_else(too_large)?;
     let Some(value) = value else {
-        let error = Diagnostic::error("E-division-by-zero", "division by zero in an exponent");
+        let error = Diagnostic::error(Code::DivisionByZero, "division by zero in an exponent");
         return Err(error.at(exponent.span, "has no value"));
     };
     if !value.is_integer() {
-        return Err(Diagnostic::error("E-exponent", "an exponent must be a whole number")
+        return Err(Diagnostic::error(Code::Exponent, "an exponent must be a whole number")
             .at(exponent.span, "not a whole number")
             .help("the square root is written sqrt(..)"));
     }

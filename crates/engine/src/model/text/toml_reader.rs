@@ -9,7 +9,7 @@ use super::located::Text;
 use super::names::shorten;
 use super::toml_hints::hint;
 use super::toml_value::{Entry, Kind, Table, Value};
-use crate::error::{Diagnostic, Span};
+use crate::error::{Code, Diagnostic, Span};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -31,15 +31,15 @@ pub(in crate::model) fn read(text: &str) -> Result<Table, Vec<Diagnostic>> {
     if let Some(opening) = never_closed(root.get_ref(), text, &errors) {
         // All that follows is read as if it stood between the brackets.
         found.retain(|d| start(d) < opening);
-        let error = Diagnostic::error("E-toml", "not valid TOML: a bracket is never closed");
+        let error = Diagnostic::error(Code::Toml, "not valid TOML: a bracket is never closed");
         found.push(error.at(Span::new(opening, opening + 1), "opened here"));
     }
     // What follows a syntax error in the same line is read in the wrong light.
     let line = |d: &Diagnostic| text.as_bytes()[..start(d)].iter().filter(|&&b| b == b'\n').count();
-    let syntax = |d: &Diagnostic| d.code == "E-toml";
+    let syntax = |d: &Diagnostic| d.code == Code::Toml;
     found.dedup_by(|next, first| syntax(next) && syntax(first) && line(next) == line(first));
     found.truncate(MAX_SHOWN);
-    let found = found.into_iter().map(|d| if d.code == "E-duplicate-key" { with_first_place(d, text) } else { d });
+    let found = found.into_iter().map(|d| if d.code == Code::DuplicateKey { with_first_place(d, text) } else { d });
     Err(found.collect())
 }
 
@@ -60,15 +60,15 @@ fn diagnostic(error: &toml::de::Error, text: &str) -> Diagnostic {
             }
             _ => "keep one of the two".to_owned(),
         };
-        return Diagnostic::error("E-duplicate-key", format!("'{}' is defined twice", shorten(&name)))
+        return Diagnostic::error(Code::DuplicateKey, format!("'{}' is defined twice", shorten(&name)))
             .at(span, "defined again here")
             .help(help);
     }
-    let code = if what.contains("recur") { "E-too-deep" } else { "E-toml" };
+    let code = if what.contains("recur") { Code::TooDeep } else { Code::Toml };
     let error = Diagnostic::error(code, format!("not valid TOML: {what}"));
     let Some(span) = span else { return error };
     let error = error.at(span, expected);
-    match hint(text, span.start).filter(|_| code == "E-toml") {
+    match hint(text, span.start).filter(|_| code == Code::Toml) {
         Some(hint) => error.help(hint),
         None => error,
     }
@@ -157,7 +157,8 @@ impl Reader<'_> {
             DeValue::Float(number) => Kind::Number(number.as_str().to_owned()),
             DeValue::Integer(number) => {
                 if number.radix() != 10 {
-                    let error = Diagnostic::error("E-number", "hexadecimal, octal and binary numbers are not accepted");
+                    let error =
+                        Diagnostic::error(Code::Number, "hexadecimal, octal and binary numbers are not accepted");
                     self.diagnostics.push(error.at(span, "not decimal").help("write the number in decimal"));
                 }
                 Kind::Number(number.as_str().to_owned())
@@ -237,15 +238,15 @@ mod tests {
         assert_eq!(mistakes(text), ["E-toml @6", "E-toml [@11"]);
         assert_eq!(mistakes("a = { b = [1, 2], c = 3\nd = 4\n"), ["E-toml {@4"]);
         assert_eq!(mistakes(&"[".repeat(1000)).len(), 1);
-        assert!(mistakes(&format!("a = {}", "[".repeat(1000)))[0].starts_with("E-too-deep"));
+        assert!(mistakes(&format!("a = {}", "[".repeat(1000)))[0].starts_with(Code::TooDeep.as_str()));
     }
 
     #[test]
     fn nesting_and_keys_end_somewhere() {
         let nested = format!("a = {}{}", "[".repeat(100), "]".repeat(100));
-        assert!(mistakes(&nested)[0].starts_with("E-too-deep"), "{:?}", mistakes(&nested));
+        assert!(mistakes(&nested)[0].starts_with(Code::TooDeep.as_str()), "{:?}", mistakes(&nested));
         let dotted = format!("{} = 1", ["a"; 100].join("."));
-        assert!(mistakes(&dotted)[0].starts_with("E-too-deep"), "{:?}", mistakes(&dotted));
+        assert!(mistakes(&dotted)[0].starts_with(Code::TooDeep.as_str()), "{:?}", mistakes(&dotted));
     }
 
     #[test]

@@ -100,7 +100,7 @@ fn a_loop_on_the_boundary_is_decided_exactly() {
 fn what_stays_open_is_named() {
     let model = held(&THREE_MODES.replace("(s+1)", "s"), ZERO_ORDER, "1", "");
     let stopped = |found: Result<_, Error>| match found {
-        Err(Error::Stopped(stopped)) => stopped.reached,
+        Err(Error::Stopped(stopped)) => stopped.reached(),
         other => panic!("{other:?}"),
     };
     let reached = stopped(counts(&model, "0", &Budget::with_work(A_MOMENT / 10)));

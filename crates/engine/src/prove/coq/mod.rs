@@ -7,7 +7,7 @@ mod point;
 mod statement;
 
 use crate::answer::{Answer, PointVerdict, Verdict};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Form, Matrix, Model};
 use crate::problem::Problem;
 use crate::stability::{ParametricPolynomial, StableSet, zeros_in};
@@ -101,7 +101,7 @@ const OTHERS: &str = "take '--certificate' or '--smt2'";
 const CERTIFICATE: &str = "take '--certificate'";
 
 fn refused(why: impl Into<String>, help: impl Into<String>) -> Error {
-    Diagnostic::error("E-coq", format!("no file for Coq: {}", why.into())).help(help).into()
+    Diagnostic::error(Code::Coq, format!("no file for Coq: {}", why.into())).help(help).into()
 }
 
 /// What makes a loop one without polynomials over the integers; a long definition is left out.

@@ -10,7 +10,7 @@ use super::refuse_requirements;
 use super::statement::{about, boundary, number, object, region, set};
 use super::text::{MAX_TEXT, to_text};
 use crate::answer::{Answer, Map};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Bound, Problem};
 use crate::stability::Range;
 use crate::stability::plane::{PlanePolynomial, StabilityMap, critical_polynomials, joins};
@@ -117,7 +117,7 @@ impl Problem {
 }
 
 fn no_certificate(why: impl Into<String>) -> Error {
-    Diagnostic::error("E-no-certificate", why)
+    Diagnostic::error(Code::NoCertificate, why)
         .help("exact maps have one where the loop is rational, the bound of its region a number, and stability all that is asked; with constants that are not rational maps by boxes have one: --method boxes")
         .into()
 }

@@ -23,7 +23,7 @@ pub(crate) use damping::{in_sector, on_sector_edge, sector_in_parameter};
 pub(crate) use settling_time::{radius_below, scaled_by_exponential};
 
 use super::{Margins, StableMargins};
-use crate::error::{Diagnostic, Error};
+use crate::error::{Code, Diagnostic, Error};
 use crate::model::Time;
 use crate::problem::Region;
 use jurist_algebra::limits::Budget;
@@ -202,10 +202,10 @@ impl Requirement {
 const MOST_DEGREE: usize = 24;
 
 fn refused(message: &str) -> Error {
-    Diagnostic::error("E-require", message).into()
+    Diagnostic::error(Code::Require, message).into()
 }
 
 /// The refusal of a number, or of what is missing beside it.
 pub(super) fn not_understood(name: &str, why: &str) -> Error {
-    Diagnostic::error("E-require", format!("{name}: {why}")).into()
+    Diagnostic::error(Code::Require, format!("{name}: {why}")).into()
 }

@@ -135,7 +135,7 @@ impl MapBoxes {
                 undecided: (&map.areas.undecided).into(),
             },
             boxes: map.boxes.iter().map(PlaneBox::from).collect(),
-            stopped: map.stopped.clone(),
+            stopped: map.stopped.as_ref().map(ToString::to_string),
             no_exact_map: no_exact_map.as_ref().map(Exhausted::to_string),
         };
         MapBoxes { schema: MapBoxesName::V1, question: MapQuestion::new(problem), answer: Answered::of(answer, known) }

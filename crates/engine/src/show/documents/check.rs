@@ -1,7 +1,7 @@
 //! The documents of a model that is only read: `jurist/check/1`, and SARIF for programs that show findings of any tool.
 
 use super::schema_name;
-use crate::error::{Diagnostic, Label, Severity, Source, codes};
+use crate::error::{Code, Diagnostic, Label, Severity, Source, codes};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -93,7 +93,7 @@ impl Check {
                 Severity::Error => FindingSeverity::Error,
                 Severity::Warning => FindingSeverity::Warning,
             },
-            code: d.code.to_owned(),
+            code: d.code.to_string(),
             message: d.message.clone(),
             help: d.help.clone(),
             place: d.primary.as_ref().and_then(place),
@@ -115,11 +115,11 @@ impl Check {
     /// ```
     pub fn sarif(&self) -> Value {
         let used: BTreeSet<&str> = self.diagnostics.iter().map(|d| d.code.as_str()).collect();
-        let rule = |(code, text): (&str, String)| {
+        let rule = |(code, text): (Code, String)| {
             let short = text.split("\n\n").next().unwrap_or_default().replace('\n', " ");
-            json!({ "id": code, "shortDescription": { "text": short }, "fullDescription": { "text": text } })
+            json!({ "id": code.as_str(), "shortDescription": { "text": short }, "fullDescription": { "text": text } })
         };
-        let rules: Vec<Value> = codes().filter(|(code, _)| used.contains(code)).map(rule).collect();
+        let rules: Vec<Value> = codes().filter(|(code, _)| used.contains(code.as_str())).map(rule).collect();
         let results: Vec<Value> = self.diagnostics.iter().map(|d| self.sarif_result(d)).collect();
         json!({
             "$schema": "https://json.schemastore.org/sarif-2.1.0.json",

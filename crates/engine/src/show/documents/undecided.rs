@@ -15,7 +15,7 @@ pub struct Undecided {
 
 impl From<&Exhausted> for Undecided {
     fn from(stopped: &Exhausted) -> Self {
-        Undecided { budget: stopped.budget.clone(), reached: stopped.reached.clone() }
+        Undecided { budget: stopped.stop.to_string(), reached: stopped.reached() }
     }
 }
 

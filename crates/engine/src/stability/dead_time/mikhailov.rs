@@ -6,7 +6,7 @@ use super::family_function::{exponential, upper_exponential};
 use super::turn::{Fixed, turned};
 use super::{Kind, QuasiPolynomial};
 use crate::stability::{Shape, count_roots};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, UniPoly};
 
@@ -276,7 +276,7 @@ impl<'p> Walk<'p> {
         self.scale *= 2;
         if self.scale > LAST_SCALE {
             let reached = "counting roots along the imaginary axis";
-            return Err(Exhausted::new(format!("precision ({LAST_SCALE} bits)"), reached));
+            return Err(Exhausted::new(Stop::Precision(LAST_SCALE), reached));
         }
         Ok(())
     }

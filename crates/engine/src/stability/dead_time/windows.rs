@@ -4,7 +4,7 @@ use super::crossing::{Crossing, commensurate, crossings};
 use super::mikhailov::{NotCounted, roots_right};
 use super::{Kind, QuasiPolynomial};
 use crate::stability::{Shape, count_roots};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::simplest_between;
 use std::cell::RefCell;
@@ -238,7 +238,7 @@ impl Line<'_> {
             return Ok((after - before) / 2);
         }
         let reached = "telling a touch of the axis from a crossing";
-        Err(Exhausted::new(format!("{TRIED} dead times at which roots meet"), reached).into())
+        Err(Exhausted::by_method(format!("{TRIED} dead times at which roots meet"), reached).into())
     }
 
     /// Rational dead times on both sides of one, with no other switch between; `None` where another one is equal to it.
@@ -283,12 +283,8 @@ impl Line<'_> {
         if one.0 == two.0 || a.half_size_root().compare(b.half_size_root()).is_eq() {
             return Ok(false);
         }
-        let undecided = || {
-            Exhausted::new(
-                format!("precision ({MOST_BITS} bits)"),
-                "the order of two dead times with roots on the axis",
-            )
-        };
+        let undecided =
+            || Exhausted::new(Stop::Precision(MOST_BITS), "the order of two dead times with roots on the axis");
         let common = commensurate(a, b, self.budget)?;
         let mut bits = ORDER_BITS;
         loop {

@@ -197,7 +197,7 @@ pub(super) fn resultant(
 
 /// Curves that are different polynomials in symbols and the same ones with the numbers these stand for.
 fn coincide() -> Exhausted {
-    Exhausted::new("identities of constants", "boundary curves have a part in common that only their values show")
+    Exhausted::by_method("identities of constants", "boundary curves have a part in common that only their values show")
 }
 
 /// The numbers before the powers of the parameters, as the table of symbols expects them.

@@ -7,7 +7,7 @@ use super::ground::{Corner, Ground, Projected, put};
 use super::over_symbols::{OverSymbols, in_one};
 use crate::stability::Range;
 use jurist_algebra::ball::{Ball, common_root};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
 use std::collections::BTreeMap;
@@ -60,7 +60,7 @@ pub(super) fn links_over_symbols(
         open = left;
     }
     let place = wall.value.decimal(10);
-    Err(Exhausted::new(format!("precision ({} bits)", BITS[2]), format!("whether cells touch at x = {place}")))
+    Err(Exhausted::new(Stop::Precision(BITS[2]), format!("whether cells touch at x = {place}")))
 }
 
 /// The neighbourhood of a wall.

@@ -95,7 +95,7 @@ impl Way {
         let mut stopped = None;
         for &way in &ways[first..] {
             match ask(way) {
-                Err(precision) if precision.budget.starts_with("precision") => stopped = stopped.or(Some(precision)),
+                Err(precision) if precision.stop.is_precision() => stopped = stopped.or(Some(precision)),
                 found => return found,
             }
         }

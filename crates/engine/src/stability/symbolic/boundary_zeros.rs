@@ -243,7 +243,7 @@ pub(crate) fn told_apart(
                 out.extend(a.next());
                 b.next();
             }
-            Err(stopped) if stopped.budget.starts_with("precision") => {
+            Err(stopped) if stopped.stop.is_precision() => {
                 let width = Rational::dyadic(&Integer::ONE, BRACKET_BITS);
                 let [(lo, hi), (least, most)] = [x, y].map(|x| x.refined(&width).enclosure());
                 undecided.push((Some(lo.min(least)), Some(hi.max(most))));

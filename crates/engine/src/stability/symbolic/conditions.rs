@@ -8,7 +8,7 @@ use super::set::sample;
 use super::statements::{Conditions, Rule, Stated};
 use super::{SymbolicPolynomial, Table};
 use crate::stability::{Cause, Range, Shape};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly, SquareFree, UniPoly};
 use jurist_algebra::real::Real;
@@ -385,7 +385,7 @@ fn sign_at(f: &Minor, varies: bool, at: &Rational, symbols: &Symbols, budget: &B
         bits *= 2;
     }
     match varies {
-        true => Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "the sign of a determinant")),
+        true => Err(Exhausted::new(Stop::Precision(MOST_BITS), "the sign of a determinant")),
         false => Ok(Sign::Equal),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::stability::{AtPoint, HalfSizePair, RootCount, Shape, count_roots};
 use jurist_algebra::ball::Ball;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly, subresultant_chain};
 use jurist_algebra::symbols::{SymbolicPoly, Symbols};
@@ -45,7 +45,7 @@ const MOST_SHOWN: usize = 160;
 /// Whether a number is zero; where that is not found out, the number and its name are said.
 pub(super) fn is_zero(p: &MultiPoly, name: &str, symbols: &Symbols, budget: &Budget) -> Result<bool, Exhausted> {
     symbols.is_zero(p, budget).map_err(|stopped| {
-        if !stopped.budget.starts_with("precision") {
+        if !stopped.stop.is_precision() {
             return stopped;
         }
         let shown = p.display(&symbols.names()).to_string();
@@ -90,7 +90,7 @@ fn count(
         open = open_equation(&balls, region);
         bits *= 2;
     }
-    Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "counting the roots").with_open(&open))
+    Err(Exhausted::new(Stop::Precision(MOST_BITS), "counting the roots").with_open(&open))
 }
 
 fn plus(a: RootCount, b: RootCount) -> RootCount {

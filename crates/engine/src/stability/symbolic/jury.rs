@@ -3,7 +3,7 @@
 use super::{SymbolicCondition, SymbolicPolynomial, SymbolicRow, Table};
 use crate::stability::{Range, Shape, UNDIVIDED_ORDER, row_name};
 use jurist_algebra::ball::Ball;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly};
 use jurist_algebra::symbols::Symbols;
@@ -119,7 +119,7 @@ impl SymbolicPolynomial {
             }
             bits *= 2;
         }
-        Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "the conditions of the table"))
+        Err(Exhausted::new(Stop::Precision(MOST_BITS), "the conditions of the table"))
     }
 
     /// Routh's table of a continuous loop without parameter, whose entries are enclosed to a relative width of `10^-(digits + 2)`;
@@ -182,7 +182,7 @@ impl SymbolicPolynomial {
         let mut zeros = Vec::new();
         loop {
             let is_zero = |entry: &MultiPoly| match symbols.is_zero(entry, budget) {
-                Err(stopped) if stopped.budget.starts_with("precision") => Ok(false),
+                Err(stopped) if stopped.stop.is_precision() => Ok(false),
                 found => found,
             };
             zeros.push(row.iter().map(is_zero).collect::<Result<Vec<bool>, Exhausted>>()?);

@@ -3,7 +3,7 @@
 use super::basis::Unexpanded;
 use super::interpolation::{coefficients_of, likely_scale};
 use jurist_algebra::ball::{Ball, determinant_enclosed};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::matrix::{Matrix, determinant_bareiss};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, UniPoly};
@@ -183,7 +183,7 @@ impl EnclosedMinor {
             }
             bits *= 2;
         }
-        Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "zeros among the coefficients of a determinant"))
+        Err(Exhausted::new(Stop::Precision(MOST_BITS), "zeros among the coefficients of a determinant"))
     }
 
     /// The degree in the parameter.

@@ -7,7 +7,7 @@ use super::interpolation::{coefficients_of, likely_scale};
 use super::pair::Pair;
 use crate::stability::{HalfSizePair, Shape};
 use jurist_algebra::ball::{Ball, enclosed_resultant};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 use jurist_algebra::real::Origin;
@@ -84,7 +84,7 @@ impl PairResultant {
             }
             bits *= 2;
         }
-        Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "zeros among the coefficients of the resultant"))
+        Err(Exhausted::new(Stop::Precision(MOST_BITS), "zeros among the coefficients of the resultant"))
     }
 
     /// The same of two other polynomials in an unknown, given by all coefficients for their formal degrees: numbers over the parameter

@@ -3,7 +3,7 @@
 use super::SymbolicPolynomial;
 use crate::stability::{Shape, UNDIVIDED_ORDER, row_name};
 use jurist_algebra::ball::Ball;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::{Enclosure, Integer};
 use jurist_algebra::poly::{Domain, MultiPoly};
 use jurist_algebra::symbols::Symbols;
@@ -78,7 +78,7 @@ pub(super) fn enclosed_rows(
         }
         bits *= 2;
     }
-    Err(Exhausted::new(format!("precision ({MOST_BITS} bits)"), "the entries of the table"))
+    Err(Exhausted::new(Stop::Precision(MOST_BITS), "the entries of the table"))
 }
 
 /// Whether the coefficient is zero, or known to so many digits.
@@ -182,7 +182,7 @@ fn zero_coefficients(
     let (n, region, count) = (p.formal_degree, asked.region, asked.rows);
     let a: Vec<MultiPoly> = (0..=n).map(|k| p.polynomial.coeff(k)).collect();
     let is_zero = |c: &MultiPoly| match symbols.is_zero(&c.map_variables(|i| i.saturating_sub(1)), budget) {
-        Err(stopped) if stopped.budget.starts_with("precision") => Ok(false),
+        Err(stopped) if stopped.stop.is_precision() => Ok(false),
         found => found,
     };
     let mut rows = first_rows(&a, region);

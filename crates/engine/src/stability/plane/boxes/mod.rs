@@ -6,6 +6,7 @@ mod subdivide;
 
 use super::curves::Curve;
 use crate::stability::Range;
+use jurist_algebra::limits::Stop;
 use jurist_algebra::number::Rational;
 
 pub(crate) use places::{Place, Seen, subdivided, subdivided_with};
@@ -89,7 +90,7 @@ pub struct BoxMap {
     /// Areas of the stable, the unstable and the undecided boxes: their sum is the window's.
     pub areas: Areas,
     /// Why the subdivision stopped before so little was undecided as was asked for: `None` when it did not.
-    pub stopped: Option<String>,
+    pub stopped: Option<Stop>,
 }
 
 /// Exact areas by verdict, in the product of the parameters' units.

@@ -1,7 +1,7 @@
 //! Halving a window until a given test decides enough of it.
 
 use super::{BoxMap, BoxVerdict, PlaneBox, Window};
-use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
+use jurist_algebra::limits::{Budget, Exhausted, Stop, parallel_map};
 use jurist_algebra::number::{Integer, Rational};
 use std::sync::Arc;
 
@@ -104,7 +104,7 @@ pub(crate) fn subdivided_with<K: Send + Sync>(
         }
         if frontier.len() > MAX_UNDECIDED || frontier.iter().any(|(p, _)| p.halvings.iter().any(|h| *h >= MAX_HALVINGS))
         {
-            stopped = Some(format!("boxes ({} undecided)", frontier.len()));
+            stopped = Some(Stop::Boxes { undecided: frontier.len() as u64, halvings: None });
             break;
         }
         // The largest first: what is left at last is about as large everywhere.
@@ -125,7 +125,7 @@ pub(crate) fn subdivided_with<K: Send + Sync>(
                     }
                     Err(exhausted) => {
                         next.push((place, known));
-                        stopped = Some(exhausted.budget);
+                        stopped = Some(exhausted.stop);
                     }
                 }
             }
@@ -172,10 +172,10 @@ mod tests {
     #[test]
     fn a_test_that_stops_leaves_its_box_and_what_follows_undecided() {
         let stops = |place: &Place| match place.halvings {
-            [1, 1] => Err(Exhausted::new("time", "a test")),
+            [1, 1] => Err(Exhausted::new(Stop::Cancelled, "a test")),
             _ => diagonal(place),
         };
         let map = subdivided(&unit(), &Rational::ZERO, &Budget::unlimited(), stops);
-        assert_eq!((map.stopped.as_deref(), map.areas.undecided), (Some("time"), 1.into()));
+        assert_eq!((map.stopped, map.areas.undecided), (Some(Stop::Cancelled), 1.into()));
     }
 }

@@ -4,7 +4,7 @@ use super::patch::{Patch, PatchSign, Rows};
 use super::{Areas, Axis, BoxMap, BoxVerdict, PlaneBox, Window};
 use crate::stability::plane::curves::{PlanePolynomial, X, Y, boundary_curves};
 use crate::stability::{AtPoint, Shape};
-use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
+use jurist_algebra::limits::{Budget, Exhausted, Stop, parallel_map};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 
@@ -59,7 +59,7 @@ pub fn stability_boxes(
     let mut level = 0;
     while stopped.is_none() && !is_enough(frontier.len(), level, goal) {
         if frontier.len() > MAX_UNDECIDED || level >= MAX_HALVINGS {
-            stopped = Some(format!("boxes ({} undecided, halved {level} times)", frontier.len()));
+            stopped = Some(Stop::Boxes { undecided: frontier.len() as u64, halvings: Some(level) });
             break;
         }
         (frontier, stopped) = search.next_level(frontier, &mut decided, budget);
@@ -80,7 +80,7 @@ pub(super) fn finished(
     window: Window,
     curves: Vec<crate::stability::plane::Curve>,
     mut boxes: Vec<PlaneBox>,
-    stopped: Option<String>,
+    stopped: Option<Stop>,
 ) -> BoxMap {
     let corner = |b: &PlaneBox| (b.window.x[0].clone(), b.window.y[0].clone());
     boxes.sort_by_cached_key(corner);
@@ -204,7 +204,7 @@ impl Search<'_> {
         frontier: Vec<Node>,
         decided: &mut Vec<PlaneBox>,
         budget: &Budget,
-    ) -> (Vec<Node>, Option<String>) {
+    ) -> (Vec<Node>, Option<Stop>) {
         let (mut next, mut stopped) = (Vec::new(), None);
         let mut rest = frontier.into_iter();
         // A box whose turn comes too late stays as it is.
@@ -220,7 +220,7 @@ impl Search<'_> {
                     Ok(tested) => tested.into_iter().for_each(|t| self.sort_out(t, decided, &mut next)),
                     Err((node, exhausted)) => {
                         next.push(node);
-                        stopped = Some(exhausted.budget);
+                        stopped = Some(exhausted.stop);
                     }
                 }
             }

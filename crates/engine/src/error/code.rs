@@ -1,0 +1,108 @@
+//! The stable codes of diagnostics.
+
+use std::fmt;
+
+/// Makes the enumeration of all codes from pairs of a name and a text.
+macro_rules! codes {
+    ($($name:ident = $text:literal,)+) => {
+        /// The stable code of a diagnostic: an error (`E-`) or a warning (`W-`). `Display` writes it as users see it.
+        ///
+        /// ```
+        /// use jurist_engine::error::Code;
+        /// assert_eq!(Code::UnknownName.to_string(), "E-unknown-name");
+        /// assert!(Code::ALL.contains(&Code::UnusedWarning));
+        /// ```
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum Code {
+            $(#[doc = concat!("`", $text, "`: its meaning is in [`code_list`](super::code_list).")] $name,)+
+        }
+
+        impl Code {
+            /// All codes, sorted by their text.
+            pub const ALL: &[Code] = &[$(Code::$name),+];
+
+            /// The code as users see it, such as `E-unknown-name`.
+            pub const fn as_str(self) -> &'static str {
+                match self {
+                    $(Code::$name => $text,)+
+                }
+            }
+        }
+    };
+}
+
+codes! {
+    AlgebraicLoop = "E-algebraic-loop",
+    Coq = "E-coq",
+    Cut = "E-cut",
+    Cycle = "E-cycle",
+    DeadTime = "E-dead-time",
+    Discretize = "E-discretize",
+    DivisionByZero = "E-division-by-zero",
+    DuplicateKey = "E-duplicate-key",
+    DuplicateName = "E-duplicate-name",
+    EmptyDomain = "E-empty-domain",
+    Exponent = "E-exponent",
+    Function = "E-function",
+    Improper = "E-improper",
+    Internal = "E-internal",
+    KeptAndSet = "E-kept-and-set",
+    KeptTwice = "E-kept-twice",
+    Missing = "E-missing",
+    Name = "E-name",
+    NoCertificate = "E-no-certificate",
+    NoPage = "E-no-page",
+    NoRootLocus = "E-no-root-locus",
+    NoStates = "E-no-states",
+    NoValue = "E-no-value",
+    NotANumber = "E-not-a-number",
+    NotLinear = "E-not-linear",
+    NotPolynomial = "E-not-polynomial",
+    Number = "E-number",
+    OptionValue = "E-option-value",
+    OutputFormat = "E-output-format",
+    OutputName = "E-output-name",
+    Read = "E-read",
+    Region = "E-region",
+    Require = "E-require",
+    ReservedName = "E-reserved-name",
+    Resume = "E-resume",
+    SetTwice = "E-set-twice",
+    Simulation = "E-simulation",
+    Size = "E-size",
+    Syntax = "E-syntax",
+    Tolerance = "E-tolerance",
+    Toml = "E-toml",
+    TooDeep = "E-too-deep",
+    TooLarge = "E-too-large",
+    TwoDrivers = "E-two-drivers",
+    TwoForms = "E-two-forms",
+    Type = "E-type",
+    Undefined = "E-undefined",
+    UnknownCode = "E-unknown-code",
+    UnknownKey = "E-unknown-key",
+    UnknownName = "E-unknown-name",
+    UnknownParameter = "E-unknown-parameter",
+    UnknownSignal = "E-unknown-signal",
+    UnknownTemplate = "E-unknown-template",
+    Usage = "E-usage",
+    Utf8 = "E-utf8",
+    Value = "E-value",
+    Write = "E-write",
+    CertificateWarning = "W-certificate",
+    DomainWarning = "W-domain",
+    NotMetWarning = "W-not-met",
+    OutsideDomainWarning = "W-outside-domain",
+    OwnMeaningWarning = "W-own-meaning",
+    RequireWarning = "W-require",
+    RuleWarning = "W-rule",
+    SampleTimesWarning = "W-sample-times",
+    UnusedWarning = "W-unused",
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
+    }
+}
