@@ -132,6 +132,17 @@ fn on_a_line_the_map_says_what_the_set_of_one_parameter_says() {
     }
 }
 
+/// `|1 + K/(s + a)|^2 - 1` is `K (K + 2 a)` over a positive number: all frequencies pass a modulus margin of 1 at once.
+#[test]
+fn a_modulus_margin_ends_where_all_frequencies_pass_it_at_once() {
+    let text = "time = 'continuous'\n[parameters]\nK = { nominal = 1 }\na = { nominal = 1, min = 0 }\n[loop]\ninputs = ['r']\n\
+                outputs = ['y']\n[[block]]\nname = 'L'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/(s + a)'\n";
+    let answer = required(&load(text), &["K", "a"], &[Requirement::modulus_margin(number("1")).unwrap()]);
+    for (k, is_required) in [("-1/2", false), ("-1/1000", false), ("1/1000", true), ("3", true)] {
+        assert_eq!(met(&answer, &number(k), &number("1")), Some(if is_required { vec![0] } else { Vec::new() }), "{k}");
+    }
+}
+
 /// `s^2 + a s + b` has damping `a/(2 sqrt b)`: 1/2 for `b = a^2`.
 #[test]
 fn a_damping_is_a_parabola() {
