@@ -39,8 +39,17 @@ const MOST_OF_CHECKERS: u64 = 1 << 15;
 pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error> {
     let algebra = problem.algebra_over_symbols(budget)?;
     let symbols = algebra.symbols();
-    if symbols.is_moving() || symbols.is_written() || !symbols.delays().is_empty() {
-        return Err(no_certificate("no certificate: the loop has functions that no checker knows there"));
+    let why = if symbols.is_written() {
+        Some("the model has pi or a function in it (a sample time of pi/2, a gain of sqrt(2))")
+    } else if symbols.is_moving() {
+        Some("the parameter is inside of the exponentials of a held block")
+    } else if !symbols.delays().is_empty() {
+        Some("the loop has dead time beside functions")
+    } else {
+        None
+    };
+    if let Some(why) = why {
+        return Err(no_certificate(format!("no certificate: {why}, which no checker knows there")));
     }
     if !problem.positive().is_empty() {
         return Err(no_certificate(
