@@ -5,16 +5,14 @@ use super::decompose::Branch;
 use super::glue::{Links, Wall, cell_of, separates};
 use super::ground::{Corner, Ground, Projected, put};
 use super::over_symbols::{OverSymbols, in_one};
+use crate::precisions::TOUCHING_CELLS;
 use crate::stability::Range;
 use jurist_algebra::ball::{Ball, common_root};
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, simplest_between};
 use jurist_algebra::real::Real;
 use std::collections::BTreeMap;
-
-/// Bits of nearness to the wall, beyond those of the first trials.
-const BITS: [u64; 3] = [64, 128, 256];
 
 /// All pairs of cells that touch along a piece of a wall, beyond those that clear segments showed.
 ///
@@ -41,7 +39,7 @@ pub(super) fn links_over_symbols(
         return Ok(links);
     }
     let mut open = pairs.to_vec();
-    for bits in BITS {
+    for bits in TOUCHING_CELLS.bits() {
         let near = Near::new(wall, bits, budget)?;
         for (cells, y) in near.clear.iter() {
             if open.contains(cells) {
@@ -61,7 +59,7 @@ pub(super) fn links_over_symbols(
         open = left;
     }
     let place = wall.value.decimal(10);
-    Err(Exhausted::new(Stop::Precision(BITS[2]), format!("whether cells touch at x = {place}")))
+    Err(TOUCHING_CELLS.exhausted(format!("whether cells touch at x = {place}")))
 }
 
 /// The neighbourhood of a wall.
