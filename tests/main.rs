@@ -34,6 +34,7 @@ mod models {
 
 /// Whole loops in one parameter, beyond what the corpus says of them.
 mod loops {
+    mod circles;
     mod corridor;
     mod dead_time;
     mod dead_time_margins;

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from ._errors import undecided
 from ._exact import Exact, text_of
-from ._question import REQUIREMENTS, Bounds, Listener, bound, listener, requirement_text, warn
+from ._question import Bounds, Listener, bound, listener, requirement_text, warn
+from ._requirements import REQUIREMENTS
 
 if TYPE_CHECKING:
     from . import _jurist

@@ -149,16 +149,21 @@ class Margins(Document):
     @property
     def modulus(self) -> Peak | None:
         """The least distance of the open loop from -1."""
-        return self._peak("value")
+        return self._peak("modulus", "value")
 
     @property
     def peak_sensitivity(self) -> Peak | None:
         """Its inverse: the greatest modulus of the sensitivity."""
-        return self._peak("peak_sensitivity")
+        return self._peak("modulus", "peak_sensitivity")
 
-    def _peak(self, name: str) -> Peak | None:
-        found = self._document["modulus"]
-        value = None if found is None else self._number("modulus", name)
+    @property
+    def peak_complementary(self) -> Peak | None:
+        """The greatest modulus of the complementary sensitivity."""
+        return self._peak("complementary", "peak")
+
+    def _peak(self, part: str, name: str) -> Peak | None:
+        found = self._document[part]
+        value = None if found is None else self._number(part, name)
         return None if value is None else Peak(value, found["attained"], At._of(found))
 
     @property

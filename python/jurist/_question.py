@@ -10,16 +10,13 @@ from typing import Any, NamedTuple, TypedDict
 
 from ._errors import JuristWarning
 from ._exact import Exact, text_of
+from ._requirements import Requiring
 
 Bounds = tuple["Exact | None", "Exact | None"]
 """An open interval; `None` is no bound."""
 
 Listener = Callable[[str, "float | None"], None]
 """Told the name of a step and the share done."""
-
-
-REQUIREMENTS = ("gain_margin", "phase_margin", "modulus_margin", "delay_margin", "damping", "settling_time")
-"""What may be required beyond stability, named as the program's options."""
 
 
 class Waiting(TypedDict, total=False):
@@ -30,17 +27,11 @@ class Waiting(TypedDict, total=False):
     digits: int
 
 
-class Asking(Waiting, total=False):
-    """What a question of stability takes besides its own arguments."""
+class Asking(Waiting, Requiring, total=False):
+    """What a question of stability takes besides its own arguments, and a keyword for each requirement."""
 
     radius: Exact | None
     decay: Exact | None
-    gain_margin: Exact | None
-    phase_margin: Exact | None
-    modulus_margin: Exact | None
-    delay_margin: Exact | None
-    damping: Exact | None
-    settling_time: Exact | None
     at: str | None
 
 

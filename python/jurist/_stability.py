@@ -51,8 +51,8 @@ class StabilityQuestions(Asker):
 
             ``radius``, ``decay`` : exact number
                 Asks for all ``|z| < radius`` (discrete time), or all ``Re s < -decay`` (continuous time).
-            ``gain_margin``, ``phase_margin``, ``modulus_margin``, ``delay_margin``, ``damping``, ``settling_time`` : number or str
-                Requirements as on the command line: ``"6 dB"``, ``"45 deg"``, ``"1/2"``. The set is that of the values which meet all.
+            ``phase_margin``, ``gain_margin``, and every other requirement : number or str
+                As on the command line: ``"6 dB"``, ``"45 deg"``, ``"1/2"``. The set is that of the values which meet all.
             ``at`` : str
                 The signal at which the loop is cut for margins.
             ``timeout`` : float

@@ -107,6 +107,8 @@ def test_every_kind_of_answer_is_the_programs_document(command, ask, drive):
     ("words", "ask"),
     [
         (["intervals", "--param", "K_pwm", "--modulus-margin=1/2"], lambda loop: loop.intervals("K_pwm", modulus_margin="1/2", at="V_a")),
+        (["intervals", "--param", "K_pwm", "--complementary-peak=3/2"], lambda loop: loop.intervals("K_pwm", complementary_peak="3/2", at="V_a")),
+        (["intervals", "--param", "K_pwm", "--disk-margin=1/2"], lambda loop: loop.intervals("K_pwm", disk_margin="1/2", at="V_a")),
         (["intervals", "--param", "K_pwm", "--gain-margin=6 dB"], lambda loop: loop.intervals("K_pwm", gain_margin="6 dB", at="V_a")),
         (["verdict", "--gain-margin=2"], lambda loop: loop.verdict(gain_margin=2, at="V_a")),
         (["margins"], lambda loop: loop.margins("V_a")),

@@ -2,56 +2,67 @@
 
 use super::arguments::RegionOptions;
 use super::commands::Context;
-use clap::Args;
+use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
 use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
-use jurist_engine::response::Requirements;
+use jurist_engine::response::{RequirementKind, Requirements};
+use std::sync::LazyLock;
 
-/// What is required beyond stability.
-#[derive(Args, Clone, Debug, Default)]
+/// What is required beyond stability, with an option for each requirement of the engine's list.
+#[derive(Clone, Debug, Default)]
 pub(super) struct RequirementOptions {
-    /// Asks for a gain margin both ways: '6 dB' or a factor
-    #[arg(long, value_name = "MARGIN")]
-    pub gain_margin: Option<String>,
-    /// Asks for a phase margin: '45 deg'
-    #[arg(long, value_name = "ANGLE")]
-    pub phase_margin: Option<String>,
-    /// Asks for a modulus margin: the least |1 + L|
-    #[arg(long, value_name = "NUMBER")]
-    pub modulus_margin: Option<String>,
-    /// Asks for a delay margin: dead time in units of time (points only)
-    #[arg(long, value_name = "TIME")]
-    pub delay_margin: Option<String>,
-    /// Asks for a settling time: a decay of 4 over it, in discrete time a radius of exp(-4 T/time)
-    #[arg(long, value_name = "TIME")]
-    pub settling_time: Option<String>,
-    /// Asks for a damping of all roots, in discrete time of the roots ln(z)/T
-    #[arg(long, value_name = "NUMBER")]
-    pub damping: Option<String>,
-    /// Where the loop is cut for margins: a signal, or a block (at its input) [default: the error of a single loop]
-    #[arg(long, value_name = "SIGNAL")]
-    pub at: Option<String>,
+    /// Keys of `[require]` with what is given for them.
+    given: Vec<(&'static str, String)>,
+}
+
+/// The key that says where the loop is cut.
+const AT: &str = "at";
+
+/// The keys of `[require]` that have an option here, each with its option.
+static OPTIONS: LazyLock<Vec<(&str, Arg)>> = LazyLock::new(|| {
+    let at = Arg::new(AT).long(AT).value_name("SIGNAL").help(
+        "Where the loop is cut for margins: a signal, or a block (at its input) [default: the error of a single loop]",
+    );
+    let mut options = Vec::new();
+    for kind in RequirementKind::all() {
+        let Some(option) = kind.option else { continue };
+        // Names of options live as long as the program.
+        let long: &'static str = kind.name.replace('_', "-").leak();
+        options.push((kind.name, Arg::new(kind.name).long(long).value_name(option.value).help(option.help)));
+    }
+    options.push((AT, at));
+    options
+});
+
+impl Args for RequirementOptions {
+    fn augment_args(command: Command) -> Command {
+        command.args(OPTIONS.iter().map(|(_, option)| option))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for RequirementOptions {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let given = OPTIONS.iter().filter_map(|(key, _)| Some((*key, matches.get_one::<String>(key)?.clone())));
+        Ok(RequirementOptions { given: given.collect() })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
 }
 
 impl RequirementOptions {
-    /// The keys of `[require]` that the options stand for, with what is given.
-    fn given(&self) -> [(&'static str, &Option<String>); 7] {
-        [
-            ("at", &self.at),
-            ("gain_margin", &self.gain_margin),
-            ("phase_margin", &self.phase_margin),
-            ("modulus_margin", &self.modulus_margin),
-            ("delay_margin", &self.delay_margin),
-            ("damping", &self.damping),
-            ("settling_time", &self.settling_time),
-        ]
-    }
-
     /// An option that requires something, if one does.
     pub fn first(&self) -> Option<String> {
-        let mut given = self.given().into_iter().rev().filter(|(_, text)| text.is_some());
-        given.next().map(|(key, _)| format!("--{}", key.replace('_', "-")))
+        let is_at = |key: &str| key == AT;
+        let last = self.given.iter().rev().find(|(key, _)| !is_at(key)).or(self.given.last());
+        last.map(|(key, _)| format!("--{}", key.replace('_', "-")))
     }
 
     /// What the model's `[require]` and the command line ask for together, and the question with the region that follows.
@@ -63,8 +74,9 @@ impl RequirementOptions {
         context: &Context,
     ) -> Result<(Requirements, Question), Error> {
         let own = [("decay", &region.decay), ("radius", &region.radius)];
+        let own = own.into_iter().filter_map(|(name, text)| Some((name, text.as_deref()?)));
         let further: Vec<(&str, &str)> =
-            self.given().into_iter().chain(own).filter_map(|(name, text)| Some((name, text.as_deref()?))).collect();
+            self.given.iter().map(|(name, text)| (*name, text.as_str())).chain(own).collect();
         // A region alone is the question's own.
         let asks = further.iter().any(|(name, _)| !["decay", "radius"].contains(name));
         if !asks && model.require().is_empty() {
@@ -86,9 +98,6 @@ impl RequirementOptions {
     }
 }
 
-/// Requirements of which a list asks for several at once, each for itself.
-const LISTED: [&str; 4] = ["gain_margin", "phase_margin", "modulus_margin", "damping"];
-
 impl RequirementOptions {
     /// As [`RequirementOptions::asked`], with lists such as `30 deg, 45 deg`: those with the same name stand together.
     pub fn asked_each(
@@ -100,12 +109,12 @@ impl RequirementOptions {
     ) -> Result<(Requirements, Question), Error> {
         let mut first = self.clone();
         let mut further: Vec<(&str, String)> = Vec::new();
-        let listed = [&mut first.gain_margin, &mut first.phase_margin, &mut first.modulus_margin, &mut first.damping];
-        for (name, text) in LISTED.into_iter().zip(listed) {
-            let Some(list) = text.take() else { continue };
+        for kind in RequirementKind::all().iter().filter(|kind| kind.is_listed) {
+            let Some((_, text)) = first.given.iter_mut().find(|(name, _)| *name == kind.name) else { continue };
+            let list = std::mem::take(text);
             let mut parts = list.split(',').map(|part| part.trim().to_owned());
-            *text = parts.next();
-            further.extend(parts.map(|part| (name, part)));
+            *text = parts.next().unwrap_or_default();
+            further.extend(parts.map(|part| (kind.name, part)));
         }
         let (mut asked, question) = first.asked(model, question, region, context)?;
         if !further.is_empty() {

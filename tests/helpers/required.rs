@@ -13,8 +13,8 @@ pub enum Known {
     Gain(Rational),
     /// `tan(phi/2)^2`.
     Phase(Rational),
-    /// The least `|1 + L|`.
-    Modulus(Rational),
+    /// The least `|1 + L|/|u + v L|`, with `u` and `v`.
+    Circle([i64; 2], Rational),
 }
 
 /// What the open loop is at a point, decided by stable sets of factors and rotations and by counts on the boundary; the
@@ -50,14 +50,15 @@ pub fn is_met(model: &Model, values: &[(&str, &Rational)], at: Option<&str>, req
             let (sum, difference) = (d.plus(n), d.minus(n));
             whole(&sum.times(&sum), &difference.times(&difference), Rational::ZERO, square.clone())
         }
-        Known::Modulus(m) => {
+        Known::Circle([u, v], m) => {
             let degree = d.coeffs().len().max(n.coeffs().len()) - 1;
             let squared = |p: &UniPoly| match shape {
                 jurist_engine::stability::Shape::UnitDisc => p.times(&p.reversed(degree)),
                 jurist_engine::stability::Shape::LeftHalfPlane => p.times(&p.negated_argument()),
             };
             let (p, q) = (m.numerator(), m.denominator());
-            let excess = squared(&d.plus(n)).scaled(&(&q * &q)).minus(&squared(d).scaled(&(&p * &p)));
+            let combined = d.scaled(&(*u).into()).plus(&n.scaled(&(*v).into()));
+            let excess = squared(&d.plus(n)).scaled(&(&q * &q)).minus(&squared(&combined).scaled(&(&p * &p)));
             // Somewhere above: at frequency 0, unless both vanish there.
             let x = Rational::from(i64::from(matches!(shape, jurist_engine::stability::Shape::UnitDisc)));
             count_roots(&excess, shape).on == 0 && excess.eval_rational(&x).sign().is_gt()

@@ -173,6 +173,9 @@ proptest! {
         prop_assume!(n.degree() <= d.degree());
         let asked = closed(&d, &n, time, "").ask();
         let peak = asked.norm("r", "y", &Budget::unlimited()).unwrap().into_value().peak.unwrap();
+        // From r to y goes the complementary sensitivity.
+        let own = margins(&d, &n, time).stable.unwrap().peak_complementary;
+        prop_assert!(own.compare(&peak.value, &Budget::unlimited()).unwrap().is_eq());
         let (lo, hi) = peak.value.refined_to_digits(12).enclosure();
         let step = &lo * &Rational::dyadic(&Integer::ONE, 40);
         let degree = d.coeffs().len().max(n.coeffs().len()) - 1;

@@ -112,3 +112,34 @@ fn a_norm_with_dead_time_in_the_feedback_is_refused_as_a_norm() {
     assert!(first.message.starts_with("the peak gain") && !first.message.contains("open loop"), "{}", first.message);
     assert!(!first.help.as_ref().unwrap().contains("--param GAIN"));
 }
+
+/// At a zero of the open loop on the axis it is 0, and crosses the negative real axis at no factor.
+#[test]
+fn a_loop_with_dead_time_and_a_zero_on_the_axis_has_margins() {
+    let model = load(
+        "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'L'\ninput = 'r - y'\n\
+         output = 'y'\ntransfer = '3*(s^2 + 4)*exp(-s/10)/(s + 2)^3'\n",
+    );
+    let budget = Budget::unlimited().within_work(20_000_000);
+    let answer = model.ask().margins(None, &Rational::ZERO, &budget).unwrap_or_else(|e| panic!("{e}"));
+    let margins = stable(&answer);
+    // Least values over a million frequencies, in floating point.
+    let of = |w: f64| {
+        let (n, d) = (3.0 * (4.0 - w * w), (8.0 - 6.0 * w * w, 12.0 * w - w * w * w));
+        let (size, turn) = (n / d.0.hypot(d.1), -d.1.atan2(d.0) - w / 10.0);
+        (size * turn.cos(), size * turn.sin())
+    };
+    let least = |f: &dyn Fn((f64, f64)) -> f64| {
+        (1..1_000_000).map(|k| f(of(f64::from(k) / 3e3))).min_by(f64::total_cmp).unwrap()
+    };
+    let modulus: f64 = margins.modulus.decimal(12).parse().unwrap();
+    assert!((least(&|l| (1.0 + l.0).hypot(l.1)) - modulus).abs() < 1e-6, "{modulus}");
+    let peak: f64 = margins.peak_complementary.decimal(12).parse().unwrap();
+    assert!((least(&|l| (1.0 + l.0).hypot(l.1) / l.0.hypot(l.1)) - 1.0 / peak).abs() < 1e-6, "{peak}");
+    // Sign changes of the imaginary part where the real part is negative, down to a hundredth.
+    let crossings = (1..1_000_000).filter(|k| {
+        let [a, b] = [f64::from(k - 1), f64::from(*k)].map(|k| of(k / 3e3));
+        a.1 * b.1 < 0.0 && b.0 < -0.01
+    });
+    assert_eq!(answer.value().crossings.phase.len(), crossings.count());
+}

@@ -38,8 +38,11 @@ fn sets_of_a_gain_agree_with_a_second_decision_at_random_points() {
             (Requirement::phase_margin(&number("90")), Known::Phase(ratio(1, 1))),
             (Requirement::gain_margin(&number("2")), Known::Gain(number("2"))),
             (Requirement::gain_margin(&number("5/4")), Known::Gain(number("5/4"))),
-            (Requirement::modulus_margin(number("1/2")), Known::Modulus(number("1/2"))),
-            (Requirement::modulus_margin(number("3/4")), Known::Modulus(number("3/4"))),
+            (Requirement::modulus_margin(number("1/2")), Known::Circle([1, 0], number("1/2"))),
+            (Requirement::modulus_margin(number("3/4")), Known::Circle([1, 0], number("3/4"))),
+            (Requirement::complementary_peak(number("5/4")), Known::Circle([0, 1], number("4/5"))),
+            (Requirement::disk_margin(number("3/4")), Known::Circle([1, -1], number("3/8"))),
+            (Requirement::complementary_peak(number("2")), Known::Circle([0, 1], number("1/2"))),
         ] {
             let requirement = requirement.unwrap();
             let answer = required(&model, name, None, &[requirement]);

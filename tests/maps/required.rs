@@ -67,11 +67,19 @@ fn cells_of_a_map_agree_with_a_second_decision_at_random_points() {
     let mut random = Random::new(12);
     for (text, names, scales) in [(PI, ["K_p", "K_i"], [6, 9]), (SAMPLED, ["K", "b"], [2, 1])] {
         let model = load(text);
-        let known = [Known::Gain(number("3/2")), Known::Phase(ratio(1, 3)), Known::Modulus(number("1/2"))];
+        let known = [
+            Known::Gain(number("3/2")),
+            Known::Phase(ratio(1, 3)),
+            Known::Circle([1, 0], number("1/2")),
+            Known::Circle([0, 1], number("2/3")),
+            Known::Circle([1, -1], number("1/4")),
+        ];
         let requirements = [
             Requirement::gain_margin(&number("3/2")).unwrap(),
             Requirement::phase_margin(&number("60")).unwrap(),
             Requirement::modulus_margin(number("1/2")).unwrap(),
+            Requirement::complementary_peak(number("3/2")).unwrap(),
+            Requirement::disk_margin(number("1/2")).unwrap(),
         ];
         let answer = required(&model, &names, &requirements);
         let mut seen = [0; 2];

@@ -43,12 +43,14 @@ fn is_met(answer: &Answer<ToleranceAnswer>, requirement: &Requirement, point: &[
     }
 }
 
-const MARGINS: [(&str, &str); 6] = [
+const MARGINS: [(&str, &str); 8] = [
     ("phase_margin", "45 deg"),
     ("phase_margin", "60"),
     ("gain_margin", "6 dB"),
     ("gain_margin", "5"),
     ("modulus_margin", "0.6"),
+    ("complementary_peak", "1.3"),
+    ("disk_margin", "0.6"),
     ("damping", "0.5"),
 ];
 
@@ -158,6 +160,27 @@ fn a_nominal_point_that_does_not_meet_a_requirement_has_no_factor() {
     assert!(answer.value().factor.is_none());
     let BoxDecision::NotStable { witness: Some(witness) } = &answer.value().decision else { panic!("a witness") };
     assert_eq!(witness.point, [number("3"), number("1/5")]);
+}
+
+/// `0.1/z`: `|1 + L|` is from 0.9 to 1.1, so that the open loop crosses no circle of radius 2, inside of which it lies.
+#[test]
+fn an_open_loop_inside_of_the_circle_does_not_have_the_modulus_margin() {
+    let model = load(
+        "time = 'discrete'\n[parameters]\nK = { nominal = '1/10', tolerance = '50%' }\n[loop]\ninputs = ['r']\n\
+         outputs = ['y']\n[[block]]\nname = 'L'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/z'\n",
+    );
+    for (least, is_met) in [("1/2", true), ("2", false)] {
+        let requirement = requirement(&model, "modulus_margin", least);
+        let answer = asked(&model, &request(&model, &["K"], requirement));
+        match &answer.value().decision {
+            BoxDecision::Stable(_) => assert!(is_met, "{least}"),
+            BoxDecision::NotStable { witness } => {
+                assert!(!is_met && answer.value().factor.is_none(), "{least}");
+                assert_eq!(witness.as_ref().expect("a point").point, [number("1/10")]);
+            }
+            other => panic!("{least}: {other:?}"),
+        }
+    }
 }
 
 #[test]

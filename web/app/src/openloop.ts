@@ -149,6 +149,7 @@ export class OpenLoopPlot {
     add("delay margin", delay && (delay.unbounded ? "unlimited" : delay.seconds != null ? `${delay.seconds} s` : delay.samples != null ? `${delay.at_least ? "at least " : ""}${delay.samples} samples` : null), delay);
     add("modulus margin, min |1 + L|", found.modulus?.value?.decimal, found.modulus);
     add("peak of the sensitivity", found.modulus?.peak_sensitivity?.decimal, found.modulus);
+    add("peak of the complementary sensitivity", found.complementary?.peak?.decimal, found.complementary);
     add("disk margin", found.disk?.alpha?.decimal, found.disk);
     for (const c of found.crossings?.gain ?? []) add("crossing |L| = 1", `phase margin ${c.phase_margin_degrees}°`, c);
     for (const c of found.crossings?.phase ?? []) add("crossing L < 0", `factor ${c.factor}`, c);

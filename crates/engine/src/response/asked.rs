@@ -1,9 +1,9 @@
 //! All that is required of a loop: by its model file, and by who asks.
 
-use super::Requirement;
-use crate::error::{Code, Diagnostic, Diagnostics, Error, Span};
-use crate::model::{Expression, Model, Time};
-use crate::problem::{Bound, Region};
+use super::requirement::{Meaning, Requirement, RequirementKind, Written, not_understood};
+use crate::error::{Diagnostics, Error, Span};
+use crate::model::{Expression, Model};
+use crate::problem::Region;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 
@@ -42,10 +42,6 @@ impl Requirements {
     }
 }
 
-/// The keys of requirements on numbers, in the order in which they are listed.
-const ORDER: [&str; 8] =
-    ["gain_margin", "phase_margin", "modulus_margin", "delay_margin", "damping", "decay", "radius", "settling_time"];
-
 /// One requirement as a text, and where it stands in the model file.
 struct Asked<'a> {
     text: &'a str,
@@ -75,67 +71,34 @@ impl Model {
             option.or_else(|| written().map(|r| Asked { text: &r.text, place: Some(r.span) }))
         };
         let mut out = Requirements { at: of("at").map(|a| a.text.to_owned()), ..Requirements::default() };
-        for name in ORDER {
-            let Some(asked) = of(name) else { continue };
-            let known = out.list.len();
-            self.add(&mut out, name, asked.text, values, budget).map_err(|error| self.placed(error, asked.place))?;
-            if out.list.len() == known {
-                out.regional.push((name.to_owned(), asked.text.to_owned()));
+        for kind in RequirementKind::all() {
+            let Some(asked) = of(kind.name) else { continue };
+            let meaning = self.meaning(kind, asked.text, out.region.as_ref(), values, budget);
+            match meaning.map_err(|error| self.placed(error, asked.place))? {
+                Meaning::Requirement(requirement) => out.list.push(requirement),
+                Meaning::Region(region) => {
+                    out.region = Some(region);
+                    out.regional.push((kind.name.to_owned(), asked.text.to_owned()));
+                }
             }
         }
         Ok(out)
     }
 
-    fn add(
+    fn meaning(
         &self,
-        out: &mut Requirements,
-        name: &str,
+        kind: &RequirementKind,
         text: &str,
+        region: Option<&Region>,
         values: &[(String, Rational)],
         budget: &Budget,
-    ) -> Result<(), Error> {
-        let (number, unit) = without_unit(name, text);
+    ) -> Result<Meaning, Error> {
+        let (number, unit) = kind.split(text);
         let expression =
-            Expression::parse(number).map_err(|_| not_understood(name, "a number with its unit is needed"))?;
+            Expression::parse(number).map_err(|_| not_understood(kind.name, "a number with its unit is needed"))?;
         let value = self.value(&expression, values, budget)?;
-        match (name, self.time()) {
-            ("gain_margin", _) if unit.is_some() => {
-                out.list.push(Requirement::gain_margin_in_decibels(&value, budget)?);
-            }
-            ("gain_margin", _) => out.list.push(Requirement::gain_margin(&value)?),
-            ("phase_margin", _) => out.list.push(Requirement::phase_margin(&value)?),
-            ("modulus_margin", _) => out.list.push(Requirement::modulus_margin(value)?),
-            ("delay_margin", _) => out.list.push(Requirement::delay_margin(value)?),
-            ("damping", _) => out.list.push(Requirement::damping(value)?),
-            ("radius", Time::Discrete) => out.region = Some(Region::disc(value)?),
-            ("decay", Time::Continuous) => out.region = Some(Region::half_plane(value)),
-            ("radius", _) => return Err(not_understood(name, "a radius is required of discrete loops")),
-            ("decay", _) => return Err(not_understood(name, "a decay rate is required of continuous loops")),
-            ("settling_time", time) => {
-                if !value.sign().is_gt() {
-                    return Err(not_understood(name, "a settling time is above 0"));
-                }
-                let rate = Rational::from(4).checked_div(&value).expect("positive");
-                match time {
-                    Time::Continuous => {
-                        let least = match out.region.as_ref().map(Region::bound) {
-                            Some(Bound::Number(decay)) => decay.clone().max(rate),
-                            _ => rate,
-                        };
-                        out.region = Some(Region::half_plane(least));
-                    }
-                    Time::Discrete => {
-                        let Some(step) = self.sample_time_expression() else {
-                            return Err(not_understood(name, "a settling time needs the loop's sample time"));
-                        };
-                        let step = self.value(step, values, budget)?;
-                        out.list.push(Requirement::settling_time(value, &step)?);
-                    }
-                }
-            }
-            _ => return Err(not_understood(name, "not known")),
-        }
-        Ok(())
+        let sample_time = || self.sample_time_expression().map(|step| self.value(step, values, budget)).transpose();
+        kind.meaning(&Written { value, unit, time: self.time(), region, sample_time: &sample_time, budget })
     }
 
     /// The error with its place in the model file.
@@ -150,24 +113,5 @@ impl Model {
             }
             (error, _) => error,
         }
-    }
-}
-
-fn not_understood(name: &str, why: &str) -> Error {
-    Diagnostic::error(Code::Require, format!("{name}: {why}")).into()
-}
-
-/// The number of a text, and its unit: decibels. Degrees are those of a number without unit.
-fn without_unit<'t>(name: &str, text: &'t str) -> (&'t str, Option<&'static str>) {
-    let text = text.trim();
-    let units: &[&'static str] = match name {
-        "gain_margin" => &["dB"],
-        "phase_margin" => &["degrees", "deg", "°"],
-        _ => &[],
-    };
-    match units.iter().find_map(|unit| Some((text.strip_suffix(unit)?.trim_end(), *unit))) {
-        Some((number, "dB")) => (number, Some("dB")),
-        Some((number, _)) => (number, None),
-        None => (text, None),
     }
 }

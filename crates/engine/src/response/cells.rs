@@ -2,7 +2,7 @@
 
 use super::family::{Boundaries, Family};
 use super::met::AtPoint;
-use super::requirement::Requirement;
+use super::requirement::{Requirement, Rule};
 use super::{RequiredEnd, RequiredInterval};
 use crate::error::Error;
 use crate::problem::Problem;
@@ -80,20 +80,19 @@ impl Cells<'_> {
         Ok(out)
     }
 
-    /// Whether at a zero beyond which some are not met all are met yet. A modulus margin and a damping are continuous where the
+    /// Whether at a zero beyond which some are not met all are met yet. The distance to a circle and a damping are continuous where the
     /// loop is stable, and so is a phase margin unless a crossing appears; a gain margin asks for stability at its own ends too.
     fn is_closed(&self, zero: &Real, names: &[&'static str]) -> Result<bool, Error> {
         let unmet = |r: &Requirement| names.contains(&r.name());
         let mut closed = true;
         for (requirement, boundary) in self.requirements.iter().zip(self.boundaries).filter(|(r, _)| unmet(r)) {
-            closed &= match requirement {
-                Requirement::GainMargin { .. } => false,
-                Requirement::PhaseMargin { .. } => {
+            closed &= match requirement.rule() {
+                Rule::Factors(_) => false,
+                Rule::Turned { .. } => {
                     let touches = |x: &RealAlgebraic| x.sign_of(&boundary.touches).is_eq();
                     !self.budget.enter(|| zero.algebraic().is_some_and(touches))?
                 }
-                Requirement::ModulusMargin(_) | Requirement::Damping(_) => true,
-                Requirement::SettlingTime { .. } | Requirement::DelayMargin(_) => true,
+                Rule::Circle(_) | Rule::Sector(_) | Rule::Modulus { .. } | Rule::DeadTime(_) => true,
             };
         }
         Ok(closed)

@@ -23,6 +23,7 @@ use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, MovingSymbols};
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// The rational factor of the open loop and its dead time.
@@ -61,11 +62,10 @@ impl<'a> DeadTime<'a> {
         along.plus(&turned.times(&MultiPoly::variable(2)))
     }
 
-    /// Twice its imaginary part.
-    fn twice_imaginary(&self) -> MultiPoly {
-        let r = &self.parts.reduced;
-        let turned = DeadTime::in_omega(&r.imaginary).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
-        turned.times(&MultiPoly::variable(1)).minus(&DeadTime::in_omega(&r.twice_real).times(&MultiPoly::variable(2)))
+    /// Twice its imaginary part, from twice the real part of `N conj(D0)` and from the imaginary part over `omega`.
+    fn twice_imaginary(along: &UniPoly, across: &UniPoly) -> MultiPoly {
+        let turned = DeadTime::in_omega(across).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
+        turned.times(&MultiPoly::variable(1)).minus(&DeadTime::in_omega(along).times(&MultiPoly::variable(2)))
     }
 
     /// The derivative by `omega`, times the denominator of the dead time.
@@ -133,9 +133,15 @@ impl<'a> DeadTime<'a> {
         rational.phase.retain(|c| matches!(c.place, Place::Lowest));
         rational.phase_everywhere = false;
         let end = self.beyond(LISTED, budget)?;
+        // At a zero of the open loop on the axis both parts vanish: no factor makes it -1 there.
+        let r = &self.parts.reduced;
+        let common = budget.enter(|| r.twice_real.gcd(&r.imaginary))?;
+        let [along, across] =
+            [&r.twice_real, &r.imaginary].map(|p| p.div_exact(&common).expect("a gcd divides both parts"));
+        let imaginary = DeadTime::twice_imaginary(&along, &across);
         let real = self.twice_real();
         let below = DeadTime::in_omega(&self.parts.reduced.denominator_squared).scaled_by(&Integer::from(-2));
-        for omega in self.zeros(&self.twice_imaginary(), &end, budget)? {
+        for omega in self.zeros(&imaginary, &end, budget)? {
             let factor = self.quotient(&below, &real, &omega);
             if budget.enter(|| factor.sign())?.is_gt() {
                 rational.phase.push(PhaseCrossing { place: DeadTime::place(&omega), factor: Value::Number(factor) });
@@ -160,13 +166,29 @@ impl<'a> DeadTime<'a> {
         let both = DeadTime::in_omega(&r.numerator_squared.plus(&r.denominator_squared));
         let sum = both.plus(&self.twice_real());
         let denominator = DeadTime::in_omega(&r.denominator_squared);
-        let modulus_at = self.least(&sum, &denominator, |r| Rational::ONE - r, budget)?;
+        let modulus_at = self.extreme([&sum, &denominator], Ordering::Less, |r| Rational::ONE - r, budget)?;
         let square = modulus_at.value().expect("finite somewhere").number(budget)?;
         let modulus = square_root(&square, budget)?;
         let peak_sensitivity = reciprocal(&modulus, budget)?;
+        budget.step("peak of the complementary sensitivity");
+        let numerator = DeadTime::in_omega(&r.numerator_squared);
+        let most = |r: &Rational| r / &(Rational::ONE - r);
+        let complementary_at = self.extreme([&numerator, &sum], Ordering::Greater, most, budget)?;
+        let square = complementary_at.value().expect("no root is on the axis").number(budget)?;
+        let peak_complementary = square_root(&square, budget)?;
         budget.step("disk margin");
         let disk = self.disk(&sum, skew, budget)?;
-        Ok(StableMargins { gain, phase, delay, modulus, peak_sensitivity, modulus_at, disk })
+        Ok(StableMargins {
+            gain,
+            phase,
+            delay,
+            modulus,
+            peak_sensitivity,
+            modulus_at,
+            peak_complementary,
+            complementary_at,
+            disk,
+        })
     }
 
     /// The least angle of all crossings.
@@ -195,13 +217,13 @@ impl<'a> DeadTime<'a> {
         Ok(PhaseMargin::Angle { tangent: Some(Box::new(tangent)), place })
     }
 
-    /// The least value of `above/below`, squares of moduli in `omega`; where the modulus of the open loop is below `r`, the
-    /// root of the quotient is not below `floor(r)`, which grows to its limit as `r` falls.
-    fn least(
+    /// The value of `above/below`, squares of moduli in `omega`, that is `wanted` of all others; where the modulus of the open loop is below
+    /// `r`, the root of the quotient is not beyond `bound(r)`, which goes to its limit as `r` falls.
+    fn extreme(
         &self,
-        above: &MultiPoly,
-        below: &MultiPoly,
-        floor: impl Fn(&Rational) -> Rational,
+        [above, below]: [&MultiPoly; 2],
+        wanted: Ordering,
+        bound: impl Fn(&Rational) -> Rational,
         budget: &Budget,
     ) -> Result<Extreme, Error> {
         let below_zero = Range::between(None, Some(Rational::ZERO));
@@ -226,16 +248,16 @@ impl<'a> DeadTime<'a> {
                 let value = self.quotient(above, below, &omega);
                 let better = match &best {
                     None => true,
-                    Some((_, known)) => value.compare(known, budget)?.is_lt(),
+                    Some((_, known)) => value.compare(known, budget)? == wanted,
                 };
                 if better {
                     best = Some((DeadTime::place(&omega), value));
                 }
             }
-            let least = floor(&Rational::new(Integer::ONE, Integer::from(ratio)));
-            let square = &least * &least;
+            let bound = bound(&Rational::new(Integer::ONE, Integer::from(ratio)));
+            let square = &bound * &bound;
             if let Some((place, value)) = best
-                && budget.enter(|| value.compare_rational(&square).is_lt())?
+                && budget.enter(|| value.compare_rational(&square))? == wanted
             {
                 return Ok(Extreme::At { place, value: Value::Number(value), attained: true });
             }
@@ -263,7 +285,7 @@ impl<'a> DeadTime<'a> {
         }
         let twice = Rational::from(2) * Rational::from(&q);
         let floor = |r: &Rational| &(&twice * &(Rational::ONE - r)) / &(one.abs() + &other * r);
-        let extreme = self.least(&sum.scaled_by(&four), &below, floor, budget)?;
+        let extreme = self.extreme([&sum.scaled_by(&four), &below], Ordering::Less, floor, budget)?;
         let square = extreme.value().expect("finite somewhere").number(budget)?;
         let alpha = Some(square_root(&square, budget)?);
         Ok(DiskMargin { skew: skew.clone(), alpha, extreme: Some(extreme) })

@@ -2,7 +2,7 @@
 
 use super::open_loop::OpenLoop;
 use super::place::{modulus_squared, product};
-use super::requirement::Requirement;
+use super::requirement::{Requirement, Rule};
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{ClosedLoop, Cut, Opened};
 use crate::problem::Problem;
@@ -203,17 +203,17 @@ impl<R: Domain> Quotient<R> {
             false => by.common_root(p, a, b, alpha, budget),
         };
         let at_ends = |p: &Poly<R>| self.at_ends(p).into_iter().map(|f| by.function(f)).collect::<Vec<_>>();
-        Ok(match requirement {
-            Requirement::ModulusMargin(least) => {
-                let (p, q) = (least.numerator(), least.denominator());
-                let excess = squared(&d.plus(&n)).scaled(&R::from_integer(&(&q * &q)));
-                let excess = excess.minus(&below.scaled(&R::from_integer(&(&p * &p))));
-                let excess = budget.enter(|| excess.square_free_part())?;
+        Ok(match requirement.rule() {
+            Rule::Circle(circle) => {
+                let excess = circle.excess(&squared(&d.plus(&n)), &squared(&circle.combination(&d, &n)));
+                // Where the content is zero, all frequencies pass to the other side at once.
+                let (content, excess) = budget.enter(|| (excess.content(), excess.square_free_part()))?;
                 let mut zeros = at_ends(&excess);
+                zeros.extend((!content.is_zero()).then(|| by.function(content)));
                 zeros.push(repeated(&excess)?);
                 Boundaries { zeros, values: Vec::new(), touches: one() }
             }
-            Requirement::PhaseMargin { twice_cosine, .. } => {
+            Rule::Turned { twice_cosine } => {
                 // Modulus one, and the real part is minus the cosine: twice_real + 2 cos |N|^2 = 0. Of a gain, N is a multiple.
                 let above = squared(&n);
                 let excess = above.minus(&below);
@@ -226,7 +226,7 @@ impl<R: Domain> Quotient<R> {
                 zeros.push(repeated(&excess)?);
                 Boundaries { zeros, values: Vec::new(), touches: repeated(&excess)? }
             }
-            Requirement::GainMargin { factor, .. } => {
+            Rule::Factors(factor) => {
                 // Real, and the factor makes it -1: 2 |D0|^2 + k twice_real = 0.
                 let mut zeros = Vec::new();
                 let mut touches = one();
@@ -245,7 +245,7 @@ impl<R: Domain> Quotient<R> {
                 }
                 Boundaries { zeros, values: Vec::new(), touches }
             }
-            Requirement::Damping(_) | Requirement::DelayMargin(_) | Requirement::SettlingTime { .. } => {
+            Rule::Sector(_) | Rule::DeadTime(_) | Rule::Modulus { .. } => {
                 Boundaries { zeros: Vec::new(), values: Vec::new(), touches: one() }
             }
         })

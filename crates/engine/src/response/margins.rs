@@ -67,6 +67,10 @@ pub struct StableMargins {
     pub peak_sensitivity: Real,
     /// Where: the extreme of the square of the modulus margin.
     pub modulus_at: Extreme,
+    /// The peak of the complementary sensitivity `L/(1 + L)`.
+    pub peak_complementary: Real,
+    /// Where: the extreme of its square.
+    pub complementary_at: Extreme,
     /// The disk margin.
     pub disk: DiskMargin,
 }
@@ -238,9 +242,23 @@ impl StableMargins {
         let square = modulus_at.value().expect("the least value is finite").number(budget)?;
         let modulus = square_root(&square, budget)?;
         let peak_sensitivity = reciprocal(&modulus, budget)?;
+        budget.step("peak of the complementary sensitivity");
+        let complementary_at = complementary_extreme(open_loop, budget)?;
+        let square = complementary_at.value().expect("no root is on the boundary").number(budget)?;
+        let peak_complementary = square_root(&square, budget)?;
         budget.step("disk margin");
         let disk = DiskMargin::of(open_loop, skew, budget)?;
-        Ok(StableMargins { gain, phase, delay, modulus, peak_sensitivity, modulus_at, disk })
+        Ok(StableMargins {
+            gain,
+            phase,
+            delay,
+            modulus,
+            peak_sensitivity,
+            modulus_at,
+            peak_complementary,
+            complementary_at,
+            disk,
+        })
     }
 }
 
@@ -310,9 +328,17 @@ impl PhaseMargin {
 }
 
 /// The least value of `|1 + L|^2`.
-pub(super) fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
+fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
     with_parts!(open_loop, parts => {
         let r = &parts.reduced;
         extreme_over(&parts.ground, &r.sum_squared, &r.denominator_squared, parts.shape, Ordering::Less, budget)
+    })
+}
+
+/// The greatest value of `|L/(1 + L)|^2`.
+fn complementary_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
+    with_parts!(open_loop, parts => {
+        let r = &parts.reduced;
+        extreme_over(&parts.ground, &r.numerator_squared, &r.sum_squared, parts.shape, Ordering::Greater, budget)
     })
 }

@@ -1,17 +1,20 @@
 //! Whether a loop meets requirements at a point.
 
 use super::crossings::Crossings;
+use super::extreme::{Extreme, extreme_over};
 use super::ground::{Constants, Ground};
-use super::margins::{GainMargin, PhaseMargin, StableMargins, modulus_extreme};
-use super::open_loop::OpenLoop;
-use super::requirement::{Requirement, in_sector, scaled_by_exponential};
+use super::margins::{GainMargin, Margins, PhaseMargin, StableMargins};
+use super::open_loop::{OpenLoop, with_parts};
+use super::place::modulus_squared;
+use super::requirement::{Circle, Found, Requirement, Rule, in_sector, scaled_by_exponential};
 use super::spiral::OnSpiral;
 use super::value::{Value, square_root};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{MultiPoly, RealAlgebraic, UniPoly};
+use jurist_algebra::poly::{Domain, MultiPoly, RealAlgebraic, UniPoly};
 use jurist_algebra::real::Real;
+use std::cmp::Ordering;
 
 /// A stable loop at a point; each margin is computed once, when it is first asked for.
 pub(super) struct AtPoint<'a> {
@@ -21,57 +24,64 @@ pub(super) struct AtPoint<'a> {
     shape: Shape,
     gain: Option<GainMargin>,
     phase: Option<PhaseMargin>,
-    modulus: Option<Value>,
+    /// Of circles: the least `|1 + L|^2/|u + v L|^2` of each `u` and `v`.
+    circles: Vec<([i64; 2], Option<Value>)>,
 }
 
 impl<'a> AtPoint<'a> {
     pub fn new(open_loop: Option<&'a OpenLoop>, closed: &'a UniPoly, shape: Shape) -> Self {
-        AtPoint { open_loop, closed, shape, gain: None, phase: None, modulus: None }
+        AtPoint { open_loop, closed, shape, gain: None, phase: None, circles: Vec::new() }
     }
 
     /// Whether it meets a requirement.
     pub fn meets(&mut self, requirement: &Requirement, budget: &Budget) -> Result<bool, Exhausted> {
         let cut = || self.open_loop.expect("a margin is taken at a cut");
-        match requirement {
-            Requirement::GainMargin { factor, .. } => {
+        match requirement.rule() {
+            Rule::Factors(factor) => {
                 let gain = match self.gain.take() {
                     Some(gain) => gain,
                     None => GainMargin::of(cut(), budget)?,
                 };
                 has_gain_margin(self.gain.insert(gain), factor, budget)
             }
-            Requirement::PhaseMargin { twice_cosine, .. } => {
+            Rule::Turned { twice_cosine } => {
                 let phase = match self.phase.take() {
                     Some(phase) => phase,
                     None => PhaseMargin::of(cut(), &Crossings::of(cut(), budget)?, budget)?,
                 };
                 has_phase_margin(self.phase.insert(phase), twice_cosine, budget)
             }
-            Requirement::ModulusMargin(least) => {
-                let modulus = match self.modulus.take() {
-                    Some(modulus) => modulus,
-                    None => modulus_extreme(cut(), budget)?.value().expect("finite somewhere").clone(),
+            Rule::Circle(circle) => {
+                let known = self.circles.iter().position(|(combined, _)| *combined == circle.combined());
+                let place = match known {
+                    Some(place) => place,
+                    None => {
+                        let extreme = circle_extreme(cut(), circle, budget)?;
+                        self.circles.push((circle.combined(), extreme.and_then(|extreme| extreme.value())));
+                        self.circles.len() - 1
+                    }
                 };
-                let square = Value::from(least * least);
-                Ok(self.modulus.insert(modulus).compare(&square, budget)?.is_ge())
+                let Some(ratio) = &self.circles[place].1 else { return Ok(true) };
+                let square = Value::from(circle.least() * circle.least());
+                Ok(ratio.compare(&square, budget)?.is_ge())
             }
-            Requirement::Damping(least) if self.shape == Shape::UnitDisc => {
+            Rule::Sector(least) if self.shape == Shape::UnitDisc => {
                 let inside = OnSpiral::without_parameter(self.closed, least).count_at(&Rational::ZERO, budget)?;
                 Ok(Some(inside) == self.closed.degree())
             }
-            Requirement::Damping(least) => {
+            Rule::Sector(least) => {
                 // On the sector's edge a root is damped enough.
                 let count = crate::stability::count_roots(&in_sector(self.closed, least), self.shape);
                 Ok(count.outside == 0)
             }
-            Requirement::SettlingTime { exponent, .. } => {
+            Rule::Modulus { exponent } => {
                 let coefficients = self.closed.coeffs().iter().cloned().map(MultiPoly::constant);
                 let (symbols, scaled) = scaled_by_exponential(coefficients, exponent);
                 // No root has a transcendental modulus, so none is on the circle.
                 Constants(symbols).is_stable(&scaled, self.shape, budget)
             }
             // Of the whole answer, with the dead time behind a hold.
-            Requirement::DelayMargin(_) => Ok(false),
+            Rule::DeadTime(_) => Ok(false),
         }
     }
 }
@@ -105,16 +115,36 @@ pub(crate) fn half_tangent(twice_cosine: &RealAlgebraic, budget: &Budget) -> Res
 
 impl Requirement {
     /// Whether margins that are known meet it; `None` where it is not about them.
-    pub(crate) fn is_met_by(&self, margins: &StableMargins, budget: &Budget) -> Result<Option<bool>, Exhausted> {
-        Ok(match self {
-            Requirement::GainMargin { factor, .. } => Some(has_gain_margin(&margins.gain, factor, budget)?),
-            Requirement::PhaseMargin { twice_cosine, .. } => {
-                Some(has_phase_margin(&margins.phase, twice_cosine, budget)?)
-            }
-            Requirement::ModulusMargin(least) => {
-                Some(budget.enter(|| margins.modulus.compare_rational(least).is_ge())?)
-            }
-            Requirement::Damping(_) | Requirement::DelayMargin(_) | Requirement::SettlingTime { .. } => None,
+    pub(crate) fn is_met_by(
+        &self,
+        all: &Margins,
+        margins: &StableMargins,
+        budget: &Budget,
+    ) -> Result<Option<bool>, Exhausted> {
+        Ok(match self.rule() {
+            Rule::Factors(factor) => Some(has_gain_margin(&margins.gain, factor, budget)?),
+            Rule::Turned { twice_cosine } => Some(has_phase_margin(&margins.phase, twice_cosine, budget)?),
+            Rule::Circle(circle) => match self.found(all, margins) {
+                Some(Found::Number(number)) => {
+                    let order = budget.enter(|| number.compare_rational(circle.asked()))?;
+                    Some(if self.is_least() { order.is_ge() } else { order.is_le() })
+                }
+                _ => Some(true),
+            },
+            Rule::Sector(_) | Rule::DeadTime(_) | Rule::Modulus { .. } => None,
         })
     }
+}
+
+/// The least `|1 + L|^2/|u + v L|^2`; `None` where `u + v L` is zero at all frequencies.
+fn circle_extreme(open_loop: &OpenLoop, circle: &Circle, budget: &Budget) -> Result<Option<Extreme>, Exhausted> {
+    with_parts!(open_loop, parts => {
+        let r = &parts.reduced;
+        let combined = circle.combination(&r.denominator, &r.numerator);
+        let below = modulus_squared(&combined, r.degree, parts.shape);
+        if below.is_zero() {
+            return Ok(None);
+        }
+        extreme_over(&parts.ground, &r.sum_squared, &below, parts.shape, Ordering::Less, budget).map(Some)
+    })
 }

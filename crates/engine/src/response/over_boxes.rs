@@ -6,7 +6,7 @@
 //! it is not. So nothing is cut where a discriminant or a resultant vanishes that means nothing.
 
 use super::family::Quotient;
-use super::requirement::Requirement;
+use super::requirement::Rule;
 use crate::stability::Shape;
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -36,11 +36,11 @@ struct Asked {
     crossing: Option<Vec<Ball>>,
     /// The polynomials that tell whether a crossing is allowed.
     signs: Vec<Vec<Ball>>,
-    rule: Rule,
+    rule: Allows,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Rule {
+enum Allows {
     /// A crossing is allowed where the sign is positive.
     Positive,
     /// It is where both signs are the same; the open loop is real at both ends of the circle.
@@ -62,7 +62,7 @@ pub(super) struct OverBoxes {
     functions: Vec<MultiPoly>,
     /// How many are the denominator's, and the numerator's.
     sizes: [usize; 2],
-    requirement: Requirement,
+    asked: Rule,
 }
 
 impl OverBoxes {
@@ -70,13 +70,10 @@ impl OverBoxes {
     pub fn new(
         quotient: &Quotient<MultiPoly>,
         undefined: &MultiPoly,
-        requirement: &Requirement,
+        asked: &Rule,
         symbols: MovingSymbols,
     ) -> Option<OverBoxes> {
-        let is_known = matches!(
-            requirement,
-            Requirement::PhaseMargin { .. } | Requirement::GainMargin { .. } | Requirement::ModulusMargin(_)
-        );
+        let is_known = matches!(asked, Rule::Turned { .. } | Rule::Factors(_) | Rule::Circle(_));
         if quotient.shape != Shape::UnitDisc || !is_known {
             return None;
         }
@@ -85,7 +82,7 @@ impl OverBoxes {
         let sizes = [parts[0].len(), parts[1].len()];
         let mut functions: Vec<MultiPoly> = parts.into_iter().flatten().collect();
         functions.extend([MultiPoly::variable(symbols.len()), undefined.clone()]);
-        Some(OverBoxes { symbols, functions, sizes, requirement: requirement.clone() })
+        Some(OverBoxes { symbols, functions, sizes, asked: asked.clone() })
     }
 
     /// Whether the requirement is met by all stable loops of a closed interval of the parameter, or by none; `None` where that is not
@@ -129,23 +126,29 @@ impl OverBoxes {
         let two = Integer::from(2);
         // Twice the squares of the moduli.
         let (below, twice_real) = (twice_real(d, d), twice_real(n, d));
-        match &self.requirement {
-            Requirement::GainMargin { .. } => {
+        match &self.asked {
+            Rule::Factors(_) => {
                 // 2 |D|^2 + k 2 Re(N conj D) at both ends of the factors.
                 let signs = [sum(&times(&below, alpha), &twice_real), sum(&below, &times(&twice_real, alpha))];
-                Asked { crossing: Some(ranges(imaginary(n, d))), signs: signs.map(ranges).into(), rule: Rule::Same }
+                Asked { crossing: Some(ranges(imaginary(n, d))), signs: signs.map(ranges).into(), rule: Allows::Same }
             }
-            Requirement::ModulusMargin(least) => {
+            Rule::Circle(circle) => {
                 let all = sum(d, n);
-                let [p, q] = [least.numerator(), least.denominator()];
-                let excess = sum(&scaled(&self::twice_real(&all, &all), &(&q * &q)), &scaled(&below, &-(&p * &p)));
-                Asked { crossing: None, signs: vec![ranges(excess)], rule: Rule::Positive }
+                let combined = match circle.combined().map(Integer::from) {
+                    [u, v] if v.is_zero() => scaled(d, &u),
+                    [u, v] if u.is_zero() => scaled(n, &v),
+                    [u, v] => sum(&scaled(d, &u), &scaled(n, &v)),
+                };
+                let [p, q] = [circle.least().numerator(), circle.least().denominator()];
+                let [whole, part] = [self::twice_real(&all, &all), self::twice_real(&combined, &combined)];
+                let excess = sum(&scaled(&whole, &(&q * &q)), &scaled(&part, &-(&p * &p)));
+                Asked { crossing: None, signs: vec![ranges(excess)], rule: Allows::Positive }
             }
             _ => {
                 let above = self::twice_real(n, n);
                 let excess = sum(&above, &scaled(&below, &-Integer::ONE));
                 let sign = sum(&scaled(&twice_real, &two), &times(&above, alpha));
-                Asked { crossing: Some(ranges(excess)), signs: vec![ranges(sign)], rule: Rule::Positive }
+                Asked { crossing: Some(ranges(excess)), signs: vec![ranges(sign)], rule: Allows::Positive }
             }
         }
     }
@@ -296,7 +299,7 @@ impl Asked {
         let crossing = self.crossing.as_deref();
         let signs: Vec<&[Ball]> = self.signs.iter().map(Vec::as_slice).collect();
         let four = Rational::from(4);
-        if self.rule == Rule::Same {
+        if self.rule == Allows::Same {
             for end in [&Rational::ZERO, &four] {
                 match self.allowed(&signs, &Ball::from_rational(end, bits)) {
                     Crossing::Allowed => {}
@@ -354,8 +357,8 @@ impl Asked {
         let signs: Option<Vec<Sign>> = signs.iter().map(|p| sign_on(p, y)).collect();
         match (signs.as_deref(), self.rule) {
             (None | Some([]), _) => Crossing::Unknown,
-            (Some([first, ..]), Rule::Positive) if first.is_gt() => Crossing::Allowed,
-            (Some([first, rest @ ..]), Rule::Same) if rest.iter().all(|s| s == first) => Crossing::Allowed,
+            (Some([first, ..]), Allows::Positive) if first.is_gt() => Crossing::Allowed,
+            (Some([first, rest @ ..]), Allows::Same) if rest.iter().all(|s| s == first) => Crossing::Allowed,
             _ => Crossing::Forbidden,
         }
     }

@@ -5,7 +5,7 @@ use super::family::{Elimination, Quotient, nothing_comes_back, plus_multiple, pl
 use super::met::AtPoint;
 use super::open_loop::OpenLoop;
 use super::over_boxes::{OverBoxes, certain, segments};
-use super::requirement::Requirement;
+use super::requirement::{Requirement, Rule};
 use super::{RequiredEnd, RequiredInterval, RequiredSet};
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Cut, Opened};
@@ -112,10 +112,10 @@ impl<'a> SymbolicFamily<'a> {
         stable: &StableSet,
         budget: &Budget,
     ) -> Result<RequiredSet, Error> {
-        if let Some(other) = requirements.iter().find(|r| !r.needs_cut() || matches!(r, Requirement::DelayMargin(_))) {
+        if let Some(other) = requirements.iter().find(|r| !r.needs_cut() || matches!(r.rule(), Rule::DeadTime(_))) {
             let message = format!("the requirement {} is not decided as a set for this loop", other.name());
-            let help = match other {
-                Requirement::DelayMargin(_) => "ask 'verdict' with a value for every parameter",
+            let help = match other.rule() {
+                Rule::DeadTime(_) => "ask 'verdict' with a value for every parameter",
                 _ => {
                     "margins of loops with functions that are not rational are decided, roots in smaller regions not yet"
                 }
@@ -123,9 +123,9 @@ impl<'a> SymbolicFamily<'a> {
             return Err(Diagnostic::error(Code::Require, message).help(help).into());
         }
         let mut found = RequiredSet { intervals: Vec::new(), undecided: stable.undecided().to_vec() };
-        let of = |requirement| {
+        let of = |requirement: &Requirement| {
             let symbols = self.symbols_of(requirement);
-            OverBoxes::new(&self.quotient, &self.undefined, requirement, symbols)
+            OverBoxes::new(&self.quotient, &self.undefined, requirement.rule(), symbols)
         };
         let boxes: Option<Vec<OverBoxes>> = budget.enter(|| requirements.iter().map(of).collect())?;
         let boxes = boxes.unwrap_or_default();
@@ -138,9 +138,9 @@ impl<'a> SymbolicFamily<'a> {
 
     /// The symbols, and the number that a requirement asks for as the last one.
     fn symbols_of(&self, requirement: &Requirement) -> MovingSymbols {
-        let alpha = match requirement {
-            Requirement::PhaseMargin { twice_cosine, .. } => twice_cosine.clone(),
-            Requirement::GainMargin { factor, .. } => factor.clone(),
+        let alpha = match requirement.rule() {
+            Rule::Turned { twice_cosine } => twice_cosine.clone(),
+            Rule::Factors(factor) => factor.clone(),
             _ => RealAlgebraic::from_rational(Rational::ZERO),
         };
         self.symbols.with("alpha", Definition::Algebraic(alpha))
@@ -336,7 +336,9 @@ impl<'a> SymbolicFamily<'a> {
         let values: Vec<Real> = inside.iter().map(|c| c.value.clone()).collect();
         let unmet = |value: &Rational| self.unmet(value, requirements, budget);
         let is_closed = |i: usize, names: &[&'static str]| {
-            let bound = |name: &'static str| name == "gain_margin" || inside[i].touches.contains(&name);
+            let asks_at_ends =
+                |name| requirements.iter().any(|r| r.name() == name && matches!(r.rule(), Rule::Factors(_)));
+            let bound = |name: &'static str| asks_at_ends(name) || inside[i].touches.contains(&name);
             Ok(!names.iter().any(|name| bound(name)))
         };
         required_parts([lower.as_ref(), upper.as_ref()], &values, unmet, is_closed, budget)

@@ -2,7 +2,7 @@
 
 use super::family::Family;
 use super::met::AtPoint;
-use super::requirement::{Requirement, on_sector_edge};
+use super::requirement::{Requirement, Rule, on_sector_edge};
 use crate::answer::{Answer, Map};
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
@@ -77,9 +77,9 @@ impl Answer<Map> {
 
 fn not_in_a_plane(requirement: &Requirement) -> Error {
     let message = format!("the requirement {} is not decided for two parameters", requirement.name());
-    let help = match requirement {
-        Requirement::SettlingTime { .. } => "ask for a radius",
-        Requirement::Damping(_) => "ask 'intervals' for one parameter: the curve of a discrete loop is not algebraic",
+    let help = match requirement.rule() {
+        Rule::Modulus { .. } => "ask for a radius",
+        Rule::Sector(_) => "ask 'intervals' for one parameter: the curve of a discrete loop is not algebraic",
         _ => "ask 'verdict' with a value for every parameter",
     };
     Diagnostic::error(Code::Require, message).help(help).into()
@@ -138,22 +138,19 @@ impl Problem {
         closed: &jurist_algebra::poly::Poly<MultiPoly>,
         budget: &Budget,
     ) -> Result<Vec<MultiPoly>, Error> {
-        let mut found = match (requirement, family) {
-            (Requirement::Damping(_), _) if self.shape() == Shape::UnitDisc => return Err(not_in_a_plane(requirement)),
-            (Requirement::Damping(least), _) => {
+        let mut found = match (requirement.rule(), family) {
+            (Rule::Sector(_), _) if self.shape() == Shape::UnitDisc => return Err(not_in_a_plane(requirement)),
+            (Rule::Sector(least), _) => {
                 let [first, second] = on_sector_edge(closed, least);
                 // A root at 0 or at infinity is on the boundary of stability.
                 vec![resultant(&first, &second, budget)?]
             }
-            (
-                Requirement::GainMargin { .. } | Requirement::PhaseMargin { .. } | Requirement::ModulusMargin(_),
-                Some(f),
-            ) => {
+            (Rule::Factors(_) | Rule::Turned { .. } | Rule::Circle(_), Some(f)) => {
                 let mut found = f.boundaries(requirement, budget)?.zeros;
                 found.push(f.undefined.clone());
                 found
             }
-            (requirement, _) => return Err(not_in_a_plane(requirement)),
+            _ => return Err(not_in_a_plane(requirement)),
         };
         if found.iter().any(Domain::is_zero) {
             let message = format!("the requirement {} is not decided for this loop", requirement.name());

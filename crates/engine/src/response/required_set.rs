@@ -6,7 +6,7 @@ use super::family::{Boundaries, Family};
 use super::margins::Margins;
 use super::met::AtPoint;
 use super::over_symbols::SymbolicFamily;
-use super::requirement::{Requirement, scaled_by_exponential, sector_in_parameter};
+use super::requirement::{Requirement, Rule, scaled_by_exponential, sector_in_parameter};
 use super::spiral::OnSpiral;
 use super::{DelayMargin, HeldDelay};
 use crate::answer::{Answer, Verdict};
@@ -175,12 +175,12 @@ impl Problem {
             let stable = self.verdict(budget)?.value().verdict == Verdict::Stable;
             let margins = match requirements.iter().any(Requirement::needs_cut) {
                 true => {
-                    let is_delay = requirements.iter().any(|r| matches!(r, Requirement::DelayMargin(_)));
+                    let is_delay = requirements.iter().any(|r| matches!(r.rule(), Rule::DeadTime(_)));
                     Some(Arc::new(self.margins_with(at, &Rational::ZERO, is_delay, budget)?.into_value()))
                 }
                 false => None,
             };
-            let about_roots = |r: &Requirement| matches!(r, Requirement::Damping(_) | Requirement::SettlingTime { .. });
+            let about_roots = |r: &Requirement| !r.needs_cut();
             let closed = match requirements.iter().any(about_roots) {
                 true => self.without_region().parametric(budget)?.map(|p| p.specialised(&Rational::ZERO)),
                 false => None,
@@ -189,14 +189,14 @@ impl Problem {
             let mut out = Vec::with_capacity(requirements.len());
             for requirement in requirements {
                 let open_loop = margins.as_ref().map(|m| &m.open_loop);
-                let known = match margins.as_ref().and_then(|m| m.stable.as_ref()) {
-                    Some(stable) => requirement.is_met_by(stable, budget)?,
+                let known = match margins.as_ref().and_then(|m| Some((m, m.stable.as_ref()?))) {
+                    Some((all, stable)) => requirement.is_met_by(all, stable, budget)?,
                     None => None,
                 };
-                let met = match (requirement, &margins, known) {
+                let met = match (requirement.rule(), &margins, known) {
                     _ if !stable => false,
                     (_, _, Some(met)) => met,
-                    (Requirement::DelayMargin(least), Some(margins), _) => bears(margins, least, budget)?,
+                    (Rule::DeadTime(least), Some(margins), _) => bears(margins, least, budget)?,
                     _ => AtPoint::new(open_loop, &closed, self.shape()).meets(requirement, budget)?,
                 };
                 out.push(RequirementMet { requirement: requirement.clone(), margins: margins.clone(), met });
@@ -218,8 +218,8 @@ impl Problem {
                 Diagnostic::error(Code::Require, message).help("a polynomial of its boundary vanishes for every value"),
             )
         };
-        let found = match (requirement, family) {
-            (Requirement::Damping(least), _) => {
+        let found = match (requirement.rule(), family) {
+            (Rule::Sector(least), _) => {
                 let Some(p) = self.parametric(budget)? else { return Err(undecided()) };
                 if self.shape() == Shape::UnitDisc {
                     budget.step("roots on the spiral of the damping");
@@ -235,16 +235,16 @@ impl Problem {
                 let zeros = found.into_iter().map(|b| b.polynomial.poly().clone()).collect();
                 Boundaries { zeros, ..Boundaries::none() }
             }
-            (Requirement::SettlingTime { exponent, .. }, _) => {
+            (Rule::Modulus { exponent }, _) => {
                 Boundaries { values: self.settled(exponent, budget)?, ..Boundaries::none() }
             }
-            (Requirement::DelayMargin(_), _) => {
+            (Rule::DeadTime(_), _) => {
                 let message = "a delay margin is decided at points only, not as a set of a parameter";
                 let help = "ask 'verdict' with a value for every parameter";
                 return Err(Diagnostic::error(Code::Require, message).help(help).into());
             }
             (_, None) => return Err(undecided()),
-            (requirement, Some(family)) => {
+            (_, Some(family)) => {
                 let mut found = family.boundaries(requirement, budget)?;
                 found.zeros.push(family.undefined.clone());
                 found

@@ -4,9 +4,7 @@ use super::intervals::{domain_text, heading, nominal_first, undecided_lines};
 use super::layout::Columns;
 use super::{real, region};
 use crate::answer::Answer;
-use crate::response::{PhaseMargin, RequiredEnd, RequiredSet, Requirement, RequirementMet};
-use jurist_algebra::number::Rational;
-use jurist_algebra::real::Real;
+use crate::response::{Found, RequiredEnd, RequiredSet, Requirement, RequirementMet};
 
 impl Answer<RequiredSet> {
     /// The set for people: the intervals, and a line for each end.
@@ -63,29 +61,9 @@ impl RequirementMet {
     pub fn value(&self, digits: usize) -> Option<String> {
         let all = self.margins.as_ref()?;
         let margins = all.stable.as_ref()?;
-        let rounded = |x: &Real| real::rounded(x, digits).decimal;
-        match &self.requirement {
-            Requirement::GainMargin { .. } => {
-                // The factor that is allowed for both ways.
-                let upper = margins.gain.upper.as_ref().map(|end| &end.value);
-                let lower = margins.gain.lower.as_ref().map(|end| &end.value).filter(|x| x.sign().is_gt());
-                let enclosed = |x: &Real, inverted: bool| {
-                    let (lo, hi) = x.refined_to_digits(digits + 4).enclosure();
-                    let e = jurist_algebra::number::Enclosure::new(lo, hi);
-                    let one = jurist_algebra::number::Enclosure::from_rational(Rational::ONE);
-                    if inverted { one.div(&e, 8 * digits as u64 + 64) } else { Some(e) }
-                };
-                let ways = [upper.and_then(|x| enclosed(x, false)), lower.and_then(|x| enclosed(x, true))];
-                let least = ways.into_iter().flatten().min_by(|a, b| a.lower().cmp(b.lower()))?;
-                real::enclosed(digits, |_| Some(least.clone()))
-            }
-            Requirement::PhaseMargin { .. } => {
-                let bounded = !matches!(margins.phase, PhaseMargin::Unbounded);
-                bounded.then(|| real::enclosed(digits, |bits| margins.phase.degrees(bits)))?
-            }
-            Requirement::ModulusMargin(_) => Some(rounded(&margins.modulus)),
-            Requirement::DelayMargin(_) => real::enclosed(digits, |bits| all.delay_seconds(bits)),
-            Requirement::Damping(_) | Requirement::SettlingTime { .. } => None,
+        match self.requirement.found(all, margins)? {
+            Found::Number(number) => Some(real::rounded(&number, digits).decimal),
+            Found::Enclosed(enclose) => real::enclosed(digits, enclose),
         }
     }
 

@@ -128,12 +128,15 @@ impl Writer<'_> {
             self.extreme(&margins.modulus_at),
             self.number(&margins.peak_sensitivity)
         );
+        let complementary =
+            format!("{} {}", self.number(&margins.peak_complementary), self.extreme(&margins.complementary_at));
         vec![
             ("upper gain margin", upper),
             ("lower gain margin", lower),
             ("phase margin", phase),
             ("delay margin", self.delay(&margins.delay)),
             ("modulus margin", modulus),
+            ("peak of the complementary sensitivity", complementary),
             ("disk margin", self.disk(&margins.disk)),
         ]
     }

@@ -4,7 +4,7 @@ use super::decide::{agreed, too_many};
 use super::{RequiredBox, ToleranceRequest};
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
-use crate::response::{Family, Requirement, half_tangent, radius_below};
+use crate::response::{Family, Requirement, Rule, half_tangent, radius_below};
 use crate::stability::Shape;
 use crate::stability::boxes::{BoxDecision, BoxPolynomial, LargestFactor, Side, ToleranceProblem, Witness};
 use jurist_algebra::limits::Budget;
@@ -43,12 +43,18 @@ impl Problem {
             factor: None,
             cells: 0,
         };
-        for (index, (p, own)) in
-            self.families(requirement, request.at.as_deref(), sides.len(), budget)?.iter().enumerate()
+        let families = self.families(requirement, request.at.as_deref(), sides.len(), budget)?;
+        let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
+        // An open loop that crosses a circle nowhere over the box can lie on its wrong side.
+        if matches!(requirement.rule(), Rule::Circle(_))
+            && let Some(witness) = of(&nominal)?
         {
+            found.decision = BoxDecision::NotStable { witness: Some(witness) };
+            return Ok(found);
+        }
+        for (index, (p, own)) in families.iter().enumerate() {
             let all: Vec<Side> = sides.iter().chain(own).cloned().collect();
             let Some(boxes) = budget.enter(|| ToleranceProblem::new(p, all.clone()))? else {
-                let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
                 found.decision = match of(&nominal)? {
                     Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
                     None => BoxDecision::Undecided { why: "no room at the nominal point", cell: Vec::new() },
@@ -125,28 +131,26 @@ impl Problem {
         budget: &Budget,
     ) -> Result<Vec<FamilyOfLoops>, Error> {
         let (whole, shape) = (self.without_region(), self.shape());
-        match requirement {
-            Requirement::DelayMargin(_) => {
+        match requirement.rule() {
+            Rule::DeadTime(_) => {
                 let help =
                     "dead time makes no polynomial: ask for a phase margin over the box, or 'verdict' at a point";
                 return Err(not_over_a_box(requirement, help));
             }
-            Requirement::Damping(_) if shape == Shape::UnitDisc => {
+            Rule::Sector(_) if shape == Shape::UnitDisc => {
                 return Err(not_over_a_box(
                     requirement,
                     "the curve of a discrete loop is not algebraic: ask for a radius",
                 ));
             }
-            Requirement::Damping(_) | Requirement::SettlingTime { .. } => {
+            Rule::Sector(_) | Rule::Modulus { .. } => {
                 let Some(d) = whole.algebra(budget)?.polynomial() else { return Ok(Vec::new()) };
                 let (p, denominator) = budget.enter(|| d.cleared())?;
                 let undefined: Vec<&MultiPoly> = d.poles.iter().chain([&denominator]).collect();
                 let n = d.formal_degree;
-                return Ok(vec![budget.enter(|| match requirement {
-                    Requirement::Damping(least) => {
-                        (BoxPolynomial::in_sector(&p, n, &undefined, parameters, least), None)
-                    }
-                    Requirement::SettlingTime { exponent, .. } => {
+                return Ok(vec![budget.enter(|| match requirement.rule() {
+                    Rule::Sector(least) => (BoxPolynomial::in_sector(&p, n, &undefined, parameters, least), None),
+                    Rule::Modulus { exponent } => {
                         let radius = radius_below(exponent, BITS);
                         let (top, bottom) = (radius.numerator(), radius.denominator());
                         let scale = |k: usize| &top.pow(k as u64) * &bottom.pow((n - k) as u64);
@@ -164,8 +168,8 @@ impl Problem {
         let closed = open.plus(back);
         let above = |x: &Real| x.exact().unwrap_or_else(|| x.refined_to_digits(DIGITS).enclosure().1);
         let up_to = |t: Rational| Side::fixed(t.clone(), [t, Rational::ZERO]);
-        let (list, side) = match requirement {
-            Requirement::GainMargin { factor, .. } => {
+        let (list, side) = match requirement.rule() {
+            Rule::Factors(factor) => {
                 let g = above(&Real::from(factor.clone()));
                 let below = &Rational::ONE - &g.recip().expect("a factor above 1");
                 let with_factor = open.plus(&back.scaled(&MultiPoly::variable(parameters)));
@@ -173,14 +177,15 @@ impl Problem {
                 let p = budget.enter(|| BoxPolynomial::of_parts(with_factor, n, undefined, parameters + 1, shape))?;
                 (vec![p], Side::fixed(Rational::ONE, [below, &g - &Rational::ONE]))
             }
-            Requirement::PhaseMargin { twice_cosine, .. } => {
+            Rule::Turned { twice_cosine } => {
                 let t = above(&half_tangent(twice_cosine, budget)?);
                 let turned = [&closed, &back.minus(open)];
                 (vec![budget.enter(|| BoxPolynomial::turned(turned, &undefined, parameters, shape))?], up_to(t))
             }
-            Requirement::ModulusMargin(least) => {
+            Rule::Circle(circle) => {
                 let scaled = |p: &Poly<MultiPoly>, by: &Integer| p.scaled(&MultiPoly::constant(by.clone()));
-                let (m, whole) = (scaled(open, &least.numerator()), scaled(&closed, &least.denominator()));
+                let (least, combined) = (circle.least(), circle.combination(open, back));
+                let (m, whole) = (scaled(&combined, &least.numerator()), scaled(&closed, &least.denominator()));
                 let both = [[whole.plus(&m), m.minus(&whole)], [whole.minus(&m), m.plus(&whole).negated()]];
                 let turned =
                     |[a, b]: &[Poly<MultiPoly>; 2]| BoxPolynomial::turned([a, b], &undefined, parameters, shape);

@@ -1,5 +1,7 @@
 //! The keys of a model file: what the reader knows, and what its JSON schema says.
 
+use crate::response::LIST;
+
 /// A key of a table.
 pub(super) struct Key {
     pub name: &'static str,
@@ -164,15 +166,14 @@ pub(super) const SIMULATION: [Key; 4] = [
     key("units", Shape::Named(&Shape::Text), "units of inputs, states, signals and outputs, for people"),
 ];
 
-/// The table `[require]`.
-pub(super) const REQUIRE: [Key; 9] = [
-    key("at", Shape::Text, "where margins are taken: a signal, or a block (at its input)"),
-    key("gain_margin", Shape::Expression, "a factor both ways, or decibels: \"6 dB\""),
-    key("phase_margin", Shape::Expression, "an angle: \"45 deg\""),
-    key("modulus_margin", Shape::Expression, "the least |1 + L|, the inverse of the greatest sensitivity"),
-    key("delay_margin", Shape::Expression, "a dead time in units of time"),
-    key("damping", Shape::Expression, "the least damping of all roots; in discrete time of ln(z)/T"),
-    key("decay", Shape::Expression, "all roots have Re s < -decay (continuous time)"),
-    key("radius", Shape::Expression, "all roots have |z| < radius (discrete time)"),
-    key("settling_time", Shape::Expression, "a decay of at least 4 over this time"),
-];
+/// The table `[require]`: where margins are taken, and the list of requirements.
+pub(super) const REQUIRE: [Key; LIST.len() + 1] = {
+    let mut keys = [const { key("at", Shape::Text, "where margins are taken: a signal, or a block (at its input)") };
+        LIST.len() + 1];
+    let mut k = 0;
+    while k < LIST.len() {
+        keys[k + 1] = key(LIST[k].name, Shape::Expression, LIST[k].about);
+        k += 1;
+    }
+    keys
+};

@@ -47,6 +47,8 @@ pub struct MarginsFound {
     pub delay: Option<DelayMarginFound>,
     /// The modulus margin.
     pub modulus: Option<ModulusMargin>,
+    /// The peak of the complementary sensitivity.
+    pub complementary: Option<ComplementaryPeak>,
     /// The disk margin.
     pub disk: Option<DiskMarginFound>,
     /// Where the open loop has modulus one, and where it is real and negative.
@@ -121,6 +123,19 @@ pub struct ModulusMargin {
     /// Its inverse: the greatest value of the sensitivity `|1/(1 + L)|`.
     pub peak_sensitivity: Number,
     /// Whether the value is attained; if not, it is approached as the frequency grows without end.
+    pub attained: bool,
+    /// Where; all `null` where it is not attained, and where it is the same at all frequencies.
+    #[serde(flatten)]
+    pub frequency: FrequencyOfPair,
+}
+
+/// The greatest value of the complementary sensitivity `|L/(1 + L)|`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ComplementaryPeak {
+    /// The value.
+    pub peak: Number,
+    /// Whether it is attained; if not, it is approached as the frequency grows without end.
     pub attained: bool,
     /// Where; all `null` where it is not attained, and where it is the same at all frequencies.
     #[serde(flatten)]
@@ -297,6 +312,14 @@ impl Writer<'_> {
         }
     }
 
+    fn complementary(&self, margins: &StableMargins) -> ComplementaryPeak {
+        ComplementaryPeak {
+            peak: self.number(&margins.peak_complementary),
+            attained: !matches!(margins.complementary_at, Extreme::At { attained: false, .. }),
+            frequency: self.at(margins.complementary_at.place()),
+        }
+    }
+
     fn disk(&self, disk: &response::DiskMargin) -> DiskMarginFound {
         let gains = |bits| disk.gains(bits);
         DiskMarginFound {
@@ -357,6 +380,7 @@ impl Margins {
                 phase: stable.map(|m| writer.phase(&m.phase)),
                 delay: stable.map(|m| writer.delay(&m.delay)),
                 modulus: stable.map(|m| writer.modulus(m)),
+                complementary: stable.map(|m| writer.complementary(m)),
                 disk: stable.map(|m| writer.disk(&m.disk)),
                 crossings: writer.crossings(&margins.crossings),
             }

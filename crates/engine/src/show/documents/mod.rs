@@ -58,8 +58,8 @@ pub use map::{
     RegionEnd, RegionLimit, Regions, Strip, Wall,
 };
 pub use margins::{
-    CrossingsFound, DelayMarginFound, DiskMarginFound, GainCrossingFound, GainMargins, Margins, MarginsFound,
-    MarginsName, MarginsOpen, ModulusMargin, PhaseCrossingFound, PhaseMarginFound,
+    ComplementaryPeak, CrossingsFound, DelayMarginFound, DiskMarginFound, GainCrossingFound, GainMargins, Margins,
+    MarginsFound, MarginsName, MarginsOpen, ModulusMargin, PhaseCrossingFound, PhaseMarginFound,
 };
 pub use norm::{Norm, NormFound, NormName, NormOpen, PeakFound};
 pub use number::{Enclosure, Exact, Named, Number, NumberKind};

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RequirementAsked {
-    /// Its name: `gain_margin`, `phase_margin`, `modulus_margin`, `delay_margin`, `damping`, `settling_time`.
+    /// Its name, a key of `[require]`: `phase_margin`.
     pub name: String,
     /// What is required, as it was asked for.
     pub required: String,

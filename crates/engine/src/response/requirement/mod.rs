@@ -1,0 +1,211 @@
+//! The requirements on a loop: one list, of which the keys of `[require]`, the command line's options, the documents, Python's
+//! keywords and the documentation's table are made.
+//!
+//! Each requirement is a file with a [`RequirementKind`]: its words, how a number in a text becomes a [`Rule`], and which margin of a loop
+//! answers it. A rule says what is decided; several requirements can share one.
+
+mod circle;
+mod complementary_peak;
+mod damping;
+mod decay;
+mod delay_margin;
+mod disk_margin;
+mod gain_margin;
+#[cfg(test)]
+mod lists;
+mod modulus_margin;
+mod phase_margin;
+mod radius;
+mod settling_time;
+
+pub(crate) use circle::Circle;
+pub(crate) use damping::{in_sector, on_sector_edge, sector_in_parameter};
+pub(crate) use settling_time::{radius_below, scaled_by_exponential};
+
+use super::{Margins, StableMargins};
+use crate::error::{Code, Diagnostic, Error};
+use crate::model::Time;
+use crate::problem::Region;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::real::Real;
+
+/// All requirements, in the order in which they are decided and listed.
+pub(crate) const LIST: &[&RequirementKind] = &[
+    &gain_margin::KIND,
+    &phase_margin::KIND,
+    &modulus_margin::KIND,
+    &complementary_peak::KIND,
+    &disk_margin::KIND,
+    &delay_margin::KIND,
+    &damping::KIND,
+    &decay::KIND,
+    &radius::KIND,
+    &settling_time::KIND,
+];
+
+/// An entry of the list of requirements.
+///
+/// ```
+/// use jurist_engine::response::RequirementKind;
+/// let names: Vec<&str> = RequirementKind::all().iter().map(|kind| kind.name).collect();
+/// assert!(names.contains(&"phase_margin") && names.contains(&"settling_time"));
+/// ```
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct RequirementKind {
+    /// Its key in `[require]` and its name in documents; with dashes its option.
+    pub name: &'static str,
+    /// The number that it takes, for people.
+    pub about: &'static str,
+    /// The option of commands that decide requirements; `None` of a region, which has an option on every command.
+    pub option: Option<RequirementOption>,
+    /// Whether a map takes several at once.
+    pub is_listed: bool,
+    /// How the loop's number compares with the required one: `>=` or `<=`.
+    sense: &'static str,
+    /// Units that may follow the number.
+    units: &'static [&'static str],
+    /// The meaning of a number.
+    meaning: fn(&Written<'_>) -> Result<Meaning, Error>,
+    /// The loop's own number.
+    found: for<'a> fn(&'a Margins, &'a StableMargins) -> Option<Found<'a>>,
+}
+
+impl RequirementKind {
+    /// The whole list, in the order in which requirements are decided.
+    pub fn all() -> &'static [&'static RequirementKind] {
+        LIST
+    }
+
+    /// The number of a text, and the unit that follows it.
+    pub(super) fn split<'t>(&self, text: &'t str) -> (&'t str, Option<&'static str>) {
+        let text = text.trim();
+        let with = self.units.iter().find_map(|unit| Some((text.strip_suffix(unit)?.trim_end(), *unit)));
+        with.map_or((text, None), |(number, unit)| (number, Some(unit)))
+    }
+
+    /// What a number asks for.
+    pub(super) fn meaning(&self, written: &Written<'_>) -> Result<Meaning, Error> {
+        (self.meaning)(written)
+    }
+}
+
+/// How a requirement is asked for on the command line.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct RequirementOption {
+    /// The value's name in the help.
+    pub value: &'static str,
+    /// The help.
+    pub help: &'static str,
+}
+
+/// A number that is required, with what it is read beside.
+pub(super) struct Written<'a> {
+    pub value: Rational,
+    pub unit: Option<&'static str>,
+    pub time: Time,
+    /// The region that is asked for so far.
+    pub region: Option<&'a Region>,
+    /// The loop's sample time, if it has one.
+    pub sample_time: &'a dyn Fn() -> Result<Option<Rational>, Error>,
+    pub budget: &'a Budget,
+}
+
+/// What a required number means.
+pub(super) enum Meaning {
+    Requirement(Requirement),
+    /// A smaller region for all roots.
+    Region(Region),
+}
+
+/// The number of a loop that a requirement is about.
+pub(crate) enum Found<'a> {
+    Number(Real),
+    /// By enclosures of so many bits; `None` where there is no bound.
+    Enclosed(Box<dyn Fn(u64) -> Option<Enclosure> + 'a>),
+}
+
+/// What is required of a loop beyond its stability.
+///
+/// ```
+/// use jurist_algebra::number::Rational;
+/// use jurist_engine::response::Requirement;
+/// let half = Requirement::phase_margin(&Rational::from(60)).unwrap();
+/// assert_eq!(half.name(), "phase_margin");
+/// assert!(Requirement::damping(Rational::from(2)).is_err());
+/// ```
+#[derive(Clone, Debug)]
+pub struct Requirement {
+    kind: &'static RequirementKind,
+    /// How it was asked for.
+    asked: String,
+    rule: Rule,
+}
+
+/// What is decided.
+#[derive(Clone, Debug)]
+pub(crate) enum Rule {
+    /// Stable for all factors from the inverse of this to itself; above 1.
+    Factors(RealAlgebraic),
+    /// Stable however the open loop is turned by less than the angle with this as twice its cosine.
+    Turned { twice_cosine: RealAlgebraic },
+    /// The open loop keeps to one side of a circle.
+    Circle(Circle),
+    /// Stable with all less dead time at the cut.
+    DeadTime(Rational),
+    /// All roots, in discrete time their logarithms, make an angle with the negative real axis whose cosine is at least this.
+    Sector(Rational),
+    /// All roots have a modulus of at most the exponential of this.
+    Modulus { exponent: Rational },
+}
+
+impl Requirement {
+    /// Its name in model files and documents.
+    pub fn name(&self) -> &'static str {
+        self.kind.name
+    }
+
+    /// What is required, as it was asked for.
+    pub fn required(&self) -> String {
+        self.asked.clone()
+    }
+
+    /// `phase_margin >= 45 deg`.
+    pub fn text(&self) -> String {
+        format!("{} {} {}", self.name(), self.kind.sense, self.asked)
+    }
+
+    pub(crate) fn rule(&self) -> &Rule {
+        &self.rule
+    }
+
+    /// The number of a stable loop that it is about; `None` where it is not about margins.
+    pub(crate) fn found<'a>(&self, margins: &'a Margins, stable: &'a StableMargins) -> Option<Found<'a>> {
+        (self.kind.found)(margins, stable)
+    }
+
+    /// Whether the loop's number is to be at least the required one, not at most.
+    pub(crate) fn is_least(&self) -> bool {
+        self.kind.sense == ">="
+    }
+
+    /// Whether it is about the open loop at a cut.
+    pub(crate) fn needs_cut(&self) -> bool {
+        !matches!(self.rule, Rule::Sector(_) | Rule::Modulus { .. })
+    }
+}
+
+/// Polynomials of greater degree are not made of an angle or of decibels.
+const MOST_DEGREE: usize = 24;
+
+fn refused(message: &str) -> Error {
+    Diagnostic::error(Code::Require, message).into()
+}
+
+/// The refusal of a number, or of what is missing beside it.
+pub(super) fn not_understood(name: &str, why: &str) -> Error {
+    Diagnostic::error(Code::Require, format!("{name}: {why}")).into()
+}

@@ -1,0 +1,86 @@
+//! The settling time: all modes have decayed by `exp(-4)`, to 1.8 %.
+
+use super::{Meaning, Requirement, RequirementKind, RequirementOption, Rule, Written, not_understood, refused};
+use crate::error::Error;
+use crate::model::Time;
+use crate::problem::{Bound, Region};
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly};
+use jurist_algebra::symbols::{Definition, Symbols};
+use std::sync::Arc;
+
+pub(super) const KIND: RequirementKind = RequirementKind {
+    name: "settling_time",
+    about: "a decay of at least 4 over this time",
+    option: Some(RequirementOption {
+        value: "TIME",
+        help: "Asks for a settling time: a decay of 4 over it, in discrete time a radius of exp(-4 T/time)",
+    }),
+    is_listed: false,
+    sense: "<=",
+    units: &[],
+    meaning,
+    found: |_, _| None,
+};
+
+fn meaning(written: &Written<'_>) -> Result<Meaning, Error> {
+    let value = &written.value;
+    if !value.sign().is_gt() {
+        return Err(not_understood(KIND.name, "a settling time is above 0"));
+    }
+    match written.time {
+        Time::Continuous => {
+            let rate = Rational::from(4).checked_div(value).expect("positive");
+            // Of a decay rate that is asked for too, the greater one counts.
+            let least = match written.region.map(Region::bound) {
+                Some(Bound::Number(decay)) => decay.clone().max(rate),
+                _ => rate,
+            };
+            Ok(Meaning::Region(Region::half_plane(least)))
+        }
+        Time::Discrete => {
+            let Some(step) = (written.sample_time)()? else {
+                return Err(not_understood(KIND.name, "a settling time needs the loop's sample time"));
+            };
+            Ok(Meaning::Requirement(Requirement::settling_time(value.clone(), &step)?))
+        }
+    }
+}
+
+impl Requirement {
+    /// By the time, above 0, in which all modes of a discrete loop with this sample time have decayed by `exp(-4)`, to 1.8 %.
+    ///
+    /// # Errors
+    /// `E-require` for other numbers.
+    pub fn settling_time(time: Rational, step: &Rational) -> Result<Requirement, Error> {
+        if !time.sign().is_gt() || !step.sign().is_gt() {
+            return Err(refused("a settling time and its sample time are above 0"));
+        }
+        let exponent = (&Rational::from(-4) * step).checked_div(&time).expect("positive");
+        Ok(Requirement { kind: &KIND, asked: time.to_string(), rule: Rule::Modulus { exponent } })
+    }
+}
+
+/// The polynomial at `r z`, `r = exp(exponent)`, as variable 0 of the symbols; the coefficients are free of them.
+pub(crate) fn scaled_by_exponential(
+    coefficients: impl Iterator<Item = MultiPoly>,
+    exponent: &Rational,
+) -> (Arc<Symbols>, Poly<MultiPoly>) {
+    let mut symbols = Symbols::new();
+    let radius = symbols.insert("X", Definition::exponential(exponent.clone()));
+    let mut power = MultiPoly::one();
+    let mut scaled = Vec::new();
+    for c in coefficients {
+        scaled.push(c.times(&power));
+        power = power.times(&MultiPoly::variable(radius));
+    }
+    (Arc::new(symbols), Poly::new(scaled))
+}
+
+/// A rational number of few digits just below `exp(exponent)`, by at most so many binary digits.
+pub(crate) fn radius_below(exponent: &Rational, bits: u64) -> Rational {
+    let mut symbols = Symbols::new();
+    let radius = symbols.insert("X", Definition::exponential(exponent.clone()));
+    let low = symbols.values(bits + 8)[radius].lower();
+    Rational::dyadic(&(low * Rational::from(Integer::ONE << bits)).floor(), bits)
+}
