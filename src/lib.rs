@@ -84,7 +84,7 @@ pub use jurist_engine::stability::{
     jury_table, routh_table, stable_set,
 };
 // Budgets.
-pub use jurist_algebra::limits::{Budget, Exhausted, Progress};
+pub use jurist_algebra::limits::{Budget, Exhausted, Progress, Stop};
 // Exact algebra, as far as questions and answers are made of it.
 pub use jurist_algebra::matrix::{
     CharacteristicPolynomial, FaddeevLeVerrier, Matrix, RationalMatrix, faddeev_leverrier,

@@ -158,7 +158,7 @@ fn no_mutation_of_a_certificate_of_cells_proves_what_is_wrong() {
     for function in [FUNCTIONS[3], FUNCTIONS[9]] {
         let model = written(function);
         let known = Known::default();
-        reject_or_find_true(&model, &emitted(&model, "K"), 20, |changed| is_true(&model, changed, &known));
+        reject_or_find_true(&model, &emitted(&model, "K"), 3, 20, |changed| is_true(&model, changed, &known));
     }
 }
 

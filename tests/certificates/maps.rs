@@ -254,7 +254,7 @@ fn changed_certificates_are_rejected_or_true() {
     let circle = plain("continuous", "s + (a^2 + b^2 - 1)*(a - 3)");
     for (text, least) in [(plain("discrete", "z^2 + a*z + b"), 800), (plain("discrete", "z + a*b"), 300), (circle, 400)]
     {
-        reject_or_find_true(&text, &emitted(&text, "a", "b"), least, |json| is_true(&text, json));
+        reject_or_find_true(&text, &emitted(&text, "a", "b"), 1, least, |json| is_true(&text, json));
     }
 }
 

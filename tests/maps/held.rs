@@ -12,8 +12,8 @@ use jurist_engine::answer::{Answer, BoxRequest, Map, MapMethod, MapOrBoxes};
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::Model;
 use jurist_engine::stability::plane::boxes::BoxVerdict;
-use jurist_engine::stability::plane::{PlanePolynomial, StabilityMap, region_limits, stability_map};
-use jurist_engine::stability::{AtPoint, Range, Shape};
+use jurist_engine::stability::plane::{Limit, PlanePolynomial, StabilityMap, region_limits, stability_map};
+use jurist_engine::stability::{AtPoint, Cause, Range, Shape};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -211,7 +211,12 @@ fn shape(m: &StabilityMap) -> MapShape {
 }
 
 /// The map of a loop is that of the scaled one; the number of its regions. Nothing where it is not found how cells join.
-fn is_scaled(p: &PlanePolynomial, coefficients: &[RationalFunction], region: Shape) -> Option<usize> {
+fn is_scaled(
+    p: &PlanePolynomial,
+    coefficients: &[RationalFunction],
+    region: Shape,
+    are_all_seen: bool,
+) -> Option<usize> {
     let budget = Budget::unlimited();
     let rational = map(p, &plane(), region);
     let scaled = scaled(coefficients);
@@ -230,12 +235,19 @@ fn is_scaled(p: &PlanePolynomial, coefficients: &[RationalFunction], region: Sha
     // Curves may be in another order.
     let counted = |lines: Vec<[Vec<usize>; 2]>| lines.into_iter().map(|l| l.map(|l| l.len())).collect::<Vec<_>>();
     assert_eq!(counted(lines_over), counted(lines));
-    let limits = |m: &StabilityMap, p: &PlanePolynomial| -> Vec<Option<(String, usize, bool)>> {
+    let limits = |m: &StabilityMap, p: &PlanePolynomial| -> Vec<Option<Limit>> {
         let found = region_limits(m, p, &plane(), region, 6, &budget).unwrap();
-        let all = found.into_iter().flat_map(|r| r.x.into_iter().chain(r.y));
-        all.map(|limit| limit.map(|l| (l.causes.to_string(), l.at.len(), l.along_line))).collect()
+        found.into_iter().flat_map(|r| r.x.into_iter().chain(r.y)).collect()
     };
-    assert_eq!(limits(&over, &scaled), limits(&rational, p), "{coefficients:?}");
+    for (over, exact) in limits(&over, &scaled).iter().zip(&limits(&rational, p)) {
+        let counted = |l: &Option<Limit>| l.as_ref().map(|l| (l.at.len(), l.along_line));
+        assert_eq!(counted(over), counted(exact), "{coefficients:?}");
+        // A curve that touches the region in an extreme point alone is named where that is seen.
+        let [over, exact] = [over, exact].map(|l| l.iter().flat_map(|l| l.causes.iter()).collect::<Vec<Cause>>());
+        assert!(over.is_empty() == exact.is_empty(), "{coefficients:?}");
+        assert!(over.iter().all(|cause| exact.contains(cause)), "{coefficients:?}: {over:?} of {exact:?}");
+        assert!(over == exact || !are_all_seen, "{coefficients:?}: {over:?} and {exact:?}");
+    }
     // x e^-1 of the one is x of the other.
     let e = number("2.718281828459045235360287471352662498");
     for (a, b) in rational.strips.iter().zip(&over.strips) {
@@ -296,7 +308,8 @@ fn singular_maps_are_those_of_the_scaled_loops() {
         let coefficients = coefficients_of(list);
         let p = PlanePolynomial::new(&characteristic(coefficients.clone()));
         for region in [Shape::UnitDisc, Shape::LeftHalfPlane] {
-            let regions = is_scaled(&p, &coefficients, region).unwrap_or_else(|| panic!("{list:?} is not decided"));
+            let regions =
+                is_scaled(&p, &coefficients, region, true).unwrap_or_else(|| panic!("{list:?} is not decided"));
             several += usize::from(regions > 1);
         }
     }
@@ -312,8 +325,21 @@ proptest! {
         let eighth = |p: &MultiPoly| RationalFunction::new(p.clone(), MultiPoly::from(8)).unwrap();
         let coefficients: Vec<RationalFunction> = low.iter().map(eighth).chain([RationalFunction::one()]).collect();
         let p = PlanePolynomial::new(&characteristic(coefficients.clone()));
-        is_scaled(&p, &coefficients, region);
+        is_scaled(&p, &coefficients, region, false);
     }
+}
+
+/// The region reaches to `y = -sqrt(1/2)` and `y = sqrt(1/2)` at `x = 0`, where the roots are the cubic ones of -1 and of 1: a real one beside
+/// the pair at both ends, on the same two curves.
+#[test]
+fn causes_at_both_ends_of_a_mirrored_region_are_named() {
+    let [x, y] = [0, 1].map(RationalFunction::variable);
+    let quarter = RationalFunction::from(number("1/4"));
+    let constant = &(&(&(&y * &y) * &RationalFunction::from(2)) + &RationalFunction::from(3)) * &quarter;
+    let linear = -(&(&(&x * &x) * &y) * &quarter);
+    let coefficients = vec![constant, linear, RationalFunction::from(0), RationalFunction::one()];
+    let p = PlanePolynomial::new(&characteristic(coefficients.clone()));
+    is_scaled(&p, &coefficients, Shape::UnitDisc, true);
 }
 
 #[test]

@@ -34,5 +34,6 @@ pub mod limits;
 pub mod matrix;
 pub mod number;
 pub mod poly;
+mod precisions;
 pub mod real;
 pub mod symbols;

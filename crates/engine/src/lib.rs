@@ -17,6 +17,7 @@
 pub mod answer;
 pub mod error;
 pub mod model;
+mod precisions;
 pub mod problem;
 pub mod prove;
 pub mod response;

@@ -2,7 +2,7 @@
 
 use super::facts::{AMPLITUDE, PERIOD, PUBLISHED_LIMITS, SPEED_REFERENCE};
 use super::runs::at;
-use jurist_algebra::limits::{Budget, Exhausted, join};
+use jurist_algebra::limits::{Budget, Exhausted, join, until_shown};
 use jurist_algebra::number::{Rational, enclosed_decimal};
 use jurist_algebra::real::Real;
 use jurist_draw::page::Table;
@@ -25,16 +25,10 @@ pub(super) fn ends(answer: &Answer<StableSet>) -> (Option<&Real>, Option<&Real>)
 /// `1/x` of a positive number, correctly rounded.
 pub(super) fn reciprocal(x: Option<&Real>, digits: usize) -> String {
     let Some(x) = x.filter(|x| x.sign().is_gt()) else { return "none".into() };
-    let mut accuracy = digits + 2;
-    loop {
-        let (lo, hi) = x.refined_to_digits(accuracy).enclosure();
-        if let (Some(a), Some(b)) = (hi.recip(), lo.recip())
-            && let Some(text) = enclosed_decimal(&a, &b, digits)
-        {
-            return text;
-        }
-        accuracy *= 2;
-    }
+    until_shown(digits as u64 + 2, |accuracy| {
+        let (lo, hi) = x.refined_to_digits(accuracy as usize).enclosure();
+        enclosed_decimal(&hi.recip()?, &lo.recip()?, digits)
+    })
 }
 
 /// A way to see whether the loop is stable at an amplitude and a period: a factor per step, below 1

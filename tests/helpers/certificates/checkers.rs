@@ -36,28 +36,39 @@ pub fn accept(model: &str, certificate: &str) {
     }
 }
 
-/// Asserts that both checkers reject, the first one at this step.
-pub fn reject(model: &str, certificate: &str, step: Step) {
+/// The Python checker is given one in so many changes of a certificate: it is the slower one.
+pub const PYTHON_EVERY: usize = 8;
+
+/// Asserts that the Rust checker rejects at this step.
+pub fn reject_in_rust(model: &str, certificate: &str, step: Step) {
     match check(model, certificate, &LIMITS) {
         Ok(proved) => panic!("accepted: {}\n{certificate}", proved.statement),
         Err(e) => assert_eq!(e.step, step, "{e}\n{certificate}"),
     }
+}
+
+/// Asserts that both checkers reject, the first one at this step.
+pub fn reject(model: &str, certificate: &str, step: Step) {
+    reject_in_rust(model, certificate, step);
     if let Some(Ok(proved)) = python(model, certificate) {
         panic!("Python accepted: {proved}\n{certificate}");
     }
 }
 
-/// The Python checker is given one in so many changes of a certificate: it is the slower one.
-const PYTHON_EVERY: usize = 8;
-
-/// Asserts of all changes of one value in a certificate, at least so many of them wrong, that what is accepted is true, and of a part of
+/// Asserts of one in `every` changes of one value in a certificate, at least so many of them wrong, that what is accepted is true, and of a part of
 /// them that both checkers say the same.
-pub fn reject_or_find_true(model: &str, certificate: &str, least: usize, is_true: impl Fn(&Json) -> bool) {
+pub fn reject_or_find_true(
+    model: &str,
+    certificate: &str,
+    every: usize,
+    least: usize,
+    is_true: impl Fn(&Json) -> bool,
+) {
     let original = Json::parse(certificate).unwrap();
     assert!(is_true(&original), "{certificate}");
     let (mut rejected, mut accepted) = (0, 0);
     let mutations = mutations(&original);
-    let changes = mutations.one_in(1).filter(|changed| changed.get("model") == original.get("model"));
+    let changes = mutations.one_in(every).filter(|changed| changed.get("model") == original.get("model"));
     for (k, changed) in changes.enumerate() {
         let certificate = changed.to_text();
         let verdict = check(model, &certificate, &LIMITS);

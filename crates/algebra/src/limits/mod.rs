@@ -7,12 +7,14 @@
 mod ambient;
 mod clock;
 mod memory;
+mod precisions;
 mod stop;
 
 pub(crate) use ambient::is_limited;
 pub use ambient::{apart, checkpoint, claim, join, parallel_map};
 pub use clock::Clock;
 pub use memory::{Gauge, gauge_of_the_process, measure_by};
+pub use precisions::{Precisions, doubling, try_until_shown, until_shown};
 pub use stop::{Exhausted, Stop};
 
 use memory::Memory;

@@ -8,7 +8,7 @@ use super::rounding::{
     binary_exponent, product_down, product_up, quotient_down, round_down, round_up, scaled_floor, sum_down, unscaled,
 };
 use super::{Integer, Rational, enclosed_decimal};
-use crate::limits::checkpoint;
+use crate::limits::{checkpoint, doubling};
 use std::sync::OnceLock;
 
 /// A closed interval that is known to contain a real number.
@@ -186,12 +186,10 @@ fn pi_by_machin(bits: u64) -> Enclosure {
 /// decimal; `None` if that does not happen by 64 times the digits asked for (the value is then a tie or
 /// exactly representable, which a transcendental number never is).
 pub fn to_decimal_refining(digits: usize, mut enclose: impl FnMut(u64) -> Option<Enclosure>) -> Option<String> {
-    let mut bits = 4 * digits as u64 + 32;
-    for _ in 0..6 {
+    for bits in doubling(4 * digits as u64 + 32).take(6) {
         if let Some(text) = enclose(bits)?.decimal(digits) {
             return Some(text);
         }
-        bits *= 2;
     }
     None
 }

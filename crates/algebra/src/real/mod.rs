@@ -4,10 +4,11 @@ mod transcendental;
 
 pub use transcendental::{Enclosing, Origin, Transcendental};
 
-use crate::limits::{Budget, Exhausted, Stop};
+use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational, Sign, enclosed_decimal, to_decimal};
 use crate::poly::RealAlgebraic;
 use crate::poly::algebraic::{rational_between as between_algebraic, simplest_between};
+use crate::precisions::ORDER_OF_REALS;
 use std::cmp::Ordering;
 
 /// A real number.
@@ -40,9 +41,6 @@ pub enum Real {
     /// A number that is known by its enclosures and is not rational.
     Transcendental(Transcendental),
 }
-
-/// Bits beyond which two numbers that are not known to differ are not told apart by refinement alone.
-const MOST_BITS: u64 = 1 << 14;
 
 impl From<RealAlgebraic> for Real {
     fn from(value: RealAlgebraic) -> Self {
@@ -165,23 +163,23 @@ impl Real {
             _ => {}
         }
         let (mut x, mut y) = (self.clone(), other.clone());
-        let mut bits = 64;
-        loop {
+        let apart = |x: &Real, y: &Real| {
             let ((a, b), (c, d)) = (x.enclosure(), y.enclosure());
-            if b < c {
-                return Ok(Ordering::Less);
-            }
-            if d < a {
-                return Ok(Ordering::Greater);
-            }
-            budget.check()?;
-            if bits > MOST_BITS {
-                return Err(Exhausted::new(Stop::Precision(MOST_BITS), "comparing two real numbers"));
-            }
+            if b < c { Some(Ordering::Less) } else { (d < a).then_some(Ordering::Greater) }
+        };
+        if let Some(order) = apart(&x, &y) {
+            return Ok(order);
+        }
+        budget.check()?;
+        ORDER_OF_REALS.decide("comparing two real numbers", |bits| {
             let width = Rational::dyadic(&Integer::ONE, bits);
             (x, y) = budget.enter(|| (x.refined(&width), y.refined(&width)))?;
-            bits *= 2;
-        }
+            let order = apart(&x, &y);
+            if order.is_none() {
+                budget.check()?;
+            }
+            Ok(order)
+        })
     }
 
     /// Rounded to so many significant digits, correctly; ties to even for rational numbers.
@@ -332,6 +330,6 @@ mod tests {
     #[test]
     fn equal_numbers_of_unknown_origin_end_the_comparison_with_a_message() {
         let refused = ln(4).compare(&ln(4), &Budget::unlimited()).unwrap_err();
-        assert_eq!(refused.stop, Stop::Precision(16384));
+        assert_eq!(refused.stop, crate::limits::Stop::Precision(16384));
     }
 }

@@ -1,9 +1,10 @@
 //! Real numbers that are known by what encloses them.
 
 use super::Real;
-use crate::limits::checkpoint;
+use crate::limits::{checkpoint, until_shown};
 use crate::number::{Enclosure, Integer, Rational};
 use crate::poly::RealAlgebraic;
+use crate::precisions::FIRST_PLACE;
 use std::cmp::Ordering;
 use std::fmt;
 use std::sync::{Arc, OnceLock};
@@ -90,9 +91,6 @@ impl Enclosing for Reciprocal {
     }
 }
 
-/// Bits of the first enclosure.
-const FIRST_BITS: u64 = 32;
-
 impl Transcendental {
     /// The number that `source` encloses.
     pub fn new(source: impl Enclosing + 'static) -> Self {
@@ -120,7 +118,7 @@ impl Transcendental {
     }
 
     fn place(&self) -> &Enclosure {
-        self.place.get_or_init(|| self.source.enclose(FIRST_BITS, None))
+        self.place.get_or_init(|| self.source.enclose(FIRST_PLACE, None))
     }
 
     /// Lower and upper end.
@@ -156,19 +154,18 @@ impl Transcendental {
     /// The same number with an enclosure of relative width at most `10^-(digits + 2)`.
     pub fn refined_to_digits(&self, digits: usize) -> Transcendental {
         let mut x = self.clone();
-        let mut bits = FIRST_BITS;
-        let least = loop {
+        let least = until_shown(2 * FIRST_PLACE, |bits| {
             let (lo, hi) = x.enclosure();
             // The number is not 0, so that its sign shows in the end.
             if lo.sign() == hi.sign() && !lo.is_zero() && !hi.is_zero() {
                 let least = lo.abs().min(hi.abs());
                 if lo.abs().max(hi.abs()) <= &least + &least {
-                    break least;
+                    return Some(least);
                 }
             }
-            bits *= 2;
             x = x.narrowed(bits);
-        };
+            None
+        });
         let tolerance = Rational::new(Integer::ONE, Integer::from(10).pow(digits as u64 + 2));
         x.refined(&(least * tolerance))
     }
@@ -176,17 +173,16 @@ impl Transcendental {
     /// Comparison with a rational number, which it never equals.
     pub fn compare_rational(&self, value: &Rational) -> Ordering {
         let mut x = self.clone();
-        let mut bits = FIRST_BITS;
-        loop {
+        until_shown(2 * FIRST_PLACE, |bits| {
             let place = x.place();
             if value < place.lower() {
-                return Ordering::Greater;
+                return Some(Ordering::Greater);
             }
             if value > place.upper() {
-                return Ordering::Less;
+                return Some(Ordering::Less);
             }
-            bits *= 2;
             x = x.narrowed(bits);
-        }
+            None
+        })
     }
 }

@@ -9,6 +9,7 @@ use crate::limits::{Budget, Exhausted};
 use crate::number::{Integer, Rational};
 use crate::poly::multivariate::Line;
 use crate::poly::{Domain, MultiPoly, Poly, UniPoly, resultant_formal};
+use crate::precisions::RESULTANT_AT_NUMBER;
 
 /// A function of a parameter (variable 0) and of symbols (symbol `i` is variable `i + 1`).
 ///
@@ -38,9 +39,6 @@ impl From<MultiPoly> for Function {
         Function::Polynomial(p)
     }
 }
-
-/// Bits after which a resultant that may be zero is expanded.
-const MOST_BITS: u64 = 1024;
 
 impl Function {
     /// The resultant, up to the sign, of two polynomials given by all coefficients for their formal degrees.
@@ -181,14 +179,12 @@ impl Function {
             return symbols.is_zero(&put(self.polynomial().expect("a polynomial")), budget);
         };
         let (a, b) = (common_scale(a, value), common_scale(b, value));
-        let mut bits = 128;
-        while bits <= MOST_BITS {
+        let sign = RESULTANT_AT_NUMBER.find(|bits| {
             let at = |list: &[MultiPoly]| list.iter().map(|p| symbols.enclose(p, bits)).collect::<Vec<Ball>>();
-            let resultant = budget.enter(|| enclosed_resultant(&at(&a), &at(&b)))?;
-            if let Some(sign) = resultant.sign() {
-                return Ok(sign.is_eq());
-            }
-            bits *= 2;
+            Ok(budget.enter(|| enclosed_resultant(&at(&a), &at(&b)))?.sign())
+        })?;
+        if let Some(sign) = sign {
+            return Ok(sign.is_eq());
         }
         symbols.is_zero(&Function::resultant(a, b).expanded(budget)?, budget)
     }

@@ -42,6 +42,7 @@ pub use values::ParametricSymbols;
 
 use self::horner::Horner;
 use crate::ball::{Ball, BallMatrix, Series, exp, exponential, exponential_of_rationals, fundamental_solutions};
+use crate::limits::until_shown;
 use crate::matrix::Matrix;
 use crate::number::{Enclosure, Integer, Rational};
 use crate::poly::{MultiPoly, RationalFunction};
@@ -283,18 +284,12 @@ fn tangent(w: &Rational, time: &Rational, bits: u64) -> Ball {
     if time.is_zero() {
         return Ball::zero(bits);
     }
-    let mut working = bits + 16;
-    loop {
+    until_shown(bits + 16, |working| {
         let e = exponential_of_rationals(&companion(&[w.clone(), Rational::ZERO], time), working);
         // The angle is algebraic and not 0, so that its cosine is not 0.
-        if let Some(tangent) = e.at(0, 1).div(e.at(0, 0)) {
-            let tangent = tangent.with_bits(bits);
-            if tangent.width_units() <= Integer::from(4) {
-                return tangent;
-            }
-        }
-        working *= 2;
-    }
+        let tangent = e.at(0, 1).div(e.at(0, 0))?.with_bits(bits);
+        (tangent.width_units() <= Integer::from(4)).then_some(tangent)
+    })
 }
 
 #[cfg(test)]

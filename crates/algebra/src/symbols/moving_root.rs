@@ -4,7 +4,7 @@ use super::horner::Scheme;
 use super::moving::FIRST_BITS;
 use super::{Function, MovingSymbols};
 use crate::ball::{Ball, Series};
-use crate::limits::checkpoint;
+use crate::limits::{checkpoint, until_shown};
 use crate::number::{Enclosure, Integer, Rational};
 use crate::real::{Enclosing, Origin};
 use std::sync::{Arc, OnceLock};
@@ -107,12 +107,8 @@ impl MovingRoot {
 
     /// Whether the function is negative below the zero, which is not an end of its place.
     fn rises(&self) -> bool {
-        let mut working = FIRST_BITS;
-        loop {
-            if let Some(below) = self.symbols.sign_at(&self.scheme, self.place.lower(), working) {
-                return below.is_lt();
-            }
-            working *= 2;
-        }
+        until_shown(FIRST_BITS, |working| {
+            Some(self.symbols.sign_at(&self.scheme, self.place.lower(), working)?.is_lt())
+        })
     }
 }

@@ -2,16 +2,14 @@
 
 use super::Symbols;
 use crate::ball::Ball;
-use crate::limits::{Budget, Exhausted, checkpoint};
+use crate::limits::{Budget, Exhausted, checkpoint, until_shown};
 use crate::number::{Enclosure, Integer, Rational};
 use crate::poly::{Domain, MultiPoly};
+use crate::precisions::DIRECTION;
 use crate::real::{Enclosing, Origin};
 use std::cmp::Ordering;
 use std::fmt;
 use std::sync::Arc;
-
-/// Bits with which the direction is looked for first.
-const FIRST_BITS: u64 = 128;
 
 /// A polynomial in one unknown whose coefficients are real numbers that are known by enclosures.
 ///
@@ -138,16 +136,11 @@ fn middle(lo: &Rational, hi: &Rational, bits: u64) -> Ball {
 impl SymbolicRoot {
     /// Whether the polynomial is negative below the root.
     fn rises(&self) -> bool {
-        let mut working = FIRST_BITS;
-        loop {
+        until_shown(DIRECTION, |working| {
             let coefficients = self.of.enclose(working);
             let at = |x: &Rational| value(&coefficients, &Ball::from_rational(x, working)).sign();
-            if let (Some(a), Some(b)) = (at(self.place.lower()), at(self.place.upper()))
-                && a != b
-            {
-                return b.is_gt();
-            }
-            working *= 2;
-        }
+            let (below, above) = (at(self.place.lower())?, at(self.place.upper())?);
+            (below != above).then(|| above.is_gt())
+        })
     }
 }

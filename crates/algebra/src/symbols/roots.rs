@@ -3,24 +3,19 @@
 use super::Symbols;
 use super::root::{Coefficients, EnclosedPoly, SymbolicRoot, derivative};
 use crate::ball::Ball;
-use crate::limits::{Budget, Exhausted, Stop};
+use crate::limits::{Budget, Exhausted};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::multivariate::is_square_free_in;
 use crate::poly::real_roots::isolate_real_roots;
 use crate::poly::{
     Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in, simplest_between,
 };
+use crate::precisions::ZEROS_OVER_SYMBOLS;
 use crate::real::{Real, Transcendental};
 use std::sync::Arc;
 
-/// Bits of the first attempt.
-const FIRST_BITS: u64 = 128;
-
 /// A rational number of so few bits in an interval as narrow is hardly there by chance.
 const CANDIDATE_BITS: u64 = 96;
-
-/// Bits after which roots are not told apart.
-const MOST_BITS: u64 = 1 << 13;
 
 /// A polynomial over symbols, split into what does not depend on them and the rest.
 ///
@@ -296,23 +291,18 @@ fn positive_roots(
     };
     let ends = [at_end(near)?, at_end(far)?];
     let zero = Rational::ZERO;
-    let mut bits = FIRST_BITS;
-    while bits <= MOST_BITS {
+    ZEROS_OVER_SYMBOLS.decide("isolating real roots", |bits| {
         budget.check()?;
         let attempt = Attempt { bits, near: near.unwrap_or(&zero), far, ends, budget };
         let mut coefficients = budget.enter(|| p.enclose(bits))?;
         if coefficients.len() < 2 {
-            return Ok(Vec::new());
+            return Ok(Some(Vec::new()));
         }
         if mirrored {
             coefficients.iter_mut().skip(1).step_by(2).for_each(|c| *c = c.neg());
         }
-        if let Some(found) = attempt.isolate(&coefficients)? {
-            return Ok(found);
-        }
-        bits *= 2;
-    }
-    Err(Exhausted::new(Stop::Precision(MOST_BITS), "isolating real roots"))
+        attempt.isolate(&coefficients)
+    })
 }
 
 /// A number with few bits between two numbers, the smaller one first; `None` where they are equal. The simplest fraction between

@@ -1,18 +1,10 @@
 //! The sign of a number that is given as a polynomial in symbols.
 
 use super::Symbols;
-use crate::limits::{Budget, Exhausted, Stop};
+use crate::limits::{Budget, Exhausted};
 use crate::number::Sign;
 use crate::poly::{Domain, MultiPoly};
-
-/// Bits of the first attempt.
-const FIRST_BITS: u64 = 128;
-
-/// Bits from which on zero is worth a proof of its own.
-const PROOF_BITS: u64 = 1024;
-
-/// Bits after which a sign is given up.
-const MOST_BITS: u64 = 1 << 13;
+use crate::precisions::{PROOF_OF_ZERO, SIGN_OF_CONSTANT};
 
 impl Symbols {
     /// The sign of a polynomial in symbols.
@@ -33,20 +25,16 @@ impl Symbols {
         if let Some(constant) = p.as_constant() {
             return Ok(constant.sign());
         }
-        let mut bits = FIRST_BITS;
-        while bits <= MOST_BITS {
+        SIGN_OF_CONSTANT.decide("the sign of a constant", |bits| {
             budget.check()?;
-            if let Some(sign) = budget.enter(|| self.enclose(p, bits))?.sign() {
+            let sign = budget.enter(|| self.enclose(p, bits))?.sign();
+            if sign.is_some() || bits != PROOF_OF_ZERO {
                 return Ok(sign);
             }
-            if bits == PROOF_BITS
-                && (budget.enter(|| self.is_zero_in_normal_form(p))? || self.is_zero_algebraic_number(p, budget)?)
-            {
-                return Ok(Sign::Equal);
-            }
-            bits *= 2;
-        }
-        Err(Exhausted::new(Stop::Precision(MOST_BITS), "the sign of a constant"))
+            let is_zero =
+                budget.enter(|| self.is_zero_in_normal_form(p))? || self.is_zero_algebraic_number(p, budget)?;
+            Ok(is_zero.then_some(Sign::Equal))
+        })
     }
 
     /// Whether a polynomial in symbols is zero.

@@ -1,13 +1,13 @@
 //! All complex roots of an exact polynomial, for pictures.
 
 use super::fixed::Fixed;
+use jurist_algebra::limits::{Precisions, until_shown};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, UniPoly};
 use nalgebra::Complex;
 
 /// Bits after the point in the first attempt, and in the last.
-const FIRST_BITS: u64 = 128;
-const LAST_BITS: u64 = 4096;
+const PRECISIONS: Precisions = Precisions::new(128, 4096);
 
 /// A root is good enough when its disc is smaller than `2^-46` of it (or of 1): far below a pixel,
 /// also in an inset magnified ten thousand times.
@@ -63,20 +63,19 @@ fn simple_roots(p: &UniPoly) -> Vec<(Complex<f64>, f64)> {
         let root = Rational::new(-p.coeff(0), p.coeff(1));
         return vec![(Complex::new(root.to_f64_approximate(), 0.0), 0.0)];
     }
-    let mut bits = FIRST_BITS;
     let start = starting_points(p);
     let start = in_floating_point(p, &start).unwrap_or(start);
-    let mut roots: Vec<Fixed> = start.into_iter().map(|z| Fixed::from_f64(z, bits)).collect();
-    loop {
+    let mut roots: Vec<Fixed> = start.into_iter().map(|z| Fixed::from_f64(z, PRECISIONS.first)).collect();
+    until_shown(PRECISIONS.first, |bits| {
         iterate(p, &mut roots, bits);
         let discs: Vec<(Complex<f64>, f64)> = roots.iter().map(|z| (z.to_f64(bits), radius(p, z, bits))).collect();
         let good = |(z, r): &(Complex<f64>, f64)| *r <= GOOD_ENOUGH * z.norm().max(1.0);
-        if discs.iter().all(good) || bits >= LAST_BITS {
-            return with_real_roots_real(discs);
+        if discs.iter().all(good) || bits >= PRECISIONS.last {
+            return Some(with_real_roots_real(discs));
         }
         roots = roots.iter().map(|z| z.widened(bits)).collect();
-        bits *= 2;
-    }
+        None
+    })
 }
 
 /// Sweeps of Aberth's correction until every root stands still.

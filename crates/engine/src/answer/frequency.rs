@@ -2,6 +2,7 @@
 
 use crate::problem::Problem;
 use crate::stability::{ComplexPair, End, Shape};
+use jurist_algebra::limits::doubling;
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::UniPoly;
 use jurist_algebra::real::Real;
@@ -93,19 +94,15 @@ fn positive_value_at(f: &(UniPoly, UniPoly), at: &Real, bits: u64) -> Option<Enc
             return None;
         }
     }
-    let mut working = 2 * bits;
     // An algebraic number has a positive value there, which shows in the end.
-    while at.algebraic().is_some() || working >> MOST_DOUBLINGS <= 2 * bits {
+    let attempts = if at.algebraic().is_some() { usize::MAX } else { 1 + MOST_DOUBLINGS };
+    doubling(2 * bits).take(attempts).find_map(|working| {
         let (lo, hi) = at.refined(&Rational::dyadic(&Integer::ONE, working)).enclosure();
         let x = Enclosure::new(lo, hi);
         let value = |p: &UniPoly| p.eval_enclosure(&x, working);
-        if let Some(quotient) = value(&f.0).div(&value(&f.1), working)
-            && quotient.lower().sign().is_gt()
-            && (quotient.upper() - quotient.lower()) * Rational::from(&Integer::ONE << bits) <= *quotient.lower()
-        {
-            return Some(quotient);
-        }
-        working *= 2;
-    }
-    None
+        value(&f.0).div(&value(&f.1), working).filter(|quotient| {
+            let width = (quotient.upper() - quotient.lower()) * Rational::from(&Integer::ONE << bits);
+            quotient.lower().sign().is_gt() && width <= *quotient.lower()
+        })
+    })
 }

@@ -2,30 +2,22 @@
 
 use std::fmt;
 
-/// Makes the enumeration of all codes from pairs of a name and a text.
+/// Makes an enumeration of codes from pairs of a name and a text.
 macro_rules! codes {
-    ($($name:ident = $text:literal,)+) => {
-        /// The stable code of a diagnostic: an error (`E-`) or a warning (`W-`). `Display` writes it as users see it.
-        ///
-        /// ```
-        /// use jurist_engine::error::Code;
-        /// assert_eq!(Code::UnknownName.to_string(), "E-unknown-name");
-        /// assert!(Code::ALL.contains(&Code::UnusedWarning));
-        /// ```
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        #[non_exhaustive]
-        pub enum Code {
+    ($(#[$attribute:meta])* pub enum $codes:ident { $($name:ident = $text:literal,)+ }) => {
+        $(#[$attribute])*
+        pub enum $codes {
             $(#[doc = concat!("`", $text, "`: its meaning is in [`code_list`](super::code_list).")] $name,)+
         }
 
-        impl Code {
+        impl $codes {
             /// All codes, sorted by their text.
-            pub const ALL: &[Code] = &[$(Code::$name),+];
+            pub const ALL: &[$codes] = &[$($codes::$name),+];
 
             /// The code as users see it, such as `E-unknown-name`.
             pub const fn as_str(self) -> &'static str {
                 match self {
-                    $(Code::$name => $text,)+
+                    $($codes::$name => $text,)+
                 }
             }
         }
@@ -33,6 +25,16 @@ macro_rules! codes {
 }
 
 codes! {
+/// The stable code of a diagnostic: an error (`E-`) or a warning (`W-`). `Display` writes it as users see it.
+///
+/// ```
+/// use jurist_engine::error::Code;
+/// assert_eq!(Code::UnknownName.to_string(), "E-unknown-name");
+/// assert!(Code::ALL.contains(&Code::UnusedWarning));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Code {
     AlgebraicLoop = "E-algebraic-loop",
     Coq = "E-coq",
     Cut = "E-cut",
@@ -99,6 +101,7 @@ codes! {
     RuleWarning = "W-rule",
     SampleTimesWarning = "W-sample-times",
     UnusedWarning = "W-unused",
+}
 }
 
 impl fmt::Display for Code {

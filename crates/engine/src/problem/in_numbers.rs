@@ -3,17 +3,12 @@
 use super::{Bound, Problem, Region};
 use crate::error::Error;
 use crate::model::{ClosedLoop, InNumbers, Symbols, quotient_at};
+use crate::precisions::LOOP_IN_NUMBERS;
 use crate::stability::{AtPoint, EnclosedLoop, Shape, open_equation};
 use jurist_algebra::ball::{Ball, BallMatrix};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
-
-/// Bits of the first attempt.
-const FIRST_BITS: u64 = 128;
-
-/// Bits after which a loop is so near to the boundary that exact algebra is asked.
-const MOST_BITS: u64 = 1 << 11;
 
 /// What enclosures say of a loop.
 #[derive(Clone, Debug)]
@@ -57,19 +52,21 @@ impl Problem {
         budget.step("counting the roots");
         let shape = self.shape();
         let mut open: Option<String> = None;
-        let mut bits = FIRST_BITS;
-        while bits <= MOST_BITS {
+        let known = LOOP_IN_NUMBERS.find(|bits| {
             let attempt = budget.enter(|| attempt(found, self.region(), shape, bits));
             match attempt.and_then(|found| budget.check().map(|()| found)) {
-                Ok(FromNumbers::Open(question)) => open = Some(question),
-                Ok(known) => return Ok(Some(known)),
-                Err(stopped) => {
-                    return Err(open.map_or(stopped.clone(), |question| stopped.with_open(&question)).into());
+                Ok(FromNumbers::Open(question)) => {
+                    open = Some(question);
+                    Ok(None)
                 }
+                Ok(known) => Ok(Some(known)),
+                Err(stopped) => Err(match &open {
+                    Some(question) => stopped.with_open(question),
+                    None => stopped,
+                }),
             }
-            bits *= 2;
-        }
-        Ok(open.map(FromNumbers::Open))
+        })?;
+        Ok(known.or(open.map(FromNumbers::Open)))
     }
 }
 

@@ -9,6 +9,7 @@ use super::statement::{self, about, boundary, number, object};
 use super::text::to_text;
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
+use crate::precisions::CERTIFICATE_OVER_SYMBOLS;
 use crate::problem::Problem;
 use crate::stability::{Shape, StableSet, SymbolicPolynomial};
 use jurist_algebra::limits::Budget;
@@ -22,12 +23,6 @@ use std::sync::Arc;
 /// The schema of certificates over symbols.
 const SCHEMA: &str = "jurist/certificate/2";
 
-/// Bits of the first attempt.
-const FIRST_BITS: u64 = 256;
-
-/// Bits after which a certificate is given up.
-const MOST_BITS: u64 = 1 << 13;
-
 /// The checkers have so many bits more than the signs were certain with here, beside those of the longest coefficient: they take powers of symbols,
 /// which may be small, before they multiply.
 const SPARE_BITS: u64 = 64;
@@ -39,8 +34,17 @@ const MOST_OF_CHECKERS: u64 = 1 << 15;
 pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error> {
     let algebra = problem.algebra_over_symbols(budget)?;
     let symbols = algebra.symbols();
-    if symbols.is_moving() || symbols.is_written() || !symbols.delays().is_empty() {
-        return Err(no_certificate("no certificate: the loop has functions that no checker knows there"));
+    let why = if symbols.is_written() {
+        Some("the model has pi or a function in it (a sample time of pi/2, a gain of sqrt(2))")
+    } else if symbols.is_moving() {
+        Some("the parameter is inside of the exponentials of a held block")
+    } else if !symbols.delays().is_empty() {
+        Some("the loop has dead time beside functions")
+    } else {
+        None
+    };
+    if let Some(why) = why {
+        return Err(no_certificate(format!("no certificate: {why}, which no checker knows there")));
     }
     if !problem.positive().is_empty() {
         return Err(no_certificate(
@@ -91,7 +95,7 @@ pub(super) fn of_set(answer: &Answer<StableSet>, budget: &Budget) -> Result<Stri
         proof.identity = Some(found);
     }
     let mut parts = (Vec::new(), Vec::new());
-    let mut bits = FIRST_BITS;
+    let mut bits = CERTIFICATE_OVER_SYMBOLS.first;
     if !is_nowhere {
         budget.step("factors");
         let mut all = proof.certain.clone();
@@ -99,17 +103,15 @@ pub(super) fn of_set(answer: &Answer<StableSet>, budget: &Budget) -> Result<Stri
         proof.factors = budget.enter(|| coprime_basis(&all))?;
         let domain = &problem.parameter().domain;
         let zeros = zeros(&proof.factors, &symbols, domain, budget)?;
-        parts = loop {
+        let found = CERTIFICATE_OVER_SYMBOLS.find(|bits| {
             budget.check()?;
             let attempt = Attempt { proof: &proof, enclosed: Enclosed { symbols: &symbols, bits }, domain, budget };
-            match attempt.line(zeros.clone())? {
-                Some(line) => break line,
-                None if bits >= MOST_BITS => {
-                    return Err(no_certificate(format!("no certificate: a sign is not certain with {bits} bits")));
-                }
-                None => bits *= 2,
-            }
-        };
+            Ok::<_, Error>(attempt.line(zeros.clone())?.map(|line| (line, bits)))
+        })?;
+        (parts, bits) = found.ok_or_else(|| {
+            let most = CERTIFICATE_OVER_SYMBOLS.last;
+            no_certificate(format!("no certificate: a sign is not certain with {most} bits"))
+        })?;
         if parts.1.len() != answer.value().intervals().len() {
             return Err(no_certificate("no certificate: an end is not told apart"));
         }
@@ -143,20 +145,17 @@ pub(super) fn of_verdict(answer: &Answer<PointVerdict>, budget: &Budget) -> Resu
             on += 1;
         }
     }
-    let mut bits = FIRST_BITS;
-    let counts = loop {
+    let found = CERTIFICATE_OVER_SYMBOLS.find(|bits| {
         budget.check()?;
         let enclosed = Enclosed { symbols: &symbols, bits };
         let is_defined = p.poles().iter().all(|q| enclosed.coefficients(q).iter().any(|c| !c.contains_zero()));
         let inside = budget.enter(|| enclosed.inside(rest.coeffs(), None, false))?;
-        match inside {
-            Some(inside) if is_defined => break (inside, on, d.len() - 1 - on - inside),
-            _ if bits >= MOST_BITS => {
-                let why = "no certificate: roots are on the circle or mirror images in it, or the degree is lost";
-                return Err(no_certificate(why));
-            }
-            _ => bits *= 2,
-        }
+        let counts = |inside: usize| (inside, on, d.len() - 1 - on - inside);
+        Ok::<_, Error>(inside.filter(|_| is_defined).map(|inside| (counts(inside), bits)))
+    })?;
+    let Some((counts, bits)) = found else {
+        let why = "no certificate: roots are on the circle or mirror images in it, or the degree is lost";
+        return Err(no_certificate(why));
     };
     let own = verdict.count.unwrap_or_default();
     if (own.inside, own.on, own.outside) != counts || verdict.infinite > 0 {

@@ -40,6 +40,6 @@ fn refuse_requirements(problem: &Problem) -> Result<(), Error> {
 
 fn no_certificate(why: impl Into<String>) -> Error {
     Diagnostic::error(Code::NoCertificate, why)
-        .help("known: loops behind a hold, or with prewarp, at fixed times, the dead time of a loop with one, a gain beside a fixed one; the answer is printed without it")
+        .help("known: loops behind a hold, or with prewarp, at times that are rational numbers, the dead time of a loop with one, a gain beside a fixed one; the answer is printed without it")
         .into()
 }

@@ -6,7 +6,7 @@ use super::ground::{Ground, at_end};
 use super::open_loop::{OpenLoop, Parts, with_parts};
 use super::place::modulus_squared;
 use crate::stability::Shape;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, try_until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly};
 
@@ -125,27 +125,26 @@ fn passes<G: Ground>(
     m: u64,
     budget: &Budget,
 ) -> Result<Option<i64>, Exhausted> {
-    let mut bits = 64 + 2 * u64::from(64 - m.leading_zeros());
     let mut decided_apart = false;
-    loop {
+    try_until_shown(64 + 2 * u64::from(64 - m.leading_zeros()), |bits| {
         let turns = budget.enter(|| {
             let angle = crossing.place.frequency(Shape::UnitDisc, None, bits)?.angle?;
             let turned = angle.mul(&Enclosure::from_rational(Rational::from(m)), bits).sub(&crossing.lag(bits), bits);
             let turn = Enclosure::pi(bits).mul(&Enclosure::from_rational(Rational::from(2)), bits);
             turned.div(&turn, bits)
         })?;
-        let Some(turns) = turns else { return Ok(None) };
+        let Some(turns) = turns else { return Ok(Some(None)) };
         let (lo, hi) = (turns.lower().floor(), turns.upper().floor());
         if lo == hi && turns.lower() != &Rational::from(&lo) {
-            return Ok((&lo + &Integer::ONE).to_i64().map(|passed| passed.max(0)));
+            return Ok(Some((&lo + &Integer::ONE).to_i64().map(|passed| passed.max(0))));
         }
         // Either it is at -1, which the polynomial tells, or narrower enclosures part them.
         if !decided_apart && is_root(parts, crossing, m, budget)? {
-            return Ok(None);
+            return Ok(Some(None));
         }
         decided_apart = true;
-        bits *= 2;
-    }
+        Ok(None)
+    })
 }
 
 /// Whether `z^m D0 + N` has a root at the crossing.

@@ -1,6 +1,6 @@
 //! Real numbers that a computation with balls encloses.
 
-use jurist_algebra::limits::checkpoint;
+use jurist_algebra::limits::{checkpoint, until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
 use std::fmt;
@@ -22,16 +22,10 @@ impl fmt::Debug for Enclosed {
 impl Enclosing for Enclosed {
     fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
         let width = Rational::dyadic(&Integer::ONE, bits);
-        let mut working = bits + 64;
-        loop {
+        until_shown(bits + 64, |working| {
             checkpoint(working);
-            if let Some(x) = (self.attempt)(working)
-                && x.upper() - x.lower() <= width
-            {
-                return x;
-            }
-            working *= 2;
-        }
+            (self.attempt)(working).filter(|x| x.upper() - x.lower() <= width)
+        })
     }
 
     fn origin(&self) -> Origin {

@@ -2,12 +2,13 @@
 
 use super::enclosed::enclosed;
 use super::{Place, Value};
+use crate::precisions::SIGN_AT_NUMBER;
 use crate::stability::{
     AtPoint, ParametricPolynomial, Range, Shape, StableSet, SymbolicPolynomial, is_stable, stable_set,
     symbolic_stable_set, zeros_in,
 };
 use jurist_algebra::ball::Ball;
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
@@ -167,12 +168,6 @@ impl Ground for Integers {
 #[derive(Clone, Debug)]
 pub(crate) struct Constants(pub Arc<Symbols>);
 
-/// Bits of the first attempt to find a sign.
-const FIRST_BITS: u64 = 128;
-
-/// Bits after which the sign of a polynomial at a number is not looked for: it may be zero.
-const MOST_BITS: u64 = 1 << 13;
-
 impl Constants {
     /// The value at a ball.
     fn at_ball(&self, p: &Poly<MultiPoly>, x: &Ball) -> Ball {
@@ -232,15 +227,10 @@ impl Ground for Constants {
         if let Some(x) = x.exact() {
             return self.sign(&at_rational(p, &x, p.coeffs().len()), budget);
         }
-        let mut bits = FIRST_BITS;
-        while bits <= MOST_BITS {
+        SIGN_AT_NUMBER.decide("the open loop at a frequency", |bits| {
             budget.check()?;
-            if let Some(sign) = budget.enter(|| self.at_real(p, x, bits))?.sign() {
-                return Ok(sign);
-            }
-            bits *= 2;
-        }
-        Err(Exhausted::new(Stop::Precision(MOST_BITS), "the open loop at a frequency"))
+            Ok(budget.enter(|| self.at_real(p, x, bits))?.sign())
+        })
     }
 
     fn quotient(&self, a: &MultiPoly, b: &MultiPoly, budget: &Budget) -> Result<Value, Exhausted> {

@@ -11,11 +11,12 @@ use super::spiral::OnSpiral;
 use super::{DelayMargin, HeldDelay};
 use crate::answer::{Answer, Verdict};
 use crate::error::{Code, Diagnostic, Error};
+use crate::precisions::REQUIRED_DELAY;
 use crate::problem::Problem;
 use crate::stability::{
     End, Range, Shape, StableSet, SymbolicPolynomial, UndecidedBracket, boundary_polynomials, symbolic_stable_set,
 };
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
@@ -315,21 +316,16 @@ fn bears(margins: &Margins, least: &Rational, budget: &Budget) -> Result<bool, E
     }
 }
 
-/// Bits after which a delay is not told from what is required.
-const MOST_BITS: u64 = 1 << 12;
-
 fn is_at_least(
     enclose: impl Fn(u64) -> Option<Enclosure>,
     least: &Rational,
     budget: &Budget,
 ) -> Result<bool, Exhausted> {
-    let mut bits = 64;
-    while bits <= MOST_BITS {
-        match budget.enter(|| enclose(bits))? {
-            Some(e) if e.lower() >= least => return Ok(true),
-            Some(e) if e.upper() < least => return Ok(false),
-            _ => bits *= 2,
-        }
-    }
-    Err(Exhausted::new(Stop::Precision(MOST_BITS), "comparing a delay with the required one"))
+    REQUIRED_DELAY.decide("comparing a delay with the required one", |bits| {
+        Ok(match budget.enter(|| enclose(bits))? {
+            Some(e) if e.lower() >= least => Some(true),
+            Some(e) if e.upper() < least => Some(false),
+            _ => None,
+        })
+    })
 }

@@ -5,8 +5,9 @@
 //! for `z = 1` no point of it is algebraic, by the theorem of Gelfond and Schneider (`|z| = exp(j phi)^(j c)`), so that the
 //! roots of a polynomial with rational coefficients are never on it: a count at a rational point ends.
 
+use crate::precisions::ROOTS_IN_SPIRAL;
 use jurist_algebra::ball::{Ball, cos_sin, exp};
-use jurist_algebra::limits::{Budget, Exhausted, Stop, checkpoint};
+use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Poly, UniPoly};
 
@@ -120,8 +121,6 @@ pub(super) enum Walk {
 const FIRST_LEVEL: u64 = 5;
 /// So far all open arcs are halved, however many.
 const EVERYWHERE: u64 = 8;
-/// Bits of the first walk, and of the last.
-const BITS: (u64, u64) = (128, 1 << 14);
 
 impl OnSpiral {
     /// Of a polynomial in `z` over those in the parameter.
@@ -142,15 +141,13 @@ impl OnSpiral {
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
     pub fn count_at(&self, value: &Rational, budget: &Budget) -> Result<usize, Exhausted> {
-        let mut bits = BITS.0;
-        while bits <= BITS.1 {
+        ROOTS_IN_SPIRAL.decide("counting roots inside a spiral", |bits| {
             budget.check()?;
-            if let Walk::Count(count) = budget.enter(|| self.walk(&Values::of(value), bits, bits, usize::MAX))? {
-                return Ok(count);
-            }
-            bits *= 2;
-        }
-        Err(Exhausted::new(Stop::Precision(BITS.1), "counting roots inside a spiral"))
+            Ok(match budget.enter(|| self.walk(&Values::of(value), bits, bits, usize::MAX))? {
+                Walk::Count(count) => Some(count),
+                Walk::Open(_) => None,
+            })
+        })
     }
 
     /// Walks along the edge, halving arcs so often at most, and only while no more of them are open.

@@ -1,7 +1,7 @@
 //! Values of rational functions at algebraic frequencies, as algebraic numbers.
 
 use super::enclosed::{enclosed, within};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, try_until_shown, until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots, resultant};
 use jurist_algebra::real::Real;
@@ -69,20 +69,13 @@ impl Value {
                 let (lo, hi) = x.refined_to_digits(bits as usize / 3 + 1).enclosure();
                 Enclosure::new(lo, hi)
             }
-            Value::Quotient { numerator, denominator, at } => {
-                let mut working = bits + 32;
-                loop {
-                    let (lo, hi) = at.refined(&Rational::dyadic(&Integer::ONE, working)).enclosure();
-                    let x = Enclosure::new(lo, hi);
-                    let value = |p: &UniPoly| p.eval_enclosure(&x, working);
-                    if let Some(quotient) = value(numerator).div(&value(denominator), working)
-                        && narrow(&quotient)
-                    {
-                        return quotient.rounded(bits + 2);
-                    }
-                    working *= 2;
-                }
-            }
+            Value::Quotient { numerator, denominator, at } => until_shown(bits + 32, |working| {
+                let (lo, hi) = at.refined(&Rational::dyadic(&Integer::ONE, working)).enclosure();
+                let x = Enclosure::new(lo, hi);
+                let value = |p: &UniPoly| p.eval_enclosure(&x, working);
+                let quotient = value(numerator).div(&value(denominator), working).filter(&narrow)?;
+                Some(quotient.rounded(bits + 2))
+            }),
         }
     }
 
@@ -141,16 +134,12 @@ fn root_within(
     budget: &Budget,
 ) -> Result<RealAlgebraic, Exhausted> {
     let mut roots = isolate_real_roots(p, budget)?;
-    let mut bits = 64;
-    loop {
+    try_until_shown(64, |bits| {
         let e = budget.enter(|| enclose(bits))?;
         roots.retain(|x| x.compare_rational(e.lower()).is_ge() && x.compare_rational(e.upper()).is_le());
-        if roots.len() == 1 {
-            return Ok(roots.swap_remove(0));
-        }
         assert!(!roots.is_empty(), "the enclosed number is a root");
-        bits *= 2;
-    }
+        Ok((roots.len() == 1).then(|| roots.swap_remove(0)))
+    })
 }
 
 /// The square root of a number that is not negative.

@@ -2,7 +2,7 @@
 
 use super::interval_set::zeros_in;
 use super::{HalfSizePair, ParametricPolynomial, Range, Shape};
-use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
+use jurist_algebra::limits::{Budget, Exhausted, checkpoint, until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, UniPoly, subresultant_chain};
 use jurist_algebra::real::Real;
@@ -259,44 +259,31 @@ impl ComplexPair {
 
     /// `-omega^2`.
     fn refine_square(&self, omega: &Real, bits: u64) -> (Rational, Rational) {
-        let mut width_bits = bits + 8;
         let mut omega = omega.clone();
-        loop {
+        until_shown(bits + 8, |width_bits| {
             omega = omega.refined(&Rational::dyadic(&Integer::ONE, width_bits));
             let (lo, hi) = omega.enclosure();
             let (a, b) = (-(&hi * &hi), -(&lo * &lo));
-            if lo.sign().is_gt() && (lo == hi || self.is_fine(&a, &b, bits)) {
-                return (a, b);
-            }
-            width_bits *= 2;
-        }
+            (lo.sign().is_gt() && (lo == hi || self.is_fine(&a, &b, bits))).then_some((a, b))
+        })
     }
 
     fn refine_number(&self, x: &Real, bits: u64) -> (Rational, Rational) {
         let mut x = x.clone();
-        let mut width_bits = bits + 4;
-        loop {
+        until_shown(bits + 4, |width_bits| {
             x = x.refined(&Rational::dyadic(&Integer::ONE, width_bits));
             let (lo, hi) = x.enclosure();
-            if lo == hi || self.is_fine(&lo, &hi, bits) {
-                return (lo, hi);
-            }
-            width_bits *= 2;
-        }
+            (lo == hi || self.is_fine(&lo, &hi, bits)).then_some((lo, hi))
+        })
     }
 
     /// `-c0/c1`, of enclosures that are made with more and more bits.
     fn refine_quotient(&self, bits: u64, enclosed: impl Fn(u64) -> Option<[Enclosure; 2]>) -> (Rational, Rational) {
-        let mut working = 2 * bits + 64;
-        loop {
-            if let Some([c0, c1]) = enclosed(working)
-                && let Some(x) = c0.neg().div(&c1, working)
-                && self.is_fine(x.lower(), x.upper(), bits)
-            {
-                return (x.lower().clone(), x.upper().clone());
-            }
-            working *= 2;
-        }
+        until_shown(2 * bits + 64, |working| {
+            let [c0, c1] = enclosed(working)?;
+            let x = c0.neg().div(&c1, working).filter(|x| self.is_fine(x.lower(), x.upper(), bits))?;
+            Some((x.lower().clone(), x.upper().clone()))
+        })
     }
 
     /// Bisection for the largest root: of a polynomial with only real roots, the number of roots above

@@ -3,6 +3,7 @@
 use super::bracket::{Bracket, eval_dyadic};
 use super::isolate::by_bisection;
 use super::square_free::{SquareFree, deflation};
+use crate::limits::until_shown;
 use crate::number::{Integer, Rational, Sign};
 use crate::poly::UniPoly;
 use crate::poly::algebraic::RealAlgebraic;
@@ -55,19 +56,18 @@ fn roots_of_roots(p: &UniPoly, h: usize, from: &Rational, to: Option<&Rational>,
 /// A bracket of the `h`-th root of `y`, between those of `left < y` and `right > y`.
 fn root_of_root(p: &UniPoly, h: usize, y: &RealAlgebraic, left: &Rational, right: &Rational) -> Bracket {
     let power = h as u64;
-    let mut bits = 8;
-    loop {
+    until_shown(8, |bits| {
         // Rounded inwards, so that no other root can get in.
         let lo = scaled_root(left, power, bits) + Integer::ONE;
         let hi = scaled_root(right, power, bits);
         let raised = |a: &Integer| Rational::dyadic(&a.pow(power), bits * power);
-        if lo < hi && y.compare_rational(&raised(&lo)).is_gt() && y.compare_rational(&raised(&hi)).is_lt() {
-            // No dyadic number is a root.
-            let rising = eval_dyadic(p, &hi, bits).sign() == Sign::Greater;
-            return Bracket { lo, hi, bits, rising };
+        if lo >= hi || y.compare_rational(&raised(&lo)).is_le() || y.compare_rational(&raised(&hi)).is_ge() {
+            return None;
         }
-        bits *= 2;
-    }
+        // No dyadic number is a root.
+        let rising = eval_dyadic(p, &hi, bits).sign() == Sign::Greater;
+        Some(Bracket { lo, hi, bits, rising })
+    })
 }
 
 /// `floor(2^bits x^(1/power))` for `x >= 0`.

@@ -2,7 +2,8 @@
 
 use super::over_root::{eval, gcd, isolate, narrowed, square_free, without_zero_root};
 use super::quasi_polynomial::{QuasiPolynomial, even_odd, rekasius};
-use jurist_algebra::limits::{Budget, Exhausted};
+use crate::precisions::MOTION_OF_ROOTS;
+use jurist_algebra::limits::{Budget, Exhausted, until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in, resultant_formal};
 
@@ -135,37 +136,28 @@ impl Motion {
             }
             Place::Root { polynomial, interval } => {
                 // Equal here only means that it is not known to be otherwise.
-                let mut bits = 64;
-                while bits <= MOTION_BITS {
+                let sign = |bits: u64| {
                     let at = enclosed(w, bits);
                     let (lo, hi) = narrowed(polynomial, w, interval.clone(), bits);
                     let value = eval(&self.polynomial, &at, &Enclosure::new(lo, hi), bits);
-                    if value.lower().sign().is_gt() || value.upper().is_negative() {
-                        return value.lower().sign();
-                    }
-                    bits *= 2;
-                }
-                Sign::Equal
+                    let is_certain = value.lower().sign().is_gt() || value.upper().is_negative();
+                    is_certain.then(|| value.lower().sign())
+                };
+                MOTION_OF_ROOTS.bits().find_map(sign).unwrap_or(Sign::Equal)
             }
         }
     }
 }
 
-/// Bits at which a motion that is not told by a quotient is taken for one that its derivative does not tell; such a
-/// crossing is counted on both sides instead.
-const MOTION_BITS: u64 = 512;
-
 /// An enclosure of relative width about `2^-bits` of a number that is not zero.
 fn enclosed(x: &RealAlgebraic, bits: u64) -> Enclosure {
-    let mut width = bits;
-    loop {
+    until_shown(bits, |width| {
         let (lo, hi) = x.refined(&Rational::dyadic(&Integer::ONE, width)).enclosure();
         let least = lo.abs().min(hi.abs());
-        if lo == hi || lo.sign() == hi.sign() && (&hi - &lo) * Rational::from(&Integer::ONE << bits) <= least {
-            return Enclosure::new(lo, hi);
-        }
-        width *= 2;
-    }
+        let is_narrow =
+            lo == hi || lo.sign() == hi.sign() && (&hi - &lo) * Rational::from(&Integer::ONE << bits) <= least;
+        is_narrow.then(|| Enclosure::new(lo, hi))
+    })
 }
 
 impl Crossing {
@@ -213,8 +205,7 @@ impl Crossing {
 
     /// `omega S = tan(theta/2)`, neither zero nor infinite, so that its sign shows.
     fn half_tangent(&self, place: &Place, bits: u64) -> Enclosure {
-        let mut working = bits + 8;
-        loop {
+        until_shown(bits + 8, |working| {
             let w = enclosed(&self.w, working);
             let omega = w.neg().sqrt(working);
             let s = match place {
@@ -227,15 +218,11 @@ impl Crossing {
                     Some(Enclosure::new(lo, hi))
                 }
             };
-            if let Some(t) = s.map(|s| s.mul(&omega, working))
-                && (t.lower().sign().is_gt() || t.upper().is_negative())
-                && (t.upper() - t.lower()) * Rational::from(&Integer::ONE << bits)
-                    <= t.lower().abs().min(t.upper().abs())
-            {
-                return t;
-            }
-            working *= 2;
-        }
+            s.map(|s| s.mul(&omega, working)).filter(|t| {
+                let width = (t.upper() - t.lower()) * Rational::from(&Integer::ONE << bits);
+                (t.lower().sign().is_gt() || t.upper().is_negative()) && width <= t.lower().abs().min(t.upper().abs())
+            })
+        })
     }
 
     /// The dead time `(theta + 2 pi k)/omega`, with about `bits` bits of the angle.

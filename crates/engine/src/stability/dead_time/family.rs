@@ -10,6 +10,7 @@ use super::mikhailov::NotCounted;
 use super::quasi_polynomial::{QuasiPolynomial, even_odd};
 use super::strip::frequency_bound_over;
 use super::windows::Never;
+use crate::precisions::ZERO_AT_EDGE;
 use crate::stability::interval_set::zeros_in;
 use crate::stability::{ParametricPolynomial, Range, Shape, boundary_polynomials, count_roots};
 use jurist_algebra::limits::Budget;
@@ -320,7 +321,7 @@ fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<G
         if is_real && !grows {
             continue;
         }
-        if !is_real && budget.enter(|| zero.enclosures(EDGE_BITS)[0].upper().is_negative())? {
+        if !is_real && budget.enter(|| zero.enclosures(ZERO_AT_EDGE.last)[0].upper().is_negative())? {
             continue;
         }
         if !budget.enter(|| inside(family, &zero, lower, upper))?? {
@@ -364,19 +365,15 @@ fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<G
     Ok(Ok(GainCells { points, right }))
 }
 
-/// Bits at which a zero that cannot be told from an end of the range is given up.
-const EDGE_BITS: u64 = 512;
-
 /// Whether a zero is strictly inside of the range. One on an end is a root of the loop there that depends on no dead time.
 fn inside(family: &FamilyLoop, zero: &FamilyZero, lower: &Rational, upper: &Rational) -> Result<bool, NotSolved> {
-    let mut bits = 64;
-    while bits <= EDGE_BITS {
+    let found = ZERO_AT_EDGE.bits().find_map(|bits| {
         let [omega, p] = zero.enclosures(bits);
         if p.upper() < lower || p.lower() > upper {
-            return Ok(false);
+            return Some(false);
         }
         if p.lower() > lower && p.upper() < upper {
-            return Ok(true);
+            return Some(true);
         }
         for end in [lower, upper] {
             if !p.contains(end) {
@@ -386,17 +383,17 @@ fn inside(family: &FamilyLoop, zero: &FamilyZero, lower: &Rational, upper: &Rati
             let fixed = if family.tau.at(end).is_zero() { at.without_delay() } else { at.content() };
             if omega.contains(&Rational::ZERO) && family.growth(end).is_zero() && at.without_delay().coeff(0).is_zero()
             {
-                return Ok(false);
+                return Some(false);
             }
             let (even, odd) = even_odd(&fixed);
             let common = even.gcd(&odd);
             let square = |x: &Rational| -(x * x);
             let (a, b) = (square(omega.upper()), square(omega.lower()));
             if !common.is_constant() && common.sign_at(&a) != common.sign_at(&b) {
-                return Ok(false);
+                return Some(false);
             }
         }
-        bits *= 2;
-    }
-    Err(NotSolved::Coincidence)
+        None
+    });
+    found.ok_or(NotSolved::Coincidence)
 }

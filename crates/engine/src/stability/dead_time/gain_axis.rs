@@ -4,7 +4,7 @@ use super::gain::GainLoop;
 use super::quasi_polynomial::even_odd;
 use super::trigonometric::{AxisZero, Form, Jet};
 use super::turn::{Fixed, turned};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, doubling, until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
 use jurist_algebra::real::{Enclosing, Origin};
@@ -87,12 +87,13 @@ impl Axis {
     /// or one at which `A` or `B` does.
     pub(super) fn change(&self, zero: &AxisZero, fixed: &[RealAlgebraic], other: Option<&Jet>) -> i64 {
         let (mut lo, mut hi) = (zero.lo.clone(), zero.hi.clone());
-        let mut bits = 8;
-        while fixed.iter().any(|w| w.compare_rational(&lo).is_ge() && w.compare_rational(&hi).is_le())
-            || other.is_some_and(|jet| !jet.stays_away(&lo, &hi))
-        {
+        for bits in doubling(8) {
+            let is_alone = !fixed.iter().any(|w| w.compare_rational(&lo).is_ge() && w.compare_rational(&hi).is_le())
+                && other.is_none_or(|jet| jet.stays_away(&lo, &hi));
+            if is_alone {
+                break;
+            }
             (lo, hi) = zero.refined(bits, Some((lo, hi)));
-            bits *= 2;
         }
         match (self.sign(&lo), self.sign(&hi)) {
             (Sign::Greater, Sign::Less) => 2,
@@ -103,15 +104,11 @@ impl Axis {
 
     /// The sign of `Im(A conj B)` at a rational frequency that is no zero.
     fn sign(&self, omega: &Rational) -> Sign {
-        let mut scale = 64;
-        loop {
+        until_shown(64, |scale| {
             let [a, b] = self.values(&Enclosure::from_rational(omega.clone()), scale);
             let product = a.times(&conjugate(&b), scale);
-            if product.im.abs() > product.error {
-                return product.im.sign();
-            }
-            scale *= 2;
-        }
+            (product.im.abs() > product.error).then(|| product.im.sign())
+        })
     }
 
     /// `A` and `B` at `i omega`, in units of `2^-scale`.

@@ -4,7 +4,7 @@ use super::gain::{GainCells, GainLoop, NotSolved, direct_cells};
 use super::gain_points::{GainPoint, Happening};
 use super::windows::Never;
 use crate::stability::Range;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, until_shown};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{RealAlgebraic, SquareFree};
 use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
@@ -88,15 +88,11 @@ struct Reciprocal(Real);
 impl Enclosing for Reciprocal {
     fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
         let goal = Rational::dyadic(&1.into(), bits);
-        let mut digits = 2;
-        loop {
-            let (lo, hi) = self.0.refined_to_digits(digits).enclosure();
+        until_shown(2, |digits| {
+            let (lo, hi) = self.0.refined_to_digits(digits as usize).enclosure();
             let (a, b) = (hi.recip().expect("not zero"), lo.recip().expect("not zero"));
-            if a <= b && &b - &a <= goal {
-                return Enclosure::new(a, b);
-            }
-            digits *= 2;
-        }
+            (a <= b && &b - &a <= goal).then(|| Enclosure::new(a, b))
+        })
     }
 
     fn origin(&self) -> Origin {

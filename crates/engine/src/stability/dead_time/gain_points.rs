@@ -8,7 +8,7 @@ use super::strip::frequency_bound_over;
 use super::trigonometric::{Jet, Zeros};
 use super::windows::Never;
 use crate::stability::Range;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, try_until_shown};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::real::{Real, Transcendental};
@@ -168,8 +168,7 @@ pub(super) fn crossings_of_gain(
     let inner = largest.as_ref().map_or_else(|| range.clone(), |largest| range_within(range, largest));
     let beyond = walk.first_beyond(&from, &inner, largest.as_ref(), others)?;
     // All values up to the ends that were found, or that the range has.
-    let mut bits = 16;
-    let limit = loop {
+    let limit = try_until_shown(16, |bits| {
         budget.check()?;
         let width = Rational::dyadic(&Integer::ONE, bits);
         let ends = [&beyond.below, &beyond.above].into_iter().flatten().map(|end| {
@@ -179,11 +178,8 @@ pub(super) fn crossings_of_gain(
         let own = [&inner.lower, &inner.upper].into_iter().flatten().map(Rational::abs);
         let own = own.filter(|x| largest.as_ref().is_none_or(|l| x < l));
         let greatest = ends.chain(own).max().unwrap_or(Rational::ZERO);
-        if let Some(limit) = gain.frequency_bound(&greatest) {
-            break limit;
-        }
-        bits *= 2;
-    };
+        Ok::<_, Exhausted>(gain.frequency_bound(&greatest))
+    })?;
     walk.up_to(&limit)?;
     let points = within(walk.points, &inner, &beyond, budget)?;
     Ok(Ok((points, beyond)))

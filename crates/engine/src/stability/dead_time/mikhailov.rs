@@ -5,8 +5,9 @@ use super::dyadic::{Dyadic, Step};
 use super::family_function::{exponential, upper_exponential};
 use super::turn::{Fixed, turned};
 use super::{Kind, QuasiPolynomial};
+use crate::precisions::ARGUMENT_ALONG_AXIS;
 use crate::stability::{Shape, count_roots};
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, UniPoly};
 
@@ -25,10 +26,6 @@ impl From<Exhausted> for NotCounted {
     }
 }
 
-/// Bits after the binary point at the start.
-const FIRST_SCALE: u64 = 64;
-/// Bits at which a value on the axis is given up as too near to zero.
-const LAST_SCALE: u64 = 1 << 14;
 /// The order of the Taylor polynomials.
 const TERMS: usize = 3;
 
@@ -134,7 +131,7 @@ impl<'p> Walk<'p> {
     fn new(p: &'p QuasiPolynomial, tau: &'p Rational, n: usize, growth: &'p Rational) -> Self {
         let one = if growth.is_zero() { Rational::ONE } else { upper_exponential(growth) };
         let weights = (0..p.parts().len()).map(|k| one.pow(k as i64).expect("not zero")).collect();
-        Walk { p, tau, n, derivatives: derivatives(p, tau, TERMS), scale: FIRST_SCALE, growth, weights }
+        Walk { p, tau, n, derivatives: derivatives(p, tau, TERMS), scale: ARGUMENT_ALONG_AXIS.first, growth, weights }
     }
 
     fn follow(mut self, at_zero: usize, budget: &Budget) -> Result<usize, Exhausted> {
@@ -274,9 +271,8 @@ impl<'p> Walk<'p> {
     /// Twice the bits, while there are any.
     fn finer(&mut self) -> Result<(), Exhausted> {
         self.scale *= 2;
-        if self.scale > LAST_SCALE {
-            let reached = "counting roots along the imaginary axis";
-            return Err(Exhausted::new(Stop::Precision(LAST_SCALE), reached));
+        if self.scale > ARGUMENT_ALONG_AXIS.last {
+            return Err(ARGUMENT_ALONG_AXIS.exhausted("counting roots along the imaginary axis"));
         }
         Ok(())
     }

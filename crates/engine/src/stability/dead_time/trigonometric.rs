@@ -2,7 +2,7 @@
 
 use super::dyadic::{Dyadic, Step};
 use super::turn::{Fixed, turned};
-use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
+use jurist_algebra::limits::{Budget, Exhausted, checkpoint, until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, UniPoly};
 use std::sync::Arc;
@@ -154,14 +154,10 @@ impl Jet {
 
     /// The sign at a point where the form does not vanish.
     fn sign(&self, w: &Dyadic) -> Sign {
-        let mut scale = 64;
-        loop {
+        until_shown(64, |scale| {
             let [value, ..] = self.values(w, scale);
-            if value.re.abs() > value.error {
-                return value.re.sign();
-            }
-            scale *= 2;
-        }
+            (value.re.abs() > value.error).then(|| value.re.sign())
+        })
     }
 }
 

@@ -3,8 +3,9 @@
 use super::crossing::{Crossing, commensurate, crossings};
 use super::mikhailov::{NotCounted, roots_right};
 use super::{Kind, QuasiPolynomial};
+use crate::precisions::ORDER_OF_DEAD_TIMES;
 use crate::stability::{Shape, count_roots};
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted, try_until_shown, until_shown};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::simplest_between;
 use std::cell::RefCell;
@@ -55,11 +56,6 @@ pub struct DelayCells {
     /// cells. Only with a range that has no upper end.
     pub touching_for_ever: bool,
 }
-
-/// Significant bits of the dead times that are compared first.
-const ORDER_BITS: u64 = 96;
-/// Bits beyond which two dead times that no theorem tells apart are left undecided.
-const MOST_BITS: u64 = 1 << 12;
 
 /// The cells of all dead times between two bounds, `0 <= lower`; or why there is none in which the loop is stable.
 ///
@@ -112,7 +108,7 @@ pub fn delay_cells(
         let mut k = before.max(first);
         loop {
             budget.check()?;
-            let place = budget.enter(|| crossing.dead_time(k, ORDER_BITS))?;
+            let place = budget.enter(|| crossing.dead_time(k, ORDER_OF_DEAD_TIMES.first))?;
             if *place.lower() >= last {
                 break;
             }
@@ -158,32 +154,23 @@ fn turns_before(crossing: &Crossing, bound: &Rational) -> u64 {
         return 0;
     }
     // k < (omega bound - theta)/(2 pi), which is no integer.
-    let mut bits = 64;
-    loop {
+    until_shown(64, |bits| {
         let angle = crossing.omega(bits).mul(&Enclosure::from_rational(bound.clone()), bits);
         let turn = Enclosure::pi(bits).mul(&Enclosure::from_rational(Rational::from(2)), bits);
         let turns = angle.sub(&crossing.theta(bits), bits).div(&turn, bits).expect("pi is positive");
         let (low, high) = (turns.lower().ceil(), turns.upper().ceil());
-        if low == high {
-            return if low.is_negative() { 0 } else { low.to_i64().unwrap_or(i64::MAX) as u64 };
-        }
-        bits *= 2;
-    }
+        let count = || if low.is_negative() { 0 } else { low.to_i64().unwrap_or(i64::MAX) as u64 };
+        (low == high).then(count)
+    })
 }
 
 /// Whether a dead time, which is not rational, lies above a bound.
 fn is_beyond(crossing: &Crossing, k: u64, bound: &Rational) -> bool {
-    let mut bits = ORDER_BITS;
-    loop {
+    until_shown(ORDER_OF_DEAD_TIMES.first, |bits| {
         let place = crossing.dead_time(k, bits);
-        if place.lower() >= bound {
-            return true;
-        }
-        if place.upper() <= bound {
-            return false;
-        }
-        bits *= 2;
-    }
+        let is_beyond = place.lower() >= bound;
+        (is_beyond || place.upper() <= bound).then_some(is_beyond)
+    })
 }
 
 /// A rational dead time beyond which roots lie to the right for good; `None` where no root ever crosses.
@@ -191,19 +178,18 @@ fn growth_bound(found: &[Arc<Crossing>], motions: &[i64]) -> Option<Rational> {
     if motions.iter().all(|&m| m == 0) {
         return None;
     }
-    let mut bits = 32;
-    loop {
+    Some(until_shown(32, |bits| {
         let growth = found.iter().zip(motions).fold(Enclosure::from_rational(Rational::ZERO), |sum, (c, &m)| {
             sum.add(&c.omega(bits).mul(&Enclosure::from_rational(Rational::from(m)), bits), bits)
         });
-        if growth.lower().sign().is_gt() {
-            let crossings: i64 = motions.iter().map(|m| m.abs()).sum();
-            let turns = Enclosure::pi(bits).mul(&Enclosure::from_rational(Rational::from(2 * crossings)), bits);
-            let bound = turns.div(&growth, bits).expect("positive");
-            return Some(bound.upper().clone());
+        if !growth.lower().sign().is_gt() {
+            return None;
         }
-        bits *= 2;
-    }
+        let crossings: i64 = motions.iter().map(|m| m.abs()).sum();
+        let turns = Enclosure::pi(bits).mul(&Enclosure::from_rational(Rational::from(2 * crossings)), bits);
+        let bound = turns.div(&growth, bits).expect("positive");
+        Some(bound.upper().clone())
+    }))
 }
 
 struct Line<'a> {
@@ -244,8 +230,7 @@ impl Line<'_> {
     /// Rational dead times on both sides of one, with no other switch between; `None` where another one is equal to it.
     fn neighbourhood(&self, j: usize, k: u64) -> Result<Option<(Rational, Rational)>, Exhausted> {
         let crossing = &self.found[j];
-        let mut bits = ORDER_BITS;
-        'finer: loop {
+        try_until_shown(ORDER_OF_DEAD_TIMES.first, |bits| {
             self.budget.check()?;
             let place = crossing.dead_time(k, bits);
             let (mut below, mut above) = (Rational::ZERO, place.upper() + place.upper() + Rational::ONE);
@@ -261,19 +246,15 @@ impl Line<'_> {
                 } else if other.lower() > place.upper() {
                     above = above.min(other.lower().clone());
                 } else if self.meet((j, k), (i, l))? {
-                    return Ok(None);
+                    return Ok(Some(None));
                 } else {
-                    bits *= 2;
-                    continue 'finer;
+                    return Ok(None);
                 }
             }
             let between = |lo: &Rational, hi: &Rational| simplest_between(lo, hi);
             // Rational points strictly between the neighbours and this one.
-            if let (Some(low), Some(high)) = (between(&below, place.lower()), between(place.upper(), &above)) {
-                return Ok(Some((low, high)));
-            }
-            bits *= 2;
-        }
+            Ok(between(&below, place.lower()).zip(between(place.upper(), &above)).map(Some))
+        })
     }
 
     /// Whether two dead times are equal whose enclosures overlap.
@@ -283,28 +264,22 @@ impl Line<'_> {
         if one.0 == two.0 || a.half_size_root().compare(b.half_size_root()).is_eq() {
             return Ok(false);
         }
-        let undecided =
-            || Exhausted::new(Stop::Precision(MOST_BITS), "the order of two dead times with roots on the axis");
         let common = commensurate(a, b, self.budget)?;
-        let mut bits = ORDER_BITS;
-        loop {
+        ORDER_OF_DEAD_TIMES.decide("the order of two dead times with roots on the axis", |bits| {
             let (x, y) = (a.dead_time(one.1, bits), b.dead_time(two.1, bits));
             if x.upper() < y.lower() || y.upper() < x.lower() {
-                return Ok(false);
+                return Ok(Some(false));
             }
             if let Some(Some(multiple)) = &common {
                 // They differ by a multiple of 2 pi/(b omega), or not at all.
                 let apart = (x.upper() - y.lower()).abs().max((y.upper() - x.lower()).abs());
                 let scale = Rational::from(multiple) * a.omega(64).upper();
                 if apart * scale < Rational::from(6) {
-                    return Ok(true);
+                    return Ok(Some(true));
                 }
             }
-            bits *= 2;
-            if bits > MOST_BITS {
-                return Err(undecided());
-            }
-        }
+            Ok(None)
+        })
     }
 
     /// The roots to the right for small dead times.
@@ -316,7 +291,7 @@ impl Line<'_> {
             let mut small = Rational::ONE;
             for crossing in self.found {
                 let k = u64::from(crossing.at_zero_delay());
-                small = small.min(crossing.dead_time(k, ORDER_BITS).lower().clone());
+                small = small.min(crossing.dead_time(k, ORDER_OF_DEAD_TIMES.first).lower().clone());
             }
             let sample = simplest_between(&Rational::ZERO, &small).expect("dead times are positive");
             return roots_right(self.p, &sample, 0, self.budget);
@@ -372,16 +347,12 @@ impl Line<'_> {
 
     /// The order of two dead times that are known to differ.
     fn told_apart(&self, a: &(usize, u64, Enclosure), b: &(usize, u64, Enclosure)) -> Ordering {
-        let mut bits = 2 * ORDER_BITS;
-        loop {
+        until_shown(2 * ORDER_OF_DEAD_TIMES.first, |bits| {
             let (x, y) = (self.found[a.0].dead_time(a.1, bits), self.found[b.0].dead_time(b.1, bits));
-            if x.upper() < y.lower() {
-                return Ordering::Less;
+            match x.upper() < y.lower() {
+                true => Some(Ordering::Less),
+                false => (y.upper() < x.lower()).then_some(Ordering::Greater),
             }
-            if y.upper() < x.lower() {
-                return Ordering::Greater;
-            }
-            bits *= 2;
-        }
+        })
     }
 }

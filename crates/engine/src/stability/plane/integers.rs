@@ -9,7 +9,7 @@ use super::limit::multi_value;
 use super::sturm_at::SturmAt;
 use crate::stability::interval_set::merge_points;
 use crate::stability::{AtPoint, Cause, Causes, End, Range, Shape, complex_pair_at, end_at};
-use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
+use jurist_algebra::limits::{Budget, Exhausted, parallel_map, try_until_shown};
 use jurist_algebra::number::{Enclosure, Rational, Sign};
 use jurist_algebra::poly::{
     Domain, MultiPoly, Poly, SquareFree, UniPoly, isolate_real_roots_in, resultant_square_free_decomposition,
@@ -109,17 +109,13 @@ impl Ground for Integers {
         // A curve that contains the whole wall separates the strips.
         let Some(sturm) = SturmAt::new(&product, value, lower, upper, budget)? else { return Ok(links) };
         for y in sturm.points_between_roots(budget)? {
-            let mut bits = 8u64;
-            loop {
+            let (left, right) = try_until_shown(8, |bits| {
                 budget.check()?;
                 let (left, right) = wall.either_side(bits);
-                if wall.is_clear(&left, &right, &y, budget)? {
-                    let cell = |x: &Rational| wall.cell_at(x, &y, budget);
-                    links.insert((cell(&left)?, cell(&right)?), [left, right, y]);
-                    break;
-                }
-                bits *= 2;
-            }
+                Ok::<_, Exhausted>(wall.is_clear(&left, &right, &y, budget)?.then_some((left, right)))
+            })?;
+            let cell = |x: &Rational| wall.cell_at(x, &y, budget);
+            links.insert((cell(&left)?, cell(&right)?), [left, right, y]);
         }
         Ok(links)
     }

@@ -3,15 +3,12 @@
 use super::curves::{Curve, PlanePolynomial, exchanged};
 use super::decompose::{StabilityMap, Strip, branches_at, in_y, swapped_curve};
 use super::ground::Beside;
+use crate::precisions::LIMIT_OF_CELL;
 use crate::stability::{Cause, Causes, ComplexPair, End, HalfSizePair, Range, RealInterval, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{MultiPoly, Poly};
 use jurist_algebra::real::Real;
-
-/// Bits of nearness to the end in the first attempt, and in the last.
-const FIRST_BITS: u64 = 8;
-const LAST_BITS: u64 = 512;
 
 /// An extreme value of one parameter on a region's boundary, and what happens there.
 #[derive(Clone, Debug)]
@@ -155,11 +152,10 @@ impl Search<'_> {
         let on_lines: Vec<Cause> = on_lines.filter(|cause| *cause != Cause::ComplexPair).collect();
         // As many places of the wall as other curves can end in, at least one.
         let corners = 1 + self.curves.iter().map(|c| c.polynomial.degree_in(1)).sum::<u32>();
-        let mut bits = FIRST_BITS;
-        loop {
+        for bits in LIMIT_OF_CELL.bits() {
             self.budget.check()?;
             let approach = self.approach(strip, cell, wall, greatest, bits)?;
-            let last = bits >= LAST_BITS;
+            let last = bits >= LIMIT_OF_CELL.last;
             let rounds = if last { corners.ilog2() + 2 } else { 2 };
             if along_line && let Some(end) = self.end_on_line(&approach, &lines, rounds)? {
                 limit.causes = end.causes;
@@ -187,8 +183,8 @@ impl Search<'_> {
                 on_lines.iter().for_each(|cause| limit.causes.insert(*cause));
                 return Ok(limit);
             }
-            bits *= 2;
         }
+        unreachable!("the last attempt ends with a limit")
     }
 
     fn add_causes(&self, limit: &mut Limit, ends: &[End], approach: &Approach<'_>, at_domain: bool) {

@@ -2,6 +2,7 @@
 
 use super::curves::{Curve, PlanePolynomial, X, Y, without_number};
 use super::over_symbols::{OverSymbols, in_one, resultant};
+use crate::precisions::SINGULAR_POINT;
 use crate::stability::symbolic::{zeros_of_all, zeros_of_resultant};
 use crate::stability::{Cause, HalfSizePair, Range, Shape};
 use jurist_algebra::ball::{Ball, common_root};
@@ -10,9 +11,6 @@ use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, subresultant_chain};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::SymbolicPoly;
-
-/// Bits with which it is tried to see that a point is such a crossing.
-const BITS: [u64; 3] = [256, 512, 1024];
 
 /// The half-size pair's subresultant of degree 1, in whose common zeros the pair has two common roots, if it has not lost degree.
 ///
@@ -119,7 +117,7 @@ impl Known {
         budget: &Budget,
     ) -> Result<bool, Exhausted> {
         let linear: Vec<Poly<MultiPoly>> = self.linear.iter().map(|c| c.as_poly_in(Y)).collect();
-        for bits in BITS {
+        for bits in SINGULAR_POINT.bits() {
             let is_seen = budget.enter(|| {
                 let (lo, hi) = zero.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
                 let x = Ball::between(&lo, &hi, bits);

@@ -5,15 +5,14 @@ use super::decompose::Branch;
 use super::glue::{Links, Wall, cell_of, separates};
 use super::ground::{Corner, Ground, Projected, put};
 use super::over_symbols::{OverSymbols, in_one};
+use crate::precisions::TOUCHING_CELLS;
 use crate::stability::Range;
 use jurist_algebra::ball::{Ball, common_root};
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, MultiPoly, simplest_between};
 use jurist_algebra::real::Real;
 use std::collections::BTreeMap;
-
-/// Bits of nearness to the wall, beyond those of the first trials.
-const BITS: [u64; 3] = [64, 128, 256];
 
 /// All pairs of cells that touch along a piece of a wall, beyond those that clear segments showed.
 ///
@@ -40,7 +39,7 @@ pub(super) fn links_over_symbols(
         return Ok(links);
     }
     let mut open = pairs.to_vec();
-    for bits in BITS {
+    for bits in TOUCHING_CELLS.bits() {
         let near = Near::new(wall, bits, budget)?;
         for (cells, y) in near.clear.iter() {
             if open.contains(cells) {
@@ -60,7 +59,7 @@ pub(super) fn links_over_symbols(
         open = left;
     }
     let place = wall.value.decimal(10);
-    Err(Exhausted::new(Stop::Precision(BITS[2]), format!("whether cells touch at x = {place}")))
+    Err(TOUCHING_CELLS.exhausted(format!("whether cells touch at x = {place}")))
 }
 
 /// The neighbourhood of a wall.
@@ -235,18 +234,42 @@ pub(super) fn passes_over_symbols(
             ground.changes_sign(Projected::AtEdge(j, y), curves, [left, right], budget)
         }
         (Some(x), None) => {
-            // Both on the wall, as polynomials in one unknown.
-            let [f, g] = [i, j].map(|k| in_one(&put(&curves[k].polynomial, X, &x), Y));
-            if !ground.symbols.have_common_zero(&f, &g, budget)? {
-                return Ok(false);
-            }
-            let near = narrow(corner.wall, &corner.sides);
-            let over = |k: usize| ground.over(&curves[k].polynomial.as_poly_in(Y), &near);
-            let root = budget.enter(|| common_root(&over(i), &over(j)))?;
-            Ok(root.is_some_and(|root| is_between(&root, corner.heights)))
+            has_common_zero(ground, [i, j].map(|k| (&curves[k].polynomial, X, &x, Y)), corner.heights, budget)
         }
-        (None, None) => meet_on(ground, curves, [i, j], (corner.wall, &corner.sides), corner.heights, budget),
+        (None, None) => {
+            // Curves that mirror themselves meet the wall twice at once, at a height that is a short number.
+            let [below, above] = corner.heights;
+            let [left, right] = &corner.sides;
+            let at = |y: &Rational| {
+                let both = [i, j].map(|k| (&curves[k].polynomial, Y, y, X));
+                has_common_zero(ground, both, [left, right], budget)
+            };
+            Ok(simplest_between(below, above).map_or(Ok(false), |y| at(&y))?
+                || meet_on(ground, curves, [i, j], (corner.wall, &corner.sides), corner.heights, budget)?)
+        }
     }
+}
+
+/// Whether two curves, each with a number in the place of one parameter, have a common zero in the other one between two numbers, where
+/// the first curve has one zero.
+fn has_common_zero(
+    ground: &OverSymbols,
+    both: [(&MultiPoly, usize, &Rational, usize); 2],
+    [below, above]: [&Rational; 2],
+    budget: &Budget,
+) -> Result<bool, Exhausted> {
+    let both = both.map(|(f, set, value, free)| in_one(&put(f, set, value), free));
+    if both.iter().any(MultiPoly::is_zero) {
+        return Ok(false);
+    }
+    let common = ground.symbols.greatest_common_divisor(&both, budget)?;
+    let simple = ground.symbols.square_free_part(&common, budget)?;
+    let sign = |value: &Rational| {
+        let (number, _) = simple.substitute(0, value);
+        ground.symbols.sign(&number.map_variables(|i| i.saturating_sub(1)), budget)
+    };
+    let below = sign(below)?;
+    Ok(below.is_eq() || below != sign(above)?)
 }
 
 /// A wall between two numbers, as narrowly as it is known there.

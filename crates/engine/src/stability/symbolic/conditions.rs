@@ -7,8 +7,9 @@ use super::rows::{Asked, EnclosedRows, SymbolicRow, enclosed_rows, plus, shown, 
 use super::set::sample;
 use super::statements::{Conditions, Rule, Stated};
 use super::{SymbolicPolynomial, Table};
+use crate::precisions::SIGN_OF_DETERMINANT;
 use crate::stability::{Cause, Range, Shape};
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly, SquareFree, UniPoly};
 use jurist_algebra::real::Real;
@@ -17,10 +18,6 @@ use std::sync::Arc;
 
 /// Determinants with no more terms than this are expanded: order 6 over two symbols takes 30 ms, order 7 over three ten seconds.
 const MOST_EXPANDED: u64 = 800;
-
-/// Bits of the first attempt at the sign of a determinant, and of the last.
-const FIRST_BITS: u64 = 128;
-const MOST_BITS: u64 = 1 << 14;
 
 /// A union of disjoint open intervals, ascending. Two may share an end, which is then not in the set.
 #[derive(Clone, Debug, Default)]
@@ -376,16 +373,11 @@ fn solved(
 
 /// The sign of a function that is not zero at a number, or zero everywhere.
 fn sign_at(f: &Minor, varies: bool, at: &Rational, symbols: &Symbols, budget: &Budget) -> Result<Sign, Exhausted> {
-    let mut bits = FIRST_BITS;
-    while varies && bits <= MOST_BITS {
+    if !varies {
+        return Ok(Sign::Equal);
+    }
+    SIGN_OF_DETERMINANT.decide("the sign of a determinant", |bits| {
         budget.check()?;
-        if let Some(sign) = budget.enter(|| f.enclosed_at(at, symbols, bits))?.sign() {
-            return Ok(sign);
-        }
-        bits *= 2;
-    }
-    match varies {
-        true => Err(Exhausted::new(Stop::Precision(MOST_BITS), "the sign of a determinant")),
-        false => Ok(Sign::Equal),
-    }
+        Ok(budget.enter(|| f.enclosed_at(at, symbols, bits))?.sign())
+    })
 }

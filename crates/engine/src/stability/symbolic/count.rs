@@ -1,21 +1,13 @@
 //! How many roots of a polynomial over symbols lie inside, on and outside the boundary.
 
+use crate::precisions::{ROOT_COUNT, ROOTS_ON_BOUNDARY};
 use crate::stability::{AtPoint, HalfSizePair, RootCount, Shape, count_roots};
 use jurist_algebra::ball::Ball;
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly, subresultant_chain};
 use jurist_algebra::symbols::{SymbolicPoly, Symbols};
 use std::sync::Arc;
-
-/// Bits of the first attempt.
-const FIRST_BITS: u64 = 128;
-
-/// Bits from which on zeros are looked for.
-const ZERO_BITS: u64 = 512;
-
-/// Bits after which a count is given up.
-const MOST_BITS: u64 = 1 << 14;
 
 /// The root count of a polynomial whose coefficients are numbers.
 pub(super) fn at_point(
@@ -63,8 +55,9 @@ fn count(
 ) -> Result<RootCount, Exhausted> {
     let mut found = RootCount::default();
     let mut open = String::new();
-    let mut bits = FIRST_BITS;
-    while bits <= MOST_BITS {
+    let mut precisions = ROOT_COUNT.bits();
+    let mut next = precisions.next();
+    while let Some(bits) = next {
         let n = d.coeffs().len() - 1;
         if n == 0 {
             return Ok(found);
@@ -74,23 +67,24 @@ fn count(
         if let Some(rest) = budget.enter(|| certain_count(&balls, region))? {
             return Ok(plus(found, rest));
         }
-        if bits >= ZERO_BITS
+        if bits >= ROOTS_ON_BOUNDARY
             && let Some((on, rest)) = split_ends(&d, symbols, region, budget)?
         {
+            // The rest is counted with the same bits.
             found.on += on;
             d = rest;
             continue;
         }
-        if bits == ZERO_BITS
+        if bits == ROOTS_ON_BOUNDARY
             && n >= 2
             && let Some((pairs, rest)) = split_pairs(&d, symbols, region, budget)?
         {
             return Ok(plus(plus(found, pairs), count(rest, symbols, region, budget)?));
         }
         open = open_equation(&balls, region);
-        bits *= 2;
+        next = precisions.next();
     }
-    Err(Exhausted::new(Stop::Precision(MOST_BITS), "counting the roots").with_open(&open))
+    Err(ROOT_COUNT.exhausted("counting the roots").with_open(&open))
 }
 
 fn plus(a: RootCount, b: RootCount) -> RootCount {

@@ -1,9 +1,10 @@
 //! The tables of Jury and of Routh of a loop whose coefficients are numbers over symbols, with enclosed entries.
 
 use super::{SymbolicCondition, SymbolicPolynomial, SymbolicRow, Table};
+use crate::precisions::JURY_TABLE;
 use crate::stability::{Range, Shape, UNDIVIDED_ORDER, row_name};
 use jurist_algebra::ball::Ball;
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly};
 use jurist_algebra::symbols::Symbols;
@@ -64,10 +65,6 @@ impl EnclosedTable {
     }
 }
 
-/// Bits of the first attempt, and of the last.
-const FIRST_BITS: u64 = 256;
-const MOST_BITS: u64 = 1 << 15;
-
 /// Rows with more terms are not looked through for entries that are zero.
 const MOST_TERMS: usize = 400;
 
@@ -107,19 +104,16 @@ impl SymbolicPolynomial {
             let value = number(&self.polynomial.eval(&MultiPoly::constant(Integer::from(z))));
             at_ends.push(if symbols.is_zero(&value, budget)? { MultiPoly::constant(Integer::ZERO) } else { value });
         }
-        let mut bits = FIRST_BITS;
         let mut zeros = Vec::new();
-        while bits <= MOST_BITS {
+        let table = JURY_TABLE.decide("the conditions of the table", |bits| {
             budget.check()?;
-            if let Some(table) = budget.enter(|| self.enclosed_table(symbols, &at_ends, &zeros, digits, bits))? {
-                return Ok(Some(table));
-            }
-            if zeros.is_empty() {
+            let table = budget.enter(|| self.enclosed_table(symbols, &at_ends, &zeros, digits, bits))?;
+            if table.is_none() && zeros.is_empty() {
                 zeros = self.zero_entries(symbols, budget)?;
             }
-            bits *= 2;
-        }
-        Err(Exhausted::new(Stop::Precision(MOST_BITS), "the conditions of the table"))
+            Ok::<_, Exhausted>(table)
+        })?;
+        Ok(Some(table))
     }
 
     /// Routh's table of a continuous loop without parameter, whose entries are enclosed to a relative width of `10^-(digits + 2)`;

@@ -2,23 +2,15 @@
 
 use super::basis::Unexpanded;
 use super::interpolation::{coefficients_of, likely_scale};
+use crate::precisions::{DETERMINANT_AT_POINT, ENDS_OF_DETERMINANT};
 use jurist_algebra::ball::{Ball, determinant_enclosed};
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::{Matrix, determinant_bareiss};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, UniPoly};
 use jurist_algebra::real::Origin;
 use jurist_algebra::symbols::{EnclosedPoly, Symbols, common_scale};
 use std::sync::Arc;
-
-/// Bits of the first attempt.
-const FIRST_BITS: u64 = 192;
-
-/// Bits after which a coefficient that is not known to be zero is given up.
-const MOST_BITS: u64 = 1 << 12;
-
-/// Bits after which a determinant at a rational number is expanded in the symbols.
-const EXPAND_BITS: u64 = 1 << 10;
 
 /// A coefficient is proved to be zero on a grid of no more points than this.
 const MOST_POINTS: u64 = 20_000;
@@ -106,7 +98,7 @@ impl Minor {
             // Not zero for the symbols as unknowns; for their values it shows where it is not.
             for k in 1..=4 {
                 if budget
-                    .enter(|| self.enclosed_at(&Rational::from(k), symbols, FIRST_BITS))?
+                    .enter(|| self.enclosed_at(&Rational::from(k), symbols, ENDS_OF_DETERMINANT.first))?
                     .sign()
                     .is_some_and(|s| s.is_ne())
                 {
@@ -163,27 +155,24 @@ impl EnclosedMinor {
         let high = parts.iter().map(degree).sum();
         let symbols = Arc::clone(symbols);
         let mut out = EnclosedMinor { minor, symbols, parts, low: 0, high, scale: 0 };
-        out.scale = budget.enter(|| likely_scale(out.parts.iter().flatten(), &out.symbols, FIRST_BITS))?;
-        let mut bits = FIRST_BITS;
+        out.scale =
+            budget.enter(|| likely_scale(out.parts.iter().flatten(), &out.symbols, ENDS_OF_DETERMINANT.first))?;
         let mut proved = (0, 0);
-        while bits <= MOST_BITS {
+        let step = "zeros among the coefficients of a determinant";
+        let (low, high) = ENDS_OF_DETERMINANT.decide(step, |bits| {
             let all = budget.enter(|| out.coefficients(bits))?;
             let ends = (all.iter().position(|c| !c.contains_zero()), all.iter().rposition(|c| !c.contains_zero()));
-            if let (Some(low), Some(last)) = ends {
-                let above = high - last;
-                if proved.0 < low && out.lowest_vanish(low, false, budget)? {
-                    proved.0 = low;
-                }
-                if proved.1 < above && out.lowest_vanish(above, true, budget)? {
-                    proved.1 = above;
-                }
-                if proved == (low, above) {
-                    return Ok(EnclosedMinor { low, high: last, ..out });
-                }
+            let (Some(low), Some(last)) = ends else { return Ok(None) };
+            let above = high - last;
+            if proved.0 < low && out.lowest_vanish(low, false, budget)? {
+                proved.0 = low;
             }
-            bits *= 2;
-        }
-        Err(Exhausted::new(Stop::Precision(MOST_BITS), "zeros among the coefficients of a determinant"))
+            if proved.1 < above && out.lowest_vanish(above, true, budget)? {
+                proved.1 = above;
+            }
+            Ok::<_, Exhausted>((proved == (low, above)).then_some((low, last)))
+        })?;
+        Ok(EnclosedMinor { low, high, ..out })
     }
 
     /// The degree in the parameter.
@@ -247,12 +236,12 @@ impl EnclosedPoly for EnclosedMinor {
     }
 
     fn vanishes_at(&self, x: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
-        let mut bits = FIRST_BITS;
-        while bits <= EXPAND_BITS {
-            if budget.enter(|| self.minor.enclosed_at(x, &self.symbols, bits))?.sign().is_some_and(|s| s.is_ne()) {
-                return Ok(false);
-            }
-            bits *= 2;
+        let differs = DETERMINANT_AT_POINT.find(|bits| {
+            let sign = budget.enter(|| self.minor.enclosed_at(x, &self.symbols, bits))?.sign();
+            Ok::<_, Exhausted>(sign.filter(|s| s.is_ne()))
+        })?;
+        if differs.is_some() {
+            return Ok(false);
         }
         self.symbols.is_zero(&Minor { rows: self.minor.at(x) }.expanded(budget)?, budget)
     }

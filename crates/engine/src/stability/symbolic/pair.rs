@@ -1,17 +1,15 @@
 //! Where on the boundary a complex pair sits at a limit that is a root over symbols.
 
+use crate::precisions::COMMON_ROOT;
 use crate::stability::{ComplexPair, HalfSizePair, Shape};
 use jurist_algebra::ball::{Ball, common_root};
-use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
+use jurist_algebra::limits::{Budget, Exhausted, checkpoint, until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{MultiPoly, Poly};
 use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
 use jurist_algebra::symbols::Symbols;
 use std::fmt;
 use std::sync::Arc;
-
-/// Bits after which a common root is not looked for.
-const MOST_BITS: u64 = 1 << 12;
 
 /// What is known of the common roots of the half-size pair at a value of the parameter.
 pub(super) enum Common {
@@ -77,21 +75,21 @@ impl CommonRoots {
             Shape::UnitDisc => (Some(Rational::from(-2)), Rational::from(2)),
             Shape::LeftHalfPlane => (None, Rational::ZERO),
         };
-        let mut bits = 64;
-        while bits <= MOST_BITS {
+        let found = COMMON_ROOT.find(|bits| {
             budget.check()?;
-            if let Some(x) = budget.enter(|| root.attempt(bits))? {
-                if *x.upper() < upper && lower.as_ref().is_none_or(|l| l < x.lower()) {
-                    let x = Transcendental::within(root, x);
-                    return Ok(Common::Pair(ComplexPair::at_half_size_root(self.pair.region, x)));
-                }
-                if *x.lower() > upper || lower.as_ref().is_some_and(|l| x.upper() < l) {
-                    return Ok(Common::Beyond);
-                }
+            let Some(x) = budget.enter(|| root.attempt(bits))? else { return Ok(None) };
+            let is_inside = *x.upper() < upper && lower.as_ref().is_none_or(|l| l < x.lower());
+            let is_beyond = *x.lower() > upper || lower.as_ref().is_some_and(|l| x.upper() < l);
+            Ok::<_, Exhausted>((is_inside || is_beyond).then_some(is_inside.then_some(x)))
+        })?;
+        Ok(match found {
+            None => Common::Unknown,
+            Some(None) => Common::Beyond,
+            Some(Some(x)) => {
+                let x = Transcendental::within(root, x);
+                Common::Pair(ComplexPair::at_half_size_root(self.pair.region, x))
             }
-            bits *= 2;
-        }
-        Ok(Common::Unknown)
+        })
     }
 }
 
@@ -116,17 +114,11 @@ impl CommonRoot {
 impl Enclosing for CommonRoot {
     fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
         let width = Rational::dyadic(&Integer::ONE, bits);
-        let mut working = bits + 64;
-        loop {
+        until_shown(bits + 64, |working| {
             checkpoint(working);
             // With enough bits the root is seen to be the only one, as when it was found.
-            if let Some(x) = self.attempt(working)
-                && x.upper() - x.lower() <= width
-            {
-                return x;
-            }
-            working *= 2;
-        }
+            self.attempt(working).filter(|x| x.upper() - x.lower() <= width)
+        })
     }
 
     fn origin(&self) -> Origin {

@@ -1,10 +1,11 @@
 //! Two parameters of a loop over symbols: boxes, each proved stable, proved not stable, or left undecided.
 
+use crate::precisions::PLANE_COEFFICIENTS;
 use crate::stability::Shape;
 use crate::stability::dead_time::{Known, PlaneFunction, Shares, in_shares_of};
 use crate::stability::plane::boxes::{BoxMap, BoxVerdict, Place, Seen, Window, subdivided, subdivided_with};
 use jurist_algebra::ball::Ball;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, until_shown};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, UniPoly};
@@ -61,10 +62,6 @@ enum Table {
     Moving { symbols: Arc<MovingSymbols>, axis: usize },
 }
 
-/// Bits of the first attempt.
-const FIRST_BITS: u64 = 256;
-/// Bits after which small coefficients are taken as they are.
-const MOST_BITS: u64 = 2048;
 /// Bits that each coefficient is to have.
 const OWN_BITS: u64 = 128;
 /// Terms of the Taylor polynomials in a parameter that symbols depend on.
@@ -146,8 +143,7 @@ impl SymbolicPlane {
     /// The function over a window where symbols are numbers.
     fn over_numbers(&self, window: &Window, symbols: &Symbols) -> PlaneFunction {
         let (coefficients, poles) = self.in_shares(window, &[0, 1]);
-        let mut bits = FIRST_BITS;
-        loop {
+        until_shown(PLANE_COEFFICIENTS.first, |bits| {
             let one = |p: &MultiPoly| {
                 let mut parts: HashMap<[u32; 2], Vec<(Vec<u32>, Integer)>> = HashMap::new();
                 for (monomial, c) in p.terms() {
@@ -163,11 +159,10 @@ impl SymbolicPlane {
             };
             let rounded: Vec<Rounded> = coefficients.iter().map(one).collect();
             let is_fine = |r: &Rounded| r.largest.bit_length() >= OWN_BITS || r.terms.is_empty();
-            if rounded.iter().all(is_fine) || bits >= MOST_BITS {
-                return PlaneFunction::new(shares(rounded, poles.iter().map(one).collect(), 0));
-            }
-            bits *= 2;
-        }
+            // Small coefficients are taken as they are in the end.
+            (rounded.iter().all(is_fine) || bits >= PLANE_COEFFICIENTS.last)
+                .then(|| PlaneFunction::new(shares(rounded, poles.iter().map(one).collect(), 0)))
+        })
     }
 
     /// Coefficients and poles with these parameters as shares of the window.
@@ -269,7 +264,8 @@ impl<'a> Tiles<'a> {
         let [low, high] = &self.side;
         let end = |k: u64| low + &((high - low) * Rational::dyadic(&Integer::from(k), u64::from(level)));
         let flat: Vec<MultiPoly> = self.lists.iter().flatten().flatten().cloned().collect();
-        let found = self.symbols.taylor_from_end(&flat, &end(at), &end(at + 1), TERMS, FIRST_BITS + OWN_BITS)?;
+        let found =
+            self.symbols.taylor_from_end(&flat, &end(at), &end(at + 1), TERMS, PLANE_COEFFICIENTS.first + OWN_BITS)?;
         let mut found = found.into_iter();
         let mut rounded = |list: &Vec<Vec<MultiPoly>>| -> Vec<Rounded> {
             let one = |parts: &Vec<MultiPoly>| {

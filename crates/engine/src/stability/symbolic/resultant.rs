@@ -5,20 +5,15 @@ use super::basis::Unexpanded;
 use super::count::common_roots;
 use super::interpolation::{coefficients_of, likely_scale};
 use super::pair::Pair;
+use crate::precisions::{ENDS_OF_DETERMINANT, RESULTANT_OF_FACE};
 use crate::stability::{HalfSizePair, Shape};
 use jurist_algebra::ball::{Ball, enclosed_resultant};
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 use jurist_algebra::real::Origin;
 use jurist_algebra::symbols::{EnclosedPoly, Symbols, common_scale};
 use std::sync::Arc;
-
-/// Bits of the first attempt.
-const FIRST_BITS: u64 = 192;
-
-/// Bits after which a coefficient that is not known to be zero is given up.
-const MOST_BITS: u64 = 1 << 12;
 
 /// The resultant of the pair in the parameter (variable 0), up to the sign and without the coefficients at either end that are
 /// zero.
@@ -60,31 +55,29 @@ impl PairResultant {
         let (pair, symbols) = (Arc::clone(pair), Arc::clone(symbols));
         let name = "resultant of the half-size pair";
         let mut out = PairResultant { a, b, pair, symbols, low: 0, high, scale: 0, name };
-        out.scale = budget.enter(|| likely_scale(out.a.iter().chain(&out.b), &out.symbols, FIRST_BITS))?;
-        let (mut bits, mut known) = (FIRST_BITS, None);
-        while bits <= MOST_BITS {
+        out.scale =
+            budget.enter(|| likely_scale(out.a.iter().chain(&out.b), &out.symbols, ENDS_OF_DETERMINANT.first))?;
+        let mut known = None;
+        let step = "zeros among the coefficients of the resultant";
+        let (low, high) = ENDS_OF_DETERMINANT.decide(step, |bits| {
             let all = budget.enter(|| out.coefficients(bits))?;
             let ends = (all.iter().position(|c| !c.contains_zero()), all.iter().rposition(|c| !c.contains_zero()));
-            if let (Some(first), Some(last)) = ends {
-                let is_known = |below: usize, above: usize| {
-                    first as i64 == -least.bound + below as i64 && last as i64 + above as i64 == greatest.bound
-                };
-                // Common roots are asked for once it is known that it matters.
-                let (below, above) = match known {
-                    Some(known) => known,
-                    None if is_known(0, 0) => (0, 0),
-                    None => {
-                        let common = |face: &Face| out.common_on(face, budget);
-                        *known.insert((common(&least)?, common(&greatest)?))
-                    }
-                };
-                if is_known(below, above) {
-                    return Ok(PairResultant { low: first, high: last, ..out });
+            let (Some(first), Some(last)) = ends else { return Ok(None) };
+            let is_known = |below: usize, above: usize| {
+                first as i64 == -least.bound + below as i64 && last as i64 + above as i64 == greatest.bound
+            };
+            // Common roots are asked for once it is known that it matters.
+            let (below, above) = match known {
+                Some(known) => known,
+                None if is_known(0, 0) => (0, 0),
+                None => {
+                    let common = |face: &Face| out.common_on(face, budget);
+                    *known.insert((common(&least)?, common(&greatest)?))
                 }
-            }
-            bits *= 2;
-        }
-        Err(Exhausted::new(Stop::Precision(MOST_BITS), "zeros among the coefficients of the resultant"))
+            };
+            Ok::<_, Exhausted>(is_known(below, above).then_some((first, last)))
+        })?;
+        Ok(PairResultant { low, high, ..out })
     }
 
     /// The same of two other polynomials in an unknown, given by all coefficients for their formal degrees: numbers over the parameter
@@ -227,7 +220,7 @@ fn common_degree(
     if a.len() + b.len() == 2 {
         return Ok(found);
     }
-    for bits in [FIRST_BITS, 2 * FIRST_BITS, 4 * FIRST_BITS] {
+    for bits in RESULTANT_OF_FACE.bits() {
         let at = |list: &[MultiPoly]| list.iter().map(|p| symbols.enclose(p, bits)).collect::<Vec<Ball>>();
         if !budget.enter(|| enclosed_resultant(&at(&a), &at(&b)))?.contains_zero() {
             return Ok(found);

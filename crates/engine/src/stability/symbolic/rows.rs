@@ -1,19 +1,13 @@
 //! The rows of Jury's and Routh's tables in a parameter, each coefficient enclosed.
 
 use super::SymbolicPolynomial;
+use crate::precisions::{ENTRIES_AS_ZERO, TABLE_ROWS};
 use crate::stability::{Shape, UNDIVIDED_ORDER, row_name};
 use jurist_algebra::ball::Ball;
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer};
 use jurist_algebra::poly::{Domain, MultiPoly};
 use jurist_algebra::symbols::Symbols;
-
-/// Bits of the first attempt, and of the last.
-const FIRST_BITS: u64 = 512;
-const MOST_BITS: u64 = 1 << 14;
-
-/// Coefficients that are not told from zero with so many bits stay enclosures of zero, where no row has to be divided by them.
-const ZERO_BITS: u64 = 1 << 12;
 
 /// Rows with more terms are not looked through for coefficients that are zero.
 const MOST_TERMS: usize = 2_000;
@@ -65,20 +59,17 @@ pub(super) fn enclosed_rows(
     budget: &Budget,
 ) -> Result<EnclosedRows, Exhausted> {
     let mut zeros = Zeros::new();
-    let mut bits = FIRST_BITS;
-    while bits <= MOST_BITS {
+    TABLE_ROWS.decide("the entries of the table", |bits| {
         budget.check()?;
-        if let Some(table) = budget.enter(|| attempt(p, symbols, asked, &zeros, bits))?
-            && (bits >= ZERO_BITS || table.rows.iter().flatten().flatten().all(|c| is_narrow(c, asked.digits)))
-        {
-            return Ok(table);
-        }
-        if zeros.is_empty() {
+        let is_fine = |table: &EnclosedRows| {
+            bits >= ENTRIES_AS_ZERO || table.rows.iter().flatten().flatten().all(|c| is_narrow(c, asked.digits))
+        };
+        let table = budget.enter(|| attempt(p, symbols, asked, &zeros, bits))?.filter(is_fine);
+        if table.is_none() && zeros.is_empty() {
             zeros = zero_coefficients(p, symbols, asked, budget)?;
         }
-        bits *= 2;
-    }
-    Err(Exhausted::new(Stop::Precision(MOST_BITS), "the entries of the table"))
+        Ok(table)
+    })
 }
 
 /// Whether the coefficient is zero, or known to so many digits.
