@@ -105,8 +105,9 @@ pub(crate) fn extreme_over<G: Ground>(
             false => Extreme::Constant(ground.quotient(&a.coeff(0), &b.coeff(0), budget)?),
         });
     }
-    // A zero of the denominator inside is a double one, hence critical.
-    let poles = budget.enter(|| slope.gcd(&b))?;
+    // A zero of the denominator inside is a double one, hence critical: what the slope a' b - a b' and b have in common is what b' and b
+    // have, since a and b have nothing.
+    let poles = budget.enter(|| b.derivative().gcd(&b))?;
     let slope = slope.div_exact(&poles).expect("a gcd divides");
     let infinite = if poles.is_constant() { Vec::new() } else { ground.zeros(&poles, &inner(shape), budget)? };
     let critical = ground.zeros(&slope, &inner(shape), budget)?;
