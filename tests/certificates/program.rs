@@ -60,9 +60,19 @@ fn assert_proved(model: &str, certificate: &str, sentence: &str) {
     let run = jurist(&["verify", model, certificate, "--timeout", "inf"]);
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
     assert!(run.stdout.starts_with("proved: ") && run.stdout.contains(sentence), "{}", run.stdout);
-    if let Some(run) = python(model, certificate) {
-        assert_eq!((run.status, run.stderr.as_str()), (0, ""));
-        assert!(run.stdout.starts_with("proved: "), "{}", run.stdout);
+    let lines: Vec<&str> = run.stdout.lines().collect();
+    let begin =
+        ["proved: ", &format!("model: {model}, "), &format!("certificate: {certificate}, SHA-256 "), "checked by: "];
+    assert!(lines.len() == 4 && lines.iter().zip(begin).all(|(line, begin)| line.starts_with(begin)), "{}", run.stdout);
+    if let Some(other) = python(model, certificate) {
+        assert_eq!((other.status, other.stderr.as_str()), (0, ""));
+        // The same words, names and digests; only who says them is another.
+        assert_eq!(other.stdout.lines().take(3).collect::<Vec<_>>(), lines[..3]);
+        assert!(
+            other.stdout.lines().nth(3).is_some_and(|l| l.starts_with("checked by: check.py ")),
+            "{}",
+            other.stdout
+        );
     }
 }
 
