@@ -95,6 +95,20 @@ fn expressions() {
     }
 }
 
+/// Each is looked at by itself: enclosing functions of functions of functions takes twice as long with each.
+#[test]
+fn a_constant_without_a_value_is_found_behind_many_others() {
+    let mut text = String::from("time = 'discrete'\n[constants]\nc0 = 'sqrt(2)'\n");
+    for i in 0..60 {
+        let next = ["exp(#/10)", "sqrt(# + 1)", "1/(sqrt(7) + #)"][i % 3].replace('#', &format!("c{i}"));
+        text += &format!("c{} = '{next}'\n", i + 1);
+    }
+    text += "last = 'tan(pi/2)'\n[parameters]\nK = {}\n[loop]\ncharacteristic = 'z - K*c60*last'\n";
+    let Err(error) = Model::from_toml(&Source::new("chain.toml", text.as_str())) else { panic!("a tangent of pi/2") };
+    let found = render_error(&error, false);
+    assert!(found.contains("E-value") && found.contains("chain.toml:64:9"), "{found}");
+}
+
 #[test]
 fn three_typos_in_one_run() {
     let text = "time = 'discrete'\n[constants]\ng = '1/(L_b*12)'\nL_a = 46e-3\n[parameters]\nK_pwm = { nominal = 110, mim = 0 }\n\

@@ -13,8 +13,9 @@ use jurist_algebra::limits::Exhausted;
 use jurist_algebra::poly::RationalFunction;
 use std::collections::BTreeSet;
 
-/// Values of more functions and parameters than this are not looked at.
-const MOST: usize = 64;
+/// Divisors and arguments of more functions and parameters than this are not looked at: every constant of a model is, and enclosing
+/// functions of functions takes twice as long with each.
+const MOST: usize = 6;
 
 /// The bits after the point with which constants are enclosed to see their signs and sizes.
 const ENOUGH_BITS: u64 = 128;
@@ -28,7 +29,8 @@ impl Scope<'_> {
     pub fn without_identities(&self, p: ZPoly) -> Result<ZPoly, Exhausted> {
         let mut coefficients = p.coefficients().to_vec();
         while let Some(last) = coefficients.last()
-            && self.is_hidden_zero(last)?
+            && self.has_functions(last)
+            && self.is_identity(last)?
         {
             coefficients.pop();
         }
@@ -40,8 +42,12 @@ impl Scope<'_> {
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
     pub fn is_hidden_zero(&self, f: &RationalFunction) -> Result<bool, Exhausted> {
+        Ok(self.has_functions(f) && self.needed(f).len() <= MOST && self.is_identity(f)?)
+    }
+
+    fn has_functions(&self, f: &RationalFunction) -> bool {
         let is_function = |i: usize| !matches!(self.variables[i], Variable::Named(_) | Variable::Delay(_));
-        Ok(f.variables().into_iter().any(is_function) && self.is_identity(f)?)
+        f.variables().into_iter().any(is_function)
     }
 
     /// True if a function of this argument has no value whatever the parameters are: a tangent of half a turn.
@@ -70,9 +76,6 @@ impl Scope<'_> {
     /// Whether a value is seen to be zero whatever all names are.
     fn is_identity(&self, f: &RationalFunction) -> Result<bool, Exhausted> {
         let needed = self.needed(f);
-        if needed.len() > MOST {
-            return Ok(false);
-        }
         // Values that do not exist are reported elsewhere.
         let Ok((images, symbols)) = self.images(&needed, None) else { return Ok(false) };
         let Some((symbols, merged)) = symbols.merged() else { return Ok(false) };
