@@ -70,8 +70,8 @@ pub use jurist_engine::answer::{
 };
 pub use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Label, Severity, Source, Span};
 pub use jurist_engine::model::{
-    BlockBuilder, ClosedLoop, Constant, Cut, Expression, Model, ModelBuilder, Parameter, ParameterBuilder, Time,
-    Tolerance, TransferFunction,
+    BlockBuilder, ClosedLoop, Constant, Cut, Expression, LoopLine, Model, ModelBuilder, Parameter, ParameterBuilder,
+    Time, Tolerance, TransferFunction,
 };
 pub use jurist_engine::problem::{Algebra, Bound, Free, Problem, Question, Region};
 pub use jurist_engine::response::{Extreme, Margins, Norm, OpenLoop, Place, Requirement, Value};

@@ -17,7 +17,9 @@ use std::time::Duration;
         controllers.",
     // Not the name of the file that was started.
     bin_name = "jurist",
-    after_help = "MODEL is a TOML file, '-' is standard input; left out, it is the built-in drive.\n\n\
+    after_help = "MODEL is a TOML file, '-' for standard input, or a loop in one line; left out, it is the built-in drive.\n\
+        A line is the transfer function of an open loop with unity negative feedback, 'K*10/(s*(s+1)*(s+2))', or a\n\
+        characteristic polynomial, 'z^2 + z + 1/2' or '... = 0'. Without a command, its stable set: jurist 'K/(s*(s+1))'.\n\n\
         Exit status: 0 answered, or it holds; 1 answered, and it does not hold (verdict); 2 bad usage or bad \
         model;\n3 undecided within the given budget; 4 certificate rejected.",
     args_conflicts_with_subcommands = true,
@@ -99,12 +101,25 @@ pub(super) enum Command {
     Completions(commands::completions::Options),
 }
 
+/// What stands before and behind the plant of a loop in one line.
+#[derive(Args, Debug, Default, Clone, PartialEq)]
+pub(super) struct LineOptions {
+    /// MODEL is one line: a zero-order hold with the sample time T, a number or an expression, stands in front of the plant
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub hold: Option<String>,
+    /// MODEL is one line: the plant has a dead time D, in units of time
+    #[arg(long, value_name = "D", allow_hyphen_values = true)]
+    pub delay: Option<String>,
+}
+
 /// The model and what is changed about it.
 #[derive(Args, Debug, Default)]
 pub(super) struct ModelOptions {
-    /// A model file, '-' for standard input; left out: the built-in drive
+    /// A model file, '-' for standard input, or a loop in one line such as 'K/(s*(s + 1))'; left out: the built-in drive
     #[arg(value_name = "MODEL")]
     pub model: Option<OsString>,
+    #[command(flatten)]
+    pub line: LineOptions,
     /// Gives a parameter or constant another value, exactly: 545, 1e-4, 1/3 [repeatable]
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,

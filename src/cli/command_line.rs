@@ -1,9 +1,11 @@
 //! The command line as a text that errors point into.
 
 use super::arguments::Arguments;
+use super::input::loop_line;
 use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source, Span};
+use jurist_engine::model::LoopLine;
 use std::ffi::OsString;
 use std::sync::Arc;
 
@@ -65,14 +67,37 @@ impl CommandLine {
         CommandLine { arguments, shown, source: Source::new("<command line>", text) }
     }
 
-    /// The arguments, the program's name first, with the command 'analyze' where there is only a model: `jurist loop.toml`.
+    /// The arguments, the program's name first, with a command where there is only a model: 'analyze' before a file, as in
+    /// `jurist loop.toml`, and before a loop in one line 'intervals', or 'verdict' where all its names have values.
     pub fn arguments(&self) -> Vec<OsString> {
         let mut arguments = self.arguments.clone();
         let is_command = |a: &OsString| Arguments::command().get_subcommands().any(|c| a == c.get_name());
-        if arguments.get(1).is_some_and(|first| is_model_file(first) && !is_command(first)) {
+        let first = arguments.get(1).map(|first| if first == "--" { arguments.get(2).unwrap_or(first) } else { first });
+        let Some(first) = first.filter(|first| !is_command(first)) else { return arguments };
+        if let Some(line) = loop_line(first) {
+            let command = if self.is_point(line) { "verdict" } else { "intervals" };
+            arguments.insert(1, command.into());
+        } else if is_model_file(first) {
             arguments.insert(1, "analyze".into());
         }
         arguments
+    }
+
+    /// True if the options give every name of a loop in one line a value.
+    fn is_point(&self, line: &str) -> bool {
+        let [hold, delay] = ["--hold", "--delay"].map(|option| self.values(option).next());
+        let set: Vec<&str> = self.values("--set").filter_map(|set| Some(set.split_once('=')?.0.trim())).collect();
+        let line = LoopLine::read(line, hold, delay);
+        self.values("--param").next().is_none() && line.is_ok_and(|l| l.names().iter().all(|name| set.contains(name)))
+    }
+
+    /// The values of a long option.
+    fn values<'a>(&'a self, option: &'a str) -> impl Iterator<Item = &'a str> {
+        let next = self.shown.iter().skip(1).map(Some).chain([None]);
+        self.shown.iter().zip(next).filter_map(move |(shown, next)| match shown.value.strip_prefix(option)? {
+            "" => next.map(|next| next.value.as_str()),
+            attached => attached.strip_prefix('='),
+        })
     }
 
     /// The text that spans refer to.

@@ -1,25 +1,26 @@
 //! The model and the settings that a command is given.
 
-use super::arguments::{DecisionOptions, ModelOptions, RegionOptions};
+use super::arguments::{DecisionOptions, LineOptions, ModelOptions, RegionOptions};
 use super::assignments::{assignments, domains, in_line, plain_number};
 use super::captured;
 use super::commands::Context;
-use super::output::plain;
+use super::output::{note, plain};
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Span};
-use jurist_engine::model::Model;
+use jurist_engine::model::{LoopLine, Model};
 use jurist_engine::problem::{DECAY, Question, RADIUS, Region};
 use jurist_engine::show::layout::visible;
 use jurist_engine::stability::Range;
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fs::File;
 use std::io::Read;
+use std::path::Path;
 
 /// Longer model files are refused.
 const MAX_MODEL_BYTES: u64 = 64 << 20;
 
 /// Reads the model and shows its warnings.
-pub(super) fn load(model: Option<&OsString>, context: &Context) -> Result<Model, Error> {
-    if model.is_none() {
+pub(super) fn load(model: Option<&OsString>, line: &LineOptions, context: &Context) -> Result<Model, Error> {
+    if model.is_none() && *line == LineOptions::default() {
         return Ok(Model::drive());
     }
     if model.is_some_and(|path| path == "-")
@@ -27,15 +28,82 @@ pub(super) fn load(model: Option<&OsString>, context: &Context) -> Result<Model,
     {
         return Ok(model);
     }
-    let (name, bytes) = read_model(model, context)?;
-    context.budget.step("reading the model");
-    let (model, warnings) = Model::from_bytes(&name, &bytes)?;
+    let named = read_model(model, line, context)?;
+    let (model, warnings) = named.read?;
+    if named.is_open_loop && !context.quiet {
+        note("note: the line is taken for an open loop and closed with unity negative feedback");
+    }
     context.warn(Some(model.source()), &warnings);
     Ok(model)
 }
 
+/// A model with the name that it was asked for by.
+pub(super) struct NamedModel {
+    pub name: String,
+    /// The model with its warnings, or what is wrong with its text.
+    pub read: Result<(Model, Vec<Diagnostic>), Diagnostics>,
+    /// True of a line that is the transfer function of an open loop.
+    is_open_loop: bool,
+}
+
+/// Reads a model file, a loop in one line, or the built-in drive.
+pub(super) fn read_model(model: Option<&OsString>, line: &LineOptions, context: &Context) -> Result<NamedModel, Error> {
+    if let Some(text) = model.and_then(|text| loop_line(text)) {
+        context.budget.step("reading the model");
+        let read = LoopLine::read(text, line.hold.as_deref(), line.delay.as_deref());
+        let is_open_loop = read.as_ref().is_ok_and(LoopLine::is_open_loop);
+        let read = read.and_then(|line| line.model());
+        return Ok(NamedModel { name: text.to_owned(), read, is_open_loop });
+    }
+    refuse_line_options(line, context)?;
+    let (name, bytes) = read_file(model, context)?;
+    context.budget.step("reading the model");
+    let read = Model::from_bytes(&name, &bytes);
+    Ok(NamedModel { name, read, is_open_loop: false })
+}
+
+/// A hold and a delay stand in the model file itself.
+fn refuse_line_options(line: &LineOptions, context: &Context) -> Result<(), Error> {
+    for (option, value) in [("--hold", &line.hold), ("--delay", &line.delay)] {
+        if let Some(value) = value {
+            let message = format!("{option} goes with a loop in one line, not with a model file");
+            let help = "for example: jurist 'K/(s*(s + 1))' --hold 1; in a model file: 'discretize' or 'delay' in the [[block]]";
+            let error = Diagnostic::error(Code::Usage, message);
+            return Err(in_line(
+                context.line,
+                vec![error.at(context.line.option_value(option, value).span, "").help(help)],
+            )
+            .into());
+        }
+    }
+    Ok(())
+}
+
+/// The text of an argument that is a loop in one line. An existing file wins; any operator, parenthesis or equals sign makes a
+/// line, but for what is written like a path.
+pub(super) fn loop_line(argument: &OsStr) -> Option<&str> {
+    /// Operators, and what is written for them by mistake.
+    const OPERATORS: [char; 14] = [
+        '+', '*', '^', '(', ')', '=', '\u{2212}', '\u{2013}', '\u{2014}', '\u{b7}', '\u{d7}', '\u{f7}', '\u{b2}',
+        '\u{b3}',
+    ];
+    let text = argument.to_str()?;
+    let is_path = text.to_lowercase().ends_with(".toml")
+        || text.starts_with(['/', '~'])
+        || text.starts_with("./")
+        || text.starts_with("../");
+    if is_path || text.contains('\\') || text == "-" || Path::new(text).exists() {
+        return None;
+    }
+    // A file's name may contain these two.
+    let is_variable =
+        |part: &str| ["s", "z"].contains(&part.trim().trim_start_matches(|c: char| c.is_ascii_digit() || c == '.'));
+    let is_difference = || text.contains(['-', '/']) && text.split(['-', '/']).any(is_variable);
+    (text.contains(OPERATORS) || is_difference()).then_some(text)
+}
+
 /// The name and the bytes of a model file, or of the built-in drive.
-pub(super) fn read_model(model: Option<&OsString>, context: &Context) -> Result<(String, Vec<u8>), Error> {
+fn read_file(model: Option<&OsString>, context: &Context) -> Result<(String, Vec<u8>), Error> {
     let Some(path) = model else {
         let drive = Model::drive();
         return Ok((drive.source().name.clone(), drive.source().text.clone().into_bytes()));
@@ -71,12 +139,16 @@ pub(super) struct Wanted {
 }
 
 /// The model of a command that has the built-in drive to fall back on.
-const MODEL: Wanted =
-    Wanted { noun: "model", help: "MODEL is a TOML file, '-' for standard input; left out, it is the built-in drive" };
+const MODEL: Wanted = Wanted {
+    noun: "model",
+    help: "MODEL is a TOML file, '-' for standard input, or a loop in one line such as 'K/(s*(s + 1))'; left out, it is the built-in drive",
+};
 
 /// The model that a certificate is about.
-pub(super) const CERTIFIED_MODEL: Wanted =
-    Wanted { noun: "model", help: "MODEL is the TOML file that the certificate is about, '-' for standard input" };
+const CERTIFIED_MODEL: Wanted = Wanted {
+    noun: "model",
+    help: "MODEL is what the certificate is about: a TOML file, '-' for standard input, or a loop in one line",
+};
 
 /// The certificate itself.
 pub(super) const CERTIFICATE: Wanted = Wanted {
@@ -85,7 +157,8 @@ pub(super) const CERTIFICATE: Wanted = Wanted {
 };
 
 fn unreadable(context: &Context, path: &OsString, name: &str, error: &std::io::Error, wanted: &Wanted) -> Error {
-    let diagnostic = Diagnostic::error(Code::Read, format!("cannot read {name}: {}", plain(error)));
+    let shown = if name.is_empty() { "''" } else { name };
+    let diagnostic = Diagnostic::error(Code::Read, format!("cannot read {shown}: {}", plain(error)));
     let diagnostic = match context.line.argument(&path.to_string_lossy()) {
         Some(span) => diagnostic.at(span, format!("no {} can be read from here", wanted.noun)),
         None => diagnostic,
@@ -96,7 +169,7 @@ fn unreadable(context: &Context, path: &OsString, name: &str, error: &std::io::E
 /// The model and the question of a command that decides; a wrong file ending is refused before any work.
 pub(super) fn decision(options: &DecisionOptions, context: &Context) -> Result<(Model, Question), Error> {
     context.check_output(&options.output)?;
-    let model = load(options.model.model.as_ref(), context)?;
+    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
     let question = question(context, &model, &options.model, &options.region)?;
     Ok((model, question))
 }
@@ -135,15 +208,23 @@ pub(super) fn question(
     Ok(question)
 }
 
-/// The parameter of a model that has one, where the command line names none.
-pub(super) fn only_parameter(model: &Model) -> Result<String, Error> {
+/// The parameter that is asked about where the command line names none: the model's only one, or the only one without a value.
+pub(super) fn only_parameter(model: &Model, options: &ModelOptions) -> Result<String, Error> {
     if let [only] = model.parameters() {
+        return Ok(only.name.clone());
+    }
+    let is_set = |name: &str| options.set.iter().any(|set| set.split_once('=').is_some_and(|(n, _)| n.trim() == name));
+    let mut open = model.parameters().iter().filter(|p| p.nominal.is_none() && !is_set(&p.name));
+    if let (Some(only), None) = (open.next(), open.next()) {
         return Ok(only.name.clone());
     }
     let names: Vec<String> = model.parameters().iter().map(|p| format!("'--param {}'", visible(&p.name))).collect();
     let help = match names.is_empty() {
         true => "name a constant that is given as a number: '--param NAME'".to_owned(),
-        false => format!("the question is about one of them: {}", names.join(", ")),
+        false => format!(
+            "the question is about one of them: {}; the others have nominal values or are set",
+            names.join(", ")
+        ),
     };
     let message = format!("the model has {} parameters, so one has to be named", names.len());
     Err(Diagnostic::error(Code::Usage, message).help(help).into())
@@ -176,6 +257,21 @@ fn check_name(model: &Model, name: &str, span: Span, wrong: &mut Vec<Diagnostic>
         }
         _ => Err(error),
     }
+}
+
+/// The text of a model that a certificate is about: of a file, or of the model that a loop in one line means.
+pub(super) fn model_text(
+    model: &OsString,
+    line: &LineOptions,
+    context: &Context,
+    most: u64,
+) -> Result<Result<String, String>, Error> {
+    if loop_line(model).is_none() {
+        refuse_line_options(line, context)?;
+        return read_text(context, model, most, &CERTIFIED_MODEL);
+    }
+    let (model, _) = read_model(Some(model), line, context)?.read?;
+    Ok(Ok(model.source().text.clone()))
 }
 
 /// A text file, or standard input for `-`. The inner error says why its content is not a text.

@@ -7,12 +7,14 @@
 mod code;
 mod codes;
 mod kinds;
+mod origin;
 #[doc = include_str!("error/codes.md")]
 pub mod code_list {}
 
 pub use code::Code;
 pub use codes::codes;
 pub use kinds::Error;
+pub(crate) use origin::Origin;
 
 use std::fmt;
 use std::sync::Arc;
@@ -58,12 +60,19 @@ pub struct Source {
     pub name: String,
     /// The whole text.
     pub text: String,
+    /// What a part of the text was copied from: diagnostics about that part point there.
+    origin: Option<Origin>,
 }
 
 impl Source {
     /// A named text, ready to be shared.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Arc<Source> {
-        Arc::new(Source { name: name.into(), text: text.into() })
+        Arc::new(Source { name: name.into(), text: text.into(), origin: None })
+    }
+
+    /// A named text with a part that was copied from another one.
+    pub(crate) fn copied(name: impl Into<String>, text: impl Into<String>, origin: Origin) -> Arc<Source> {
+        Arc::new(Source { name: name.into(), text: text.into(), origin: Some(origin) })
     }
 
     /// Line and column, both counted from 1, columns in characters.
@@ -200,7 +209,11 @@ impl Diagnostics {
     /// An error about `source`, or about no text.
     pub fn new(source: Option<Arc<Source>>, diagnostics: Vec<Diagnostic>) -> Self {
         assert!(!diagnostics.is_empty());
-        Diagnostics { source, diagnostics }
+        let origin = source.as_ref().and_then(|s| s.origin.as_ref());
+        match origin.and_then(|o| Some((Arc::clone(&o.source), o.trace(&diagnostics)?))) {
+            Some((source, diagnostics)) => Diagnostics { source: Some(source), diagnostics },
+            None => Diagnostics { source, diagnostics },
+        }
     }
 
     /// The text the spans refer to.
@@ -219,9 +232,11 @@ impl Diagnostics {
     }
 
     /// The same diagnostics, about `source` where none was set.
-    pub fn in_source(mut self, source: &Arc<Source>) -> Self {
-        self.source.get_or_insert_with(|| Arc::clone(source));
-        self
+    pub fn in_source(self, source: &Arc<Source>) -> Self {
+        match self.source {
+            Some(_) => self,
+            None => Diagnostics::new(Some(Arc::clone(source)), self.diagnostics),
+        }
     }
 }
 

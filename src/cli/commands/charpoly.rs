@@ -41,7 +41,7 @@ pub(in crate::cli) struct Options {
 /// Answers on standard output or in a file.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let notation = notation(options)?;
-    let model = load(options.model.model.as_ref(), context)?;
+    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
     let problem = problem(options, context, &model)?;
     let file = options.output.output.as_ref();
     let report = match decided(report(options, context, &problem))? {

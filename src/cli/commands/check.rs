@@ -1,8 +1,8 @@
 //! `jurist check`: only reads a model.
 
 use super::Context;
-use crate::cli::arguments::RunOptions;
-use crate::cli::input::read_model;
+use crate::cli::arguments::{LineOptions, RunOptions};
+use crate::cli::input::{NamedModel, read_model};
 use crate::cli::output::write_answer;
 use crate::cli::show;
 use crate::cli::status::{Outcome, Status};
@@ -17,9 +17,11 @@ use std::ffi::OsString;
 /// Options of `jurist check`.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
-    /// A model file, '-' for standard input; left out: the built-in drive
+    /// A model file, '-' for standard input, or a loop in one line; left out: the built-in drive
     #[arg(value_name = "MODEL")]
     pub model: Option<OsString>,
+    #[command(flatten)]
+    pub line: LineOptions,
     /// Writes JSON
     #[arg(long)]
     pub json: bool,
@@ -37,9 +39,9 @@ pub(in crate::cli) struct Options {
 /// Every remark with its place; the status is 2 for a model that no question can be asked about, and 1 in a SARIF log of a loop that does
 /// not meet what its model requires.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
-    let (name, bytes) = read_model(options.model.as_ref(), context)?;
+    let NamedModel { name, read, .. } = read_model(options.model.as_ref(), &options.line, context)?;
     let mut unmet = Vec::new();
-    let (source, diagnostics) = match Model::from_bytes(&name, &bytes) {
+    let (source, diagnostics) = match read {
         Ok((model, warnings)) => {
             if options.sarif && !model.require().is_empty() {
                 unmet = unmet_requirements(&model, &context.budget);

@@ -40,7 +40,7 @@ pub(in crate::cli) const NYQUIST: Draw = nyquist;
 /// Draws to a file or on the terminal.
 pub(in crate::cli) fn run(options: &Options, draw: Draw, context: &Context) -> Outcome {
     let kind = wanted(&options.picture)?;
-    let model = load(options.model.model.as_ref(), context)?;
+    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
     let question = question(context, &model, &options.model, &RegionOptions::default())?;
     let answer = question.margins(options.at.as_deref(), &Rational::ZERO, &context.budget)?;
     context.warn(None, answer.problem().warnings());

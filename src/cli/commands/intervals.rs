@@ -46,7 +46,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let (model, question) = decision(&options.decision, context)?;
     let name = match &options.param {
         Some(name) => name.clone(),
-        None => only_parameter(&model)?,
+        None => only_parameter(&model, &options.decision.model)?,
     };
     if name != RADIUS && name != DECAY {
         known_names(context, &model, "--param", from_ref(&name))?;

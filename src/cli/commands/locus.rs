@@ -39,12 +39,12 @@ pub(in crate::cli) struct Options {
 /// Draws to a file or on the terminal.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let kind = wanted(&options.picture)?;
-    let model = load(options.model.model.as_ref(), context)?;
+    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
     warn_of_ignored(&model, context);
     let question = question(context, &model, &options.model, &Default::default())?;
     let name = match &options.param {
         Some(name) => name.clone(),
-        None => only_parameter(&model)?,
+        None => only_parameter(&model, &options.model)?,
     };
     known_names(context, &model, "--param", from_ref(&name))?;
     let answer = question.free(&name).stable_set(&context.budget)?;

@@ -90,7 +90,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let axes = [("-x", &options.x), ("-y", &options.y)];
     let [x, y] = axes.map(|(option, text)| axis(context.line, option, text));
     let requests = [x?, y?];
-    let model = load(options.model.model.as_ref(), context)?;
+    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
     let mut question = question(context, &model, &options.model, &options.region)?;
     for request in &requests {
         if ![RADIUS, DECAY].contains(&request.name.as_str()) {

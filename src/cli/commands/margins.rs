@@ -29,7 +29,7 @@ pub(in crate::cli) struct Options {
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.output;
     context.check_output(output)?;
-    let model = load(options.model.model.as_ref(), context)?;
+    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
     let question = question(context, &model, &options.model, &RegionOptions::default())?;
     let skew: Rational = plain_number(context.line, "--skew", &options.skew)?;
     let digits = output.digits() as usize;

@@ -1,7 +1,7 @@
 //! `jurist norm`: the peak gain of a closed-loop transfer function.
 
 use super::{Context, decided};
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
+use crate::cli::arguments::{LineOptions, ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::input::{load, question};
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
@@ -11,9 +11,11 @@ use std::ffi::OsString;
 /// Options of `jurist norm`.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
-    /// A model file ('-' for standard input; left out: the built-in drive), an input, and an output of the loop
+    /// A model file, '-' for standard input, or a loop in one line (left out: the built-in drive); an input and an output of the loop
     #[arg(value_names = ["MODEL", "INPUT", "OUTPUT"], num_args = 2..=3, required = true)]
     pub names: Vec<OsString>,
+    #[command(flatten)]
+    pub line: LineOptions,
     /// Gives a parameter or constant another value, exactly: 545, 1e-4, 1/3 [repeatable]
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
@@ -30,8 +32,8 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         ports => (None, ports),
     };
     let [from, to] = [&ports[0], &ports[1]].map(|name| name.to_string_lossy());
-    let options = ModelOptions { model, set: options.set.clone(), domain: Vec::new() };
-    let model = load(options.model.as_ref(), context)?;
+    let options = ModelOptions { model, line: options.line.clone(), set: options.set.clone(), domain: Vec::new() };
+    let model = load(options.model.as_ref(), &options.line, context)?;
     let digits = output.digits() as usize;
     let problem = question(context, &model, &options, &RegionOptions::default())?.problem()?;
     let answer = match decided(problem.norm(&from, &to, &context.budget))? {

@@ -37,7 +37,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     if file != "-" && !matches!(ending(file).as_deref(), Some("html" | "htm")) {
         return Err(unknown_ending(file, &["html"]).into());
     }
-    let model = load(options.model.model.as_ref(), context)?;
+    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
     let question = question(context, &model, &options.model, &RegionOptions::default())?;
     let limits = options.run.timeout.map_or_else(Limits::default, Limits::within);
     let checker = |certificate: &str| {

@@ -67,7 +67,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let kind = wanted(&options.picture)?;
     let model = match (&options.model.model, options.switched) {
         (None, true) => Model::from_toml(&Source::new("<built-in drive>", DRIVE_BLOCKS))?.0,
-        (path, _) => load(path.as_ref(), context)?,
+        (path, _) => load(path.as_ref(), &options.model.line, context)?,
     };
     let problem = question(context, &model, &options.model, &Default::default())?.problem()?;
     context.warn(None, problem.warnings());

@@ -1,7 +1,7 @@
 //! `jurist sweep`: the same question at many points.
 
 use super::Context;
-use crate::cli::arguments::RunOptions;
+use crate::cli::arguments::{LineOptions, RunOptions};
 use crate::cli::assignments::{assignments, in_line};
 use crate::cli::input::{known_name, known_names, load};
 use crate::cli::output::{finish_answer, note};
@@ -23,9 +23,11 @@ use std::time::Duration;
 /// Options of `jurist sweep`.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
-    /// A model file, '-' for standard input; left out: the built-in drive
+    /// A model file, '-' for standard input, or a loop in one line; left out: the built-in drive
     #[arg(value_name = "MODEL")]
     pub model: Option<OsString>,
+    #[command(flatten)]
+    pub line: LineOptions,
     /// The parameter whose stable set is asked for; left out: the verdict at each point [repeatable]
     #[arg(long, value_name = "NAME")]
     pub param: Vec<String>,
@@ -51,7 +53,7 @@ pub(in crate::cli) struct Options {
 /// Writes the rows; the status is 3 where a question or the whole was not decided in time.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let format = Format::of(options.output.as_ref())?;
-    let model = load(options.model.as_ref(), context)?;
+    let model = load(options.model.as_ref(), &options.line, context)?;
     let (questions, names) = questions(options, &model, context)?;
     let file = options.output.as_ref().filter(|file| *file != "-");
     let mut kept = match file.filter(|_| options.resume) {

@@ -69,7 +69,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     if picture.is_none() {
         context.check_output(output)?;
     }
-    let model = load(options.decision.model.model.as_ref(), context)?;
+    let model = load(options.decision.model.model.as_ref(), &options.decision.model.line, context)?;
     let question = question(context, &model, &options.decision.model, &options.decision.region)?;
     let (asked, question) = options.require.asked(&model, question, &options.decision.region, context)?;
     refuse_proofs(&model, &asked, options.certificate.is_some())?;

@@ -1,8 +1,8 @@
 //! `jurist verify`: re-checks a certificate.
 
 use super::Context;
-use crate::cli::arguments::RunOptions;
-use crate::cli::input::{CERTIFICATE, CERTIFIED_MODEL, read_text};
+use crate::cli::arguments::{LineOptions, RunOptions};
+use crate::cli::input::{CERTIFICATE, model_text, read_text};
 use crate::cli::output::{note, write_answer};
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
@@ -13,12 +13,14 @@ use std::ffi::{OsStr, OsString};
 /// Options of `jurist verify`.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
-    /// The model that the statement is about, '-' for standard input
+    /// The model that the statement is about: a file, '-' for standard input, or a loop in one line
     #[arg(value_name = "MODEL")]
     pub model: OsString,
     /// The certificate
     #[arg(value_name = "CERTIFICATE")]
     pub certificate: OsString,
+    #[command(flatten)]
+    pub line: LineOptions,
     #[command(flatten)]
     pub run: RunOptions,
 }
@@ -30,7 +32,7 @@ fn shown(name: &OsStr) -> String {
 
 /// Prints the proved statement and names its texts; the status is 4 for a certificate that proves nothing.
 pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
-    let model = read_text(context, &options.model, MAX_TEXT as u64, &CERTIFIED_MODEL)?;
+    let model = model_text(&options.model, &options.line, context, MAX_TEXT as u64)?;
     let certificate = read_text(context, &options.certificate, MAX_TEXT as u64, &CERTIFICATE)?;
     let limits = options.run.timeout.map_or_else(Limits::default, Limits::within);
     let result = match (&model, &certificate) {

@@ -255,7 +255,7 @@ impl Question {
             let found = problem.free().iter().find(|free| free.name == *name).and_then(|free| free.nominal.clone());
             set.get(name).cloned().flatten().or(found).ok_or_else(|| {
                 Diagnostic::error(Code::NoValue, format!("the parameter '{name}' has no value"))
-                    .help(format!("give it a nominal value, or set it: --set {name}=..."))
+                    .help(format!("set it: --set {name}=..., or give it a nominal value in the model file"))
                     .into()
             })
         };

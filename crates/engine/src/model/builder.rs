@@ -75,7 +75,7 @@ pub struct BlockBuilder {
 }
 
 /// A TOML string; also right as a key.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 2);
     out.push('"');
     for c in text.chars() {
@@ -138,7 +138,8 @@ impl ModelBuilder {
     /// A parameter.
     pub fn parameter(mut self, parameter: ParameterBuilder) -> Self {
         let keys: Vec<String> = parameter.keys.iter().map(|(k, v)| format!("{k} = {}", quoted(v))).collect();
-        self.parameters.push_str(&format!("{} = {{ {} }}\n", quoted(&parameter.name), keys.join(", ")));
+        let keys = if keys.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", keys.join(", ")) };
+        self.parameters.push_str(&format!("{} = {keys}\n", quoted(&parameter.name)));
         self
     }
 

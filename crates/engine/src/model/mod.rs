@@ -16,6 +16,7 @@ mod evaluate;
 pub mod examples;
 mod free;
 mod in_numbers;
+mod loop_line;
 mod open_loop;
 mod parts;
 mod presupposed;
@@ -31,6 +32,7 @@ pub use definition::{
     Pwm, RequirementText, Simulation, Time,
 };
 pub(crate) use in_numbers::InNumbers;
+pub use loop_line::LoopLine;
 pub use open_loop::Cut;
 pub(crate) use open_loop::{MoreDeadTime, Opened};
 pub(crate) use presupposed::{Presupposed, Presupposition};

@@ -263,6 +263,6 @@ fn resolve(
 fn no_value(parameter: &Parameter) -> Diagnostic {
     let name = crate::model::shorten(&parameter.name);
     Diagnostic::error(Code::NoValue, format!("the parameter '{name}' has no value"))
-        .at(parameter.span, "no 'nominal' here")
-        .help(format!("give it a nominal value, or set it: --set {name}=..."))
+        .at(parameter.span, "no value here")
+        .help(format!("set it: --set {name}=..., or give it a nominal value in the model file"))
 }

@@ -59,6 +59,16 @@ pub(in crate::model) fn hint(name: &str) -> Option<String> {
     })
 }
 
+/// True if a name is known as a function in other programs, so that parentheses after it are no product.
+pub(in crate::model) fn is_function_elsewhere(name: &str) -> bool {
+    const OTHERS: [&str; 17] = [
+        "pow", "root", "cot", "sinh", "cosh", "tanh", "ln", "log", "log10", "asin", "acos", "atan", "atan2", "abs",
+        "min", "max", "tf",
+    ];
+    let lower = name.to_lowercase();
+    OTHERS.contains(&lower.as_str()) || Function::named(&lower).is_some()
+}
+
 /// What to do about a call of something that is no function.
 pub(in crate::model) fn call_hint(name: &str) -> String {
     match name.to_lowercase().as_str() {

@@ -64,8 +64,17 @@ pub(in crate::model) fn is_name(text: &str) -> bool {
     text.chars().next().is_some_and(begins_name) && text.chars().all(continues_name)
 }
 
+/// How products are written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(in crate::model) enum Products {
+    /// With an operator only, as in model files.
+    Written,
+    /// Also without one: `2z`, `K(s + 1)`, `(s + 1)(s + 2)`.
+    Implied,
+}
+
 /// All tokens of `text`, ending with [`TokenKind::End`].
-pub(in crate::model) fn lex(text: &Text) -> Result<Vec<Token>, Diagnostic> {
+pub(in crate::model) fn lex(text: &Text, products: Products) -> Result<Vec<Token>, Diagnostic> {
     let source = text.as_str();
     let mut tokens = Vec::new();
     let mut at = 0;
@@ -83,7 +92,7 @@ pub(in crate::model) fn lex(text: &Text) -> Result<Vec<Token>, Diagnostic> {
             '^' => (TokenKind::Power, 1),
             '(' => (TokenKind::Open, 1),
             ')' => (TokenKind::Close, 1),
-            _ if c.is_ascii_digit() || c == '.' => number(text, at)?,
+            _ if c.is_ascii_digit() || c == '.' => number(text, at, products)?,
             _ if begins_name(c) => {
                 let length = rest.find(|c| !continues_name(c)).unwrap_or(rest.len());
                 (TokenKind::Name(rest[..length].to_owned()), length)
@@ -98,16 +107,17 @@ pub(in crate::model) fn lex(text: &Text) -> Result<Vec<Token>, Diagnostic> {
 }
 
 /// The number literal at `at`.
-fn number(text: &Text, at: usize) -> Result<(TokenKind, usize), Diagnostic> {
+fn number(text: &Text, at: usize, products: Products) -> Result<(TokenKind, usize), Diagnostic> {
     let rest = &text.as_str()[at..];
     let length = scan_decimal_literal(rest);
     let after = rest[length..].chars().next();
-    if length == 0 || after.is_some_and(|c| c == '.' || continues_name(c)) {
+    let is_factor = products == Products::Implied && is_followed_by_name(&rest[..length], &rest[length..]);
+    if length == 0 || (!is_factor && after.is_some_and(|c| c == '.' || continues_name(c))) {
         let run = rest.find(|c| !(c == '.' || continues_name(c))).unwrap_or(rest.len());
         let error = Diagnostic::error(Code::Number, "this is not a number")
             .at(text.source_span(at, at + run.max(1)), "neither a number nor a name");
         let with_name = length > 0 && after.is_some_and(begins_name);
-        return Err(if with_name {
+        return Err(if with_name && products == Products::Written {
             error.help("multiplication is written out: '2*K', not '2K'")
         } else {
             error.help("numbers look like 12, 0.046, 46e-3 or 1_000")
@@ -119,6 +129,12 @@ fn number(text: &Text, at: usize) -> Result<(TokenKind, usize), Diagnostic> {
             .at(text.source_span(at, at + length), "not accepted")
             .help("write a shorter number")),
     }
+}
+
+/// True if a name begins right after a number, as in `2z`. What looks like a number in another notation (`0x10`, `2e`) is no product.
+fn is_followed_by_name(literal: &str, rest: &str) -> bool {
+    let name = &rest[..rest.find(|c| !continues_name(c)).unwrap_or(rest.len())];
+    name.starts_with(begins_name) && literal != "0" && !name.eq_ignore_ascii_case("e")
 }
 
 fn strange_character(text: &Text, at: usize, c: char) -> Diagnostic {

@@ -18,5 +18,5 @@ pub(crate) use lexer::is_blank_letter;
 pub(in crate::model) use lexer::is_name;
 pub(in crate::model) use located::Text;
 pub use names::nearest_name;
-pub(in crate::model) use parser::parse;
 pub use parser::{MAX_DEPTH, MAX_EXPONENT};
+pub(in crate::model) use parser::{parse, parse_implied};

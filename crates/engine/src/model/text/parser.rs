@@ -4,8 +4,8 @@
 //! exponents are integers, known when the text is read.
 
 use super::expression::{Expression, Factor, Node, Sign};
-use super::function::{Function, call_hint};
-use super::lexer::{Token, TokenKind, lex};
+use super::function::{Function, call_hint, is_function_elsewhere};
+use super::lexer::{Products, Token, TokenKind, lex};
 use super::located::Text;
 use crate::error::{Code, Diagnostic, Diagnostics, Source, Span};
 use jurist_algebra::number::{Integer, Rational};
@@ -42,15 +42,24 @@ impl Expression {
 
 /// Reads an expression out of a file.
 pub(in crate::model) fn parse(text: &Text) -> Result<Expression, Diagnostic> {
-    let tokens = lex(text)?;
+    parse_with(text, Products::Written).map(|(expression, _)| expression)
+}
+
+/// Reads an expression in which products may be written without an operator; gives the places in the source where one is left out.
+pub(in crate::model) fn parse_implied(text: &Text) -> Result<(Expression, Vec<usize>), Diagnostic> {
+    parse_with(text, Products::Implied)
+}
+
+fn parse_with(text: &Text, products: Products) -> Result<(Expression, Vec<usize>), Diagnostic> {
+    let tokens = lex(text, products)?;
     if tokens.len() == 1 {
         let error = Diagnostic::error(Code::Syntax, "an expression is missing").at(text.span(), "empty");
         return Err(error.help("write a number, a name, or a formula of them"));
     }
-    let mut parser = Parser { tokens: &tokens, position: 0, depth: 0 };
+    let mut parser = Parser { tokens: &tokens, position: 0, depth: 0, products, implied: Vec::new() };
     let expression = parser.expression(SUM)?;
     match &parser.peek().kind {
-        TokenKind::End => Ok(expression),
+        TokenKind::End => Ok((expression, parser.implied)),
         TokenKind::Close => {
             Err(Diagnostic::error(Code::Syntax, "unmatched ')'").at(parser.peek().span, "nothing to close"))
         }
@@ -62,6 +71,9 @@ struct Parser<'t> {
     tokens: &'t [Token],
     position: usize,
     depth: usize,
+    products: Products,
+    /// Where factors begin that have no operator in front.
+    implied: Vec<usize>,
 }
 
 impl Parser<'_> {
@@ -110,6 +122,7 @@ impl Parser<'_> {
             match operator {
                 TokenKind::Plus | TokenKind::Minus if least <= SUM => left = self.sum(left)?,
                 TokenKind::Times | TokenKind::Over if least <= PRODUCT => left = self.product(left)?,
+                _ if least <= PRODUCT && self.is_implied_factor() => left = self.product(left)?,
                 TokenKind::Power if least <= POWER => left = self.power(left)?,
                 _ => return Ok(left),
             }
@@ -139,18 +152,52 @@ impl Parser<'_> {
             let factor = match self.peek().kind {
                 TokenKind::Times => Factor::Times,
                 TokenKind::Over => Factor::Over,
+                _ if self.is_implied_factor() => {
+                    self.implied_factor(factors.last())?;
+                    Factor::Times
+                }
                 _ => return Ok(Expression { span, node: Node::Product(factors) }),
             };
-            let operator = self.advance();
-            if factor == Factor::Times && self.peek().kind == TokenKind::Times {
-                let span = operator.span.to(self.peek().span);
-                let error = Diagnostic::error(Code::Syntax, "unexpected '**'").at(span, "not an operator");
-                return Err(error.help("powers are written with '^'"));
+            if self.is_operator() {
+                let operator = self.advance();
+                if factor == Factor::Times && self.peek().kind == TokenKind::Times {
+                    let span = operator.span.to(self.peek().span);
+                    let error = Diagnostic::error(Code::Syntax, "unexpected '**'").at(span, "not an operator");
+                    return Err(error.help("powers are written with '^'"));
+                }
             }
             let operand = self.expression(PREFIX)?;
             span = span.to(operand.span);
             factors.push((factor, operand));
         }
+    }
+
+    fn is_operator(&self) -> bool {
+        matches!(self.peek().kind, TokenKind::Times | TokenKind::Over)
+    }
+
+    /// True if a factor begins here that is written without an operator: a parenthesis, or a name after a number or a parenthesis.
+    fn is_implied_factor(&self) -> bool {
+        let before = self.position.checked_sub(1).map(|i| &self.tokens[i].kind);
+        self.products == Products::Implied
+            && match self.peek().kind {
+                TokenKind::Open => true,
+                TokenKind::Name(_) => matches!(before, Some(TokenKind::Number(_) | TokenKind::Close)),
+                _ => false,
+            }
+    }
+
+    /// Notes a factor without an operator. After a division it could belong to the denominator or not: that is refused.
+    fn implied_factor(&mut self, before: Option<&(Factor, Expression)>) -> Result<(), Diagnostic> {
+        let here = self.peek().span;
+        if let Some((Factor::Over, divisor)) = before {
+            let error = Diagnostic::error(Code::Syntax, "this product can be read in two ways")
+                .at(here, "in the denominator, or behind the fraction?")
+                .also(divisor.span, "divided by this");
+            return Err(error.help("write parentheses: 'K/(s*(s + 1))' or '(K/s)*(s + 1)'"));
+        }
+        self.implied.push(here.start);
+        Ok(())
     }
 
     fn power(&mut self, base: Expression) -> Result<Expression, Diagnostic> {
@@ -212,18 +259,39 @@ impl Parser<'_> {
         Ok((inner, open.to(close.span)))
     }
 
-    /// A function of what stands in the parentheses that begin here.
+    /// A function of what stands in the parentheses that begin here; a name before them where products may be implied.
     fn call(&mut self, name: &str, place: Span) -> Result<Expression, Diagnostic> {
-        let open = self.advance().span;
         let Some(function) = Function::named(name) else {
+            if self.products == Products::Implied && !is_function_elsewhere(name) {
+                self.refuse_argument(name, place)?;
+                return Ok(Expression { span: place, node: Node::Name(name.to_owned()) });
+            }
+            let open = self.advance().span;
             let message =
                 format!("'{}(' looks like a call, but there is no such function", super::names::shorten(name));
             let error =
                 Diagnostic::error(Code::Syntax, message).at(place.to(open), "no function, and no operator here");
             return Err(error.help(call_hint(name)));
         };
+        let open = self.advance().span;
         let (value, end) = self.group(open)?;
         Ok(Expression { span: place.to(end), node: Node::Call(function, Box::new(value)) })
+    }
+
+    /// Refuses `G(s)`: it may be a product or the name of a function.
+    fn refuse_argument(&self, name: &str, place: Span) -> Result<(), Diagnostic> {
+        let is_variable = |name: &str| name == "s" || name == "z";
+        match &self.tokens[self.position..] {
+            [_, Token { kind: TokenKind::Name(argument), .. }, close, ..]
+                if close.kind == TokenKind::Close && is_variable(argument) && !is_variable(name) =>
+            {
+                let name = super::names::shorten(name);
+                let error = Diagnostic::error(Code::Syntax, format!("'{name}({argument})' can be read in two ways"))
+                    .at(place.to(close.span), "a product, or a function's name?");
+                Err(error.help(format!("write the product as '{name}*{argument}', and a function as its formula")))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
