@@ -129,6 +129,7 @@ mod program {
     mod documents;
     mod drive;
     #[cfg(unix)]
+    mod jury;
     mod one_line;
     mod outputs;
     mod regions;

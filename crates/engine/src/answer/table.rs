@@ -1,13 +1,13 @@
 //! The classical table: numeric at a point, or in one parameter with its conditions solved.
 
-use super::Answer;
+use super::{Answer, Verdict};
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Problem, Question};
 use crate::stability::{
     ClassicalTest, EnclosedTable, End, Range, RealIntervals, Shape, StableSet, SymbolicTest, classical_test,
     stable_set, symbolic_stable_set,
 };
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, Stop};
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
 
@@ -68,6 +68,8 @@ pub struct PointTable {
     pub test: Option<ClassicalTest>,
     /// The table where the loop has functions, as behind a hold: its entries are enclosed. `test` is `None` then.
     pub enclosed: Option<EnclosedTable>,
+    /// The verdict on the point; `None` where the loop is undefined, or where its roots cannot be counted.
+    pub verdict: Option<Verdict>,
 }
 
 impl PointTable {
@@ -165,13 +167,30 @@ impl Problem {
                     (Some(p), Shape::LeftHalfPlane) => p.routh_table(ENCLOSED_DIGITS, budget)?,
                     (None, _) => None,
                 };
-                return Ok(Answer::new(Arc::clone(self), PointTable { test: None, enclosed }));
+                let table = PointTable { test: None, enclosed, verdict: None };
+                return Ok(Answer::new(Arc::clone(self), self.with_verdict(table, budget)?));
             }
             // A coefficient or a pole of a point is a number.
             let defined = self.parametric(budget)?.filter(|p| !p.is_undefined_at(&Rational::ZERO));
             let test = defined.map(|p| classical_test(p, &Range::all(), self.shape(), budget)).transpose()?;
-            Ok(Answer::new(Arc::clone(self), PointTable { test, enclosed: None }))
+            let table = PointTable { test, enclosed: None, verdict: None };
+            Ok(Answer::new(Arc::clone(self), self.with_verdict(table, budget)?))
         })?
+    }
+
+    /// The table with the verdict: conditions that do not all hold do not say if the loop is marginal or unstable.
+    fn with_verdict(self: &Arc<Self>, mut table: PointTable, budget: &Budget) -> Result<PointTable, Error> {
+        if table.holds() {
+            table.verdict = Some(Verdict::Stable);
+        } else if table.test.is_some() || table.enclosed.is_some() {
+            table.verdict = match self.verdict(budget) {
+                Ok(answer) => Some(answer.value().verdict),
+                // The table is known all the same.
+                Err(Error::Stopped(stopped)) if matches!(stopped.stop, Stop::Precision(_)) => None,
+                Err(error) => return Err(error),
+            };
+        }
+        Ok(table)
     }
 }
 

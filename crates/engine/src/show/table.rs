@@ -5,13 +5,17 @@ use super::intervals::{domain_text, real_lines, set_lines, undecided_text};
 use super::layout::{Columns, called, named_values, wrapped};
 use super::notation::{Coefficient, coefficient_text};
 use super::region;
-use crate::answer::{Answer, ParametricTable, PointTable};
+use crate::answer::{Answer, ParametricTable, PointTable, Verdict};
 use crate::model::Time;
 use crate::problem::Problem;
-use crate::stability::{ClassicalTest, EnclosedTable, ScaledPoly, SymbolicTest, Table, UNDIVIDED_ORDER, row_name};
+use crate::stability::{
+    ClassicalTest, Comparison, Condition, EnclosedTable, Inequality, ScaledPoly, SymbolicTest, Table, UNDIVIDED_ORDER,
+    row_name,
+};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, parse_number, to_decimal};
 use jurist_algebra::poly::UniPoly;
+use std::cmp::Ordering;
 
 /// Characters per line of a printed table.
 const WIDTH: usize = 100;
@@ -111,7 +115,7 @@ pub fn table_text(problem: &Problem, answer: Result<&ParametricTable, &Exhausted
     }
     out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has them exactly)\n"));
     out.push_str(&entries_text(test, Some(name), digits));
-    out.push_str(&format!("\nConditions, each with its exact solution set\n{}", determinants(test)));
+    out.push_str(&format!("\nConditions, each with its exact solution set\n{}", meanings(problem.time(), order(test))));
     out.push_str(&conditions_text(test, name, digits));
     out
 }
@@ -184,8 +188,7 @@ fn symbolic_text(test: &SymbolicTest, time: Time, name: &str, digits: usize) -> 
     if is_open {
         out.push_str("  (coefficients that are not told from zero are left out)\n");
     }
-    let named = if time == Time::Continuous { DETERMINANTS } else { "" };
-    out.push_str(&format!("\nConditions, each with its exact solution set\n{named}"));
+    out.push_str(&format!("\nConditions, each with its exact solution set\n{}", meanings(time, test.order)));
     let sets = test.conditions.iter().map(|c| (c.name.as_str(), &c.solution));
     let sets = sets.chain([("all together", &test.intersection)]);
     out.push_str(&solutions_text(sets.map(|(label, set)| (label, real_lines(name, set, digits)))));
@@ -221,6 +224,7 @@ fn point_table_text(problem: &Problem, answer: &PointTable, digits: usize) -> St
     out.push('\n');
     if let Some(table) = &answer.enclosed {
         out.push_str(&enclosed_text(table, problem.time(), digits));
+        out.push_str(&decided_text(enclosed_conditions(table, digits), answer));
         return out;
     }
     let Some(test) = &answer.test else {
@@ -230,19 +234,74 @@ fn point_table_text(problem: &Problem, answer: &PointTable, digits: usize) -> St
     out.push_str(&scheme(test));
     out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has them exactly)\n"));
     out.push_str(&entries_text(test, None, digits));
-    out.push_str(&format!("\nConditions\n{}", determinants(test)));
-    let conditions = test.conditions.iter().map(|c| (c.name.as_str(), !c.solution.intervals().is_empty()));
-    out.push_str(&decided_text(conditions, answer.holds()));
+    out.push_str(&format!("\nConditions\n{}", meanings(problem.time(), order(test))));
+    out.push_str(&decided_text(test.conditions.iter().map(|c| decided(c, digits)), answer));
     out
 }
 
-fn decided_text<'a>(conditions: impl Iterator<Item = (&'a str, bool)>, all: bool) -> String {
+/// A condition at a point: its name, its values, and if it holds.
+struct Decided<'a> {
+    name: &'a str,
+    values: String,
+    holds: bool,
+}
+
+/// A condition between numbers.
+fn decided(condition: &Condition, digits: usize) -> Decided<'_> {
+    let number = |p: &ScaledPoly| &p.scale * &Rational::from(p.polynomial.coeff(0));
+    let (left, right) = match &condition.inequality {
+        Inequality::Positive(f) => (number(f), Rational::ZERO),
+        // The name says which of them stands on the left.
+        Inequality::Dominates { left, right } if condition.name.contains('<') => {
+            (number(right).abs(), number(left).abs())
+        }
+        Inequality::Dominates { left, right } => (number(left).abs(), number(right).abs()),
+    };
+    let relation = match left.cmp(&right) {
+        Ordering::Less => '<',
+        Ordering::Equal => '=',
+        Ordering::Greater => '>',
+    };
+    let values = format!("{} {relation} {}", to_decimal(&left, digits), to_decimal(&right, digits));
+    Decided { name: &condition.name, values, holds: !condition.solution.intervals().is_empty() }
+}
+
+/// The conditions of a table whose entries are enclosed.
+fn enclosed_conditions(table: &EnclosedTable, digits: usize) -> impl Iterator<Item = Decided<'_>> {
+    table.conditions.iter().map(move |c| {
+        let (left, right) = match c.comparison {
+            Comparison::Greater => (c.left.clone(), c.right.clone()),
+            Comparison::GreaterAbsolute | Comparison::SmallerAbsolute => (absolute(&c.left), absolute(&c.right)),
+        };
+        let relation = if left.lower() > right.upper() {
+            '>'
+        } else if left.upper() < right.lower() {
+            '<'
+        } else {
+            '='
+        };
+        let values = format!("{} {relation} {}", enclosed_number(&left, digits), enclosed_number(&right, digits));
+        Decided { name: &c.name, values, holds: c.holds }
+    })
+}
+
+/// The absolute value of a number that is zero or whose enclosure leaves zero out.
+fn absolute(e: &Enclosure) -> Enclosure {
+    if e.upper().is_negative() { Enclosure::new(-e.upper(), -e.lower()) } else { e.clone() }
+}
+
+fn enclosed_number(e: &Enclosure, digits: usize) -> String {
+    let (lo, hi) = (e.lower(), e.upper());
+    enclosed_decimal(lo, hi, digits).unwrap_or_else(|| to_decimal(&lo.midpoint(hi), digits))
+}
+
+fn decided_text<'a>(conditions: impl Iterator<Item = Decided<'a>>, table: &PointTable) -> String {
     let mut columns = Columns::new("  ");
-    for (name, holds) in conditions {
-        columns.row([name.to_owned(), if holds { "holds" } else { "does not hold" }.to_owned()]);
+    for Decided { name, values, holds } in conditions {
+        columns.row([name.to_owned(), values, if holds { "holds" } else { "does not hold" }.to_owned()]);
     }
-    let all = if all { "all hold: stable" } else { "not stable" };
-    columns.row(["all together".to_owned(), all.to_owned()]);
+    let verdict = table.verdict.map_or("not stable", Verdict::name);
+    columns.row(["all together".to_owned(), String::new(), verdict.to_owned()]);
     columns.to_string()
 }
 
@@ -261,14 +320,11 @@ fn enclosed_text(table: &EnclosedTable, time: Time, digits: usize) -> String {
     out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has enclosures)\n"));
     for (i, row) in table.rows.iter().enumerate() {
         for (k, entry) in row.entries.iter().enumerate() {
-            let (lo, hi) = (entry.lower(), entry.upper());
-            let decimal = enclosed_decimal(lo, hi, digits).unwrap_or_else(|| to_decimal(&lo.midpoint(hi), digits));
+            let decimal = enclosed_number(entry, digits);
             out.push_str(&format!("  {} = {decimal}\n", entry_label(time, i, &row.name, k)));
         }
     }
-    let conditions = table.conditions.iter().map(|c| (c.name.as_str(), c.holds));
-    let named = if time == Time::Continuous { DETERMINANTS } else { "" };
-    out.push_str(&format!("\nConditions\n{named}{}", decided_text(conditions, table.holds())));
+    out.push_str(&format!("\nConditions\n{}", meanings(time, order)));
     out
 }
 
@@ -280,13 +336,18 @@ fn entry_label(time: Time, row: usize, name: &str, k: usize) -> String {
     }
 }
 
-/// How Routh's conditions are named after the rows.
-const DETERMINANTS: &str = "  (H_k is the first entry r_k,0 of row k, the Hurwitz determinant of order k)\n";
-
-fn determinants(test: &ClassicalTest) -> &'static str {
-    match test.table {
-        Table::Routh(_) => DETERMINANTS,
-        Table::Jury(_) => "",
+/// What the names in the conditions mean.
+fn meanings(time: Time, order: usize) -> String {
+    match (time, order) {
+        (Time::Continuous, _) => {
+            "  (H_k is the first entry r_k,0 of row k, the Hurwitz determinant of order k)\n".to_owned()
+        }
+        (Time::Discrete, 0) => "  (Q = a_0 is the characteristic polynomial)\n".to_owned(),
+        (Time::Discrete, 1) => "  (Q(z) = a_1*z + a_0 is the characteristic polynomial)\n".to_owned(),
+        (Time::Discrete, n) => {
+            let between = if n > 2 { "... + " } else { "" };
+            format!("  (Q(z) = a_{n}*z^{n} + {between}a_1*z + a_0 is the characteristic polynomial)\n")
+        }
     }
 }
 
@@ -304,7 +365,7 @@ fn routh_scheme(n: usize, lengths: impl Iterator<Item = usize>) -> String {
     let mut columns = Columns::new("  ");
     for (i, length) in lengths.enumerate() {
         let names = (0..length).map(|k| format!("r_{i},{k}"));
-        columns.row(std::iter::once(format!("s^{}", n.saturating_sub(i))).chain(names));
+        columns.row([i.to_string(), format!("s^{}", n.saturating_sub(i))].into_iter().chain(names));
     }
     format!("\n{columns}")
 }
@@ -313,15 +374,20 @@ fn routh_scheme(n: usize, lengths: impl Iterator<Item = usize>) -> String {
 fn jury_scheme(n: usize, rows: impl Iterator<Item = (String, usize, Option<String>)>) -> String {
     let mut columns = Columns::new("  ");
     let mut divided = Vec::new();
-    columns.row((0..=n).map(|k| format!("z^{k}")));
+    columns.row(std::iter::once("row".to_owned()).chain((0..=n).map(|k| format!("z^{k}"))));
+    let mut number = 0;
+    let mut numbered = |names: Vec<String>| {
+        number += 1;
+        columns.row(std::iter::once(format!("{number}")).chain(names));
+    };
     for (name, length, divided_by) in rows {
         let names: Vec<String> = (0..length).map(|k| format!("{name}_{k}")).collect();
         // The last row of the table stands alone.
         if length > 3 || n < 3 {
-            columns.row(names.clone());
-            columns.row(names.into_iter().rev());
+            numbered(names.clone());
+            numbered(names.into_iter().rev().collect());
         } else {
-            columns.row(names);
+            numbered(names);
         }
         divided.extend(divided_by.map(|by| format!("row {name} by {by}")));
     }
