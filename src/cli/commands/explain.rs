@@ -9,7 +9,7 @@ use jurist_engine::show::words;
 /// Options of `jurist explain`.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
-    /// The code in the brackets of an error, such as E-unknown-name, or a word such as 'complex pair'; left out: a list of all
+    /// The code in the brackets of an error, such as E-unknown-name, or a word such as 'phase margin'; left out: a list of all
     #[arg(value_name = "CODE")]
     pub code: Vec<String>,
 }
@@ -18,7 +18,7 @@ pub(in crate::cli) struct Options {
 pub(in crate::cli) fn run(options: &Options) -> Outcome {
     if options.code.is_empty() {
         let width = codes().map(|(code, _)| code.as_str().len()).max().unwrap_or(0);
-        let line = |(code, text): (Code, String)| format!("{code:width$}  {}", text.lines().next().unwrap_or_default());
+        let line = |(code, text): (Code, String)| format!("{code:width$}  {}", first_sentence(&text));
         let mut lines: Vec<String> = codes().map(line).collect();
         let words: Vec<&str> = words().map(|(word, _)| word).collect();
         lines.push(format!("\nand the words {}", words.join(", ")));
@@ -44,6 +44,13 @@ pub(in crate::cli) fn run(options: &Options) -> Outcome {
             None => Err(unknown(wanted)),
         },
     }
+}
+
+/// The first sentence of a text, on one line; a colon ends it too, where an example follows.
+fn first_sentence(text: &str) -> String {
+    let paragraph = text.split("\n\n").next().unwrap_or_default().replace('\n', " ");
+    let end = paragraph.match_indices(". ").map(|(at, _)| at + 1).next();
+    paragraph[..end.unwrap_or(paragraph.len())].trim_end_matches(':').to_owned()
 }
 
 fn unknown(wanted: &str) -> Error {
