@@ -45,7 +45,7 @@ const TEMPLATES: [Template; 8] = templates![
     "matrix": "state space with output feedback",
     "polynomial": "a characteristic polynomial",
     "two-mass": "speed control of two masses with a notch filter",
-    "lcl-filter": "grid current through an LCL filter, 1.5 samples of delay",
+    "lcl-filter": "grid current through an LCL filter, one sample of computation and the hold",
 ];
 
 /// Writes a template to standard output or to a new file.
