@@ -138,4 +138,5 @@ mod program {
     mod sweep;
     mod undecided;
     mod usage;
+    mod words;
 }

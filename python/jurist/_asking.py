@@ -105,8 +105,9 @@ class Asker:
         status, output, notes, remarks = done
         warn(remarks)
         if status == 3:
-            said = next((n for n in notes if n.startswith("undecided: ")), "undecided: the budget ran out")
-            budget, _, reached = said.removeprefix("undecided: the budget ran out: ").partition("; reached: ")
+            said = next((n for n in notes if n.startswith("undecided: ")), "undecided: the budget ran out: ")
+            _, _, why = said.removeprefix("undecided: ").partition(": ")
+            budget, _, reached = why.partition("; reached: ")
             raise undecided(said.removeprefix("undecided: "), budget, reached, output or None)
         return output, tuple(words), status
 

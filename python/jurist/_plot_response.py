@@ -52,7 +52,7 @@ def plot_bode(response: FrequencyResponse, ax: Any, exact: bool, kw: dict[str, A
     for axis in (upper, lower):
         axis.margins(y=0.15)
         axis.grid(True, which="both", alpha=0.3)
-    upper.set_ylabel("modulus (dB)")
+    upper.set_ylabel("magnitude (dB)")
     lower.set_ylabel("phase (°)")
     lower.set_xlabel("frequency (Hz)" if response.hertz else "angle (rad per sample)")
     return ax

@@ -63,7 +63,7 @@ class FrequencyResponse(Document):
 
 
 class Bode(FrequencyResponse):
-    """Modulus and phase over frequency."""
+    """Magnitude and phase over frequency."""
 
     __slots__ = ()
 

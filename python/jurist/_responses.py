@@ -92,7 +92,7 @@ class ResponseQuestions(Asker):
     def bode(
         self, at: str | None = None, values: Mapping[str, Exact] | None = None, *, timeout: float | None = None
     ) -> Bode:
-        """Modulus and phase of the loop cut at a signal over frequency, with the exact crossings on them.
+        """Magnitude and phase of the loop cut at a signal over frequency, with the exact crossings on them.
 
         Parameters
         ----------

@@ -17,9 +17,9 @@ use std::time::Duration;
         controllers.",
     // Not the name of the file that was started.
     bin_name = "jurist",
-    after_help = "MODEL is a TOML file, '-' for standard input, or a loop in one line; left out, it is the built-in drive.\n\
-        A line is the transfer function of an open loop with unity negative feedback, 'K*10/(s*(s+1)*(s+2))', or a\n\
-        characteristic polynomial, 'z^2 + z + 1/2' or '... = 0'. Without a command, its stable set: jurist 'K/(s*(s+1))'.\n\n\
+    after_help = "MODEL is a TOML file, '-' for standard input, or one line; left out, it is the built-in drive.\n\
+        A line is an open loop with unity negative feedback, 'K*10/(s*(s+1)*(s+2))', or a characteristic\n\
+        polynomial, 'z^2 + z + 1/2' or '... = 0'. Without a command: its stable set.\n\n\
         Exit status: 0 answered, or it holds; 1 answered, and it does not hold (verdict); 2 bad usage or bad \
         model;\n3 undecided within the given budget; 4 certificate rejected.",
     args_conflicts_with_subcommands = true,
@@ -59,7 +59,7 @@ pub(super) enum Command {
     Locus(commands::locus::Options),
     /// Gain, phase, delay, modulus and disk margins of the loop cut at a signal, exactly, and all crossings
     Margins(commands::margins::Options),
-    /// Modulus and phase of the open loop over frequency, with the exact crossings marked
+    /// Magnitude and phase of the open loop over frequency, with the exact crossings marked
     Bode(commands::frequency_response::Options),
     /// The curve of the open loop around -1, with the exact crossings and margins marked
     Nyquist(commands::frequency_response::Options),

@@ -96,6 +96,9 @@ fn run(line: &CommandLine, #[cfg_attr(not(feature = "cli"), allow(unused_variabl
     }
     let outcome = answered(&arguments, &context);
     context.reporter.finish();
+    if !context.quiet && !arguments.says_what_it_wrote() {
+        output::tell_files();
+    }
     context.reporter.tell_work(&context.budget);
     match outcome {
         Ok(status) => status as u8,

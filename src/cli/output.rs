@@ -65,8 +65,25 @@ pub(super) fn instead_of_an_answer() -> Option<impl Sized> {
 /// Makes the bytes the content of a file, as a whole or not at all.
 pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let _held = writing();
-    let written = Destination::of(path).and_then(|destination| replace(&destination, bytes));
-    written.map_err(|e| write_error(&path.to_string_lossy(), &e))
+    let failed = |e: std::io::Error| write_error(&path.to_string_lossy(), &e);
+    let destination = Destination::of(path).map_err(failed)?;
+    replace(&destination, bytes).map_err(failed)?;
+    if matches!(destination, Destination::File(_)) && captured::budget().is_none() {
+        FILES.lock().unwrap_or_else(PoisonError::into_inner).push(path.display().to_string());
+    }
+    Ok(())
+}
+
+/// The files that have been written and not been told of.
+static FILES: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+/// Says on standard error which files have been written.
+pub(super) fn tell_files() {
+    let files = std::mem::take(&mut *FILES.lock().unwrap_or_else(PoisonError::into_inner));
+    if let Some((last, others)) = files.split_last() {
+        let and = if others.is_empty() { "" } else { " and " };
+        note(&format!("wrote {}{and}{last}", others.join(", ")));
+    }
 }
 
 /// Whether standard output was closed when the program began.

@@ -134,7 +134,7 @@ fn words_of_the_answers_are_explained() {
 fn a_model_is_only_read() {
     let good = json(&["check", "--json"]);
     assert_eq!(good["accepted"], true);
-    assert_eq!(jurist(&["check"]).stdout, "<built-in drive>: a model\n");
+    assert_eq!(jurist(&["check"]).stdout, "<built-in drive>: no mistakes found\n");
     let bad =
         "time = 'discrete'\n[parameters]\nK = { nominal = 1, maximum = 2 }\n[loop]\ncharacteristic = 'z - k + Q'\n";
     let run = jurist_with_input(&["check", "-", "--json"], bad.as_bytes());

@@ -90,7 +90,7 @@ fn a_replaced_file_keeps_its_permissions_and_a_link_its_target() {
     symlink("new.json", folder.path("dangling.json")).unwrap();
     for name in ["link.json", "dangling.json"] {
         let run = jurist(&["verdict", DRIVE, "-o", &folder.path(name)]);
-        assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+        assert_eq!((run.status, run.stderr), (0, format!("wrote {}\n", folder.path(name))));
         assert!(std::fs::symlink_metadata(folder.path(name)).unwrap().is_symlink());
         assert!(read_to_string(folder.path(name)).unwrap().contains("jurist/verdict/1"));
     }
@@ -181,12 +181,12 @@ fn two_outputs_with_one_name_are_refused_before_any_work() {
         assert_eq!(folder.names(), before);
     }
     // One of them may go to standard output, and both where nothing is kept.
-    for arguments in [
-        &["verdict", &model, "-o", &x, "--certificate", "-"][..],
-        &["verdict", &model, "-o", "/dev/null", "--certificate", "/dev/null"],
+    for (arguments, said) in [
+        (&["verdict", &model, "-o", &x, "--certificate", "-"][..], format!("wrote {x}\n")),
+        (&["verdict", &model, "-o", "/dev/null", "--certificate", "/dev/null"], String::new()),
     ] {
         let run = jurist(arguments);
-        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{arguments:?}");
+        assert_eq!((run.status, run.stderr), (0, said), "{arguments:?}");
     }
     // Redirected, standard output is the file.
     let run = shell("out=$1; shift; exec \"$0\" \"$@\" >>$out", &[&x, "verdict", &model, "--certificate", &x]);
@@ -263,7 +263,7 @@ fn an_answer_that_standard_output_does_not_take_is_an_error() {
         }
         // What goes to a file does not need it.
         let run = shell(&script, &[&question[..], &["-o", &folder.path("x.json")]].concat());
-        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{redirection}");
+        assert_eq!((run.status, run.stderr), (0, format!("wrote {}\n", folder.path("x.json"))), "{redirection}");
     }
     for script in ["exec \"$0\" \"$@\" >/dev/null", "\"$0\" \"$@\" | true", "exec \"$0\" \"$@\" 1<>/dev/null"] {
         let run = shell(script, &question);
@@ -293,7 +293,7 @@ fn a_certificate_that_verify_refuses_is_not_written_in_silence() {
     // One that is accepted is said to be so where that is asked.
     let model = integrator(&folder);
     let run = jurist(&["verdict", &model, "--certificate", &certificate]);
-    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+    assert_eq!((run.status, run.stderr), (0, format!("wrote {certificate}\n")));
     let run = jurist(&["verdict", &model, "--certificate", &certificate, "--verbose"]);
     assert!(run.status == 0 && run.stderr.contains("checked: "), "{}", run.stderr);
 }

@@ -68,11 +68,11 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     }
     if check.accepted {
         let remarks = match diagnostics.len() {
-            0 => String::new(),
-            1 => ", with one warning".to_owned(),
-            n => format!(", with {n} warnings"),
+            0 => "no mistakes found".to_owned(),
+            1 => "no mistakes found, one warning".to_owned(),
+            n => format!("no mistakes found, {n} warnings"),
         };
-        write_answer(&format!("{name}: a model{remarks}"), options.output.as_ref())?;
+        write_answer(&format!("{name}: {remarks}"), options.output.as_ref())?;
     }
     Ok(status)
 }

@@ -194,6 +194,16 @@ impl Arguments {
     }
 }
 
+impl Arguments {
+    /// True of commands that write folders, of which they name the first page.
+    pub fn says_what_it_wrote(&self) -> bool {
+        #[cfg(feature = "cli")]
+        return matches!(self.command, Some(Command::Paper(_) | Command::Page(_)));
+        #[cfg(not(feature = "cli"))]
+        false
+    }
+}
+
 /// Runs the command that the arguments name.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
     match &arguments.command {

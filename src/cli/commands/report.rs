@@ -4,7 +4,7 @@ use super::Context;
 use crate::certified_intervals::certify_intervals;
 use crate::cli::arguments::{ModelOptions, RegionOptions, RunOptions};
 use crate::cli::input::{load, question};
-use crate::cli::output::{ending, finish_answer, note, unknown_ending};
+use crate::cli::output::{ending, finish_answer, unknown_ending};
 use crate::cli::status::{Outcome, Status};
 use crate::cli::written::share;
 use clap::Args;
@@ -59,9 +59,6 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let report = loop_report(&question, &request, &context.budget);
     context.reporter.finish();
     finish_answer(&report.html, Some(file))?;
-    if file != "-" && !context.quiet {
-        note(&format!("wrote {}", file.to_string_lossy()));
-    }
     Ok(match &report.stopped {
         Some(stopped) => context.say_undecided(stopped),
         None => Status::Holds,

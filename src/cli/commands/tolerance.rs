@@ -3,6 +3,7 @@
 use super::{Context, decided};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::assignments::in_line;
+use crate::cli::command_line::Place;
 use crate::cli::input::{known_name, known_names, load, question};
 use crate::cli::output::{ending, write_answer, write_beginning};
 use crate::cli::picture::{Kind, Picture, WRITES, deliver};
@@ -26,7 +27,7 @@ use std::slice::from_ref;
 /// Options of `jurist tolerance`.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
-    /// A tolerance: NAME=10%, NAME=-20%..+30%, NAME=0.01 or NAME=LO..HI; several names with commas [repeatable]
+    /// A tolerance: NAME=10%, NAME=-20%..+30%, NAME=0.01 or NAME=LO..HI; several with commas: R=10%,L=5%, or R,L=10% [repeatable]
     #[arg(long, value_name = "NAME=TOLERANCE")]
     pub tol: Vec<String>,
     /// Gives every number of the model this tolerance
@@ -220,19 +221,15 @@ fn request(options: &Options, model: &Model, context: &Context) -> Result<Tolera
     }
     for text in &options.tol {
         let place = context.line.option_value("--tol", text);
-        let Some((names, value)) = text.split_once('=') else {
-            let error = Diagnostic::error(Code::OptionValue, "--tol expects NAME=TOLERANCE")
-                .at(place.span, "there is no '='")
-                .help("for example --tol R=10% or --tol R,L=-20%..+30%");
-            return Err(in_line(context.line, vec![error]).into());
-        };
-        let tolerance = read(text, "--tol", value, names.len() + 1, context)?;
-        let mut start = 0;
-        for name in names.split(',') {
-            let trimmed = name.trim();
-            known_name(context, model, trimmed, place.part(start, start + name.len()))?;
-            put(trimmed, &tolerance);
-            start += name.len() + 1;
+        for (at, names, value) in groups(text, place, context)? {
+            let tolerance = read(text, "--tol", value, at + names.len() + 1, context)?;
+            let mut start = at;
+            for name in names.split(',') {
+                let trimmed = name.trim();
+                known_name(context, model, trimmed, place.part(start, start + name.len()))?;
+                put(trimmed, &tolerance);
+                start += name.len() + 1;
+            }
         }
     }
     for text in &options.fix {
@@ -262,12 +259,35 @@ fn request(options: &Options, model: &Model, context: &Context) -> Result<Tolera
     Ok(request.gap(Rational::from(10).pow(-i64::from(digits)).expect("ten is not zero")))
 }
 
+/// The parts of `R,L=10%,C=5%`: where each begins, its names, and their tolerance.
+fn groups<'t>(text: &'t str, place: Place, context: &Context) -> Result<Vec<(usize, &'t str, &'t str)>, Error> {
+    let mut groups = Vec::new();
+    let mut start = 0;
+    loop {
+        let Some((names, rest)) = text[start..].split_once('=') else {
+            let error = Diagnostic::error(Code::OptionValue, "--tol expects NAME=TOLERANCE")
+                .at(place.part(start, text.len()), "there is no '='")
+                .help("for example --tol R=10%, --tol R,L=-20%..+30% or --tol R=10%,L=5%");
+            return Err(in_line(context.line, vec![error]).into());
+        };
+        // A tolerance ends at the comma after it, and names follow.
+        let value = rest.split(',').next().unwrap_or_default();
+        groups.push((start, names, value));
+        start += names.len() + 1 + value.len();
+        if start == text.len() {
+            return Ok(groups);
+        }
+        // The comma.
+        start += 1;
+    }
+}
+
 /// A tolerance that begins at `start` of an option's value.
 fn read(text: &str, option: &str, value: &str, start: usize, context: &Context) -> Result<Tolerance, Error> {
     value.parse().map_err(|why: String| {
         let place = context.line.option_value(option, text);
         let error = Diagnostic::error(Code::Tolerance, format!("this is no tolerance: {why}"))
-            .at(place.part(start, text.len()), "not accepted")
+            .at(place.part(start, start + value.len()), "not accepted")
             .help("tolerances look like 10%, -20%..+30%, 0.01 or 0.4..0.7");
         in_line(context.line, vec![error]).into()
     })

@@ -85,7 +85,7 @@ pub fn paper_report(budget: &Budget) -> Result<PaperReport, Error> {
             ("locus", "Root locus", locus),
             ("responses", "Responses", runs),
             ("limits", "Limits by several ways", limits.html() + &limits_remarks()),
-            ("sensitivity", "What moves the limits", sensitivity_intro() + &sensitivity.html()),
+            ("sensitivity", "How the limits depend on each number", sensitivity_intro() + &sensitivity.html()),
             ("proved", "What is proved, what is drawn", proved()),
         ]
         .map(section),

@@ -43,6 +43,16 @@ pub enum Stop {
 }
 
 impl Stop {
+    /// True if the caller's budget ended the work, or the caller did; false if the method itself goes no further.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Stop;
+    /// assert!(Stop::Work(1000).is_budget() && !Stop::Precision(8192).is_budget());
+    /// ```
+    pub fn is_budget(&self) -> bool {
+        matches!(self, Stop::Time(_) | Stop::Work(_) | Stop::Memory(_) | Stop::Cancelled)
+    }
+
     /// True if numbers could not be told apart, so that another method, or an answer that leaves a bracket open, may still
     /// decide; false if the caller's budget ran out or the method has no more to say.
     ///
@@ -134,7 +144,8 @@ impl Exhausted {
 
 impl fmt::Display for Exhausted {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the budget ran out: {}; reached: {}", self.stop, self.reached())
+        let what = if self.stop.is_budget() { "the budget ran out" } else { "the method ended" };
+        write!(f, "{what}: {}; reached: {}", self.stop, self.reached())
     }
 }
 

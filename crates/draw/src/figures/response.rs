@@ -126,7 +126,7 @@ pub fn bode(answer: &Answer<Margins>, response: &FrequencyResponse) -> Figure {
         title: title(answer),
         x_label: if response.hertz { " (Hz)" } else { "" }.to_owned(),
         levels: vec![(0.0, String::new())],
-        ..panel(ResponsePoint::decibels, "modulus (dB)", true)
+        ..panel(ResponsePoint::decibels, "magnitude (dB)", true)
     };
     let phase = panel(|p| p.phase, "phase (degrees)", false);
     let levels = critical_levels(&marked, phase.y).into_iter().map(|level| (level, String::new())).collect();
@@ -151,7 +151,7 @@ pub fn nyquist(answer: &Answer<Margins>, response: &FrequencyResponse) -> Figure
         (0..=240).map(|i| f64::from(i) * turn / 240.0).map(|a| (centre + r * a.cos(), r * a.sin())).collect::<Vec<_>>()
     };
     let mut curves = vec![
-        curve(circle(0.0, 1.0), "#999999", "modulus 1", true),
+        curve(circle(0.0, 1.0), "#999999", "magnitude 1", true),
         curve(side(1.0), COLOURS[0], "positive frequencies", false),
         curve(side(-1.0), COLOURS[4], "negative frequencies", true),
     ];

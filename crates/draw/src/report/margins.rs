@@ -57,7 +57,7 @@ pub(super) fn bode_section(margins: &Part<Answer<Margins>>, parts: &Parts<'_>) -
         Ok(drawn) => figure(
             "bode",
             &drawn,
-            "Modulus and phase of the open loop; the curves are floating point, the marked crossings are exact",
+            "Magnitude and phase of the open loop; the curves are floating point, the marked crossings are exact",
         ),
     }
 }

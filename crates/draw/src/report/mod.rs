@@ -102,7 +102,11 @@ pub fn loop_report(question: &Question, request: &ReportRequest<'_>, budget: &Bu
         ("model", "The model", Box::new(|| model::section(question))),
         ("limits", "Verdict and limits", Box::new(|| limits::section(&verdict, &limits))),
         ("margins", "Margins of the loop", Box::new(|| margins::section(&margins, &parts))),
-        ("sensitivity", "What moves the limits", Box::new(|| sensitivity::section(question, &limits, &parts))),
+        (
+            "sensitivity",
+            "How the limits depend on each number",
+            Box::new(|| sensitivity::section(question, &limits, &parts)),
+        ),
         ("tolerance", "Worst corner of the tolerances", Box::new(|| tolerance::section(question, &parts))),
         ("locus", "Root locus", Box::new(|| pictures::locus(&limits, &parts))),
         ("bode", "Bode diagram", Box::new(|| margins::bode_section(&margins, &parts))),

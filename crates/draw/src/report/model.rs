@@ -139,7 +139,10 @@ fn does(model: &Model, block: &Block) -> String {
             format!("num [{}], den [{}], highest power first", list(numerator), list(denominator))
         }
         Dynamics::Gain(e) => format!("gain {}", written(model, e)),
-        Dynamics::Delay(e) => format!("delay of {} samples", written(model, e)),
+        Dynamics::Delay(e) => match written(model, e).as_str() {
+            "1" => "delay of 1 sample".to_owned(),
+            samples => format!("delay of {samples} samples"),
+        },
         Dynamics::DeadTime(e) => format!("dead time {}", written(model, e)),
         Dynamics::StateSpace { .. } => "state space, matrices below".to_owned(),
         Dynamics::Static(_) => "constant matrix, below".to_owned(),

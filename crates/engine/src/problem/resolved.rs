@@ -180,7 +180,8 @@ impl Problem {
         if !algebra.symbols().delays().is_empty() {
             return Err(not_known());
         }
-        let message = "this is asked of rational loops only yet, and the loop has functions, as behind a hold";
+        let message =
+            "this question is answered for rational loops only, and this loop has functions, as behind a hold";
         let list: Vec<String> =
             algebra.symbols().definitions().iter().take(4).map(|(name, text)| format!("{name} = {text}")).collect();
         let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, locus, map (by boxes where a parameter is inside of functions), tolerance, jury in a parameter outside of functions and at a point, report";

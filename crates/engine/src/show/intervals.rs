@@ -215,7 +215,7 @@ fn end_lines(set: &StableSet, problem: &Problem, digits: usize) -> String {
 
 fn end_cells(end: &End, decimal: String, problem: &Problem, digits: usize) -> Vec<String> {
     if end.causes.contains(Cause::Undecided) {
-        return vec![decimal, String::new(), "undecided beyond: no limit".to_owned(), String::new()];
+        return vec![decimal, String::new(), "no limit: what lies beyond is undecided".to_owned(), String::new()];
     }
     let exact = match end.value.exact() {
         Some(exact) if !is_decimal_of(&decimal, &exact) => match fraction(&exact) {

@@ -117,7 +117,7 @@ impl Writer<'_> {
             Some(end) => self.end(end),
         };
         let phase = match &margins.phase {
-            PhaseMargin::Unbounded => "none, the open loop's modulus is nowhere 1".to_owned(),
+            PhaseMargin::Unbounded => "none, the open loop's magnitude is nowhere 1".to_owned(),
             angle @ PhaseMargin::Angle { place, .. } => {
                 format!("{} degrees {}", decimal(digits, |bits| angle.degrees(bits)), self.at(place.as_ref()))
             }
@@ -151,14 +151,17 @@ impl Writer<'_> {
     fn delay(&self, delay: &DelayMargin) -> String {
         let samples = |m: u64| if m == 1 { "1 sample".to_owned() } else { format!("{m} samples") };
         match delay {
-            DelayMargin::Unbounded => "none, any delay is borne".to_owned(),
-            DelayMargin::Zero => "0, the open loop's modulus does not fall below 1 at high frequencies".to_owned(),
+            DelayMargin::Unbounded => "none, the loop is stable with any delay".to_owned(),
+            DelayMargin::Zero => "0, the open loop's magnitude does not fall below 1 at high frequencies".to_owned(),
             DelayMargin::SamplesAtLeast(m) => format!("at least {}", samples(*m)),
             DelayMargin::Samples(m) => {
-                let more = format!("{} borne, one more is not", samples(*m));
-                let more = match self.margins.open_loop.sample_time() {
-                    Some(t) => format!("{more} ({} s)", short(&(t * &Rational::from(*m as i64)))),
-                    None => more,
+                let time = match self.margins.open_loop.sample_time() {
+                    Some(t) if *m > 0 => format!(" ({} s)", short(&(t * &Rational::from(*m as i64)))),
+                    _ => String::new(),
+                };
+                let more = match m {
+                    0 => "0 samples; with one more sample of delay the loop is not stable".to_owned(),
+                    _ => format!("{}{time}; with one more the loop is not stable", samples(*m)),
                 };
                 self.margins.held_delay.as_ref().map_or(more.clone(), |held| format!("{more}; {}", self.held(held)))
             }
@@ -214,7 +217,7 @@ impl Writer<'_> {
         let crossings = &self.margins.crossings;
         let mut columns = Columns::new("    ");
         if crossings.gain_everywhere {
-            columns.row(["modulus 1".to_owned(), "at all frequencies".to_owned()]);
+            columns.row(["magnitude 1".to_owned(), "at all frequencies".to_owned()]);
         }
         for c in &crossings.gain {
             let margin = decimal(PLACES, |bits| Some(response::degrees(&c.phase(bits + 16), bits)));
@@ -225,7 +228,7 @@ impl Writer<'_> {
                 Direction::Touching => "touching",
             };
             columns.row([
-                "modulus 1".to_owned(),
+                "magnitude 1".to_owned(),
                 self.at(Some(&c.place)),
                 format!("PM {margin} degrees"),
                 delay,

@@ -141,7 +141,8 @@ impl Shown<'_> {
         let lower = at_most(&factor.lower, digits);
         match &factor.upper {
             Some(upper) => {
-                let _ = writeln!(out, "they can grow    {lower} < factor <= {}", at_least(upper, digits));
+                let label = if *upper <= Rational::ONE { "they must shrink" } else { "they can grow   " };
+                let _ = writeln!(out, "{label} {lower} < factor <= {}", at_least(upper, digits));
             }
             None => {
                 let _ = writeln!(out, "they can grow    {lower} <= factor at least; no worse point was found");
@@ -165,7 +166,7 @@ impl Shown<'_> {
             let _ = writeln!(out, "                 at {} a parameter reaches the end of its domain", short(domain));
         }
         if let Some((why, _)) = &factor.open {
-            let _ = writeln!(out, "                 a closer bracket is undecided: {why}");
+            let _ = writeln!(out, "                 a narrower bracket is undecided: {why}");
         }
         if let Some(direction) = &factor.direction {
             let beyond = factor.witness.as_ref().map(|w| self.beyond(w)).unwrap_or_default();

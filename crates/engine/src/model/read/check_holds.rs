@@ -17,7 +17,7 @@ pub(super) fn between_holds(diagram: &Diagram, reader: &mut Reader) {
         let Some(d) = block.discretization.as_ref() else { continue };
         let Some(source) = block.inputs.iter().find_map(|input| unsampled(diagram, at, input)) else { continue };
         let (name, other) = (shorten(&block.name), shorten(&source.name));
-        let message = format!("'{name}' is behind a hold of its own and reads '{other}', which is continuous");
+        let message = format!("'{name}' and '{other}' each have a hold, but the signal between them is not sampled");
         let warning = Diagnostic::warning(Code::RuleWarning, message).at(d.span, "a hold where no signal is sampled");
         let warning = warning.also(source.span, "continuous as well");
         reader.report(warning.help("write both as one block: its product, or one A, B, C, D"));

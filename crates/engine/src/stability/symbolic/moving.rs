@@ -100,10 +100,10 @@ pub(super) fn moving_stable_set(
     let brackets = stable.open.into_iter().map(|(lo, hi)| {
         let why = match (&lo, &hi) {
             (Some(lo), Some(_)) if lo.is_zero() && part.lower.as_ref().is_some_and(Rational::is_zero) => {
-                "not resolved so near to 0"
+                "values this close to 0 are not decided"
             }
             (Some(_), Some(_)) => "touching or crossing",
-            _ => "not resolved so far out: give bounds of the domain",
+            _ => "values of this size are not decided: give the domain bounds",
         };
         UndecidedBracket::new(lo, hi, why)
     });
