@@ -86,6 +86,11 @@ impl RequirementKind {
         with.map_or((text, None), |(number, unit)| (number, Some(unit)))
     }
 
+    /// True if a unit may follow the number.
+    pub(super) fn needs_unit(&self) -> bool {
+        !self.units.is_empty()
+    }
+
     /// What a number asks for.
     pub(super) fn meaning(&self, written: &Written<'_>) -> Result<Meaning, Error> {
         (self.meaning)(written)
