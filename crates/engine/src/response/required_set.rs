@@ -7,7 +7,7 @@ use super::margins::Margins;
 use super::met::AtPoint;
 use super::open_loop::OpenLoop;
 use super::over_symbols::SymbolicFamily;
-use super::requirement::{Requirement, Rule, scaled_by_exponential, sector_in_parameter};
+use super::requirement::{Requirement, Rule, scaled_by_exponential};
 use super::spiral::OnSpiral;
 use super::{DelayMargin, HeldDelay};
 use crate::answer::{Answer, Verdict};
@@ -240,7 +240,7 @@ impl Problem {
                     }
                     return Ok(Boundaries { values, ..Boundaries::none() });
                 }
-                let sector = sector_in_parameter(p, least);
+                let sector = crate::stability::sector::sector_in_parameter(p, least);
                 let Some(found) = boundary_polynomials(&sector, self.shape(), budget)? else { return Err(undecided()) };
                 let zeros = found.into_iter().map(|b| b.polynomial.poly().clone()).collect();
                 Boundaries { zeros, ..Boundaries::none() }

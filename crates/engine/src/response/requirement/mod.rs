@@ -19,7 +19,7 @@ mod radius;
 mod settling_time;
 
 pub(crate) use circle::Circle;
-pub(crate) use damping::{in_sector, on_sector_edge, sector_in_parameter};
+
 pub(crate) use settling_time::{radius_below, scaled_by_exponential};
 
 use super::{Margins, StableMargins};
