@@ -86,7 +86,7 @@ fn dead_time_behind_a_hold_is_not_less_than_the_whole_samples_that_are_borne() {
     }
     let text = answer.text(12);
     assert!(
-        text.contains("37 samples (0.0037 s); with one more the loop is not stable") && !text.contains("less than"),
+        text.contains("37 samples (0.074 s); with one more the loop is not stable") && !text.contains("less than"),
         "{text}"
     );
 }
