@@ -72,7 +72,11 @@ impl CommandLine {
     pub fn arguments(&self) -> Vec<OsString> {
         let mut arguments = self.arguments.clone();
         let is_command = |a: &OsString| Arguments::command().get_subcommands().any(|c| a == c.get_name());
-        let first = arguments.get(1).map(|first| if first == "--" { arguments.get(2).unwrap_or(first) } else { first });
+        // An argument that begins with a minus is an option, but for one after '--'.
+        let first = match arguments.get(1) {
+            Some(mark) if mark == "--" => arguments.get(2),
+            first => first.filter(|first| !first.to_string_lossy().starts_with('-') || *first == "-"),
+        };
         let Some(first) = first.filter(|first| !is_command(first)) else { return arguments };
         if let Some(line) = loop_line(first) {
             let command = if self.is_point(line) { "verdict" } else { "intervals" };
@@ -309,6 +313,28 @@ mod tests {
         ] {
             let whole = line(arguments).arguments();
             assert_eq!(whole.get(1).is_some_and(|a| a == "analyze") && whole.len() == arguments.len() + 2, analysed);
+        }
+    }
+
+    /// `--set=K=1` has operators and is no loop.
+    #[test]
+    fn a_loop_in_one_line_alone_is_asked_about() {
+        for (arguments, command) in [
+            (&["K/(s + 1)"][..], Some("intervals")),
+            (&["K/(s + 1)", "--set", "K=1"], Some("verdict")),
+            (&["K/(s + 1)", "--set=K=1", "--hold", "T"], Some("intervals")),
+            (&["K/(s + 1)", "--set=K=1", "--hold=T", "--set", "T = 1"], Some("verdict")),
+            (&["1/(s + 1)"], Some("verdict")),
+            (&["1/(s + 1)", "--param", "K"], Some("intervals")),
+            (&["--", "-K/(s + 1)"], Some("intervals")),
+            (&["-K/(s + 1)"], None),
+            (&["--set=K=1"], None),
+            (&["-s"], None),
+            (&["--"], None),
+        ] {
+            let whole = line(arguments).arguments();
+            let inserted = (whole.len() > arguments.len() + 1).then(|| whole[1].to_str().unwrap());
+            assert_eq!(inserted, command, "{arguments:?}");
         }
     }
 

@@ -96,7 +96,7 @@ fn run(line: &CommandLine, #[cfg_attr(not(feature = "cli"), allow(unused_variabl
     }
     let outcome = answered(&arguments, &context);
     context.reporter.finish();
-    if !context.quiet && !arguments.says_what_it_wrote() {
+    if !context.quiet && !arguments.writes_a_folder() {
         output::tell_files();
     }
     context.reporter.tell_work(&context.budget);

@@ -195,12 +195,13 @@ impl Arguments {
 }
 
 impl Arguments {
-    /// True of commands that write folders, of which they name the first page.
-    pub fn says_what_it_wrote(&self) -> bool {
-        #[cfg(feature = "cli")]
-        return matches!(self.command, Some(Command::Paper(_) | Command::Page(_)));
-        #[cfg(not(feature = "cli"))]
-        false
+    /// True of commands that write folders: they name the first page themselves.
+    pub fn writes_a_folder(&self) -> bool {
+        match self.command {
+            #[cfg(feature = "cli")]
+            Some(Command::Paper(_) | Command::Page(_)) => true,
+            _ => false,
+        }
     }
 }
 

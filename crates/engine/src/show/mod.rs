@@ -9,6 +9,7 @@ pub mod layout;
 pub mod map;
 pub mod margins;
 pub mod notation;
+mod point_table;
 pub mod real;
 pub mod region;
 mod requirements;

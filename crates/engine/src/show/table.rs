@@ -5,17 +5,13 @@ use super::intervals::{domain_text, real_lines, set_lines, undecided_text};
 use super::layout::{Columns, called, named_values, wrapped};
 use super::notation::{Coefficient, coefficient_text};
 use super::region;
-use crate::answer::{Answer, ParametricTable, PointTable, Verdict};
+use crate::answer::{Answer, ParametricTable};
 use crate::model::Time;
 use crate::problem::Problem;
-use crate::stability::{
-    ClassicalTest, Comparison, Condition, EnclosedTable, Inequality, ScaledPoly, SymbolicTest, Table, UNDIVIDED_ORDER,
-    row_name,
-};
+use crate::stability::{ClassicalTest, ScaledPoly, SymbolicTest, Table, UNDIVIDED_ORDER, row_name};
 use jurist_algebra::limits::Exhausted;
-use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, parse_number, to_decimal};
+use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, parse_number};
 use jurist_algebra::poly::UniPoly;
-use std::cmp::Ordering;
 
 /// Characters per line of a printed table.
 const WIDTH: usize = 100;
@@ -77,14 +73,7 @@ impl Answer<ParametricTable> {
     }
 }
 
-impl Answer<PointTable> {
-    /// The table at a point for people.
-    pub fn text(&self, digits: usize) -> String {
-        point_table_text(self.problem(), self.value(), digits)
-    }
-}
-
-fn table_name(time: Time) -> &'static str {
+pub(super) fn table_name(time: Time) -> &'static str {
     TableKind::from(time).name()
 }
 
@@ -136,7 +125,7 @@ fn heading(problem: &Problem) -> String {
 }
 
 /// What the table is of when a smaller region is asked for.
-fn relative(time: Time, goal: &str) -> String {
+pub(super) fn relative(time: Time, goal: &str) -> String {
     match time {
         Time::Discrete => format!(" for {goal} (roots divided by the radius),"),
         Time::Continuous => format!(" for {goal} (roots shifted by the decay rate),"),
@@ -213,123 +202,8 @@ fn enclosed_polynomial(p: &[Enclosure], name: &str, digits: usize) -> String {
     coefficient_text(&coefficient, &[name.to_owned()], Some(digits))
 }
 
-/// The table at a point for people.
-fn point_table_text(problem: &Problem, answer: &PointTable, digits: usize) -> String {
-    let title = called(problem.title());
-    let region = region::goal(problem).map(|goal| relative(problem.time(), &goal)).unwrap_or_default();
-    let mut out = format!("{} table of {title}{}", table_name(problem.time()), region.trim_end_matches(','));
-    if !problem.set().is_empty() {
-        out.push_str(&format!(", {}", named_values(problem.set())));
-    }
-    out.push('\n');
-    if let Some(table) = &answer.enclosed {
-        out.push_str(&enclosed_text(table, problem.time(), digits));
-        out.push_str(&decided_text(enclosed_conditions(table, digits), answer));
-        return out;
-    }
-    let Some(test) = &answer.test else {
-        out.push_str("the loop is undefined here\n");
-        return out;
-    };
-    out.push_str(&scheme(test));
-    out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has them exactly)\n"));
-    out.push_str(&entries_text(test, None, digits));
-    out.push_str(&format!("\nConditions\n{}", meanings(problem.time(), order(test))));
-    out.push_str(&decided_text(test.conditions.iter().map(|c| decided(c, digits)), answer));
-    out
-}
-
-/// A condition at a point: its name, its values, and if it holds.
-struct Decided<'a> {
-    name: &'a str,
-    values: String,
-    holds: bool,
-}
-
-/// A condition between numbers.
-fn decided(condition: &Condition, digits: usize) -> Decided<'_> {
-    let number = |p: &ScaledPoly| &p.scale * &Rational::from(p.polynomial.coeff(0));
-    let (left, right) = match &condition.inequality {
-        Inequality::Positive(f) => (number(f), Rational::ZERO),
-        // The name says which of them stands on the left.
-        Inequality::Dominates { left, right } if condition.name.contains('<') => {
-            (number(right).abs(), number(left).abs())
-        }
-        Inequality::Dominates { left, right } => (number(left).abs(), number(right).abs()),
-    };
-    let relation = match left.cmp(&right) {
-        Ordering::Less => '<',
-        Ordering::Equal => '=',
-        Ordering::Greater => '>',
-    };
-    let values = format!("{} {relation} {}", to_decimal(&left, digits), to_decimal(&right, digits));
-    Decided { name: &condition.name, values, holds: !condition.solution.intervals().is_empty() }
-}
-
-/// The conditions of a table whose entries are enclosed.
-fn enclosed_conditions(table: &EnclosedTable, digits: usize) -> impl Iterator<Item = Decided<'_>> {
-    table.conditions.iter().map(move |c| {
-        let (left, right) = match c.comparison {
-            Comparison::Greater => (c.left.clone(), c.right.clone()),
-            Comparison::GreaterAbsolute | Comparison::SmallerAbsolute => (absolute(&c.left), absolute(&c.right)),
-        };
-        let relation = if left.lower() > right.upper() {
-            '>'
-        } else if left.upper() < right.lower() {
-            '<'
-        } else {
-            '='
-        };
-        let values = format!("{} {relation} {}", enclosed_number(&left, digits), enclosed_number(&right, digits));
-        Decided { name: &c.name, values, holds: c.holds }
-    })
-}
-
-/// The absolute value of a number that is zero or whose enclosure leaves zero out.
-fn absolute(e: &Enclosure) -> Enclosure {
-    if e.upper().is_negative() { Enclosure::new(-e.upper(), -e.lower()) } else { e.clone() }
-}
-
-fn enclosed_number(e: &Enclosure, digits: usize) -> String {
-    let (lo, hi) = (e.lower(), e.upper());
-    enclosed_decimal(lo, hi, digits).unwrap_or_else(|| to_decimal(&lo.midpoint(hi), digits))
-}
-
-fn decided_text<'a>(conditions: impl Iterator<Item = Decided<'a>>, table: &PointTable) -> String {
-    let mut columns = Columns::new("  ");
-    for Decided { name, values, holds } in conditions {
-        columns.row([name.to_owned(), values, if holds { "holds" } else { "does not hold" }.to_owned()]);
-    }
-    let verdict = table.verdict.map_or("not stable", Verdict::name);
-    columns.row(["all together".to_owned(), String::new(), verdict.to_owned()]);
-    columns.to_string()
-}
-
-/// A table whose entries are enclosed.
-fn enclosed_text(table: &EnclosedTable, time: Time, digits: usize) -> String {
-    let order = match time {
-        Time::Discrete => table.rows.first().map_or(0, |row| row.entries.len().saturating_sub(1)),
-        Time::Continuous => table.rows.iter().take(2).map(|row| row.entries.len()).sum::<usize>().saturating_sub(1),
-    };
-    let mut out = match time {
-        Time::Discrete => {
-            jury_scheme(order, table.rows.iter().map(|r| (r.name.clone(), r.entries.len(), r.divided_by.clone())))
-        }
-        Time::Continuous => routh_scheme(order, table.rows.iter().map(|r| r.entries.len())),
-    };
-    out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has enclosures)\n"));
-    for (i, row) in table.rows.iter().enumerate() {
-        for (k, entry) in row.entries.iter().enumerate() {
-            let decimal = enclosed_number(entry, digits);
-            out.push_str(&format!("  {} = {decimal}\n", entry_label(time, i, &row.name, k)));
-        }
-    }
-    out.push_str(&format!("\nConditions\n{}", meanings(time, order)));
-    out
-}
-
 /// `b_1`, or in Routh's table `r_1,1`.
-fn entry_label(time: Time, row: usize, name: &str, k: usize) -> String {
+pub(super) fn entry_label(time: Time, row: usize, name: &str, k: usize) -> String {
     match time {
         Time::Discrete => format!("{name}_{k}"),
         Time::Continuous => format!("r_{row},{k}"),
@@ -337,7 +211,7 @@ fn entry_label(time: Time, row: usize, name: &str, k: usize) -> String {
 }
 
 /// What the names in the conditions mean.
-fn meanings(time: Time, order: usize) -> String {
+pub(super) fn meanings(time: Time, order: usize) -> String {
     match (time, order) {
         (Time::Continuous, _) => {
             "  (H_k is the first entry r_k,0 of row k, the Hurwitz determinant of order k)\n".to_owned()
@@ -352,7 +226,7 @@ fn meanings(time: Time, order: usize) -> String {
 }
 
 /// The arrangement of the rows by their names, as textbooks print it.
-fn scheme(test: &ClassicalTest) -> String {
+pub(super) fn scheme(test: &ClassicalTest) -> String {
     let n = order(test);
     match &test.table {
         Table::Jury(_) => jury_scheme(n, rows(test).into_iter().map(|r| (r.name, r.entries.len(), r.divided_by))),
@@ -361,7 +235,7 @@ fn scheme(test: &ClassicalTest) -> String {
 }
 
 /// Of Routh's rows by their lengths.
-fn routh_scheme(n: usize, lengths: impl Iterator<Item = usize>) -> String {
+pub(super) fn routh_scheme(n: usize, lengths: impl Iterator<Item = usize>) -> String {
     let mut columns = Columns::new("  ");
     for (i, length) in lengths.enumerate() {
         let names = (0..length).map(|k| format!("r_{i},{k}"));
@@ -371,7 +245,7 @@ fn routh_scheme(n: usize, lengths: impl Iterator<Item = usize>) -> String {
 }
 
 /// Of Jury's rows: their names, lengths, and what they were divided by.
-fn jury_scheme(n: usize, rows: impl Iterator<Item = (String, usize, Option<String>)>) -> String {
+pub(super) fn jury_scheme(n: usize, rows: impl Iterator<Item = (String, usize, Option<String>)>) -> String {
     let mut columns = Columns::new("  ");
     let mut divided = Vec::new();
     columns.row(std::iter::once("row".to_owned()).chain((0..=n).map(|k| format!("z^{k}"))));
@@ -400,7 +274,7 @@ fn jury_scheme(n: usize, rows: impl Iterator<Item = (String, usize, Option<Strin
     out
 }
 
-fn entries_text(test: &ClassicalTest, name: Option<&str>, digits: usize) -> String {
+pub(super) fn entries_text(test: &ClassicalTest, name: Option<&str>, digits: usize) -> String {
     let mut out = String::new();
     let is_routh = matches!(test.table, Table::Routh(_));
     for (i, row) in rows(test).into_iter().enumerate() {
