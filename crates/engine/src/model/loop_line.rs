@@ -6,6 +6,7 @@ use super::builder::{BlockBuilder, ModelBuilder, ParameterBuilder, quoted};
 use super::definition::{Model, Time};
 use super::text::{Expression, Factor, Function, Node, PI, Text, parse_implied};
 use crate::error::{Code, Diagnostic, Diagnostics, Origin, Source, Span};
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// A loop in one line: the transfer function of an open loop that is closed with unity negative feedback, or a
@@ -86,10 +87,11 @@ impl LoopLine {
     /// The names without a value, in the order of the line, then those of the hold and of the delay.
     pub fn names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
+        let mut seen = HashSet::from([PI, self.variable.name()]);
         let others = self.hold.iter().chain(&self.delay).map(|(_, expression)| expression);
         for expression in std::iter::once(&self.expression).chain(others) {
             expression.each_name(&mut |name, _| {
-                if name != PI && name != self.variable.name() && !names.contains(&name) {
+                if seen.insert(name) {
                     names.push(name);
                 }
             });
@@ -118,15 +120,19 @@ impl LoopLine {
 
     /// Where the model file defines the names of the line, and where each first stands in the line.
     fn places_of_names(&self, text: &str) -> Vec<(Span, Span)> {
-        let mut places: Vec<(Span, Span)> = Vec::new();
-        let mut seen = Vec::new();
+        let mut first: HashMap<&str, Span> = HashMap::new();
         self.expression.each_name(&mut |name, span| {
-            let key = quoted(name);
-            let found = text.find(&format!("\n{key} = ")).filter(|_| !seen.contains(&name));
-            places.extend(found.map(|at| (Span::new(at + 1, at + 1 + key.len()), span)));
-            seen.push(name);
+            first.entry(name).or_insert(span);
         });
-        places
+        // They are defined in this order.
+        let mut from = 0;
+        let place = |name: &str| {
+            let key = quoted(name);
+            let at = from + text[from..].find(&format!("\n{key} = "))? + 1;
+            from = at;
+            Some((Span::new(at, at + key.len()), *first.get(name)?))
+        };
+        self.names().into_iter().filter_map(place).collect()
     }
 
     /// The expression with all its operators.
