@@ -5,6 +5,7 @@
 //! | [`error`] | diagnostics with places and stable codes |
 //! | [`model`] | expressions, model files, block diagrams, discretisation |
 //! | [`stability`] | exact root count, tables of Jury and Routh, boundary polynomials, stable sets, two parameters |
+//! | [`coverage`] | which question is answered over which coefficient ring: one table |
 //! | [`problem`] | a question about a model as one value, resolved once and evaluated once |
 //! | [`answer`] | answers: a problem and what is exactly known of it |
 //! | [`response`] | frequency response: the loop cut open, margins, peak gains |
@@ -15,6 +16,7 @@
 #![deny(missing_docs)]
 
 pub mod answer;
+pub mod coverage;
 pub mod error;
 pub mod model;
 mod precisions;
