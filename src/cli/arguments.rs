@@ -132,7 +132,17 @@ pub(super) struct DecisionOptions {
     #[command(flatten)]
     pub region: RegionOptions,
     #[command(flatten)]
+    pub explain: ExplainOptions,
+    #[command(flatten)]
     pub output: OutputOptions,
+}
+
+/// What is said beside the answer.
+#[derive(Args, Debug, Default)]
+pub(super) struct ExplainOptions {
+    /// Also says how the question is decided: coefficients, order, method, and what is presupposed
+    #[arg(long)]
+    pub explain: bool,
 }
 
 /// How the answer is written.

@@ -142,3 +142,27 @@ fn the_ring_of_a_loop_is_seen() {
         assert_eq!(problem.coefficient_ring(&Budget::unlimited()).unwrap(), of.ring);
     }
 }
+
+#[test]
+fn explain_says_how_a_question_of_a_loop_over_each_ring_is_decided() {
+    for of in loops() {
+        let asked = |further: &[&str]| {
+            let arguments = ["intervals", "-", "--param", "K", "--domain", "K=1/10..1"].iter().chain(further).copied();
+            captured(arguments, &of.model, &Budget::unlimited())
+        };
+        let coverage = Asked::Intervals.over(of.ring);
+        let (Some(method), Ok(run)) = (coverage.method(), asked(&["--explain"])) else {
+            assert!(coverage.method().is_none(), "{}", of.ring.name());
+            continue;
+        };
+        let plain = asked(&[]).unwrap().output;
+        let plan = run.output.strip_prefix(&plain).expect("the answer comes first");
+        assert!(plan.starts_with("\nhow it is decided\n    question      intervals --param NAME\n"), "{plan}");
+        assert!(plan.contains(&format!("    coefficients  {}: ", of.ring.name())), "{plan}");
+        assert!(plan.contains(&format!("    method        {} ({})\n", method.name, method.place)), "{plan}");
+        let document: serde_json::Value = serde_json::from_str(&asked(&["--explain", "--json"]).unwrap().output).unwrap();
+        assert_eq!(document["plan"]["ring"], of.ring.name());
+        assert_eq!(document["plan"]["method"]["name"], method.name);
+        assert!(asked(&["--json"]).unwrap().output.find("\"plan\"").is_none());
+    }
+}

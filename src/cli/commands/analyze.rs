@@ -6,6 +6,7 @@ use crate::cli::input::decision;
 use crate::cli::requirements::warn_of_ignored;
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
+use jurist_engine::coverage::Asked;
 
 /// Options of `jurist analyze`.
 #[derive(Args, Debug)]
@@ -21,6 +22,10 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let (model, question) = decision(&options.decision, context)?;
     warn_of_ignored(&model, context);
     let answer = question.analyze(&context.budget)?;
+    let points = answer.verdict.iter().map(|(problem, _)| (problem, Asked::Verdict));
+    for (problem, asked) in points.chain(answer.sets.iter().map(|(problem, _)| (problem, Asked::Intervals))) {
+        context.explain(&options.decision.explain, output, problem, asked)?;
+    }
     // Remarks on the question are the same for all its parts.
     let first = answer.verdict.as_ref().map(|(problem, _)| problem).or(answer.sets.first().map(|(problem, _)| problem));
     if let Some(problem) = first {

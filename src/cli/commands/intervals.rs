@@ -10,6 +10,7 @@ use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Outcome, Status};
 use crate::cli::written::{certified, check_certificate, share};
 use clap::Args;
+use jurist_engine::coverage::Asked;
 use jurist_engine::problem::{DECAY, RADIUS};
 use jurist_engine::show::documents::Intervals;
 use jurist_engine::show::intervals_text;
@@ -57,6 +58,8 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     refuse_proofs(&model, &asked, any_proof)?;
     let problem = question.problem()?;
     let requirements = asked.list;
+    let question = requirements.iter().fold(Asked::Intervals, |asked, r| asked.with_requirement(r, problem.time()));
+    context.explain(&options.decision.explain, output, &problem, question)?;
     if !requirements.is_empty() {
         let at = asked.at.as_deref();
         return match decided(problem.required_set(&requirements, at, &context.budget))? {

@@ -5,6 +5,7 @@ use crate::cli::arguments::DecisionOptions;
 use crate::cli::input::{decision, known_names};
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
+use jurist_engine::coverage::Asked;
 use jurist_engine::problem::{DECAY, RADIUS};
 use jurist_engine::show::documents::{JuryAtPoint, JuryInParameter};
 use jurist_engine::show::table_text;
@@ -27,6 +28,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let digits = output.digits() as usize;
     let Some(param) = &options.param else {
         let problem = question.problem()?;
+        context.explain(&options.decision.explain, output, &problem, Asked::Jury)?;
         let answer = match decided(problem.point_table(&context.budget))? {
             Ok(answer) => answer,
             Err(stopped) => {
@@ -41,6 +43,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         known_names(context, &model, "--param", from_ref(param))?;
     }
     let problem = question.free(param).problem()?;
+    context.explain(&options.decision.explain, output, &problem, Asked::JuryInParameter)?;
     let answer = match decided(problem.parametric_table(&context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => {

@@ -4,7 +4,7 @@ use super::map_body;
 use super::map_boxes::{self, MethodOptions};
 use super::{Context, decided};
 use crate::certified_boxes::certify_boxes;
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis};
 use crate::cli::input::{known_name, load, question};
 use crate::cli::output::{ending, note, unknown_ending, write_answer};
@@ -18,6 +18,7 @@ use jurist_draw::page::map_page;
 #[cfg(feature = "cli")]
 use jurist_drive::published_limits;
 use jurist_engine::answer::{Answer, BoxRequest, Map, MapMethod, MapOrBoxes};
+use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
 use jurist_engine::problem::{DECAY, Problem, RADIUS};
 use jurist_engine::response::Requirements;
@@ -72,6 +73,8 @@ pub(in crate::cli) struct Options {
     #[command(flatten)]
     pub region: RegionOptions,
     #[command(flatten)]
+    pub explain: ExplainOptions,
+    #[command(flatten)]
     pub output: OutputOptions,
 }
 
@@ -116,6 +119,12 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     if options.certificate.is_some() {
         method = options.method.method_certified(&problem, &context.budget)?;
     }
+    let question = match method {
+        MapMethod::Boxes => Asked::BoxMap,
+        MapMethod::Exact if asked.list.is_empty() => Asked::ExactMap,
+        _ => asked.list.iter().fold(Asked::Map, |question, r| question.with_requirement(r, problem.time())),
+    };
+    context.explain(&options.explain, &options.output, &problem, question)?;
     let digits = options.output.digits() as usize;
     let places = digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1);
     let answer = match decided(required(&problem, method, &boxes, places, &asked, context))? {

@@ -44,6 +44,7 @@ pub(super) fn run(
     let answer = question.body(&request.values, &narrow, places, &context.budget);
     let answer = answer.map_err(|error| pointed(error, &request, axes, context))?;
     context.warn(None, problem.warnings());
+    context.explain(&options.explain, &options.output, answer.problem(), Asked::Slices)?;
     let body = answer.value();
     let limits = body.slices.iter().filter_map(|slice| slice.map.as_ref().ok()?.value().limits.as_ref().err());
     if let Some(stopped) = limits.clone().next() {

@@ -1,12 +1,13 @@
 //! `jurist margins`: how far the loop is from instability.
 
 use super::{Context, decided};
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::plain_number;
 use crate::cli::input::{load, question};
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
 use jurist_algebra::number::Rational;
+use jurist_engine::coverage::Asked;
 use jurist_engine::show::documents::Margins;
 
 /// Options of `jurist margins`.
@@ -22,6 +23,8 @@ pub(in crate::cli) struct Options {
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, default_value = "0")]
     pub skew: String,
     #[command(flatten)]
+    pub explain: ExplainOptions,
+    #[command(flatten)]
     pub output: OutputOptions,
 }
 
@@ -34,6 +37,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let skew: Rational = plain_number(context.line, "--skew", &options.skew)?;
     let digits = output.digits() as usize;
     let problem = question.problem()?;
+    context.explain(&options.explain, output, &problem, Asked::Margins)?;
     let answer = match decided(problem.margins(options.at.as_deref(), &skew, &context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => {

@@ -33,18 +33,21 @@ pub(super) mod tolerance;
 pub(super) mod verdict;
 pub(super) mod verify;
 
-use super::arguments::{Arguments, Command, OutputOptions, RunOptions};
+use super::arguments::{Arguments, Command, ExplainOptions, OutputOptions, RunOptions};
 use super::captured;
 use super::command_line::CommandLine;
-use super::output::{ending, finish_answer, unknown_ending};
+use super::output::{ending, finish_answer, unknown_ending, write_answer};
 use super::progress::Reporter;
 use super::show;
 use super::status::{Error, Outcome, Status};
 use jurist_algebra::limits::{Budget, Exhausted, apart};
+use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Diagnostic, Diagnostics, Source};
+use jurist_engine::problem::Problem;
 use jurist_engine::show::documents::to_text;
+use jurist_engine::show::plan_text;
 use serde::Serialize;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// What every command is given besides its options.
 pub(super) struct Context<'a> {
@@ -56,6 +59,8 @@ pub(super) struct Context<'a> {
     pub budget: Budget,
     /// Whether warnings are left out.
     pub quiet: bool,
+    /// How questions are decided, where that is asked for.
+    explained: Mutex<String>,
 }
 
 impl<'a> Context<'a> {
@@ -67,7 +72,7 @@ impl<'a> Context<'a> {
         }
         let reporter = Reporter::new(options);
         let budget = captured::budget().unwrap_or_else(|| reporter.budget(options));
-        Context { line, reporter, budget, quiet: options.quiet }
+        Context { line, reporter, budget, quiet: options.quiet, explained: Mutex::default() }
     }
 
     /// Whether what is written is handed over to another program.
@@ -82,6 +87,32 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// Keeps how a question is decided for the answer, where that is asked for; of a refused question it is written at once.
+    pub fn explain(
+        &self,
+        wanted: &ExplainOptions,
+        output: &OutputOptions,
+        problem: &Problem,
+        asked: Asked,
+    ) -> Result<(), Error> {
+        // What refuses or stops this does so with the question.
+        let Some(plan) = wanted.explain.then(|| problem.explain(asked, &self.budget).ok()).flatten() else {
+            return Ok(());
+        };
+        let text = plan_text(problem);
+        match plan.coverage.method() {
+            None if !self.wants_json(output)? => write_answer(&text, None),
+            _ => {
+                self.explained.lock().unwrap_or_else(PoisonError::into_inner).push_str(&text);
+                Ok(())
+            }
+        }
+    }
+
+    fn taken_explanation(&self) -> String {
+        std::mem::take(&mut *self.explained.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
     /// Writes an answer in the form that the options ask for.
     pub fn answer<D: Serialize>(
         &self,
@@ -90,7 +121,8 @@ impl<'a> Context<'a> {
         document: impl FnOnce() -> D,
     ) -> Result<(), Error> {
         let wants_json = self.wants_json(options)?;
-        let answer = self.budget.enter(|| if wants_json { to_text(&document()) } else { text() })?;
+        let explained = self.taken_explanation();
+        let answer = self.budget.enter(|| if wants_json { to_text(&document()) } else { text() + &explained })?;
         self.reporter.finish();
         finish_answer(&answer, options.output.as_ref())
     }
@@ -120,6 +152,11 @@ impl<'a> Context<'a> {
     ) -> Outcome {
         let wants_json = self.wants_json(options)?;
         // The budget is over: what is known is written all the same.
+        let explained = Some(self.taken_explanation()).filter(|text| !text.is_empty());
+        let text = || match (text(), explained) {
+            (None, explained) => explained,
+            (Some(text), explained) => Some(text + &explained.unwrap_or_default()),
+        };
         let known = apart(|| if wants_json { Some(to_text(&document())) } else { text() });
         if let Some(known) = known {
             finish_answer(&known, options.output.as_ref())?;

@@ -1,10 +1,11 @@
 //! `jurist norm`: the peak gain of a closed-loop transfer function.
 
 use super::{Context, decided};
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::input::{load, question};
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
+use jurist_engine::coverage::Asked;
 use jurist_engine::show::documents::Norm;
 use std::ffi::OsString;
 
@@ -18,6 +19,8 @@ pub(in crate::cli) struct Options {
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
     #[command(flatten)]
+    pub explain: ExplainOptions,
+    #[command(flatten)]
     pub output: OutputOptions,
 }
 
@@ -30,10 +33,12 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         ports => (None, ports),
     };
     let [from, to] = [&ports[0], &ports[1]].map(|name| name.to_string_lossy());
+    let explain = &options.explain;
     let options = ModelOptions { model, set: options.set.clone(), domain: Vec::new() };
     let model = load(options.model.as_ref(), context)?;
     let digits = output.digits() as usize;
     let problem = question(context, &model, &options, &RegionOptions::default())?.problem()?;
+    context.explain(explain, output, &problem, Asked::Norm)?;
     let answer = match decided(problem.norm(&from, &to, &context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => {

@@ -14,6 +14,7 @@ use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_draw::figures::tolerance_figure;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
+use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::model::{Model, Tolerance};
 use jurist_engine::show::documents::{self, to_text};
@@ -92,6 +93,11 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, answer.problem().warnings());
+    let question = request
+        .requirements
+        .iter()
+        .fold(Asked::Tolerance, |question, r| question.with_requirement(r, answer.problem().time()));
+    context.explain(&options.decision.explain, output, answer.problem(), question)?;
     let certificate = certified(&options.certificate, || answer.certificate(&context.budget));
     if let Ok(Some((text, file))) = &certificate {
         write_answer(text, Some(file))?;

@@ -10,6 +10,7 @@ use crate::cli::status::{Outcome, Status};
 use crate::cli::written::{certified, check_certificate};
 use clap::Args;
 use jurist_engine::answer::Verdict;
+use jurist_engine::coverage::Asked;
 use jurist_engine::show::documents;
 use std::ffi::OsString;
 
@@ -35,6 +36,8 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let (asked, question) = options.require.asked(&model, question, &options.decision.region, context)?;
     refuse_proofs(&model, &asked, options.certificate.is_some() || options.coq.is_some())?;
     let problem = question.problem()?;
+    let question = asked.list.iter().fold(Asked::Verdict, |asked, r| asked.with_requirement(r, problem.time()));
+    context.explain(&options.decision.explain, output, &problem, question)?;
     let found = match decided(problem.requirements_met(&asked.list, asked.at.as_deref(), &context.budget))? {
         Ok(found) => found,
         Err(stopped) => {

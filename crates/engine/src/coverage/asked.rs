@@ -2,6 +2,8 @@
 
 use super::table::rows;
 use super::{CoefficientRing, Coverage, Refusal};
+use crate::model::Time;
+use crate::response::{Requirement, Rule};
 
 /// Makes an enumeration of questions in the order of the table.
 macro_rules! questions {
@@ -145,6 +147,48 @@ impl Asked {
     /// What becomes of it over a ring.
     pub fn over(self, ring: CoefficientRing) -> &'static Coverage {
         &self.row().coverage[ring as usize]
+    }
+
+    /// The same question about a smaller region.
+    pub(crate) fn in_region(self) -> Asked {
+        match self {
+            Asked::Verdict => Asked::VerdictInRegion,
+            Asked::Intervals => Asked::IntervalsInRegion,
+            Asked::Map => Asked::MapInRegion,
+            Asked::Tolerance => Asked::ToleranceInRegion,
+            other => other,
+        }
+    }
+
+    /// The same question with a requirement.
+    ///
+    /// ```
+    /// use jurist_engine::coverage::Asked;
+    /// use jurist_engine::model::Time;
+    /// use jurist_engine::response::Requirement;
+    /// let damping = Requirement::damping("1/2".parse()?).unwrap();
+    /// assert_eq!(Asked::Map.with_requirement(&damping, Time::Discrete), Asked::MapWithDampingDiscrete);
+    /// # Ok::<(), String>(())
+    /// ```
+    pub fn with_requirement(self, requirement: &Requirement, time: Time) -> Asked {
+        let of = |[margins, damping, discrete, delay]: [Asked; 4]| match requirement.rule() {
+            Rule::DeadTime(_) => delay,
+            Rule::Sector(_) | Rule::Modulus { .. } if time == Time::Discrete => discrete,
+            Rule::Sector(_) | Rule::Modulus { .. } => damping,
+            Rule::Factors(_) | Rule::Turned { .. } | Rule::Circle(_) => margins,
+        };
+        use Asked::*;
+        match self {
+            Verdict => of([VerdictWithMargins, VerdictWithDamping, VerdictWithDamping, VerdictWithDelayMargin]),
+            Intervals => {
+                of([IntervalsWithMargins, IntervalsWithDamping, IntervalsWithDamping, IntervalsWithDelayMargin])
+            }
+            Map => of([MapWithMargins, MapWithDamping, MapWithDampingDiscrete, MapWithDelayMargin]),
+            Tolerance => {
+                of([ToleranceWithMargins, ToleranceWithDamping, ToleranceWithDampingDiscrete, ToleranceWithDelayMargin])
+            }
+            other => other,
+        }
     }
 
     /// The refusal of what no loop is asked, whatever its ring.

@@ -1,8 +1,8 @@
 //! A question resolved: every name known, every value in its place, the algebra computed once.
 
-use super::Region;
 use super::delayed::DelayedLoop;
 use super::evaluation::{Algebra, parametric};
+use super::{Plan, Region};
 use crate::coverage::CoefficientRing;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{ClosedLoop, InNumbers, Model, Symbols, Time};
@@ -72,6 +72,7 @@ pub struct Problem {
     plane: OnceLock<Option<PlanePolynomial>>,
     delayed: OnceLock<Option<DelayedLoop>>,
     in_numbers: OnceLock<Option<InNumbers>>,
+    pub(super) plan: OnceLock<Plan>,
 }
 
 impl Problem {
@@ -83,9 +84,9 @@ impl Problem {
         warnings: Vec<Diagnostic>,
     ) -> Problem {
         let (algebra, parametric, plane) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        let (delayed, in_numbers) = (OnceLock::new(), OnceLock::new());
+        let (delayed, in_numbers, plan) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
         let positive = Vec::new();
-        Problem { model, set, free, region, warnings, positive, algebra, parametric, plane, delayed, in_numbers }
+        Problem { model, set, free, region, warnings, positive, algebra, parametric, plane, delayed, in_numbers, plan }
     }
 
     /// With functions of what is free that are positive where the model has a meaning; the domains are within these of one name.

@@ -28,6 +28,7 @@ mod margins;
 mod norm;
 mod number;
 mod over;
+mod plan;
 mod question;
 mod required_map;
 mod requirements;
@@ -64,6 +65,7 @@ pub use margins::{
 pub use norm::{Norm, NormFound, NormName, NormOpen, PeakFound};
 pub use number::{Enclosure, Exact, Named, Number, NumberKind};
 pub use over::{AlgebraicPlace, Over};
+pub use plan::{Plan, PlannedMethod};
 pub use question::{ParameterQuestion, PointQuestion, RegionBound};
 pub use required_map::{RequiredCell, RequiredInPlane, RequiredRegion, RequiredSetOfRegions, RequiredStrip};
 pub use requirements::{RequirementAsked, RequirementFound};
