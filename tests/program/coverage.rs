@@ -160,7 +160,8 @@ fn explain_says_how_a_question_of_a_loop_over_each_ring_is_decided() {
         assert!(plan.starts_with("\nhow it is decided\n    question      intervals --param NAME\n"), "{plan}");
         assert!(plan.contains(&format!("    coefficients  {}: ", of.ring.name())), "{plan}");
         assert!(plan.contains(&format!("    method        {} ({})\n", method.name, method.place)), "{plan}");
-        let document: serde_json::Value = serde_json::from_str(&asked(&["--explain", "--json"]).unwrap().output).unwrap();
+        let document: serde_json::Value =
+            serde_json::from_str(&asked(&["--explain", "--json"]).unwrap().output).unwrap();
         assert_eq!(document["plan"]["ring"], of.ring.name());
         assert_eq!(document["plan"]["method"]["name"], method.name);
         assert!(asked(&["--json"]).unwrap().output.find("\"plan\"").is_none());

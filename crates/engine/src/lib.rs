@@ -22,6 +22,8 @@ pub mod model;
 mod precisions;
 pub mod problem;
 pub mod prove;
+#[cfg(test)]
+mod published;
 pub mod response;
 pub mod show;
 pub mod stability;
