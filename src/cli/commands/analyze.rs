@@ -1,10 +1,11 @@
 //! `jurist analyze`: the verdict at nominal and the stable set of each parameter.
 
-use super::Context;
-use crate::cli::arguments::DecisionOptions;
+use super::{Context, Runs};
+use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::destinations::Files;
 use crate::cli::input::decision;
 use crate::cli::requirements::warn_of_ignored;
-use crate::cli::status::{Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_engine::coverage::Asked;
 
@@ -15,8 +16,23 @@ pub(in crate::cli) struct Options {
     pub decision: DecisionOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.decision.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.decision.model.model, &self.decision.output.output);
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
     let digits = output.digits() as usize;
     let (model, question) = decision(&options.decision, context)?;

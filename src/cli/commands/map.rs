@@ -2,10 +2,11 @@
 
 use super::map_body;
 use super::map_boxes::{self, MethodOptions};
-use super::{Context, decided};
+use super::{Context, Runs, decided};
 use crate::certified_boxes::certify_boxes;
-use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
 use crate::cli::assignments::{AxisRequest, axis};
+use crate::cli::destinations::Files;
 use crate::cli::input::{known_name, load, question};
 use crate::cli::output::{ending, note, unknown_ending, write_answer};
 use crate::cli::picture::{WRITES, pdf, png, write};
@@ -87,8 +88,24 @@ pub(super) enum Picture {
     Page,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.model.model, &self.output.output);
+        files.outputs.extend(self.certificate.iter().map(|file| ("the certificate", file.clone())));
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let picture = picture_of(options)?;
     let axes = [("-x", &options.x), ("-y", &options.y)];
     let [x, y] = axes.map(|(option, text)| axis(context.line, option, text));

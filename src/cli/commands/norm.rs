@@ -1,9 +1,10 @@
 //! `jurist norm`: the peak gain of a closed-loop transfer function.
 
-use super::{Context, decided};
-use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions};
+use super::{Context, Runs, decided};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::destinations::Files;
 use crate::cli::input::{load, question};
-use crate::cli::status::{Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_engine::coverage::Asked;
 use jurist_engine::show::documents::Norm;
@@ -24,8 +25,26 @@ pub(in crate::cli) struct Options {
     pub output: OutputOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        // The model is the first of three names.
+        let model = self.names.first().filter(|_| self.names.len() == 3);
+        files.inputs.extend(model.map(|model| ("the model", model.as_os_str())));
+        files.answer(self.output.output.as_ref());
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file; the status is 1 for a loop that is not stable.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.output;
     context.check_output(output)?;
     let (model, ports) = match options.names.as_slice() {

@@ -1,8 +1,9 @@
 //! `jurist tolerance`: stable for every value within tolerances.
 
-use super::{Context, decided};
-use crate::cli::arguments::DecisionOptions;
+use super::{Context, Runs, decided};
+use crate::cli::arguments::{DecisionOptions, RunOptions};
 use crate::cli::assignments::in_line;
+use crate::cli::destinations::Files;
 use crate::cli::input::{known_name, known_names, load, question};
 use crate::cli::output::{ending, write_answer, write_beginning};
 use crate::cli::picture::{Kind, Picture, WRITES, deliver};
@@ -63,8 +64,23 @@ const BRACKET_DIGITS: u32 = 6;
 /// No bracket is asked to be narrower.
 const MOST_DIGITS: u32 = 18;
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.decision.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.decision.model.model, &self.decision.output.output);
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file: 0 stable for all values, 1 not, 3 undecided.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
     let picture = picture(output.output.as_ref());
     if picture.is_none() {
