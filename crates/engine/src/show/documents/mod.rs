@@ -23,6 +23,7 @@ mod check;
 mod end;
 mod intervals;
 mod jury;
+mod list;
 mod map;
 mod margins;
 mod norm;
@@ -54,6 +55,7 @@ pub use jury::{
     Condition, Holds, Jury, JuryAtPoint, JuryInParameter, JuryName, PointTable, Relation, Row, RowsOpen, Solution,
     SolvedTable, TableInParameter, TableKind, TableOpen,
 };
+pub use list::{NAMES, through_its_type};
 pub use map::{
     Branch, Cell, CellVerdict, Curve, CurveTerm, Map, MapName, MapOpen, MapQuestion, Pair, Place, PlaneRegion,
     RegionEnd, RegionLimit, Regions, Strip, Wall,
