@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`error`] | diagnostics with places and stable codes |
 //! | [`model`] | expressions, model files, block diagrams, discretisation |
-//! | [`stability`] | exact root count, tables of Jury and Routh, boundary polynomials, stable sets, two parameters |
+//! | [`stability`] | [a crate of its own](jurist_stability): exact root count, tables of Jury and Routh, boundary polynomials, stable sets, two parameters |
 //! | [`coverage`] | which question is answered over which coefficient ring: one table |
 //! | [`problem`] | a question about a model as one value, resolved once and evaluated once |
 //! | [`answer`] | answers: a problem and what is exactly known of it |
@@ -26,4 +26,4 @@ pub mod prove;
 mod published;
 pub mod response;
 pub mod show;
-pub mod stability;
+pub use jurist_stability as stability;
