@@ -126,6 +126,7 @@ mod program {
     mod bad_models;
     mod beginning;
     mod budgets;
+    mod coverage;
     mod documents;
     mod drive;
     #[cfg(unix)]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 from ._builder import LoopBuilder
 from ._exact import Exact, Floats, fraction, warn_computed
+from ._methods import Method
 from ._question import Waiting
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ def from_control(
     floats: Floats = "shortest",
     time: Literal["continuous", "discrete"] | None = None,
     hold: Exact | None = None,
-    method: Literal["zoh", "foh", "tustin", "forward", "backward"] = "zoh",
+    method: Method = "zoh",
     delay: Exact | None = None,
 ) -> Loop:
     """A loop from a system of python-control or SciPy.

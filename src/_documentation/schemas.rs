@@ -20,6 +20,7 @@ schemas! {
     analyze: "`jurist/analyze/1`, of `jurist analyze`.", "analyze-1";
     body: "`jurist/body/1`, of `jurist map -z`.", "body-1";
     charpoly: "`jurist/charpoly/1`, of `jurist charpoly`.", "charpoly-1";
+    check: "`jurist/check/1`, of `jurist check --json`.", "check-1";
     frequency_response: "`jurist/frequency-response/1`, of `jurist bode` and `jurist nyquist`.", "frequency-response-1";
     intervals: "`jurist/intervals/1`, of `jurist intervals`.", "intervals-1";
     jury: "`jurist/jury/1`, of `jurist jury`.", "jury-1";

@@ -1,7 +1,7 @@
 //! What the command line looks like: commands and options.
 
-use super::commands;
-use clap::{Args, Parser, Subcommand};
+use super::commands::{self, Command};
+use clap::{Args, Parser};
 use std::ffi::OsString;
 use std::time::Duration;
 
@@ -35,71 +35,9 @@ pub(super) struct Arguments {
 }
 
 /// What the causes of ends mean.
-const CAUSES: &str = "Causes of an end: z=1, z=-1, s=0, complex pair: roots reach the boundary of stability there; infinity: the \
+pub(super) const CAUSES: &str = "Causes of an end: z=1, z=-1, s=0, complex pair: roots reach the boundary of stability there; infinity: the \
     degree is lost; pole: the model is undefined there (a division by zero, a block that loses its order, a loop that is \
     not well posed); domain: the parameter's domain ends. Several are joined by '+'.";
-
-/// The commands. Each has its file in `commands`.
-#[derive(Subcommand, Debug)]
-pub(super) enum Command {
-    /// Verdict at the nominal point, and the stable set of each parameter
-    Analyze(commands::analyze::Options),
-    /// The exact stable set of one parameter
-    #[command(after_help = CAUSES)]
-    Intervals(commands::intervals::Options),
-    /// One point: stable, marginal, unstable or undefined, with the exact number of roots
-    Verdict(commands::verdict::Options),
-    /// The characteristic polynomial, symbolic in the kept parameters
-    Charpoly(commands::charpoly::Options),
-    /// The Jury table (Routh table in continuous time) and its conditions
-    Jury(commands::jury::Options),
-    /// The stable region in two parameters, every cell decided exactly
-    Map(commands::map::Options),
-    /// Root locus of one parameter, with the exact crossings on it
-    Locus(commands::locus::Options),
-    /// Gain, phase, delay, modulus and disk margins of the loop cut at a signal, exactly, and all crossings
-    Margins(commands::margins::Options),
-    /// Magnitude and phase of the open loop over frequency, with the exact crossings marked
-    Bode(commands::frequency_response::Options),
-    /// The curve of the open loop around -1, with the exact crossings and margins marked
-    Nyquist(commands::frequency_response::Options),
-    /// The peak gain (H-infinity norm) of a closed-loop transfer function, exactly
-    Norm(commands::norm::Options),
-    #[cfg(feature = "cli")]
-    /// Time response, of the sampled loop or of the switched circuit
-    Simulate(commands::simulate::Options),
-    #[cfg(feature = "cli")]
-    /// The same question at many points, on all cores; resumable
-    Sweep(commands::sweep::Options),
-    /// Stable for every value within tolerances: proof or counterexample, and how far they can grow
-    Tolerance(commands::tolerance::Options),
-    #[cfg(feature = "cli")]
-    /// One page about one's own loop: verdict, limits and causes, margins, what moves them, worst corner, figures
-    Report(commands::report::Options),
-    #[cfg(feature = "cli")]
-    /// The built-in drive's paper once more, as one HTML report with figures
-    Paper(commands::paper::Options),
-    #[cfg(feature = "cli")]
-    /// The page for the browser, with everything it computes with, as a folder of files
-    Page(commands::page::Options),
-    /// Re-checks a certificate against a model, with code that shares nothing with the engine
-    #[command(
-        mut_arg("timeout", |timeout| timeout.help("Rejects the certificate after this time, with exit status 4")),
-        mut_arg("memory", |memory| memory.help("Rejects the certificate rather than use more megabytes, with exit status 4 [default: 800]")),
-        mut_arg("work", |work| work.hide(true))
-    )]
-    Verify(commands::verify::Options),
-    /// Only reads a model: every mistake with its place
-    Check(commands::check::Options),
-    /// A commented model file to begin with
-    New(commands::new::Options),
-    #[cfg(feature = "cli")]
-    /// What an error code or a word of the answers means
-    Explain(commands::explain::Options),
-    #[cfg(feature = "cli")]
-    /// A completion script for a shell
-    Completions(commands::completions::Options),
-}
 
 /// What stands before and behind the plant of a loop in one line.
 #[derive(Args, Debug, Default, Clone, PartialEq)]
@@ -147,7 +85,17 @@ pub(super) struct DecisionOptions {
     #[command(flatten)]
     pub region: RegionOptions,
     #[command(flatten)]
+    pub explain: ExplainOptions,
+    #[command(flatten)]
     pub output: OutputOptions,
+}
+
+/// What is said beside the answer.
+#[derive(Args, Debug, Default)]
+pub(super) struct ExplainOptions {
+    /// Also says how the question is decided: coefficients, order, method, and what is presupposed
+    #[arg(long)]
+    pub explain: bool,
 }
 
 /// How the answer is written.

@@ -1,6 +1,6 @@
 //! Every output has a name of its own, and none of them is an input's: looked at before any work.
 
-use super::arguments::{Arguments, Command, PictureOptions};
+use super::arguments::{Arguments, PictureOptions};
 use super::assignments::in_line;
 use super::commands::Context;
 use super::output::{ending, write_error};
@@ -14,14 +14,15 @@ use std::path::{Path, PathBuf};
 
 /// What a command reads and writes, each with the word that says what it is.
 #[derive(Default)]
-struct Names<'a> {
-    inputs: Vec<(&'static str, &'a OsStr)>,
-    outputs: Vec<(&'static str, OsString)>,
+pub(super) struct Files<'a> {
+    pub inputs: Vec<(&'static str, &'a OsStr)>,
+    pub outputs: Vec<(&'static str, OsString)>,
 }
 
 /// Refuses two outputs with one name, an output that would replace an input, and names that cannot be written.
 pub(super) fn check(arguments: &Arguments, context: &Context) -> Result<(), Error> {
-    let names = Names::of(arguments)?;
+    let mut names = Files::default();
+    arguments.asked().files(&mut names)?;
     let refuse = |diagnostic: Diagnostic, name: &OsStr| -> Error {
         let place = context.line.argument(&name.to_string_lossy()).filter(|_| !is_standard(name));
         let diagnostic = match place {
@@ -62,76 +63,20 @@ fn is_standard(name: &OsStr) -> bool {
     name == "-" || matches!(Destination::of(Path::new(name)), Ok(Destination::StandardOutput))
 }
 
-impl<'a> Names<'a> {
-    fn of(arguments: &'a Arguments) -> Result<Self, Error> {
-        let mut names = Names::default();
-        match &arguments.command {
-            #[cfg(feature = "cli")]
-            None => names.answer(arguments.main_job.output.output.as_ref()),
-            Some(Command::Analyze(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
-            Some(Command::Tolerance(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
-            Some(Command::Jury(o)) => names.question(&o.decision.model.model, &o.decision.output.output),
-            Some(Command::Charpoly(o)) => names.question(&o.model.model, &o.output.output),
-            Some(Command::Map(o)) => {
-                names.question(&o.model.model, &o.output.output);
-                names.outputs.extend(o.certificate.iter().map(|file| ("the certificate", file.clone())));
-            }
-            Some(Command::Margins(o)) => names.question(&o.model.model, &o.output.output),
-            Some(Command::Norm(o)) => {
-                // The model is the first of three names.
-                let model = o.names.first().filter(|_| o.names.len() == 3);
-                names.inputs.extend(model.map(|model| ("the model", model.as_os_str())));
-                names.answer(o.output.output.as_ref());
-            }
-            Some(Command::Intervals(o)) => {
-                names.question(&o.decision.model.model, &o.decision.output.output);
-                names.outputs.extend(o.certificate.iter().map(|file| ("the certificate", file.clone())));
-                names.outputs.extend(o.smt2.iter().map(|file| ("the SMT-LIB script", file.clone())));
-                names.outputs.extend(o.coq.iter().map(|file| ("the file for Coq", file.clone())));
-            }
-            Some(Command::Verdict(o)) => {
-                names.question(&o.decision.model.model, &o.decision.output.output);
-                names.outputs.extend(o.certificate.iter().map(|file| ("the certificate", file.clone())));
-                names.outputs.extend(o.coq.iter().map(|file| ("the file for Coq", file.clone())));
-            }
-            Some(Command::Bode(o) | Command::Nyquist(o)) => names.picture(&o.model.model, &o.picture)?,
-            Some(Command::Locus(o)) => names.picture(&o.model.model, &o.picture)?,
-            #[cfg(feature = "cli")]
-            Some(Command::Simulate(o)) => names.picture(&o.model.model, &o.picture)?,
-            #[cfg(feature = "cli")]
-            Some(Command::Sweep(o)) => names.question(&o.model, &o.output),
-            Some(Command::Verify(o)) => {
-                names.inputs = vec![("the model", &o.model), ("the certificate", &o.certificate)];
-                names.answer(None);
-            }
-            #[cfg(feature = "cli")]
-            Some(Command::Report(o)) => {
-                names.inputs.extend(o.model.model.iter().map(|model| ("the model", model.as_os_str())));
-                names.answer(Some(&o.output));
-            }
-            Some(Command::Check(o)) => names.question(&o.model, &o.output),
-            #[cfg(feature = "cli")]
-            Some(Command::Paper(_) | Command::Explain(_) | Command::Completions(_)) => {}
-            #[cfg(not(feature = "cli"))]
-            None => {}
-            Some(Command::New(_)) => {}
-            #[cfg(feature = "cli")]
-            Some(Command::Page(_)) => {}
-        }
-        Ok(names)
-    }
-
-    fn answer(&mut self, file: Option<&OsString>) {
+impl<'a> Files<'a> {
+    /// The answer, in a file or on standard output.
+    pub fn answer(&mut self, file: Option<&OsString>) {
         self.outputs.push(("the answer", file.cloned().unwrap_or_else(|| "-".into())));
     }
 
-    fn question(&mut self, model: &'a Option<OsString>, file: &Option<OsString>) {
+    /// A model, and the answer about it.
+    pub fn question(&mut self, model: &'a Option<OsString>, file: &Option<OsString>) {
         self.inputs.extend(model.iter().map(|model| ("the model", model.as_os_str())));
         self.answer(file.as_ref());
     }
 
-    /// A picture and the table that is written beside it.
-    fn picture(&mut self, model: &'a Option<OsString>, options: &PictureOptions) -> Result<(), Error> {
+    /// A model, and a picture with the table that is written beside it.
+    pub fn picture(&mut self, model: &'a Option<OsString>, options: &PictureOptions) -> Result<(), Error> {
         self.question(model, &options.output);
         if !options.csv {
             return Ok(());

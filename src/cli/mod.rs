@@ -92,11 +92,11 @@ fn run(line: &CommandLine, #[cfg_attr(not(feature = "cli"), allow(unused_variabl
     let context = Context::new(line, &arguments);
     #[cfg(all(feature = "cli", not(target_family = "wasm")))]
     if host == Host::Process {
-        watch::begin(&context, arguments.run_options(), arguments.without_answer());
+        watch::begin(&context, arguments.asked().run_options(), arguments.asked().without_answer());
     }
     let outcome = answered(&arguments, &context);
     context.reporter.finish();
-    if !context.quiet && !arguments.writes_a_folder() {
+    if !context.quiet && !arguments.asked().writes_a_folder() {
         output::tell_files();
     }
     context.reporter.tell_work(&context.budget);
@@ -128,7 +128,7 @@ fn run(line: &CommandLine, #[cfg_attr(not(feature = "cli"), allow(unused_variabl
 
 /// What the command gives; where the budget runs out outside of all steps that answer that themselves, nothing is known.
 fn answered(arguments: &Arguments, context: &Context) -> Outcome {
-    let work = || destinations::check(arguments, context).and_then(|()| commands::run(arguments, context));
+    let work = || destinations::check(arguments, context).and_then(|()| arguments.asked().run(context));
     context.budget.surround(work).unwrap_or_else(|stopped| Err(stopped.into()))
 }
 

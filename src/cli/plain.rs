@@ -1,7 +1,7 @@
 //! Questions that are put again and again while somebody drags a value, read without building the definition of the whole command line.
 
-use super::arguments::{Arguments, Command, DecisionOptions};
-use super::commands::{intervals, verdict};
+use super::arguments::{Arguments, DecisionOptions};
+use super::commands::{Command, intervals, verdict};
 use std::ffi::OsString;
 
 /// `verdict` or `intervals` of the given model (`-`) with nothing but `--param`, `--set`, `--json` and `--quiet`, each value an

@@ -5,6 +5,7 @@
 //! | [`error`] | diagnostics with places and stable codes |
 //! | [`model`] | expressions, model files, block diagrams, discretisation |
 //! | [`stability`] | [a crate of its own](jurist_stability): exact root count, tables of Jury and Routh, boundary polynomials, stable sets, two parameters |
+//! | [`coverage`] | which question is answered over which coefficient ring: one table |
 //! | [`problem`] | a question about a model as one value, resolved once and evaluated once |
 //! | [`answer`] | answers: a problem and what is exactly known of it |
 //! | [`response`] | frequency response: the loop cut open, margins, peak gains |
@@ -15,11 +16,14 @@
 #![deny(missing_docs)]
 
 pub mod answer;
+pub mod coverage;
 pub mod error;
 pub mod model;
 mod precisions;
 pub mod problem;
 pub mod prove;
+#[cfg(test)]
+mod published;
 pub mod response;
 pub mod show;
 pub use jurist_stability as stability;

@@ -1,11 +1,13 @@
 //! `jurist analyze`: the verdict at nominal and the stable set of each parameter.
 
-use super::Context;
-use crate::cli::arguments::DecisionOptions;
+use super::{Context, Runs};
+use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::destinations::Files;
 use crate::cli::input::decision;
 use crate::cli::requirements::warn_of_ignored;
-use crate::cli::status::{Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
+use jurist_engine::coverage::Asked;
 
 /// Options of `jurist analyze`.
 #[derive(Args, Debug)]
@@ -14,13 +16,32 @@ pub(in crate::cli) struct Options {
     pub decision: DecisionOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.decision.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.decision.model.model, &self.decision.output.output);
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
     let digits = output.digits() as usize;
     let (model, question) = decision(&options.decision, context)?;
     warn_of_ignored(&model, context);
     let answer = question.analyze(&context.budget)?;
+    let points = answer.verdict.iter().map(|(problem, _)| (problem, Asked::Verdict));
+    for (problem, asked) in points.chain(answer.sets.iter().map(|(problem, _)| (problem, Asked::Intervals))) {
+        context.explain(&options.decision.explain, output, problem, asked)?;
+    }
     // Remarks on the question are the same for all its parts.
     let first = answer.verdict.as_ref().map(|(problem, _)| problem).or(answer.sets.first().map(|(problem, _)| problem));
     if let Some(problem) = first {

@@ -1,8 +1,9 @@
 //! `jurist charpoly`: the characteristic polynomial.
 
-use super::{Context, decided};
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
+use super::{Context, Runs, decided};
+use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
 use crate::cli::assignments::in_line;
+use crate::cli::destinations::Files;
 use crate::cli::input::{known_names, load, question};
 use crate::cli::output::{ending, finish_answer, unknown_ending};
 use crate::cli::status::{Error, Outcome, Status};
@@ -38,8 +39,23 @@ pub(in crate::cli) struct Options {
     pub output: OutputOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.model.model, &self.output.output);
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let notation = notation(options)?;
     let model = load(options.model.model.as_ref(), &options.model.line, context)?;
     let problem = problem(options, context, &model)?;

@@ -1,7 +1,8 @@
 //! `jurist check`: only reads a model.
 
-use super::Context;
+use super::{Context, Runs};
 use crate::cli::arguments::{LineOptions, RunOptions};
+use crate::cli::destinations::Files;
 use crate::cli::input::{NamedModel, read_model};
 use crate::cli::output::write_answer;
 use crate::cli::show;
@@ -36,9 +37,24 @@ pub(in crate::cli) struct Options {
     pub run: RunOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.model, &self.output);
+        Ok(())
+    }
+}
+
 /// Every remark with its place; the status is 2 for a model that no question can be asked about, and 1 in a SARIF log of a loop that does
 /// not meet what its model requires.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let NamedModel { name, read, .. } = read_model(options.model.as_ref(), &options.line, context)?;
     let mut unmet = Vec::new();
     let (source, diagnostics) = match read {

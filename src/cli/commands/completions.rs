@@ -1,5 +1,6 @@
 //! `jurist completions`: completion scripts.
 
+use super::{Context, Runs};
 use crate::cli::arguments::Arguments;
 use crate::cli::output::write_answer;
 use crate::cli::status::{Outcome, Status};
@@ -14,8 +15,14 @@ pub(in crate::cli) struct Options {
     pub shell: Shell,
 }
 
+impl Runs for Options {
+    fn run(&self, _: &Context) -> Outcome {
+        run(self)
+    }
+}
+
 /// Prints the script.
-pub(in crate::cli) fn run(options: &Options) -> Outcome {
+fn run(options: &Options) -> Outcome {
     let mut script = Vec::new();
     clap_complete::generate(options.shell, &mut Arguments::command(), "jurist", &mut script);
     write_answer(&String::from_utf8_lossy(&script), None)?;

@@ -1,5 +1,6 @@
 //! `jurist explain`: what an error code or a word of the answers means.
 
+use super::{Context, Runs};
 use crate::cli::output::write_answer;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
@@ -14,8 +15,14 @@ pub(in crate::cli) struct Options {
     pub code: Vec<String>,
 }
 
+impl Runs for Options {
+    fn run(&self, _: &Context) -> Outcome {
+        run(self)
+    }
+}
+
 /// Prints the explanation of one code or word, or the list of all.
-pub(in crate::cli) fn run(options: &Options) -> Outcome {
+fn run(options: &Options) -> Outcome {
     if options.code.is_empty() {
         let width = codes().map(|(code, _)| code.as_str().len()).max().unwrap_or(0);
         let line = |(code, text): (Code, String)| format!("{code:width$}  {}", first_sentence(&text));

@@ -13,7 +13,7 @@ use jurist_engine::answer::Answer;
 use jurist_engine::response::Margins;
 use jurist_engine::show::documents::to_text;
 
-/// Options of `jurist bode` and `jurist nyquist`.
+/// Options of both.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
     #[command(flatten)]

@@ -1,15 +1,17 @@
 //! `jurist intervals`: the exact stable set of one parameter.
 
-use super::{Context, decided};
+use super::{Context, Runs, decided};
 use crate::certified_intervals::certify_intervals;
-use crate::cli::arguments::DecisionOptions;
+use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::destinations::Files;
 use crate::cli::input::{decision, known_names, only_parameter};
 use crate::cli::output::{note, write_answer};
 use crate::cli::picture::WRITES;
 use crate::cli::requirements::{RequirementOptions, refuse_proofs};
-use crate::cli::status::{Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::{certified, check_certificate, share};
 use clap::Args;
+use jurist_engine::coverage::Asked;
 use jurist_engine::problem::{DECAY, RADIUS};
 use jurist_engine::show::documents::Intervals;
 use jurist_engine::show::intervals_text;
@@ -40,8 +42,26 @@ pub(in crate::cli) struct Options {
     pub coq: Option<OsString>,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.decision.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.decision.model.model, &self.decision.output.output);
+        files.outputs.extend(self.certificate.iter().map(|file| ("the certificate", file.clone())));
+        files.outputs.extend(self.smt2.iter().map(|file| ("the SMT-LIB script", file.clone())));
+        files.outputs.extend(self.coq.iter().map(|file| ("the file for Coq", file.clone())));
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
     let (model, question) = decision(&options.decision, context)?;
     let name = match &options.param {
@@ -57,6 +77,8 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     refuse_proofs(&model, &asked, any_proof)?;
     let problem = question.problem()?;
     let requirements = asked.list;
+    let question = requirements.iter().fold(Asked::Intervals, |asked, r| asked.with_requirement(r, problem.time()));
+    context.explain(&options.decision.explain, output, &problem, question)?;
     if !requirements.is_empty() {
         let at = asked.at.as_deref();
         return match decided(problem.required_set(&requirements, at, &context.budget))? {

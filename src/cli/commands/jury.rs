@@ -1,10 +1,12 @@
 //! `jurist jury`: the classical table and its conditions.
 
-use super::{Context, decided};
-use crate::cli::arguments::DecisionOptions;
+use super::{Context, Runs, decided};
+use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::destinations::Files;
 use crate::cli::input::{decision, known_names};
-use crate::cli::status::{Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
+use jurist_engine::coverage::Asked;
 use jurist_engine::problem::{DECAY, RADIUS};
 use jurist_engine::show::documents::{JuryAtPoint, JuryInParameter};
 use jurist_engine::show::table_text;
@@ -20,13 +22,29 @@ pub(in crate::cli) struct Options {
     pub decision: DecisionOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.decision.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.decision.model.model, &self.decision.output.output);
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
     let (model, question) = decision(&options.decision, context)?;
     let digits = output.digits() as usize;
     let Some(param) = &options.param else {
         let problem = question.problem()?;
+        context.explain(&options.decision.explain, output, &problem, Asked::Jury)?;
         let answer = match decided(problem.point_table(&context.budget))? {
             Ok(answer) => answer,
             Err(stopped) => {
@@ -41,6 +59,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         known_names(context, &model, "--param", from_ref(param))?;
     }
     let problem = question.free(param).problem()?;
+    context.explain(&options.decision.explain, output, &problem, Asked::JuryInParameter)?;
     let answer = match decided(problem.parametric_table(&context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => {

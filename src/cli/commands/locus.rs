@@ -1,8 +1,9 @@
 //! `jurist locus`: root locus with the exact crossings on it.
 
-use super::Context;
+use super::{Context, Runs};
 use crate::cli::arguments::{ModelOptions, PictureOptions, RunOptions};
 use crate::cli::assignments::in_line;
+use crate::cli::destinations::Files;
 use crate::cli::input::{known_names, load, only_parameter, question};
 use crate::cli::picture::{Picture, deliver, wanted};
 use crate::cli::requirements::warn_of_ignored;
@@ -36,8 +37,22 @@ pub(in crate::cli) struct Options {
     pub run: RunOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.picture(&self.model.model, &self.picture)
+    }
+}
+
 /// Draws to a file or on the terminal.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let kind = wanted(&options.picture)?;
     let model = load(options.model.model.as_ref(), &options.model.line, context)?;
     warn_of_ignored(&model, context);

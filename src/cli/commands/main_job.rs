@@ -1,8 +1,9 @@
 //! `jurist`: the main job on the built-in drive.
 
-use super::{Context, decided};
-use crate::cli::arguments::OutputOptions;
-use crate::cli::status::{Outcome, Status};
+use super::{Context, Runs, decided};
+use crate::cli::arguments::{OutputOptions, RunOptions};
+use crate::cli::destinations::Files;
+use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_drive::{main_job, main_job_json, main_job_text, main_job_undecided};
 use jurist_engine::model::Model;
@@ -14,8 +15,23 @@ pub(in crate::cli) struct Options {
     pub output: OutputOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.answer(self.output.output.as_ref());
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     context.check_output(&options.output)?;
     let job = match decided(main_job(&Model::drive(), &context.budget))? {
         Ok(job) => job,

@@ -2,10 +2,11 @@
 
 use super::map_body;
 use super::map_boxes::{self, MethodOptions};
-use super::{Context, decided};
+use super::{Context, Runs, decided};
 use crate::certified_boxes::certify_boxes;
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
 use crate::cli::assignments::{AxisRequest, axis};
+use crate::cli::destinations::Files;
 use crate::cli::input::{known_name, load, question};
 use crate::cli::output::{ending, note, unknown_ending, write_answer};
 use crate::cli::picture::{WRITES, pdf, png, write};
@@ -18,6 +19,7 @@ use jurist_draw::page::map_page;
 #[cfg(feature = "cli")]
 use jurist_drive::published_limits;
 use jurist_engine::answer::{Answer, BoxRequest, Map, MapMethod, MapOrBoxes};
+use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
 use jurist_engine::problem::{DECAY, Problem, RADIUS};
 use jurist_engine::response::Requirements;
@@ -72,6 +74,8 @@ pub(in crate::cli) struct Options {
     #[command(flatten)]
     pub region: RegionOptions,
     #[command(flatten)]
+    pub explain: ExplainOptions,
+    #[command(flatten)]
     pub output: OutputOptions,
 }
 
@@ -84,8 +88,24 @@ pub(super) enum Picture {
     Page,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.model.model, &self.output.output);
+        files.outputs.extend(self.certificate.iter().map(|file| ("the certificate", file.clone())));
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let picture = picture_of(options)?;
     let axes = [("-x", &options.x), ("-y", &options.y)];
     let [x, y] = axes.map(|(option, text)| axis(context.line, option, text));
@@ -116,6 +136,12 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     if options.certificate.is_some() {
         method = options.method.method_certified(&problem, &context.budget)?;
     }
+    let question = match method {
+        MapMethod::Boxes => Asked::BoxMap,
+        MapMethod::Exact if asked.list.is_empty() => Asked::ExactMap,
+        _ => asked.list.iter().fold(Asked::Map, |question, r| question.with_requirement(r, problem.time())),
+    };
+    context.explain(&options.explain, &options.output, &problem, question)?;
     let digits = options.output.digits() as usize;
     let places = digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1);
     let answer = match decided(required(&problem, method, &boxes, places, &asked, context))? {

@@ -14,6 +14,7 @@ use jurist_algebra::number::Rational;
 use jurist_draw::figures::map::{MapContents, MapTrace, common_windows, small_multiples, trace_map};
 use jurist_draw::page::body_page;
 use jurist_engine::answer::{Answer, Body};
+use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Code, Diagnostic, Span};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
@@ -43,6 +44,7 @@ pub(super) fn run(
     let answer = question.body(&request.values, &narrow, places, &context.budget);
     let answer = answer.map_err(|error| pointed(error, &request, axes, context))?;
     context.warn(None, problem.warnings());
+    context.explain(&options.explain, &options.output, answer.problem(), Asked::Slices)?;
     let body = answer.value();
     let limits = body.slices.iter().filter_map(|slice| slice.map.as_ref().ok()?.value().limits.as_ref().err());
     if let Some(stopped) = limits.clone().next() {
@@ -79,10 +81,8 @@ fn fits(options: &Options) -> Result<(), Error> {
         let help = "leave out '--method boxes', or '-z' and give its parameter one value with '--set'";
         return Err(error.help(help).into());
     }
-    if let Some(option) = options.require.first() {
-        let error =
-            Diagnostic::error(Code::Require, format!("the slices of '-z' are of stability alone, without '{option}'"));
-        return Err(error.help("leave out '-z' and give its parameter one value with '--set'").into());
+    if let (Some(option), Some(refusal)) = (options.require.first(), Asked::SlicesWithRequirements.never()) {
+        return Err(refusal.diagnostic(&[("option", &option)]).into());
     }
     Ok(())
 }
@@ -97,7 +97,10 @@ fn pointed(error: Error, request: &SlicesRequest, axes: &[AxisRequest; 2], conte
             let third = axes.iter().any(|axis| axis.name == request.values.name());
             at(if third { request.name_span } else { axes[1].name_span }, "asked for a second time")
         }
-        Code::Function => at(request.range_span, "slices are asked for here"),
+        // What points into the model says where it is.
+        Code::Function | Code::DeadTime if refused.diagnostics()[0].primary.is_none() => {
+            at(request.range_span, "slices are asked for here")
+        }
         Code::Value => at(request.range_span, "not inside the domain"),
         _ => error,
     }

@@ -14,6 +14,7 @@ use jurist_algebra::number::Rational;
 use jurist_draw::figures::map::boxes_figure;
 use jurist_draw::page::map_boxes_page;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod};
+use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
 use jurist_engine::problem::Problem;
 use jurist_engine::response::Requirements;
@@ -59,9 +60,8 @@ impl MethodOptions {
         if asked.list.is_empty() {
             return Ok(self.method());
         }
-        if self.method == MethodName::Boxes {
-            let error = Diagnostic::error(Code::Require, "boxes decide stability only, no requirements");
-            return Err(error.help("leave out '--method boxes'").into());
+        if let (MethodName::Boxes, Some(refusal)) = (self.method, Asked::BoxMapWithRequirements.never()) {
+            return Err(refusal.diagnostic(&[]).into());
         }
         Ok(MapMethod::Exact)
     }

@@ -1,12 +1,14 @@
 //! `jurist margins`: how far the loop is from instability.
 
-use super::{Context, decided};
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
+use super::{Context, Runs, decided};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
 use crate::cli::assignments::plain_number;
+use crate::cli::destinations::Files;
 use crate::cli::input::{load, question};
-use crate::cli::status::{Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_algebra::number::Rational;
+use jurist_engine::coverage::Asked;
 use jurist_engine::show::documents::Margins;
 
 /// Options of `jurist margins`.
@@ -22,11 +24,28 @@ pub(in crate::cli) struct Options {
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, default_value = "0")]
     pub skew: String,
     #[command(flatten)]
+    pub explain: ExplainOptions,
+    #[command(flatten)]
     pub output: OutputOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.model.model, &self.output.output);
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file; the status is 1 for a loop that is not stable.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.output;
     context.check_output(output)?;
     let model = load(options.model.model.as_ref(), &options.model.line, context)?;
@@ -34,6 +53,7 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
     let skew: Rational = plain_number(context.line, "--skew", &options.skew)?;
     let digits = output.digits() as usize;
     let problem = question.problem()?;
+    context.explain(&options.explain, output, &problem, Asked::Margins)?;
     let answer = match decided(problem.margins(options.at.as_deref(), &skew, &context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => {

@@ -1,13 +1,14 @@
 //! The commands, one file each.
 
 pub(super) mod analyze;
+pub(super) mod bode;
 pub(super) mod charpoly;
 pub(super) mod check;
 #[cfg(feature = "cli")]
 pub(super) mod completions;
 #[cfg(feature = "cli")]
 pub(super) mod explain;
-pub(super) mod frequency_response;
+mod frequency_response;
 pub(super) mod intervals;
 pub(super) mod jury;
 pub(super) mod locus;
@@ -19,6 +20,7 @@ mod map_boxes;
 pub(super) mod margins;
 pub(super) mod new;
 pub(super) mod norm;
+pub(super) mod nyquist;
 #[cfg(feature = "cli")]
 pub(super) mod page;
 #[cfg(feature = "cli")]
@@ -33,18 +35,23 @@ pub(super) mod tolerance;
 pub(super) mod verdict;
 pub(super) mod verify;
 
-use super::arguments::{Arguments, Command, OutputOptions, RunOptions};
+use super::arguments::{Arguments, CAUSES, ExplainOptions, OutputOptions, RunOptions};
 use super::captured;
 use super::command_line::CommandLine;
-use super::output::{ending, finish_answer, unknown_ending};
+use super::destinations::Files;
+use super::output::{ending, finish_answer, unknown_ending, write_answer};
 use super::progress::Reporter;
 use super::show;
 use super::status::{Error, Outcome, Status};
+use clap::Subcommand;
 use jurist_algebra::limits::{Budget, Exhausted, apart};
+use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Diagnostic, Diagnostics, Source};
+use jurist_engine::problem::Problem;
 use jurist_engine::show::documents::to_text;
+use jurist_engine::show::plan_text;
 use serde::Serialize;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// What every command is given besides its options.
 pub(super) struct Context<'a> {
@@ -56,18 +63,20 @@ pub(super) struct Context<'a> {
     pub budget: Budget,
     /// Whether warnings are left out.
     pub quiet: bool,
+    /// How questions are decided, where that is asked for.
+    explained: Mutex<String>,
 }
 
 impl<'a> Context<'a> {
     pub fn new(line: &'a CommandLine, arguments: &Arguments) -> Self {
-        let options = arguments.run_options();
+        let options = arguments.asked().run_options();
         if let Some(threads) = options.threads {
             // A pool that exists already keeps its size: that changes the time, no answer.
             let _ = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global();
         }
         let reporter = Reporter::new(options);
         let budget = captured::budget().unwrap_or_else(|| reporter.budget(options));
-        Context { line, reporter, budget, quiet: options.quiet }
+        Context { line, reporter, budget, quiet: options.quiet, explained: Mutex::default() }
     }
 
     /// Whether what is written is handed over to another program.
@@ -82,6 +91,32 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// Keeps how a question is decided for the answer, where that is asked for; of a refused question it is written at once.
+    pub fn explain(
+        &self,
+        wanted: &ExplainOptions,
+        output: &OutputOptions,
+        problem: &Problem,
+        asked: Asked,
+    ) -> Result<(), Error> {
+        // What refuses or stops this does so with the question.
+        let Some(plan) = wanted.explain.then(|| problem.explain(asked, &self.budget).ok()).flatten() else {
+            return Ok(());
+        };
+        let text = plan_text(problem);
+        match plan.coverage.method() {
+            None if !self.wants_json(output)? => write_answer(&text, None),
+            _ => {
+                self.explained.lock().unwrap_or_else(PoisonError::into_inner).push_str(&text);
+                Ok(())
+            }
+        }
+    }
+
+    fn taken_explanation(&self) -> String {
+        std::mem::take(&mut *self.explained.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
     /// Writes an answer in the form that the options ask for.
     pub fn answer<D: Serialize>(
         &self,
@@ -90,7 +125,8 @@ impl<'a> Context<'a> {
         document: impl FnOnce() -> D,
     ) -> Result<(), Error> {
         let wants_json = self.wants_json(options)?;
-        let answer = self.budget.enter(|| if wants_json { to_text(&document()) } else { text() })?;
+        let explained = self.taken_explanation();
+        let answer = self.budget.enter(|| if wants_json { to_text(&document()) } else { text() + &explained })?;
         self.reporter.finish();
         finish_answer(&answer, options.output.as_ref())
     }
@@ -120,6 +156,11 @@ impl<'a> Context<'a> {
     ) -> Outcome {
         let wants_json = self.wants_json(options)?;
         // The budget is over: what is known is written all the same.
+        let explained = Some(self.taken_explanation()).filter(|text| !text.is_empty());
+        let text = || match (text(), explained) {
+            (None, explained) => explained,
+            (Some(text), explained) => Some(text + &explained.unwrap_or_default()),
+        };
         let known = apart(|| if wants_json { Some(to_text(&document())) } else { text() });
         if let Some(known) = known {
             finish_answer(&known, options.output.as_ref())?;
@@ -143,103 +184,128 @@ pub(super) fn decided<T>(result: Result<T, Error>) -> Result<Result<T, Exhausted
     }
 }
 
-impl Arguments {
+/// A command: what its options make it do.
+pub(super) trait Runs {
+    /// Runs it.
+    fn run(&self, context: &Context) -> Outcome;
+
     /// The options that say how long to work and how much to say.
-    pub fn run_options(&self) -> &RunOptions {
+    fn run_options(&self) -> &RunOptions {
         const NONE: &RunOptions =
             &RunOptions { timeout: None, work: None, memory: None, threads: None, quiet: false, verbose: false };
-        match &self.command {
-            #[cfg(feature = "cli")]
-            None => &self.main_job.output.run,
-            Some(Command::Analyze(options)) => &options.decision.output.run,
-            Some(Command::Intervals(options)) => &options.decision.output.run,
-            Some(Command::Verdict(options)) => &options.decision.output.run,
-            Some(Command::Charpoly(options)) => &options.output.run,
-            Some(Command::Jury(options)) => &options.decision.output.run,
-            Some(Command::Map(options)) => &options.output.run,
-            Some(Command::Locus(options)) => &options.run,
-            Some(Command::Margins(options)) => &options.output.run,
-            Some(Command::Bode(options) | Command::Nyquist(options)) => &options.run,
-            Some(Command::Norm(options)) => &options.output.run,
-            #[cfg(feature = "cli")]
-            Some(Command::Simulate(options)) => &options.run,
-            #[cfg(feature = "cli")]
-            Some(Command::Sweep(options)) => &options.run,
-            #[cfg(feature = "cli")]
-            Some(Command::Paper(options)) => &options.run,
-            #[cfg(feature = "cli")]
-            Some(Command::Report(options)) => &options.run,
-            Some(Command::Tolerance(options)) => &options.decision.output.run,
-            Some(Command::Verify(options)) => &options.run,
-            Some(Command::Check(options)) => &options.run,
-            #[cfg(feature = "cli")]
-            Some(Command::Completions(_) | Command::Explain(_)) => NONE,
-            #[cfg(not(feature = "cli"))]
-            None => NONE,
-            Some(Command::New(_)) => NONE,
-            #[cfg(feature = "cli")]
-            Some(Command::Page(options)) => &options.run,
-        }
+        NONE
     }
-}
 
-#[cfg(all(feature = "cli", not(target_family = "wasm")))]
-impl Arguments {
-    /// How the program ends where the budget allows no answer.
-    pub fn without_answer(&self) -> Status {
-        match &self.command {
-            Some(Command::Verify(_)) => Status::Rejected,
-            _ => Status::Undecided,
-        }
+    /// Adds the files that it reads and writes.
+    fn files<'a>(&'a self, _: &mut Files<'a>) -> Result<(), Error> {
+        Ok(())
     }
-}
 
-impl Arguments {
     /// True of commands that write folders: they name the first page themselves.
-    pub fn writes_a_folder(&self) -> bool {
-        match self.command {
-            #[cfg(feature = "cli")]
-            Some(Command::Paper(_) | Command::Page(_)) => true,
-            _ => false,
-        }
+    fn writes_a_folder(&self) -> bool {
+        false
+    }
+
+    /// How the program ends where the budget allows no answer.
+    #[cfg_attr(not(all(feature = "cli", not(target_family = "wasm"))), allow(dead_code))]
+    fn without_answer(&self) -> Status {
+        Status::Undecided
     }
 }
 
-/// Runs the command that the arguments name.
-pub(super) fn run(arguments: &Arguments, context: &Context) -> Outcome {
-    match &arguments.command {
-        #[cfg(feature = "cli")]
-        None => main_job::run(&arguments.main_job, context),
-        #[cfg(not(feature = "cli"))]
-        None => Err(Diagnostic::error(jurist_engine::error::Code::Usage, "a command is missing").into()),
-        Some(Command::Analyze(options)) => analyze::run(options, context),
-        Some(Command::Intervals(options)) => intervals::run(options, context),
-        Some(Command::Verdict(options)) => verdict::run(options, context),
-        Some(Command::Charpoly(options)) => charpoly::run(options, context),
-        Some(Command::Jury(options)) => jury::run(options, context),
-        Some(Command::Map(options)) => map::run(options, context),
-        Some(Command::Locus(options)) => locus::run(options, context),
-        Some(Command::Margins(options)) => margins::run(options, context),
-        Some(Command::Bode(options)) => frequency_response::run(options, frequency_response::BODE, context),
-        Some(Command::Nyquist(options)) => frequency_response::run(options, frequency_response::NYQUIST, context),
-        Some(Command::Norm(options)) => norm::run(options, context),
-        #[cfg(feature = "cli")]
-        Some(Command::Simulate(options)) => simulate::run(options, context),
-        #[cfg(feature = "cli")]
-        Some(Command::Sweep(options)) => sweep::run(options, context),
-        #[cfg(feature = "cli")]
-        Some(Command::Paper(options)) => paper::run(options, context),
-        #[cfg(feature = "cli")]
-        Some(Command::Report(options)) => report::run(options, context),
-        Some(Command::Tolerance(options)) => tolerance::run(options, context),
-        Some(Command::Verify(options)) => verify::run(options, context),
-        Some(Command::Check(options)) => check::run(options, context),
-        Some(Command::New(options)) => new::run(options),
-        #[cfg(feature = "cli")]
-        Some(Command::Page(options)) => page::run(options, context),
-        #[cfg(feature = "cli")]
-        Some(Command::Explain(options)) => explain::run(options),
-        #[cfg(feature = "cli")]
-        Some(Command::Completions(options)) => completions::run(options),
+/// Makes the commands of a list: a variant with the options of its module, and what runs it; `in` names the feature that a command needs.
+macro_rules! commands {
+    ($($(#[$attribute:meta])* $module:ident: $name:ident $(in $feature:literal)?;)+) => {
+        /// The commands. Each has its file here.
+        #[derive(Subcommand, Debug)]
+        pub(super) enum Command {
+            $($(#[cfg(feature = $feature)])? $(#[$attribute])* $name($module::Options),)+
+        }
+
+        impl Command {
+            /// What its options make it do.
+            fn options(&self) -> &dyn Runs {
+                match self {
+                    $($(#[cfg(feature = $feature)])? Command::$name(options) => options,)+
+                }
+            }
+        }
+    };
+}
+
+commands! {
+    /// Verdict at the nominal point, and the stable set of each parameter
+    analyze: Analyze;
+    /// The exact stable set of one parameter
+    #[command(after_help = CAUSES)]
+    intervals: Intervals;
+    /// One point: stable, marginal, unstable or undefined, with the exact number of roots
+    verdict: Verdict;
+    /// The characteristic polynomial, symbolic in the kept parameters
+    charpoly: Charpoly;
+    /// The Jury table (Routh table in continuous time) and its conditions
+    jury: Jury;
+    /// The stable region in two parameters, every cell decided exactly
+    map: Map;
+    /// Root locus of one parameter, with the exact crossings on it
+    locus: Locus;
+    /// Gain, phase, delay, modulus and disk margins of the loop cut at a signal, exactly, and all crossings
+    margins: Margins;
+    /// Magnitude and phase of the open loop over frequency, with the exact crossings marked
+    bode: Bode;
+    /// The curve of the open loop around -1, with the exact crossings and margins marked
+    nyquist: Nyquist;
+    /// The peak gain (H-infinity norm) of a closed-loop transfer function, exactly
+    norm: Norm;
+    /// Time response, of the sampled loop or of the switched circuit
+    simulate: Simulate in "cli";
+    /// The same question at many points, on all cores; resumable
+    sweep: Sweep in "cli";
+    /// Stable for every value within tolerances: proof or counterexample, and how far they can grow
+    tolerance: Tolerance;
+    /// One page about one's own loop: verdict, limits and causes, margins, what moves them, worst corner, figures
+    report: Report in "cli";
+    /// The built-in drive's paper once more, as one HTML report with figures
+    paper: Paper in "cli";
+    /// The page for the browser, with everything it computes with, as a folder of files
+    page: Page in "cli";
+    /// Re-checks a certificate against a model, with code that shares nothing with the engine
+    #[command(
+        mut_arg("timeout", |timeout| timeout.help("Rejects the certificate after this time, with exit status 4")),
+        mut_arg("memory", |memory| memory.help("Rejects the certificate rather than use more megabytes, with exit status 4 [default: 800]")),
+        mut_arg("work", |work| work.hide(true))
+    )]
+    verify: Verify;
+    /// Only reads a model: every mistake with its place
+    check: Check;
+    /// A commented model file to begin with
+    new: New;
+    /// What an error code or a word of the answers means
+    explain: Explain in "cli";
+    /// A completion script for a shell
+    completions: Completions in "cli";
+}
+
+/// What is done without a command where there is no program.
+#[cfg(not(feature = "cli"))]
+struct Nothing;
+
+#[cfg(not(feature = "cli"))]
+impl Runs for Nothing {
+    fn run(&self, _: &Context) -> Outcome {
+        Err(Diagnostic::error(jurist_engine::error::Code::Usage, "a command is missing").into())
+    }
+}
+
+impl Arguments {
+    /// What is asked for.
+    pub fn asked(&self) -> &dyn Runs {
+        match &self.command {
+            Some(command) => command.options(),
+            #[cfg(feature = "cli")]
+            None => &self.main_job,
+            #[cfg(not(feature = "cli"))]
+            None => &Nothing,
+        }
     }
 }

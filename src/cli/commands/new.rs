@@ -1,5 +1,6 @@
 //! `jurist new`: a commented model file to begin with.
 
+use super::{Context, Runs};
 use crate::cli::output::write_answer;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
@@ -48,8 +49,14 @@ const TEMPLATES: [Template; 8] = templates![
     "lcl-filter": "grid current through an LCL filter, one sample of computation and the hold",
 ];
 
+impl Runs for Options {
+    fn run(&self, _: &Context) -> Outcome {
+        run(self)
+    }
+}
+
 /// Writes a template to standard output or to a new file.
-pub(in crate::cli) fn run(options: &Options) -> Outcome {
+fn run(options: &Options) -> Outcome {
     if options.list {
         let width = TEMPLATES.iter().map(|t| t.name.len()).max().unwrap_or(0);
         let lines: Vec<String> = TEMPLATES.iter().map(|t| format!("{:width$}  {}", t.name, t.about)).collect();

@@ -1,10 +1,12 @@
 //! `jurist norm`: the peak gain of a closed-loop transfer function.
 
-use super::{Context, decided};
-use crate::cli::arguments::{LineOptions, ModelOptions, OutputOptions, RegionOptions};
+use super::{Context, Runs, decided};
+use crate::cli::arguments::{ExplainOptions, LineOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::destinations::Files;
 use crate::cli::input::{load, question};
-use crate::cli::status::{Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
+use jurist_engine::coverage::Asked;
 use jurist_engine::show::documents::Norm;
 use std::ffi::OsString;
 
@@ -20,11 +22,31 @@ pub(in crate::cli) struct Options {
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
     #[command(flatten)]
+    pub explain: ExplainOptions,
+    #[command(flatten)]
     pub output: OutputOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        // The model is the first of three names.
+        let model = self.names.first().filter(|_| self.names.len() == 3);
+        files.inputs.extend(model.map(|model| ("the model", model.as_os_str())));
+        files.answer(self.output.output.as_ref());
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file; the status is 1 for a loop that is not stable.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.output;
     context.check_output(output)?;
     let (model, ports) = match options.names.as_slice() {
@@ -32,10 +54,12 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         ports => (None, ports),
     };
     let [from, to] = [&ports[0], &ports[1]].map(|name| name.to_string_lossy());
+    let explain = &options.explain;
     let options = ModelOptions { model, line: options.line.clone(), set: options.set.clone(), domain: Vec::new() };
     let model = load(options.model.as_ref(), &options.line, context)?;
     let digits = output.digits() as usize;
     let problem = question(context, &model, &options, &RegionOptions::default())?.problem()?;
+    context.explain(explain, output, &problem, Asked::Norm)?;
     let answer = match decided(problem.norm(&from, &to, &context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => {

@@ -1,6 +1,6 @@
 //! `jurist page`: the page for the browser, which computes there, as a folder of files.
 
-use super::Context;
+use super::{Context, Runs};
 use crate::cli::arguments::RunOptions;
 use crate::cli::output::{note, plain};
 use crate::cli::picture::write;
@@ -20,8 +20,22 @@ pub(in crate::cli) struct Options {
     pub run: RunOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.run
+    }
+
+    fn writes_a_folder(&self) -> bool {
+        true
+    }
+}
+
 /// Writes the files.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let Some(files) = packed::files() else {
         let help = "in the sources, 'web/build' makes it, and 'web/build --program' a program that has it inside";
         return Err(Diagnostic::error(Code::NoPage, "this program was built without the page").help(help).into());

@@ -1,6 +1,6 @@
 //! `jurist paper`: the built-in drive's paper once more, as one HTML report.
 
-use super::Context;
+use super::{Context, Runs};
 use crate::cli::arguments::RunOptions;
 use crate::cli::output::{note, plain};
 use crate::cli::picture::write;
@@ -24,8 +24,22 @@ pub(in crate::cli) struct Options {
     pub run: RunOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.run
+    }
+
+    fn writes_a_folder(&self) -> bool {
+        true
+    }
+}
+
 /// Writes `report.html` and the figures as SVG files.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let folder = Path::new(&options.output);
     std::fs::create_dir_all(folder).map_err(|e| {
         Diagnostic::error(Code::Write, format!("cannot make the folder {}: {}", folder.display(), plain(&e)))

@@ -1,11 +1,12 @@
 //! `jurist report`: one page about one's own loop.
 
-use super::Context;
+use super::{Context, Runs};
 use crate::certified_intervals::certify_intervals;
 use crate::cli::arguments::{ModelOptions, RegionOptions, RunOptions};
+use crate::cli::destinations::Files;
 use crate::cli::input::{load, question};
 use crate::cli::output::{ending, finish_answer, unknown_ending};
-use crate::cli::status::{Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::share;
 use clap::Args;
 use jurist_algebra::limits::Budget;
@@ -31,8 +32,24 @@ pub(in crate::cli) struct Options {
     pub run: RunOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.inputs.extend(self.model.model.iter().map(|model| ("the model", model.as_os_str())));
+        files.answer(Some(&self.output));
+        Ok(())
+    }
+}
+
 /// Writes the page; the status is 3 where the budget ended a part of it.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let file = &options.output;
     if file != "-" && !matches!(ending(file).as_deref(), Some("html" | "htm")) {
         return Err(unknown_ending(file, &["html"]).into());

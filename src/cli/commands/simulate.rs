@@ -1,8 +1,9 @@
 //! `jurist simulate`: time responses of the sampled loop, or of the switched circuit.
 
-use super::Context;
+use super::{Context, Runs};
 use crate::cli::arguments::{ModelOptions, PictureOptions, RunOptions};
 use crate::cli::assignments::{in_line, plain_number};
+use crate::cli::destinations::Files;
 use crate::cli::input::{load, question};
 use crate::cli::output::note;
 use crate::cli::picture::{Picture, deliver, wanted};
@@ -62,8 +63,22 @@ pub(in crate::cli) struct Options {
     pub run: RunOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.picture(&self.model.model, &self.picture)
+    }
+}
+
 /// Draws to a file or on the terminal.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let kind = wanted(&options.picture)?;
     let model = match (&options.model.model, options.switched) {
         (None, true) => Model::from_toml(&Source::new("<built-in drive>", DRIVE_BLOCKS))?.0,

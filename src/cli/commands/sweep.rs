@@ -1,8 +1,9 @@
 //! `jurist sweep`: the same question at many points.
 
-use super::Context;
+use super::{Context, Runs};
 use crate::cli::arguments::{LineOptions, RunOptions};
 use crate::cli::assignments::{assignments, in_line};
+use crate::cli::destinations::Files;
 use crate::cli::input::{known_name, known_names, load};
 use crate::cli::output::{finish_answer, note};
 use crate::cli::status::{Error, Outcome, Status};
@@ -50,8 +51,23 @@ pub(in crate::cli) struct Options {
     pub run: RunOptions,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.model, &self.output);
+        Ok(())
+    }
+}
+
 /// Writes the rows; the status is 3 where a question or the whole was not decided in time.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let format = Format::of(options.output.as_ref())?;
     let model = load(options.model.as_ref(), &options.line, context)?;
     let (questions, names) = questions(options, &model, context)?;

@@ -1,9 +1,10 @@
 //! `jurist tolerance`: stable for every value within tolerances.
 
-use super::{Context, decided};
-use crate::cli::arguments::DecisionOptions;
+use super::{Context, Runs, decided};
+use crate::cli::arguments::{DecisionOptions, RunOptions};
 use crate::cli::assignments::in_line;
 use crate::cli::command_line::Place;
+use crate::cli::destinations::Files;
 use crate::cli::input::{known_name, known_names, load, question};
 use crate::cli::output::{ending, write_answer, write_beginning};
 use crate::cli::picture::{Kind, Picture, WRITES, deliver};
@@ -15,6 +16,7 @@ use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_draw::figures::tolerance_figure;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
+use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::model::{Model, Tolerance};
 use jurist_engine::show::documents::{self, to_text};
@@ -63,8 +65,23 @@ const BRACKET_DIGITS: u32 = 6;
 /// No bracket is asked to be narrower.
 const MOST_DIGITS: u32 = 18;
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.decision.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.decision.model.model, &self.decision.output.output);
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file: 0 stable for all values, 1 not, 3 undecided.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
     let picture = picture(output.output.as_ref());
     if picture.is_none() {
@@ -93,6 +110,11 @@ pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, answer.problem().warnings());
+    let question = request
+        .requirements
+        .iter()
+        .fold(Asked::Tolerance, |question, r| question.with_requirement(r, answer.problem().time()));
+    context.explain(&options.decision.explain, output, answer.problem(), question)?;
     let certificate = certified(&options.certificate, || answer.certificate(&context.budget));
     if let Ok(Some((text, file))) = &certificate {
         write_answer(text, Some(file))?;

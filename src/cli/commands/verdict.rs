@@ -1,15 +1,17 @@
 //! `jurist verdict`: one point.
 
-use super::{Context, decided};
-use crate::cli::arguments::DecisionOptions;
+use super::{Context, Runs, decided};
+use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::destinations::Files;
 use crate::cli::input::decision;
 use crate::cli::output::write_answer;
 use crate::cli::picture::WRITES;
 use crate::cli::requirements::{RequirementOptions, refuse_proofs};
-use crate::cli::status::{Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::{certified, check_certificate};
 use clap::Args;
 use jurist_engine::answer::Verdict;
+use jurist_engine::coverage::Asked;
 use jurist_engine::show::documents;
 use std::ffi::OsString;
 
@@ -28,13 +30,32 @@ pub(in crate::cli) struct Options {
     pub coq: Option<OsString>,
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.decision.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.decision.model.model, &self.decision.output.output);
+        files.outputs.extend(self.certificate.iter().map(|file| ("the certificate", file.clone())));
+        files.outputs.extend(self.coq.iter().map(|file| ("the file for Coq", file.clone())));
+        Ok(())
+    }
+}
+
 /// Answers on standard output or in a file; the status is 1 for anything but stable.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
     let (model, question) = decision(&options.decision, context)?;
     let (asked, question) = options.require.asked(&model, question, &options.decision.region, context)?;
     refuse_proofs(&model, &asked, options.certificate.is_some() || options.coq.is_some())?;
     let problem = question.problem()?;
+    let question = asked.list.iter().fold(Asked::Verdict, |asked, r| asked.with_requirement(r, problem.time()));
+    context.explain(&options.decision.explain, output, &problem, question)?;
     let found = match decided(problem.requirements_met(&asked.list, asked.at.as_deref(), &context.budget))? {
         Ok(found) => found,
         Err(stopped) => {

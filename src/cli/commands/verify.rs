@@ -1,10 +1,11 @@
 //! `jurist verify`: re-checks a certificate.
 
-use super::Context;
+use super::{Context, Runs};
 use crate::cli::arguments::{LineOptions, RunOptions};
+use crate::cli::destinations::Files;
 use crate::cli::input::{CERTIFICATE, model_text, read_text};
 use crate::cli::output::{note, write_answer};
-use crate::cli::status::{Outcome, Status};
+use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_check::format::MAX_TEXT;
 use jurist_check::{Limits, Names, check, report};
@@ -30,8 +31,28 @@ fn shown(name: &OsStr) -> String {
     if name == "-" { "standard input".into() } else { name.to_string_lossy().into_owned() }
 }
 
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.inputs = vec![("the model", &self.model), ("the certificate", &self.certificate)];
+        files.answer(None);
+        Ok(())
+    }
+
+    fn without_answer(&self) -> Status {
+        Status::Rejected
+    }
+}
+
 /// Prints the proved statement and names its texts; the status is 4 for a certificate that proves nothing.
-pub(in crate::cli) fn run(options: &Options, context: &Context) -> Outcome {
+fn run(options: &Options, context: &Context) -> Outcome {
     let model = model_text(&options.model, &options.line, context, MAX_TEXT as u64)?;
     let certificate = read_text(context, &options.certificate, MAX_TEXT as u64, &CERTIFICATE)?;
     let limits = options.run.timeout.map_or_else(Limits::default, Limits::within);

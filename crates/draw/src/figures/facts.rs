@@ -51,7 +51,7 @@ fn rules(model: &Model) -> Vec<String> {
     let mut used: Vec<(&str, Vec<&str>)> = Vec::new();
     for block in &diagram.blocks {
         let Some(discretization) = &block.discretization else { continue };
-        let words = discretization.method.words();
+        let words = discretization.method.words;
         match used.iter_mut().find(|u| u.0 == words) {
             Some(u) => u.1.push(&block.name),
             None => used.push((words, vec![&block.name])),

@@ -154,7 +154,7 @@ fn does(model: &Model, block: &Block) -> String {
 }
 
 fn made_discrete(model: &Model, d: &Discretization) -> String {
-    let mut text = d.method.words().to_owned();
+    let mut text = d.method.words.to_owned();
     let mut add = |word: &str, e: &Option<Expression>| {
         if let Some(e) = e {
             text.push_str(&format!(", {word} {}", written(model, e)));

@@ -1,7 +1,7 @@
 //! What is proved, what is only drawn, and what the model leaves out.
 
 use crate::page::{escaped, math};
-use jurist_engine::model::{Form, Method, Model, Time};
+use jurist_engine::model::{Form, Model, Time};
 
 pub(super) fn section(model: &Model) -> String {
     let mut html = String::from(
@@ -26,22 +26,7 @@ fn left_out(model: &Model) -> Vec<String> {
     if let Form::Blocks(diagram) = model.form() {
         for block in &diagram.blocks {
             let Some(method) = block.discretization.as_ref().map(|d| d.method) else { continue };
-            out.push(match method {
-                Method::ZeroOrderHold => format!(
-                    "{}: behind a zero-order hold, exact at the samples; what happens between them is not looked at.",
-                    block.name
-                ),
-                Method::FirstOrderHold => format!(
-                    "{}: behind a first-order hold, exact for inputs that are straight between the samples.",
-                    block.name
-                ),
-                rule => format!(
-                    "{}: made discrete by the {}. That is a rule, not what a block behind a converter does between two \
-                     samples; its limits can differ from those behind a zero-order hold (discretize = \"zoh\").",
-                    block.name,
-                    rule.words()
-                ),
-            });
+            out.push(format!("{}: {}", block.name, method.caveat()));
         }
         if diagram.blocks.iter().any(|b| b.pwm.is_some()) {
             out.push(

@@ -1,10 +1,11 @@
 //! The stable region in two parameters by boxes, and the choice between that and the exact decomposition.
 
 use super::{Answer, Map};
+use crate::coverage::{Asked, CoefficientRing};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::stability::Range;
-use crate::stability::plane::boxes::{BoxMap, stability_boxes};
+use crate::stability::plane::boxes::{BoxMap, Window, stability_boxes};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
@@ -159,72 +160,85 @@ impl Problem {
         budget: &Budget,
     ) -> Result<MapOrBoxes, Error> {
         budget.enter(|| {
-            let exact = |part: &Budget| {
+            let exact = |part: &Budget| -> Result<MapOrBoxes, Error> {
                 let map = self.described(part.enter(|| self.decomposed(part))??, digits, budget)?;
                 Ok(MapOrBoxes::Exact(Box::new(map)))
             };
-            let share = || budget.share(SUBDIVISION.0, SUBDIVISION.1);
-            let found = |boxes: BoxMap, no_exact_map: Option<Exhausted>| {
-                let value = MapBoxes { goal: request.undecided.clone(), boxes, no_exact_map };
-                MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value)))
-            };
-            if method != MapMethod::Exact {
-                if let Some(plane) = self.delayed_plane(budget)? {
-                    return Ok(found(
-                        plane.boxes(&window_around(self, request, budget)?, &request.undecided, &share())?,
-                        None,
-                    ));
-                }
-                let mut no_exact_map = None;
-                let has_symbols = !self.algebra_over_symbols(budget)?.symbols().is_empty();
-                let window = if has_symbols { window_around(self, request, budget) } else { window_of(self, request) };
-                if method == MapMethod::Auto && has_symbols && self.is_outside_of_functions(budget)? {
-                    // Without a window there are no boxes to leave time for.
-                    let has_window = window.is_ok();
-                    let part = if has_window { &budget.share(1, 2) } else { budget };
-                    let size = self.plane_over_symbols(budget)?.map_or(0, |p| p.size(self.shape()));
-                    let attempt =
-                        if has_window && size > MOST_TERMS { Err(too_long(size).into()) } else { exact(part) };
-                    match attempt {
-                        Err(Error::Stopped(stopped)) if has_window => no_exact_map = Some(stopped),
-                        answered => return answered,
-                    }
-                }
-                if let Some(family) = self.moving_family(budget)? {
-                    let (window, goal) = (window?, &request.undecided);
-                    let boxes = match family.is_inside_of_both() {
-                        true => family.boxes(&window, goal, &share(), |_| None),
-                        false => {
-                            let plane = self.symbolic_plane(budget)?.expect("one parameter is inside of functions");
-                            family.boxes(&window, goal, &share(), plane.at_lower_end(&window))
-                        }
-                    };
-                    return Ok(found(boxes, no_exact_map));
-                }
-                if let Some(plane) = self.symbolic_plane(budget)? {
-                    let boxes = plane.boxes(&window?, &request.undecided, &share())?;
-                    return Ok(found(boxes, no_exact_map));
-                }
-            }
-            let window = match (method, window_of(self, request)) {
-                (MapMethod::Exact, _) => return exact(budget),
-                (MapMethod::Boxes, Err(refusal)) => return Err(refusal),
-                (_, window) => window,
-            };
-            let plane = self.plane(budget)?;
-            let (Ok(window), Some(p)) = (window, plane) else {
-                // Without a window, or undefined everywhere: that needs no boxes.
+            if method == MapMethod::Exact {
                 return exact(budget);
+            }
+            let ring = CoefficientRing::of(self.algebra_over_symbols(budget)?.symbols());
+            let is_exact = Asked::ExactMap.over(ring).is_answered();
+            let window = match ring {
+                CoefficientRing::Rational => window_of(self, request),
+                _ => window_around(self, request, budget),
             };
+            // A rational loop that is undefined everywhere needs no boxes.
+            let has_boxes = window.is_ok() && (ring != CoefficientRing::Rational || self.plane(budget)?.is_some());
             let mut no_exact_map = None;
-            if method == MapMethod::Auto {
-                match exact(&budget.share(1, 2)) {
-                    Err(Error::Stopped(stopped)) => no_exact_map = Some(stopped),
+            if method == MapMethod::Auto && is_exact {
+                // Without boxes there is nothing to leave time for.
+                let part = if has_boxes { &budget.share(1, 2) } else { budget };
+                match self.worth_an_exact_map(ring, has_boxes, budget)?.and_then(|()| exact(part)) {
+                    Err(Error::Stopped(stopped)) if has_boxes => no_exact_map = Some(stopped),
                     answered => return answered,
                 }
             }
-            Ok(found(stability_boxes(p, &window, self.shape(), &request.undecided, &share())?, no_exact_map))
+            if is_exact && window.is_ok() && !has_boxes {
+                return exact(budget);
+            }
+            let boxes = self.boxes_over(ring, window, &request.undecided, budget)?;
+            let value = MapBoxes { goal: request.undecided.clone(), boxes, no_exact_map };
+            Ok(MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value))))
         })?
+    }
+
+    /// The inner result is an error where an exact map would take long, and there are boxes.
+    fn worth_an_exact_map(
+        &self,
+        ring: CoefficientRing,
+        has_boxes: bool,
+        budget: &Budget,
+    ) -> Result<Result<(), Error>, Error> {
+        if ring != CoefficientRing::Constants || !has_boxes {
+            return Ok(Ok(()));
+        }
+        let size = self.plane_over_symbols(budget)?.map_or(0, |p| p.size(self.shape()));
+        Ok(if size > MOST_TERMS { Err(too_long(size).into()) } else { Ok(()) })
+    }
+
+    /// The boxes of a window, by the family of loops over the ring.
+    fn boxes_over(
+        &self,
+        ring: CoefficientRing,
+        window: Result<Window, Error>,
+        goal: &Rational,
+        budget: &Budget,
+    ) -> Result<BoxMap, Error> {
+        let share = || budget.share(SUBDIVISION.0, SUBDIVISION.1);
+        match ring {
+            CoefficientRing::Rational => {
+                let (window, plane) = (window?, self.plane(budget)?.expect("defined somewhere"));
+                Ok(stability_boxes(plane, &window, self.shape(), goal, &share())?)
+            }
+            CoefficientRing::Constants => {
+                let plane = self.symbolic_plane(budget)?.expect("a loop over constants");
+                Ok(plane.boxes(&window?, goal, &share())?)
+            }
+            CoefficientRing::Functions => {
+                let family = self.moving_family(budget)?.expect("a loop with functions");
+                let window = window?;
+                if family.is_inside_of_both() {
+                    return Ok(family.boxes(&window, goal, &share(), |_| None));
+                }
+                let plane = self.symbolic_plane(budget)?.expect("one parameter is inside of functions");
+                Ok(family.boxes(&window, goal, &share(), plane.at_lower_end(&window)))
+            }
+            CoefficientRing::DeadTime | CoefficientRing::DeadTimeBesideFunctions | CoefficientRing::VaryingOrder => {
+                let plane = self.delayed_plane(budget)?.expect("a loop with dead time");
+                Ok(plane.boxes(&window?, goal, &share())?)
+            }
+        }
     }
 }
 

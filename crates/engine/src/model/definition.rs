@@ -1,5 +1,6 @@
 //! What a model says, as plain data.
 
+use super::discretization::Method;
 use super::text::Expression;
 use super::tolerance::Tolerance;
 use crate::error::{Source, Span};
@@ -256,7 +257,7 @@ pub enum Dynamics {
 #[derive(Clone, Debug)]
 pub struct Discretization {
     /// The rule or the hold.
-    pub method: Method,
+    pub method: &'static Method,
     /// The sample time; that of the loop where the block names none. Tustin's rule with a factor needs none.
     pub sample_time: Option<Expression>,
     /// The factor of the bilinear map, `2/T` when missing.
@@ -267,71 +268,6 @@ pub struct Discretization {
     pub delay: Option<Expression>,
     /// Where it stands.
     pub span: Span,
-}
-
-/// The ways to make a continuous block discrete: rules that keep rational functions rational, and what a block behind a
-/// hold does exactly.
-///
-/// ```
-/// use jurist_engine::model::Method;
-/// assert_eq!((Method::Forward.words(), Method::ZeroOrderHold.words()), ("forward rule", "zero-order hold"));
-/// assert_eq!(Method::named("foh"), Some(Method::FirstOrderHold));
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Method {
-    /// `s = (z - 1)/T`.
-    Forward,
-    /// `s = (z - 1)/(T z)`.
-    Backward,
-    /// `s = c (z - 1)/(z + 1)`.
-    Tustin,
-    /// The inputs are constant between samples: the outputs at the samples are exact.
-    ZeroOrderHold,
-    /// The inputs are straight between samples (triangle hold, not causal by itself).
-    FirstOrderHold,
-}
-
-impl Method {
-    /// All of them, in the order of the words in model files.
-    pub const ALL: [Method; 5] =
-        [Method::Forward, Method::Backward, Method::Tustin, Method::ZeroOrderHold, Method::FirstOrderHold];
-
-    /// The word of model files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Method::Forward => "forward",
-            Method::Backward => "backward",
-            Method::Tustin => "tustin",
-            Method::ZeroOrderHold => "zoh",
-            Method::FirstOrderHold => "foh",
-        }
-    }
-
-    /// The method of this word.
-    pub fn named(word: &str) -> Option<Method> {
-        Method::ALL.into_iter().find(|method| method.name() == word)
-    }
-
-    /// What it is called: `forward rule`, `zero-order hold`.
-    ///
-    /// ```
-    /// assert_eq!(jurist_engine::model::Method::Tustin.words(), "Tustin's rule");
-    /// ```
-    pub fn words(self) -> &'static str {
-        match self {
-            Method::Forward => "forward rule",
-            Method::Backward => "backward rule",
-            Method::Tustin => "Tustin's rule",
-            Method::ZeroOrderHold => "zero-order hold",
-            Method::FirstOrderHold => "first-order hold",
-        }
-    }
-
-    /// Whether it is exact for a signal of a kind rather than a rule.
-    pub fn is_hold(self) -> bool {
-        matches!(self, Method::ZeroOrderHold | Method::FirstOrderHold)
-    }
 }
 
 /// A pulse-width modulator: what a switched simulation needs beside its gain.
@@ -551,20 +487,20 @@ impl Model {
         const NAMED: usize = 4;
         let Form::Blocks(diagram) = &self.form else { return String::new() };
         let method = |b: &Block| b.discretization.as_ref().map(|d| d.method);
-        let mut methods: Vec<Method> = Vec::new();
+        let mut methods: Vec<&Method> = Vec::new();
         for found in diagram.blocks.iter().filter_map(method) {
             if !methods.contains(&found) {
                 methods.push(found);
             }
         }
-        let group = |m: &Method| {
+        let group = |m: &&Method| {
             let blocks: Vec<&str> =
                 diagram.blocks.iter().filter(|b| method(b) == Some(*m)).map(|b| b.name.as_str()).collect();
             let mut text = blocks[..blocks.len().min(NAMED)].join(", ");
             if blocks.len() > NAMED {
                 text.push_str(&format!(" and {} more", blocks.len() - NAMED));
             }
-            format!("{text}: {}", m.words())
+            format!("{text}: {}", m.words)
         };
         methods.iter().map(group).collect::<Vec<_>>().join("; ")
     }

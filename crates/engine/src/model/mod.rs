@@ -12,6 +12,7 @@ mod builder;
 mod closed_loop;
 mod connect;
 mod definition;
+mod discretization;
 mod evaluate;
 pub mod examples;
 mod free;
@@ -28,9 +29,10 @@ pub(crate) mod tolerance;
 pub use builder::{BlockBuilder, ModelBuilder, ParameterBuilder};
 pub use closed_loop::{ClosedLoop, Evaluated, TransferFunction};
 pub use definition::{
-    Block, Constant, Diagram, Discretization, Dynamics, Form, Matrix, Method, Model, Name, Output, Parameter, Ports,
-    Pwm, RequirementText, Simulation, Time,
+    Block, Constant, Diagram, Discretization, Dynamics, Form, Matrix, Model, Name, Output, Parameter, Ports, Pwm,
+    RequirementText, Simulation, Time,
 };
+pub use discretization::Method;
 pub(crate) use in_numbers::InNumbers;
 pub use loop_line::LoopLine;
 pub use open_loop::Cut;

@@ -1,9 +1,9 @@
 //! Questions in which a dead time varies against the sample time of its hold: from one whole number of samples to the next the
 //! loop has another order, so the domain is divided there.
 
-use super::Problem;
 use super::evaluation::Algebra;
 use super::presupposed::inside;
+use super::{Free, Problem};
 use crate::error::Error;
 use crate::stability::{AtPoint, Cause, End, Range, StableInterval, StableSet, UndecidedBracket, stable_set_of_parts};
 use jurist_algebra::limits::Budget;
@@ -14,6 +14,14 @@ use jurist_algebra::poly::RationalFunction;
 const MOST_WINDOWS: i64 = 8;
 
 impl Problem {
+    /// True if the order depends on what is free: a dead time varies against the sample time of its hold.
+    pub(super) fn is_of_varying_order(&self, budget: &Budget) -> Result<bool, Error> {
+        let usual = |free: &Free| free.nominal.clone().unwrap_or_else(|| inside(&free.domain));
+        let near: Vec<Rational> = self.free().iter().map(usual).collect();
+        let algebra = budget.enter(|| Algebra::near(self, &near, budget))?;
+        Ok(algebra.is_ok_and(|algebra| !algebra.symbols().varying_samples().is_empty()))
+    }
+
     /// The stable set where a dead time varies against its sample time; `None` where none does, or where the whole numbers of
     /// samples are not at rational values of the parameter.
     ///

@@ -3,6 +3,7 @@
 use super::evaluation::Algebra;
 use super::region::Bound;
 use super::resolved::Problem;
+use crate::coverage::refusals::BESIDE_DEAD_TIME;
 use crate::error::{Code, Diagnostic, Error};
 use crate::stability::ParametricPolynomial;
 use crate::stability::dead_time::{FamilyLoop, GainLoop, Line, QuasiPolynomial};
@@ -36,12 +37,6 @@ pub enum BaseDelay {
     },
 }
 
-/// The refusal of a question that is not known of loops with dead time.
-pub(crate) fn not_known() -> Error {
-    let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, map by boxes, tolerance, report";
-    refused("this cannot be asked of a loop with dead time yet", help)
-}
-
 /// The refusal of a question about a loop with dead time.
 pub(crate) fn refused(message: impl Into<String>, help: impl Into<String>) -> Error {
     Diagnostic::error(Code::DeadTime, message).help(help).into()
@@ -53,8 +48,7 @@ impl DelayedLoop {
         let delays = algebra.symbols().delays();
         let Some(polynomial) = algebra.polynomial().filter(|_| !delays.is_empty()) else { return Ok(None) };
         if algebra.symbols().iter().count() > delays.len() {
-            let help = "write the values of exp, sqrt, sin, cos, tan and pi as numbers";
-            return Err(refused("beside dead time the loop contains other functions that are not rational", help));
+            return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
         }
         let free = problem.free().len();
         if free > 1 {

@@ -1,7 +1,8 @@
 //! The characteristic function of a loop with dead time in several parameters, sorted by its dead times.
 
-use super::delayed::{cleared, refused};
+use super::delayed::cleared;
 use super::resolved::Problem;
+use crate::coverage::refusals::{BESIDE_DEAD_TIME, DECAY};
 use crate::error::Error;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
@@ -27,12 +28,10 @@ impl Problem {
         let delays = algebra.symbols().delays();
         let Some(polynomial) = algebra.polynomial().filter(|_| !delays.is_empty()) else { return Ok(None) };
         if self.region().bound() != super::Region::of(self.time()).bound() {
-            let message = format!("a decay rate cannot be asked of {what} in a loop with dead time yet");
-            return Err(refused(message, "ask for one parameter: 'intervals --param NAME --decay S'"));
+            return Err(DECAY.diagnostic(&[("what", what)]).into());
         }
         if algebra.symbols().iter().count() > delays.len() {
-            let help = "write the values of exp, sqrt, sin, cos, tan and pi as numbers";
-            return Err(refused("beside dead time the loop contains other functions that are not rational", help));
+            return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
         }
         Ok(Some((polynomial, delays)))
     }

@@ -1,6 +1,8 @@
 //! Questions about loops with transcendental constants, such as plants behind a hold.
 
 use super::{Algebra, Problem};
+use crate::coverage::CoefficientRing;
+use crate::coverage::refusals::INSIDE;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{self, Symbol};
 use crate::stability::boxes::MovingPolynomial;
@@ -26,7 +28,7 @@ impl Problem {
         assert!(self.free().len() <= 1, "one parameter is free");
         let algebra = self.algebra_over_symbols(budget)?;
         if !algebra.symbols().delays().is_empty() {
-            return Err(super::delayed::not_known());
+            return Err(not_rational(algebra.symbols()));
         }
         self.symbolic_of(algebra)
     }
@@ -56,7 +58,7 @@ impl Problem {
     pub(crate) fn fixed_symbols(&self, budget: &Budget) -> Result<Symbols, Error> {
         let symbols = self.algebra_over_symbols(budget)?.symbols();
         if !symbols.delays().is_empty() {
-            return Err(super::delayed::not_known());
+            return Err(not_rational(symbols));
         }
         fixed_symbols(symbols)
     }
@@ -70,27 +72,14 @@ impl Problem {
     pub(super) fn symbols_outside(&self, budget: &Budget) -> Result<Symbols, Error> {
         let symbols = self.algebra_over_symbols(budget)?.symbols();
         if !symbols.delays().is_empty() {
-            return Err(super::delayed::not_known());
+            return Err(not_rational(symbols));
         }
         let inside = parameters_inside(symbols);
         if let Some(axis) = [0, 1].into_iter().find(|axis| inside.contains(axis)) {
             let name = &self.free()[axis].name;
-            let message = format!("'{name}' is inside of functions, as behind a hold: there is no exact map");
-            let help = format!("maps with '{name}' are made of boxes: '--method boxes' with windows of both axes");
-            return Err(Diagnostic::error(Code::Function, message).help(help).into());
+            return Err(INSIDE.diagnostic(&[("name", name)]).into());
         }
         fixed_symbols(symbols)
-    }
-
-    /// Whether an exact map can be asked for of a loop with functions, as behind a hold: neither parameter is inside of one, and
-    /// there is no dead time.
-    ///
-    /// # Errors
-    /// As [`Problem::algebra_over_symbols`].
-    pub(crate) fn is_outside_of_functions(&self, budget: &Budget) -> Result<bool, Error> {
-        let symbols = self.algebra_over_symbols(budget)?.symbols();
-        let inside = parameters_inside(symbols);
-        Ok(symbols.delays().is_empty() && !inside.contains(&0) && !inside.contains(&1))
     }
 
     /// The polynomial in the two free parameters over the constants of the model, of which some may be functions of one of the two;
@@ -109,7 +98,7 @@ impl Problem {
         let symbols = algebra.symbols();
         let Some(polynomial) = algebra.polynomial().filter(|_| !symbols.is_empty()) else { return Ok(None) };
         if !symbols.delays().is_empty() {
-            return Err(super::delayed::not_known());
+            return Err(not_rational(symbols));
         }
         let inside = parameters_inside(symbols);
         let plane = match [0, 1].map(|axis| inside.contains(&axis)) {
@@ -152,6 +141,11 @@ impl Problem {
         let family = budget.enter(|| MovingPolynomial::new(&d, free, symbols, self.shape()))?;
         Ok(Some(family.defined_where_positive(positive)))
     }
+}
+
+/// The refusal of a loop with dead time.
+fn not_rational(symbols: &model::Symbols) -> Error {
+    CoefficientRing::of(symbols).not_rational(symbols).into()
 }
 
 /// The variables in the arguments of the symbols.

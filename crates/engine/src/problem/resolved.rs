@@ -1,8 +1,9 @@
 //! A question resolved: every name known, every value in its place, the algebra computed once.
 
-use super::Region;
-use super::delayed::{DelayedLoop, not_known};
+use super::delayed::DelayedLoop;
 use super::evaluation::{Algebra, parametric};
+use super::{Plan, Region};
+use crate::coverage::CoefficientRing;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{ClosedLoop, InNumbers, Model, Symbols, Time};
 use crate::stability::plane::PlanePolynomial;
@@ -71,6 +72,7 @@ pub struct Problem {
     plane: OnceLock<Option<PlanePolynomial>>,
     delayed: OnceLock<Option<DelayedLoop>>,
     in_numbers: OnceLock<Option<InNumbers>>,
+    pub(super) plan: OnceLock<Plan>,
 }
 
 impl Problem {
@@ -82,9 +84,9 @@ impl Problem {
         warnings: Vec<Diagnostic>,
     ) -> Problem {
         let (algebra, parametric, plane) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        let (delayed, in_numbers) = (OnceLock::new(), OnceLock::new());
+        let (delayed, in_numbers, plan) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
         let positive = Vec::new();
-        Problem { model, set, free, region, warnings, positive, algebra, parametric, plane, delayed, in_numbers }
+        Problem { model, set, free, region, warnings, positive, algebra, parametric, plane, delayed, in_numbers, plan }
     }
 
     /// With functions of what is free that are positive where the model has a meaning; the domains are within these of one name.
@@ -177,15 +179,7 @@ impl Problem {
         if algebra.symbols().is_empty() {
             return Ok(algebra);
         }
-        if !algebra.symbols().delays().is_empty() {
-            return Err(not_known());
-        }
-        let message =
-            "this question is answered for rational loops only, and this loop has functions, as behind a hold";
-        let list: Vec<String> =
-            algebra.symbols().definitions().iter().take(4).map(|(name, text)| format!("{name} = {text}")).collect();
-        let help = "known of it: verdict, intervals of one parameter, analyze, charpoly, margins, norm, bode, nyquist, simulate, locus, map (by boxes where a parameter is inside of functions), tolerance, jury in a parameter outside of functions and at a point, report";
-        Err(Diagnostic::error(Code::Function, message).help(format!("{help}; it contains {}", list.join(", "))).into())
+        Err(CoefficientRing::of(algebra.symbols()).not_rational(algebra.symbols()).into())
     }
 
     /// The characteristic polynomial and what goes with it, for a question that can treat symbols: variables beyond those
@@ -201,6 +195,20 @@ impl Problem {
         }
         let algebra = budget.enter(|| Algebra::of(self, budget))??;
         Ok(self.algebra.get_or_init(|| algebra))
+    }
+
+    /// What the coefficients of the characteristic function are made of.
+    ///
+    /// Cost: that of [`Problem::algebra_over_symbols`]; twice that where the order varies.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`], but for a dead time of no fixed number of samples.
+    pub fn coefficient_ring(&self, budget: &Budget) -> Result<CoefficientRing, Error> {
+        match self.algebra_over_symbols(budget) {
+            Ok(algebra) => Ok(CoefficientRing::of(algebra.symbols())),
+            Err(Error::Refused(_)) if self.is_of_varying_order(budget)? => Ok(CoefficientRing::VaryingOrder),
+            Err(failure) => Err(failure),
+        }
     }
 
     /// The algebra, if it has been computed.

@@ -16,6 +16,7 @@ mod smt2;
 mod statement;
 mod text;
 
+use crate::coverage::refusals::{NO_CERTIFICATE, NOT_ALGEBRAIC};
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::StableSet;
@@ -27,7 +28,7 @@ fn refuse_transcendental(set: &StableSet, what: &str) -> Result<(), Error> {
     if set.is_algebraic() {
         return Ok(());
     }
-    Err(no_certificate(format!("{what}: the limits are not algebraic numbers")))
+    Err(NOT_ALGEBRAIC.diagnostic(&[("what", what)]).into())
 }
 
 /// The checkers refuse a model with requirements until they can prove them.
@@ -39,7 +40,5 @@ fn refuse_requirements(problem: &Problem) -> Result<(), Error> {
 }
 
 fn no_certificate(why: impl Into<String>) -> Error {
-    Diagnostic::error(Code::NoCertificate, why)
-        .help("known: loops behind a hold, or with prewarp, at times that are rational numbers, the dead time of a loop with one, a gain beside a fixed one; the answer is printed without it")
-        .into()
+    Diagnostic::error(Code::NoCertificate, why).help(NO_CERTIFICATE.help).into()
 }

@@ -3,6 +3,7 @@
 use super::open_loop::OpenLoop;
 use super::place::{modulus_squared, product};
 use super::requirement::{Requirement, Rule};
+use crate::coverage::refusals::MARGINS_IN_ONE;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{ClosedLoop, Cut, Opened};
 use crate::problem::Problem;
@@ -117,10 +118,7 @@ impl<R: Parameters> Family<R> {
         let kept: Vec<String> = problem.free().iter().map(|f| f.name.clone()).collect();
         let Opened { system, sample_time, symbols } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
         if !symbols.is_empty() {
-            let message =
-                "requirements on margins are decided in one parameter for loops with functions that are not rational";
-            let help = "ask 'intervals' for one of the parameters, or 'margins' with a value for each";
-            return Err(Diagnostic::error(Code::Require, message).help(help).into());
+            return Err(MARGINS_IN_ONE.diagnostic(&[]).into());
         }
         let (quotient, undefined) = Quotient::of(&system, problem.shape(), R::lowered, budget)?;
         if quotient.numerator.is_zero() {

@@ -7,8 +7,9 @@ use super::open_loop::{Over, Parts};
 use super::place::modulus_squared;
 use super::value::square_root;
 use crate::answer::{Answer, Frequency, PointVerdict, Verdict};
+use crate::coverage::refusals::FEEDBACK;
 use crate::error::Error;
-use crate::problem::{Problem, Question, refused};
+use crate::problem::{Problem, Question};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
@@ -79,10 +80,7 @@ impl PeakGain {
 }
 
 fn dead_time_in_the_feedback() -> Error {
-    let message =
-        "the peak gain is not known yet where dead time is in the feedback, or in one of several paths to the output";
-    let help = "the peak of the sensitivity 1/(1 + L) is the inverse of the modulus margin: 'jurist margins'";
-    refused(message, help)
+    FEEDBACK.diagnostic(&[]).into()
 }
 
 impl Question {

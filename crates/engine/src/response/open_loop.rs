@@ -5,7 +5,8 @@ use super::by_gain::{by_gain, only_gain};
 use super::family::nothing_comes_back;
 use super::ground::{Constants, Ground, Integers};
 use super::place::{modulus_squared, product};
-use crate::error::{Code, Diagnostic, Error};
+use crate::coverage::refusals::ONE_FACTOR;
+use crate::error::Error;
 use crate::model::{ClosedLoop, Cut, Opened};
 use crate::problem::{Problem, fixed_symbols};
 use crate::stability::Shape;
@@ -324,9 +325,7 @@ impl Over {
 }
 
 fn no_single_delay() -> Error {
-    let message = "with dead time this is known where one factor of the open loop has it, and all else is rational";
-    let help = "the gain margin is the limit of a gain: 'jurist intervals --param GAIN'";
-    Diagnostic::error(Code::DeadTime, message).help(help).into()
+    ONE_FACTOR.diagnostic(&[]).into()
 }
 
 /// The numerator without the one product of powers of `exp(-tau s)` that all its terms have, and its dead time; symbols are

@@ -7,6 +7,7 @@ use super::open_loop::OpenLoop;
 use super::over_boxes::{OverBoxes, certain, segments};
 use super::requirement::{Requirement, Rule};
 use super::{RequiredEnd, RequiredInterval, RequiredSet};
+use crate::coverage::refusals::{MARGINS_AT_POINTS, NOT_A_SET};
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Cut, Opened};
 use crate::problem::{Problem, moving_symbols};
@@ -94,9 +95,7 @@ impl<'a> SymbolicFamily<'a> {
             return Ok(None);
         }
         if !symbols.delays().is_empty() {
-            let message = "requirements on margins are decided at points for loops with dead time in continuous time";
-            let help = "ask 'verdict' or 'margins' with a value for every parameter";
-            return Err(Diagnostic::error(Code::Require, message).help(help).into());
+            return Err(MARGINS_AT_POINTS.diagnostic(&[]).into());
         }
         let (quotient, undefined) = Quotient::of(&system, problem.shape(), MultiPoly::clone, budget)?;
         if quotient.numerator.is_zero() {
@@ -113,14 +112,13 @@ impl<'a> SymbolicFamily<'a> {
         budget: &Budget,
     ) -> Result<RequiredSet, Error> {
         if let Some(other) = requirements.iter().find(|r| !r.needs_cut() || matches!(r.rule(), Rule::DeadTime(_))) {
-            let message = format!("the requirement {} is not decided as a set for this loop", other.name());
             let help = match other.rule() {
                 Rule::DeadTime(_) => "ask 'verdict' with a value for every parameter",
                 _ => {
                     "margins of loops with functions that are not rational are decided, roots in smaller regions not yet"
                 }
             };
-            return Err(Diagnostic::error(Code::Require, message).help(help).into());
+            return Err(NOT_A_SET.diagnostic(&[("name", other.name()), ("help", help)]).into());
         }
         let mut found = RequiredSet { intervals: Vec::new(), undecided: stable.undecided().to_vec() };
         let of = |requirement: &Requirement| {

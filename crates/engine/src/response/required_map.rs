@@ -4,6 +4,7 @@ use super::family::Family;
 use super::met::AtPoint;
 use super::requirement::{Requirement, Rule};
 use crate::answer::{Answer, Map};
+use crate::coverage::refusals::NOT_IN_A_PLANE;
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::Shape;
@@ -76,13 +77,12 @@ impl Answer<Map> {
 }
 
 fn not_in_a_plane(requirement: &Requirement) -> Error {
-    let message = format!("the requirement {} is not decided for two parameters", requirement.name());
     let help = match requirement.rule() {
         Rule::Modulus { .. } => "ask for a radius",
         Rule::Sector(_) => "ask 'intervals' for one parameter: the curve of a discrete loop is not algebraic",
         _ => "ask 'verdict' with a value for every parameter",
     };
-    Diagnostic::error(Code::Require, message).help(help).into()
+    NOT_IN_A_PLANE.diagnostic(&[("name", requirement.name()), ("help", help)]).into()
 }
 
 impl Problem {

@@ -11,6 +11,7 @@ use super::requirement::{Requirement, Rule, scaled_by_exponential};
 use super::spiral::OnSpiral;
 use super::{DelayMargin, HeldDelay};
 use crate::answer::{Answer, Verdict};
+use crate::coverage::refusals::DELAY_AT_POINTS;
 use crate::error::{Code, Diagnostic, Error};
 use crate::precisions::REQUIRED_DELAY;
 use crate::problem::Problem;
@@ -249,9 +250,7 @@ impl Problem {
                 Boundaries { values: self.settled(exponent, budget)?, ..Boundaries::none() }
             }
             (Rule::DeadTime(_), _) => {
-                let message = "a delay margin is decided at points only, not as a set of a parameter";
-                let help = "ask 'verdict' with a value for every parameter";
-                return Err(Diagnostic::error(Code::Require, message).help(help).into());
+                return Err(DELAY_AT_POINTS.diagnostic(&[]).into());
             }
             (_, None) => return Err(undecided()),
             (_, Some(family)) => {

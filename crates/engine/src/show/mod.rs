@@ -9,6 +9,7 @@ pub mod layout;
 pub mod map;
 pub mod margins;
 pub mod notation;
+mod plan;
 mod point_table;
 pub mod real;
 pub mod region;
@@ -22,6 +23,7 @@ mod words;
 
 pub use intervals::intervals_text;
 pub use map::{map_boxes_text, map_text};
+pub use plan::plan_text;
 pub use table::table_text;
 pub use tolerance::tolerance_text;
 pub use words::words;

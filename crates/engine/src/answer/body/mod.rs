@@ -5,6 +5,7 @@ mod extent;
 pub use extent::{Extreme, Extremes, Stretch, StretchEnd};
 
 use super::{Answer, Map};
+use crate::coverage::{self, Coverage};
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Problem, Question};
 use crate::stability::RealInterval;
@@ -246,13 +247,12 @@ impl Asked<'_> {
     fn slice(&self, value: &Rational) -> Result<BodySlice, Error> {
         let budget = self.budget.silent();
         let open = |stopped| BodySlice { value: value.clone(), map: Err(stopped), extent: None };
-        let found =
-            self.problem(value)?.map(self.digits, &budget).map_err(|error| self.by_boxes(error, value)).and_then(
-                |map| {
-                    let extent = budget.enter(|| extent::of_regions(&map.value().decomposition.regions))?;
-                    Ok(BodySlice { value: value.clone(), map: Ok(map), extent })
-                },
-            );
+        let problem = self.problem(value)?;
+        let map = problem.map(self.digits, &budget).map_err(|error| self.by_boxes(error, &problem, value));
+        let found = map.and_then(|map| {
+            let extent = budget.enter(|| extent::of_regions(&map.value().decomposition.regions))?;
+            Ok(BodySlice { value: value.clone(), map: Ok(map), extent })
+        });
         match found {
             Err(failure) => failure.stopped().map(open),
             found => found,
@@ -267,16 +267,16 @@ impl Asked<'_> {
         Ok(!map.regions.is_empty())
     }
 
-    /// What to do where a map is made of boxes.
-    fn by_boxes(&self, error: Error, value: &Rational) -> Error {
-        let Error::Refused(refused) = &error else { return error };
-        let ([x, y], Code::Function | Code::DeadTime) = (self.question.free_names(), refused.code()) else {
+    /// What to do where a map is made of boxes; other refusals stay as they are.
+    fn by_boxes(&self, error: Error, problem: &Problem, value: &Rational) -> Error {
+        let (Error::Refused(_), [x, y]) = (&error, self.question.free_names()) else { return error };
+        let Ok(ring) = problem.coefficient_ring(&self.budget) else { return error };
+        if !matches!(coverage::Asked::BoxMap.over(ring), Coverage::ByBoxes(_)) {
             return error;
-        };
-        let message = "slices are exact maps, and a parameter is inside of functions of this loop, as behind a hold";
-        let one = format!("map -x {x}=LO..HI -y {y}=LO..HI --set {}={value}", self.name);
-        let help = format!("boxes decide one slice at a time, with windows of both axes: '{one}'");
-        Diagnostic::error(Code::Function, message).help(help).into()
+        }
+        let Coverage::Refused(refusal) = coverage::Asked::Slices.over(ring) else { return error };
+        let slice = format!("map -x {x}=LO..HI -y {y}=LO..HI --set {}={value}", self.name);
+        refusal.diagnostic(&[("slice", &slice)]).into()
     }
 }
 

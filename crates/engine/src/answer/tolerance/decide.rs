@@ -4,6 +4,7 @@ use super::held::Truth;
 use super::required::{nearer, worse};
 use super::{ToleranceAnswer, ToleranceRequest, WorstEnd};
 use crate::answer::Answer;
+use crate::coverage::refusals::ONLY_THE_BOX;
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::boxes::{
@@ -316,10 +317,7 @@ fn refuse_beside_functions(request: &ToleranceRequest) -> Result<(), Error> {
         (.., true) => "the factor as an algebraic number is",
         _ => return Ok(()),
     };
-    let message = format!("{what} not asked of tolerances inside of functions or with dead time yet");
-    Err(Diagnostic::error(Code::Tolerance, message)
-        .help("known of it: whether the box is stable, the largest factor with its worst point and shares, and --limit")
-        .into())
+    Err(ONLY_THE_BOX.diagnostic(&[("what", what)]).into())
 }
 
 /// Requirements are not looked at by these questions.

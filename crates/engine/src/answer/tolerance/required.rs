@@ -2,7 +2,8 @@
 
 use super::decide::{agreed, too_many};
 use super::{RequiredBox, ToleranceRequest};
-use crate::error::{Code, Diagnostic, Error};
+use crate::coverage::refusals::NOT_OVER_A_BOX;
+use crate::error::Error;
 use crate::problem::Problem;
 use crate::response::{Family, Requirement, Rule, half_tangent, radius_below};
 use crate::stability::Shape;
@@ -198,8 +199,7 @@ impl Problem {
 }
 
 fn not_over_a_box(requirement: &Requirement, help: &str) -> Error {
-    let message = format!("the requirement {} is not decided over a box of tolerances", requirement.name());
-    Diagnostic::error(Code::Require, message).help(help).into()
+    NOT_OVER_A_BOX.diagnostic(&[("name", requirement.name()), ("help", help)]).into()
 }
 
 /// The worse of two decisions that both have to be right.

@@ -6,6 +6,7 @@
 
 use super::exponential::Modes;
 use super::state_space::{NotConnected, Substitution, System, substituted};
+use crate::coverage::refusals::NO_FIXED_ORDER;
 use crate::error::{Code, Diagnostic, Span};
 use crate::model::evaluate::symbolic::{BlockValues, Hold};
 use crate::model::evaluate::transfer::MAX_ORDER;
@@ -138,10 +139,9 @@ fn samples(
         None => symbols.near_value(ratio),
     });
     let (Some(ratio), Some(near)) = (ratio, near) else {
-        let message = format!("the dead time of '{name}' is no fixed number of samples");
-        let error = refused(Code::Function, message, hold.span, "the dead time varies against the sample time");
-        let help = "give it as a multiple of the sample time (delay = \"1.5*T\"), or set all that it depends on";
-        return Err(NotConnected::Refused(Box::new(error.help(help))));
+        let error = NO_FIXED_ORDER.diagnostic(&[("name", &name)]);
+        let error = error.at(hold.span, "the dead time varies against the sample time");
+        return Err(NotConnected::Refused(Box::new(error)));
     };
     if ratio.as_constant().is_none() {
         symbols.note_samples(&ratio);

@@ -5,7 +5,8 @@
 
 use super::hold::held;
 use crate::error::{Code, Diagnostic, Span};
-use crate::model::definition::{Dynamics, Form, Method, Model};
+use crate::model::definition::{Dynamics, Form, Model};
+use crate::model::discretization::Rule;
 use crate::model::evaluate::symbolic::{
     BlockValues, DiscretizationValues, DynamicValues, PortValues, Row, Values, Wiring,
 };
@@ -212,48 +213,25 @@ fn below_half_the_sampling_rate(angle: &RationalFunction, span: Span) -> Result<
 /// The discrete system that the rule makes of a continuous one.
 fn discretised(
     s: System,
-    method: Method,
+    rule: Rule,
     value: &RationalFunction,
     block: &BlockValues,
     poles: &mut Vec<MultiPoly>,
     budget: &Budget,
 ) -> Result<System, NotConnected> {
-    let n = s.a.rows();
-    if n == 0 {
+    if s.a.rows() == 0 {
         return Ok(s);
     }
-    let identity = RationalMatrix::identity(n);
-    if method == Method::Forward {
-        return Ok(System { a: &identity + &s.a.scaled(value), b: s.b.scaled(value), ..s });
-    }
-    // Backward: with M = (I - T A)^-1: M, T M B, C M, D + T C M B.
-    // Tustin: with W = (c I - A)^-1: W (c I + A), W B, 2 c C W, D + C W B.
-    let left = match method {
-        Method::Tustin => &identity.scaled(value) - &s.a,
-        _ => &identity - &s.a.scaled(value),
-    };
-    let Some((inverse, determinant)) = solve(&left, &identity, budget)? else {
-        let message = format!(
-            "the discretisation of '{}' divides by zero: the map meets a pole of the block",
-            shorten(&block.name)
-        );
-        return Err(undefined(message, block.span));
-    };
-    poles.push(determinant.numerator().clone());
-    let through = product(&inverse, &s.b);
-    Ok(match method {
-        Method::Tustin => System {
-            a: product(&inverse, &(&identity.scaled(value) + &s.a)),
-            d: &s.d + &product(&s.c, &through),
-            c: product(&s.c, &inverse).scaled(&(value + value)),
-            b: through,
-        },
-        _ => System {
-            d: &s.d + &product(&s.c, &through).scaled(value),
-            c: product(&s.c, &inverse),
-            b: through.scaled(value),
-            a: inverse,
-        },
+    rule(s, value, &mut |matrix: &RationalMatrix| {
+        let Some((inverse, determinant)) = solve(matrix, &RationalMatrix::identity(matrix.rows()), budget)? else {
+            let message = format!(
+                "the discretisation of '{}' divides by zero: the map meets a pole of the block",
+                shorten(&block.name)
+            );
+            return Err(undefined(message, block.span));
+        };
+        poles.push(determinant.numerator().clone());
+        Ok(inverse)
     })
 }
 
@@ -359,11 +337,11 @@ fn connect(
         };
         match &block.discretization {
             None => {}
-            Some(DiscretizationValues::Rule { method, value, prewarp }) => {
+            Some(DiscretizationValues::Rule { rule, value, prewarp }) => {
                 if let Some(prewarp) = prewarp {
                     below_half_the_sampling_rate(&substituted(&prewarp.angle, set)?, prewarp.span)?;
                 }
-                system = discretised(system, *method, &substituted(value, set)?, block, &mut poles, budget)?;
+                system = discretised(system, *rule, &substituted(value, set)?, block, &mut poles, budget)?;
             }
             Some(DiscretizationValues::Hold(hold)) => system = held(system, hold, block, set, symbols, budget)?,
         }
@@ -419,7 +397,7 @@ fn state_names(model: &Model, i: usize, values: &BlockValues, n: usize) -> Vec<S
     if let Form::Blocks(diagram) = &model.form
         && let Some(block) = diagram.blocks.get(i)
         && matches!(block.dynamics, Dynamics::StateSpace { c: None, .. })
-        && block.discretization.as_ref().is_none_or(|d| matches!(d.method, Method::Forward | Method::ZeroOrderHold))
+        && block.discretization.as_ref().is_none_or(|d| d.method.keeps_states)
     {
         let own = block.outputs.iter().map(|o| o.name.clone());
         return own.chain((block.outputs.len() + 1..=n).map(|k| format!("{}.{k}", values.name))).collect();

@@ -6,7 +6,8 @@ use super::transfer::{Fraction, MAX_ORDER, fraction, held_fraction, polynomial};
 use super::walk::{Failure, Meaning, division_by_zero};
 use super::zpoly::ZPoly;
 use crate::error::{Code, Diagnostic, Span};
-use crate::model::definition::{Block, Discretization, Dynamics, Form, Matrix, Method, Model, Output, Ports, Time};
+use crate::model::definition::{Block, Discretization, Dynamics, Form, Matrix, Model, Output, Ports, Time};
+use crate::model::discretization::{Kind, Rule};
 use crate::model::text::Expression;
 use crate::model::text::names::shorten;
 use jurist_algebra::matrix::RationalMatrix;
@@ -68,7 +69,7 @@ pub(in crate::model) struct BlockValues {
 /// How a continuous block is made discrete.
 pub(in crate::model) enum DiscretizationValues {
     /// By a rule with the sample time, or Tustin's with its factor.
-    Rule { method: Method, value: RationalFunction, prewarp: Option<Prewarp> },
+    Rule { rule: Rule, value: RationalFunction, prewarp: Option<Prewarp> },
     /// By what it does behind a hold.
     Hold(Hold),
 }
@@ -185,10 +186,9 @@ impl Evaluator<'_, '_> {
         let mut value = |e: &Option<Expression>| e.as_ref().map(|e| (self.scalar(e), e.span));
         let (time, factor, prewarp, delay) =
             (value(&d.sample_time), value(&d.factor), value(&d.prewarp), value(&d.delay));
-        if d.method == Method::Tustin
-            && let Some((factor, _)) = factor
-        {
-            return Some(DiscretizationValues::Rule { method: d.method, value: factor?, prewarp: None });
+        let by_rule = |rule, value| DiscretizationValues::Rule { rule, value, prewarp: None };
+        if let (Kind::Rule(rule), Some((factor, _))) = (&d.method.kind, factor) {
+            return Some(by_rule(*rule, factor?));
         }
         let Some((time, time_span)) = time else {
             let error = Diagnostic::error(Code::Discretize, "'discretize' has no sample time");
@@ -196,21 +196,27 @@ impl Evaluator<'_, '_> {
             return None;
         };
         let time = time?;
-        if d.method.is_hold() {
-            let delay = match delay {
-                Some((delay, _)) => delay?,
-                None => RationalFunction::zero(),
-            };
-            let is_first_order = d.method == Method::FirstOrderHold;
-            return Some(DiscretizationValues::Hold(Hold { is_first_order, time, delay, whole: None, span: d.span }));
-        }
-        if d.method != Method::Tustin {
-            return Some(DiscretizationValues::Rule { method: d.method, value: time, prewarp: None });
-        }
+        let rule = match d.method.kind {
+            Kind::Hold { is_first_order, .. } => {
+                let delay = match delay {
+                    Some((delay, _)) => delay?,
+                    None => RationalFunction::zero(),
+                };
+                return Some(DiscretizationValues::Hold(Hold {
+                    is_first_order,
+                    time,
+                    delay,
+                    whole: None,
+                    span: d.span,
+                }));
+            }
+            Kind::Rule(rule) if !d.method.has_key("c") => return Some(by_rule(rule, time)),
+            Kind::Rule(rule) => rule,
+        };
         // c = 2/T, or c = w/tan(w T/2): expressions of the model like any other.
         let Some((frequency, span)) = prewarp else {
             let value = self.quotient(2.into(), time, time_span)?;
-            return Some(DiscretizationValues::Rule { method: d.method, value, prewarp: None });
+            return Some(by_rule(rule, value));
         };
         let frequency = frequency?;
         if frequency.is_zero() {
@@ -223,7 +229,7 @@ impl Evaluator<'_, '_> {
         let half = &angle * &RationalFunction::from(Rational::new(1.into(), 2.into()));
         let tangent = self.scope.tangent_of_a_rule(half);
         let value = self.quotient(frequency, tangent, span)?;
-        Some(DiscretizationValues::Rule { method: d.method, value, prewarp: Some(Prewarp { angle, span }) })
+        Some(DiscretizationValues::Rule { rule, value, prewarp: Some(Prewarp { angle, span }) })
     }
 
     /// A quotient, by whose divisor the model divides.

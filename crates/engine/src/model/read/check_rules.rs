@@ -56,7 +56,7 @@ fn without_hold(blocks: &[Block], reader: &mut Reader) {
     let Some((block, d)) = blocks.iter().filter(by_rule).find_map(|b| Some((b, b.discretization.as_ref()?))) else {
         return;
     };
-    let message = format!("'{}' is made discrete by the {}", shorten(&block.name), d.method.words());
+    let message = format!("'{}' is made discrete by the {}", shorten(&block.name), d.method.words);
     let message = message.replace("the Tustin's", "Tustin's");
     let warning = Diagnostic::warning(Code::RuleWarning, message).at(d.span, "the answer is about this rule");
     reader.report(warning.help("a plant behind a digital controller sees a hold: method = \"zoh\" is exact for it"));

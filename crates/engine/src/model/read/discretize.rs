@@ -3,11 +3,16 @@
 use super::keys;
 use super::reader::Reader;
 use crate::error::{Code, Diagnostic, Span};
-use crate::model::definition::{Discretization, Method};
+use crate::model::definition::Discretization;
+use crate::model::discretization::Method;
 use crate::model::text::Expression;
 use crate::model::text::Text;
 use crate::model::text::names::{did_you_mean, list, shorten};
 use crate::model::text::toml_value::{Entry, Kind, Table};
+
+/// The keys that some methods have, with what to do where another method is asked for.
+const METHOD_KEYS: [(&str, &str); 3] =
+    [("c", "leave it out"), ("prewarp", "leave it out"), ("delay", "add a block with 'delay' for whole samples")];
 
 fn wrong(message: &str, span: Span, label: &str, help: &str) -> Diagnostic {
     Diagnostic::error(Code::Discretize, message).at(span, label).help(help)
@@ -45,18 +50,13 @@ pub(super) fn discretize(
     Some(Discretization { sample_time: Some(sample_time.clone()), ..found })
 }
 
-fn method(word: &Text, reader: &mut Reader) -> Option<Method> {
+fn method(word: &Text, reader: &mut Reader) -> Option<&'static Method> {
     let text = word.as_str();
     let method = Method::named(text);
     if method.is_none() {
         let known = || format!("known: {}", list(keys::METHODS));
-        let help = match text.to_lowercase().as_str() {
-            "zero-order hold" | "zero-order-hold" | "zero order hold" | "hold" => "write \"zoh\"".into(),
-            "first-order hold" | "triangle" => "write \"foh\"".into(),
-            "bilinear" | "trapezoidal" | "prewarp" => "write \"tustin\"; prewarp = \"w\" is a key beside it".into(),
-            "euler" => "write \"forward\" or \"backward\"".into(),
-            _ => did_you_mean(text, keys::METHODS).unwrap_or_else(known),
-        };
+        let meant = Method::written(&text.to_lowercase()).or_else(|| did_you_mean(text, keys::METHODS));
+        let help = meant.unwrap_or_else(known);
         reader.report(wrong(&format!("unknown method '{}'", shorten(text)), word.span(), "not known", &help));
     }
     method
@@ -66,7 +66,9 @@ fn from_table(entry: &Entry, table: &Table, reader: &mut Reader) -> Option<Discr
     let meant = reader.unknown_keys(table, &keys::DISCRETIZE, "'discretize'");
     let Some(value) = table.get("method") else {
         if !meant.includes("method") {
-            let help = "give method = \"zoh\" for a plant behind a hold, or \"tustin\", \"forward\", \"backward\"";
+            let rules = Method::all().iter().filter(|method| !method.is_hold());
+            let rules: Vec<String> = rules.map(|rule| format!("\"{}\"", rule.name)).collect();
+            let help = &format!("give method = \"zoh\" for a plant behind a hold, or {}", rules.join(", "));
             reader.report(wrong("'discretize' has no 'method'", entry.key_span, "by which rule?", help));
         }
         return None;
@@ -74,22 +76,10 @@ fn from_table(entry: &Entry, table: &Table, reader: &mut Reader) -> Option<Discr
     let word = reader.string(value, "'method'")?;
     let method = method(word, reader)?;
     let before = reader.errors();
-    for (key, holds) in [("c", false), ("prewarp", false), ("delay", true)] {
-        let belongs = if holds { method.is_hold() } else { method == Method::Tustin };
-        if let Some(entry) = table.entry(key).filter(|_| !belongs) {
-            let (message, help) = if holds {
-                ("'delay' belongs to the methods 'zoh' and 'foh'", "add a block with 'delay' for whole samples")
-            } else {
-                (
-                    if key == "c" {
-                        "'c' belongs to the method 'tustin'"
-                    } else {
-                        "'prewarp' belongs to the method 'tustin'"
-                    },
-                    "leave it out",
-                )
-            };
-            reader.report(wrong(message, entry.key_span, "has no meaning here", help));
+    for (key, help) in METHOD_KEYS {
+        if let Some(entry) = table.entry(key).filter(|_| !method.has_key(key)) {
+            let message = format!("'{key}' belongs to {}", Method::with_key(key));
+            reader.report(wrong(&message, entry.key_span, "has no meaning here", help));
         }
     }
     if let (Some(c), Some(prewarp)) = (table.entry("c"), table.entry("prewarp")) {

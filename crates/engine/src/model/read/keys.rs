@@ -1,5 +1,6 @@
 //! The keys of a model file: what the reader knows, and what its JSON schema says.
 
+use crate::model::discretization::LIST as METHOD_LIST;
 use crate::response::LIST;
 
 /// A key of a table.
@@ -18,6 +19,8 @@ pub(super) enum Shape {
     Text,
     /// One of these words.
     OneOf(&'static [&'static str]),
+    /// The name of a method of discretisation.
+    Method,
     /// A number, or a formula of numbers.
     Number,
     /// A number, or an expression in constants and parameters.
@@ -56,7 +59,15 @@ const fn needed(name: &'static str, shape: Shape, about: &'static str) -> Key {
 pub(super) const TIMES: [&str; 2] = ["discrete", "continuous"];
 
 /// The methods of `discretize`.
-pub(super) const METHODS: [&str; 5] = ["zoh", "foh", "tustin", "forward", "backward"];
+pub(super) const METHODS: [&str; METHOD_LIST.len()] = {
+    let mut names = [""; METHOD_LIST.len()];
+    let mut k = 0;
+    while k < METHOD_LIST.len() {
+        names[k] = METHOD_LIST[k].name;
+        k += 1;
+    }
+    names
+};
 
 /// The whole file.
 pub(super) const MODEL: [Key; 9] = [
@@ -139,12 +150,7 @@ pub(super) const BLOCK: [Key; 14] = [
 
 /// The table `discretize` of a block.
 pub(super) const DISCRETIZE: [Key; 5] = [
-    needed(
-        "method",
-        Shape::OneOf(&METHODS),
-        "zoh, foh: exact behind a zero-order or first-order hold; tustin: s = c (z-1)/(z+1); forward: s = (z-1)/T; \
-         backward: s = (z-1)/(T z)",
-    ),
+    needed("method", Shape::Method, "the rule or the hold"),
     key("T", Shape::Expression, "the sample time, that of the loop when missing"),
     key("c", Shape::Expression, "the factor of tustin, 2/T when missing"),
     key("prewarp", Shape::Expression, "the angular frequency at which tustin is exact, below half the sampling rate"),

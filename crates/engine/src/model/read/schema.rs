@@ -1,6 +1,7 @@
 //! The JSON schema of model files, from the keys that the reader knows.
 
-use super::keys::{CONSTANT, Key, MODEL, PARAMETER, Shape, TOLERANCE};
+use super::keys::{CONSTANT, Key, METHODS, MODEL, PARAMETER, Shape, TOLERANCE};
+use crate::model::discretization::Method;
 use serde_json::{Map, Value, json};
 
 /// The JSON schema (draft 7) of model files, for editors and checkers of TOML: made of the same lists of keys that the
@@ -27,7 +28,13 @@ fn table(keys: &[Key]) -> Map<String, Value> {
     let mut properties = Map::new();
     for key in keys {
         let mut property = shape(&key.shape);
-        property.insert("description".into(), key.about.into());
+        let about = match key.shape {
+            Shape::Method => Method::all()
+                .iter()
+                .fold(key.about.to_owned(), |text, method| format!("{text}; {}: {}", method.name, method.about)),
+            _ => key.about.to_owned(),
+        };
+        property.insert("description".into(), about.into());
         properties.insert(key.name.into(), property.into());
     }
     let needed: Vec<&str> = keys.iter().filter(|k| k.is_needed).map(|k| k.name).collect();
@@ -44,6 +51,7 @@ fn shape(shape: &Shape) -> Map<String, Value> {
     object(match shape {
         Shape::Text => json!({ "type": "string" }),
         Shape::OneOf(words) => json!({ "enum": words }),
+        Shape::Method => json!({ "enum": METHODS }),
         Shape::Number | Shape::Expression => number(),
         Shape::Expressions => json!({ "type": ["number", "string", "array"], "items": number() }),
         Shape::Names => json!({ "type": ["string", "array"], "items": { "type": "string" } }),

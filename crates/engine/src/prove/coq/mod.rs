@@ -7,6 +7,7 @@ mod point;
 mod statement;
 
 use crate::answer::{Answer, PointVerdict, Verdict};
+use crate::coverage::refusals::NOT_FOR_COQ;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Form, Matrix, Model};
 use crate::problem::Problem;
@@ -98,19 +99,16 @@ impl Answer<PointVerdict> {
 }
 
 const OTHERS: &str = "take '--certificate' or '--smt2'";
-const CERTIFICATE: &str = "take '--certificate'";
 
 fn refused(why: impl Into<String>, help: impl Into<String>) -> Error {
     Diagnostic::error(Code::Coq, format!("no file for Coq: {}", why.into())).help(help).into()
 }
 
-/// What makes a loop one without polynomials over the integers; a long definition is left out.
-fn not_rational(name: &str, definition: &str) -> String {
-    if definition.starts_with("exp(") && definition.len() < 60 {
-        format!("the loop is not rational, it contains {name} = {definition}")
-    } else {
-        "the loop is not rational, it contains exponentials or other functions".to_owned()
-    }
+/// The refusal of a loop without polynomials over the integers; a long definition is left out.
+fn not_rational(name: &str, definition: &str) -> Error {
+    let short = (definition.starts_with("exp(") && definition.len() < 60).then(|| format!("{name} = {definition}"));
+    let what = short.as_deref().unwrap_or("exponentials or other functions");
+    NOT_FOR_COQ.diagnostic(&[("what", what)]).into()
 }
 
 /// A function, or `pi`, in the entries of a model of matrices or in what they are made of.
@@ -156,7 +154,7 @@ impl Loop {
         let kept: Vec<String> = problem.free().iter().map(|f| f.name.clone()).collect();
         let evaluated = problem.model().evaluate(&kept, problem.set(), budget)?;
         if let Some((name, text)) = evaluated.symbols.definitions().into_iter().next() {
-            return Err(refused(not_rational(&name, &text), CERTIFICATE));
+            return Err(not_rational(&name, &text));
         }
         if let Some(what) = unstated(problem.model(), problem.set(), &kept) {
             let why = format!("an entry contains {what}, and entries are stated as typed");

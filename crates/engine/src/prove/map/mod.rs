@@ -10,6 +10,7 @@ use super::refuse_requirements;
 use super::statement::{about, boundary, number, object, region, set};
 use super::text::{MAX_TEXT, to_text};
 use crate::answer::{Answer, Map};
+use crate::coverage::refusals::{MAP_OF_CONSTANTS, MAP_WITH_DEAD_TIME};
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Bound, Problem};
 use crate::stability::Range;
@@ -107,19 +108,17 @@ impl Problem {
         }
         let symbols = self.algebra_over_symbols(budget)?.symbols();
         if !symbols.delays().is_empty() {
-            return Err(no_certificate("no certificate of a map: the loop has dead time"));
+            return Err(MAP_WITH_DEAD_TIME.diagnostic(&[]).into());
         }
         if !self.positive().is_empty() || !symbols.is_empty() || symbols.are_brought() {
-            return Err(no_certificate("no certificate of a map: the loop has constants that are not rational"));
+            return Err(MAP_OF_CONSTANTS.diagnostic(&[]).into());
         }
         Ok(())
     }
 }
 
 fn no_certificate(why: impl Into<String>) -> Error {
-    Diagnostic::error(Code::NoCertificate, why)
-        .help("exact maps have one where the loop is rational, the bound of its region a number, and stability all that is asked; with constants that are not rational maps by boxes have one: --method boxes")
-        .into()
+    Diagnostic::error(Code::NoCertificate, why).help(MAP_OF_CONSTANTS.help).into()
 }
 
 /// That the stable points are in these cells.

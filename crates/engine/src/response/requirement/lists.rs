@@ -1,6 +1,7 @@
 //! What is written elsewhere from the list of requirements: Python's keywords, and a table of the documentation.
 
 use super::RequirementKind;
+use crate::published::{between, publish};
 
 /// The words of an entry in Python: regions are keywords of every question.
 fn in_python() -> String {
@@ -28,22 +29,6 @@ fn in_the_documentation() -> String {
     });
     let rows: String = rows.collect();
     format!("| key | option | what it asks for |\n|---|---|---|\n{rows}")
-}
-
-/// The text between a line that has `begin` and one that has `end`, with what is before and after.
-fn between<'t>(text: &'t str, begin: &str, end: &str) -> [&'t str; 3] {
-    let from =
-        text.find(begin).and_then(|k| Some(k + text[k..].find('\n')? + 1)).expect("a line that begins the table");
-    let to = from + text[from..].find(end).expect("a line that ends the table");
-    [&text[..from], &text[from..to], &text[to..]]
-}
-
-fn publish(path: &str, written: &str, made: &str, whole: &str) {
-    if std::env::var_os("UPDATE_SCHEMAS").is_some() {
-        std::fs::write(path, whole).expect("the file can be written");
-        return;
-    }
-    assert_eq!(written, made, "UPDATE_SCHEMAS=1 cargo test -p jurist-engine --lib schemas writes {path}");
 }
 
 #[test]

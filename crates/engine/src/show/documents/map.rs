@@ -3,6 +3,7 @@
 use super::Answered;
 use super::end::{Bounds, FrequencyOfPair, PlainEnd};
 use super::number::{Enclosure, Exact, Named, Number, enclosure};
+use super::plan::Plan;
 use super::question::{RegionBound, title};
 use super::required_map::RequiredInPlane;
 use super::schema_name;
@@ -68,6 +69,9 @@ pub struct MapQuestion {
     /// The region.
     #[serde(flatten)]
     pub region: RegionBound,
+    /// How the question is decided, where that was asked for with `--explain`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<Plan>,
 }
 
 /// The exact decomposition: curves, strips between critical values of x, cells between branches of the curves.
@@ -303,6 +307,7 @@ impl MapQuestion {
             set: problem.set().into(),
             domain: Pair { x: (&x.domain).into(), y: (&y.domain).into() },
             region: problem.region().into(),
+            plan: Plan::of(problem),
         }
     }
 }

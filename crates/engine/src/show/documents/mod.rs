@@ -23,11 +23,13 @@ mod check;
 mod end;
 mod intervals;
 mod jury;
+mod list;
 mod map;
 mod margins;
 mod norm;
 mod number;
 mod over;
+mod plan;
 mod question;
 mod required_map;
 mod requirements;
@@ -53,6 +55,7 @@ pub use jury::{
     Condition, Holds, Jury, JuryAtPoint, JuryInParameter, JuryName, PointTable, Relation, Row, RowsOpen, Solution,
     SolvedTable, TableInParameter, TableKind, TableOpen,
 };
+pub use list::{NAMES, through_its_type};
 pub use map::{
     Branch, Cell, CellVerdict, Curve, CurveTerm, Map, MapName, MapOpen, MapQuestion, Pair, Place, PlaneRegion,
     RegionEnd, RegionLimit, Regions, Strip, Wall,
@@ -64,6 +67,7 @@ pub use margins::{
 pub use norm::{Norm, NormFound, NormName, NormOpen, PeakFound};
 pub use number::{Enclosure, Exact, Named, Number, NumberKind};
 pub use over::{AlgebraicPlace, Over};
+pub use plan::{Plan, PlannedMethod};
 pub use question::{ParameterQuestion, PointQuestion, RegionBound};
 pub use required_map::{RequiredCell, RequiredInPlane, RequiredRegion, RequiredSetOfRegions, RequiredStrip};
 pub use requirements::{RequirementAsked, RequirementFound};

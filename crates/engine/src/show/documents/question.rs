@@ -2,6 +2,7 @@
 
 use super::end::Bounds;
 use super::number::{Exact, Named};
+use super::plan::Plan;
 use crate::model::Time;
 use crate::problem::{Problem, Region};
 use serde::{Deserialize, Serialize};
@@ -46,6 +47,9 @@ pub struct ParameterQuestion {
     /// The region.
     #[serde(flatten)]
     pub region: RegionBound,
+    /// How the question is decided, where that was asked for with `--explain`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<Plan>,
 }
 
 impl ParameterQuestion {
@@ -60,6 +64,7 @@ impl ParameterQuestion {
             set: problem.set().into(),
             domain: (&free.domain).into(),
             region: problem.region().into(),
+            plan: Plan::of(problem),
         }
     }
 }
@@ -77,6 +82,9 @@ pub struct PointQuestion {
     /// The region.
     #[serde(flatten)]
     pub region: RegionBound,
+    /// How the question is decided, where that was asked for with `--explain`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<Plan>,
 }
 
 impl PointQuestion {
@@ -86,6 +94,7 @@ impl PointQuestion {
             time: problem.time(),
             set: problem.set().into(),
             region: problem.region().into(),
+            plan: Plan::of(problem),
         }
     }
 }

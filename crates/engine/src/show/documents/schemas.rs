@@ -1,9 +1,5 @@
 //! JSON Schemas of the documents, made of their types.
 
-use super::{
-    Analysis, Body, Charpoly, Check, Intervals, Jury, Map, MapBoxes, Margins, Norm, RootLocusForm, Tolerance, Transfer,
-    Verdict,
-};
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
@@ -19,25 +15,7 @@ pub fn schema_of<T: JsonSchema>(name: &str) -> Value {
 
 /// The documents of the engine: kind with version, and schema.
 pub fn schemas() -> Vec<(&'static str, Value)> {
-    fn entry<T: JsonSchema>(name: &'static str) -> (&'static str, Value) {
-        (name, schema_of::<T>(name))
-    }
-    vec![
-        entry::<Analysis>("jurist/analyze/1"),
-        entry::<Body>("jurist/body/1"),
-        entry::<Charpoly>("jurist/charpoly/1"),
-        entry::<Check>("jurist/check/1"),
-        entry::<Intervals>("jurist/intervals/1"),
-        entry::<Jury>("jurist/jury/1"),
-        entry::<Map>("jurist/map/1"),
-        entry::<MapBoxes>("jurist/map-boxes/1"),
-        entry::<Margins>("jurist/margins/1"),
-        entry::<Norm>("jurist/norm/1"),
-        entry::<RootLocusForm>("jurist/root-locus-form/1"),
-        entry::<Tolerance>("jurist/tolerance/1"),
-        entry::<Transfer>("jurist/transfer/1"),
-        entry::<Verdict>("jurist/verdict/1"),
-    ]
+    super::list::schemas()
 }
 
 /// Compares schemas with the files of a folder, `intervals-1.schema.json` for `jurist/intervals/1`, and writes these first if

@@ -1,6 +1,7 @@
 //! The document `jurist/tolerance/1`.
 
 use super::number::{Exact, Named};
+use super::plan::Plan;
 use super::question::{RegionBound, title};
 use super::requirements::RequirementAsked;
 use super::{Answered, End, FrequencyOfPair, RootsByPlace, Undecided, schema_name};
@@ -31,6 +32,9 @@ pub struct Tolerance {
     pub set: Named<Exact>,
     /// The region in which all roots have to lie, where it is smaller than that of plain stability.
     pub region: RegionBound,
+    /// How the question is decided, where that was asked for with `--explain`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<Plan>,
     /// What is known.
     #[serde(flatten)]
     pub answer: Answered<ToleranceFound, ToleranceOpen>,
@@ -192,6 +196,7 @@ impl Tolerance {
             time: problem.time(),
             set: problem.set().into(),
             region: problem.region().into(),
+            plan: Plan::of(problem),
             answer: Answered::of(answer, |answer| found(problem, answer, digits)),
         }
     }

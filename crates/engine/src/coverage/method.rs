@@ -1,0 +1,151 @@
+//! How answers are found, for `--explain` and the documentation.
+
+/// A way to an answer.
+///
+/// ```
+/// use jurist_engine::coverage::{Asked, CoefficientRing};
+/// let method = Asked::Intervals.over(CoefficientRing::Rational).method().unwrap();
+/// assert_eq!(method.name, "zeros of boundary polynomials");
+/// ```
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct Method {
+    /// Its name.
+    pub name: &'static str,
+    /// Why its answer is right, in one or two sentences.
+    pub how: &'static str,
+    /// Where it is in the code, below `jurist_engine`.
+    pub place: &'static str,
+}
+
+impl Method {
+    const fn new(name: &'static str, how: &'static str, place: &'static str) -> Method {
+        Method { name, how, place }
+    }
+}
+
+pub(super) static COUNT: Method = Method::new(
+    "root count of the half-size pair",
+    "Enclosures of the closed loop count the roots where none can be on the boundary; else a remainder sequence of the half-size pair counts them exactly.",
+    "stability::count_roots",
+);
+pub(super) static ENCLOSED_COUNT: Method = Method::new(
+    "root count with enclosed constants",
+    "The constants are enclosed with more bits until every sign of the remainder sequence is certain; zero is told by an identity in symbols alone.",
+    "stability::SymbolicPolynomial::at",
+);
+pub(super) static ARGUMENT: Method = Method::new(
+    "argument principle along the imaginary axis",
+    "The argument of the characteristic function turns by a quarter for each root left of the axis; the turns are counted between certified frequencies (Mikhailov).",
+    "stability::dead_time::count_delayed_roots",
+);
+pub(super) static ZEROS: Method = Method::new(
+    "zeros of boundary polynomials",
+    "The number of stable roots changes only at real zeros of D(1), D(-1) (or D(0)), of the resultant of the half-size pair, where the degree is lost, and at poles. They are isolated exactly, and one rational number between two neighbours is decided.",
+    "stability::stable_set",
+);
+pub(super) static ENCLOSED_ZEROS: Method = Method::new(
+    "zeros of boundary polynomials over constants",
+    "The same boundary polynomials with enclosed coefficients: each zero is bracketed where a derivative keeps its sign, and one rational number between two neighbours is decided.",
+    "stability::symbolic_stable_set",
+);
+pub(super) static FUNCTION_ZEROS: Method = Method::new(
+    "zeros of boundary functions",
+    "The boundary functions have functions of the parameter as coefficients. Taylor models enclose them on pieces of the domain, which are halved until each has no zero or one; what is not told stays as a bracket.",
+    "stability::symbolic_stable_set",
+);
+pub(super) static CROSSINGS: Method = Method::new(
+    "crossings of the imaginary axis",
+    "Of a free dead time all crossings are algebraic and repeat, so all windows follow by addition (Walton and Marshall). Of another parameter, values with a root on the axis are zeros of one function of the frequency, isolated with proved bounds; a count between two neighbours decides the gap.",
+    "stability::dead_time",
+);
+pub(super) static SAMPLES: Method = Method::new(
+    "one order after another",
+    "The domain is divided where the dead time is a whole number of samples; between two such values the order is fixed, and the loop is one with functions of the parameter.",
+    "problem::Problem::stable_set_by_samples",
+);
+pub(super) static TABLE: Method = Method::new(
+    "Jury's or Routh's table",
+    "The classical table, and its conditions solved; the answer is compared with the zeros of the boundary polynomials.",
+    "stability::classical_test",
+);
+pub(super) static ENCLOSED_TABLE: Method = Method::new(
+    "Jury's or Routh's table over constants",
+    "The classical table with enclosed entries; the answer is compared with the zeros of the boundary polynomials.",
+    "stability::SymbolicPolynomial::classical_test",
+);
+pub(super) static DECOMPOSITION: Method = Method::new(
+    "cylindrical decomposition of the plane",
+    "The plane is cut at the critical values of the boundary curves (Collins, McCallum), and one rational point of each cell is decided.",
+    "stability::plane::stability_map",
+);
+pub(super) static PLANE_BOXES: Method = Method::new(
+    "boxes by Bernstein coefficients",
+    "A box that no boundary curve meets has one number of roots outside, counted at its middle; Bernstein coefficients, enclosed where there are constants, show that a curve does not meet it (Zettler and Garloff). Others are halved.",
+    "answer::Problem::map_by",
+);
+pub(super) static FUNCTION_BOXES: Method = Method::new(
+    "boxes by Taylor models",
+    "Functions of the parameters are enclosed by Taylor models in each box; one that no boundary function meets has one number of roots outside. Others are halved.",
+    "stability::boxes::MovingPolynomial",
+);
+pub(super) static DELAYED_BOXES: Method = Method::new(
+    "boxes by argument counts",
+    "The characteristic function is walked along the imaginary axis for all points of a box at once: where it cannot vanish, the turns of its argument count the roots of all of them. Other boxes are halved.",
+    "stability::dead_time::PlaneLoop::boxes",
+);
+pub(super) static TENSOR: Method = Method::new(
+    "Bernstein tensor in frequency and parameters",
+    "The polynomial on the boundary is a pair of polynomials in frequency and parameters. Their tensor of Bernstein coefficients is halved until zero lies outside of each cell: no root crosses anywhere in the box.",
+    "stability::boxes::ToleranceProblem",
+);
+pub(super) static FUNCTION_TENSOR: Method = Method::new(
+    "Bernstein tensor with Taylor models",
+    "As the Bernstein tensor; functions of the parameters are Taylor models in each part of the box, of which the tensor takes the polynomial and a bound of the rest.",
+    "stability::boxes::MovingPolynomial",
+);
+pub(super) static DELAYED_TENSOR: Method = Method::new(
+    "Bernstein tensor with Taylor models of the delays",
+    "The box is cut in frequency and parameters; exp(-i w tau) is a Taylor model in both, and beyond a bound of the frequency no root is on the axis.",
+    "stability::boxes::DelayedFunction",
+);
+pub(super) static POLYNOMIAL: Method = Method::new(
+    "characteristic polynomial",
+    "The determinant of the closed loop by the multimodular Hessenberg form; constants and functions that are not rational are further variables.",
+    "problem::Problem::algebra_over_symbols",
+);
+pub(super) static DIFFERENCES: Method = Method::new(
+    "implicit derivatives of the limits",
+    "Each limit is a zero of a boundary polynomial; its derivative by another name is a quotient of partial derivatives there.",
+    "answer::Sensitivities",
+);
+pub(super) static FREQUENCIES: Method = Method::new(
+    "crossings of the open loop",
+    "Frequencies at which the open loop has modulus one, is real, or is nearest to -1 are real zeros of polynomials in the half-size variable, isolated exactly or with enclosed constants.",
+    "response::Margins",
+);
+pub(super) static RESULTANTS: Method = Method::new(
+    "resultants of the open loop with the requirement",
+    "A requirement begins or ceases to be met where a resultant in the free names vanishes; one rational point between is decided.",
+    "problem::Problem::required_set",
+);
+pub(super) static ENCLOSED_RESULTANTS: Method = Method::new(
+    "enclosed resultants of the open loop with the requirement",
+    "The same resultants, enclosed and not expanded; what they leave open stays as a bracket.",
+    "problem::Problem::required_set",
+);
+pub(super) static FLOATING: Method = Method::new(
+    "floating point",
+    "A picture or a course of signals, rounded; crossings and margins that are marked on it are exact.",
+    "jurist_draw",
+);
+pub(super) static SEVERAL: Method = Method::new(
+    "several questions",
+    "Each part is a question of its own; a part that is refused or undecided says so.",
+    "answer::Analysis",
+);
+pub(super) static WITNESSES: Method = Method::new(
+    "a certificate of the answer",
+    "The zeros, counts and cells that decided the answer are written down; checkers that share no code with the engine read the model themselves and test them.",
+    "prove",
+);

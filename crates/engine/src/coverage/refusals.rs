@@ -1,0 +1,150 @@
+//! The refusals of the table: each with its code, its words, and what to ask instead.
+
+use crate::error::{Code, Diagnostic};
+
+/// How a question is refused. Words in braces stand for what is known only of a question, such as `{name}`.
+///
+/// ```
+/// use jurist_engine::coverage::{Asked, CoefficientRing};
+/// let refusal = Asked::ExactMap.over(CoefficientRing::Functions).refusal().unwrap();
+/// let error = refusal.diagnostic(&[("name", "T")]);
+/// assert_eq!(error.message, "'T' is inside of functions, as behind a hold: there is no exact map");
+/// ```
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct Refusal {
+    /// The code.
+    pub code: Code,
+    /// What is wrong.
+    pub message: &'static str,
+    /// What to ask instead.
+    pub help: &'static str,
+}
+
+impl Refusal {
+    const fn new(code: Code, message: &'static str, help: &'static str) -> Refusal {
+        Refusal { code, message, help }
+    }
+
+    /// The diagnostic, with words in the places of their names in braces.
+    pub fn diagnostic(&self, words: &[(&str, &str)]) -> Diagnostic {
+        Diagnostic::error(self.code, filled(self.message, words)).help(filled(self.help, words))
+    }
+
+    /// True if an error of this message may be this refusal: the texts between braces are in it, in their order.
+    pub fn is_of(&self, code: Code, message: &str) -> bool {
+        let mut rest = message;
+        self.code == code
+            && self.message.split(['{', '}']).step_by(2).all(|part| match rest.find(part) {
+                Some(at) => {
+                    rest = &rest[at + part.len()..];
+                    true
+                }
+                None => false,
+            })
+    }
+}
+
+fn filled(text: &str, words: &[(&str, &str)]) -> String {
+    words.iter().fold(text.to_owned(), |text, (name, word)| text.replace(&format!("{{{name}}}"), word))
+}
+
+const KNOWN: &str = "known of it: {known}";
+const AT_A_POINT: &str = "ask 'verdict' with a value for every parameter";
+const OTHER_CERTIFICATES: &str = "known: loops behind a hold, or with prewarp, at times that are rational numbers, the dead time of a loop with one, a gain beside a fixed one; the answer is printed without it";
+const CERTIFIED_MAPS: &str = "exact maps have one where the loop is rational, the bound of its region a number, and stability all that is asked; with constants that are not rational maps by boxes have one: --method boxes";
+
+pub(crate) static DEAD_TIME: Refusal =
+    Refusal::new(Code::DeadTime, "this cannot be asked of a loop with dead time yet", KNOWN);
+pub(crate) static BESIDE_DEAD_TIME: Refusal = Refusal::new(
+    Code::DeadTime,
+    "beside dead time the loop contains other functions that are not rational",
+    "write the values of exp, sqrt, sin, cos, tan and pi as numbers",
+);
+pub(crate) static FUNCTIONS: Refusal = Refusal::new(
+    Code::Function,
+    "this question is answered for rational loops only, and this loop has functions, as behind a hold",
+    "known of it: {known}; it contains {symbols}",
+);
+pub(crate) static INSIDE: Refusal = Refusal::new(
+    Code::Function,
+    "'{name}' is inside of functions, as behind a hold: there is no exact map",
+    "maps with '{name}' are made of boxes: '--method boxes' with windows of both axes",
+);
+/// It points into the model: `model` makes it of these words.
+pub(crate) static NO_FIXED_ORDER: Refusal = Refusal::new(
+    Code::Function,
+    "the dead time of '{name}' is no fixed number of samples",
+    "give it as a multiple of the sample time (delay = \"1.5*T\"), or set all that it depends on",
+);
+pub(crate) static FEEDBACK: Refusal = Refusal::new(
+    Code::DeadTime,
+    "the peak gain is not known yet where dead time is in the feedback, or in one of several paths to the output",
+    "the peak of the sensitivity 1/(1 + L) is the inverse of the modulus margin: 'jurist margins'",
+);
+pub(crate) static ONE_FACTOR: Refusal = Refusal::new(
+    Code::DeadTime,
+    "with dead time this is known where one factor of the open loop has it, and all else is rational",
+    "the gain margin is the limit of a gain: 'jurist intervals --param GAIN'",
+);
+pub(crate) static DECAY: Refusal = Refusal::new(
+    Code::DeadTime,
+    "a decay rate cannot be asked of {what} in a loop with dead time yet",
+    "ask for one parameter: 'intervals --param NAME --decay S'",
+);
+const ONE_SLICE: &str = "boxes decide one slice at a time, with windows of both axes: '{slice}'";
+pub(crate) static SLICES: Refusal = Refusal::new(
+    Code::Function,
+    "slices are exact maps, and a parameter is inside of functions of this loop, as behind a hold",
+    ONE_SLICE,
+);
+pub(crate) static SLICES_WITH_DEAD_TIME: Refusal =
+    Refusal::new(Code::DeadTime, "slices are exact maps, and this loop has dead time", ONE_SLICE);
+pub(crate) static SLICES_ARE_OF_STABILITY: Refusal = Refusal::new(
+    Code::Require,
+    "the slices of '-z' are of stability alone, without '{option}'",
+    "leave out '-z' and give its parameter one value with '--set'",
+);
+pub(crate) static BOXES_ARE_OF_STABILITY: Refusal =
+    Refusal::new(Code::Require, "boxes decide stability only, no requirements", "leave out '--method boxes'");
+pub(crate) static ONLY_THE_BOX: Refusal = Refusal::new(
+    Code::Tolerance,
+    "{what} not asked of tolerances inside of functions or with dead time yet",
+    "known of it: whether the box is stable, the largest factor with its worst point and shares, and --limit",
+);
+pub(crate) static MARGINS_AT_POINTS: Refusal = Refusal::new(
+    Code::Require,
+    "requirements on margins are decided at points for loops with dead time in continuous time",
+    "ask 'verdict' or 'margins' with a value for every parameter",
+);
+pub(crate) static MARGINS_IN_ONE: Refusal = Refusal::new(
+    Code::Require,
+    "requirements on margins are decided in one parameter for loops with functions that are not rational",
+    "ask 'intervals' for one of the parameters, or 'margins' with a value for each",
+);
+pub(crate) static DELAY_AT_POINTS: Refusal =
+    Refusal::new(Code::Require, "a delay margin is decided at points only, not as a set of a parameter", AT_A_POINT);
+pub(crate) static NOT_A_SET: Refusal =
+    Refusal::new(Code::Require, "the requirement {name} is not decided as a set for this loop", "{help}");
+pub(crate) static NOT_IN_A_PLANE: Refusal =
+    Refusal::new(Code::Require, "the requirement {name} is not decided for two parameters", "{help}");
+pub(crate) static NOT_OVER_A_BOX: Refusal =
+    Refusal::new(Code::Require, "the requirement {name} is not decided over a box of tolerances", "{help}");
+pub(crate) static NOT_ALGEBRAIC: Refusal =
+    Refusal::new(Code::NoCertificate, "{what}: the limits are not algebraic numbers", OTHER_CERTIFICATES);
+pub(crate) static NO_CERTIFICATE: Refusal =
+    Refusal::new(Code::NoCertificate, "no certificate{of}: {why}", OTHER_CERTIFICATES);
+pub(crate) static CERTIFIED_BESIDE: Refusal = Refusal::new(
+    Code::NoCertificate,
+    "no certificate of this map by boxes: {why}",
+    "the checkers read the model themselves; the answer is printed without '--certificate'",
+);
+pub(crate) static MAP_OF_CONSTANTS: Refusal = Refusal::new(
+    Code::NoCertificate,
+    "no certificate of a map: the loop has constants that are not rational",
+    CERTIFIED_MAPS,
+);
+pub(crate) static MAP_WITH_DEAD_TIME: Refusal =
+    Refusal::new(Code::NoCertificate, "no certificate of a map: the loop has dead time", CERTIFIED_MAPS);
+pub(crate) static NOT_FOR_COQ: Refusal =
+    Refusal::new(Code::Coq, "no file for Coq: the loop is not rational, it contains {what}", "take '--certificate'");

@@ -1,0 +1,14 @@
+//! The first-order hold: inputs are straight between samples (triangle hold, not causal by itself).
+
+use super::{Kind, Method};
+
+pub(super) const METHOD: Method = Method {
+    name: "foh",
+    words: "first-order hold",
+    about: "exact behind a first-order hold",
+    spellings: &["first-order hold", "triangle"],
+    advice: "",
+    keys: &["delay"],
+    keeps_states: false,
+    kind: Kind::Hold { is_first_order: true, exact: "exact for inputs that are straight between the samples." },
+};

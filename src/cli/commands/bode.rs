@@ -1,0 +1,28 @@
+//! `jurist bode`: modulus and phase of the open loop over frequency.
+
+use super::{Context, Runs, frequency_response};
+use crate::cli::arguments::RunOptions;
+use crate::cli::destinations::Files;
+use crate::cli::status::{Error, Outcome};
+use clap::Args;
+
+/// Options of `jurist bode`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    #[command(flatten)]
+    pub picture: frequency_response::Options,
+}
+
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        frequency_response::run(&self.picture, frequency_response::BODE, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.picture.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.picture(&self.picture.model.model, &self.picture.picture)
+    }
+}

@@ -1,0 +1,169 @@
+//! The table of what is answered: every question is asked of a loop over each ring, and its outcome is the one that the table says.
+
+use jurist::cli::captured;
+use jurist_algebra::limits::{Budget, parallel_map};
+use jurist_engine::coverage::{Asked, CoefficientRing, Coverage, rows};
+use jurist_engine::error::{Error, Source};
+use jurist_engine::model::{Model, Time};
+use std::path::Path;
+
+/// A loop over a ring with the names `K`, which decides the ring, `L` and `W`.
+struct Loop {
+    ring: CoefficientRing,
+    model: Model,
+}
+
+/// Unity feedback of a plant with a gain `K*W`, discrete where it is made so.
+fn of_blocks(ring: CoefficientRing, transfer: &str, discretize: &str) -> Loop {
+    let time = if transfer.contains('z') || !discretize.is_empty() { "discrete" } else { "continuous" };
+    let (sample_time, gain) = match ring {
+        CoefficientRing::VaryingOrder => ("sample_time = 'K'\n", "W"),
+        _ => ("", "K*W"),
+    };
+    let text = format!(
+        "time = '{time}'\n{sample_time}[parameters]\nK = {{ nominal = '1/2', min = '1/10', max = 10 }}\n\
+         L = {{ nominal = 1, min = 0, max = 10 }}\nW = {{ nominal = 1, min = '1/2', max = 3 }}\n\
+         [loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'plant'\ninput = '{gain}*(r - y)'\noutput = 'y'\n\
+         transfer = '{transfer}'\n{discretize}"
+    );
+    Loop { ring, model: Model::from_toml(&Source::new("loop.toml", &text)).expect("a model").0 }
+}
+
+fn loops() -> Vec<Loop> {
+    use CoefficientRing::*;
+    let zoh = "discretize = { method = 'zoh', T = '1/10' }\n";
+    vec![
+        of_blocks(Rational, "1/(z - L/2)", ""),
+        of_blocks(Rational, "1/((s + L)*(s + 1)*(s + 2))", ""),
+        of_blocks(Constants, "L/(s + 1)", zoh),
+        of_blocks(Constants, "L/((s + sqrt(2))*(s + 1)*(s + 2))", ""),
+        of_blocks(Functions, "L/(s + K)", zoh),
+        of_blocks(Functions, "L/((s + sqrt(K + 1))*(s + 1)*(s + 2))", ""),
+        of_blocks(DeadTime, "L*exp(-s/2)/(s + 1)", ""),
+        of_blocks(DeadTimeBesideFunctions, "L*exp(-s/2)/(s + sqrt(2))", ""),
+        of_blocks(VaryingOrder, "L/(5*(s + 1))", "discretize = { method = 'zoh', delay = '13/10' }\n"),
+    ]
+}
+
+/// The arguments of a row's command, about the names of [`Loop`].
+fn arguments(command: &str, time: Time, file: &str) -> Vec<String> {
+    let (region, bound) = match time {
+        Time::Discrete => ("--radius=9/10", "radius"),
+        Time::Continuous => ("--decay=1/100", "decay"),
+    };
+    let mut names = ["K", "L"].into_iter().cycle();
+    let mut words = command.split(' ');
+    let mut out: Vec<String> = words.by_ref().take(1).map(str::to_owned).collect();
+    out.push("-".to_owned());
+    let mut third = false;
+    for word in words {
+        let word = match word {
+            "REGION" => region.to_owned(),
+            "BOUND" => bound.to_owned(),
+            "FILE" => file.to_owned(),
+            "INPUT" => "r".to_owned(),
+            "OUTPUT" => "y".to_owned(),
+            "NAME" if out[0] == "map" => format!("{}=0.1..2", names.next().expect("without end")),
+            "NAME" => names.next().expect("without end").to_owned(),
+            _ if third => "W=1..2:2".to_owned(),
+            _ if word.contains("NAME") => word.replace("NAME", names.next().expect("without end")),
+            _ => word.to_owned(),
+        };
+        third = word == "-z";
+        out.push(word);
+    }
+    let further: &[&str] = match out[0].as_str() {
+        "norm" => &["r", "y"],
+        "bode" | "nyquist" | "simulate" => &["--json"],
+        "locus" => &["--range", "0.1..2", "--json"],
+        "report" => &["-o", file],
+        "map" if command.contains("boxes") => &["--undecided", "3/10"],
+        _ => &[],
+    };
+    out.extend(further.iter().map(|&word| word.to_owned()));
+    out
+}
+
+/// What came of a question: no refusal, or what was refused.
+fn outcome(arguments: &[String], model: &Model) -> Result<String, Error> {
+    let words = arguments.iter().map(String::as_str);
+    let run = captured(words, model, &Budget::unlimited())?;
+    match run.notes.iter().find(|note| note.starts_with("undecided")) {
+        Some(note) => Ok(note.clone()),
+        None => Ok(run.output),
+    }
+}
+
+fn check(row: &jurist_engine::coverage::Row, of: &Loop, file: &str) -> Result<(), String> {
+    let arguments = arguments(row.command, of.model.time(), file);
+    let coverage = row.asked.over(of.ring);
+    let what = format!("{} of {}: {arguments:?}", row.command, of.ring.name());
+    let found = outcome(&arguments, &of.model);
+    let is_boxes = |text: &str| text.contains("boxes");
+    match (coverage, found) {
+        (Coverage::Refused(refusal) | Coverage::InPart(_, refusal), Err(Error::Refused(found))) => {
+            let first = &found.diagnostics()[0];
+            match refusal.is_of(first.code, &first.message) {
+                true => Ok(()),
+                false => Err(format!("{what}: the table says {refusal:?}, and it is {first:?}")),
+            }
+        }
+        // A part of an analysis that is refused is said to be open.
+        (Coverage::Refused(refusal), Ok(note)) if row.asked == Asked::Analyze && note.contains(refusal.message) => {
+            Ok(())
+        }
+        (Coverage::ByBoxes(_), Ok(text)) if is_boxes(&text) => Ok(()),
+        (Coverage::Answered(_), Ok(text)) if !text.starts_with("undecided") && !is_boxes(&text) => Ok(()),
+        (Coverage::InPart(..), Ok(text)) if !text.starts_with("undecided") => Ok(()),
+        (coverage, found) => Err(format!("{what}: the table says {}, and it is {found:?}", coverage.name())),
+    }
+}
+
+#[test]
+fn every_question_of_a_loop_over_each_ring_has_the_outcome_of_the_table() {
+    let folder = std::env::temp_dir().join(format!("jurist-coverage-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let loops = loops();
+    let wrong: Vec<Vec<String>> = parallel_map(rows(), |row| {
+        let file = folder.join(format!("{:?}.html", row.asked));
+        let of_time = |of: &&Loop| row.time.is_none_or(|time| time == of.model.time());
+        let asked = loops.iter().filter(of_time).map(|of| check(row, of, file.to_str().expect("a path")));
+        asked.filter_map(Result::err).collect::<Vec<_>>()
+    });
+    let wrong = wrong.concat();
+    std::fs::remove_dir_all(Path::new(&folder)).expect("removed");
+    assert!(wrong.is_empty(), "{} cells:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+#[test]
+fn the_ring_of_a_loop_is_seen() {
+    for of in loops() {
+        let problem = of.model.ask().free("K").problem().unwrap();
+        assert_eq!(problem.coefficient_ring(&Budget::unlimited()).unwrap(), of.ring);
+    }
+}
+
+#[test]
+fn explain_says_how_a_question_of_a_loop_over_each_ring_is_decided() {
+    for of in loops() {
+        let asked = |further: &[&str]| {
+            let arguments = ["intervals", "-", "--param", "K", "--domain", "K=1/10..1"].iter().chain(further).copied();
+            captured(arguments, &of.model, &Budget::unlimited())
+        };
+        let coverage = Asked::Intervals.over(of.ring);
+        let (Some(method), Ok(run)) = (coverage.method(), asked(&["--explain"])) else {
+            assert!(coverage.method().is_none(), "{}", of.ring.name());
+            continue;
+        };
+        let plain = asked(&[]).unwrap().output;
+        let plan = run.output.strip_prefix(&plain).expect("the answer comes first");
+        assert!(plan.starts_with("\nhow it is decided\n    question      intervals --param NAME\n"), "{plan}");
+        assert!(plan.contains(&format!("    coefficients  {}: ", of.ring.name())), "{plan}");
+        assert!(plan.contains(&format!("    method        {} ({})\n", method.name, method.place)), "{plan}");
+        let document: serde_json::Value =
+            serde_json::from_str(&asked(&["--explain", "--json"]).unwrap().output).unwrap();
+        assert_eq!(document["plan"]["ring"], of.ring.name());
+        assert_eq!(document["plan"]["method"]["name"], method.name);
+        assert!(asked(&["--json"]).unwrap().output.find("\"plan\"").is_none());
+    }
+}
