@@ -22,6 +22,7 @@ mod routh;
 mod stable_set;
 #[cfg(feature = "strategies")]
 pub mod strategies;
+pub(crate) mod subdivision;
 mod symbolic;
 
 pub use boundary::{Boundary, boundary_polynomials};

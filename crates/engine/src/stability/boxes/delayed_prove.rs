@@ -7,11 +7,11 @@
 //! but its modulus. Their Bernstein coefficients prove cells of a part as those of any other pair do.
 
 use super::delayed::DelayedFunction;
-use super::parts::{Known, Term, bundle, closed, corners, extent, middle, pruned};
+use super::parts::{Known, Local, Term, bundle, corners, extent, middle, pruned};
 use super::polynomial::Bundle;
 use super::prove::{BoxProof, Closing, Outcome, closed_by_constant, closed_by_vector, keeps_sign, simplest_point};
 use super::tensor::{FrequencyScale, Tensor, common_factor, expand};
-use super::tree::Tree;
+use crate::stability::subdivision::{BoxPart, Look, Order, Tally, decided, subdivide};
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel, cos_sin};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Integer, Rational, Sign};
@@ -48,9 +48,6 @@ const MOST_BOXES: usize = 64;
 /// The exponents of two of frequencies beyond which the highest power may outweigh all others.
 const BOUNDS: std::ops::Range<i64> = -60..600;
 
-/// A part of the box and of the axis: the sides of the parameters, then the frequencies.
-type Sides = Vec<[Rational; 2]>;
-
 /// What is known of the function in a part; coordinates of what is inside of dead times, and of the frequency, go from -1 to 1.
 struct Part {
     pair: Vec<Known>,
@@ -86,22 +83,13 @@ impl DelayedFunction {
         if let Some(corner) = corners(whole).find_map(|point| self.refuted(point, reference)) {
             return Ok(corner);
         }
-        let mut boxes = vec![whole.to_vec()];
-        let mut stack = Vec::new();
-        while let Some(sides) = boxes.pop() {
-            budget.check()?;
-            if let Some(bound) = self.bound(&sides) {
-                stack.push(sides.into_iter().chain([[Rational::ZERO, bound]]).collect::<Sides>());
-                continue;
-            }
-            let widest = (0..sides.len()).max_by_key(|&i| (extent(&sides[i]), std::cmp::Reverse(i)));
-            let Some(axis) = widest.filter(|_| boxes.len() + stack.len() < MOST_BOXES) else {
+        match self.bounded(whole, budget)? {
+            Ok(parts) => self.parts_proved(parts, whole, (reference, scale), cells.min(MOST_PARTS), budget),
+            Err(cell) => {
                 let why = "the highest power of s may not outweigh its delayed part";
-                return Ok(Outcome::Open { why, cell: sides });
-            };
-            boxes.extend(halved(sides, axis));
+                Ok(Outcome::Open { why, cell })
+            }
         }
-        self.parts_proved(stack, whole, (reference, scale), cells.min(MOST_PARTS), budget)
     }
 
     /// A point that is not stable.
@@ -110,47 +98,62 @@ impl DelayedFunction {
         is_lost.then_some(Outcome::Refuted(point))
     }
 
+    /// Parts of a box with all frequencies up to which roots may be on the axis; else a part in which that is not known.
+    fn bounded(
+        &self,
+        whole: &[[Rational; 2]],
+        budget: &Budget,
+    ) -> Result<Result<Vec<BoxPart>, Vec<[Rational; 2]>>, Exhausted> {
+        let look = |BoxPart { sides, .. }: &mut BoxPart, tally: Tally| {
+            if let Some(bound) = self.bound(sides) {
+                let part: Vec<[Rational; 2]> = sides.iter().cloned().chain([[Rational::ZERO, bound]]).collect();
+                return Ok(Look::Decided(BoxPart::whole(part)));
+            }
+            let widest = (0..sides.len()).max_by_key(|&i| (extent(&sides[i]), std::cmp::Reverse(i)));
+            let widest = widest.filter(|_| tally.decided + tally.waiting < MOST_BOXES);
+            Ok(widest.map_or_else(|| Look::Open(sides.clone()), Look::Cut))
+        };
+        let steps = subdivide([BoxPart::whole(whole)], Order::Depth, budget, look)?;
+        Ok(steps.map(|steps| decided(steps).collect()))
+    }
+
     fn parts_proved(
         &self,
-        mut stack: Vec<Sides>,
+        parts: Vec<BoxPart>,
         whole: &[[Rational; 2]],
         (reference, scale): (&[Sign], i64),
         most: usize,
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
         let narrowest = Rational::dyadic(&Integer::ONE, MOST_HALVINGS);
-        let (mut parts, mut proved) = (0, 0);
-        while let Some(sides) = stack.pop() {
-            budget.check()?;
-            parts += 1;
-            let Some(part) = self.part(&sides) else {
-                return Ok(Outcome::Open { why: "a dead time near a pole", cell: parameters(sides) });
+        let look = |BoxPart { sides, .. }: &mut BoxPart, tally: Tally| {
+            let Some(part) = self.part(sides) else {
+                let (why, cell) = ("a dead time near a pole", parameters(sides.clone()));
+                return Ok(Look::Open(Outcome::Open { why, cell }));
             };
-            let last = match self.part_proved(&part, &sides, budget)? {
-                Ok(count) => {
-                    proved += count;
-                    continue;
-                }
+            let last = match self.part_proved(&part, sides, budget)? {
+                Ok(count) => return Ok(Look::Decided(count)),
                 Err(cell) => parameters(cell),
             };
             let mut points = [simplest_point(&last), middle(&last)].into_iter().chain(corners(&last));
             let lost = if part.is_vague { None } else { points.find_map(|point| self.refuted(point, reference)) };
             drop(points);
             if let Some(outcome) = lost {
-                return Ok(outcome);
+                return Ok(Look::Open(outcome));
             }
-            let why = (parts + stack.len() > most).then_some("too many cells");
+            let why = (tally.cells() + 1 > most).then_some("too many cells");
             let width = |[low, high]: &[Rational; 2]| high - low;
             let least = |i: usize| whole.get(i).map_or(Rational::ZERO, |side| width(side) * narrowest.clone());
             let axes = (0..sides.len()).filter(|&i| width(&sides[i]) > least(i));
             let axis = axes.max_by(|&i, &j| (&part.scores[i], j).cmp(&(&part.scores[j], i)));
-            let Some(axis) = axis.filter(|&i| why.is_none() && !part.scores[i].is_zero()) else {
-                return Ok(Outcome::Open { why: why.unwrap_or("a cell too small"), cell: last });
-            };
-            stack.extend(halved(sides, axis).into_iter().rev());
-        }
-        let pair = Tree::default();
-        Ok(Outcome::Stable(BoxProof { certain: Vec::new(), scale, weight: 0, pair, beside: proved }))
+            let axis = axis.filter(|&i| why.is_none() && !part.scores[i].is_zero());
+            let open = || Outcome::Open { why: why.unwrap_or("a cell too small"), cell: last };
+            Ok(axis.map_or_else(|| Look::Open(open()), Look::Cut))
+        };
+        Ok(match subdivide(parts, Order::Depth, budget, look)? {
+            Ok(steps) => Outcome::Stable(BoxProof::of_cells(scale, decided(steps).sum())),
+            Err(outcome) => outcome,
+        })
     }
 
     /// What stands against a dead time that is nowhere negative in the box.
@@ -303,39 +306,23 @@ impl DelayedFunction {
         part: &Part,
         sides: &[[Rational; 2]],
         budget: &Budget,
-    ) -> Result<Result<usize, Sides>, Exhausted> {
+    ) -> Result<Result<usize, Vec<[Rational; 2]>>, Exhausted> {
         let m = sides.len() - 1;
         let axes: Vec<usize> = self.inside.iter().copied().chain([m]).collect();
-        let mut local = sides.to_vec();
-        for &i in &axes {
-            local[i] = [-Rational::ONE, Rational::ONE];
-        }
+        let local = Local::new(sides, &axes);
         let slack: Vec<Integer> = part.pair.iter().map(|known| known.slack.clone()).collect();
-        let (tensor, _) = Tensor::of_pair_within(&bundle(&part.pair, sides.len()), &slack, &local, FrequencyScale(0));
-        let (closing, most): (Closing, usize) =
-            if part.is_vague { (closed_by_constant, 1) } else { (closed_by_vector, CELLS_IN_PART) };
-        Ok(closed(tensor, closing, most, budget)?.map_err(|cell| {
-            let mut cell = cell.sides(&local);
-            for &i in &axes {
-                let [low, high] = &sides[i];
-                let half = Rational::new(1.into(), 2.into());
-                cell[i] = cell[i].each_ref().map(|u| low + &(&(&(high - low) * &half) * &(u + &Rational::ONE)));
-            }
-            cell
-        }))
+        let pair = bundle(&part.pair, sides.len());
+        let (tensor, _) = Tensor::of_pair_within(&pair, &slack, &local.sides, FrequencyScale(0));
+        let closing: (Closing, usize) =
+            if part.is_vague { (&closed_by_constant, 1) } else { (&closed_by_vector, CELLS_IN_PART) };
+        local.closed(tensor, closing, budget)
     }
 }
 
-fn parameters(mut sides: Sides) -> Sides {
+/// The sides of the parameters, without the frequencies.
+fn parameters(mut sides: Vec<[Rational; 2]>) -> Vec<[Rational; 2]> {
     sides.pop();
     sides
-}
-
-fn halved(sides: Sides, axis: usize) -> [Sides; 2] {
-    let middle = sides[axis][0].midpoint(&sides[axis][1]);
-    let (mut low, mut high) = (sides.clone(), sides);
-    (low[axis][1], high[axis][0]) = (middle.clone(), middle);
-    [low, high]
 }
 
 /// The range of the Bernstein coefficients, in which that of the values is.

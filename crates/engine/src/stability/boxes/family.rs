@@ -273,8 +273,8 @@ impl Family for BoxPolynomial {
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
         let by = |closing: Closing, cells: usize| prove(self, sides, known.0, known.1, (closing, cells), budget);
-        match by(closed_by_constant, cells.min(CONSTANT_CELLS))? {
-            Outcome::Open { .. } => Ok(match by(closed_by_vector, cells)? {
+        match by(&closed_by_constant, cells.min(CONSTANT_CELLS))? {
+            Outcome::Open { .. } => Ok(match by(&closed_by_vector, cells)? {
                 Outcome::Open { why, cell } => match not_stable_near(self, &cell, sides) {
                     Some(point) => Outcome::Refuted(point),
                     None => Outcome::Open { why, cell },

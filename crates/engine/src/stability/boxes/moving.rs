@@ -293,8 +293,8 @@ impl Family for MovingPolynomial {
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
         let cells = cells.min(MOST_PARTS);
-        match self.proved(sides, known, (closed_by_constant, cells), budget)? {
-            Outcome::Open { .. } => self.proved(sides, known, (closed_by_vector, cells), budget),
+        match self.proved(sides, known, (&closed_by_constant, cells), budget)? {
+            Outcome::Open { .. } => self.proved(sides, known, (&closed_by_vector, cells), budget),
             outcome => Ok(outcome),
         }
     }

@@ -104,7 +104,7 @@ impl Known<'_> {
         checkpoint(200);
         let inside: Vec<[Rational; 2]> = self.p.inside.iter().map(|&i| sides[i].clone()).collect();
         let Some(models) = self.models.get(inside, || self.p.models(sides)) else { return Ok(None) };
-        if !self.p.keeps_count(sides, &models, (&signs, scale), (closed_by_vector, CELLS), budget)? {
+        if !self.p.keeps_count(sides, &models, (&signs, scale), (&closed_by_vector, CELLS), budget)? {
             return Ok(None);
         }
         Ok(Some(match count.outside {
