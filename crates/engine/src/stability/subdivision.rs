@@ -12,6 +12,13 @@ pub(crate) trait Halves: Sized {
     fn halves(self, axis: usize) -> [Self; 2];
 }
 
+impl<A: Halves, B: Halves> Halves for (A, B) {
+    fn halves(self, axis: usize) -> [(A, B); 2] {
+        let ([a, b], [of_a, of_b]) = (self.0.halves(axis), self.1.halves(axis));
+        [(a, of_a), (b, of_b)]
+    }
+}
+
 /// What a look at a cell shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Look<D, O> {

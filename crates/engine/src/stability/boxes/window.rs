@@ -43,16 +43,16 @@ impl MovingPolynomial {
         assert_eq!(self.parameters(), 2, "a window has two sides");
         if self.functions[self.formal_degree() + 1..].iter().any(Vec::is_empty) {
             // Undefined, a root on the boundary, or degree lost, for all values of both.
-            let nowhere = Seen::Decided(BoxVerdict::Unstable { outside: None });
-            return subdivided(window, goal, budget, |_| Ok(nowhere));
+            return BoxMap::nowhere_stable(window);
         }
         let known = Known { p: self, models: Memory::default(), points: Memory::default() };
-        subdivided(window, goal, budget, |place| {
+        subdivided(window, goal, budget, |place, _: Option<&()>| {
             let Window { x, y } = place.window(window);
-            Ok(match known.verdict_in(&[x, y], budget)? {
+            let seen = match known.verdict_in(&[x, y], budget)? {
                 Some(verdict) => Seen::Decided(verdict),
                 None => otherwise(place).unwrap_or(Seen::Cut(place.wider())),
-            })
+            };
+            Ok((seen, None))
         })
     }
 }
