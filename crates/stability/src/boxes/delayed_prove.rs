@@ -10,6 +10,7 @@ use super::delayed::DelayedFunction;
 use super::parts::{Known, Local, Term, bundle, corners, extent, middle, pruned};
 use super::polynomial::Bundle;
 use super::prove::{BoxProof, Closing, Outcome, closed_by_constant, closed_by_vector, keeps_sign, simplest_point};
+use super::reason::OpenReason;
 use super::tensor::{FrequencyScale, Tensor, common_factor, expand};
 use crate::subdivision::{BoxPart, Look, Order, Tally, decided, subdivide};
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel, cos_sin};
@@ -86,7 +87,7 @@ impl DelayedFunction {
         match self.bounded(whole, budget)? {
             Ok(parts) => self.parts_proved(parts, whole, (reference, scale), cells.min(MOST_PARTS), budget),
             Err(cell) => {
-                let why = "the highest power of s may not outweigh its delayed part";
+                let why = OpenReason::HighestPower;
                 Ok(Outcome::Open { why, cell })
             }
         }
@@ -128,7 +129,7 @@ impl DelayedFunction {
         let narrowest = Rational::dyadic(&Integer::ONE, MOST_HALVINGS);
         let look = |BoxPart { sides, .. }: &mut BoxPart, tally: Tally| {
             let Some(part) = self.part(sides) else {
-                let (why, cell) = ("a dead time near a pole", parameters(sides.clone()));
+                let (why, cell) = (OpenReason::Pole, parameters(sides.clone()));
                 return Ok(Look::Open(Outcome::Open { why, cell }));
             };
             let last = match self.part_proved(&part, sides, budget)? {
@@ -141,13 +142,13 @@ impl DelayedFunction {
             if let Some(outcome) = lost {
                 return Ok(Look::Open(outcome));
             }
-            let why = (tally.cells() + 1 > most).then_some("too many cells");
+            let why = (tally.cells() + 1 > most).then_some(OpenReason::Cells);
             let width = |[low, high]: &[Rational; 2]| high - low;
             let least = |i: usize| whole.get(i).map_or(Rational::ZERO, |side| width(side) * narrowest.clone());
             let axes = (0..sides.len()).filter(|&i| width(&sides[i]) > least(i));
             let axis = axes.max_by(|&i, &j| (&part.scores[i], j).cmp(&(&part.scores[j], i)));
             let axis = axis.filter(|&i| why.is_none() && !part.scores[i].is_zero());
-            let open = || Outcome::Open { why: why.unwrap_or("a cell too small"), cell: last };
+            let open = || Outcome::Open { why: why.unwrap_or(OpenReason::Small), cell: last };
             Ok(axis.map_or_else(|| Look::Open(open()), Look::Cut))
         };
         Ok(match subdivide(parts, Order::Depth, budget, look)? {
@@ -165,10 +166,7 @@ impl DelayedFunction {
         }
         let is_negative = |point: &Vec<Rational>| time.eval(point).is_some_and(|x| x.is_negative());
         let refuted = corners(sides).find(|point| is_negative(point) && self.seen_at(point) == Some(false));
-        let open = || Outcome::Open {
-            why: "a dead time that may be negative, or less than that of the highest power of s",
-            cell: sides.to_vec(),
-        };
+        let open = || Outcome::Open { why: OpenReason::NegativeTime, cell: sides.to_vec() };
         Some(refuted.map_or_else(open, Outcome::Refuted))
     }
 

@@ -10,6 +10,7 @@ use super::moving::MovingPolynomial;
 use super::parts::{Known, Local, Term, bundle, corners, extent, middle, pruned};
 use super::polynomial::Bundle;
 use super::prove::{BoxProof, Closing, Outcome, closed_by_sign, simplest_point};
+use super::reason::OpenReason;
 use super::tensor::{FrequencyScale, Tensor};
 use crate::subdivision::{BoxPart, Halves, Look, Order, Tally, decided, subdivide};
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel};
@@ -169,7 +170,7 @@ impl MovingPolynomial {
             let axis = self.axis_to_cut(sides, part.as_ref(), is_wide);
             Ok(axis.filter(|_| !is_last).map_or_else(
                 || {
-                    let why = if is_last { "too many cells" } else { "a cell too small" };
+                    let why = if is_last { OpenReason::Cells } else { OpenReason::Small };
                     let corner = corners(&last).find_map(refuted);
                     Look::Open(corner.unwrap_or(Outcome::Open { why, cell: last }))
                 },

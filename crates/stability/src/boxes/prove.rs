@@ -2,6 +2,7 @@
 
 use super::multiplier::{Sought, affine_multiplier};
 use super::polynomial::{BoxPolynomial, Bundle, Excluded};
+use super::reason::OpenReason;
 use super::separate::separating_vector_within;
 use super::tensor::{FrequencyScale, Tensor};
 use super::tree::{Node, Tree};
@@ -68,7 +69,7 @@ pub enum Outcome {
     /// On the way from the nominal point to this one stability is lost.
     Refuted(Vec<Rational>),
     /// Not decided with so many cells; the box of the cell that was looked at last.
-    Open { why: &'static str, cell: Vec<[Rational; 2]> },
+    Open { why: OpenReason, cell: Vec<[Rational; 2]> },
 }
 
 /// A cell of the search.
@@ -198,14 +199,14 @@ pub(super) fn prove(
         }
         let waiting = tally.waiting * cell.tensor.len() * 32;
         let why = if tally.cells() > most_cells {
-            "too many cells"
+            OpenReason::Cells
         } else if waiting > WAITING_BYTES && cell.halvings() < MOST_HALVINGS {
-            "too much memory"
+            OpenReason::Memory
         } else if let Some(axis) = hint.or_else(|| cell.tensor.best_axis()).filter(|_| cell.halvings() < MOST_HALVINGS)
         {
             return Ok(Look::Cut(axis));
         } else {
-            "a cell too small"
+            OpenReason::Small
         };
         let cell = cell.sides(&whole);
         Ok(Look::Open(match not_stable_in(p, &cell) {
@@ -295,7 +296,7 @@ pub(super) fn keeps_sign(
         let point = simplest_point(&inner);
         Ok(Look::Open(match has_other_sign(&point) {
             true => Outcome::Refuted(point),
-            false => Outcome::Open { why: "a divisor or a real root near zero", cell: inner },
+            false => Outcome::Open { why: OpenReason::Vanishing, cell: inner },
         }))
     };
     let steps = subdivide([Cell::whole(Tensor::of_one(f, sides))], Order::Depth, budget, look)?;

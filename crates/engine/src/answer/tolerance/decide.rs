@@ -7,8 +7,8 @@ use crate::answer::Answer;
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::boxes::{
-    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, Family, LargestFactor, MOST_PARAMETERS, Side, ToleranceProblem,
-    ray,
+    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, Family, LargestFactor, MOST_PARAMETERS, OpenReason, Side,
+    ToleranceProblem, ray,
 };
 use crate::stability::{AtPoint, Range};
 use jurist_algebra::limits::Budget;
@@ -90,9 +90,7 @@ impl Problem {
         let Some(boxes) = boxes else {
             let decision = match at.is_stable(degree) {
                 false => BoxDecision::not_stable_at(nominal, at.clone()),
-                true => {
-                    BoxDecision::Undecided { why: "constants that are not told from their limits", cell: Vec::new() }
-                }
+                true => BoxDecision::Undecided { why: OpenReason::Constants, cell: Vec::new() },
             };
             return Ok(self.answered(sides, at, decision));
         };

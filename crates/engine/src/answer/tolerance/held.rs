@@ -7,7 +7,7 @@ use crate::answer::{DelayedRoots, Verdict};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::stability::AtPoint;
-use crate::stability::boxes::{BoxDecision, Family, LargestFactor, Side, Witness, corners};
+use crate::stability::boxes::{BoxDecision, Family, LargestFactor, OpenReason, Side, Witness, corners};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
@@ -110,8 +110,7 @@ impl<'a> Truth<'a> {
         if self.is_exact {
             return Ok(found);
         }
-        let close =
-            || BoxDecision::Undecided { why: "constants that are not told from their limits", cell: Vec::new() };
+        let close = || BoxDecision::Undecided { why: OpenReason::Constants, cell: Vec::new() };
         Ok(match found {
             BoxDecision::NotStable { witness: Some(witness) } => match self.confirmed(p, witness, budget)? {
                 Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
