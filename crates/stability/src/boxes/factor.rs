@@ -85,7 +85,7 @@ pub enum BoxDecision {
 impl BoxDecision {
     /// That of a box with a point that is not stable.
     pub fn not_stable_at(point: Vec<Rational>, at: AtPoint) -> BoxDecision {
-        BoxDecision::NotStable { witness: Some(Witness { point, at }) }
+        BoxDecision::NotStable { witness: Some(Witness::new(point, at)) }
     }
 
     /// Whether every point is stable.
@@ -100,14 +100,19 @@ impl BoxDecision {
 pub struct Witness {
     /// The values of the parameters.
     pub point: Vec<Rational>,
-    /// What is exactly known there.
-    pub at: AtPoint,
+    /// The certain root count there; `None` where the loop alone does not tell it, and only the model can.
+    pub at: Option<AtPoint>,
 }
 
 impl Witness {
-    /// A point and what is exactly known there.
+    /// A point and its certain root count.
     pub fn new(point: Vec<Rational>, at: AtPoint) -> Witness {
-        Witness { point, at }
+        Witness { point, at: Some(at) }
+    }
+
+    /// A point that is not counted yet.
+    pub fn uncounted(point: Vec<Rational>) -> Witness {
+        Witness { point, at: None }
     }
 }
 
@@ -202,7 +207,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
     }
 
     fn witness(&self, point: Vec<Rational>) -> Option<Witness> {
-        let at = self.p.at(&point);
+        let at = self.p.count(&point);
         Some(Witness { point, at })
     }
 

@@ -241,7 +241,7 @@ impl Problem {
         let (Some(direction), Some(upper)) = (&factor.direction, &factor.upper) else { return Ok(None) };
         let (base, step) = ray(sides, direction);
         let is_rational = self.algebra_over_symbols(budget)?.symbols().is_empty();
-        let is_undefined = factor.witness.as_ref().is_some_and(|w| matches!(w.at, AtPoint::Undefined));
+        let is_undefined = factor.witness.as_ref().is_some_and(|w| w.at == Some(AtPoint::Undefined));
         if is_undefined && !is_rational {
             return Ok(None);
         }
