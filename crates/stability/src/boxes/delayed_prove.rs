@@ -7,7 +7,7 @@
 //! but its modulus. Their Bernstein coefficients prove cells of a part as those of any other pair do.
 
 use super::delayed::DelayedFunction;
-use super::parts::{Known, Local, Term, bundle, corners, extent, middle, pruned};
+use super::parts::{Known, Local, Term, add_terms, bundle, coordinates, corners, extent, middle, model_degree, pruned};
 use super::polynomial::Bundle;
 use super::prove::{BoxProof, Closing, Outcome, closed_by_constant, closed_by_vector, keeps_sign, simplest_point};
 use super::reason::OpenReason;
@@ -203,13 +203,8 @@ impl DelayedFunction {
         checkpoint(2000);
         let (m, n) = (sides.len() - 1, self.order);
         let axes: Vec<usize> = self.inside.iter().copied().chain([m]).collect();
-        let line = |&i: &usize| {
-            let [low, high] = &sides[i];
-            let middle = low.midpoint(high);
-            (Ball::from_rational(&middle, BITS), Ball::from_rational(&(high - &middle), BITS))
-        };
-        let lines: Vec<(Ball, Ball)> = axes.iter().map(line).collect();
-        let models = MultiTaylorModel::linear(&lines, model_degree(axes.len()).max(n));
+        let degree = model_degree(axes.len(), 3..=8, MODEL_TERMS).max(n);
+        let models = coordinates(sides, &axes, BITS, degree);
         let omega = models.last().expect("the frequency");
         let one = omega.integer(&Integer::ONE);
         let mut values = vec![omega.integer(&Integer::ZERO); m];
@@ -274,24 +269,14 @@ impl DelayedFunction {
         let mut sized: [Vec<Term>; 2] = [Vec::new(), Vec::new()];
         let mut slacks = vec![Integer::ZERO; 2];
         for (beside, models) in &sums {
-            let powers = beside.iter().zip(sides).filter(|(e, _)| **e > 0);
-            let bound = powers.fold(Rational::ONE, |product, (&e, [low, high])| {
-                &product * &low.abs().max(high.abs()).pow(i64::from(e)).expect("a positive exponent")
-            });
-            let size = |c: &Integer| (&Rational::from(c.abs()) * &bound).ceil();
             for (k, model) in models.iter().enumerate() {
-                slacks[k] += &size(model.rest_units());
-                for (own, c) in model.terms().filter(|(_, c)| !c.is_zero()) {
-                    let mut exponents = (*beside).clone();
-                    exponents.resize(sides.len(), 0);
-                    axes.iter().zip(own).for_each(|(&i, &e)| exponents[i] = e);
-                    let size = size(c);
-                    let total: u32 = own.iter().sum();
-                    if total > 1 && !is_vague {
-                        axes.iter().zip(own).for_each(|(&i, &e)| scores[i] += &size * &Integer::from(u64::from(e)));
-                    }
-                    sized[k].push(Term { exponents, coefficient: c.clone(), size });
-                }
+                slacks[k] += add_terms(&mut sized[k], (model, beside), axes, sides);
+            }
+        }
+        for Term { exponents, size, .. } in sized.iter().flatten().filter(|_| !is_vague) {
+            let total: u32 = axes.iter().map(|&i| exponents[i]).sum();
+            if total > 1 {
+                axes.iter().for_each(|&i| scores[i] += size * &Integer::from(u64::from(exponents[i])));
             }
         }
         let pair = pruned(sized.into(), slacks, axes, 1, (TENSOR_TERMS, &KEPT_BITS));
@@ -329,12 +314,6 @@ fn range_of(p: &MultiPoly, sides: &[[Rational; 2]]) -> [Rational; 2] {
     let all = expand(&bundle, sides);
     let over = Rational::from(&common_factor(&bundle, sides));
     [all.iter().min(), all.iter().max()].map(|end| &Rational::from(end.expect("there is one")) / &over)
-}
-
-/// The degree of Taylor models in so many variables.
-fn model_degree(variables: usize) -> usize {
-    let terms = |degree: usize| (1..=variables).fold(1, |n, i| n * (degree + i) / i);
-    (3..=8).rev().find(|&degree| terms(degree) <= MODEL_TERMS).unwrap_or(3)
 }
 
 /// A polynomial at models of its variables.

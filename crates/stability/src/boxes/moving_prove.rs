@@ -7,13 +7,13 @@
 //! wide is halved along the parameter in which the coefficients are farthest from straight.
 
 use super::moving::MovingPolynomial;
-use super::parts::{Known, Local, Term, bundle, corners, extent, middle, pruned};
+use super::parts::{Known, Local, Term, add_terms, bundle, coordinates, corners, extent, middle, model_degree, pruned};
 use super::polynomial::Bundle;
 use super::prove::{BoxProof, Closing, Outcome, closed_by_sign, simplest_point};
 use super::reason::OpenReason;
 use super::tensor::{FrequencyScale, Tensor};
 use crate::subdivision::{BoxPart, Halves, Look, Order, Tally, decided, subdivide};
-use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel};
+use jurist_algebra::ball::{Elementary, MultiTaylorModel};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Integer, Rational, Sign};
 
@@ -63,17 +63,8 @@ impl MovingPolynomial {
 
     /// The parts of all functions over sides of what is inside of functions: other sides do not change them.
     pub(super) fn models(&self, sides: &[[Rational; 2]]) -> Option<Vec<Vec<MultiTaylorModel>>> {
-        let count = self.inside.len();
-        let lines: Vec<(Ball, Ball)> = self
-            .inside
-            .iter()
-            .map(|&i| {
-                let [low, high] = &sides[i];
-                let middle = low.midpoint(high);
-                (Ball::from_rational(&middle, BITS), Ball::from_rational(&(high - &middle), BITS))
-            })
-            .collect();
-        let moving = MultiTaylorModel::linear(&lines, model_degree(count));
+        let degree = model_degree(self.inside.len(), 2..=MODEL_DEGREE, MODEL_TERMS);
+        let moving = coordinates(sides, &self.inside, BITS, degree);
         // What is not inside of functions is not looked at here.
         let mut parameters = vec![moving[0].integer(&Integer::ZERO); sides.len()];
         for (&i, model) in self.inside.iter().zip(moving) {
@@ -84,13 +75,6 @@ impl MovingPolynomial {
 
     /// What is known in a part, from the functions' models.
     fn part_of(&self, sides: &[[Rational; 2]], parts: &[Vec<MultiTaylorModel>]) -> Part {
-        let most = |beside: &[u32]| {
-            let powers = beside.iter().zip(sides).filter(|(e, _)| **e > 0);
-            powers.fold(Rational::ONE, |product, (&e, [low, high])| {
-                let largest = low.abs().max(high.abs());
-                &product * &largest.pow(i64::from(e)).expect("a positive exponent")
-            })
-        };
         let mut curvature = vec![Integer::ZERO; sides.len()];
         let mut slacks: Vec<Integer> = Vec::new();
         let mut sized: Vec<Vec<Term>> = Vec::new();
@@ -98,16 +82,7 @@ impl MovingPolynomial {
             let mut slack = Integer::ZERO;
             let mut own = Vec::new();
             for ((beside, _), model) in f.iter().zip(parts) {
-                let bound = most(beside);
-                let size = |c: &Integer| (&Rational::from(c.abs()) * &bound).ceil();
-                slack += &size(model.rest_units());
-                for (exponents, c) in model.terms().filter(|(_, c)| !c.is_zero()) {
-                    let mut all = beside.clone();
-                    for (&i, &e) in self.inside.iter().zip(exponents) {
-                        all[i] = e;
-                    }
-                    own.push(Term { exponents: all, coefficient: c.clone(), size: size(c) });
-                }
+                slack += add_terms(&mut own, (model, beside), &self.inside, sides);
             }
             let largest = own.iter().map(|term| &term.size).max().cloned().unwrap_or(Integer::ONE);
             for Term { exponents, size, .. } in &own {
@@ -265,12 +240,6 @@ fn size_of(x: &Rational) -> i64 {
     x.numerator().bit_length() as i64 - x.denominator().bit_length() as i64
 }
 
-/// The degree of Taylor models in so many variables.
-fn model_degree(variables: usize) -> usize {
-    let terms = |degree: usize| (1..=variables).fold(1, |n, i| n * (degree + i) / i);
-    (2..=MODEL_DEGREE).rev().find(|&degree| terms(degree) <= MODEL_TERMS).unwrap_or(2)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -285,6 +254,7 @@ mod tests {
 
     #[test]
     fn models_have_the_degree_that_the_number_of_variables_allows() {
-        assert_eq!([1, 2, 3, 4, 5, 6, 9, 30].map(model_degree), [12, 12, 7, 5, 4, 3, 2, 2]);
+        let degree = |variables| model_degree(variables, 2..=MODEL_DEGREE, MODEL_TERMS);
+        assert_eq!([1, 2, 3, 4, 5, 6, 9, 30].map(degree), [12, 12, 7, 5, 4, 3, 2, 2]);
     }
 }

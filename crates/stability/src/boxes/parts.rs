@@ -5,9 +5,11 @@ use super::prove::{Cell, Closing};
 use super::separate::separating_vector;
 use super::tensor::Tensor;
 use crate::subdivision::{Look, Order, Tally, decided, subdivide};
+use jurist_algebra::ball::{Ball, MultiTaylorModel};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 /// A polynomial in the coordinates of a part, up to a bound.
 pub(super) struct Known {
@@ -23,6 +25,45 @@ pub(super) struct Term {
     pub coefficient: Integer,
     /// A bound of the term in the part.
     pub size: Integer,
+}
+
+/// The coordinates of a part in what is inside of functions, from -1 to 1, as Taylor models of so many bits and of this degree.
+pub(super) fn coordinates(part: &[[Rational; 2]], inside: &[usize], bits: u64, degree: usize) -> Vec<MultiTaylorModel> {
+    let line = |&i: &usize| {
+        let [low, high] = &part[i];
+        let middle = low.midpoint(high);
+        (Ball::from_rational(&middle, bits), Ball::from_rational(&(high - &middle), bits))
+    };
+    MultiTaylorModel::linear(&inside.iter().map(line).collect::<Vec<_>>(), degree)
+}
+
+/// The greatest degree of these of which a Taylor model in so many variables has at most so many coefficients.
+pub(super) fn model_degree(variables: usize, degrees: RangeInclusive<usize>, most: usize) -> usize {
+    let terms = |degree: usize| (1..=variables).fold(1, |n, i| n * (degree + i) / i);
+    let least = *degrees.start();
+    degrees.rev().find(|&degree| terms(degree) <= most).unwrap_or(least)
+}
+
+/// Adds the terms of a Taylor model in what is inside of functions, times a product of other parameters: a bound of all that the model leaves
+/// out.
+pub(super) fn add_terms(
+    own: &mut Vec<Term>,
+    (model, beside): (&MultiTaylorModel, &[u32]),
+    inside: &[usize],
+    part: &[[Rational; 2]],
+) -> Integer {
+    let powers = beside.iter().zip(part).filter(|(e, _)| **e > 0);
+    let bound = powers.fold(Rational::ONE, |product, (&e, [low, high])| {
+        &product * &low.abs().max(high.abs()).pow(i64::from(e)).expect("a positive exponent")
+    });
+    let size = |c: &Integer| (&Rational::from(c.abs()) * &bound).ceil();
+    for (exponents, c) in model.terms().filter(|(_, c)| !c.is_zero()) {
+        let mut all = beside.to_vec();
+        all.resize(part.len(), 0);
+        inside.iter().zip(exponents).for_each(|(&i, &e)| all[i] = e);
+        own.push(Term { exponents: all, coefficient: c.clone(), size: size(c) });
+    }
+    size(model.rest_units())
 }
 
 /// Polynomials without the terms that are so much smaller than the greatest that their tensors, which have so many coefficients for each
