@@ -122,7 +122,7 @@ impl Halves for BoxPart {
 /// use jurist_algebra::number::Rational;
 /// use jurist_stability::subdivision::{BoxPart, Look, Order, decided, subdivide};
 /// // Parts of an interval that do not hold 1/3, down to an eighth of it.
-/// let third: Rational = "1/3".parse()?;
+/// let third = Rational::new(1.into(), 3.into());
 /// let steps = subdivide([BoxPart::whole([[0.into(), 1.into()]])], Order::Depth, &Budget::unlimited(), |part, _| {
 ///     let [low, high] = &part.sides[0];
 ///     Ok(match *low <= third && third <= *high {
@@ -133,7 +133,6 @@ impl Halves for BoxPart {
 /// });
 /// let found: Vec<bool> = decided(steps.unwrap().unwrap()).collect();
 /// assert_eq!(found, [true, false, true, true]);
-/// # Ok::<(), String>(())
 /// ```
 ///
 /// # Errors
