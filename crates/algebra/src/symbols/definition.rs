@@ -3,6 +3,7 @@
 use crate::ball::Ball;
 use crate::number::{Enclosure, Integer, Rational};
 use crate::poly::{MultiPoly, RationalFunction, RealAlgebraic};
+use crate::real::Transcendental;
 
 /// What a symbol stands for. Arguments are rational functions of earlier symbols, numbered as in the table.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +12,8 @@ pub enum Definition {
     Pi,
     /// A real algebraic number.
     Algebraic(RealAlgebraic),
+    /// A real number of which nothing but enclosures is known, so that no identity shows that something made of it is zero.
+    Enclosed(EnclosedNumber),
     /// The square root that is not negative.
     Root(RationalFunction),
     /// `exp(x)`.
@@ -34,6 +37,31 @@ pub enum Definition {
         /// The time.
         time: RationalFunction,
     },
+}
+
+/// A real number that is known by enclosures alone, with the words for it.
+///
+/// Two of them are equal if the same object encloses both.
+#[derive(Clone, Debug)]
+pub struct EnclosedNumber {
+    /// What the number is, in words.
+    pub words: String,
+    /// Its enclosures.
+    pub value: Transcendental,
+}
+
+impl PartialEq for EnclosedNumber {
+    fn eq(&self, other: &Self) -> bool {
+        self.value.is_same(&other.value)
+    }
+}
+
+impl EnclosedNumber {
+    /// The number with that many bits.
+    pub(super) fn at(&self, bits: u64) -> Ball {
+        let (lo, hi) = self.value.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
+        Ball::between(&lo, &hi, bits)
+    }
 }
 
 impl Definition {
@@ -61,7 +89,7 @@ impl Definition {
     /// The functions it is made of.
     pub fn arguments(&self) -> Vec<&RationalFunction> {
         match self {
-            Definition::Pi | Definition::Algebraic(_) => Vec::new(),
+            Definition::Pi | Definition::Algebraic(_) | Definition::Enclosed(_) => Vec::new(),
             Definition::Root(x) | Definition::Exponential(x) => vec![x],
             Definition::Tangent { square, time } => vec![square, time],
             Definition::Fundamental { polynomial, time, .. } => polynomial.iter().chain([time]).collect(),
@@ -71,7 +99,7 @@ impl Definition {
     /// The same with other arguments; `None` where one of them has none.
     pub fn try_map(&self, mut f: impl FnMut(&RationalFunction) -> Option<RationalFunction>) -> Option<Definition> {
         Some(match self {
-            Definition::Pi | Definition::Algebraic(_) => self.clone(),
+            Definition::Pi | Definition::Algebraic(_) | Definition::Enclosed(_) => self.clone(),
             Definition::Root(x) => Definition::Root(f(x)?),
             Definition::Exponential(x) => Definition::Exponential(f(x)?),
             Definition::Tangent { square, time } => Definition::Tangent { square: f(square)?, time: f(time)? },
@@ -95,6 +123,7 @@ impl Definition {
                 let decimal = Enclosure::new(lo, hi).decimal(12).unwrap_or_else(|| "a number".into());
                 format!("the root {decimal} of {p}")
             }
+            Definition::Enclosed(x) => x.words.clone(),
             Definition::Root(x) => format!("sqrt({})", shown(x)),
             Definition::Exponential(x) => format!("exp({})", shown(x)),
             Definition::Tangent { square, time } if square.is_one() => format!("tan({})", shown(time)),

@@ -181,6 +181,7 @@ fn bound(definition: &Definition, power: i64, start: &Rational) -> Option<Powers
             Some(Powers::power(0, root))
         }
         Definition::Algebraic(x) => Some(Powers::power(0, Definition::enclosed(x, BITS))),
+        Definition::Enclosed(x) => Some(Powers::power(0, x.at(BITS))),
         Definition::Pi | Definition::Tangent { .. } => None,
     }
 }

@@ -232,7 +232,7 @@ fn start(definition: &Definition, order: u32) -> Option<Start> {
                 }
             }
         }
-        Definition::Pi | Definition::Algebraic(_) | Definition::Root(_) => {}
+        Definition::Pi | Definition::Algebraic(_) | Definition::Enclosed(_) | Definition::Root(_) => {}
     }
     found
 }

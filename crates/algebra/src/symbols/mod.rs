@@ -30,7 +30,7 @@ mod taylor;
 mod values;
 mod zero_at_end;
 
-pub use definition::Definition;
+pub use definition::{Definition, EnclosedNumber};
 pub use function::{Function, common_scale};
 pub use horner::value_at_balls;
 pub use moving::{MovingSymbols, Zeros};
@@ -186,6 +186,7 @@ impl Symbols {
         match definition {
             Definition::Pi => Some(Ball::from_enclosure(&Enclosure::pi(bits + 8), bits)),
             Definition::Algebraic(x) => Some(Definition::enclosed(x, bits)),
+            Definition::Enclosed(x) => Some(x.at(bits)),
             Definition::Root(x) => at(x)?.sqrt(),
             Definition::Exponential(x) => Some(exp(&at(x)?)),
             Definition::Tangent { square, time } => {
@@ -233,6 +234,7 @@ fn at_rationals(definition: &Definition, bits: u64) -> Option<Ball> {
     match definition {
         Definition::Pi => Some(Ball::from_enclosure(&Enclosure::pi(bits + 8), bits)),
         Definition::Algebraic(x) => Some(Definition::enclosed(x, bits)),
+        Definition::Enclosed(x) => Some(x.at(bits)),
         Definition::Root(x) => {
             let x = x.as_constant()?;
             Ball::from_rational(&x, 2 * bits + 2).sqrt().map(|root| root.with_bits(bits))

@@ -26,6 +26,11 @@ pub trait EnclosedPoly: fmt::Debug + Send + Sync {
 
     /// Where its roots come from.
     fn origin(&self) -> Origin;
+
+    /// False if coefficients are made of numbers of which only enclosures are known: then no rational number is seen to be a root.
+    fn has_identities(&self) -> bool {
+        true
+    }
 }
 
 /// A polynomial by its coefficients from the constant term up, polynomials in symbols.
@@ -36,6 +41,10 @@ pub(super) struct Coefficients {
 }
 
 impl EnclosedPoly for Coefficients {
+    fn has_identities(&self) -> bool {
+        self.symbols.have_identities()
+    }
+
     fn enclose(&self, bits: u64) -> Vec<Ball> {
         self.list.iter().map(|c| self.symbols.enclose(c, bits)).collect()
     }

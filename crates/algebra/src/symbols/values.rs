@@ -88,6 +88,7 @@ pub(super) fn values_of<S: Elementary>(table: &[(String, Definition)], parameter
         let value = match definition {
             Definition::Pi => like.constant(&Ball::from_enclosure(&Enclosure::pi(bits + 8), bits)),
             Definition::Algebraic(x) => like.constant(&Definition::enclosed(x, bits)),
+            Definition::Enclosed(x) => like.constant(&x.at(bits)),
             Definition::Root(x) => at(x)?.square_root()?,
             Definition::Exponential(x) => {
                 let x = at(x)?;

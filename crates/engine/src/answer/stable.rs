@@ -2,9 +2,9 @@
 
 use super::Answer;
 use crate::error::Error;
-use crate::problem::{Problem, Question, Region};
+use crate::problem::{EnclosedParts, Problem, Question, Region};
 use crate::stability::{Cause, StableSet, stable_set, stable_set_of_parts};
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, Stop};
 use std::sync::Arc;
 
 impl Question {
@@ -13,7 +13,7 @@ impl Question {
     /// Cost: that of [`Problem::stable_set`].
     ///
     /// ```
-    /// use jurist_algebra::limits::Budget;
+    /// use jurist_algebra::limits::{Budget, Stop};
     /// use jurist_engine::model::Model;
     /// let answer = Model::drive().ask().free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
     /// let lower = answer.value().intervals()[0].lower.as_ref().unwrap();
@@ -30,6 +30,12 @@ impl Question {
     }
 }
 
+/// Work that exact polynomials over the constants of a held loop may be before enclosures of coefficients are asked: about a second.
+const WORK_BEFORE_ENCLOSURES: u64 = 100_000_000;
+
+/// Work of the set by enclosures, before exact polynomials are asked again.
+const WORK_BY_ENCLOSURES: u64 = 2_000_000_000;
+
 impl Problem {
     /// The exact stable set of the one free parameter. A loop that is undefined for all values is stable nowhere.
     ///
@@ -41,6 +47,41 @@ impl Problem {
     /// # Panics
     /// Unless one parameter is free.
     pub fn stable_set(self: &Arc<Self>, budget: &Budget) -> Result<Answer<StableSet>, Error> {
+        budget.enter(|| {
+            if !self.model().has_holds() {
+                return self.stable_set_by_algebra(budget);
+            }
+            let first = budget.clone().within_work(WORK_BEFORE_ENCLOSURES);
+            match self.stable_set_by_algebra(&first) {
+                // Only the share of this attempt is used up.
+                Err(Error::Stopped(stopped)) if matches!(stopped.stop, Stop::Work(_)) && budget.check().is_ok() => {}
+                answer => return answer,
+            }
+            if let Some(set) = self.stable_set_by_enclosures(budget)? {
+                return Ok(Answer::new(Arc::clone(self), set));
+            }
+            self.stable_set_by_algebra(budget)
+        })?
+    }
+
+    /// The stable set of a loop behind holds from enclosures of its coefficients; `None` where these do not tell.
+    fn stable_set_by_enclosures(&self, budget: &Budget) -> Result<Option<StableSet>, Error> {
+        let parts = match self.enclosed_parts(budget)? {
+            Some(EnclosedParts::Parts(parts)) => parts,
+            Some(EnclosedParts::Unstable) => return Ok(Some(StableSet::from_intervals(Vec::new(), Vec::new()))),
+            None => return Ok(None),
+        };
+        let share = budget.clone().within_work(WORK_BY_ENCLOSURES);
+        match stable_set_of_parts(&parts, &self.parameter().domain, self.shape(), &share) {
+            Ok(set) => Ok(Some(set)),
+            Err(stopped) if stopped.stop.is_precision() => Ok(None),
+            Err(stopped) if matches!(stopped.stop, Stop::Work(_)) && budget.check().is_ok() => Ok(None),
+            Err(stopped) => Err(stopped.into()),
+        }
+    }
+
+    /// The stable set by exact polynomials.
+    fn stable_set_by_algebra(self: &Arc<Self>, budget: &Budget) -> Result<Answer<StableSet>, Error> {
         budget.enter(|| {
             if let Err(refused @ Error::Refused(_)) = self.algebra_over_symbols(budget) {
                 // A dead time may vary against its sample time.

@@ -484,6 +484,12 @@ impl Model {
         &self.form
     }
 
+    /// True if a block of the diagram is behind a hold.
+    pub(crate) fn has_holds(&self) -> bool {
+        let Form::Blocks(diagram) = &self.form else { return false };
+        diagram.blocks.iter().filter_map(|b| b.discretization.as_ref()).any(|d| d.method.is_hold())
+    }
+
     /// The defaults of a time response.
     pub fn simulation(&self) -> &Simulation {
         &self.simulation

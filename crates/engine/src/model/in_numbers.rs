@@ -10,7 +10,7 @@ use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 use std::cell::RefCell;
 
-/// A closed loop without free names, of which only numbers are asked for.
+/// A closed loop of whose constants only numbers are asked for.
 #[derive(Clone, Debug)]
 pub(crate) struct InNumbers {
     /// The closed loop, its entries in the symbols.
@@ -32,8 +32,8 @@ impl InNumbers {
 }
 
 impl Model {
-    /// The closed loop where every name has a value and numbers are all that is asked for: the exponentials of matrices behind holds
-    /// stay whole. `None` for the form `characteristic`, which has no closed loop.
+    /// The closed loop where numbers are all that is asked for of its constants: the exponentials of matrices behind holds stay whole.
+    /// Names that are kept are the first variables. `None` for the form `characteristic`, which has no closed loop.
     ///
     /// Cost: that of [`Model::evaluate`] without a characteristic polynomial, and without an expansion of what blocks do behind holds.
     ///
@@ -41,10 +41,11 @@ impl Model {
     /// As [`Model::evaluate`].
     pub(crate) fn closed_loop_in_numbers(
         &self,
+        kept: &[String],
         values: &[(String, Rational)],
         budget: &Budget,
     ) -> Result<Option<InNumbers>, Error> {
-        let mut answer = self.answer(&[], values, budget)?;
+        let mut answer = self.answer(kept, values, budget)?;
         if let Values::Characteristic(_) = &answer.values {
             return Ok(None);
         }

@@ -11,7 +11,7 @@ mod identity;
 mod merge;
 
 pub use approximate::value_approximate;
-pub(crate) use flows::quotient_at;
+pub(crate) use flows::{beside, quotient_at};
 pub use jurist_algebra::symbols::Definition;
 
 use super::text::Function;
@@ -367,6 +367,7 @@ impl Meaning {
             Meaning::Constant(Definition::Root(_)) => "r",
             Meaning::Constant(Definition::Exponential(_)) => "X",
             Meaning::Constant(Definition::Tangent { .. }) => "t",
+            Meaning::Constant(Definition::Enclosed(_)) => "c",
             Meaning::Constant(Definition::Fundamental { .. }) => "f",
             Meaning::Delay(_) => "z",
             Meaning::Flow { .. } => "e",

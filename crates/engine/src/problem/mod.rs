@@ -3,6 +3,7 @@
 //! [`Question`] is what is being asked, built step by step from a model; [`Problem`] is the same question resolved: every
 //! name is known, every value has its place, and the algebra is computed at most once, when it is first needed.
 
+mod by_enclosures;
 mod by_samples;
 mod delayed;
 mod delayed_family;
@@ -18,6 +19,7 @@ mod region;
 mod resolved;
 mod substitution;
 
+pub(crate) use by_enclosures::EnclosedParts;
 pub(crate) use delayed::refused;
 pub use delayed::{BaseDelay, DelayedLoop};
 pub use evaluation::Algebra;

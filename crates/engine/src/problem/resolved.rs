@@ -254,7 +254,7 @@ impl Problem {
             return Ok(found.as_ref());
         }
         let found = match self.free.is_empty() {
-            true => budget.enter(|| self.model.closed_loop_in_numbers(&self.set, budget))??,
+            true => budget.enter(|| self.model.closed_loop_in_numbers(&[], &self.set, budget))??,
             false => None,
         };
         Ok(self.in_numbers.get_or_init(|| found).as_ref())

@@ -36,6 +36,7 @@ impl Symbols {
             let value = symbol.definition().map_or(f64::NAN, |definition| match definition {
                 Definition::Pi => std::f64::consts::PI,
                 Definition::Algebraic(x) => x.refined_to_digits(17).enclosure().0.to_f64_approximate(),
+                Definition::Enclosed(x) => x.value.refined_to_digits(17).enclosure().0.to_f64_approximate(),
                 Definition::Root(x) => at(x).sqrt(),
                 Definition::Exponential(x) => at(x).exp(),
                 Definition::Tangent { square, time } => {

@@ -78,6 +78,46 @@ impl Symbols {
         RationalFunction::variable(self.kept.len() + self.table.len() - 1)
     }
 
+    /// The entry of the exponential of a matrix that a symbol is: the number of the matrix, the row and the column.
+    pub(crate) fn flow_entry(&self, symbol: usize) -> Option<(usize, usize, usize)> {
+        match self.table.get(symbol)?.meaning {
+            Meaning::Flow { of, row, column } => Some((of, row, column)),
+            _ => None,
+        }
+    }
+
+    /// The matrix of this number, times time.
+    pub(crate) fn flow_matrix(&self, of: usize) -> &RationalMatrix {
+        &self.flows[of]
+    }
+
+    /// For each entry of that matrix, row by row, whether its exponential has a symbol there.
+    pub(crate) fn flow_leads(&self, of: usize) -> Vec<bool> {
+        reachable(&self.flows[of])
+    }
+
+    /// The same symbols without the names that are kept; `None` where one of them depends on such a name.
+    pub(crate) fn without_kept(&self) -> Option<Symbols> {
+        let count = self.kept.len();
+        let moved = |f: &RationalFunction| beside(f, count);
+        let mut table = Vec::with_capacity(self.table.len());
+        for symbol in &self.table {
+            let meaning = match &symbol.meaning {
+                Meaning::Constant(definition) => Meaning::Constant(definition.try_map(moved)?),
+                Meaning::Value(f) => Meaning::Value(moved(f)?),
+                Meaning::Flow { .. } => symbol.meaning.clone(),
+                Meaning::Delay(_) => return None,
+            };
+            table.push(Symbol { name: symbol.name.clone(), meaning, is_moving: false });
+        }
+        let flow = |m: &RationalMatrix| {
+            let entries = m.entries().iter().map(moved).collect::<Option<Vec<_>>>()?;
+            Some(RationalMatrix::from_fn(m.rows(), m.columns(), |i, j| entries[i * m.columns() + j].clone()))
+        };
+        let flows = self.flows.iter().map(flow).collect::<Option<Vec<_>>>()?;
+        Some(Symbols { table, flows, keeps_flows: true, ..Symbols::default() })
+    }
+
     /// Enclosures of all symbols with so many bits after the point; `None` where one has no value, or a divisor may vanish.
     ///
     /// Cost: an exponential of each matrix, and of a small one for each function.
@@ -121,6 +161,14 @@ impl Symbols {
         let middle = |v: &Ball| v.lower().midpoint(&v.upper()).to_f64_approximate();
         values.iter().map(middle).collect()
     }
+}
+
+/// A function of the variables after the first `count`, numbered from there; `None` where one of these is in it.
+pub(crate) fn beside(f: &RationalFunction, count: usize) -> Option<RationalFunction> {
+    if f.variables().into_iter().any(|i| i < count) {
+        return None;
+    }
+    f.map_variables(|i| i - count)
 }
 
 /// The value of a rational function where its variables have these; `None` where the denominator may vanish.

@@ -1,0 +1,189 @@
+use super::*;
+use crate::answer::Verdict;
+use crate::error::Source;
+use crate::model::Model;
+use crate::stability::{Shape, StableSet, stable_set_of_parts};
+
+/// A unity feedback loop: the controller's transfer function and that of the plant behind a zero-order hold.
+fn problem(controller: &str, plant: &str, sample_time: &str, domain: &str) -> Arc<Problem> {
+    let text = format!(
+        r#"
+        time = "discrete"
+        sample_time = "{sample_time}"
+        [parameters]
+        K = {{ nominal = 1{domain} }}
+        [loop]
+        inputs = ["r"]
+        outputs = ["y"]
+        [[block]]
+        input = "r - y"
+        output = "u"
+        transfer = "{controller}"
+        [[block]]
+        input = "u"
+        output = "y"
+        transfer = "{plant}"
+        discretize = "zoh"
+        "#
+    );
+    let (model, _) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
+    model.ask().free("K").problem().unwrap()
+}
+
+/// The set by enclosures, which has to be known.
+fn by_enclosures(problem: &Problem) -> StableSet {
+    let budget = Budget::unlimited();
+    match problem.enclosed_parts(&budget).unwrap().expect("a loop of this form") {
+        EnclosedParts::Unstable => StableSet::from_intervals(Vec::new(), Vec::new()),
+        EnclosedParts::Parts(parts) => {
+            stable_set_of_parts(&parts, &problem.parameter().domain, Shape::UnitDisc, &budget).unwrap()
+        }
+    }
+}
+
+/// Ends with their causes, to twelve digits.
+fn ends(set: &StableSet) -> Vec<[Option<(String, String)>; 2]> {
+    assert!(set.undecided().is_empty());
+    let shown = |end: &Option<crate::stability::End>| {
+        end.as_ref().map(|end| (end.value.decimal(12), format!("{} {:?}", end.causes, end.pair.is_some())))
+    };
+    set.intervals().iter().map(|i| [shown(&i.lower), shown(&i.upper)]).collect()
+}
+
+#[test]
+fn small_loops_have_the_set_of_the_exact_polynomial() {
+    let loops = [
+        ("K", "1/(s*(s + 1))", "1/10", ", min = 0"),
+        ("K", "1/(s*(s + 1))", "1", ""),
+        ("K*(z + 1/2)/(z - 1)", "1/((s + 1)*(s + 2))", "1/5", ", min = 0"),
+        ("K/(z - 1/2)", "(s - 1)/(s^2 + s/5 + 3)", "1/3", ""),
+        ("(K*z + 1 - K)/(z - 1/3)", "1/(s^2 + 4)", "1/7", ", min = -3, max = 5"),
+        ("K*(z + 1/3)/(z - 1)", "2/(s + 1)", "1/4", ", max = 3"),
+        ("K + 1/(z - 1/2)", "1/(s - 1)", "1/4", ""),
+    ];
+    let mut known = 0;
+    for (controller, plant, time, domain) in loops {
+        let problem = problem(controller, plant, time, domain);
+        let budget = Budget::unlimited();
+        let exact = problem.stable_set(&budget).unwrap();
+        let Some(EnclosedParts::Parts(parts)) = problem.enclosed_parts(&budget).unwrap() else { panic!("one part") };
+        match stable_set_of_parts(&parts, &problem.parameter().domain, Shape::UnitDisc, &budget) {
+            Ok(set) => {
+                assert_eq!(ends(&set), ends(exact.value()), "{controller} {plant}");
+                known += 1;
+            }
+            Err(stopped) => assert!(stopped.stop.is_precision(), "{controller} {plant}: {stopped}"),
+        }
+    }
+    assert!(known >= 5, "{known}");
+}
+
+#[test]
+fn parts_without_the_parameter_are_counted() {
+    // A second plant that nothing acts on.
+    let with = |own: &str| {
+        let text = format!(
+            r#"
+            time = "discrete"
+            sample_time = 0.1
+            [parameters]
+            K = 1
+            [loop]
+            inputs = ["r", "d"]
+            outputs = ["y"]
+            [[block]]
+            input = "K*(r - y - x)"
+            output = "y"
+            transfer = "1/(s + 1)"
+            discretize = "zoh"
+            [[block]]
+            input = "d"
+            output = "x"
+            transfer = "{own}"
+            discretize = "zoh"
+            "#
+        );
+        let (model, _) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
+        by_enclosures(&model.ask().free("K").problem().unwrap())
+    };
+    assert!(with("1/(s^2 - s/10 + 2)").is_empty());
+    assert_eq!(with("1/(s^2 + s/10 + 2)").intervals().len(), 1);
+}
+
+/// Order 7 with three modes, and order 12 with five: exact polynomials over all constants are not to be had.
+#[test]
+fn several_modes_have_their_limits() {
+    let plants = [
+        "1/((s+1)*(s^2+0.4*s+4)*(s^2+0.66*s+11)*(s^2+s+26))",
+        "1/(s*(s+1)*(s^2+0.4*s+4)*(s^2+0.66*s+11)*(s^2+s+26)*(s^2+1.3*s+40)*(s^2+2*s+71))",
+    ];
+    for plant in plants {
+        for domain in ["", ", min = 0"] {
+            limits_are_right(&problem("K", plant, "0.1", domain), plant.contains("s*(s"), domain.is_empty());
+        }
+    }
+}
+
+fn limits_are_right(problem: &Problem, is_integrating: bool, is_free: bool) {
+    let set = by_enclosures(problem);
+    let [interval] = set.intervals() else { panic!("{set:?}") };
+    let [lower, upper] = [&interval.lower, &interval.upper].map(|end| end.as_ref().unwrap());
+    if !is_free {
+        assert_eq!(lower.causes.to_string(), if is_integrating { "z=1+domain" } else { "domain" });
+    }
+    assert!(upper.pair.is_some());
+    let (lo, hi) = upper.value.refined(&Rational::dyadic(&Integer::ONE, 60)).enclosure();
+    let nearby = Rational::dyadic(&Integer::ONE, 40);
+    let verdict = |k: Rational| {
+        let point = problem.model().ask().set("K", k).verdict(&Budget::unlimited()).unwrap();
+        point.value().verdict
+    };
+    assert_eq!(verdict(lo - &nearby), Verdict::Stable);
+    assert_eq!(verdict(hi + &nearby), Verdict::Unstable);
+    let (lo, hi) = lower.value.refined(&Rational::dyadic(&Integer::ONE, 60)).enclosure();
+    assert_eq!(verdict(hi + &nearby), Verdict::Stable);
+    assert!(verdict(lo - &nearby) == Verdict::Unstable || !is_free && !is_integrating);
+}
+
+#[test]
+fn a_loop_with_an_inner_region_is_scaled() {
+    let plain = problem("K", "1/(s*(s + 1))", "1/10", "");
+    let region = Region::Disc(Bound::Number(Rational::new(9.into(), 10.into())));
+    let bounded = plain.model().ask().free("K").within(region).problem().unwrap();
+    let exact = bounded.stable_set(&Budget::unlimited()).unwrap();
+    assert_eq!(ends(&by_enclosures(&bounded)), ends(exact.value()));
+}
+
+#[test]
+fn powers_follow_from_whole_numbers() {
+    // 2 - 3 K + 5 K^3 at 0, 1, 2, 3.
+    let at = |k: i64| Rational::from(2 - 3 * k + 5 * k * k * k);
+    let found: Vec<Rational> = interpolation(3)
+        .iter()
+        .map(|weights| weights.iter().zip(0..).fold(Rational::ZERO, |sum, (w, k)| sum + w * &at(k)))
+        .collect();
+    assert_eq!(found, [2, -3, 0, 5].map(Rational::from));
+}
+
+#[test]
+fn what_is_not_linear_is_left_to_algebra() {
+    let known = |controller: &str| {
+        problem(controller, "1/(s + 1)", "1", "").enclosed_parts(&Budget::unlimited()).unwrap().is_some()
+    };
+    assert!(known("K") && known("1/(z - K)"));
+    assert!(!known("K^2") && !known("1/K"));
+}
+
+/// For `1/s^2` the value at -1 does not depend on `K`, and for a controller with a zero at 0 the value at 0 does not: exact numbers show that,
+/// and enclosures never.
+#[test]
+fn identities_of_other_numbers_are_left_to_algebra() {
+    for (controller, plant) in [("K", "1/s^2"), ("K*z/(z - 1)", "2/(s + 1)")] {
+        let problem = problem(controller, plant, "1/2", "");
+        let budget = Budget::unlimited();
+        let Some(EnclosedParts::Parts(parts)) = problem.enclosed_parts(&budget).unwrap() else { panic!("one part") };
+        let stopped = stable_set_of_parts(&parts, &problem.parameter().domain, Shape::UnitDisc, &budget).unwrap_err();
+        assert!(stopped.stop.is_precision());
+        assert!(problem.stable_set(&budget).unwrap().value().undecided().is_empty());
+    }
+}
