@@ -14,6 +14,7 @@
 //! | [`boxes`] | boxes of any number of parameters: proofs, counterexamples, largest factors |
 //! | [`dead_time`] | quasi-polynomials: dead times, gains, other parameters |
 //! | [`sector`] | the sector of at least a damping |
+//! | [`subdivision`] | the loop that halves boxes until every part is decided |
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -37,6 +38,7 @@ pub mod sector;
 mod stable_set;
 #[cfg(feature = "strategies")]
 pub mod strategies;
+pub mod subdivision;
 mod symbolic;
 
 pub use boundary::{Boundary, boundary_polynomials};

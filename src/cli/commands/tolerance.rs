@@ -199,7 +199,7 @@ fn shown(
     let text = || begun.rest_of(answer.text(text_digits(options)));
     match &value.decision {
         BoxDecision::Undecided { why, .. } => {
-            let stopped = Exhausted::by_method(*why, "proving the box");
+            let stopped = Exhausted::by_method(why.to_string(), "proving the box");
             context.undecided(output, &stopped, || Some(text()), || answer.json(digits))
         }
         decision => {

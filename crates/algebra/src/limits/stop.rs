@@ -33,8 +33,8 @@ pub enum Stop {
     Boxes {
         /// Boxes that are undecided.
         undecided: u64,
-        /// How often they were halved, where all were as often.
-        halvings: Option<u32>,
+        /// How often each of them was halved.
+        halvings: u32,
     },
     /// Boxes were halved so many times.
     Halvings(u32),
@@ -76,9 +76,8 @@ impl fmt::Display for Stop {
             Stop::Precision(bits) => write!(f, "precision ({bits} bits)"),
             Stop::Separation => f.write_str("precision"),
             Stop::Terms(most) => write!(f, "precision ({most} terms)"),
-            Stop::Boxes { undecided, halvings: None } => write!(f, "boxes ({undecided} undecided)"),
-            Stop::Boxes { undecided, halvings: Some(times) } => {
-                write!(f, "boxes ({undecided} undecided, halved {times} times)")
+            Stop::Boxes { undecided, halvings } => {
+                write!(f, "boxes ({undecided} undecided, halved {halvings} times)")
             }
             Stop::Halvings(times) => write!(f, "boxes halved {times} times"),
             Stop::Method(limit) => f.write_str(limit),
@@ -166,8 +165,7 @@ mod tests {
             (Stop::Precision(8192), "precision (8192 bits)"),
             (Stop::Separation, "precision"),
             (Stop::Terms(500), "precision (500 terms)"),
-            (Stop::Boxes { undecided: 7, halvings: None }, "boxes (7 undecided)"),
-            (Stop::Boxes { undecided: 7, halvings: Some(3) }, "boxes (7 undecided, halved 3 times)"),
+            (Stop::Boxes { undecided: 7, halvings: 3 }, "boxes (7 undecided, halved 3 times)"),
             (Stop::Halvings(40), "boxes halved 40 times"),
             (Stop::Method("identities of constants".into()), "identities of constants"),
         ];

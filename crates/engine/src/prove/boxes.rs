@@ -165,9 +165,9 @@ fn still(side: &Side) -> Side {
 /// A point that is not stable, and the least factor whose box holds it.
 fn beyond(witness: &Witness, sides: &[Side], degree: usize) -> Value {
     let (count, infinite) = match &witness.at {
-        AtPoint::Undefined | AtPoint::Delayed { .. } => (RootCount::default(), 0),
-        AtPoint::Zero => (RootCount::default(), degree),
-        AtPoint::Defined { count, infinite } => (*count, *infinite),
+        None | Some(AtPoint::Undefined | AtPoint::Delayed { .. }) => (RootCount::default(), 0),
+        Some(AtPoint::Zero) => (RootCount::default(), degree),
+        Some(AtPoint::Defined { count, infinite }) => (*count, *infinite),
     };
     let growing = sides.iter().zip(&witness.point).filter(|(side, _)| side.grows());
     let shares = growing.filter_map(|(side, x)| {

@@ -1,6 +1,7 @@
 //! The values of a parameter at which a root of a discrete loop enters or leaves the spiral of a damping.
 
 use super::spiral::{Arc, OnSpiral, Values, Walk};
+use crate::stability::subdivision::{BoxPart, Look, Order, subdivide};
 use crate::stability::{Cause, End, StableInterval};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted, Stop, checkpoint};
@@ -36,8 +37,9 @@ pub(super) fn changes(p: &OnSpiral, interval: &StableInterval, budget: &Budget) 
     let (a, b) = (lower.value.refined_to_digits(15).enclosure(), upper.value.refined_to_digits(15).enclosure());
     let outer = [a.0.clone(), b.1.clone()];
     let search = Search { p, ends: [lower, upper], outer, inner: [a.1, b.0], budget };
+    let whole = BoxPart::whole([[a.0, b.1]]);
     let mut out = Vec::new();
-    search.cut(&[a.0, b.1], BOXES, &mut out)?;
+    subdivide([whole], Order::Depth, budget, |part, _| search.look(part, &mut out))?.ok();
     Ok(out)
 }
 
@@ -52,11 +54,12 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn cut(&self, [from, to]: &[Rational; 2], halvings: u32, out: &mut Vec<Real>) -> Result<(), Exhausted> {
-        self.budget.check()?;
+    /// Looks at a box of the parameter, for at most one value.
+    fn look(&self, part: &BoxPart, out: &mut Vec<Real>) -> Result<Look<(), ()>, Exhausted> {
+        let [from, to] = &part.sides[0];
         let values = Values::between(from, to);
         let open = match self.budget.enter(|| self.p.walk(&values, BITS, ARCS, MOST_OPEN))? {
-            Walk::Count(_) => return Ok(()),
+            Walk::Count(_) => return Ok(Look::Decided(())),
             Walk::Open(open) => open,
         };
         let angles = hull(&open);
@@ -66,7 +69,7 @@ impl Search<'_> {
         if (!at_one || touches_one) && self.budget.enter(|| self.p.is_one_to_one(&angles, &values, BITS))? {
             // The only zero is the one at 1.
             if touches_one {
-                return Ok(());
+                return Ok(Look::Decided(()));
             }
             let (low, high) = (from.max(&self.inner[0]).clone(), to.min(&self.inner[1]).clone());
             let counts = [self.p.count_at(&low, self.budget)?, self.p.count_at(&high, self.budget)?];
@@ -76,15 +79,13 @@ impl Search<'_> {
                 let place = self.budget.enter(|| change.enclose(PLACE_BITS, None))?;
                 out.push(Transcendental::within(change, place).into());
             }
-            return Ok(());
+            return Ok(Look::Decided(()));
         }
-        if halvings == 0 {
+        if part.halvings[0] == BOXES {
             let near = from.to_f64_approximate();
             return Err(Exhausted::new(Stop::Halvings(BOXES), format!("the damping near {near:.6e}")));
         }
-        let middle = from.midpoint(to);
-        self.cut(&[from.clone(), middle.clone()], halvings - 1, out)?;
-        self.cut(&[middle, to.clone()], halvings - 1, out)
+        Ok(Look::Cut(0))
     }
 
     /// Whether the box holds an end at which 1 is a root.

@@ -8,12 +8,12 @@
 use super::family::Quotient;
 use super::requirement::Rule;
 use crate::stability::Shape;
+use crate::stability::subdivision::{BoxPart, Look, Order, Tally, subdivide};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly};
 use jurist_algebra::symbols::MovingSymbols;
-use std::collections::VecDeque;
 
 /// Terms of the Taylor polynomials in the parameter.
 const TERMS: usize = 3;
@@ -169,21 +169,19 @@ pub(super) fn segments(
 ) -> Result<Vec<Segment>, Exhausted> {
     budget.step("requirements for intervals of the parameter");
     let mut all: Vec<Segment> = Vec::new();
-    let mut todo = VecDeque::from([(lower.clone(), upper.clone())]);
-    let mut asked = 0;
-    while let Some((lo, hi)) = todo.pop_front() {
-        budget.check()?;
-        budget.advance(asked, MOST_BOXES as u64);
-        asked += 1;
-        let is_last = asked > MOST_BOXES as u64;
-        match if is_last { None } else { budget.enter(|| certain(boxes, &lo, &hi))? } {
-            None if !is_last => {
-                let middle = lo.midpoint(&hi);
-                todo.extend([(lo, middle.clone()), (middle, hi)]);
-            }
-            found => all.push((lo, hi, found)),
+    let look = |part: &mut BoxPart, tally: Tally| {
+        budget.advance(tally.looks() as u64, MOST_BOXES as u64);
+        let [lo, hi] = &part.sides[0];
+        let is_last = tally.looks() >= MOST_BOXES;
+        let found = if is_last { None } else { budget.enter(|| certain(boxes, lo, hi))? };
+        if found.is_none() && !is_last {
+            return Ok(Look::<(), ()>::Cut(0));
         }
-    }
+        all.push((lo.clone(), hi.clone(), found));
+        Ok(Look::Decided(()))
+    };
+    let whole = BoxPart::whole([[lower.clone(), upper.clone()]]);
+    subdivide([whole], Order::Breadth, budget, look)?.ok();
     all.sort_by(|a, b| a.0.cmp(&b.0));
     let mut out: Vec<Segment> = Vec::new();
     for (lo, hi, is_met) in all {
@@ -309,27 +307,27 @@ impl Asked {
             }
         }
         let mut pieces: Vec<Piece> = Vec::new();
-        let mut todo = vec![(Rational::ZERO, four, 0)];
-        let mut is_open = false;
-        // From below: the last one is the next.
-        for _ in 0..MOST_PIECES {
-            let Some((lower, upper, halvings)) = todo.pop() else { break };
-            let y = Ball::between(&lower, &upper, bits);
+        let look = |part: &mut BoxPart, tally: Tally| {
+            if tally.looks() >= MOST_PIECES {
+                return Ok(Look::Open(()));
+            }
+            let [lower, upper] = &part.sides[0];
+            let y = Ball::between(lower, upper, bits);
             if crossing.is_some_and(|c| sign_on(c, &y).is_some()) {
-                continue;
+                return Ok(Look::Decided(()));
             }
             let here = self.allowed(&signs, &y);
-            if here == Crossing::Unknown && halvings < MOST_HALVINGS {
-                let middle = lower.midpoint(&upper);
-                todo.extend([(middle.clone(), upper, halvings + 1), (lower, middle, halvings + 1)]);
-                continue;
+            if here == Crossing::Unknown && part.halvings[0] < MOST_HALVINGS {
+                return Ok(Look::Cut(0));
             }
-            is_open |= here == Crossing::Unknown;
             if here != Crossing::Allowed {
-                pieces.push(Piece { lower, upper, crossing: here });
+                pieces.push(Piece { lower: lower.clone(), upper: upper.clone(), crossing: here });
             }
-        }
-        is_open |= !todo.is_empty();
+            Ok(Look::Decided(()))
+        };
+        let whole = BoxPart::whole([[Rational::ZERO, four]]);
+        let all = subdivide([whole], Order::Depth, &Budget::unlimited(), look);
+        let is_open = !matches!(all, Ok(Ok(_))) || pieces.iter().any(|piece| piece.crossing == Crossing::Unknown);
         let is_met = !is_open && pieces.iter().all(|piece| has_no_zero(crossing, piece, bits));
         if is_met {
             return Some(true);
@@ -367,15 +365,16 @@ impl Asked {
 /// Whether shorter pieces show that there is no crossing; where each frequency counts, there is one.
 fn has_no_zero(crossing: Option<&[Ball]>, piece: &Piece, bits: u64) -> bool {
     let Some(crossing) = crossing else { return false };
-    let mut todo = vec![(piece.lower.clone(), piece.upper.clone())];
-    for _ in 0..MOST_SHORTER {
-        let Some((lower, upper)) = todo.pop() else { return true };
-        if sign_on(crossing, &Ball::between(&lower, &upper, bits)).is_none() {
-            let middle = lower.midpoint(&upper);
-            todo.extend([(middle.clone(), upper), (lower, middle)]);
-        }
-    }
-    todo.is_empty()
+    let look = |part: &mut BoxPart, tally: Tally| {
+        let [lower, upper] = &part.sides[0];
+        Ok(match sign_on(crossing, &Ball::between(lower, upper, bits)) {
+            _ if tally.looks() >= MOST_SHORTER => Look::Open(()),
+            Some(_) => Look::Decided(()),
+            None => Look::Cut(0),
+        })
+    };
+    let whole = BoxPart::whole([[piece.lower.clone(), piece.upper.clone()]]);
+    matches!(subdivide([whole], Order::Depth, &Budget::unlimited(), look), Ok(Ok(_)))
 }
 
 /// The sign of a polynomial on an interval, from its Taylor polynomial in the middle.

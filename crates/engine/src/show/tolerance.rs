@@ -185,7 +185,8 @@ impl Shown<'_> {
 
     /// `, 2 roots outside just beyond`
     fn beyond(&self, witness: &Witness) -> String {
-        match &witness.at {
+        let Some(at) = &witness.at else { return String::new() };
+        match at {
             AtPoint::Defined { count, infinite } if count.outside + infinite > 0 => {
                 let n = count.outside + infinite;
                 format!(", {n} {} outside just beyond", if n == 1 { "root" } else { "roots" })
@@ -292,7 +293,10 @@ fn end_words(worst: &WorstEnd) -> String {
     out
 }
 
-/// The root count of a witness as a verdict.
+/// The root count of a witness as a verdict; answers hold counted ones only.
 pub(crate) fn verdict_of(witness: &Witness, problem: &Problem) -> PointVerdict {
-    PointVerdict::of(witness.at.clone(), problem.evaluated().map_or(0, |algebra| algebra.formal_degree()))
+    PointVerdict::of(
+        witness.at.clone().unwrap_or(AtPoint::Undefined),
+        problem.evaluated().map_or(0, |algebra| algebra.formal_degree()),
+    )
 }

@@ -31,8 +31,8 @@ pub(super) type Split = Vec<(Vec<u32>, MultiPoly)>;
 
 /// `sum P_k(s; p) exp(-tau_k(p) s)` with coefficients that are polynomials in the parameters, and dead times that are quotients of such.
 ///
-/// A point is counted by one walk along the imaginary axis. Where that does not tell, as with roots on the axis, `Family::at` says
-/// [`AtPoint::Undefined`]: who has the model counts there once more.
+/// A point is counted by one walk along the imaginary axis. Where that does not tell, as with roots on the axis, who has the model counts
+/// there once more.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
@@ -183,8 +183,8 @@ impl Family for DelayedFunction {
         self.parameters
     }
 
-    fn at(&self, point: &[Rational]) -> AtPoint {
-        self.counted_at(point).unwrap_or(AtPoint::Undefined)
+    fn count(&self, point: &[Rational]) -> Option<AtPoint> {
+        self.counted_at(point)
     }
 
     fn is_stable_at(&self, point: &[Rational]) -> bool {
@@ -193,10 +193,6 @@ impl Family for DelayedFunction {
 
     fn least_gap(&self) -> Rational {
         Rational::dyadic(&Integer::ONE, LEAST_GAP)
-    }
-
-    fn counted_beside(&self, point: &[Rational]) -> Option<AtPoint> {
-        self.counted_at(point)
     }
 
     fn signs_at(&self, point: &[Rational]) -> Option<(Vec<Sign>, i64)> {

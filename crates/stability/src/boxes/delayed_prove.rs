@@ -7,11 +7,12 @@
 //! but its modulus. Their Bernstein coefficients prove cells of a part as those of any other pair do.
 
 use super::delayed::DelayedFunction;
-use super::parts::{Known, Term, bundle, closed, corners, extent, middle, pruned};
+use super::parts::{Known, Local, Term, add_terms, bundle, coordinates, corners, extent, middle, model_degree, pruned};
 use super::polynomial::Bundle;
 use super::prove::{BoxProof, Closing, Outcome, closed_by_constant, closed_by_vector, keeps_sign, simplest_point};
+use super::reason::OpenReason;
 use super::tensor::{FrequencyScale, Tensor, common_factor, expand};
-use super::tree::Tree;
+use crate::subdivision::{BoxPart, Look, Order, Tally, decided, subdivide};
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel, cos_sin};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Integer, Rational, Sign};
@@ -48,9 +49,6 @@ const MOST_BOXES: usize = 64;
 /// The exponents of two of frequencies beyond which the highest power may outweigh all others.
 const BOUNDS: std::ops::Range<i64> = -60..600;
 
-/// A part of the box and of the axis: the sides of the parameters, then the frequencies.
-type Sides = Vec<[Rational; 2]>;
-
 /// What is known of the function in a part; coordinates of what is inside of dead times, and of the frequency, go from -1 to 1.
 struct Part {
     pair: Vec<Known>,
@@ -86,22 +84,13 @@ impl DelayedFunction {
         if let Some(corner) = corners(whole).find_map(|point| self.refuted(point, reference)) {
             return Ok(corner);
         }
-        let mut boxes = vec![whole.to_vec()];
-        let mut stack = Vec::new();
-        while let Some(sides) = boxes.pop() {
-            budget.check()?;
-            if let Some(bound) = self.bound(&sides) {
-                stack.push(sides.into_iter().chain([[Rational::ZERO, bound]]).collect::<Sides>());
-                continue;
+        match self.bounded(whole, budget)? {
+            Ok(parts) => self.parts_proved(parts, whole, (reference, scale), cells.min(MOST_PARTS), budget),
+            Err(cell) => {
+                let why = OpenReason::HighestPower;
+                Ok(Outcome::Open { why, cell })
             }
-            let widest = (0..sides.len()).max_by_key(|&i| (extent(&sides[i]), std::cmp::Reverse(i)));
-            let Some(axis) = widest.filter(|_| boxes.len() + stack.len() < MOST_BOXES) else {
-                let why = "the highest power of s may not outweigh its delayed part";
-                return Ok(Outcome::Open { why, cell: sides });
-            };
-            boxes.extend(halved(sides, axis));
         }
-        self.parts_proved(stack, whole, (reference, scale), cells.min(MOST_PARTS), budget)
     }
 
     /// A point that is not stable.
@@ -110,47 +99,62 @@ impl DelayedFunction {
         is_lost.then_some(Outcome::Refuted(point))
     }
 
+    /// Parts of a box with all frequencies up to which roots may be on the axis; else a part in which that is not known.
+    fn bounded(
+        &self,
+        whole: &[[Rational; 2]],
+        budget: &Budget,
+    ) -> Result<Result<Vec<BoxPart>, Vec<[Rational; 2]>>, Exhausted> {
+        let look = |BoxPart { sides, .. }: &mut BoxPart, tally: Tally| {
+            if let Some(bound) = self.bound(sides) {
+                let part: Vec<[Rational; 2]> = sides.iter().cloned().chain([[Rational::ZERO, bound]]).collect();
+                return Ok(Look::Decided(BoxPart::whole(part)));
+            }
+            let widest = (0..sides.len()).max_by_key(|&i| (extent(&sides[i]), std::cmp::Reverse(i)));
+            let widest = widest.filter(|_| tally.decided + tally.waiting < MOST_BOXES);
+            Ok(widest.map_or_else(|| Look::Open(sides.clone()), Look::Cut))
+        };
+        let steps = subdivide([BoxPart::whole(whole)], Order::Depth, budget, look)?;
+        Ok(steps.map(|steps| decided(steps).collect()))
+    }
+
     fn parts_proved(
         &self,
-        mut stack: Vec<Sides>,
+        parts: Vec<BoxPart>,
         whole: &[[Rational; 2]],
         (reference, scale): (&[Sign], i64),
         most: usize,
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
         let narrowest = Rational::dyadic(&Integer::ONE, MOST_HALVINGS);
-        let (mut parts, mut proved) = (0, 0);
-        while let Some(sides) = stack.pop() {
-            budget.check()?;
-            parts += 1;
-            let Some(part) = self.part(&sides) else {
-                return Ok(Outcome::Open { why: "a dead time near a pole", cell: parameters(sides) });
+        let look = |BoxPart { sides, .. }: &mut BoxPart, tally: Tally| {
+            let Some(part) = self.part(sides) else {
+                let (why, cell) = (OpenReason::Pole, parameters(sides.clone()));
+                return Ok(Look::Open(Outcome::Open { why, cell }));
             };
-            let last = match self.part_proved(&part, &sides, budget)? {
-                Ok(count) => {
-                    proved += count;
-                    continue;
-                }
+            let last = match self.part_proved(&part, sides, budget)? {
+                Ok(count) => return Ok(Look::Decided(count)),
                 Err(cell) => parameters(cell),
             };
             let mut points = [simplest_point(&last), middle(&last)].into_iter().chain(corners(&last));
             let lost = if part.is_vague { None } else { points.find_map(|point| self.refuted(point, reference)) };
             drop(points);
             if let Some(outcome) = lost {
-                return Ok(outcome);
+                return Ok(Look::Open(outcome));
             }
-            let why = (parts + stack.len() > most).then_some("too many cells");
+            let why = (tally.cells() + 1 > most).then_some(OpenReason::Cells);
             let width = |[low, high]: &[Rational; 2]| high - low;
             let least = |i: usize| whole.get(i).map_or(Rational::ZERO, |side| width(side) * narrowest.clone());
             let axes = (0..sides.len()).filter(|&i| width(&sides[i]) > least(i));
             let axis = axes.max_by(|&i, &j| (&part.scores[i], j).cmp(&(&part.scores[j], i)));
-            let Some(axis) = axis.filter(|&i| why.is_none() && !part.scores[i].is_zero()) else {
-                return Ok(Outcome::Open { why: why.unwrap_or("a cell too small"), cell: last });
-            };
-            stack.extend(halved(sides, axis).into_iter().rev());
-        }
-        let pair = Tree::default();
-        Ok(Outcome::Stable(BoxProof { certain: Vec::new(), scale, weight: 0, pair, beside: proved }))
+            let axis = axis.filter(|&i| why.is_none() && !part.scores[i].is_zero());
+            let open = || Outcome::Open { why: why.unwrap_or(OpenReason::Small), cell: last };
+            Ok(axis.map_or_else(|| Look::Open(open()), Look::Cut))
+        };
+        Ok(match subdivide(parts, Order::Depth, budget, look)? {
+            Ok(steps) => Outcome::Stable(BoxProof::of_cells(scale, decided(steps).sum())),
+            Err(outcome) => outcome,
+        })
     }
 
     /// What stands against a dead time that is nowhere negative in the box.
@@ -162,10 +166,7 @@ impl DelayedFunction {
         }
         let is_negative = |point: &Vec<Rational>| time.eval(point).is_some_and(|x| x.is_negative());
         let refuted = corners(sides).find(|point| is_negative(point) && self.seen_at(point) == Some(false));
-        let open = || Outcome::Open {
-            why: "a dead time that may be negative, or less than that of the highest power of s",
-            cell: sides.to_vec(),
-        };
+        let open = || Outcome::Open { why: OpenReason::NegativeTime, cell: sides.to_vec() };
         Some(refuted.map_or_else(open, Outcome::Refuted))
     }
 
@@ -202,13 +203,8 @@ impl DelayedFunction {
         checkpoint(2000);
         let (m, n) = (sides.len() - 1, self.order);
         let axes: Vec<usize> = self.inside.iter().copied().chain([m]).collect();
-        let line = |&i: &usize| {
-            let [low, high] = &sides[i];
-            let middle = low.midpoint(high);
-            (Ball::from_rational(&middle, BITS), Ball::from_rational(&(high - &middle), BITS))
-        };
-        let lines: Vec<(Ball, Ball)> = axes.iter().map(line).collect();
-        let models = MultiTaylorModel::linear(&lines, model_degree(axes.len()).max(n));
+        let degree = model_degree(axes.len(), 3..=8, MODEL_TERMS).max(n);
+        let models = coordinates(sides, &axes, BITS, degree);
         let omega = models.last().expect("the frequency");
         let one = omega.integer(&Integer::ONE);
         let mut values = vec![omega.integer(&Integer::ZERO); m];
@@ -273,24 +269,14 @@ impl DelayedFunction {
         let mut sized: [Vec<Term>; 2] = [Vec::new(), Vec::new()];
         let mut slacks = vec![Integer::ZERO; 2];
         for (beside, models) in &sums {
-            let powers = beside.iter().zip(sides).filter(|(e, _)| **e > 0);
-            let bound = powers.fold(Rational::ONE, |product, (&e, [low, high])| {
-                &product * &low.abs().max(high.abs()).pow(i64::from(e)).expect("a positive exponent")
-            });
-            let size = |c: &Integer| (&Rational::from(c.abs()) * &bound).ceil();
             for (k, model) in models.iter().enumerate() {
-                slacks[k] += &size(model.rest_units());
-                for (own, c) in model.terms().filter(|(_, c)| !c.is_zero()) {
-                    let mut exponents = (*beside).clone();
-                    exponents.resize(sides.len(), 0);
-                    axes.iter().zip(own).for_each(|(&i, &e)| exponents[i] = e);
-                    let size = size(c);
-                    let total: u32 = own.iter().sum();
-                    if total > 1 && !is_vague {
-                        axes.iter().zip(own).for_each(|(&i, &e)| scores[i] += &size * &Integer::from(u64::from(e)));
-                    }
-                    sized[k].push(Term { exponents, coefficient: c.clone(), size });
-                }
+                slacks[k] += add_terms(&mut sized[k], (model, beside), axes, sides);
+            }
+        }
+        for Term { exponents, size, .. } in sized.iter().flatten().filter(|_| !is_vague) {
+            let total: u32 = axes.iter().map(|&i| exponents[i]).sum();
+            if total > 1 {
+                axes.iter().for_each(|&i| scores[i] += size * &Integer::from(u64::from(exponents[i])));
             }
         }
         let pair = pruned(sized.into(), slacks, axes, 1, (TENSOR_TERMS, &KEPT_BITS));
@@ -303,39 +289,23 @@ impl DelayedFunction {
         part: &Part,
         sides: &[[Rational; 2]],
         budget: &Budget,
-    ) -> Result<Result<usize, Sides>, Exhausted> {
+    ) -> Result<Result<usize, Vec<[Rational; 2]>>, Exhausted> {
         let m = sides.len() - 1;
         let axes: Vec<usize> = self.inside.iter().copied().chain([m]).collect();
-        let mut local = sides.to_vec();
-        for &i in &axes {
-            local[i] = [-Rational::ONE, Rational::ONE];
-        }
+        let local = Local::new(sides, &axes);
         let slack: Vec<Integer> = part.pair.iter().map(|known| known.slack.clone()).collect();
-        let (tensor, _) = Tensor::of_pair_within(&bundle(&part.pair, sides.len()), &slack, &local, FrequencyScale(0));
-        let (closing, most): (Closing, usize) =
-            if part.is_vague { (closed_by_constant, 1) } else { (closed_by_vector, CELLS_IN_PART) };
-        Ok(closed(tensor, closing, most, budget)?.map_err(|cell| {
-            let mut cell = cell.sides(&local);
-            for &i in &axes {
-                let [low, high] = &sides[i];
-                let half = Rational::new(1.into(), 2.into());
-                cell[i] = cell[i].each_ref().map(|u| low + &(&(&(high - low) * &half) * &(u + &Rational::ONE)));
-            }
-            cell
-        }))
+        let pair = bundle(&part.pair, sides.len());
+        let (tensor, _) = Tensor::of_pair_within(&pair, &slack, &local.sides, FrequencyScale(0));
+        let closing: (Closing, usize) =
+            if part.is_vague { (&closed_by_constant, 1) } else { (&closed_by_vector, CELLS_IN_PART) };
+        local.closed(tensor, closing, budget)
     }
 }
 
-fn parameters(mut sides: Sides) -> Sides {
+/// The sides of the parameters, without the frequencies.
+fn parameters(mut sides: Vec<[Rational; 2]>) -> Vec<[Rational; 2]> {
     sides.pop();
     sides
-}
-
-fn halved(sides: Sides, axis: usize) -> [Sides; 2] {
-    let middle = sides[axis][0].midpoint(&sides[axis][1]);
-    let (mut low, mut high) = (sides.clone(), sides);
-    (low[axis][1], high[axis][0]) = (middle.clone(), middle);
-    [low, high]
 }
 
 /// The range of the Bernstein coefficients, in which that of the values is.
@@ -344,12 +314,6 @@ fn range_of(p: &MultiPoly, sides: &[[Rational; 2]]) -> [Rational; 2] {
     let all = expand(&bundle, sides);
     let over = Rational::from(&common_factor(&bundle, sides));
     [all.iter().min(), all.iter().max()].map(|end| &Rational::from(end.expect("there is one")) / &over)
-}
-
-/// The degree of Taylor models in so many variables.
-fn model_degree(variables: usize) -> usize {
-    let terms = |degree: usize| (1..=variables).fold(1, |n, i| n * (degree + i) / i);
-    (3..=8).rev().find(|&degree| terms(degree) <= MODEL_TERMS).unwrap_or(3)
 }
 
 /// A polynomial at models of its variables.

@@ -16,12 +16,13 @@ use super::determinants::{derivatives, product};
 use super::factor::{LargestFactor, ToleranceProblem};
 use super::family::Path;
 use super::polynomial::Bundle;
-use super::prove::{Cell, Outcome, closed_by_constant, closed_by_vector, keeps_sign};
+use super::prove::{Cell, Closing, Outcome, closed_by_constant, closed_by_sign, closed_by_vector, keeps_sign};
 use super::search::ray;
 use super::sides::{Side, at_factor};
 use super::tangent::touching;
 use super::tensor::{FrequencyScale, Tensor, expand};
-use super::tree::{Axis, Node, Tree};
+use super::tree::{Node, Tree};
+use crate::subdivision::{Look, Order, Tally, subdivide};
 use crate::{Cause, End};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
@@ -320,11 +321,7 @@ impl ToleranceProblem<'_> {
             return Ok(None);
         }
         let bundle = Bundle::new(&[f], sides.len());
-        let closed = |cell: &Cell, _: usize| {
-            let (low, high) = cell.tensor.range(0);
-            let signed = if sign.is_gt() { low > cell.tensor.error } else { high < -cell.tensor.error };
-            if signed { Ok(Node::Signed(sign.is_gt())) } else { Err(None) }
-        };
+        let closed = closed_by_sign(sign);
         for depth in DEPTHS {
             let parts: Option<Vec<[Rational; 2]>> =
                 (0..sides.len()).map(|i| self.part(&known, i, &Rational::ZERO, depth)).collect();
@@ -348,51 +345,34 @@ impl ToleranceProblem<'_> {
     }
 }
 
-/// What closes a cell, given the number of nodes so far; else the axis to halve first, where one is known.
-type Closes<'c> = &'c dyn Fn(&Cell, usize) -> Result<Node, Option<usize>>;
-
 /// A tree of cells that are closed, but for those inside the critical cell; `None` where it takes too many.
-fn cover(
-    tensor: Tensor,
-    critical: &CriticalCell,
-    closed: Closes<'_>,
-    budget: &Budget,
-) -> Result<Option<Tree>, Exhausted> {
+fn cover(tensor: Tensor, critical: &CriticalCell, closed: Closing, budget: &Budget) -> Result<Option<Tree>, Exhausted> {
     let parts = &critical.parts;
     let frequency = parts.len() - 1;
-    let mut stack = vec![Cell::whole(tensor)];
-    let mut nodes = Vec::new();
-    while let Some(cell) = stack.pop() {
-        budget.check()?;
-        let hint = match closed(&cell, nodes.len()) {
-            Ok(node) => {
-                nodes.push(node);
-                continue;
-            }
+    let look = |cell: &mut Cell, tally: Tally| {
+        let hint = match closed(cell, tally.looks()) {
+            Ok(node) => return Ok(Look::Decided(node)),
             Err(hint) => hint,
         };
         let own: Vec<[Rational; 2]> = (0..=frequency).map(|axis| cell.part(axis)).collect();
         let beyond: Vec<usize> =
             (0..=frequency).filter(|&i| own[i][0] < parts[i][0] || own[i][1] > parts[i][1]).collect();
         if beyond.is_empty() {
-            nodes.push(Node::Critical);
-            continue;
+            return Ok(Look::Decided(Node::Critical));
         }
         let meets = (0..=frequency).all(|i| own[i][0] < parts[i][1] && own[i][1] > parts[i][0]);
-        if nodes.len() + stack.len() > CELLS {
-            return Ok(None);
+        if tally.cells() > CELLS {
+            return Ok(Look::Open(()));
         }
         let axis = match hint {
             Some(axis) if !meets || beyond.contains(&axis) => Some(axis),
             _ if meets => cell.tensor.best_axis_of(&beyond),
             _ => cell.tensor.best_axis(),
         };
-        let Some(axis) = axis.or_else(|| meets.then(|| beyond[0])) else { return Ok(None) };
-        nodes.push(Node::Halved(if axis == frequency { Axis::Frequency } else { Axis::Parameter(axis) }));
-        let [low, high] = cell.halves(axis);
-        stack.extend([high, low]);
-    }
-    Ok(Some(Tree(nodes)))
+        Ok(axis.or_else(|| meets.then(|| beyond[0])).map_or(Look::Open(()), Look::Cut))
+    };
+    let steps = subdivide([Cell::whole(tensor)], Order::Depth, budget, look)?;
+    Ok(steps.ok().map(|steps| Tree::of(steps, frequency)))
 }
 
 /// What the exact proof begins with.

@@ -3,6 +3,7 @@
 use super::family::{Family, Path};
 use super::polynomial::BoxPolynomial;
 use super::prove::{BoxProof, MOST_COEFFICIENTS, Outcome};
+use super::reason::OpenReason;
 use super::search::{Crossing, Search};
 use super::sides::{Side, at_factor};
 use crate::AtPoint;
@@ -75,7 +76,7 @@ pub enum BoxDecision {
     /// Neither was proved.
     Undecided {
         /// What ran out.
-        why: &'static str,
+        why: OpenReason,
         /// The part of the box that was looked at last.
         cell: Vec<[Rational; 2]>,
     },
@@ -84,7 +85,7 @@ pub enum BoxDecision {
 impl BoxDecision {
     /// That of a box with a point that is not stable.
     pub fn not_stable_at(point: Vec<Rational>, at: AtPoint) -> BoxDecision {
-        BoxDecision::NotStable { witness: Some(Witness { point, at }) }
+        BoxDecision::NotStable { witness: Some(Witness::new(point, at)) }
     }
 
     /// Whether every point is stable.
@@ -99,14 +100,19 @@ impl BoxDecision {
 pub struct Witness {
     /// The values of the parameters.
     pub point: Vec<Rational>,
-    /// What is exactly known there.
-    pub at: AtPoint,
+    /// The certain root count there; `None` where the loop alone does not tell it, and only the model can.
+    pub at: Option<AtPoint>,
 }
 
 impl Witness {
-    /// A point and what is exactly known there.
+    /// A point and its certain root count.
     pub fn new(point: Vec<Rational>, at: AtPoint) -> Witness {
-        Witness { point, at }
+        Witness { point, at: Some(at) }
+    }
+
+    /// A point that is not counted yet.
+    pub fn uncounted(point: Vec<Rational>) -> Witness {
+        Witness { point, at: None }
     }
 }
 
@@ -127,7 +133,7 @@ pub struct LargestFactor {
     /// A point that is not stable, just beyond.
     pub witness: Option<Witness>,
     /// Where the proof of a closer bracket ended.
-    pub open: Option<(&'static str, Vec<[Rational; 2]>)>,
+    pub open: Option<(OpenReason, Vec<[Rational; 2]>)>,
     pub(super) crossing: Option<Crossing>,
 }
 
@@ -201,7 +207,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
     }
 
     fn witness(&self, point: Vec<Rational>) -> Option<Witness> {
-        let at = self.p.at(&point);
+        let at = self.p.count(&point);
         Some(Witness { point, at })
     }
 
@@ -273,7 +279,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
             let outcome = match self.attempt(&target, CELLS, budget) {
                 Err(exhausted) if proved.is_none() => return Err(exhausted),
                 Err(_) => {
-                    open.get_or_insert(("the time", Vec::new()));
+                    open.get_or_insert((OpenReason::Time, Vec::new()));
                     break;
                 }
                 Ok(outcome) => outcome,
@@ -289,7 +295,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
                 Outcome::Refuted(point) => {
                     refutations += 1;
                     if refutations > REFUTATIONS {
-                        open = Some(("too many points that are not stable", Vec::new()));
+                        open = Some((OpenReason::Refutations, Vec::new()));
                         break;
                     }
                     budget.step("looking for the worst point");
@@ -297,13 +303,13 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
                     budget.step("proving the largest box");
                     let is_bounded = nearer.is_err() || self.reaches(&mut search, &point);
                     if !is_bounded && matches!(nearer, Ok(false)) {
-                        open = Some(("a point that no line from the nominal one shows", Vec::new()));
+                        open = Some((OpenReason::Unreached, Vec::new()));
                         break;
                     }
                     match nearer {
                         Err(exhausted) if proved.is_none() => return Err(exhausted),
                         Err(_) => {
-                            open = Some(("the time", Vec::new()));
+                            open = Some((OpenReason::Time, Vec::new()));
                             break;
                         }
                         Ok(_) => {}
@@ -397,7 +403,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         &self,
         search: Search<F>,
         proved: Option<(Rational, BoxProof)>,
-        open: Option<(&'static str, Vec<[Rational; 2]>)>,
+        open: Option<(OpenReason, Vec<[Rational; 2]>)>,
     ) -> LargestFactor {
         let (lower, proof) = match proved {
             Some((lower, proof)) => (lower, Some(proof)),

@@ -30,16 +30,11 @@ pub trait Family {
     /// The number of parameters.
     fn parameters(&self) -> usize;
 
-    /// The root count at a point, exact where the coefficients are.
-    fn at(&self, point: &[Rational]) -> AtPoint;
+    /// The root count at a point, where the loop alone tells it for certain; else who has the model counts there.
+    fn count(&self, point: &[Rational]) -> Option<AtPoint>;
 
-    /// Whether the loop is stable at a point, as far as [`Family::at`] knows.
+    /// True if the loop is stable at a point, as far as its rounded or enclosed coefficients tell.
     fn is_stable_at(&self, point: &[Rational]) -> bool;
-
-    /// The exact root count at a point, where it is known without the model.
-    fn counted_beside(&self, _point: &[Rational]) -> Option<AtPoint> {
-        None
-    }
 
     /// The signs of what must not vanish at a point, and the scale of frequencies there; `None` where one vanishes.
     fn signs_at(&self, point: &[Rational]) -> Option<(Vec<Sign>, i64)>;
@@ -235,8 +230,8 @@ impl Family for BoxPolynomial {
         BoxPolynomial::parameters(self)
     }
 
-    fn at(&self, point: &[Rational]) -> AtPoint {
-        BoxPolynomial::at(self, point)
+    fn count(&self, point: &[Rational]) -> Option<AtPoint> {
+        Some(self.at(point))
     }
 
     fn is_stable_at(&self, point: &[Rational]) -> bool {
@@ -273,8 +268,8 @@ impl Family for BoxPolynomial {
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
         let by = |closing: Closing, cells: usize| prove(self, sides, known.0, known.1, (closing, cells), budget);
-        match by(closed_by_constant, cells.min(CONSTANT_CELLS))? {
-            Outcome::Open { .. } => Ok(match by(closed_by_vector, cells)? {
+        match by(&closed_by_constant, cells.min(CONSTANT_CELLS))? {
+            Outcome::Open { .. } => Ok(match by(&closed_by_vector, cells)? {
                 Outcome::Open { why, cell } => match not_stable_near(self, &cell, sides) {
                     Some(point) => Outcome::Refuted(point),
                     None => Outcome::Open { why, cell },

@@ -7,7 +7,7 @@ use super::family::{Family, Gradient, Path, pulls_of};
 use super::line::{on_line, pair_function, rational_zero};
 use super::polynomial::{BoxPolynomial, Bundle};
 use super::prove::{Outcome, closed_by_constant, closed_by_vector, scale_of};
-use crate::{AtPoint, Shape, count_roots, is_hurwitz_routh};
+use crate::{AtPoint, Shape, is_hurwitz_routh};
 use jurist_algebra::ball::{Ball, Elementary, Series};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::matrix::CharacteristicPolynomial;
@@ -249,20 +249,8 @@ impl Family for MovingPolynomial {
         self.parameters
     }
 
-    fn at(&self, point: &[Rational]) -> AtPoint {
-        let Some(numbers) = self.numbers(point).filter(|_| self.has_a_meaning_at(point)) else {
-            return AtPoint::Undefined;
-        };
-        let divisors = numbers.len() - self.coefficients() - 2;
-        if numbers[self.coefficients()..][..divisors].iter().any(Integer::is_zero) {
-            return AtPoint::Undefined;
-        }
-        let p = self.half_plane(&numbers);
-        if p.is_zero() {
-            return AtPoint::Zero;
-        }
-        let count = count_roots(&p, Shape::LeftHalfPlane);
-        AtPoint::Defined { count, infinite: self.formal_degree() - count.total() }
+    fn count(&self, _point: &[Rational]) -> Option<AtPoint> {
+        None
     }
 
     fn is_stable_at(&self, point: &[Rational]) -> bool {
@@ -293,8 +281,8 @@ impl Family for MovingPolynomial {
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
         let cells = cells.min(MOST_PARTS);
-        match self.proved(sides, known, (closed_by_constant, cells), budget)? {
-            Outcome::Open { .. } => self.proved(sides, known, (closed_by_vector, cells), budget),
+        match self.proved(sides, known, (&closed_by_constant, cells), budget)? {
+            Outcome::Open { .. } => self.proved(sides, known, (&closed_by_vector, cells), budget),
             outcome => Ok(outcome),
         }
     }

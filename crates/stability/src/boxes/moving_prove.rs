@@ -7,12 +7,13 @@
 //! wide is halved along the parameter in which the coefficients are farthest from straight.
 
 use super::moving::MovingPolynomial;
-use super::parts::{Known, Term, bundle, closed, corners, extent, is_blurred, middle, pruned};
+use super::parts::{Known, Local, Term, add_terms, bundle, coordinates, corners, extent, middle, model_degree, pruned};
 use super::polynomial::Bundle;
-use super::prove::{BoxProof, Cell, Closing, Outcome, simplest_point};
+use super::prove::{BoxProof, Closing, Outcome, closed_by_sign, simplest_point};
+use super::reason::OpenReason;
 use super::tensor::{FrequencyScale, Tensor};
-use super::tree::Tree;
-use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel};
+use crate::subdivision::{BoxPart, Halves, Look, Order, Tally, decided, subdivide};
+use jurist_algebra::ball::{Elementary, MultiTaylorModel};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Integer, Rational, Sign};
 
@@ -62,17 +63,8 @@ impl MovingPolynomial {
 
     /// The parts of all functions over sides of what is inside of functions: other sides do not change them.
     pub(super) fn models(&self, sides: &[[Rational; 2]]) -> Option<Vec<Vec<MultiTaylorModel>>> {
-        let count = self.inside.len();
-        let lines: Vec<(Ball, Ball)> = self
-            .inside
-            .iter()
-            .map(|&i| {
-                let [low, high] = &sides[i];
-                let middle = low.midpoint(high);
-                (Ball::from_rational(&middle, BITS), Ball::from_rational(&(high - &middle), BITS))
-            })
-            .collect();
-        let moving = MultiTaylorModel::linear(&lines, model_degree(count));
+        let degree = model_degree(self.inside.len(), 2..=MODEL_DEGREE, MODEL_TERMS);
+        let moving = coordinates(sides, &self.inside, BITS, degree);
         // What is not inside of functions is not looked at here.
         let mut parameters = vec![moving[0].integer(&Integer::ZERO); sides.len()];
         for (&i, model) in self.inside.iter().zip(moving) {
@@ -83,13 +75,6 @@ impl MovingPolynomial {
 
     /// What is known in a part, from the functions' models.
     fn part_of(&self, sides: &[[Rational; 2]], parts: &[Vec<MultiTaylorModel>]) -> Part {
-        let most = |beside: &[u32]| {
-            let powers = beside.iter().zip(sides).filter(|(e, _)| **e > 0);
-            powers.fold(Rational::ONE, |product, (&e, [low, high])| {
-                let largest = low.abs().max(high.abs());
-                &product * &largest.pow(i64::from(e)).expect("a positive exponent")
-            })
-        };
         let mut curvature = vec![Integer::ZERO; sides.len()];
         let mut slacks: Vec<Integer> = Vec::new();
         let mut sized: Vec<Vec<Term>> = Vec::new();
@@ -97,16 +82,7 @@ impl MovingPolynomial {
             let mut slack = Integer::ZERO;
             let mut own = Vec::new();
             for ((beside, _), model) in f.iter().zip(parts) {
-                let bound = most(beside);
-                let size = |c: &Integer| (&Rational::from(c.abs()) * &bound).ceil();
-                slack += &size(model.rest_units());
-                for (exponents, c) in model.terms().filter(|(_, c)| !c.is_zero()) {
-                    let mut all = beside.clone();
-                    for (&i, &e) in self.inside.iter().zip(exponents) {
-                        all[i] = e;
-                    }
-                    own.push(Term { exponents: all, coefficient: c.clone(), size: size(c) });
-                }
+                slack += add_terms(&mut own, (model, beside), &self.inside, sides);
             }
             let largest = own.iter().map(|term| &term.size).max().cloned().unwrap_or(Integer::ONE);
             for Term { exponents, size, .. } in &own {
@@ -145,65 +121,70 @@ impl MovingPolynomial {
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
         let refuted = |point: Vec<Rational>| (self.seen_at(&point) == Some(false)).then_some(Outcome::Refuted(point));
-        let mut stack = vec![(whole.to_vec(), vec![0u32; whole.len()])];
-        let (mut parts, mut proved, mut missed) = (0, 0, 0);
-        while let Some((sides, halvings)) = stack.pop() {
-            budget.check()?;
-            parts += 1;
+        let look = |cell: &mut Octaves, tally: Tally| {
+            let Octaves(BoxPart { sides, halvings }) = cell;
             checkpoint(1000);
-            let part = self.part(&sides);
-            let mut last = sides.clone();
-            let curvature = match &part {
-                None => None,
-                Some(part) => match part.proved(
-                    &sides,
-                    &self.inside,
-                    self.coefficients(),
-                    known,
-                    (closing, CELLS_IN_PART),
-                    budget,
-                )? {
-                    Ok(count) => {
-                        proved += count;
-                        continue;
-                    }
-                    Err(cell) => {
-                        last = cell;
-                        Some(&part.curvature)
-                    }
-                },
-            };
-            missed += 1;
-            let is_last = parts + stack.len() > cells;
-            if (missed % TESTED_EVERY == 1 || is_last)
-                && let Some(outcome) = refuted(simplest_point(&last)).or_else(|| refuted(middle(&last)))
-            {
-                return Ok(outcome);
-            }
-            let wide = |i: &usize| sides[*i][0] < sides[*i][1] && halvings[*i] < MOST_HALVINGS;
-            let axes = self.inside.iter().copied().filter(wide);
-            let axis = match curvature {
-                Some(curvature) => axes.max_by(|&i, &j| (&curvature[i], j).cmp(&(&curvature[j], i))),
-                // Nothing is known of the functions: along the widest side of a divisor, if there is any.
-                None => {
-                    let longest = |a: &usize, b: &usize| (extent(&sides[*a]), b).cmp(&(extent(&sides[*b]), a));
-                    self.below.iter().copied().filter(wide).max_by(longest).or_else(|| axes.max_by(longest))
+            let part = self.part(sides);
+            let proved = match &part {
+                None => Err(sides.clone()),
+                Some(part) => {
+                    part.proved(sides, &self.inside, self.coefficients(), known, (closing, CELLS_IN_PART), budget)?
                 }
             };
-            let Some(axis) = axis.filter(|_| !is_last) else {
-                let corners = corners(&last).find_map(refuted);
-                let why = if is_last { "too many cells" } else { "a cell too small" };
-                return Ok(corners.unwrap_or(Outcome::Open { why, cell: last }));
+            let last = match proved {
+                Ok(count) => return Ok(Look::Decided(count)),
+                Err(cell) => cell,
             };
-            let middle = cut(&sides[axis]);
-            let (mut low, mut high) = (sides.clone(), sides);
-            (low[axis][1], high[axis][0]) = (middle.clone(), middle);
-            let mut deeper = halvings;
-            deeper[axis] += 1;
-            stack.extend([(high, deeper.clone()), (low, deeper)]);
+            let is_last = tally.cells() + 1 > cells;
+            if (tally.halved.is_multiple_of(TESTED_EVERY) || is_last)
+                && let Some(outcome) = refuted(simplest_point(&last)).or_else(|| refuted(middle(&last)))
+            {
+                return Ok(Look::Open(outcome));
+            }
+            let is_wide = |i: &usize| sides[*i][0] < sides[*i][1] && halvings[*i] < MOST_HALVINGS;
+            let axis = self.axis_to_cut(sides, part.as_ref(), is_wide);
+            Ok(axis.filter(|_| !is_last).map_or_else(
+                || {
+                    let why = if is_last { OpenReason::Cells } else { OpenReason::Small };
+                    let corner = corners(&last).find_map(refuted);
+                    Look::Open(corner.unwrap_or(Outcome::Open { why, cell: last }))
+                },
+                Look::Cut,
+            ))
+        };
+        let whole = Octaves(BoxPart::whole(whole));
+        Ok(match subdivide([whole], Order::Depth, budget, look)? {
+            Ok(steps) => Outcome::Stable(BoxProof::of_cells(known.1, decided(steps).sum())),
+            Err(outcome) => outcome,
+        })
+    }
+
+    /// The side along which a part is cut, of those that are inside of functions and wide.
+    fn axis_to_cut(
+        &self,
+        sides: &[[Rational; 2]],
+        part: Option<&Part>,
+        is_wide: impl Fn(&usize) -> bool,
+    ) -> Option<usize> {
+        let axes = self.inside.iter().copied().filter(&is_wide);
+        match part {
+            Some(Part { curvature, .. }) => axes.max_by(|&i, &j| (&curvature[i], j).cmp(&(&curvature[j], i))),
+            // Nothing is known of the functions: along the widest side of a divisor, if there is any.
+            None => {
+                let longest = |a: &usize, b: &usize| (extent(&sides[*a]), b).cmp(&(extent(&sides[*b]), a));
+                self.below.iter().copied().filter(&is_wide).max_by(longest).or_else(|| axes.max_by(longest))
+            }
         }
-        let pair = Tree::default();
-        Ok(Outcome::Stable(BoxProof { certain: Vec::new(), scale: known.1, weight: 0, pair, beside: proved }))
+    }
+}
+
+/// A part of a box that is cut at the middle of the octaves of a side.
+struct Octaves(BoxPart);
+
+impl Halves for Octaves {
+    fn halves(self, axis: usize) -> [Octaves; 2] {
+        let value = cut(&self.0.sides[axis]);
+        self.0.cut_at(axis, value).map(Octaves)
     }
 }
 
@@ -218,35 +199,13 @@ impl Part {
         (closing, most): (Closing, usize),
         budget: &Budget,
     ) -> Result<Result<usize, Vec<[Rational; 2]>>, Exhausted> {
-        let mut local = sides.to_vec();
-        for &i in inside {
-            local[i] = [-Rational::ONE, Rational::ONE];
-        }
-        // From the coordinates of the part back to the parameters.
-        let back = |cell: Vec<[Rational; 2]>| {
-            let mut out = cell;
-            for &i in inside {
-                let [low, high] = &sides[i];
-                let half = Rational::new(1.into(), 2.into());
-                out[i] = out[i].each_ref().map(|u| low + &(&(&(high - low) * &half) * &(u + &Rational::ONE)));
-            }
-            out
-        };
+        let local = Local::new(sides, inside);
         for (f, sign) in self.functions[coefficients..].iter().zip(reference) {
             let bundle = bundle(std::slice::from_ref(f), sides.len());
-            let tensor = Tensor::of_one_within(&bundle, &f.slack, &local);
-            let mut stack = vec![Cell::whole(tensor)];
-            let mut cells = 0;
-            while let Some(cell) = stack.pop() {
-                budget.check()?;
-                cells += 1;
-                let ((low, high), error) = (cell.tensor.range(0), cell.tensor.greatest_error());
-                if if sign.is_gt() { low > error } else { high < -error } {
-                    continue;
-                }
-                let axis = cell.tensor.best_axis().filter(|_| !is_blurred(&cell) && cells < most);
-                let Some(axis) = axis else { return Ok(Err(back(cell.sides(&local)))) };
-                stack.extend(cell.halves(axis));
+            let tensor = Tensor::of_one_within(&bundle, &f.slack, &local.sides);
+            let signed = closed_by_sign(*sign);
+            if let Err(cell) = local.closed(tensor, (&signed, most), budget)? {
+                return Ok(Err(cell));
             }
         }
         let own = &self.functions[..coefficients];
@@ -254,8 +213,8 @@ impl Part {
         let slack = Bundle { width: coefficients, degrees: Vec::new(), terms: vec![(Vec::new(), bounds)] }.pair();
         let slack: Vec<Integer> = slack.terms[0].1.iter().map(Integer::abs).collect();
         let pair = bundle(own, sides.len()).pair();
-        let (tensor, _) = Tensor::of_pair_within(&pair, &slack, &local, FrequencyScale(2 * scale));
-        Ok(closed(tensor, closing, most, budget)?.map_err(|cell| back(cell.sides(&local))))
+        let (tensor, _) = Tensor::of_pair_within(&pair, &slack, &local.sides, FrequencyScale(2 * scale));
+        local.closed(tensor, (closing, most), budget)
     }
 }
 
@@ -281,12 +240,6 @@ fn size_of(x: &Rational) -> i64 {
     x.numerator().bit_length() as i64 - x.denominator().bit_length() as i64
 }
 
-/// The degree of Taylor models in so many variables.
-fn model_degree(variables: usize) -> usize {
-    let terms = |degree: usize| (1..=variables).fold(1, |n, i| n * (degree + i) / i);
-    (2..=MODEL_DEGREE).rev().find(|&degree| terms(degree) <= MODEL_TERMS).unwrap_or(2)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -301,6 +254,7 @@ mod tests {
 
     #[test]
     fn models_have_the_degree_that_the_number_of_variables_allows() {
-        assert_eq!([1, 2, 3, 4, 5, 6, 9, 30].map(model_degree), [12, 12, 7, 5, 4, 3, 2, 2]);
+        let degree = |variables| model_degree(variables, 2..=MODEL_DEGREE, MODEL_TERMS);
+        assert_eq!([1, 2, 3, 4, 5, 6, 9, 30].map(degree), [12, 12, 7, 5, 4, 3, 2, 2]);
     }
 }

@@ -4,9 +4,12 @@ use super::polynomial::Bundle;
 use super::prove::{Cell, Closing};
 use super::separate::separating_vector;
 use super::tensor::Tensor;
+use crate::subdivision::{Look, Order, Tally, decided, subdivide};
+use jurist_algebra::ball::{Ball, MultiTaylorModel};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 /// A polynomial in the coordinates of a part, up to a bound.
 pub(super) struct Known {
@@ -22,6 +25,45 @@ pub(super) struct Term {
     pub coefficient: Integer,
     /// A bound of the term in the part.
     pub size: Integer,
+}
+
+/// The coordinates of a part in what is inside of functions, from -1 to 1, as Taylor models of so many bits and of this degree.
+pub(super) fn coordinates(part: &[[Rational; 2]], inside: &[usize], bits: u64, degree: usize) -> Vec<MultiTaylorModel> {
+    let line = |&i: &usize| {
+        let [low, high] = &part[i];
+        let middle = low.midpoint(high);
+        (Ball::from_rational(&middle, bits), Ball::from_rational(&(high - &middle), bits))
+    };
+    MultiTaylorModel::linear(&inside.iter().map(line).collect::<Vec<_>>(), degree)
+}
+
+/// The greatest degree of these of which a Taylor model in so many variables has at most so many coefficients.
+pub(super) fn model_degree(variables: usize, degrees: RangeInclusive<usize>, most: usize) -> usize {
+    let terms = |degree: usize| (1..=variables).fold(1, |n, i| n * (degree + i) / i);
+    let least = *degrees.start();
+    degrees.rev().find(|&degree| terms(degree) <= most).unwrap_or(least)
+}
+
+/// Adds the terms of a Taylor model in what is inside of functions, times a product of other parameters: a bound of all that the model leaves
+/// out.
+pub(super) fn add_terms(
+    own: &mut Vec<Term>,
+    (model, beside): (&MultiTaylorModel, &[u32]),
+    inside: &[usize],
+    part: &[[Rational; 2]],
+) -> Integer {
+    let powers = beside.iter().zip(part).filter(|(e, _)| **e > 0);
+    let bound = powers.fold(Rational::ONE, |product, (&e, [low, high])| {
+        &product * &low.abs().max(high.abs()).pow(i64::from(e)).expect("a positive exponent")
+    });
+    let size = |c: &Integer| (&Rational::from(c.abs()) * &bound).ceil();
+    for (exponents, c) in model.terms().filter(|(_, c)| !c.is_zero()) {
+        let mut all = beside.to_vec();
+        all.resize(part.len(), 0);
+        inside.iter().zip(exponents).for_each(|(&i, &e)| all[i] = e);
+        own.push(Term { exponents: all, coefficient: c.clone(), size: size(c) });
+    }
+    size(model.rest_units())
 }
 
 /// Polynomials without the terms that are so much smaller than the greatest that their tensors, which have so many coefficients for each
@@ -64,36 +106,57 @@ pub(super) fn pruned(
     sized.into_iter().zip(slacks).map(one).collect()
 }
 
-/// The number of cells, of at most so many, that show that a pair has no zero; else the cell in which that is not seen.
-pub(super) fn closed(
-    tensor: Tensor,
-    closing: Closing,
-    most: usize,
-    budget: &Budget,
-) -> Result<Result<usize, Cell>, Exhausted> {
-    let mut stack = vec![Cell::whole(tensor)];
-    let (mut nodes, mut leaves) = (0, 0);
-    while let Some(cell) = stack.pop() {
-        budget.check()?;
-        nodes += 1;
-        let hint = match closing(&cell, nodes) {
-            Ok(_) => {
-                leaves += 1;
-                continue;
-            }
-            Err(hint) => hint,
-        };
-        let axis = hint.or_else(|| cell.tensor.best_axis());
-        let axis = axis.filter(|_| nodes + stack.len() < most && !is_blurred(&cell) && !is_clear_but_for_slack(&cell));
-        let Some(axis) = axis else { return Ok(Err(cell)) };
-        let [low, high] = cell.halves(axis);
-        stack.extend([high, low]);
+/// A part of a box in coordinates of its own: those of what is inside of functions go from -1 to 1.
+pub(super) struct Local<'p> {
+    part: &'p [[Rational; 2]],
+    inside: &'p [usize],
+    /// The sides of the part in these coordinates.
+    pub sides: Vec<[Rational; 2]>,
+}
+
+impl<'p> Local<'p> {
+    pub fn new(part: &'p [[Rational; 2]], inside: &'p [usize]) -> Self {
+        let mut sides = part.to_vec();
+        for &i in inside {
+            sides[i] = [-Rational::ONE, Rational::ONE];
+        }
+        Local { part, inside, sides }
     }
-    Ok(Ok(leaves))
+
+    /// The number of cells, of at most so many, that prove the part; else the sides of the cell in which that is not seen.
+    pub fn closed(
+        &self,
+        tensor: Tensor,
+        (closing, most): (Closing, usize),
+        budget: &Budget,
+    ) -> Result<Result<usize, Vec<[Rational; 2]>>, Exhausted> {
+        let look = |cell: &mut Cell, tally: Tally| {
+            let hint = match closing(cell, tally.looks() + 1) {
+                Ok(_) => return Ok(Look::Decided(())),
+                Err(hint) => hint,
+            };
+            let axis = hint.or_else(|| cell.tensor.best_axis());
+            let helps = tally.cells() + 1 < most && !is_blurred(cell) && !is_clear_but_for_slack(cell);
+            Ok(axis.filter(|_| helps).map_or_else(|| Look::Open(self.back(cell)), Look::Cut))
+        };
+        let steps = subdivide([Cell::whole(tensor)], Order::Depth, budget, look)?;
+        Ok(steps.map(|steps| decided(steps).count()))
+    }
+
+    /// The sides of a cell of the part.
+    fn back(&self, cell: &Cell) -> Vec<[Rational; 2]> {
+        let mut out = cell.sides(&self.sides);
+        for &i in self.inside {
+            let [low, high] = &self.part[i];
+            let half = Rational::dyadic(&Integer::ONE, 1);
+            out[i] = out[i].each_ref().map(|u| low + &(&(&(high - low) * &half) * &(u + &Rational::ONE)));
+        }
+        out
+    }
 }
 
 /// Whether the values of a cell vary no more than they are off: halving it does not help.
-pub(super) fn is_blurred(cell: &Cell) -> bool {
+fn is_blurred(cell: &Cell) -> bool {
     let off = |plane: usize| cell.tensor.slack.get(plane).and_then(|s| s.iter().max()).map_or(0, |s| 4 * s);
     (0..cell.tensor.planes.len()).all(|plane| {
         let (low, high) = cell.tensor.range(plane);

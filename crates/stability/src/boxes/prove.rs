@@ -2,9 +2,11 @@
 
 use super::multiplier::{Sought, affine_multiplier};
 use super::polynomial::{BoxPolynomial, Bundle, Excluded};
+use super::reason::OpenReason;
 use super::separate::separating_vector_within;
 use super::tensor::{FrequencyScale, Tensor};
-use super::tree::{Axis, Node, Tree};
+use super::tree::{Node, Tree};
+use crate::subdivision::{Halves, Look, Order, Tally, subdivide};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
 use jurist_algebra::poly::algebraic::simplest_between;
@@ -48,6 +50,11 @@ pub struct BoxProof {
 }
 
 impl BoxProof {
+    /// The proof by so many cells that are in no tree.
+    pub(super) fn of_cells(scale: i64, beside: usize) -> BoxProof {
+        BoxProof { certain: Vec::new(), scale, weight: 0, pair: Tree::default(), beside }
+    }
+
     /// The number of cells of frequency and parameters.
     pub fn cells(&self) -> usize {
         self.pair.leaves() + self.beside
@@ -62,7 +69,7 @@ pub enum Outcome {
     /// On the way from the nominal point to this one stability is lost.
     Refuted(Vec<Rational>),
     /// Not decided with so many cells; the box of the cell that was looked at last.
-    Open { why: &'static str, cell: Vec<[Rational; 2]> },
+    Open { why: OpenReason, cell: Vec<[Rational; 2]> },
 }
 
 /// A cell of the search.
@@ -76,14 +83,6 @@ impl Cell {
     pub fn whole(tensor: Tensor) -> Cell {
         let place = vec![(Integer::ZERO, 0); tensor.axes()];
         Cell { tensor, place }
-    }
-
-    pub fn halves(self, axis: usize) -> [Cell; 2] {
-        let [mut low, mut high] = [self.place.clone(), self.place];
-        low[axis] = (&low[axis].0 << 1, low[axis].1 + 1);
-        high[axis] = (&(&high[axis].0 << 1) + &Integer::ONE, high[axis].1 + 1);
-        let [a, b] = self.tensor.halves(axis);
-        [Cell { tensor: a, place: low }, Cell { tensor: b, place: high }]
     }
 
     /// The part of an axis as shares from 0 to 1.
@@ -101,6 +100,16 @@ impl Cell {
 
     pub fn halvings(&self) -> u32 {
         self.place.iter().map(|(_, h)| h).sum()
+    }
+}
+
+impl Halves for Cell {
+    fn halves(self, axis: usize) -> [Cell; 2] {
+        let [mut low, mut high] = [self.place.clone(), self.place];
+        low[axis] = (&low[axis].0 << 1, low[axis].1 + 1);
+        high[axis] = (&(&high[axis].0 << 1) + &Integer::ONE, high[axis].1 + 1);
+        let [a, b] = self.tensor.halves(axis);
+        [Cell { tensor: a, place: low }, Cell { tensor: b, place: high }]
     }
 }
 
@@ -173,53 +182,44 @@ pub(super) fn prove(
         if let Some(last) = point.last_mut().filter(|_| mirrored) {
             *last = last.abs();
         }
-        Ok(Outcome::Refuted(point))
+        Outcome::Refuted(point)
     };
     let (tensor, weight) = Tensor::of_pair(&pair, &whole, FrequencyScale(power * scale));
-    let mut stack = vec![Cell::whole(tensor)];
-    let mut nodes = Vec::new();
-    let mut tested = 0;
-    let frequency = sides.len();
-    while let Some(cell) = stack.pop() {
-        budget.check()?;
-        let hint = match closed(&cell, nodes.len()) {
-            Ok(node) => {
-                nodes.push(node);
-                continue;
-            }
+    let look = |cell: &mut Cell, tally: Tally| {
+        let hint = match closed(cell, tally.looks()) {
+            Ok(node) => return Ok(Look::Decided(node)),
             Err(hint) => hint,
         };
-        let inner = || cell.sides(&whole);
-        tested += 1;
-        if tested % (if nodes.len() < AFFINE_AFTER.0 { TESTED_EVERY } else { TESTED_EVERY / 4 }) == 0 {
-            let point = simplest_point(&inner());
+        let every = if tally.looks() < AFFINE_AFTER.0 { TESTED_EVERY } else { TESTED_EVERY / 4 };
+        if (tally.halved + 1).is_multiple_of(every) {
+            let point = simplest_point(&cell.sides(&whole));
             if !p.is_stable_at(&point) {
-                return refuted(point);
+                return Ok(Look::Open(refuted(point)));
             }
         }
-        let waiting = stack.len() * cell.tensor.len() * 32;
-        let why = if nodes.len() + stack.len() > most_cells {
-            Some("too many cells")
-        } else if cell.halvings() >= MOST_HALVINGS {
-            Some("a cell too small")
-        } else if waiting > WAITING_BYTES {
-            Some("too much memory")
+        let waiting = tally.waiting * cell.tensor.len() * 32;
+        let why = if tally.cells() > most_cells {
+            OpenReason::Cells
+        } else if waiting > WAITING_BYTES && cell.halvings() < MOST_HALVINGS {
+            OpenReason::Memory
+        } else if let Some(axis) = hint.or_else(|| cell.tensor.best_axis()).filter(|_| cell.halvings() < MOST_HALVINGS)
+        {
+            return Ok(Look::Cut(axis));
         } else {
-            None
+            OpenReason::Small
         };
-        let axis = hint.or_else(|| cell.tensor.best_axis()).filter(|_| why.is_none());
-        let Some(axis) = axis else {
-            let cell = inner();
-            if let Some(point) = not_stable_in(p, &cell) {
-                return refuted(point);
-            }
-            return Ok(Outcome::Open { why: why.unwrap_or("a cell too small"), cell });
-        };
-        nodes.push(Node::Halved(if axis == frequency { Axis::Frequency } else { Axis::Parameter(axis) }));
-        let [low, high] = cell.halves(axis);
-        stack.extend([high, low]);
-    }
-    Ok(Outcome::Stable(BoxProof { certain, scale, weight, pair: Tree(nodes), beside: 0 }))
+        let cell = cell.sides(&whole);
+        Ok(Look::Open(match not_stable_in(p, &cell) {
+            Some(point) => refuted(point),
+            None => Outcome::Open { why, cell },
+        }))
+    };
+    Ok(match subdivide([Cell::whole(tensor)], Order::Depth, budget, look)? {
+        Ok(steps) => {
+            Outcome::Stable(BoxProof { certain, scale, weight, pair: Tree::of(steps, sides.len()), beside: 0 })
+        }
+        Err(outcome) => outcome,
+    })
 }
 
 /// The last side, from 0, with its mirror image.
@@ -233,7 +233,16 @@ fn with_both_signs(sides: &[[Rational; 2]]) -> Vec<[Rational; 2]> {
 
 /// The leaf of a cell without a zero of the pair, in a tree of so many nodes so far; where no vector shows it, the axis along
 /// which to halve the cell, if that is known.
-pub(super) type Closing = fn(&Cell, usize) -> Result<Node, Option<usize>>;
+pub(super) type Closing<'c> = &'c dyn Fn(&Cell, usize) -> Result<Node, Option<usize>>;
+
+/// [`Closing`] by the sign of a polynomial.
+pub(super) fn closed_by_sign(sign: Sign) -> impl Fn(&Cell, usize) -> Result<Node, Option<usize>> {
+    move |cell, _| {
+        let ((low, high), error) = (cell.tensor.range(0), cell.tensor.greatest_error());
+        let has_sign = if sign.is_gt() { low > error } else { high < -error };
+        if has_sign { Ok(Node::Signed(sign.is_gt())) } else { Err(None) }
+    }
+}
 
 /// [`Closing`] by vectors that are constant in a cell: enough where the worst point is a corner.
 pub(super) fn closed_by_constant(cell: &Cell, _: usize) -> Result<Node, Option<usize>> {
@@ -263,44 +272,35 @@ pub(super) fn keeps_sign(
     most_cells: usize,
     budget: &Budget,
 ) -> Result<Result<Tree, Outcome>, Exhausted> {
-    let positive = sign.is_gt();
-    let mut stack = vec![Cell::whole(Tensor::of_one(f, sides))];
-    let mut nodes = Vec::new();
-    while let Some(cell) = stack.pop() {
-        budget.check()?;
-        let (low, high) = cell.tensor.range(0);
-        let error = cell.tensor.error;
-        if if positive { low > error } else { high < -error } {
-            nodes.push(Node::Signed(positive));
-            continue;
+    let closed = closed_by_sign(sign);
+    let has_other_sign = |point: &Vec<Rational>| {
+        let (a, q): (Vec<_>, Vec<_>) = point.iter().map(|x| (x.numerator(), x.denominator())).unzip();
+        f.values(&a, &q)[0].sign() != sign
+    };
+    let look = |cell: &mut Cell, tally: Tally| {
+        if let Ok(node) = closed(cell, tally.looks()) {
+            return Ok(Look::Decided(node));
         }
-        let inner = cell.sides(sides);
+        let (inner, error) = (cell.sides(sides), cell.tensor.error);
         // A corner with another sign, or exactly zero.
-        for (upper, value) in cell.tensor.corners() {
-            if if positive { value <= error } else { value >= -error } {
-                let point: Vec<Rational> =
-                    inner.iter().zip(&upper).map(|(side, &up)| side[usize::from(up)].clone()).collect();
-                let (a, q): (Vec<_>, Vec<_>) = point.iter().map(|x| (x.numerator(), x.denominator())).unzip();
-                if f.values(&a, &q)[0].sign() != sign {
-                    return Ok(Err(Outcome::Refuted(point)));
-                }
-            }
+        let may_differ = |value: i128| if sign.is_gt() { value <= error } else { value >= -error };
+        let at = |upper: Vec<bool>| inner.iter().zip(&upper).map(|(side, &up)| side[usize::from(up)].clone()).collect();
+        let mut corners = cell.tensor.corners().filter(|(_, value)| may_differ(*value)).map(|(upper, _)| at(upper));
+        if let Some(corner) = corners.find(has_other_sign) {
+            return Ok(Look::Open(Outcome::Refuted(corner)));
         }
-        let axis = cell.tensor.best_axis();
-        let (Some(axis), true, true) = (axis, nodes.len() + stack.len() <= most_cells, cell.halvings() < MOST_HALVINGS)
-        else {
-            let point = simplest_point(&inner);
-            let (a, q): (Vec<_>, Vec<_>) = point.iter().map(|x| (x.numerator(), x.denominator())).unzip();
-            if f.values(&a, &q)[0].sign() != sign {
-                return Ok(Err(Outcome::Refuted(point)));
-            }
-            return Ok(Err(Outcome::Open { why: "a divisor or a real root near zero", cell: inner }));
-        };
-        nodes.push(Node::Halved(Axis::Parameter(axis)));
-        let [low, high] = cell.halves(axis);
-        stack.extend([high, low]);
-    }
-    Ok(Ok(Tree(nodes)))
+        let may_cut = tally.cells() <= most_cells && cell.halvings() < MOST_HALVINGS;
+        if let Some(axis) = cell.tensor.best_axis().filter(|_| may_cut) {
+            return Ok(Look::Cut(axis));
+        }
+        let point = simplest_point(&inner);
+        Ok(Look::Open(match has_other_sign(&point) {
+            true => Outcome::Refuted(point),
+            false => Outcome::Open { why: OpenReason::Vanishing, cell: inner },
+        }))
+    };
+    let steps = subdivide([Cell::whole(Tensor::of_one(f, sides))], Order::Depth, budget, look)?;
+    Ok(steps.map(|steps| Tree::of(steps, sides.len())))
 }
 
 /// The scale of frequencies of a polynomial: the geometric mean of its roots' moduli is about two to this.

@@ -1,6 +1,7 @@
 //! How a box was cut and why each part is proved: a tree as text.
 
 use super::multiplier::Multiplier;
+use crate::subdivision::Step;
 use std::fmt;
 
 /// A node of the tree; the nodes stand in prefix order, the lower half of a cell first.
@@ -33,17 +34,33 @@ pub(super) enum Axis {
 pub struct Tree(pub(super) Vec<Node>);
 
 impl Tree {
+    /// Of the steps of a subdivision depth first, in a tensor with so many parameters.
+    pub(super) fn of(steps: Vec<Step<Node>>, parameters: usize) -> Tree {
+        let node = |step| match step {
+            Step::Decided(node) => node,
+            Step::Halved(axis) => Node::Halved(Axis::new(axis, parameters)),
+        };
+        Tree(steps.into_iter().map(node).collect())
+    }
+
     /// The number of cells that were not cut further.
     pub fn leaves(&self) -> usize {
         self.0.iter().filter(|node| !matches!(node, Node::Halved(_))).count()
     }
 }
 
+impl Axis {
+    /// An axis of a tensor with so many parameters, behind which the frequency stands.
+    fn new(axis: usize, parameters: usize) -> Axis {
+        if axis == parameters { Axis::Frequency } else { Axis::Parameter(axis) }
+    }
+}
+
 impl Node {
     /// Proved by a vector that is affine along some axes of a tensor with so many parameters.
     pub(super) fn affine(found: Multiplier, parameters: usize) -> Node {
-        let axis = |i: usize| if i == parameters { Axis::Frequency } else { Axis::Parameter(i) };
-        Node::Affine(found.slopes.into_iter().map(|(i, v)| (axis(i), v)).collect(), found.constant)
+        let slopes = found.slopes.into_iter().map(|(i, v)| (Axis::new(i, parameters), v));
+        Node::Affine(slopes.collect(), found.constant)
     }
 }
 

@@ -1,14 +1,14 @@
 //! Which share of a box is stable, by halving it.
 
 use super::factor::ToleranceProblem;
+use super::parts::middle;
 use super::polynomial::Bundle;
-use super::prove::{Cell, keeps_sign, signs_at};
-use super::separate::separating_vector;
+use super::prove::{Cell, closed_by_constant, keeps_sign, signs_at};
 use super::sides::at_factor;
 use super::tensor::{FrequencyScale, Tensor};
+use crate::subdivision::{BoxPart, Look, Order, Tally, subdivide};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
-use std::collections::VecDeque;
 
 /// More parameters leave too much undecided in any time.
 pub const MOST_PARAMETERS: usize = 6;
@@ -51,29 +51,25 @@ impl ToleranceProblem<'_> {
     /// None at present; a budget that runs out leaves more undecided.
     pub fn volume(&self, factor: &Rational, goal: &Rational, budget: &Budget) -> Result<BoxVolume, Exhausted> {
         budget.step("halving the box");
-        let whole = at_factor(&self.sides, factor);
-        let mut waiting = VecDeque::from([(whole, 0u64)]);
         let mut volume = BoxVolume { undecided: Rational::ONE, ..BoxVolume::default() };
-        while volume.undecided > *goal && volume.boxes + waiting.len() < MOST_BOXES {
-            let Some((sides, halvings)) = waiting.pop_front() else { break };
-            let Ok(verdict) = budget.enter(|| self.verdict_of(&sides, budget)) else { break };
-            let share = Rational::dyadic(&Integer::ONE, halvings);
-            match verdict {
-                Err(Undecided { axis }) => {
-                    let middle = sides[axis][0].midpoint(&sides[axis][1]);
-                    let (mut low, mut high) = (sides.clone(), sides);
-                    (low[axis][1], high[axis][0]) = (middle.clone(), middle);
-                    waiting.extend([(low, halvings + 1), (high, halvings + 1)]);
-                }
-                Ok(is_stable) => {
-                    volume.boxes += 1;
-                    volume.undecided = &volume.undecided - &share;
-                    let part = if is_stable { &mut volume.stable } else { &mut volume.unstable };
-                    *part += &share;
-                }
+        let look = |part: &mut BoxPart, tally: Tally| {
+            budget.advance(tally.decided as u64, (tally.decided + tally.waiting + 1) as u64);
+            if volume.undecided <= *goal || tally.decided + tally.waiting + 1 >= MOST_BOXES {
+                return Ok(Look::Open(()));
             }
-            budget.advance(volume.boxes as u64, (volume.boxes + waiting.len()) as u64);
-        }
+            let is_stable = match budget.enter(|| self.verdict_of(&part.sides, budget))? {
+                Ok(is_stable) => is_stable,
+                Err(Undecided { axis }) => return Ok(Look::Cut(axis)),
+            };
+            let share = Rational::dyadic(&Integer::ONE, part.halvings.iter().map(|&h| u64::from(h)).sum());
+            volume.boxes += 1;
+            volume.undecided -= &share;
+            *(if is_stable { &mut volume.stable } else { &mut volume.unstable }) += &share;
+            Ok(Look::Decided(()))
+        };
+        // A budget that runs out leaves the rest undecided.
+        let whole = BoxPart::whole(at_factor(&self.sides, factor));
+        let _ = subdivide([whole], Order::Breadth, budget, look);
         Ok(volume)
     }
 
@@ -81,7 +77,7 @@ impl ToleranceProblem<'_> {
     fn verdict_of(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<bool, Undecided> {
         let (tensor, _) = Tensor::of_pair(&self.p.pair(), sides, FrequencyScale(2 * self.scale));
         let undecided = Undecided { axis: tensor.steepest_parameter() };
-        let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
+        let middle = middle(sides);
         let Some((signs, _)) = signs_at(self.p, &middle) else { return Err(undecided) };
         for ((_, f), sign) in self.p.certain.iter().zip(signs) {
             let kept = keeps_sign(&Bundle::new(&[f], sides.len()), sides, sign, 1, budget);
@@ -90,19 +86,17 @@ impl ToleranceProblem<'_> {
             }
         }
         let frequency = sides.len();
-        let mut stack = vec![Cell::whole(tensor)];
-        let mut cells = 0;
-        while let Some(cell) = stack.pop() {
-            let [x, y] = cell.tensor.planes.as_slice() else { unreachable!("a pair") };
-            cells += 1;
-            if separating_vector(x, y, cell.tensor.error).is_none() {
-                if cells + stack.len() > FREQUENCIES || cell.tensor.best_axis_of(&[frequency]).is_none() {
-                    return Err(undecided);
-                }
-                stack.extend(cell.halves(frequency));
+        let look = |cell: &mut Cell, tally: Tally| {
+            if closed_by_constant(cell, tally.looks()).is_ok() {
+                return Ok(Look::Decided(()));
             }
+            let axis = cell.tensor.best_axis_of(&[frequency]).filter(|_| tally.cells() < FREQUENCIES);
+            Ok(axis.map_or(Look::Open(()), Look::Cut))
+        };
+        match subdivide([Cell::whole(tensor)], Order::Depth, budget, look) {
+            Ok(Ok(_)) => Ok(self.p.is_stable_at(&middle)),
+            _ => Err(undecided),
         }
-        Ok(self.p.is_stable_at(&middle))
     }
 }
 

@@ -43,16 +43,16 @@ impl MovingPolynomial {
         assert_eq!(self.parameters(), 2, "a window has two sides");
         if self.functions[self.formal_degree() + 1..].iter().any(Vec::is_empty) {
             // Undefined, a root on the boundary, or degree lost, for all values of both.
-            let nowhere = Seen::Decided(BoxVerdict::Unstable { outside: None });
-            return subdivided(window, goal, budget, |_| Ok(nowhere));
+            return BoxMap::nowhere_stable(window);
         }
         let known = Known { p: self, models: Memory::default(), points: Memory::default() };
-        subdivided(window, goal, budget, |place| {
+        subdivided(window, goal, budget, |place, _: Option<&()>| {
             let Window { x, y } = place.window(window);
-            Ok(match known.verdict_in(&[x, y], budget)? {
+            let seen = match known.verdict_in(&[x, y], budget)? {
                 Some(verdict) => Seen::Decided(verdict),
                 None => otherwise(place).unwrap_or(Seen::Cut(place.wider())),
-            })
+            };
+            Ok((seen, None))
         })
     }
 }
@@ -104,7 +104,7 @@ impl Known<'_> {
         checkpoint(200);
         let inside: Vec<[Rational; 2]> = self.p.inside.iter().map(|&i| sides[i].clone()).collect();
         let Some(models) = self.models.get(inside, || self.p.models(sides)) else { return Ok(None) };
-        if !self.p.keeps_count(sides, &models, (&signs, scale), (closed_by_vector, CELLS), budget)? {
+        if !self.p.keeps_count(sides, &models, (&signs, scale), (&closed_by_vector, CELLS), budget)? {
             return Ok(None);
         }
         Ok(Some(match count.outside {

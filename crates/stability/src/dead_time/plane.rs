@@ -1,7 +1,7 @@
 //! Two parameters of a loop with dead time: boxes, each proved stable, proved not stable, or left undecided.
 
 use super::plane_function::{PlaneFunction, Shares};
-use crate::plane::boxes::{BoxMap, BoxVerdict, Place, Seen, Window, subdivided_with};
+use crate::plane::boxes::{BoxMap, BoxVerdict, Place, Seen, Window, subdivided};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly};
@@ -111,7 +111,7 @@ impl PlaneLoop {
     /// [`Exhausted`] when the budget runs out before there is a box.
     pub fn boxes(&self, window: &Window, goal: &Rational, budget: &Budget) -> Result<BoxMap, Exhausted> {
         let function = budget.enter(|| PlaneFunction::new(self.in_shares(window)))?;
-        Ok(subdivided_with(window, goal, budget, |place, known| Ok(function.look(place, known))))
+        Ok(subdivided(window, goal, budget, |place, known| Ok(function.look(place, known))))
     }
 
     /// The verdict on a loop that depends on neither parameter, by one walk along the imaginary axis; `None` where that does not tell.
@@ -120,7 +120,7 @@ impl PlaneLoop {
         let shares = self.in_shares(&Window { x: side.clone(), y: side });
         match PlaneFunction::of_point(shares).look(&Place::whole(), None) {
             (Seen::Decided(verdict), _) => Some(verdict),
-            (Seen::Cut(_), _) => None,
+            _ => None,
         }
     }
 }

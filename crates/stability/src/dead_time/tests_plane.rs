@@ -124,7 +124,7 @@ fn what_keeps_away_from_zero_is_decided_as_by_cones() {
     ] {
         let function = PlaneFunction::new(case.plane().in_shares(&window([0, 4], [0, 8])));
         let mut seen = [0; 2];
-        for k in 0..128u64 {
+        for k in 0..128u128 {
             let place = Place { at: [k % 16, 5 * k % 64], halvings: [4, 6] };
             let decided = function.look(&place, None).0;
             if let Some(right) = by_cones(&function, &place) {
@@ -145,7 +145,7 @@ fn a_part_of_a_box_is_decided_alike_with_what_is_known_of_the_whole() {
     let case = case(&[[5, 5, 0], [1, 0, 0], [5, 0, 0]], &[[0, -5, 0]], [0, 0, 1]);
     let function = PlaneFunction::new(case.plane().in_shares(&window([0, 3], [0, 12])));
     let mut both = 0;
-    for k in 0..24u64 {
+    for k in 0..24u128 {
         let (seen, known): (Seen, Option<Known>) =
             function.look(&Place { at: [k % 8, 7 * k % 16], halvings: [3, 4] }, None);
         let Seen::Cut(_) = seen else { continue };

@@ -2,7 +2,7 @@
 
 use crate::Shape;
 use crate::dead_time::{Known, PlaneFunction, Shares, in_shares_of};
-use crate::plane::boxes::{BoxMap, BoxVerdict, Place, Seen, Window, subdivided, subdivided_with};
+use crate::plane::boxes::{BoxMap, Place, Seen, Window, subdivided};
 use crate::precisions::PLANE_COEFFICIENTS;
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted, until_shown};
@@ -116,16 +116,16 @@ impl SymbolicPlane {
     /// [`Exhausted`] when the budget runs out before there is a box.
     pub fn boxes(&self, window: &Window, goal: &Rational, budget: &Budget) -> Result<BoxMap, Exhausted> {
         if self.is_never_stable {
-            return Ok(subdivided(window, goal, budget, |_| Ok(Seen::Decided(BoxVerdict::Unstable { outside: None }))));
+            return Ok(BoxMap::nowhere_stable(window));
         }
         match &self.table {
             Table::Fixed(symbols) => {
                 let function = budget.enter(|| self.over_numbers(window, symbols))?;
-                Ok(subdivided_with(window, goal, budget, |place, known| Ok(function.look(place, known))))
+                Ok(subdivided(window, goal, budget, |place, known| Ok(function.look(place, known))))
             }
             Table::Moving { symbols, axis } => {
                 let tiles = budget.enter(|| Tiles::new(self, window, symbols, *axis))?;
-                Ok(subdivided_with(window, goal, budget, |place, known| Ok(tiles.look(place, known))))
+                Ok(subdivided(window, goal, budget, |place, known| Ok(tiles.look(place, known))))
             }
         }
     }
@@ -225,7 +225,7 @@ struct Tiles<'a> {
     /// The coefficients of the powers of the other parameter's share in each coefficient, then in each pole.
     lists: [Vec<Vec<MultiPoly>>; 2],
     /// By halvings and place.
-    known: Mutex<HashMap<(u32, u64), Tile>>,
+    known: Mutex<HashMap<(u32, u128), Tile>>,
 }
 
 impl<'a> Tiles<'a> {
@@ -260,9 +260,9 @@ impl<'a> Tiles<'a> {
         (seen, known.map(|known| (level, known)))
     }
 
-    fn tile(&self, level: u32, at: u64) -> Option<PlaneFunction> {
+    fn tile(&self, level: u32, at: u128) -> Option<PlaneFunction> {
         let [low, high] = &self.side;
-        let end = |k: u64| low + &((high - low) * Rational::dyadic(&Integer::from(k), u64::from(level)));
+        let end = |k: u128| low + &((high - low) * Rational::dyadic(&Integer::from(k), u64::from(level)));
         let flat: Vec<MultiPoly> = self.lists.iter().flatten().flatten().cloned().collect();
         let found =
             self.symbols.taylor_from_end(&flat, &end(at), &end(at + 1), TERMS, PLANE_COEFFICIENTS.first + OWN_BITS)?;

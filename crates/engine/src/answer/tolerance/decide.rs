@@ -8,8 +8,8 @@ use crate::coverage::refusals::ONLY_THE_BOX;
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::boxes::{
-    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, Family, LargestFactor, MOST_PARAMETERS, Side, ToleranceProblem,
-    ray,
+    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, Family, LargestFactor, MOST_PARAMETERS, OpenReason, Side,
+    ToleranceProblem, ray,
 };
 use crate::stability::{AtPoint, Range};
 use jurist_algebra::limits::Budget;
@@ -91,9 +91,7 @@ impl Problem {
         let Some(boxes) = boxes else {
             let decision = match at.is_stable(degree) {
                 false => BoxDecision::not_stable_at(nominal, at.clone()),
-                true => {
-                    BoxDecision::Undecided { why: "constants that are not told from their limits", cell: Vec::new() }
-                }
+                true => BoxDecision::Undecided { why: OpenReason::Constants, cell: Vec::new() },
             };
             return Ok(self.answered(sides, at, decision));
         };
@@ -244,7 +242,7 @@ impl Problem {
         let (Some(direction), Some(upper)) = (&factor.direction, &factor.upper) else { return Ok(None) };
         let (base, step) = ray(sides, direction);
         let is_rational = self.algebra_over_symbols(budget)?.symbols().is_empty();
-        let is_undefined = factor.witness.as_ref().is_some_and(|w| matches!(w.at, AtPoint::Undefined));
+        let is_undefined = factor.witness.as_ref().is_some_and(|w| w.at == Some(AtPoint::Undefined));
         if is_undefined && !is_rational {
             return Ok(None);
         }

@@ -7,7 +7,7 @@ use crate::answer::{DelayedRoots, Verdict};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::stability::AtPoint;
-use crate::stability::boxes::{BoxDecision, Family, LargestFactor, Side, Witness, corners};
+use crate::stability::boxes::{BoxDecision, Family, LargestFactor, OpenReason, Side, Witness, corners};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
@@ -60,10 +60,10 @@ impl<'a> Truth<'a> {
 
     /// The exact root count at a point of the parameters.
     pub fn at(&self, p: &impl Family, point: &[Rational], budget: &Budget) -> Result<AtPoint, Error> {
-        if self.is_exact {
-            return Ok(budget.enter(|| p.at(point))?);
-        }
-        if let Some(at) = budget.enter(|| p.counted_beside(point))? {
+        // With sides for symbols the loop is another at each of their values.
+        if self.symbols.is_empty()
+            && let Some(at) = budget.enter(|| p.count(point))?
+        {
             return Ok(at);
         }
         let problem = self.problem;
@@ -110,8 +110,7 @@ impl<'a> Truth<'a> {
         if self.is_exact {
             return Ok(found);
         }
-        let close =
-            || BoxDecision::Undecided { why: "constants that are not told from their limits", cell: Vec::new() };
+        let close = || BoxDecision::Undecided { why: OpenReason::Constants, cell: Vec::new() };
         Ok(match found {
             BoxDecision::NotStable { witness: Some(witness) } => match self.confirmed(p, witness, budget)? {
                 Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
@@ -133,7 +132,7 @@ impl<'a> Truth<'a> {
     fn corner_of(&self, p: &impl Family, cell: &[[Rational; 2]], budget: &Budget) -> Result<Option<Witness>, Error> {
         let has_dead_time = !self.problem.algebra_over_symbols(budget)?.symbols().delays().is_empty();
         for point in corners(cell).filter(|_| has_dead_time) {
-            if let Some(found) = self.confirmed(p, Witness::new(point, AtPoint::Undefined), budget)? {
+            if let Some(found) = self.confirmed(p, Witness::uncounted(point), budget)? {
                 return Ok(Some(found));
             }
         }

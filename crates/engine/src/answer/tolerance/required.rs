@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::problem::Problem;
 use crate::response::{Family, Requirement, Rule, half_tangent, radius_below};
 use crate::stability::Shape;
-use crate::stability::boxes::{BoxDecision, BoxPolynomial, LargestFactor, Side, ToleranceProblem, Witness};
+use crate::stability::boxes::{BoxDecision, BoxPolynomial, LargestFactor, OpenReason, Side, ToleranceProblem, Witness};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
@@ -40,7 +40,7 @@ impl Problem {
         let of = |point: &[Rational]| self.breaks(requirement, &point[..sides.len()], request, base, budget);
         let mut found = RequiredBox {
             requirement: requirement.clone(),
-            decision: BoxDecision::Undecided { why: "nothing was tried", cell: Vec::new() },
+            decision: BoxDecision::Undecided { why: OpenReason::Untried, cell: Vec::new() },
             factor: None,
             cells: 0,
         };
@@ -58,7 +58,7 @@ impl Problem {
             let Some(boxes) = budget.enter(|| ToleranceProblem::new(p, all.clone()))? else {
                 found.decision = match of(&nominal)? {
                     Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
-                    None => BoxDecision::Undecided { why: "no room at the nominal point", cell: Vec::new() },
+                    None => BoxDecision::Undecided { why: OpenReason::NoRoom, cell: Vec::new() },
                 };
                 found.factor = None;
                 return Ok(found);
@@ -71,7 +71,7 @@ impl Problem {
                 Some(witness) => of(&witness.point)?,
                 None => None,
             };
-            let at_edge = || BoxDecision::Undecided { why: "a point at the edge of the requirement", cell: Vec::new() };
+            let at_edge = || BoxDecision::Undecided { why: OpenReason::Edge, cell: Vec::new() };
             let decision = match refuted {
                 Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
                 None => match boxes.decide(&Rational::ONE, budget)? {

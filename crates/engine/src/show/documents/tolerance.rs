@@ -222,7 +222,7 @@ fn found(problem: &Problem, answer: &ToleranceAnswer, digits: usize) -> Toleranc
             let side = |[low, high]: &[Rational; 2]| format!("{} to {}", to_decimal(low, 6), to_decimal(high, 6));
             let names = problem.free().iter().map(|free| &free.name);
             let reached: Vec<String> = names.zip(cell).map(|(name, c)| format!("{name} from {}", side(c))).collect();
-            let undecided = Undecided { budget: (*why).to_owned(), reached: reached.join(", ") };
+            let undecided = Undecided { budget: why.to_string(), reached: reached.join(", ") };
             (None, None, None, Some(undecided))
         }
     };

@@ -1,16 +1,19 @@
 //! Boxes of a window of two parameters, each proved stable, proved not stable, or left undecided.
 
+mod by_curves;
+mod levels;
 mod patch;
-mod places;
-mod subdivide;
+mod place;
 
 use super::curves::Curve;
 use crate::Range;
 use jurist_algebra::limits::Stop;
 use jurist_algebra::number::Rational;
 
-pub use places::{Place, Seen, subdivided, subdivided_with};
-pub use subdivide::stability_boxes;
+pub use by_curves::stability_boxes;
+pub use levels::Seen;
+pub(crate) use levels::subdivided;
+pub use place::Place;
 
 /// A bounded rectangle of two parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,13 +38,6 @@ impl Window {
     pub fn area(&self) -> Rational {
         (&self.x[1] - &self.x[0]) * (&self.y[1] - &self.y[0])
     }
-}
-
-/// One of the two parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Axis {
-    X,
-    Y,
 }
 
 /// What is proved of all points of an open box.
@@ -105,6 +101,27 @@ pub struct Areas {
 }
 
 impl BoxMap {
+    /// One box that holds no stable point.
+    pub(crate) fn nowhere_stable(window: &Window) -> BoxMap {
+        let whole = PlaneBox { window: window.clone(), verdict: BoxVerdict::Unstable { outside: None } };
+        BoxMap::new(window.clone(), Vec::new(), vec![whole], None)
+    }
+
+    /// Boxes that tile a window, in any order.
+    fn new(window: Window, curves: Vec<Curve>, mut boxes: Vec<PlaneBox>, stopped: Option<Stop>) -> BoxMap {
+        boxes.sort_by_cached_key(|b| (b.window.x[0].clone(), b.window.y[0].clone()));
+        let mut areas = Areas { stable: Rational::ZERO, unstable: Rational::ZERO, undecided: Rational::ZERO };
+        for b in &boxes {
+            let sum = match b.verdict {
+                BoxVerdict::Stable => &mut areas.stable,
+                BoxVerdict::Unstable { .. } => &mut areas.unstable,
+                BoxVerdict::Undecided => &mut areas.undecided,
+            };
+            *sum += &b.window.area();
+        }
+        BoxMap { window, curves, boxes, areas, stopped }
+    }
+
     /// The box that holds a point; `None` outside the window and on edges. `O(n)`.
     pub fn locate(&self, x: &Rational, y: &Rational) -> Option<&PlaneBox> {
         let within = |[low, high]: &[Rational; 2], v: &Rational| low < v && v < high;

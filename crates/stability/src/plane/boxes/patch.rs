@@ -1,6 +1,5 @@
 //! A polynomial in two variables on a box: its Bernstein coefficients in fixed point with a proved error.
 
-use super::Axis;
 use crate::plane::curves::{X, Y};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::MultiPoly;
@@ -148,12 +147,12 @@ impl Patch {
 
     /// The patches of both halves, by de Casteljau's algorithm: means of neighbours never grow, and each
     /// rounds by at most half a unit.
-    pub fn halves(&self, axis: Axis) -> [Patch; 2] {
+    pub fn halves(&self, axis: usize) -> [Patch; 2] {
         let rows = self.values.len() / self.width;
         let mut right = self.values.clone();
         let mut left = self.values.clone();
         let steps = match axis {
-            Axis::X => {
+            0 => {
                 for (low, high) in left.chunks_exact_mut(self.width).zip(right.chunks_exact_mut(self.width)) {
                     for (step, corner) in low.iter_mut().enumerate().skip(1) {
                         for i in 0..self.width - step {
@@ -164,7 +163,7 @@ impl Patch {
                 }
                 self.width
             }
-            Axis::Y => {
+            _ => {
                 for step in 1..rows {
                     let end = (rows - step) * self.width;
                     for at in 0..end {
@@ -208,14 +207,14 @@ mod tests {
         let middle = [x[0].midpoint(&x[1]), y[0].midpoint(&y[1])];
         let parts = [
             (
-                whole.halves(Axis::X),
+                whole.halves(0),
                 [
                     rows.patch(&[x[0].clone(), middle[0].clone()], &y),
                     rows.patch(&[middle[0].clone(), x[1].clone()], &y),
                 ],
             ),
             (
-                whole.halves(Axis::Y),
+                whole.halves(1),
                 [
                     rows.patch(&x, &[y[0].clone(), middle[1].clone()]),
                     rows.patch(&x, &[middle[1].clone(), y[1].clone()]),
