@@ -6,6 +6,7 @@ use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::real_roots::descartes_sign_variations_in;
 use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly, simplest_between};
+use jurist_algebra::real::Real;
 
 /// Irrational ends are enclosed to this many digits.
 const DIGITS: usize = 12;
@@ -62,7 +63,8 @@ impl Line {
     ) -> Result<Line, Exhausted> {
         let mut separators = vec![Separator::Outer(domain.lower.clone())];
         let mut verdicts = vec![cells.samples[0].1];
-        for (zero, (_, stable)) in cells.zeros.iter().zip(&cells.samples[1..]) {
+        let zeros = cells.zeros.iter().filter_map(Real::algebraic);
+        for (zero, (_, stable)) in zeros.zip(&cells.samples[1..]) {
             let mut factor = None;
             for (i, f) in factors.iter().enumerate() {
                 if factor.is_none() && budget.enter(|| zero.sign_of(f))?.is_eq() {

@@ -2,6 +2,7 @@
 
 use super::Condition;
 use super::basis::coprime;
+use crate::stability::line::Bracket;
 use crate::stability::{Cause, Range};
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Integer, Rational};
@@ -33,9 +34,6 @@ pub(super) struct Zero {
     pub value: Real,
     pub parts: Vec<usize>,
 }
-
-/// An interval in which nothing is known; none where it has no end.
-pub(crate) type Bracket = (Option<Rational>, Option<Rational>);
 
 /// A zero, and which of the functions have it.
 pub(crate) type ZeroOf = (Real, Vec<usize>);

@@ -25,7 +25,7 @@ mod set;
 mod statements;
 
 pub(crate) use basis::zeros_of_all;
-pub(crate) use boundary_zeros::{Bracket, told_apart, zeros_of_functions};
+pub(crate) use boundary_zeros::{told_apart, zeros_of_functions};
 pub use conditions::{RealIntervals, SymbolicCondition, SymbolicTest};
 pub(crate) use count::{EnclosedLoop, certain_count, open_equation};
 pub(crate) use deflated::zeros_of_resultant;
