@@ -4,14 +4,15 @@ use super::verdict::PointVerdict;
 use crate::error::Error;
 use crate::problem::{BaseDelay, DelayedLoop, Problem, refused};
 use crate::stability::dead_time::{
-    Crossing, DelayCells, FamilyLoop, GainCells, GainLoop, Happening, NotCounted, NotSolved, count_delayed_roots,
-    delay_cells, family_cells, gain_cells,
+    Crossing, DelayCells, FamilyLoop, GainCells, GainLoop, GainPoint, Happening, NotCounted, NotSolved, Switch,
+    count_delayed_roots, delay_cells, family_cells, gain_cells,
 };
+use crate::stability::line::{Common, Held, Line, Place, Ring};
 use crate::stability::{
-    Cause, Causes, ComplexPair, End, HalfSizePair, Range, Shape, StableInterval, StableSet, zeros_in,
+    Cause, Causes, ComplexPair, End, HalfSizePair, Range, RealInterval, Shape, StableSet, zeros_in,
 };
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::{Enclosure, Rational, Sign};
+use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{Domain, UniPoly};
 use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
 use std::cmp::Ordering;
@@ -57,7 +58,7 @@ pub(super) fn stable_set(problem: &Problem, delayed: &DelayedLoop, budget: &Budg
         return Ok(set);
     }
     match family.count(&zero, budget).map_err(not_counted)? {
-        Some(count) if count.is_stable() => Ok(set.with_value(domain_end(&zero))),
+        Some(count) if count.is_stable() => Ok(set.with_value(End::new(zero, Cause::Domain.into(), None))),
         _ => Ok(set),
     }
 }
@@ -162,12 +163,6 @@ impl Enclosing for SwitchTime {
     }
 }
 
-fn domain_end(value: &Rational) -> End {
-    let mut causes = Causes::default();
-    causes.insert(Cause::Domain);
-    End::new(value.clone(), causes, None)
-}
-
 /// Adds the roots of a polynomial on the imaginary axis to what happens at an end: `s = 0`, and the pair of lowest
 /// frequency.
 fn note_axis(end: &mut End, p: &UniPoly, budget: &Budget) -> Result<(), Exhausted> {
@@ -189,7 +184,7 @@ fn note_axis(end: &mut End, p: &UniPoly, budget: &Budget) -> Result<(), Exhauste
 
 /// The end of the domain of a parameter, with the roots that are on the axis there.
 fn domain_end_of_loop(family: &FamilyLoop, value: &Rational, decay: bool, budget: &Budget) -> Result<End, Exhausted> {
-    let mut end = domain_end(value);
+    let mut end = End::new(value.clone(), Causes::default(), None);
     let Some(p) = family.at(value).filter(|_| !decay) else { return Ok(end) };
     if family.dead_time(value).is_zero() {
         note_axis(&mut end, &p.without_delay(), budget)?;
@@ -239,35 +234,85 @@ fn windows(
         ));
     }
     let to_parameter = |tau: &Rational| (tau - offset) / slope;
-    let mut first = domain_end(&to_parameter(&lower));
+    let mut first = End::new(to_parameter(&lower), Causes::default(), None);
     if lower.is_zero() {
         note_axis(&mut first, &p.without_delay(), budget)?;
     }
-    let mut ends: Vec<Option<End>> = vec![Some(first)];
-    for switch in switches {
+    let end = |switch: &Switch| {
         let (crossing, turns) = &switch.members[0];
         let time =
             SwitchTime { crossing: Arc::clone(crossing), turns: *turns, slope: slope.clone(), offset: offset.clone() };
         let lowest = switch.members.iter().map(|(c, _)| c).max_by(|a, b| a.half_size_root().cmp(b.half_size_root()));
         let pair = lowest
             .map(|c| ComplexPair::at_half_size_root(Shape::LeftHalfPlane, Real::from(c.half_size_root().clone())));
-        let mut causes = Causes::default();
-        causes.insert(Cause::ComplexPair);
-        ends.push(Some(End::new(Transcendental::new(time), causes, pair)));
-    }
-    ends.push(upper.as_ref().map(|upper| domain_end(&to_parameter(upper))));
+        End::new(Transcendental::new(time), Cause::ComplexPair.into(), pair)
+    };
+    let mut ends: Vec<End> = switches.iter().map(end).collect();
     let mut stable: Vec<bool> = right.iter().map(|&count| count == 0).collect();
+    let mut range = Range::between(first.value.exact(), upper.as_ref().map(to_parameter));
     if falls {
         ends.reverse();
         stable.reverse();
+        std::mem::swap(&mut range.lower, &mut range.upper);
     }
-    Ok(StableSet::from_intervals(intervals(ends, &stable), Vec::new()))
+    Ok(Counted { ends, stable, bounds: vec![first] }.stable_set(&range, budget)?)
 }
 
-/// The stable cells between ends.
-fn intervals(ends: Vec<Option<End>>, stable: &[bool]) -> Vec<StableInterval> {
-    let pairs = ends.windows(2).zip(stable).filter(|(_, stable)| **stable);
-    pairs.map(|(pair, _)| StableInterval::new(pair[0].clone(), pair[1].clone())).collect()
+/// What cuts the line of a loop with dead time, where the roots in each cell are counted.
+struct Counted {
+    /// What happens between the cells, ascending.
+    ends: Vec<End>,
+    /// True for each cell in which the loop is stable.
+    stable: Vec<bool>,
+    /// What happens at the ends of the domain.
+    bounds: Vec<End>,
+}
+
+impl Counted {
+    fn stable_set(&self, range: &Range, budget: &Budget) -> Result<StableSet, Exhausted> {
+        let zeros = self.ends.iter().map(|end| end.value.clone()).collect();
+        Line::new(range, zeros, self, budget).stable_set()
+    }
+
+    fn at(&self, place: Place<'_>) -> Option<&End> {
+        match place.zero {
+            Some(zero) => self.ends.get(zero),
+            None => self.bounds.iter().find(|end| end.value.is_same(place.value)),
+        }
+    }
+
+    /// Cuts the cell in which a pole lies, or adds to what happens at an end.
+    fn insert_pole(&mut self, value: Real, budget: &Budget) -> Result<(), Exhausted> {
+        let mut at = 0;
+        while let Some(end) = self.ends.get_mut(at) {
+            match end.value.compare(&value, budget)? {
+                Ordering::Less => at += 1,
+                Ordering::Greater => break,
+                Ordering::Equal => {
+                    end.causes.insert(Cause::Pole);
+                    return Ok(());
+                }
+            }
+        }
+        self.ends.insert(at, End::new(value, Cause::Pole.into(), None));
+        self.stable.insert(at, self.stable[at]);
+        Ok(())
+    }
+}
+
+impl Ring for Counted {
+    fn is_stable(&self, below: usize, _cell: &RealInterval) -> Result<(Option<Rational>, bool), Exhausted> {
+        Ok((None, self.stable[below]))
+    }
+
+    fn held(&self, place: Place<'_>) -> Result<Held, Exhausted> {
+        let causes = self.at(place).map_or_else(Vec::new, |end| end.causes.iter().collect());
+        Ok(Held { causes, has_roots: true })
+    }
+
+    fn common_roots(&self, place: Place<'_>) -> Result<Common, Exhausted> {
+        Ok(self.at(place).and_then(|end| end.pair.clone()).map_or(Common::Beyond, Common::Pair))
+    }
 }
 
 /// A parameter at a fixed dead time.
@@ -337,60 +382,28 @@ fn assembled(
     domain: &Range,
     budget: &Budget,
 ) -> Result<StableSet, Error> {
-    let own = |end: &Option<Rational>| end.as_ref().map(|x| domain_end_of_loop(family, x, decay, budget)).transpose();
-    let mut ends: Vec<Option<End>> = vec![own(&domain.lower)?];
-    ends.extend(cells.points.iter().map(|point| {
+    let mut bounds = Vec::new();
+    for value in [&domain.lower, &domain.upper].into_iter().flatten() {
+        let mut end = domain_end_of_loop(family, value, decay, budget)?;
+        if poles.iter().any(|pole| pole.sign_at(value).is_eq()) {
+            end.causes.insert(Cause::Pole);
+        }
+        bounds.push(end);
+    }
+    let end = |point: &GainPoint| {
         let (mut causes, mut pair) = (Causes::default(), None);
         note(&point.happening, &mut causes, &mut pair, budget);
-        let pair = pair.map(ComplexPair::at_angular_frequency);
-        Some(End::new(point.value.clone(), causes, pair))
-    }));
-    ends.push(own(&domain.upper)?);
-    let mut stable: Vec<bool> = cells.right.iter().map(|count| *count == Some(0)).collect();
+        End::new(point.value.clone(), causes, pair.map(ComplexPair::at_angular_frequency))
+    };
+    let ends = cells.points.iter().map(end).collect();
+    let stable = cells.right.iter().map(|count| *count == Some(0)).collect();
+    let mut cells = Counted { ends, stable, bounds };
     for pole in poles {
         for zero in zeros_in(pole, domain, budget)? {
-            insert_pole(&mut ends, &mut stable, Real::from(zero), budget)?;
-        }
-        // An end of the domain may be a pole itself.
-        let vanishes = |end: &End| end.value.exact().is_some_and(|x| pole.sign_at(&x) == Sign::Equal);
-        let last = ends.len() - 1;
-        for at in [0, last] {
-            if let Some(end) = ends[at].as_mut().filter(|end| vanishes(end)) {
-                end.causes.insert(Cause::Pole);
-            }
+            cells.insert_pole(Real::from(zero), budget)?;
         }
     }
-    Ok(StableSet::from_intervals(intervals(ends, &stable), Vec::new()))
-}
-
-/// Cuts the cell in which a pole lies, or adds to what happens at an end.
-fn insert_pole(ends: &mut Vec<Option<End>>, stable: &mut Vec<bool>, value: Real, budget: &Budget) -> Result<(), Error> {
-    for i in 0..ends.len() {
-        let Some(end) = &mut ends[i] else { continue };
-        match end.value.compare(&value, budget)? {
-            Ordering::Less => {}
-            Ordering::Equal => {
-                end.causes.insert(Cause::Pole);
-                return Ok(());
-            }
-            Ordering::Greater => {
-                let mut causes = Causes::default();
-                causes.insert(Cause::Pole);
-                let kept = stable[i - 1];
-                ends.insert(i, Some(End::new(value, causes, None)));
-                stable.insert(i, kept);
-                return Ok(());
-            }
-        }
-    }
-    // Above all ends that are finite: in the last cell.
-    let mut causes = Causes::default();
-    causes.insert(Cause::Pole);
-    let at = ends.len() - 1;
-    let kept = stable[at - 1];
-    ends.insert(at, Some(End::new(value, causes, None)));
-    stable.insert(at, kept);
-    Ok(())
+    Ok(cells.stable_set(domain, budget)?)
 }
 
 /// The causes, and the lowest frequency of the pairs.

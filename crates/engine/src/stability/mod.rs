@@ -14,7 +14,7 @@ mod half_size;
 mod intersection;
 mod interval_set;
 mod jury;
-mod line;
+pub(crate) mod line;
 mod pair_location;
 mod parametric;
 pub mod plane;

@@ -4,18 +4,18 @@
 use super::count::{DelayCount, count_from_line};
 use super::family_function::{Function, Line, upper_exponential};
 use super::family_zeros::{Coordinate, CoordinateOf, FamilyZero, zeros};
-use super::gain::{GainCells, NotSolved, sample, sorted};
-use super::gain_points::{GainPoint, Happening};
+use super::gain::{GainCells, NotSolved, cells_between, difference_points};
+use super::gain_points::{Beyond, GainPoint, Happening};
 use super::mikhailov::NotCounted;
 use super::quasi_polynomial::{QuasiPolynomial, even_odd};
 use super::strip::frequency_bound_over;
 use super::windows::Never;
 use crate::precisions::ZERO_AT_EDGE;
 use crate::stability::interval_set::zeros_in;
-use crate::stability::{ParametricPolynomial, Range, Shape, boundary_polynomials, count_roots};
+use crate::stability::{Range, Shape, count_roots};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, Sign};
-use jurist_algebra::poly::{Domain, Poly, UniPoly};
+use jurist_algebra::poly::{Domain, UniPoly};
 use jurist_algebra::real::{Real, Transcendental};
 use std::sync::Arc;
 
@@ -281,23 +281,11 @@ fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<G
     if neutral && grows {
         return Err(NotSolved::Neutral);
     }
-    let mut reversed = top;
-    while reversed.last().is_some_and(UniPoly::is_zero) {
-        reversed.pop();
-    }
-    let degree = reversed.len() - 1;
-    reversed.reverse();
-    let reversed = ParametricPolynomial::from_integral(&Poly::new(reversed), degree);
-    let Some(boundaries) = boundary_polynomials(&reversed, Shape::UnitDisc, budget)? else {
-        return Ok(Err(Never::Neutral));
-    };
-    let happening = if degree == 0 { Happening::DegreeLost } else { Happening::Neutral };
-    for boundary in boundaries {
-        for value in zeros_in(boundary.polynomial.poly(), range, budget)? {
-            let point = GainPoint::algebraic(value, happening.clone(), budget)?;
-            if !points.iter().any(|p| p.value.is_same(&point.value)) {
-                points.push(point);
-            }
+    let Some((values, happening)) = difference_points(top, range, budget)? else { return Ok(Err(Never::Neutral)) };
+    for value in values {
+        let point = GainPoint::algebraic(value, happening.clone(), budget)?;
+        if !points.iter().any(|p| p.value.is_same(&point.value)) {
+            points.push(point);
         }
     }
     let weights: Vec<Rational> = {
@@ -341,28 +329,7 @@ fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<G
         let inverse = Some(coordinate(Coordinate::Reciprocal));
         points.push(GainPoint { value: coordinate(Coordinate::Parameter), happening, change: Some(change), inverse });
     }
-    let points = sorted(points, budget)?;
-    budget.step("counting roots in the gaps");
-    let ends: Vec<Option<Real>> = std::iter::once(Some(Real::from(lower.clone())))
-        .chain(points.iter().map(|p| Some(p.value.clone())))
-        .chain(std::iter::once(Some(Real::from(upper.clone()))))
-        .collect();
-    let mut right: Vec<Option<usize>> = Vec::with_capacity(points.len() + 1);
-    for (i, pair) in ends.windows(2).enumerate() {
-        budget.check()?;
-        let known = match i.checked_sub(1).and_then(|j| Some((right[j]?, points[j].change?))) {
-            Some((count, change)) => usize::try_from(count as i64 + change).ok(),
-            None => None,
-        };
-        right.push(match known {
-            Some(count) => Some(count),
-            None => {
-                let sample = sample(pair[0].as_ref(), pair[1].as_ref(), budget)?;
-                family.right(&sample, budget)?
-            }
-        });
-    }
-    Ok(Ok(GainCells { points, right }))
+    cells_between(range, points, &Beyond::default(), &|value| family.right(value, budget), budget).map(Ok)
 }
 
 /// Whether a zero is strictly inside of the range. One on an end is a root of the loop there that depends on no dead time.

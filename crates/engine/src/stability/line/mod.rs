@@ -129,9 +129,15 @@ impl<'a> Line<'a> {
     fn cells(&self, piece: &Range) -> Result<Cells, Exhausted> {
         self.budget.step("testing a sample of each cell");
         let is_below = |z: &&Real| piece.lower.as_ref().is_some_and(|x| z.compare_rational(x).is_le());
-        let below = self.zeros.iter().take_while(is_below).count();
         let is_inside = |z: &&Real| piece.upper.as_ref().is_none_or(|x| z.compare_rational(x).is_lt());
-        let inside = self.zeros[below..].iter().take_while(is_inside).count();
+        // Without brackets all zeros are inside.
+        let (below, inside) = match self.brackets.is_empty() {
+            true => (0, self.zeros.len()),
+            false => {
+                let below = self.zeros.iter().take_while(is_below).count();
+                (below, self.zeros[below..].iter().take_while(is_inside).count())
+            }
+        };
         let cells = real_cells(piece, &self.zeros[below..below + inside]);
         let mut verdicts = Vec::with_capacity(cells.len());
         for (i, cell) in cells.iter().enumerate() {
