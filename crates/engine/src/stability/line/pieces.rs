@@ -16,7 +16,7 @@ pub(crate) struct Decided {
 pub(crate) struct Pieces {
     intervals: Vec<StableInterval>,
     left: Vec<Bracket>,
-    /// A number at which the loop is known to be stable: an interval that ends there goes on.
+    /// The last number at which the loop is known to be stable: an interval that ends there goes on.
     joint: Option<Rational>,
 }
 
@@ -29,6 +29,11 @@ impl Pieces {
             Some(last) if is_at_joint(&last.upper) && is_at_joint(&interval.lower) => last.upper = interval.upper,
             _ => self.intervals.push(interval),
         }
+    }
+
+    /// At this number the loop is stable.
+    pub fn join_at(&mut self, joint: &Rational) {
+        self.joint = Some(joint.clone());
     }
 
     /// A bracket, in which parts are decided.
@@ -44,9 +49,9 @@ impl Pieces {
             lower = Some(hi.clone());
             if *is_stable {
                 let end = |x: &Rational| Some(End::new(x.clone(), Causes::default(), None));
-                self.joint = Some(lo.clone());
+                self.join_at(lo);
                 self.push(StableInterval::new(end(lo), end(hi)));
-                self.joint = Some(hi.clone());
+                self.join_at(hi);
             }
         }
         if is_open {
