@@ -280,24 +280,6 @@ impl Counted {
             None => self.bounds.iter().find(|end| end.value.is_same(place.value)),
         }
     }
-
-    /// Cuts the cell in which a pole lies, or adds to what happens at an end.
-    fn insert_pole(&mut self, value: Real, budget: &Budget) -> Result<(), Exhausted> {
-        let mut at = 0;
-        while let Some(end) = self.ends.get_mut(at) {
-            match end.value.compare(&value, budget)? {
-                Ordering::Less => at += 1,
-                Ordering::Greater => break,
-                Ordering::Equal => {
-                    end.causes.insert(Cause::Pole);
-                    return Ok(());
-                }
-            }
-        }
-        self.ends.insert(at, End::new(value, Cause::Pole.into(), None));
-        self.stable.insert(at, self.stable[at]);
-        Ok(())
-    }
 }
 
 impl Ring for Counted {
@@ -378,7 +360,7 @@ fn assembled(
     poles: &[UniPoly],
     family: &FamilyLoop,
     decay: bool,
-    cells: GainCells,
+    mut cells: GainCells,
     domain: &Range,
     budget: &Budget,
 ) -> Result<StableSet, Error> {
@@ -395,15 +377,10 @@ fn assembled(
         note(&point.happening, &mut causes, &mut pair, budget);
         End::new(point.value.clone(), causes, pair.map(ComplexPair::at_angular_frequency))
     };
+    cells.cut_at_poles(poles, domain, budget)?;
     let ends = cells.points.iter().map(end).collect();
     let stable = cells.right.iter().map(|count| *count == Some(0)).collect();
-    let mut cells = Counted { ends, stable, bounds };
-    for pole in poles {
-        for zero in zeros_in(pole, domain, budget)? {
-            cells.insert_pole(Real::from(zero), budget)?;
-        }
-    }
-    Ok(cells.stable_set(domain, budget)?)
+    Ok(Counted { ends, stable, bounds }.stable_set(domain, budget)?)
 }
 
 /// The causes, and the lowest frequency of the pairs.
@@ -412,6 +389,7 @@ fn note(happening: &Happening, causes: &mut Causes, pair: &mut Option<Real>, bud
         Happening::RootAtZero => causes.insert(Cause::RootAtZero),
         Happening::Neutral => causes.insert(Cause::Neutral),
         Happening::DegreeLost => causes.insert(Cause::DegreeLost),
+        Happening::Pole => causes.insert(Cause::Pole),
         Happening::Pair(omega) => {
             causes.insert(Cause::ComplexPair);
             let lower = pair.as_ref().is_none_or(|known| omega.compare(known, budget).is_ok_and(Ordering::is_lt));

@@ -12,7 +12,7 @@ mod conditions;
 pub mod dead_time;
 mod half_size;
 mod intersection;
-mod interval_set;
+pub(crate) mod interval_set;
 mod jury;
 pub(crate) mod line;
 mod pair_location;

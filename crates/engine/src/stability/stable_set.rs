@@ -1,6 +1,6 @@
 //! The exact set of stable parameter values.
 
-use super::{AlgebraicInterval, Cause, Causes, ComplexPair, IntervalSet};
+use super::{AlgebraicInterval, Cause, Causes, ComplexPair, IntervalSet, RealInterval};
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
 use std::cmp::Ordering;
@@ -64,6 +64,12 @@ impl StableInterval {
     /// The interval between two ends.
     pub fn new(lower: Option<End>, upper: Option<End>) -> StableInterval {
         StableInterval { lower, upper }
+    }
+
+    /// The open interval, without what happens at its ends.
+    pub(crate) fn bare(&self) -> RealInterval {
+        let [lower, upper] = [&self.lower, &self.upper].map(|end| end.as_ref().map(|end| end.value.clone()));
+        RealInterval { lower, upper }
     }
 
     /// Whether a value lies between the ends, or is a closed one.

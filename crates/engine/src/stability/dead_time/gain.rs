@@ -9,7 +9,7 @@ use super::quasi_polynomial::QuasiPolynomial;
 use super::windows::Never;
 use crate::stability::interval_set::{merge_points, real_cells, zeros_in};
 use crate::stability::{ParametricPolynomial, Range, Shape, boundary_polynomials, count_roots};
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, UniPoly};
 use jurist_algebra::real::Real;
@@ -51,8 +51,8 @@ impl From<NotCounted> for NotSolved {
     }
 }
 
-impl From<jurist_algebra::limits::Exhausted> for NotSolved {
-    fn from(exhausted: jurist_algebra::limits::Exhausted) -> Self {
+impl From<Exhausted> for NotSolved {
+    fn from(exhausted: Exhausted) -> Self {
         NotSolved::NotCounted(exhausted.into())
     }
 }
@@ -72,6 +72,29 @@ impl GainCells {
     /// One cell of values that all have the same roots.
     pub(crate) fn constant(is_stable: bool) -> GainCells {
         GainCells { points: Vec::new(), right: vec![is_stable.then_some(0)] }
+    }
+
+    /// Cuts the cells where the loop is undefined as well: at the zeros of these polynomials in the range of the cells.
+    ///
+    /// Cost: comparisons of `O(n)` values for each zero.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub(crate) fn cut_at_poles(&mut self, poles: &[UniPoly], range: &Range, budget: &Budget) -> Result<(), Exhausted> {
+        for pole in poles {
+            for zero in zeros_in(pole, range, budget)? {
+                let pole = GainPoint { change: Some(0), ..GainPoint::counted(zero.into(), Happening::Pole) };
+                match place_of(&self.points, &pole.value, budget)? {
+                    Ok(known) if matches!(self.points[known].happening, Happening::Pole) => {}
+                    Ok(known) => self.points[known].join(pole),
+                    Err(at) => {
+                        self.points.insert(at, pole);
+                        self.right.insert(at, self.right[at]);
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 }
 
@@ -267,27 +290,27 @@ pub(super) fn difference_points(
 }
 
 /// Ascending; two points that are the same become one at which more happens, and whose change is counted.
-fn sorted(mut points: Vec<GainPoint>, budget: &Budget) -> Result<Vec<GainPoint>, NotSolved> {
+fn sorted(points: Vec<GainPoint>, budget: &Budget) -> Result<Vec<GainPoint>, NotSolved> {
     let mut out: Vec<GainPoint> = Vec::with_capacity(points.len());
-    points.reverse();
-    while let Some(point) = points.pop() {
-        let (mut low, mut high) = (0, out.len());
-        let mut same = None;
-        while low < high {
-            let middle = (low + high) / 2;
-            match out[middle].value.compare(&point.value, budget)? {
-                Ordering::Less => low = middle + 1,
-                Ordering::Greater => high = middle,
-                Ordering::Equal => {
-                    same = Some(middle);
-                    break;
-                }
-            }
-        }
-        match same {
-            Some(at) => out[at].join(point),
-            None => out.insert(low, point),
+    for point in points {
+        match place_of(&out, &point.value, budget)? {
+            Ok(same) => out[same].join(point),
+            Err(at) => out.insert(at, point),
         }
     }
     Ok(out)
+}
+
+/// Which of the ascending points has a value, or else the number of points below it.
+fn place_of(points: &[GainPoint], value: &Real, budget: &Budget) -> Result<Result<usize, usize>, Exhausted> {
+    let (mut low, mut high) = (0, points.len());
+    while low < high {
+        let middle = (low + high) / 2;
+        match points[middle].value.compare(value, budget)? {
+            Ordering::Less => low = middle + 1,
+            Ordering::Greater => high = middle,
+            Ordering::Equal => return Ok(Ok(middle)),
+        }
+    }
+    Ok(Err(low))
 }
