@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 KEYS = ("repository", "homepage", "documentation")
-PACKAGES = ("crates/algebra", "crates/check", "crates/engine", "crates/draw", "studies/drive", ".")
+PACKAGES = ("crates/algebra", "crates/check", "crates/stability", "crates/engine", "crates/draw", "studies/drive", ".")
 """What is published, each after those that it needs."""
 
 

@@ -77,7 +77,7 @@ pub use jurist_engine::problem::{Algebra, Bound, Free, Problem, Question, Region
 pub use jurist_engine::response::{Extreme, Margins, Norm, OpenLoop, Place, Requirement, Value};
 pub use jurist_engine::show::documents;
 pub use jurist_engine::show::notation::Notation;
-pub use jurist_engine::stability::{
+pub use jurist_stability::{
     AlgebraicInterval, Boundary, Cause, Causes, ClassicalTest, ComplexPair, Condition, End, HalfSizePair, IntervalSet,
     JuryTable, ParametricPolynomial, Range, RealInterval, RootCount, RouthTable, Shape, StableInterval, StableSet,
     UndecidedBracket, boundary_polynomials, classical_test, count_roots, is_hurwitz_routh, is_schur_jury, is_stable,
@@ -126,5 +126,5 @@ pub mod _documentation {
 #[cfg(feature = "strategies")]
 pub mod strategies {
     pub use jurist_algebra::{matrix::strategies as matrix, number::strategies as number, poly::strategies as poly};
-    pub use jurist_engine::stability::strategies as stability;
+    pub use jurist_stability::strategies as stability;
 }

@@ -7,8 +7,10 @@ use crate::helpers::random::Random;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, UniPoly};
+use jurist_engine::error::Error;
 use jurist_engine::model::Model;
 use jurist_engine::response::{RequiredSet, Requirement};
+use jurist_engine::show::diagnostics::render_error;
 use jurist_engine::stability::{Range, Shape, is_stable};
 
 /// A single loop; `K` is free.
@@ -314,4 +316,63 @@ fn sets_of_random_loops_agree_with_sampled_peaks() {
         }
     }
     assert!(seen.iter().flatten().all(|count| *count > 40), "{seen:?}");
+}
+
+/// `K/(s + 1)` at `K = 0`, where `L` is zero: `|1 + L| = 1`, `|L/(1 + L)| = 0`, `2 |1 + L|/|1 - L| = 2`, and every turn, factor and dead time is
+/// borne.
+#[test]
+fn a_gain_of_zero_meets_what_an_open_loop_meets() {
+    let model = loop_with(CONTINUOUS, "K/(s + 1)");
+    let problem = std::sync::Arc::new(model.ask().set("K", Rational::ZERO).problem().unwrap());
+    for (name, value, is_met) in [
+        ("modulus_margin", "1", true),
+        ("modulus_margin", "1.001", false),
+        ("complementary_peak", "1e-6", true),
+        ("disk_margin", "2", true),
+        ("disk_margin", "2.001", false),
+        ("gain_margin", "60 dB", true),
+        ("phase_margin", "175 deg", true),
+        ("delay_margin", "100", true),
+    ] {
+        let asked = [requirement(&model, name, value)];
+        let met =
+            problem.requirements_met(&asked, None, &Budget::unlimited()).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(met[0].met, is_met, "{name} {value}");
+    }
+    // Where no gain is left open, nothing comes back all the same.
+    let open = load(&text_of(CONTINUOUS, "K/(s + 1)").replace("'r - y'", "'r'"));
+    assert!(open.ask().margins(None, &Rational::ZERO, &Budget::unlimited()).is_err());
+}
+
+/// The factor of the box is looked for beyond `K = 0`.
+#[test]
+fn a_box_that_grows_to_a_gain_of_zero_has_its_requirement_decided() {
+    let text = text_of(CONTINUOUS, "K/(s + 1)").replace("'50%'", "'10%'");
+    for requirement in [["--complementary-peak", "0.5"], ["--modulus-margin", "0.5"], ["--phase-margin", "30 deg"]] {
+        let run = jurist_with_input(&[&["tolerance", "-"][..], &requirement].concat(), text.as_bytes());
+        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{requirement:?}: {}", run.stdout);
+    }
+}
+
+#[test]
+fn mistakes_in_a_requirement_have_their_place_in_its_text() {
+    let model = loop_with(CONTINUOUS, "K/(s + 1)");
+    let said = |model: &Model, further: &[(&str, &str)]| match model
+        .requirements(further, &[], &Budget::unlimited())
+        .unwrap_err()
+    {
+        Error::Refused(diagnostics) => render_error(&diagnostics, false),
+        other => panic!("{other}"),
+    };
+    let unknown = said(&model, &[("disk_margin", " 2*abc")]);
+    assert!(unknown.contains("E-unknown-name") && unknown.contains("disk_margin:1:3"), "{unknown}");
+    let zero = said(&model, &[("phase_margin", "1/0 deg")]);
+    assert!(zero.contains("phase_margin:1:3"), "{zero}");
+    assert!(said(&model, &[("disk_margin", "6 dB")]).contains("disk_margin: a number is needed"));
+    assert!(said(&model, &[("gain_margin", "6 V")]).contains("gain_margin: a number with its unit is needed"));
+    assert!(said(&model, &[("disk_margin", "K")]).contains("without parameters that have no value"));
+    let text = text_of(CONTINUOUS, "K/(s + 1)") + "[require]\ndisk_margin = '2*abc'\n";
+    let line = text.lines().count();
+    let written = said(&load(&text), &[]);
+    assert!(written.contains(&format!("model.toml:{line}:")) && written.contains("2*abc"), "{written}");
 }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`error`] | diagnostics with places and stable codes |
 //! | [`model`] | expressions, model files, block diagrams, discretisation |
-//! | [`stability`] | exact root count, tables of Jury and Routh, boundary polynomials, stable sets, two parameters |
+//! | [`stability`] | [a crate of its own](jurist_stability): exact root count, tables of Jury and Routh, boundary polynomials, stable sets, two parameters |
 //! | [`problem`] | a question about a model as one value, resolved once and evaluated once |
 //! | [`answer`] | answers: a problem and what is exactly known of it |
 //! | [`response`] | frequency response: the loop cut open, margins, peak gains |
@@ -22,4 +22,4 @@ pub mod problem;
 pub mod prove;
 pub mod response;
 pub mod show;
-pub mod stability;
+pub use jurist_stability as stability;

@@ -17,61 +17,6 @@ pub(crate) const ROOTS_IN_SPIRAL: Precisions = Precisions::new(128, 1 << 14);
 /// The signs of a certificate over constants, which both checkers enclose again with as many bits.
 pub(crate) const CERTIFICATE_OVER_SYMBOLS: Precisions = Precisions::new(256, 1 << 13);
 
-/// The root count of a polynomial with enclosed coefficients. Roots may be on the boundary.
-pub(crate) const ROOT_COUNT: Precisions = Precisions::new(128, 1 << 14);
-
-/// Bits of a root count from which on roots on the boundary are looked for as identities.
-pub(crate) const ROOTS_ON_BOUNDARY: u64 = 512;
-
 /// A loop behind holds as numbers alone. A loop that these bits do not decide is so near to the boundary that exact algebra
 /// has to be asked.
 pub(crate) const LOOP_IN_NUMBERS: Precisions = Precisions::new(128, 1 << 11);
-
-/// The sign of a determinant at a number that may be one of its zeros.
-pub(crate) const SIGN_OF_DETERMINANT: Precisions = Precisions::new(128, 1 << 14);
-
-/// The lowest and the highest coefficient of a determinant or resultant that is not zero, where none is expanded.
-pub(crate) const ENDS_OF_DETERMINANT: Precisions = Precisions::new(192, 1 << 12);
-
-/// A determinant at a rational number, before it is expanded in the symbols.
-pub(crate) const DETERMINANT_AT_POINT: Precisions = Precisions::new(192, 1 << 10);
-
-/// The resultant on a face of the Newton polygon, before common roots are looked for exactly.
-pub(crate) const RESULTANT_OF_FACE: Precisions = Precisions::new(192, 768);
-
-/// The common root of the half-size pair, which need not be the only one.
-pub(crate) const COMMON_ROOT: Precisions = Precisions::new(64, 1 << 12);
-
-/// The conditions of Jury's table, which may be equalities.
-pub(crate) const JURY_TABLE: Precisions = Precisions::new(256, 1 << 15);
-
-/// The rows of a table, whose divisors may be zero.
-pub(crate) const TABLE_ROWS: Precisions = Precisions::new(512, 1 << 14);
-
-/// Coefficients of rows that enclosures with so many bits do not separate from zero stay enclosures of zero, where no row is
-/// divided by them.
-pub(crate) const ENTRIES_AS_ZERO: u64 = 1 << 12;
-
-/// The coefficients over a window. Those that are small even with the last bits are taken as they are.
-pub(crate) const PLANE_COEFFICIENTS: Precisions = Precisions::new(256, 2048);
-
-/// Bits of nearness to the end of a region. The last ones are taken even if a root is not tracked.
-pub(crate) const LIMIT_OF_CELL: Precisions = Precisions::new(8, 512);
-
-/// Bits of nearness to a wall that cells may touch at, beyond those of the first trials.
-pub(crate) const TOUCHING_CELLS: Precisions = Precisions::new(64, 256);
-
-/// A point at which the curve of complex pairs may cross itself.
-pub(crate) const SINGULAR_POINT: Precisions = Precisions::new(256, 1024);
-
-/// The motion of a root on the axis with the dead time. It may be zero; such a crossing is counted on both sides instead.
-pub(crate) const MOTION_OF_ROOTS: Precisions = Precisions::new(64, 512);
-
-/// A zero that may be at an end of the range.
-pub(crate) const ZERO_AT_EDGE: Precisions = Precisions::new(64, 512);
-
-/// The order of two dead times with roots on the axis, which no theorem separates.
-pub(crate) const ORDER_OF_DEAD_TIMES: Precisions = Precisions::new(96, 1 << 12);
-
-/// The argument along the imaginary axis. The function may be zero there.
-pub(crate) const ARGUMENT_ALONG_AXIS: Precisions = Precisions::new(64, 1 << 14);

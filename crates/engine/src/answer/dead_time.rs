@@ -4,19 +4,11 @@ use super::verdict::PointVerdict;
 use crate::error::Error;
 use crate::problem::{BaseDelay, DelayedLoop, Problem, refused};
 use crate::stability::dead_time::{
-    Crossing, DelayCells, FamilyLoop, GainCells, GainLoop, GainPoint, Happening, NotCounted, NotSolved, Switch,
-    count_delayed_roots, delay_cells, family_cells, gain_cells,
+    GainCells, GainLoop, Line, NotCounted, NotSolved, count_delayed_roots, delay_cells, family_cells, gain_cells,
 };
-use crate::stability::line::{Common, Held, Line, Place, Ring};
-use crate::stability::{
-    Cause, Causes, ComplexPair, End, HalfSizePair, Range, RealInterval, Shape, StableSet, zeros_in,
-};
+use crate::stability::{Cause, End, Range, Shape, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::{Enclosure, Rational};
-use jurist_algebra::poly::{Domain, UniPoly};
-use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
-use std::cmp::Ordering;
-use std::sync::Arc;
+use jurist_algebra::number::Rational;
 
 /// The verdict at a point.
 pub(super) fn verdict(problem: &Problem, delayed: &DelayedLoop, budget: &Budget) -> Result<PointVerdict, Error> {
@@ -98,7 +90,7 @@ fn anywhere(problem: &Problem, delayed: &DelayedLoop, domain: &Range, budget: &B
         return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
     };
     match family_cells(&family, domain, budget) {
-        Ok(Ok(cells)) => assembled(delayed.poles(), &family, !delayed.decay().is_zero(), cells, domain, budget),
+        Ok(Ok(cells)) => Ok(cells.stable_set(&family, delayed.poles(), domain, budget)?),
         Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::Unbounded) => {
             let name = &problem.parameter().name;
@@ -120,86 +112,6 @@ fn not_solved(reason: NotSolved) -> Error {
         NotSolved::Coincidence => "roots stay on the boundary, meet there, or only touch it",
     };
     Exhausted::by_method(format!("what is known of such loops: {why}"), "crossings of the imaginary axis").into()
-}
-
-/// The dead time `(theta + 2 pi k)/omega` as a value of the parameter, `(tau - offset)/slope`.
-#[derive(Debug)]
-struct SwitchTime {
-    crossing: Arc<Crossing>,
-    turns: u64,
-    slope: Rational,
-    offset: Rational,
-}
-
-impl Enclosing for SwitchTime {
-    fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
-        let goal = Rational::dyadic(&1.into(), bits);
-        let mut working = bits + 32;
-        loop {
-            let tau = self.crossing.dead_time(self.turns, working);
-            let at = |x: &Rational| (x - &self.offset) / &self.slope;
-            let (mut lo, mut hi) = (at(tau.lower()), at(tau.upper()));
-            if self.slope.is_negative() {
-                (lo, hi) = (hi, lo);
-            }
-            if &hi - &lo <= goal {
-                return Enclosure::new(lo, hi);
-            }
-            working += working / 2;
-        }
-    }
-
-    fn origin(&self) -> Origin {
-        Origin::Crossing {
-            omega_squared: self.crossing.omega_squared(),
-            theta: self.crossing.theta(64),
-            turns: self.turns,
-            // As the parameter grows.
-            leaves: match self.crossing.motion() {
-                Ordering::Equal => None,
-                motion => Some(motion.is_gt() != self.slope.is_negative()),
-            },
-        }
-    }
-}
-
-/// Adds the roots of a polynomial on the imaginary axis to what happens at an end: `s = 0`, and the pair of lowest
-/// frequency.
-fn note_axis(end: &mut End, p: &UniPoly, budget: &Budget) -> Result<(), Exhausted> {
-    if p.is_constant() {
-        return Ok(());
-    }
-    if p.coeff(0).is_zero() {
-        end.causes.insert(Cause::RootAtZero);
-    }
-    let pair = HalfSizePair::new(p, p.degree().unwrap_or(1), Shape::LeftHalfPlane);
-    let common = budget.enter(|| pair.a.gcd(&pair.b))?;
-    let below_zero = Range { lower: None, upper: Some(Rational::ZERO) };
-    if let Some(lowest) = zeros_in(&common, &below_zero, budget)?.pop() {
-        end.causes.insert(Cause::ComplexPair);
-        end.pair = Some(ComplexPair::at_half_size_root(Shape::LeftHalfPlane, Real::from(lowest)));
-    }
-    Ok(())
-}
-
-/// The end of the domain of a parameter, with the roots that are on the axis there.
-fn domain_end_of_loop(family: &FamilyLoop, value: &Rational, decay: bool, budget: &Budget) -> Result<End, Exhausted> {
-    let mut end = End::new(value.clone(), Causes::default(), None);
-    let Some(p) = family.at(value).filter(|_| !decay) else { return Ok(end) };
-    if family.dead_time(value).is_zero() {
-        note_axis(&mut end, &p.without_delay(), budget)?;
-        return Ok(end);
-    }
-    note_axis(&mut end, &p.content(), budget)?;
-    if p.without_delay().coeff(0).is_zero() {
-        end.causes.insert(Cause::RootAtZero);
-    }
-    if p.order() < family.order() {
-        end.causes.insert(Cause::DegreeLost);
-    } else if !budget.enter(|| p.has_stable_difference())? {
-        end.causes.insert(Cause::Neutral);
-    }
-    Ok(end)
 }
 
 /// A dead time that is free: all its windows, ascending in the parameter, in which it may fall.
@@ -225,76 +137,15 @@ fn windows(
         Ok(cells) => cells,
         Err(_) => return Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
     };
-    let DelayCells { switches, right, touching_for_ever, .. } = &cells;
-    if *touching_for_ever && right.last() == Some(&0) {
+    if cells.touching_for_ever && cells.right.last() == Some(&0) {
         let message = "roots touch the imaginary axis at infinitely many dead times, and cross it nowhere";
         return Err(refused(
             message,
             "give the domain two ends, --domain NAME=0..10: the touches between them are listed",
         ));
     }
-    let to_parameter = |tau: &Rational| (tau - offset) / slope;
-    let mut first = End::new(to_parameter(&lower), Causes::default(), None);
-    if lower.is_zero() {
-        note_axis(&mut first, &p.without_delay(), budget)?;
-    }
-    let end = |switch: &Switch| {
-        let (crossing, turns) = &switch.members[0];
-        let time =
-            SwitchTime { crossing: Arc::clone(crossing), turns: *turns, slope: slope.clone(), offset: offset.clone() };
-        let lowest = switch.members.iter().map(|(c, _)| c).max_by(|a, b| a.half_size_root().cmp(b.half_size_root()));
-        let pair = lowest
-            .map(|c| ComplexPair::at_half_size_root(Shape::LeftHalfPlane, Real::from(c.half_size_root().clone())));
-        End::new(Transcendental::new(time), Cause::ComplexPair.into(), pair)
-    };
-    let mut ends: Vec<End> = switches.iter().map(end).collect();
-    let mut stable: Vec<bool> = right.iter().map(|&count| count == 0).collect();
-    let mut range = Range::between(first.value.exact(), upper.as_ref().map(to_parameter));
-    if falls {
-        ends.reverse();
-        stable.reverse();
-        std::mem::swap(&mut range.lower, &mut range.upper);
-    }
-    Ok(Counted { ends, stable, bounds: vec![first] }.stable_set(&range, budget)?)
-}
-
-/// What cuts the line of a loop with dead time, where the roots in each cell are counted.
-struct Counted {
-    /// What happens between the cells, ascending.
-    ends: Vec<End>,
-    /// True for each cell in which the loop is stable.
-    stable: Vec<bool>,
-    /// What happens at the ends of the domain.
-    bounds: Vec<End>,
-}
-
-impl Counted {
-    fn stable_set(&self, range: &Range, budget: &Budget) -> Result<StableSet, Exhausted> {
-        let zeros = self.ends.iter().map(|end| end.value.clone()).collect();
-        Line::new(range, zeros, self, budget).stable_set()
-    }
-
-    fn at(&self, place: Place<'_>) -> Option<&End> {
-        match place.zero {
-            Some(zero) => self.ends.get(zero),
-            None => self.bounds.iter().find(|end| end.value.is_same(place.value)),
-        }
-    }
-}
-
-impl Ring for Counted {
-    fn is_stable(&self, below: usize, _cell: &RealInterval) -> Result<(Option<Rational>, bool), Exhausted> {
-        Ok((None, self.stable[below]))
-    }
-
-    fn held(&self, place: Place<'_>) -> Result<Held, Exhausted> {
-        let causes = self.at(place).map_or_else(Vec::new, |end| end.causes.iter().collect());
-        Ok(Held { causes, has_roots: true })
-    }
-
-    fn common_roots(&self, place: Place<'_>) -> Result<Common, Exhausted> {
-        Ok(self.at(place).and_then(|end| end.pair.clone()).map_or(Common::Beyond, Common::Pair))
-    }
+    let line = Line { slope: slope.clone(), offset: offset.clone() };
+    Ok(cells.stable_set(&p, [Some(&lower), upper.as_ref()], &line, budget)?)
 }
 
 /// A parameter at a fixed dead time.
@@ -315,14 +166,14 @@ fn gains(
         };
         let cells = GainCells::constant(stable);
         return match delayed.family() {
-            Some(family) => assembled(delayed.poles(), &family, !delayed.decay().is_zero(), cells, domain, budget),
+            Some(family) => Ok(cells.stable_set(&family, delayed.poles(), domain, budget)?),
             None => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         };
     }
     let first = match gain_cells(gain, domain, budget) {
         Ok(Ok(cells)) => {
             let family = delayed.family().expect("the parameter enters");
-            return assembled(delayed.poles(), &family, !delayed.decay().is_zero(), cells, domain, budget);
+            return Ok(cells.stable_set(&family, delayed.poles(), domain, budget)?);
         }
         Ok(Err(_)) => return Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::NotCounted(reason)) => return Err(not_counted(reason)),
@@ -348,56 +199,10 @@ fn gains(
 /// The stable factors `k` of `D0 + k N exp(-tau s)`.
 pub(crate) fn stable_factors(gain: &GainLoop, budget: &Budget) -> Result<StableSet, Error> {
     match gain_cells(gain, &Range::all(), budget) {
-        Ok(Ok(cells)) => assembled(&[], &gain.family(), false, cells, &Range::all(), budget),
+        Ok(Ok(cells)) => Ok(cells.stable_set(&gain.family(), &[], &Range::all(), budget)?),
         Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::NotCounted(reason)) => Err(not_counted(reason)),
         Err(_) => Err(undecided("the factors of the open loop have no end")),
-    }
-}
-
-/// The cells cut at the poles as well, with their causes.
-fn assembled(
-    poles: &[UniPoly],
-    family: &FamilyLoop,
-    decay: bool,
-    mut cells: GainCells,
-    domain: &Range,
-    budget: &Budget,
-) -> Result<StableSet, Error> {
-    let mut bounds = Vec::new();
-    for value in [&domain.lower, &domain.upper].into_iter().flatten() {
-        let mut end = domain_end_of_loop(family, value, decay, budget)?;
-        if poles.iter().any(|pole| pole.sign_at(value).is_eq()) {
-            end.causes.insert(Cause::Pole);
-        }
-        bounds.push(end);
-    }
-    let end = |point: &GainPoint| {
-        let (mut causes, mut pair) = (Causes::default(), None);
-        note(&point.happening, &mut causes, &mut pair, budget);
-        End::new(point.value.clone(), causes, pair.map(ComplexPair::at_angular_frequency))
-    };
-    cells.cut_at_poles(poles, domain, budget)?;
-    let ends = cells.points.iter().map(end).collect();
-    let stable = cells.right.iter().map(|count| *count == Some(0)).collect();
-    Ok(Counted { ends, stable, bounds }.stable_set(domain, budget)?)
-}
-
-/// The causes, and the lowest frequency of the pairs.
-fn note(happening: &Happening, causes: &mut Causes, pair: &mut Option<Real>, budget: &Budget) {
-    match happening {
-        Happening::RootAtZero => causes.insert(Cause::RootAtZero),
-        Happening::Neutral => causes.insert(Cause::Neutral),
-        Happening::DegreeLost => causes.insert(Cause::DegreeLost),
-        Happening::Pole => causes.insert(Cause::Pole),
-        Happening::Pair(omega) => {
-            causes.insert(Cause::ComplexPair);
-            let lower = pair.as_ref().is_none_or(|known| omega.compare(known, budget).is_ok_and(Ordering::is_lt));
-            if lower {
-                *pair = Some(omega.clone());
-            }
-        }
-        Happening::Several(all) => all.iter().for_each(|one| note(one, causes, pair, budget)),
     }
 }
 

@@ -5,7 +5,6 @@ use super::Problem;
 use super::evaluation::Algebra;
 use super::presupposed::inside;
 use crate::error::Error;
-use crate::stability::line::Pieces;
 use crate::stability::{Cause, End, Range, StableSet, UndecidedBracket, stable_set_of_parts};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
@@ -41,8 +40,7 @@ impl Problem {
         let mut ends: Vec<Option<Rational>> = vec![domain.lower.clone()];
         ends.extend(breaks.into_iter().map(Some));
         ends.push(domain.upper.clone());
-        let mut pieces = Pieces::default();
-        let mut undecided: Vec<UndecidedBracket> = Vec::new();
+        let mut set = StableSet::from_intervals(Vec::new(), Vec::new());
         for window in ends.windows(2) {
             let range = Range::between(window[0].clone(), window[1].clone());
             let near = inside(&range);
@@ -52,7 +50,8 @@ impl Problem {
             }
             if !ratios.iter().all(|ratio| is_looked_at(ratio, &near, &usual)) {
                 let why = "more whole samples than are looked at in one question: give a shorter domain";
-                undecided.push(UndecidedBracket::new(range.lower, range.upper, why));
+                let unknown = vec![UndecidedBracket::new(range.lower, range.upper, why)];
+                set = set.followed_by(StableSet::from_intervals(Vec::new(), unknown), None);
                 continue;
             }
             let algebra = budget.enter(|| Algebra::near(self, &[near], budget))??;
@@ -68,16 +67,12 @@ impl Problem {
             }
             let first = found.intervals().first().and_then(|interval| interval.lower.as_ref());
             let begins_at = |x: &&Rational| domain.contains(x) && first.is_some_and(|end| is_at(end, x));
-            if let Some(before) = range.lower.as_ref().filter(begins_at)
-                && is_stable_at(before)?
-            {
-                pieces.join_at(before);
-            }
-            undecided.extend(found.undecided().iter().cloned());
-            found.intervals().iter().cloned().for_each(|interval| pieces.push(interval));
+            let joint = match range.lower.as_ref().filter(begins_at) {
+                Some(before) if is_stable_at(before)? => Some(before),
+                _ => None,
+            };
+            set = set.followed_by(found, joint);
         }
-        let (intervals, undecided) = pieces.ended(domain, undecided);
-        let mut set = StableSet::from_intervals(intervals, undecided);
         // The divisions are not of the domain's making.
         let is_bound = |end: &End| [&domain.lower, &domain.upper].into_iter().flatten().any(|x| is_at(end, x));
         for end in set.ends_mut().filter(|end| !end.closed && !is_bound(end)) {

@@ -1,7 +1,7 @@
 //! All that is required of a loop: by its model file, and by who asks.
 
 use super::requirement::{Meaning, Requirement, RequirementKind, Written, not_understood};
-use crate::error::{Diagnostics, Error, Span};
+use crate::error::{Diagnostic, Diagnostics, Error, Source, Span};
 use crate::model::{Expression, Model};
 use crate::problem::Region;
 use jurist_algebra::limits::Budget;
@@ -74,7 +74,9 @@ impl Model {
         for kind in RequirementKind::all() {
             let Some(asked) = of(kind.name) else { continue };
             let meaning = self.meaning(kind, asked.text, out.region.as_ref(), values, budget);
-            match meaning.map_err(|error| self.placed(error, asked.place))? {
+            // What is wrong with the constants at these values has its place in the model.
+            let is_own = || self.value(&Expression::number(0), values, budget).is_ok();
+            match meaning.map_err(|error| if is_own() { self.placed(error, kind, &asked) } else { error })? {
                 Meaning::Requirement(requirement) => out.list.push(requirement),
                 Meaning::Region(region) => {
                     out.region = Some(region);
@@ -94,24 +96,34 @@ impl Model {
         budget: &Budget,
     ) -> Result<Meaning, Error> {
         let (number, unit) = kind.split(text);
-        let expression =
-            Expression::parse(number).map_err(|_| not_understood(kind.name, "a number with its unit is needed"))?;
-        let value = self.value(&expression, values, budget)?;
+        let needed = match kind.needs_unit() {
+            true => "a number with its unit is needed",
+            false => "a number is needed",
+        };
+        let expression = Expression::parse(number).map_err(|_| not_understood(kind.name, needed))?;
+        let value = self.value(&expression, values, budget).map_err(|error| match error {
+            Error::Undefined(_) => {
+                not_understood(kind.name, "a number is needed, without parameters that have no value")
+            }
+            other => other,
+        })?;
         let sample_time = || self.sample_time_expression().map(|step| self.value(step, values, budget)).transpose();
         kind.meaning(&Written { value, unit, time: self.time(), region, sample_time: &sample_time, budget })
     }
 
-    /// The error with its place in the model file.
-    fn placed(&self, error: Error, place: Option<Span>) -> Error {
-        match (error, place) {
-            (Error::Refused(refused), Some(span)) => {
-                let placed = refused.diagnostics().iter().cloned().map(|d| match d.primary.is_some() {
-                    true => d,
-                    false => d.at(span, "required here"),
-                });
-                Diagnostics::new(Some(self.source().clone()), placed.collect()).into()
-            }
-            (error, _) => error,
-        }
+    /// The error with its place: the value in the model file, or the text of an option.
+    fn placed(&self, error: Error, kind: &RequirementKind, asked: &Asked<'_>) -> Error {
+        let Error::Refused(refused) = error else { return error };
+        let diagnostics = refused.diagnostics().iter().cloned();
+        let Some(span) = asked.place else {
+            let source = Source::new(kind.name, kind.split(asked.text).0);
+            return Diagnostics::new(Some(source), diagnostics.collect()).into();
+        };
+        // Places in the number's own text are not places in the file.
+        let placed = diagnostics.map(|d| {
+            let label = d.primary.as_ref().map_or_else(|| "required here".to_owned(), |label| label.text.clone());
+            Diagnostic { primary: None, secondary: Vec::new(), ..d }.at(span, label)
+        });
+        Diagnostics::new(Some(self.source().clone()), placed.collect()).into()
     }
 }

@@ -110,7 +110,7 @@ where
         let Some(end) = end else { return Ok(None) };
         let exact = end.value.exact().filter(|_| end.closed);
         let closed = exact.map(|x| unmet(&x)).transpose()?.is_some_and(|names| names.is_empty());
-        Ok(Some(End { closed, ..end.clone() }))
+        Ok(Some(end.clone().closed_if(closed)))
     };
     let (lower, upper) = (kept(&interval.lower)?, kept(&interval.upper)?);
     if let (Some(a), Some(b)) = (&lower, &upper)

@@ -4,8 +4,7 @@ use super::ground::{Ground, at_end};
 use super::open_loop::{OpenLoop, Parts, with_parts};
 use super::place::inner;
 use super::{Place, Value};
-use crate::stability::Shape;
-use crate::stability::interval_set::real_cells;
+use crate::stability::{RealInterval, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, Poly};
@@ -125,7 +124,7 @@ fn gain_crossings<G: Ground>(
 
 /// A rational number below, between and above ascending zeros, all in the range of `x`.
 pub(super) fn samples_between(zeros: &[Real], shape: Shape, budget: &Budget) -> Result<Vec<Rational>, Exhausted> {
-    real_cells(&inner(shape), zeros).iter().map(|cell| cell.sample(budget)).collect()
+    RealInterval::from(inner(shape)).cut(zeros).iter().map(|cell| cell.sample(budget)).collect()
 }
 
 fn phase_crossings<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<Vec<PhaseCrossing>, Exhausted> {

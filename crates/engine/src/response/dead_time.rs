@@ -167,15 +167,13 @@ impl<'a> DeadTime<'a> {
         let sum = both.plus(&self.twice_real());
         let denominator = DeadTime::in_omega(&r.denominator_squared);
         let modulus_at = self.extreme([&sum, &denominator], Ordering::Less, |r| Rational::ONE - r, budget)?;
-        let square = modulus_at.value().expect("finite somewhere").number(budget)?;
-        let modulus = square_root(&square, budget)?;
+        let modulus = modulus_at.root(budget)?;
         let peak_sensitivity = reciprocal(&modulus, budget)?;
         budget.step("peak of the complementary sensitivity");
         let numerator = DeadTime::in_omega(&r.numerator_squared);
         let most = |r: &Rational| r / &(Rational::ONE - r);
         let complementary_at = self.extreme([&numerator, &sum], Ordering::Greater, most, budget)?;
-        let square = complementary_at.value().expect("no root is on the axis").number(budget)?;
-        let peak_complementary = square_root(&square, budget)?;
+        let peak_complementary = complementary_at.root(budget)?;
         budget.step("disk margin");
         let disk = self.disk(&sum, skew, budget)?;
         Ok(StableMargins {

@@ -2,11 +2,13 @@
 
 use super::ground::{Ground, Integers};
 use super::place::inner;
+use super::value::square_root;
 use super::{Place, Value};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, Poly, UniPoly};
+use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 
 /// An extreme value of the square of a modulus.
@@ -74,6 +76,11 @@ impl Extreme {
             Extreme::Infinite(_) => None,
             Extreme::Constant(value) | Extreme::At { value, .. } => Some(value.clone()),
         }
+    }
+
+    /// The square root of the value, which is not infinite: of a modulus whose square it is the extreme of.
+    pub(super) fn root(&self, budget: &Budget) -> Result<Real, Exhausted> {
+        square_root(&self.value().expect("a finite extreme").number(budget)?, budget)
     }
 
     /// Where it is; `None` for a constant.

@@ -239,13 +239,12 @@ impl StableMargins {
         let delay = DelayMargin::of(open_loop, crossings, budget)?;
         budget.step("modulus margin");
         let modulus_at = modulus_extreme(open_loop, budget)?;
-        let square = modulus_at.value().expect("the least value is finite").number(budget)?;
-        let modulus = square_root(&square, budget)?;
+        let modulus = modulus_at.root(budget)?;
         let peak_sensitivity = reciprocal(&modulus, budget)?;
         budget.step("peak of the complementary sensitivity");
         let complementary_at = complementary_extreme(open_loop, budget)?;
-        let square = complementary_at.value().expect("no root is on the boundary").number(budget)?;
-        let peak_complementary = square_root(&square, budget)?;
+        // No root of a stable loop is on the boundary, where this would be infinite.
+        let peak_complementary = complementary_at.root(budget)?;
         budget.step("disk margin");
         let disk = DiskMargin::of(open_loop, skew, budget)?;
         Ok(StableMargins {

@@ -6,7 +6,7 @@ use super::ground::{Constants, Ground};
 use super::margins::{GainMargin, Margins, PhaseMargin, StableMargins};
 use super::open_loop::{OpenLoop, with_parts};
 use super::place::modulus_squared;
-use super::requirement::{Circle, Found, Requirement, Rule, in_sector, scaled_by_exponential};
+use super::requirement::{Circle, Found, Requirement, Rule, scaled_by_exponential};
 use super::spiral::OnSpiral;
 use super::value::{Value, square_root};
 use crate::stability::Shape;
@@ -71,7 +71,8 @@ impl<'a> AtPoint<'a> {
             }
             Rule::Sector(least) => {
                 // On the sector's edge a root is damped enough.
-                let count = crate::stability::count_roots(&in_sector(self.closed, least), self.shape);
+                let count =
+                    crate::stability::count_roots(&crate::stability::sector::in_sector(self.closed, least), self.shape);
                 Ok(count.outside == 0)
             }
             Rule::Modulus { exponent } => {

@@ -47,7 +47,7 @@ pub use open_loop::OpenLoop;
 pub use place::Place;
 pub use required_map::{RequiredMap, RequiredRegions};
 pub use required_set::{RequiredEnd, RequiredInterval, RequiredSet, RequirementMet};
-pub(crate) use requirement::{Found, LIST, Rule, in_sector, radius_below};
+pub(crate) use requirement::{Found, LIST, Rule, radius_below};
 pub use requirement::{Requirement, RequirementKind, RequirementOption};
 pub use turning::Turning;
 pub use value::Value;

@@ -105,7 +105,7 @@ impl OpenLoop {
     /// When a parameter is free.
     pub fn of(problem: &Problem, at: Option<&str>, budget: &Budget) -> Result<OpenLoop, Error> {
         let open_loop = OpenLoop::of_any(problem, at, budget)?;
-        if open_loop.over.is_open() {
+        if open_loop.is_zero() {
             return Err(nothing_comes_back(&open_loop.cut));
         }
         Ok(open_loop)
@@ -135,6 +135,11 @@ impl OpenLoop {
             }
         };
         Ok(OpenLoop { cut, shape, sample_time, over, dead_time })
+    }
+
+    /// True if nothing comes back to the cut.
+    pub(super) fn is_zero(&self) -> bool {
+        self.over.is_open()
     }
 
     /// From its polynomials.

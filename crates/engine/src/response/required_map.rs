@@ -2,7 +2,7 @@
 
 use super::family::Family;
 use super::met::AtPoint;
-use super::requirement::{Requirement, Rule, on_sector_edge};
+use super::requirement::{Requirement, Rule};
 use crate::answer::{Answer, Map};
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
@@ -141,7 +141,7 @@ impl Problem {
         let mut found = match (requirement.rule(), family) {
             (Rule::Sector(_), _) if self.shape() == Shape::UnitDisc => return Err(not_in_a_plane(requirement)),
             (Rule::Sector(least), _) => {
-                let [first, second] = on_sector_edge(closed, least);
+                let [first, second] = crate::stability::sector::on_sector_edge(closed, least);
                 // A root at 0 or at infinity is on the boundary of stability.
                 vec![resultant(&first, &second, budget)?]
             }

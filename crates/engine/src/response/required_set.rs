@@ -5,8 +5,9 @@ use super::damped::changes;
 use super::family::{Boundaries, Family};
 use super::margins::Margins;
 use super::met::AtPoint;
+use super::open_loop::OpenLoop;
 use super::over_symbols::SymbolicFamily;
-use super::requirement::{Requirement, Rule, scaled_by_exponential, sector_in_parameter};
+use super::requirement::{Requirement, Rule, scaled_by_exponential};
 use super::spiral::OnSpiral;
 use super::{DelayMargin, HeldDelay};
 use crate::answer::{Answer, Verdict};
@@ -173,12 +174,19 @@ impl Problem {
         }
         budget.enter(|| {
             let stable = self.verdict(budget)?.value().verdict == Verdict::Stable;
-            let margins = match requirements.iter().any(Requirement::needs_cut) {
+            let (margins, zero_loop) = match requirements.iter().any(Requirement::needs_cut) {
                 true => {
                     let is_delay = requirements.iter().any(|r| matches!(r.rule(), Rule::DeadTime(_)));
-                    Some(Arc::new(self.margins_with(at, &Rational::ZERO, is_delay, budget)?.into_value()))
+                    match self.margins_with(at, &Rational::ZERO, is_delay, budget) {
+                        Ok(margins) => (Some(Arc::new(margins.into_value())), None),
+                        // A gain of zero opens the loop at this point: it has no margins, and no change at the cut matters.
+                        Err(refused) => match OpenLoop::of_any(self, at, budget) {
+                            Ok(open_loop) if open_loop.is_zero() => (None, Some(open_loop)),
+                            _ => return Err(refused),
+                        },
+                    }
                 }
-                false => None,
+                false => (None, None),
             };
             let about_roots = |r: &Requirement| !r.needs_cut();
             let closed = match requirements.iter().any(about_roots) {
@@ -188,7 +196,7 @@ impl Problem {
             let closed = closed.unwrap_or_else(UniPoly::zero);
             let mut out = Vec::with_capacity(requirements.len());
             for requirement in requirements {
-                let open_loop = margins.as_ref().map(|m| &m.open_loop);
+                let open_loop = margins.as_ref().map(|m| &m.open_loop).or(zero_loop.as_ref());
                 let known = match margins.as_ref().and_then(|m| Some((m, m.stable.as_ref()?))) {
                     Some((all, stable)) => requirement.is_met_by(all, stable, budget)?,
                     None => None,
@@ -197,6 +205,8 @@ impl Problem {
                     _ if !stable => false,
                     (_, _, Some(met)) => met,
                     (Rule::DeadTime(least), Some(margins), _) => bears(margins, least, budget)?,
+                    // A loop that is open at this point bears any dead time.
+                    (Rule::DeadTime(_), None, _) => true,
                     _ => AtPoint::new(open_loop, &closed, self.shape()).meets(requirement, budget)?,
                 };
                 out.push(RequirementMet { requirement: requirement.clone(), margins: margins.clone(), met });
@@ -230,7 +240,7 @@ impl Problem {
                     }
                     return Ok(Boundaries { values, ..Boundaries::none() });
                 }
-                let sector = sector_in_parameter(p, least);
+                let sector = crate::stability::sector::sector_in_parameter(p, least);
                 let Some(found) = boundary_polynomials(&sector, self.shape(), budget)? else { return Err(undecided()) };
                 let zeros = found.into_iter().map(|b| b.polynomial.poly().clone()).collect();
                 Boundaries { zeros, ..Boundaries::none() }

@@ -45,6 +45,19 @@ impl Scope<'_> {
         Ok(self.has_functions(f) && self.needed(f).len() <= MOST && self.is_identity(f)?)
     }
 
+    /// True if a polynomial is seen to be zero whatever the parameters are.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn vanishes(&self, p: &ZPoly) -> Result<bool, Exhausted> {
+        for c in p.coefficients() {
+            if !c.is_zero() && !self.is_hidden_zero(c)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
     fn has_functions(&self, f: &RationalFunction) -> bool {
         let is_function = |i: usize| !matches!(self.variables[i], Variable::Named(_) | Variable::Delay(_));
         f.variables().into_iter().any(is_function)

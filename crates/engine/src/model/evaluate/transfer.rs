@@ -6,7 +6,6 @@ use super::walk::{Failure, Meaning, division_by_zero, evaluate, too_large};
 use super::zpoly::ZPoly;
 use crate::error::{Code, Diagnostic, Span};
 use crate::model::text::{Expression, Factor, Function, Node, Sign};
-use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 
@@ -129,12 +128,7 @@ impl Fraction {
 
 impl InVariable<'_, '_> {
     fn divided(&mut self, a: Fraction, b: &Fraction, span: Span) -> Result<Fraction, Failure> {
-        let is_hidden_zero = |c: &RationalFunction| Ok::<bool, Exhausted>(c.is_zero() || self.scope.is_hidden_zero(c)?);
-        let mut is_zero = true;
-        for c in b.numerator.coefficients().iter().rev() {
-            is_zero = is_zero && is_hidden_zero(c)?;
-        }
-        if is_zero {
+        if self.scope.vanishes(&b.numerator)? {
             return Err(division_by_zero(span));
         }
         if (b.numerator.degree() > 0 || self.scope.is_delayed(&b.numerator.leading())) && !self.rational {

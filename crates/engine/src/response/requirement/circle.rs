@@ -11,7 +11,7 @@ pub(crate) struct Circle {
     /// `u` and `v`.
     combined: [i64; 2],
     least: Rational,
-    /// The number that is asked for, of which `least` follows.
+    /// The number that the user wrote; `least` is computed from it.
     asked: Rational,
 }
 
@@ -20,7 +20,7 @@ impl Circle {
         Circle { combined, least, asked }
     }
 
-    /// The number that is asked for.
+    /// The number that the user wrote.
     pub fn asked(&self) -> &Rational {
         &self.asked
     }

@@ -2,9 +2,7 @@
 
 use super::{Meaning, Requirement, RequirementKind, RequirementOption, Rule, refused};
 use crate::error::Error;
-use crate::stability::ParametricPolynomial;
-use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, Poly, UniPoly};
+use jurist_algebra::number::Rational;
 
 pub(super) const KIND: RequirementKind = RequirementKind {
     name: "damping",
@@ -30,89 +28,5 @@ impl Requirement {
             return Err(refused("a damping is above 0 and below 1"));
         }
         Ok(Requirement { kind: &KIND, asked: least.to_string(), rule: Rule::Sector(least) })
-    }
-}
-
-/// `P(a s) P(b s)` with `a, b = c (c +- j damping)`, `c^2 = 1 - damping^2`, times powers of the denominator: all its roots are in the
-/// left half plane just when those of `P` are in the sector of at least this damping.
-pub(crate) fn in_sector<R: Domain>(p: &Poly<R>, damping: &Rational) -> Poly<R> {
-    let n = p.coeffs().len().saturating_sub(1);
-    let square = Rational::ONE - damping * damping;
-    // t_k = a^k + b^k, and a b = c^2.
-    let mut sums = vec![Rational::from(2), &square + &square];
-    for k in 2..=n {
-        let next = &(&square + &square) * &sums[k - 1] - &square * &sums[k - 2];
-        sums.push(next);
-    }
-    let mut powers = vec![Rational::ONE];
-    for k in 1..=n {
-        let next = &powers[k - 1] * &square;
-        powers.push(next);
-    }
-    // Twice the product, cleared of denominators.
-    let weight = |i: usize, j: usize| &powers[i.min(j)] * &sums[i.abs_diff(j)];
-    let mut clear = Integer::ONE;
-    for i in 0..=n {
-        for j in 0..=n {
-            clear = clear.lcm(&weight(i, j).denominator());
-        }
-    }
-    let mut out = vec![R::zero(); 2 * n + 1];
-    for i in 0..=n {
-        for j in 0..=n {
-            let w = weight(i, j) * Rational::from(&clear);
-            out[i + j] = out[i + j].plus(&p.coeff(i).times(&p.coeff(j)).times(&R::from_integer(&w.numerator())));
-        }
-    }
-    Poly::new(out)
-}
-
-/// Polynomials in `rho`, up to factors, whose common zeros are the roots `s = rho exp(j psi)`, `cos psi = -damping`: those on the
-/// sector's edge for `rho > 0`. They are the imaginary parts of `P` and of `P exp(-j psi)`, over `sin psi`, the first over `rho` too.
-pub(crate) fn on_sector_edge<R: Domain>(p: &Poly<R>, damping: &Rational) -> [Poly<R>; 2] {
-    let n = p.coeffs().len().saturating_sub(1);
-    // u_k = sin(k psi)/sin psi.
-    let twice_cosine = -(damping + damping);
-    let mut sines = vec![Rational::ZERO, Rational::ONE];
-    for k in 2..=n {
-        let next = &twice_cosine * &sines[k - 1] - &sines[k - 2];
-        sines.push(next);
-    }
-    let clear = sines.iter().fold(Integer::ONE, |l, u| l.lcm(&u.denominator()));
-    let weight = |u: &Rational| R::from_integer(&(u * &Rational::from(&clear)).numerator());
-    let first = (1..=n).map(|k| p.coeff(k).times(&weight(&sines[k]))).collect();
-    let before = |k: usize| if k == 0 { -Rational::ONE } else { sines[k - 1].clone() };
-    let second = (0..=n).map(|k| p.coeff(k).times(&weight(&before(k)))).collect();
-    [Poly::new(first), Poly::new(second)]
-}
-
-/// The sector's polynomial in the parameter that is free.
-pub(crate) fn sector_in_parameter(p: &ParametricPolynomial, damping: &Rational) -> ParametricPolynomial {
-    let product = in_sector(p.polynomial(), damping);
-    let coefficients: Vec<_> = (0..=2 * p.formal_degree()).map(|i| (product.coeff(i), UniPoly::one())).collect();
-    ParametricPolynomial::new(&coefficients, 2 * p.formal_degree(), Vec::new())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::stability::Shape;
-
-    #[test]
-    fn the_sector_of_a_damped_pair() {
-        // s^2 + 2 d s + 1 with d = 3/5 is on the edge of damping 3/5.
-        let p = UniPoly::from_i64(&[5, 6, 5]);
-        let counted = |tenths: i64| {
-            let sector = in_sector(&p, &Rational::new(tenths.into(), 10.into()));
-            let count = crate::stability::count_roots(&sector, Shape::LeftHalfPlane);
-            (count.inside, count.on, count.outside)
-        };
-        assert_eq!(counted(5), (4, 0, 0));
-        assert_eq!(counted(6), (2, 2, 0));
-        assert_eq!(counted(7), (2, 0, 2));
-        // rho = 1 on the edge, and nowhere else.
-        let edge = |tenths: i64| on_sector_edge(&p, &Rational::new(tenths.into(), 10.into()));
-        let common = |tenths: i64| edge(tenths)[0].gcd(&edge(tenths)[1]);
-        assert_eq!([5, 6, 7].map(common), [&[1][..], &[-5, 5], &[5]].map(UniPoly::from_i64));
     }
 }

@@ -19,7 +19,7 @@ mod radius;
 mod settling_time;
 
 pub(crate) use circle::Circle;
-pub(crate) use damping::{in_sector, on_sector_edge, sector_in_parameter};
+
 pub(crate) use settling_time::{radius_below, scaled_by_exponential};
 
 use super::{Margins, StableMargins};
@@ -84,6 +84,11 @@ impl RequirementKind {
         let text = text.trim();
         let with = self.units.iter().find_map(|unit| Some((text.strip_suffix(unit)?.trim_end(), *unit)));
         with.map_or((text, None), |(number, unit)| (number, Some(unit)))
+    }
+
+    /// True if a unit may follow the number.
+    pub(super) fn needs_unit(&self) -> bool {
+        !self.units.is_empty()
     }
 
     /// What a number asks for.

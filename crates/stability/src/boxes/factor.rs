@@ -1,0 +1,432 @@
+//! The largest factor by which all tolerances can be scaled, between a proof and a point.
+
+use super::family::{Family, Path};
+use super::polynomial::BoxPolynomial;
+use super::prove::{BoxProof, MOST_COEFFICIENTS, Outcome};
+use super::search::{Crossing, Search};
+use super::sides::{Side, at_factor};
+use crate::AtPoint;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Integer, Rational, Sign};
+
+/// A proof that needs more cells than this is first tried at a smaller factor.
+const CELLS: usize = 4000;
+
+/// A box that needs more cells than this is not decided.
+const MOST_CELLS: usize = 1 << 18;
+
+/// How often a box that is not decided is made smaller.
+const RETREATS: u32 = 6;
+
+/// How often a box is made as small as leaves out the cell at which its proof ended, before it is made smaller by a share.
+const WITHDRAWALS: u32 = 8;
+
+/// How often the upper end moves to a point at which a proof failed.
+const REFUTATIONS: u32 = 64;
+
+/// All corners of so many parameters are tried where a proof does not come through.
+const MOST_FOR_CORNERS: usize = 6;
+
+/// Without any crossing the largest factor that is proved.
+const FAR: i64 = 1 << 10;
+
+/// A point just beyond the worst one is so many binary digits away.
+const BEYOND: u64 = 40;
+
+/// A loop whose parameters have tolerances, ready to be decided.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_stability::boxes::{BoxPolynomial, Side, ToleranceProblem};
+/// let (model, _) = Model::builder(Time::Continuous)
+///     .parameter(ParameterBuilder::new("a").nominal("2"))
+///     .parameter(ParameterBuilder::new("b").nominal("3"))
+///     .characteristic("s^2 + a*s + b")
+///     .build()?;
+/// let problem = model.ask().free("a").free("b").problem()?;
+/// let budget = Budget::unlimited();
+/// let p = BoxPolynomial::new(problem.algebra(&budget)?.polynomial().unwrap(), problem.shape());
+/// let sides = vec![Side::scaled(2.into(), [1.into(), 1.into()]), Side::scaled(3.into(), [2.into(), 2.into()])];
+/// let boxes = ToleranceProblem::new(&p, sides).unwrap();
+/// assert!(boxes.decide(&1.into(), &budget)?.is_stable());
+/// let factor = boxes.largest_factor(&"1/1000".parse().unwrap(), None, &budget)?;
+/// assert!(factor.lower <= "3/2".parse().unwrap() && factor.upper.unwrap() >= "3/2".parse().unwrap());
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
+pub struct ToleranceProblem<'a, F = BoxPolynomial> {
+    pub(super) p: &'a F,
+    pub(super) sides: Vec<Side>,
+    pub(super) reference: Vec<Sign>,
+    pub(super) scale: i64,
+}
+
+/// What is known of one box.
+#[derive(Clone, Debug)]
+pub enum BoxDecision {
+    /// Every point is stable.
+    Stable(BoxProof),
+    /// Not every point is stable.
+    NotStable {
+        /// A rational point that is not stable, with its root count; none where only points with irrational parameters
+        /// are known.
+        witness: Option<Witness>,
+    },
+    /// Neither was proved.
+    Undecided {
+        /// What ran out.
+        why: &'static str,
+        /// The part of the box that was looked at last.
+        cell: Vec<[Rational; 2]>,
+    },
+}
+
+impl BoxDecision {
+    /// That of a box with a point that is not stable.
+    pub fn not_stable_at(point: Vec<Rational>, at: AtPoint) -> BoxDecision {
+        BoxDecision::NotStable { witness: Some(Witness { point, at }) }
+    }
+
+    /// Whether every point is stable.
+    pub fn is_stable(&self) -> bool {
+        matches!(self, BoxDecision::Stable(_))
+    }
+}
+
+/// A point that is not stable.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Witness {
+    /// The values of the parameters.
+    pub point: Vec<Rational>,
+    /// What is exactly known there.
+    pub at: AtPoint,
+}
+
+impl Witness {
+    /// A point and what is exactly known there.
+    pub fn new(point: Vec<Rational>, at: AtPoint) -> Witness {
+        Witness { point, at }
+    }
+}
+
+/// A bracket of the largest factor.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct LargestFactor {
+    /// The box of this factor is stable.
+    pub lower: Rational,
+    /// Its proof; none at the factor 0 of a box that is only the nominal point.
+    pub proof: Option<BoxProof>,
+    /// The box of this factor is not stable; `None` where no such factor was found.
+    pub upper: Option<Rational>,
+    /// The direction of the worst point that was found: of each parameter the share of its width, from -1 to 1.
+    pub direction: Option<Vec<Rational>>,
+    /// How much of the margin each parameter uses; the shares add up to 1.
+    pub shares: Option<Vec<Rational>>,
+    /// A point that is not stable, just beyond.
+    pub witness: Option<Witness>,
+    /// Where the proof of a closer bracket ended.
+    pub open: Option<(&'static str, Vec<[Rational; 2]>)>,
+    pub(super) crossing: Option<Crossing>,
+}
+
+impl ToleranceProblem<'_> {
+    /// The number of Bernstein coefficients of the pair; `None` where it, or of what must not vanish, has more than are worked with.
+    pub fn coefficients(&self) -> Option<usize> {
+        let fits = |degrees: &[usize], frequencies: usize| {
+            let product = degrees.iter().try_fold(frequencies, |product, degree| product.checked_mul(degree + 1));
+            product.filter(|&n| n <= MOST_COEFFICIENTS)
+        };
+        // A divisor that cancels is not in the pair.
+        for (_, f) in &self.p.certain {
+            fits(&f.degrees().into_iter().map(|degree| degree as usize).collect::<Vec<_>>(), 1)?;
+        }
+        let pair = self.p.excluded().pair;
+        fits(&pair.degrees, pair.width / 2)
+    }
+}
+
+impl<'a, F: Family> ToleranceProblem<'a, F> {
+    /// A loop and its tolerances; `None` unless the nominal point is stable.
+    ///
+    /// # Panics
+    /// When the numbers of parameters differ.
+    pub fn new(p: &'a F, sides: Vec<Side>) -> Option<Self> {
+        assert_eq!(p.parameters(), sides.len(), "each parameter has its side");
+        let nominal: Vec<Rational> = sides.iter().map(|s| s.nominal().clone()).collect();
+        if !p.is_stable_at(&nominal) {
+            return None;
+        }
+        let (reference, scale) = p.signs_at(&nominal)?;
+        Some(ToleranceProblem { p, sides, reference, scale })
+    }
+
+    /// The number of parameters.
+    pub fn parameters(&self) -> usize {
+        self.sides.len()
+    }
+
+    fn attempt(&self, factor: &Rational, cells: usize, budget: &Budget) -> Result<Outcome, Exhausted> {
+        let sides = at_factor(&self.sides, factor);
+        budget.enter(|| self.p.prove(&sides, (&self.reference, self.scale), cells, budget))?
+    }
+
+    /// Whether the box of a factor is stable.
+    ///
+    /// Cost: that of the Bernstein coefficients, `(n/2 + 1)` times the product of the degrees in the parameters plus one, for
+    /// each cell.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn decide(&self, factor: &Rational, budget: &Budget) -> Result<BoxDecision, Exhausted> {
+        budget.step("proving the box");
+        match self.attempt(factor, MOST_CELLS, budget)? {
+            Outcome::Stable(proof) => Ok(BoxDecision::Stable(proof)),
+            Outcome::Refuted(point) => Ok(BoxDecision::NotStable { witness: self.witness_near(&point) }),
+            Outcome::Open { why, cell } => Ok(BoxDecision::Undecided { why, cell }),
+        }
+    }
+
+    /// A point that is not stable: this one, or one on the way to it.
+    fn witness_near(&self, point: &[Rational]) -> Option<Witness> {
+        if self.p.is_stable_at(point) {
+            let search = self.search();
+            let direction = search.towards(point)?;
+            let line = search.line(&direction);
+            let (lo, hi) = line.crossing(Some(&self.factor_of(point)), 40)?;
+            return self.witness(line.witness(&lo, &hi)?);
+        }
+        self.witness(point.to_vec())
+    }
+
+    fn witness(&self, point: Vec<Rational>) -> Option<Witness> {
+        let at = self.p.at(&point);
+        Some(Witness { point, at })
+    }
+
+    pub(super) fn search(&self) -> Search<'_, F> {
+        Search::new(self.p, &self.sides, &self.reference)
+    }
+
+    /// A bracket of the largest factor whose box is stable, of relative width `gap`, or as close as the proof comes.
+    ///
+    /// `most` bounds the factor where the parameters' domains end. The upper end is where stability is lost on one line from
+    /// the nominal point; the lower end is proved. Where a proof fails at a point, the upper end moves there.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out before anything is proved.
+    pub fn largest_factor(
+        &self,
+        gap: &Rational,
+        most: Option<&Rational>,
+        budget: &Budget,
+    ) -> Result<LargestFactor, Exhausted> {
+        self.bracket(self.searched(budget)?, None, &|_| gap.clone(), most, budget)
+    }
+
+    /// The nearest points that are not stable, as far as a search without proof finds them.
+    pub fn searched(&self, budget: &Budget) -> Result<Search<'_, F>, Exhausted> {
+        budget.step("looking for the worst point");
+        let mut search = self.search();
+        budget.enter(|| search.run(self.scale))?;
+        Ok(search)
+    }
+
+    /// What a search found within the box of a factor.
+    pub fn refuted(&self, search: &Search<F>, factor: &Rational) -> Option<Witness> {
+        let best = search.best.as_ref().filter(|best| best.hi <= *factor)?;
+        self.witness(search.line(&best.direction).witness(&best.lo, &best.hi)?)
+    }
+
+    /// [`ToleranceProblem::largest_factor`] from a search and the proof of the box of factor 1, if there is one, with a relative width
+    /// that depends on the upper end.
+    pub fn bracket(
+        &self,
+        mut search: Search<F>,
+        known: Option<BoxProof>,
+        gap: &dyn Fn(&Rational) -> Rational,
+        most: Option<&Rational>,
+        budget: &Budget,
+    ) -> Result<LargestFactor, Exhausted> {
+        let mut proved = known.map(|proof| (Rational::ONE, proof));
+        let mut open = None;
+        let mut coarser = Rational::ONE;
+        // The box does not reach the cell at which a proof ended: there stability may be touched and not lost.
+        let mut beneath: Option<Rational> = None;
+        let (mut withdrawals, mut retreats, mut refutations) = (0, 0, 0);
+        // At first not so near to the end: if that is not the nearest one, a box is refuted sooner than it is left open.
+        let mut is_rough = true;
+        budget.step("proving the largest box");
+        loop {
+            let end = search.best.as_ref().map(|b| &b.lo).into_iter().chain(most).chain(&beneath).min();
+            let target = match end {
+                None => Rational::from(FAR),
+                Some(end) => {
+                    let least = if is_rough { Rational::new(1.into(), 1000.into()) } else { Rational::ZERO };
+                    lowered(end, &(&gap(end) * &coarser).max(least).min(Rational::new(7.into(), 8.into())))
+                }
+            };
+            if proved.as_ref().is_some_and(|(lower, _)| *lower >= target) {
+                break;
+            }
+            let outcome = match self.attempt(&target, CELLS, budget) {
+                Err(exhausted) if proved.is_none() => return Err(exhausted),
+                Err(_) => {
+                    open.get_or_insert(("the time", Vec::new()));
+                    break;
+                }
+                Ok(outcome) => outcome,
+            };
+            match outcome {
+                Outcome::Stable(proof) => {
+                    proved = Some((target, proof));
+                    if !is_rough {
+                        break;
+                    }
+                    is_rough = false;
+                }
+                Outcome::Refuted(point) => {
+                    refutations += 1;
+                    if refutations > REFUTATIONS {
+                        open = Some(("too many points that are not stable", Vec::new()));
+                        break;
+                    }
+                    budget.step("looking for the worst point");
+                    let nearer = budget.enter(|| search.run_from(&point));
+                    budget.step("proving the largest box");
+                    let is_bounded = nearer.is_err() || self.reaches(&mut search, &point);
+                    if !is_bounded && matches!(nearer, Ok(false)) {
+                        open = Some(("a point that no line from the nominal one shows", Vec::new()));
+                        break;
+                    }
+                    match nearer {
+                        Err(exhausted) if proved.is_none() => return Err(exhausted),
+                        Err(_) => {
+                            open = Some(("the time", Vec::new()));
+                            break;
+                        }
+                        Ok(_) => {}
+                    }
+                    // A new end, a new attempt at the full precision.
+                    (coarser, retreats, open, is_rough) = (Rational::ONE, 0, None, proved.is_none());
+                }
+                Outcome::Open { why, cell } => {
+                    // Where the proof does not come through, a point may be that the search has missed.
+                    refutations += 1;
+                    let missed = |search: &mut Search<F>| {
+                        let middle: Vec<Rational> = cell.iter().map(|[lo, hi]| lo.midpoint(hi)).collect();
+                        (middle.len() == self.parameters() && search.run_from(&middle))
+                            || self.run_from_corners(search, &target)
+                    };
+                    if refutations <= REFUTATIONS && matches!(budget.enter(|| missed(&mut search)), Ok(true)) {
+                        (coarser, retreats, open, is_rough) = (Rational::ONE, 0, None, proved.is_none());
+                        continue;
+                    }
+                    let nearest = self.nearest_factor(&cell);
+                    open.get_or_insert((why, cell));
+                    let is_progress = proved.as_ref().map_or(!nearest.is_zero(), |(lower, _)| *lower < nearest);
+                    if withdrawals < WITHDRAWALS && is_progress && nearest < target {
+                        withdrawals += 1;
+                        beneath = Some(nearest);
+                        continue;
+                    }
+                    retreats += 1;
+                    if retreats > RETREATS {
+                        break;
+                    }
+                    coarser = &coarser * &Rational::from(16);
+                }
+            }
+        }
+        Ok(self.bracketed(search, proved, open))
+    }
+
+    /// A factor a little larger than that of the worst point, and the point of the same line there.
+    pub fn just_beyond(&self, found: &LargestFactor) -> Option<(Rational, Vec<Rational>)> {
+        let crossing = found.crossing.as_ref()?;
+        let factor = &crossing.hi * &(&Rational::ONE + &Rational::dyadic(&Integer::ONE, BEYOND));
+        let point = self.search().line(&crossing.direction).point(&factor);
+        Some((factor, point))
+    }
+
+    /// Whether a search from one of the box's corners, where these are few, finds a nearer end.
+    fn run_from_corners(&self, search: &mut Search<F>, factor: &Rational) -> bool {
+        let sides = at_factor(&self.sides, factor);
+        if sides.len() > MOST_FOR_CORNERS {
+            return false;
+        }
+        (0..1usize << sides.len()).fold(false, |is_nearer, corner| {
+            let point: Vec<Rational> =
+                sides.iter().enumerate().map(|(i, side)| side[corner >> i & 1].clone()).collect();
+            search.run_from(&point) || is_nearer
+        })
+    }
+
+    /// A point that is not stable bounds the factor, however the line to it runs.
+    fn reaches(&self, search: &mut Search<F>, point: &[Rational]) -> bool {
+        let Some(direction) = search.towards(point) else { return false };
+        let line = search.line(&direction);
+        let factor = self.factor_of(point);
+        let best = search.best.as_ref().map(|b| b.hi.clone());
+        if best.is_some_and(|best| best <= factor) || line.is_good(&factor) {
+            return false;
+        }
+        let Some((lo, hi)) = line.narrowed(Rational::ZERO, factor, 60) else { return false };
+        search.best = Some(Crossing { direction, lo, hi });
+        true
+    }
+
+    /// The least factor whose box holds a point.
+    fn factor_of(&self, point: &[Rational]) -> Rational {
+        let shares = self.sides.iter().zip(point).filter(|(side, _)| side.grows()).map(|(side, x)| {
+            let offset = x - side.nominal();
+            offset.abs().checked_div(side.width(offset.sign())).unwrap_or(Rational::ZERO)
+        });
+        shares.max().unwrap_or(Rational::ZERO)
+    }
+
+    /// The least factor whose box holds a point of a cell.
+    fn nearest_factor(&self, cell: &[[Rational; 2]]) -> Rational {
+        let sides = self.sides.iter().zip(cell);
+        let nearest = |(side, [low, high]): (&Side, &[Rational; 2])| side.nominal().max(low).min(high).clone();
+        self.factor_of(&sides.map(nearest).collect::<Vec<_>>())
+    }
+
+    fn bracketed(
+        &self,
+        search: Search<F>,
+        proved: Option<(Rational, BoxProof)>,
+        open: Option<(&'static str, Vec<[Rational; 2]>)>,
+    ) -> LargestFactor {
+        let (lower, proof) = match proved {
+            Some((lower, proof)) => (lower, Some(proof)),
+            None => (Rational::ZERO, None),
+        };
+        let crossing = search.best.clone();
+        let witness = crossing.as_ref().and_then(|c| {
+            let point = search.line(&c.direction).witness(&c.lo, &c.hi)?;
+            self.witness(point)
+        });
+        LargestFactor {
+            lower,
+            proof,
+            upper: crossing.as_ref().map(|c| c.hi.clone()),
+            direction: crossing.as_ref().map(|c| c.direction.clone()),
+            shares: crossing.as_ref().and_then(|c| search.shares(c)),
+            witness,
+            open,
+            crossing,
+        }
+    }
+}
+
+/// A number of few digits that is smaller than `end` by between `gap / 2` and `gap` of it.
+pub(super) fn lowered(end: &Rational, gap: &Rational) -> Rational {
+    let target = end * &(&Rational::ONE - &(gap * &Rational::new(3.into(), 4.into())));
+    let size = |x: &Rational| x.numerator().bit_length() as i64 - x.denominator().bit_length() as i64;
+    // Rounded down to a multiple of a power of two below a quarter of the gap.
+    let bits = (4 - size(&(end * gap))).max(0) as u64;
+    let scaled = &target * &Rational::from(Integer::ONE << bits);
+    Rational::dyadic(&scaled.floor(), bits)
+}

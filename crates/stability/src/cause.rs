@@ -1,0 +1,115 @@
+//! Why stability ends at a parameter value.
+
+use std::fmt;
+
+/// One reason. The order is the order in which several are named.
+///
+/// ```
+/// use jurist_stability::Cause;
+/// assert_eq!(Cause::ComplexPair.to_string(), "complex pair");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Cause {
+    /// A root at `z = 1`.
+    RootAtOne,
+    /// A root at `z = -1`.
+    RootAtMinusOne,
+    /// A pair of complex conjugate roots on the boundary.
+    ComplexPair,
+    /// A root at `s = 0`.
+    RootAtZero,
+    /// The leading coefficient vanishes: a root leaves through infinity.
+    DegreeLost,
+    /// Infinitely many roots come up to the boundary: the difference operator of a neutral loop is no longer stable.
+    Neutral,
+    /// The loop is undefined there: an expression divides by zero, a block loses its order, or the loop is
+    /// not well posed.
+    Pole,
+    /// The parameter's domain ends there.
+    Domain,
+    /// Nothing is known beyond: the end of what was decided, not a limit.
+    Undecided,
+}
+
+impl Cause {
+    /// The name used in all output.
+    pub fn name(self) -> &'static str {
+        match self {
+            Cause::RootAtOne => "z=1",
+            Cause::RootAtMinusOne => "z=-1",
+            Cause::ComplexPair => "complex pair",
+            Cause::RootAtZero => "s=0",
+            Cause::DegreeLost => "infinity",
+            Cause::Neutral => "neutral",
+            Cause::Pole => "pole",
+            Cause::Domain => "domain",
+            Cause::Undecided => "undecided",
+        }
+    }
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// All reasons that hold at once, e.g. `z=1+domain`.
+///
+/// ```
+/// use jurist_stability::{Cause, Causes};
+/// let mut causes = Causes::default();
+/// causes.insert(Cause::Domain);
+/// causes.insert(Cause::RootAtOne);
+/// assert_eq!(causes.to_string(), "z=1+domain");
+/// assert!(causes.contains(Cause::Domain));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
+pub struct Causes(Vec<Cause>);
+
+impl From<Cause> for Causes {
+    fn from(cause: Cause) -> Causes {
+        Causes(vec![cause])
+    }
+}
+
+impl Causes {
+    /// Adds a reason, once.
+    pub fn insert(&mut self, cause: Cause) {
+        if let Err(place) = self.0.binary_search(&cause) {
+            self.0.insert(place, cause);
+        }
+    }
+
+    /// Whether stability ends for a reason of the loop's, and not where the question or what is known ends.
+    pub fn is_limit(&self) -> bool {
+        self.0.iter().any(|c| !matches!(c, Cause::Domain | Cause::Undecided))
+    }
+
+    /// Takes a reason back.
+    pub fn remove(&mut self, cause: Cause) {
+        self.0.retain(|c| *c != cause);
+    }
+
+    /// Whether the reason holds.
+    pub fn contains(&self, cause: Cause) -> bool {
+        self.0.contains(&cause)
+    }
+
+    /// The reasons in their fixed order.
+    pub fn iter(&self) -> impl Iterator<Item = Cause> {
+        self.0.iter().copied()
+    }
+}
+
+impl fmt::Display for Causes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, cause) in self.0.iter().enumerate() {
+            if i > 0 {
+                f.write_str("+")?;
+            }
+            f.write_str(cause.name())?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,113 @@
+//! Boxes of a window of two parameters, each proved stable, proved not stable, or left undecided.
+
+mod patch;
+mod places;
+mod subdivide;
+
+use super::curves::Curve;
+use crate::Range;
+use jurist_algebra::limits::Stop;
+use jurist_algebra::number::Rational;
+
+pub use places::{Place, Seen, subdivided, subdivided_with};
+pub use subdivide::stability_boxes;
+
+/// A bounded rectangle of two parameters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// The ends in `x`.
+    pub x: [Rational; 2],
+    /// The ends in `y`.
+    pub y: [Rational; 2],
+}
+
+impl Window {
+    /// The rectangle of two ranges; `None` when one is empty or has no end on a side.
+    pub fn new(x: &Range, y: &Range) -> Option<Window> {
+        let side = |r: &Range| match (&r.lower, &r.upper) {
+            (Some(low), Some(high)) if low < high => Some([low.clone(), high.clone()]),
+            _ => None,
+        };
+        Some(Window { x: side(x)?, y: side(y)? })
+    }
+
+    /// The product of the sides.
+    pub fn area(&self) -> Rational {
+        (&self.x[1] - &self.x[0]) * (&self.y[1] - &self.y[0])
+    }
+}
+
+/// One of the two parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Axis {
+    X,
+    Y,
+}
+
+/// What is proved of all points of an open box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum BoxVerdict {
+    /// All roots strictly inside, at every point.
+    Stable,
+    /// Stable at no point.
+    Unstable {
+        /// The number of roots outside, where it is known to be the same at every point.
+        outside: Option<usize>,
+    },
+    /// Nothing.
+    Undecided,
+}
+
+impl BoxVerdict {
+    /// The name used in all output.
+    pub fn name(self) -> &'static str {
+        match self {
+            BoxVerdict::Stable => "stable",
+            BoxVerdict::Unstable { .. } => "unstable",
+            BoxVerdict::Undecided => "undecided",
+        }
+    }
+}
+
+/// An open box of parameters with what is proved of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlaneBox {
+    /// The box; its edges do not belong to it.
+    pub window: Window,
+    /// What is proved.
+    pub verdict: BoxVerdict,
+}
+
+/// A window cut into boxes.
+#[derive(Clone, Debug)]
+pub struct BoxMap {
+    /// The window; its points on edges of boxes have no verdict.
+    pub window: Window,
+    /// The boundary curves; empty when one of them vanishes identically.
+    pub curves: Vec<Curve>,
+    /// The boxes, which tile the window; by lower `x`, then by lower `y`.
+    pub boxes: Vec<PlaneBox>,
+    /// Areas of the stable, the unstable and the undecided boxes: their sum is the window's.
+    pub areas: Areas,
+    /// Why the subdivision stopped before so little was undecided as was asked for: `None` when it did not.
+    pub stopped: Option<Stop>,
+}
+
+/// Exact areas by verdict, in the product of the parameters' units.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Areas {
+    /// Of the boxes proved stable.
+    pub stable: Rational,
+    /// Of the boxes proved to hold no stable point.
+    pub unstable: Rational,
+    /// Of the rest.
+    pub undecided: Rational,
+}
+
+impl BoxMap {
+    /// The box that holds a point; `None` outside the window and on edges. `O(n)`.
+    pub fn locate(&self, x: &Rational, y: &Rational) -> Option<&PlaneBox> {
+        let within = |[low, high]: &[Rational; 2], v: &Rational| low < v && v < high;
+        self.boxes.iter().find(|b| within(&b.window.x, x) && within(&b.window.y, y))
+    }
+}
