@@ -207,6 +207,15 @@ impl RealInterval {
 
     /// Whether a real number lies strictly between the ends.
     ///
+    /// Cost: that of comparing it with both.
+    ///
+    /// ```
+    /// use jurist_algebra::{limits::Budget, number::Rational};
+    /// use jurist_stability::{Range, RealInterval};
+    /// let positive = RealInterval::from(Range::between(Some(Rational::ZERO), None));
+    /// assert!(!positive.has_inside(&Rational::ZERO.into(), &Budget::unlimited()).unwrap());
+    /// ```
+    ///
     /// # Errors
     /// As [`Real::compare`].
     pub fn has_inside(&self, x: &Real, budget: &Budget) -> Result<bool, Exhausted> {

@@ -73,6 +73,11 @@ impl StableInterval {
     }
 
     /// The open interval, without what happens at its ends.
+    ///
+    /// ```
+    /// let all = jurist_stability::StableInterval::new(None, None).bare();
+    /// assert!(all.contains(&0.into()));
+    /// ```
     pub fn bare(&self) -> RealInterval {
         let [lower, upper] = [&self.lower, &self.upper].map(|end| end.as_ref().map(|end| end.value.clone()));
         RealInterval { lower, upper }

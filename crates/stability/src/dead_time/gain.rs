@@ -76,6 +76,15 @@ impl GainCells {
 
     /// Cuts the cells where the loop is undefined as well: at the zeros of these polynomials in the range of the cells.
     ///
+    /// ```
+    /// use jurist_algebra::{limits::Budget, poly::UniPoly};
+    /// use jurist_stability::{Range, dead_time::GainCells};
+    /// let mut cells = GainCells::constant(true);
+    /// let pole = UniPoly::from_i64(&[-1, 1]);
+    /// cells.cut_at_poles(&[pole], &Range::all(), &Budget::unlimited()).unwrap();
+    /// assert_eq!((cells.points.len(), cells.right), (1, vec![Some(0), Some(0)]));
+    /// ```
+    ///
     /// Cost: comparisons of `O(n)` values for each zero.
     ///
     /// # Errors

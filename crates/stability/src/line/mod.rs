@@ -119,7 +119,7 @@ impl<'a> Line<'a> {
         let (intervals, undecided) = pieces.ended(&self.reach, self.beyond);
         let set = StableSet::from_intervals(intervals, undecided);
         let samples: Option<Vec<_>> = samples.into_iter().map(|(sample, stable)| Some((sample?, stable))).collect();
-        Ok(match samples.filter(|samples| samples.len() == self.zeros.len() + 1) {
+        Ok(match samples.filter(|samples| self.brackets.is_empty() && !samples.is_empty()) {
             Some(samples) => set.with_cells(self.zeros, samples),
             None => set,
         })
