@@ -269,39 +269,17 @@ fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<G
     if lower >= upper {
         return Ok(Ok(GainCells { points: Vec::new(), right: vec![None] }));
     }
-    let grows = !family.decay.is_zero();
-    let mut points: Vec<GainPoint> = Vec::new();
-    // The line's own root: for the imaginary axis an algebraic condition.
-    if !grows {
-        let at_zero = family.parts.iter().fold(UniPoly::zero(), |sum, part| sum.plus(&part[0]));
-        if at_zero.is_zero() {
-            return Ok(Err(Never::RootAtZero));
-        }
-        for value in zeros_in(&at_zero, range, budget)? {
-            points.push(GainPoint::algebraic(value, Happening::RootAtZero, budget)?);
-        }
-    }
-    let top: Vec<UniPoly> = family.parts.iter().map(|part| part[family.order()].clone()).collect();
-    let neutral = top.iter().skip(1).any(|c| !c.is_zero());
-    if neutral && grows {
-        return Err(NotSolved::Neutral);
-    }
-    let Some((values, happening)) = difference_points(top, range, budget)? else { return Ok(Err(Never::Neutral)) };
-    for value in values {
-        let point = GainPoint::algebraic(value, happening.clone(), budget)?;
-        if !points.iter().any(|p| p.value.is_same(&point.value)) {
-            points.push(point);
-        }
-    }
-    let weights: Vec<Rational> = {
-        let most = |line: &Line| line.at(lower).abs().max(line.at(upper).abs());
-        let one = if grows {
-            budget.enter(|| upper_exponential(&(most(&family.tau) * most(&family.decay))))?
-        } else {
-            Rational::ONE
-        };
-        (0..family.parts.len()).map(|k| one.pow(k as i64).expect("not zero")).collect()
+    let grows = !family.is_from_axis();
+    let mut points = match algebraic_points(family, range, budget)? {
+        Ok(points) => points,
+        Err(never) => return Ok(Err(never)),
     };
+    let most = |line: &Line| line.at(lower).abs().max(line.at(upper).abs());
+    let one = match grows {
+        true => budget.enter(|| upper_exponential(&(most(&family.tau) * most(&family.decay))))?,
+        false => Rational::ONE,
+    };
+    let weights: Vec<Rational> = (0..family.parts.len()).map(|k| one.pow(k as i64).expect("not zero")).collect();
     let Some(frequency) = frequency_bound_over(&family.parts, &weights, range, budget)? else {
         return Err(NotSolved::Unbounded);
     };
@@ -335,6 +313,34 @@ fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<G
         points.push(GainPoint { value: coordinate(Coordinate::Parameter), happening, change: Some(change), inverse });
     }
     cells_between(range, points, &Beyond::default(), &|value| family.right(value, budget), budget).map(Ok)
+}
+
+/// The values in a range that are roots of polynomials: with a root at `s = 0`, for the imaginary axis, or a zero of the difference operator
+/// on the unit circle.
+fn algebraic_points(
+    family: &FamilyLoop,
+    range: &Range,
+    budget: &Budget,
+) -> Result<Result<Vec<GainPoint>, Never>, NotSolved> {
+    let mut points = Vec::new();
+    if family.is_from_axis() {
+        let at_zero = family.parts.iter().fold(UniPoly::zero(), |sum, part| sum.plus(&part[0]));
+        if at_zero.is_zero() {
+            return Ok(Err(Never::RootAtZero));
+        }
+        for value in zeros_in(&at_zero, range, budget)? {
+            points.push(GainPoint::algebraic(value, Happening::RootAtZero, budget)?);
+        }
+    }
+    let top: Vec<UniPoly> = family.parts.iter().map(|part| part[family.order()].clone()).collect();
+    if !family.is_from_axis() && top.iter().skip(1).any(|c| !c.is_zero()) {
+        return Err(NotSolved::Neutral);
+    }
+    let Some((values, happening)) = difference_points(top, range, budget)? else { return Ok(Err(Never::Neutral)) };
+    for value in values {
+        points.push(GainPoint::algebraic(value, happening.clone(), budget)?);
+    }
+    Ok(Ok(points))
 }
 
 /// Whether a zero is strictly inside of the range. One on an end is a root of the loop there that depends on no dead time.
