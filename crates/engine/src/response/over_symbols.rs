@@ -223,11 +223,11 @@ impl<'a> SymbolicFamily<'a> {
         });
         let mut lower = interval.lower.clone();
         for bracket in &brackets {
-            if let Some(below) = &bracket.lower {
-                if is_between(below, lower.as_ref(), interval.upper.as_ref()) {
-                    let part = StableInterval::new(lower.clone(), Some(edge(below)));
-                    found.intervals.extend(self.cells(&part, &candidates, requirements, budget)?);
-                }
+            if let Some(below) = &bracket.lower
+                && is_between(below, lower.as_ref(), interval.upper.as_ref())
+            {
+                let part = StableInterval::new(lower.clone(), Some(edge(below)));
+                found.intervals.extend(self.cells(&part, &candidates, requirements, budget)?);
             }
             found.undecided.push(bracket.clone());
             match &bracket.upper {
