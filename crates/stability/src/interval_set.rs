@@ -186,7 +186,49 @@ impl AlgebraicInterval {
     }
 }
 
+impl From<Range> for RealInterval {
+    fn from(range: Range) -> Self {
+        RealInterval { lower: range.lower.map(Real::from), upper: range.upper.map(Real::from) }
+    }
+}
+
 impl RealInterval {
+    /// The open cells that points (ascending, distinct, inside) cut the interval into.
+    ///
+    /// ```
+    /// use jurist_stability::{Range, RealInterval};
+    /// let cells = RealInterval::from(Range::all()).cut(&[jurist_algebra::number::Rational::ZERO.into()]);
+    /// assert!(cells[0].contains(&(-1).into()) && cells[1].contains(&1.into()));
+    /// ```
+    pub fn cut(&self, points: &[Real]) -> Vec<RealInterval> {
+        let (lower, upper) = (self.lower.clone(), self.upper.clone());
+        neighbours(lower, points, upper).map(|[lower, upper]| RealInterval { lower, upper }).collect()
+    }
+
+    /// Whether a real number lies strictly between the ends.
+    ///
+    /// Cost: that of comparing it with both.
+    ///
+    /// ```
+    /// use jurist_algebra::{limits::Budget, number::Rational};
+    /// use jurist_stability::{Range, RealInterval};
+    /// let positive = RealInterval::from(Range::between(Some(Rational::ZERO), None));
+    /// assert!(!positive.has_inside(&Rational::ZERO.into(), &Budget::unlimited()).unwrap());
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Real::compare`].
+    pub fn has_inside(&self, x: &Real, budget: &Budget) -> Result<bool, Exhausted> {
+        for (end, side) in [(&self.lower, Ordering::Greater), (&self.upper, Ordering::Less)] {
+            if let Some(end) = end
+                && x.compare(end, budget)? != side
+            {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
     /// Whether the value lies strictly between the ends.
     ///
     /// Cost: that of comparing it with both.
@@ -215,27 +257,27 @@ impl RealInterval {
 }
 
 /// The open cells that points (ascending, distinct, inside the range) cut the range into.
-pub(super) fn real_cells(range: &Range, points: &[Real]) -> Vec<RealInterval> {
-    cells_between(range, points, |lower, upper| RealInterval { lower, upper })
+pub(crate) fn real_cells(range: &Range, points: &[Real]) -> Vec<RealInterval> {
+    match range.is_empty() {
+        true => Vec::new(),
+        false => RealInterval::from(range.clone()).cut(points),
+    }
 }
 
 /// The same of algebraic points.
 pub(super) fn cells(range: &Range, points: &[RealAlgebraic]) -> Vec<AlgebraicInterval> {
-    cells_between(range, points, |lower, upper| AlgebraicInterval { lower, upper })
-}
-
-fn cells_between<E: Clone + From<Rational>, C>(
-    range: &Range,
-    points: &[E],
-    cell: impl Fn(Option<E>, Option<E>) -> C,
-) -> Vec<C> {
     if range.is_empty() {
         return Vec::new();
     }
-    let [lower, upper] = [&range.lower, &range.upper].map(|end| end.clone().map(E::from));
+    let [lower, upper] = [&range.lower, &range.upper].map(|end| end.clone().map(RealAlgebraic::from_rational));
+    neighbours(lower, points, upper).map(|[lower, upper]| AlgebraicInterval { lower, upper }).collect()
+}
+
+/// The pairs of neighbours among two ends and points between.
+fn neighbours<E: Clone>(lower: Option<E>, points: &[E], upper: Option<E>) -> impl Iterator<Item = [Option<E>; 2]> {
     let inner = points.iter().cloned().map(Some);
-    let ends: Vec<_> = std::iter::once(lower).chain(inner).chain(std::iter::once(upper)).collect();
-    ends.windows(2).map(|w| cell(w[0].clone(), w[1].clone())).collect()
+    let uppers = inner.clone().chain([upper]);
+    std::iter::once(lower).chain(inner).zip(uppers).map(|(lower, upper)| [lower, upper])
 }
 
 /// The distinct zeros of a polynomial inside a range, ascending; none for the zero polynomial.

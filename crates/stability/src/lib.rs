@@ -28,6 +28,7 @@ mod half_size;
 mod intersection;
 mod interval_set;
 mod jury;
+mod line;
 mod pair_location;
 mod parametric;
 pub mod plane;
@@ -48,17 +49,18 @@ pub use half_size::HalfSizePair;
 pub use interval_set::zeros_in;
 pub use interval_set::{AlgebraicInterval, IntervalSet, Range, RealInterval};
 pub use jury::{JuryRow, JuryTable, UNDIVIDED_ORDER, is_schur_jury, jury_table, jury_table_with};
+pub use line::{Bracket, end_at, stable_set};
 pub use pair_location::ComplexPair;
 use pair_location::complex_pair_at;
 pub use parametric::{AtPoint, ParametricPolynomial};
 pub use root_count::{RootCount, count_roots, is_stable};
 pub use routh::{RouthTable, is_hurwitz_routh, routh_table};
-pub use stable_set::{Cells, End, StableInterval, StableSet, UndecidedBracket, end_at, stable_set};
-pub use symbolic::{Bracket, EnclosedLoop, open_equation, stable_set_of_parts, told_apart, zeros_of_functions};
+pub use stable_set::{Cells, End, StableInterval, StableSet, UndecidedBracket};
 pub use symbolic::{
     Comparison, EnclosedCondition, EnclosedRow, EnclosedTable, RealIntervals, Rounding, SymbolicCondition,
     SymbolicPlane, SymbolicPolynomial, SymbolicRow, SymbolicTest, symbolic_stable_set,
 };
+pub use symbolic::{EnclosedLoop, open_equation, stable_set_of_parts, told_apart, zeros_of_functions};
 
 /// Where the roots of the characteristic polynomial of a stable loop lie.
 ///

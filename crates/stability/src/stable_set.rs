@@ -1,14 +1,8 @@
 //! The exact set of stable parameter values.
 
-use super::interval_set::{cells, merge_points};
-use super::pair_location::complex_pair_at;
-use super::{
-    AlgebraicInterval, AtPoint, Boundary, Cause, Causes, ComplexPair, IntervalSet, ParametricPolynomial, Range,
-    RootCount, Shape, boundary_polynomials,
-};
-use jurist_algebra::limits::{Budget, Exhausted};
+use super::line::Pieces;
+use super::{AlgebraicInterval, Cause, Causes, ComplexPair, IntervalSet, Range, RealInterval};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{RealAlgebraic, isolate_real_roots_in};
 use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 
@@ -78,6 +72,17 @@ impl StableInterval {
         StableInterval { lower, upper }
     }
 
+    /// The open interval, without what happens at its ends.
+    ///
+    /// ```
+    /// let all = jurist_stability::StableInterval::new(None, None).bare();
+    /// assert!(all.contains(&0.into()));
+    /// ```
+    pub fn bare(&self) -> RealInterval {
+        let [lower, upper] = [&self.lower, &self.upper].map(|end| end.as_ref().map(|end| end.value.clone()));
+        RealInterval { lower, upper }
+    }
+
     /// Whether a value lies between the ends, or is a closed one.
     pub fn contains(&self, value: &Rational) -> bool {
         let beyond = |end: &Option<End>, outside: Ordering| {
@@ -136,28 +141,18 @@ impl UndecidedBracket {
 pub struct StableSet {
     intervals: Vec<StableInterval>,
     undecided: Vec<UndecidedBracket>,
-    way: Way,
+    cells: Option<Cells>,
+    /// True if the set was found by more than boundary polynomials over the integers.
+    is_transcendental: bool,
 }
 
-/// How a set was found.
-#[derive(Clone, Debug, Default)]
-enum Way {
-    /// A boundary condition holds for every value, or the loop is undefined.
-    #[default]
-    Nowhere,
-    /// By the zeros of boundary polynomials.
-    Cells(Cells),
-    /// By anything else.
-    Other,
-}
-
-/// How the range was cut: between two neighbouring zeros of the boundary polynomials lies a cell in which the number of
+/// How the range was cut: between two neighbouring zeros of the boundary functions lies a cell in which the number of
 /// stable roots is constant.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Cells {
-    /// All real zeros of the boundary polynomials in the range, ascending.
-    pub zeros: Vec<RealAlgebraic>,
+    /// All real zeros of the boundary functions in the range, ascending.
+    pub zeros: Vec<Real>,
     /// A value inside of each cell, and whether the loop is stable there; one more than zeros.
     pub samples: Vec<(Rational, bool)>,
 }
@@ -176,12 +171,12 @@ impl StableSet {
                 *end = End::new(end.value.clone(), causes, None);
             }
         }
-        StableSet { intervals, undecided, way: Way::Other }
+        StableSet { intervals, undecided, cells: None, is_transcendental: true }
     }
 
     /// Whether the set was decided by boundary polynomials over the integers alone, which certificates are made of.
     pub fn is_algebraic(&self) -> bool {
-        !matches!(self.way, Way::Other)
+        !self.is_transcendental
     }
 
     /// Where nothing is known, ascending; what lies between is decided.
@@ -195,12 +190,39 @@ impl StableSet {
     }
 
     /// How the range was cut; `None` when the loop is stable nowhere because a boundary condition holds for every value,
-    /// and for a set that is not [algebraic](StableSet::is_algebraic).
+    /// where a part of the range is undecided, and for loops with dead time.
     pub fn cells(&self) -> Option<&Cells> {
-        match &self.way {
-            Way::Cells(cells) => Some(cells),
-            Way::Nowhere | Way::Other => None,
-        }
+        self.cells.as_ref()
+    }
+
+    /// The set with the cells that decided it.
+    pub(super) fn with_cells(mut self, zeros: Vec<Real>, samples: Vec<(Rational, bool)>) -> StableSet {
+        self.cells = Some(Cells { zeros, samples });
+        self
+    }
+
+    /// The set as one that boundary polynomials over the integers alone have decided.
+    pub(super) fn algebraic(mut self) -> StableSet {
+        self.is_transcendental = false;
+        self
+    }
+
+    /// The set with another one above it: an interval that ends at `joint`, where the loop is stable, goes on there.
+    ///
+    /// ```
+    /// use jurist_algebra::number::Rational;
+    /// use jurist_stability::{Causes, End, StableInterval, StableSet};
+    /// let end = |x: i64| Some(End::new(Rational::from(x), Causes::default(), None));
+    /// let set = |a, b| StableSet::from_intervals(vec![StableInterval::new(end(a), end(b))], Vec::new());
+    /// assert_eq!(set(0, 1).followed_by(set(1, 2), None).intervals().len(), 2);
+    /// assert!(set(0, 1).followed_by(set(1, 2), Some(&1.into())).contains(&1.into()));
+    /// ```
+    pub fn followed_by(self, above: StableSet, joint: Option<&Rational>) -> StableSet {
+        let mut pieces = Pieces::before(self.intervals, joint);
+        above.intervals.into_iter().for_each(|interval| pieces.push(interval));
+        let undecided = self.undecided.into_iter().chain(above.undecided).collect();
+        let (intervals, undecided) = pieces.ended(&Range::all(), undecided);
+        StableSet::from_intervals(intervals, undecided)
     }
 
     /// The set with one value more, at which the loop is stable though it is not beside it on one side, or both.
@@ -246,133 +268,5 @@ impl StableSet {
         };
         let interval = |i: &StableInterval| Some(AlgebraicInterval { lower: bare(&i.lower)?, upper: bare(&i.upper)? });
         self.intervals.iter().map(interval).collect()
-    }
-}
-
-/// The exact stable set of a loop with one parameter over an open range.
-///
-/// The real zeros of the [`boundary_polynomials`] cut the range into open cells; in each the root
-/// count is constant, so it is taken exactly at one rational sample. Ends of stable cells are then
-/// examined for all that happens there.
-///
-/// With the critical constraint of [JuryPavlidis1963](jurist_algebra::bibliography#jurypavlidis1963) as the
-/// boundary of complex pairs, and what lies between zeros decided as in
-/// [Collins1975](jurist_algebra::bibliography#collins1975).
-///
-/// Cost: that of [`boundary_polynomials`], one resultant; isolation of the real zeros of each, of degree up to
-/// `(n - 1) d` for order `n` and coefficients of degree `d`; one [`count_roots`](super::count_roots) in each cell
-/// between them, `O(n^2)` operations on integers; and at each end of a stable interval the signs of all boundary
-/// polynomials.
-///
-/// ```
-/// use jurist_algebra::limits::Budget;
-/// use jurist_algebra::poly::{Poly, UniPoly};
-/// use jurist_stability::{ParametricPolynomial, Range, Shape, stable_set};
-/// // z - 1 + K: stable for 0 < K < 2
-/// let d = Poly::new(vec![UniPoly::from_i64(&[-1, 1]), UniPoly::from_i64(&[1])]);
-/// let p = ParametricPolynomial::from_integral(&d, 1);
-/// let set = stable_set(&p, &Range::all(), Shape::UnitDisc, &Budget::unlimited()).unwrap();
-/// let ends = &set.intervals()[0];
-/// assert_eq!(ends.lower.as_ref().unwrap().causes.to_string(), "z=1");
-/// assert_eq!(ends.upper.as_ref().unwrap().causes.to_string(), "z=-1");
-/// ```
-///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-pub fn stable_set(
-    p: &ParametricPolynomial,
-    range: &Range,
-    region: Shape,
-    budget: &Budget,
-) -> Result<StableSet, Exhausted> {
-    let Some(boundaries) = boundary_polynomials(p, region, budget)? else { return Ok(StableSet::default()) };
-    budget.step("isolating the boundaries' zeros");
-    let mut lists = Vec::new();
-    for boundary in &boundaries {
-        lists.push(isolate_real_roots_in(&boundary.polynomial, range.lower.as_ref(), range.upper.as_ref(), budget)?);
-    }
-    let points = merge_points(lists, budget)?;
-    budget.step("testing a sample of each cell");
-    let all = cells(range, &points);
-    let mut samples = Vec::with_capacity(all.len());
-    for (i, cell) in all.iter().enumerate() {
-        budget.check()?;
-        budget.advance(i as u64, all.len() as u64);
-        let sample = cell.sample();
-        let at = budget.enter(|| p.at(&sample, region))?;
-        let inside = |count: RootCount| count.inside == p.formal_degree();
-        samples.push((sample, matches!(at, AtPoint::Defined { count, infinite: 0 } if inside(count))));
-    }
-    let examiner = EndExaminer { p, range, region, boundaries: &boundaries, budget };
-    let mut intervals: Vec<StableInterval> = Vec::new();
-    for (i, cell) in all.iter().enumerate().filter(|(i, _)| samples[*i].1) {
-        let shared =
-            (i > 0 && samples[i - 1].1).then(|| intervals.last().and_then(|last| last.upper.clone())).flatten();
-        let lower = match (shared, &cell.lower) {
-            (Some(end), _) => Some(end),
-            (None, Some(value)) => Some(examiner.examine(value)?),
-            (None, None) => None,
-        };
-        let upper = cell.upper.as_ref().map(|value| examiner.examine(value)).transpose()?;
-        intervals.push(StableInterval { lower, upper });
-    }
-    Ok(StableSet { intervals, undecided: Vec::new(), way: Way::Cells(Cells { zeros: points, samples }) })
-}
-
-/// What happens at an end of a stable interval that was found elsewhere; `None` when the loop is stable
-/// nowhere. For a value that is no limit of stable values the answer means nothing.
-///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-pub fn end_at(
-    p: &ParametricPolynomial,
-    value: &RealAlgebraic,
-    range: &Range,
-    region: Shape,
-    budget: &Budget,
-) -> Result<Option<End>, Exhausted> {
-    let Some(boundaries) = boundary_polynomials(p, region, budget)? else { return Ok(None) };
-    EndExaminer { p, range, region, boundaries: &boundaries, budget }.examine(value).map(Some)
-}
-
-/// Finds out what happens at an end of a stable cell.
-struct EndExaminer<'a> {
-    p: &'a ParametricPolynomial,
-    range: &'a Range,
-    region: Shape,
-    boundaries: &'a [Boundary],
-    budget: &'a Budget,
-}
-
-impl EndExaminer<'_> {
-    fn examine(&self, value: &RealAlgebraic) -> Result<End, Exhausted> {
-        let vanishes = |f: &jurist_algebra::poly::UniPoly| self.budget.enter(|| value.sign_of(f).is_eq());
-        let coefficients_defined = !vanishes(self.p.denominator())?;
-        // Where all coefficients vanish, or one is infinite, no root can be named.
-        let has_roots = coefficients_defined && !vanishes(self.p.content())?;
-        let mut causes = Causes::default();
-        for boundary in self.boundaries {
-            let counts = match boundary.cause {
-                Cause::RootAtOne | Cause::RootAtMinusOne | Cause::RootAtZero => has_roots,
-                Cause::ComplexPair => false,
-                _ => true,
-            };
-            if counts && vanishes(boundary.polynomial.poly())? {
-                causes.insert(boundary.cause);
-            }
-        }
-        let mut critical = false;
-        for boundary in self.boundaries.iter().filter(|b| b.cause == Cause::ComplexPair) {
-            critical |= vanishes(boundary.polynomial.poly())?;
-        }
-        let pair = if has_roots && critical { complex_pair_at(self.p, value, self.region, self.budget)? } else { None };
-        if pair.is_some() {
-            causes.insert(Cause::ComplexPair);
-        }
-        let is_end = |end: &Option<Rational>| end.is_some() && *end == value.exact();
-        if is_end(&self.range.lower) || is_end(&self.range.upper) {
-            causes.insert(Cause::Domain);
-        }
-        Ok(End::new(value.clone(), causes, pair))
     }
 }

@@ -4,18 +4,11 @@ use super::verdict::PointVerdict;
 use crate::error::Error;
 use crate::problem::{BaseDelay, DelayedLoop, Problem, refused};
 use crate::stability::dead_time::{
-    Crossing, DelayCells, FamilyLoop, GainCells, GainLoop, Happening, NotCounted, NotSolved, count_delayed_roots,
-    delay_cells, family_cells, gain_cells,
+    GainCells, GainLoop, Line, NotCounted, NotSolved, count_delayed_roots, delay_cells, family_cells, gain_cells,
 };
-use crate::stability::{
-    Cause, Causes, ComplexPair, End, HalfSizePair, Range, Shape, StableInterval, StableSet, zeros_in,
-};
+use crate::stability::{Cause, End, Range, Shape, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::{Enclosure, Rational, Sign};
-use jurist_algebra::poly::{Domain, UniPoly};
-use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
-use std::cmp::Ordering;
-use std::sync::Arc;
+use jurist_algebra::number::Rational;
 
 /// The verdict at a point.
 pub(super) fn verdict(problem: &Problem, delayed: &DelayedLoop, budget: &Budget) -> Result<PointVerdict, Error> {
@@ -57,7 +50,7 @@ pub(super) fn stable_set(problem: &Problem, delayed: &DelayedLoop, budget: &Budg
         return Ok(set);
     }
     match family.count(&zero, budget).map_err(not_counted)? {
-        Some(count) if count.is_stable() => Ok(set.with_value(domain_end(&zero))),
+        Some(count) if count.is_stable() => Ok(set.with_value(End::new(zero, Cause::Domain.into(), None))),
         _ => Ok(set),
     }
 }
@@ -97,7 +90,7 @@ fn anywhere(problem: &Problem, delayed: &DelayedLoop, domain: &Range, budget: &B
         return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
     };
     match family_cells(&family, domain, budget) {
-        Ok(Ok(cells)) => assembled(delayed.poles(), &family, !delayed.decay().is_zero(), cells, domain, budget),
+        Ok(Ok(cells)) => Ok(cells.stable_set(&family, delayed.poles(), domain, budget)?),
         Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::Unbounded) => {
             let name = &problem.parameter().name;
@@ -119,92 +112,6 @@ fn not_solved(reason: NotSolved) -> Error {
         NotSolved::Coincidence => "roots stay on the boundary, meet there, or only touch it",
     };
     Exhausted::by_method(format!("what is known of such loops: {why}"), "crossings of the imaginary axis").into()
-}
-
-/// The dead time `(theta + 2 pi k)/omega` as a value of the parameter, `(tau - offset)/slope`.
-#[derive(Debug)]
-struct SwitchTime {
-    crossing: Arc<Crossing>,
-    turns: u64,
-    slope: Rational,
-    offset: Rational,
-}
-
-impl Enclosing for SwitchTime {
-    fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
-        let goal = Rational::dyadic(&1.into(), bits);
-        let mut working = bits + 32;
-        loop {
-            let tau = self.crossing.dead_time(self.turns, working);
-            let at = |x: &Rational| (x - &self.offset) / &self.slope;
-            let (mut lo, mut hi) = (at(tau.lower()), at(tau.upper()));
-            if self.slope.is_negative() {
-                (lo, hi) = (hi, lo);
-            }
-            if &hi - &lo <= goal {
-                return Enclosure::new(lo, hi);
-            }
-            working += working / 2;
-        }
-    }
-
-    fn origin(&self) -> Origin {
-        Origin::Crossing {
-            omega_squared: self.crossing.omega_squared(),
-            theta: self.crossing.theta(64),
-            turns: self.turns,
-            // As the parameter grows.
-            leaves: match self.crossing.motion() {
-                Ordering::Equal => None,
-                motion => Some(motion.is_gt() != self.slope.is_negative()),
-            },
-        }
-    }
-}
-
-fn domain_end(value: &Rational) -> End {
-    let mut causes = Causes::default();
-    causes.insert(Cause::Domain);
-    End::new(value.clone(), causes, None)
-}
-
-/// Adds the roots of a polynomial on the imaginary axis to what happens at an end: `s = 0`, and the pair of lowest
-/// frequency.
-fn note_axis(end: &mut End, p: &UniPoly, budget: &Budget) -> Result<(), Exhausted> {
-    if p.is_constant() {
-        return Ok(());
-    }
-    if p.coeff(0).is_zero() {
-        end.causes.insert(Cause::RootAtZero);
-    }
-    let pair = HalfSizePair::new(p, p.degree().unwrap_or(1), Shape::LeftHalfPlane);
-    let common = budget.enter(|| pair.a.gcd(&pair.b))?;
-    let below_zero = Range { lower: None, upper: Some(Rational::ZERO) };
-    if let Some(lowest) = zeros_in(&common, &below_zero, budget)?.pop() {
-        end.causes.insert(Cause::ComplexPair);
-        end.pair = Some(ComplexPair::at_half_size_root(Shape::LeftHalfPlane, Real::from(lowest)));
-    }
-    Ok(())
-}
-
-/// The end of the domain of a parameter, with the roots that are on the axis there.
-fn domain_end_of_loop(family: &FamilyLoop, value: &Rational, decay: bool, budget: &Budget) -> Result<End, Exhausted> {
-    let mut end = domain_end(value);
-    let Some(p) = family.at(value).filter(|_| !decay) else { return Ok(end) };
-    if family.dead_time(value).is_zero() {
-        note_axis(&mut end, &p.without_delay(), budget)?;
-        return Ok(end);
-    }
-    note_axis(&mut end, &p.content(), budget)?;
-    if p.without_delay().coeff(0).is_zero() {
-        end.causes.insert(Cause::RootAtZero);
-    }
-    if p.order() < family.order() {
-        end.causes.insert(Cause::DegreeLost);
-    } else if !budget.enter(|| p.has_stable_difference())? {
-        end.causes.insert(Cause::Neutral);
-    }
-    Ok(end)
 }
 
 /// A dead time that is free: all its windows, ascending in the parameter, in which it may fall.
@@ -230,44 +137,15 @@ fn windows(
         Ok(cells) => cells,
         Err(_) => return Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
     };
-    let DelayCells { switches, right, touching_for_ever, .. } = &cells;
-    if *touching_for_ever && right.last() == Some(&0) {
+    if cells.touching_for_ever && cells.right.last() == Some(&0) {
         let message = "roots touch the imaginary axis at infinitely many dead times, and cross it nowhere";
         return Err(refused(
             message,
             "give the domain two ends, --domain NAME=0..10: the touches between them are listed",
         ));
     }
-    let to_parameter = |tau: &Rational| (tau - offset) / slope;
-    let mut first = domain_end(&to_parameter(&lower));
-    if lower.is_zero() {
-        note_axis(&mut first, &p.without_delay(), budget)?;
-    }
-    let mut ends: Vec<Option<End>> = vec![Some(first)];
-    for switch in switches {
-        let (crossing, turns) = &switch.members[0];
-        let time =
-            SwitchTime { crossing: Arc::clone(crossing), turns: *turns, slope: slope.clone(), offset: offset.clone() };
-        let lowest = switch.members.iter().map(|(c, _)| c).max_by(|a, b| a.half_size_root().cmp(b.half_size_root()));
-        let pair = lowest
-            .map(|c| ComplexPair::at_half_size_root(Shape::LeftHalfPlane, Real::from(c.half_size_root().clone())));
-        let mut causes = Causes::default();
-        causes.insert(Cause::ComplexPair);
-        ends.push(Some(End::new(Transcendental::new(time), causes, pair)));
-    }
-    ends.push(upper.as_ref().map(|upper| domain_end(&to_parameter(upper))));
-    let mut stable: Vec<bool> = right.iter().map(|&count| count == 0).collect();
-    if falls {
-        ends.reverse();
-        stable.reverse();
-    }
-    Ok(StableSet::from_intervals(intervals(ends, &stable), Vec::new()))
-}
-
-/// The stable cells between ends.
-fn intervals(ends: Vec<Option<End>>, stable: &[bool]) -> Vec<StableInterval> {
-    let pairs = ends.windows(2).zip(stable).filter(|(_, stable)| **stable);
-    pairs.map(|(pair, _)| StableInterval::new(pair[0].clone(), pair[1].clone())).collect()
+    let line = Line { slope: slope.clone(), offset: offset.clone() };
+    Ok(cells.stable_set(&p, [Some(&lower), upper.as_ref()], &line, budget)?)
 }
 
 /// A parameter at a fixed dead time.
@@ -288,14 +166,14 @@ fn gains(
         };
         let cells = GainCells::constant(stable);
         return match delayed.family() {
-            Some(family) => assembled(delayed.poles(), &family, !delayed.decay().is_zero(), cells, domain, budget),
+            Some(family) => Ok(cells.stable_set(&family, delayed.poles(), domain, budget)?),
             None => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         };
     }
     let first = match gain_cells(gain, domain, budget) {
         Ok(Ok(cells)) => {
             let family = delayed.family().expect("the parameter enters");
-            return assembled(delayed.poles(), &family, !delayed.decay().is_zero(), cells, domain, budget);
+            return Ok(cells.stable_set(&family, delayed.poles(), domain, budget)?);
         }
         Ok(Err(_)) => return Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::NotCounted(reason)) => return Err(not_counted(reason)),
@@ -321,92 +199,10 @@ fn gains(
 /// The stable factors `k` of `D0 + k N exp(-tau s)`.
 pub(crate) fn stable_factors(gain: &GainLoop, budget: &Budget) -> Result<StableSet, Error> {
     match gain_cells(gain, &Range::all(), budget) {
-        Ok(Ok(cells)) => assembled(&[], &gain.family(), false, cells, &Range::all(), budget),
+        Ok(Ok(cells)) => Ok(cells.stable_set(&gain.family(), &[], &Range::all(), budget)?),
         Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::NotCounted(reason)) => Err(not_counted(reason)),
         Err(_) => Err(undecided("the factors of the open loop have no end")),
-    }
-}
-
-/// The cells cut at the poles as well, with their causes.
-fn assembled(
-    poles: &[UniPoly],
-    family: &FamilyLoop,
-    decay: bool,
-    cells: GainCells,
-    domain: &Range,
-    budget: &Budget,
-) -> Result<StableSet, Error> {
-    let own = |end: &Option<Rational>| end.as_ref().map(|x| domain_end_of_loop(family, x, decay, budget)).transpose();
-    let mut ends: Vec<Option<End>> = vec![own(&domain.lower)?];
-    ends.extend(cells.points.iter().map(|point| {
-        let (mut causes, mut pair) = (Causes::default(), None);
-        note(&point.happening, &mut causes, &mut pair, budget);
-        let pair = pair.map(ComplexPair::at_angular_frequency);
-        Some(End::new(point.value.clone(), causes, pair))
-    }));
-    ends.push(own(&domain.upper)?);
-    let mut stable: Vec<bool> = cells.right.iter().map(|count| *count == Some(0)).collect();
-    for pole in poles {
-        for zero in zeros_in(pole, domain, budget)? {
-            insert_pole(&mut ends, &mut stable, Real::from(zero), budget)?;
-        }
-        // An end of the domain may be a pole itself.
-        let vanishes = |end: &End| end.value.exact().is_some_and(|x| pole.sign_at(&x) == Sign::Equal);
-        let last = ends.len() - 1;
-        for at in [0, last] {
-            if let Some(end) = ends[at].as_mut().filter(|end| vanishes(end)) {
-                end.causes.insert(Cause::Pole);
-            }
-        }
-    }
-    Ok(StableSet::from_intervals(intervals(ends, &stable), Vec::new()))
-}
-
-/// Cuts the cell in which a pole lies, or adds to what happens at an end.
-fn insert_pole(ends: &mut Vec<Option<End>>, stable: &mut Vec<bool>, value: Real, budget: &Budget) -> Result<(), Error> {
-    for i in 0..ends.len() {
-        let Some(end) = &mut ends[i] else { continue };
-        match end.value.compare(&value, budget)? {
-            Ordering::Less => {}
-            Ordering::Equal => {
-                end.causes.insert(Cause::Pole);
-                return Ok(());
-            }
-            Ordering::Greater => {
-                let mut causes = Causes::default();
-                causes.insert(Cause::Pole);
-                let kept = stable[i - 1];
-                ends.insert(i, Some(End::new(value, causes, None)));
-                stable.insert(i, kept);
-                return Ok(());
-            }
-        }
-    }
-    // Above all ends that are finite: in the last cell.
-    let mut causes = Causes::default();
-    causes.insert(Cause::Pole);
-    let at = ends.len() - 1;
-    let kept = stable[at - 1];
-    ends.insert(at, Some(End::new(value, causes, None)));
-    stable.insert(at, kept);
-    Ok(())
-}
-
-/// The causes, and the lowest frequency of the pairs.
-fn note(happening: &Happening, causes: &mut Causes, pair: &mut Option<Real>, budget: &Budget) {
-    match happening {
-        Happening::RootAtZero => causes.insert(Cause::RootAtZero),
-        Happening::Neutral => causes.insert(Cause::Neutral),
-        Happening::DegreeLost => causes.insert(Cause::DegreeLost),
-        Happening::Pair(omega) => {
-            causes.insert(Cause::ComplexPair);
-            let lower = pair.as_ref().is_none_or(|known| omega.compare(known, budget).is_ok_and(Ordering::is_lt));
-            if lower {
-                *pair = Some(omega.clone());
-            }
-        }
-        Happening::Several(all) => all.iter().for_each(|one| note(one, causes, pair, budget)),
     }
 }
 

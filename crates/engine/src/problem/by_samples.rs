@@ -5,8 +5,8 @@ use super::evaluation::Algebra;
 use super::presupposed::inside;
 use super::{Free, Problem};
 use crate::error::Error;
-use crate::stability::{AtPoint, Cause, End, Range, StableInterval, StableSet, UndecidedBracket, stable_set_of_parts};
-use jurist_algebra::limits::Budget;
+use crate::stability::{Cause, End, Range, StableSet, UndecidedBracket, stable_set_of_parts};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 
@@ -48,7 +48,7 @@ impl Problem {
         let mut ends: Vec<Option<Rational>> = vec![domain.lower.clone()];
         ends.extend(breaks.into_iter().map(Some));
         ends.push(domain.upper.clone());
-        let (mut intervals, mut undecided): (Vec<StableInterval>, Vec<UndecidedBracket>) = (Vec::new(), Vec::new());
+        let mut set = StableSet::from_intervals(Vec::new(), Vec::new());
         for window in ends.windows(2) {
             let range = Range::between(window[0].clone(), window[1].clone());
             let near = inside(&range);
@@ -58,63 +58,40 @@ impl Problem {
             }
             if !ratios.iter().all(|ratio| is_looked_at(ratio, &near, &usual)) {
                 let why = "more whole samples than are looked at in one question: give a shorter domain";
-                undecided.push(UndecidedBracket::new(range.lower, range.upper, why));
+                let unknown = vec![UndecidedBracket::new(range.lower, range.upper, why)];
+                set = set.followed_by(StableSet::from_intervals(Vec::new(), unknown), None);
                 continue;
             }
             let algebra = budget.enter(|| Algebra::near(self, &[near], budget))??;
             let Some(polynomial) = self.symbolic_of(&algebra)? else { continue };
             let parts = self.in_parts(&polynomial, &algebra, budget)?;
-            let found = stable_set_of_parts(&parts, &range, self.shape(), budget)?;
-            undecided.extend(found.undecided().iter().cloned());
-            let mut found = found.intervals().to_vec();
-            for interval in &mut found {
-                for end in [&mut interval.lower, &mut interval.upper].into_iter().flatten() {
-                    let zero = end.value.exact().filter(|x| is_without_dead_time(&ratios, domain, x));
-                    let at = zero.map(|x| polynomial.at(&x, self.shape(), budget)).transpose()?;
-                    end.closed =
-                        matches!(at, Some(AtPoint::Defined { count, infinite: 0 }) if count.inside == count.total());
-                }
+            let mut found = stable_set_of_parts(&parts, &range, self.shape(), budget)?;
+            let is_stable_at = |x: &Rational| -> Result<bool, Exhausted> {
+                Ok(polynomial.at(x, self.shape(), budget)?.is_stable(polynomial.formal_degree()))
+            };
+            for end in found.ends_mut() {
+                let zero = end.value.exact().filter(|x| is_without_dead_time(&ratios, domain, x));
+                end.closed = zero.map(|x| is_stable_at(&x)).transpose()?.unwrap_or(false);
             }
-            if let (Some(before), Some(first)) = (&range.lower, found.first_mut())
-                && domain.lower.as_ref() != Some(before)
-                && begins_at(first, before)
-            {
-                let at = polynomial.at(before, self.shape(), budget)?;
-                let is_stable = matches!(at, AtPoint::Defined { count, infinite: 0 } if count.inside == count.total());
-                let last =
-                    intervals.last_mut().filter(|last| last.upper.as_ref().is_some_and(|end| is_at(end, before)));
-                match last {
-                    Some(last) if is_stable => {
-                        last.upper = first.upper.take();
-                        found.remove(0);
-                    }
-                    _ => {}
-                }
-            }
-            intervals.extend(found);
+            let first = found.intervals().first().and_then(|interval| interval.lower.as_ref());
+            let begins_at = |x: &&Rational| domain.contains(x) && first.is_some_and(|end| is_at(end, x));
+            let joint = match range.lower.as_ref().filter(begins_at) {
+                Some(before) if is_stable_at(before)? => Some(before),
+                _ => None,
+            };
+            set = set.followed_by(found, joint);
         }
         // The divisions are not of the domain's making.
-        let is_end = |end: &End| {
-            let is_bound = |x: Rational| domain.lower == Some(x.clone()) || domain.upper == Some(x);
-            end.closed || end.value.exact().is_some_and(is_bound)
-        };
-        for interval in &mut intervals {
-            for end in [&mut interval.lower, &mut interval.upper].into_iter().flatten() {
-                if !is_end(end) {
-                    end.causes.remove(Cause::Domain);
-                }
-            }
+        let is_bound = |end: &End| [&domain.lower, &domain.upper].into_iter().flatten().any(|x| is_at(end, x));
+        for end in set.ends_mut().filter(|end| !end.closed && !is_bound(end)) {
+            end.causes.remove(Cause::Domain);
         }
-        Ok(Some(StableSet::from_intervals(intervals, undecided)))
+        Ok(Some(set))
     }
 }
 
 fn is_at(end: &End, x: &Rational) -> bool {
     end.value.exact().as_ref() == Some(x)
-}
-
-fn begins_at(interval: &StableInterval, x: &Rational) -> bool {
-    interval.lower.as_ref().is_some_and(|end| is_at(end, x))
 }
 
 /// Whether a dead time is zero at a value inside of the domain.

@@ -6,8 +6,8 @@ use super::text::to_text;
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
 use crate::problem::{BaseDelay, DelayedLoop, Problem};
-use crate::stability::dead_time::{GainLoop, GainPoint, NotCounted, NotSolved, gain_cells};
-use crate::stability::{Range, StableSet, zeros_in};
+use crate::stability::dead_time::{GainLoop, GainPoint, Happening, NotCounted, NotSolved, gain_cells};
+use crate::stability::{Range, StableSet};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::simplest_between;
@@ -35,11 +35,12 @@ pub(super) fn of_set(answer: &Answer<StableSet>, delayed: &DelayedLoop, budget: 
     let gain = delayed.gain_loop().filter(|_| delayed.decay().is_zero() && delayed.degree_in_parameter() == 1);
     let gain = gain.ok_or_else(|| no_certificate(not_yet))?;
     let (range, scale) = looked_at(answer, problem);
-    let cells = match gain_cells(&gain, &range, budget) {
+    let mut cells = match gain_cells(&gain, &range, budget) {
         Ok(Ok(cells)) => cells,
         Err(NotSolved::NotCounted(NotCounted::Stopped(stopped))) => return Err(stopped.into()),
         Ok(Err(_)) | Err(_) => return Err(no_certificate(not_yet)),
     };
+    cells.cut_at_poles(delayed.poles(), &range, budget)?;
     // What ends a cell: the domain, roots on the axis, and where the loop is undefined.
     let end = |end: &Option<Rational>| Real::from(end.clone().expect("both ends are there"));
     let simple = |value: Real, right: Option<usize>| Limit { value, right, digits: DIGITS };
@@ -49,19 +50,6 @@ pub(super) fn of_set(answer: &Answer<StableSet>, delayed: &DelayedLoop, budget: 
         ends.push(Limit { value: point.value.clone(), right: *right, digits });
     }
     ends.push(simple(end(&range.upper), cells.right.last().copied().flatten()));
-    for pole in delayed.poles() {
-        for zero in zeros_in(pole, &range, budget)? {
-            let zero = Real::from(zero);
-            let mut at = 0;
-            while ends[at].value.compare(&zero, budget)?.is_lt() {
-                at += 1;
-            }
-            if ends[at].value.compare(&zero, budget)?.is_gt() {
-                let right = ends[at].right;
-                ends.insert(at, simple(zero, right));
-            }
-        }
-    }
     let mut list = Vec::new();
     for pair in ends.windows(2) {
         budget.check()?;
@@ -169,7 +157,7 @@ impl Limit {
 /// Whether two roots meet at `s = 0`, or roots only touch the axis.
 fn is_singular(point: &GainPoint, gain: &GainLoop, tau: &Rational) -> bool {
     if point.change == Some(0) {
-        return true;
+        return !matches!(point.happening, Happening::Pole);
     }
     let Some(p) = point.value.exact().and_then(|x| gain.at(&x)) else { return false };
     let (mut value, mut slope) = (Rational::ZERO, Rational::ZERO);

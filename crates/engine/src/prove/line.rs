@@ -6,6 +6,7 @@ use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::real_roots::descartes_sign_variations_in;
 use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly, simplest_between};
+use jurist_algebra::real::Real;
 
 /// Irrational ends are enclosed to this many digits.
 const DIGITS: usize = 12;
@@ -62,7 +63,8 @@ impl Line {
     ) -> Result<Line, Exhausted> {
         let mut separators = vec![Separator::Outer(domain.lower.clone())];
         let mut verdicts = vec![cells.samples[0].1];
-        for (zero, (_, stable)) in cells.zeros.iter().zip(&cells.samples[1..]) {
+        let zeros = cells.zeros.iter().filter_map(Real::algebraic);
+        for (zero, (_, stable)) in zeros.zip(&cells.samples[1..]) {
             let mut factor = None;
             for (i, f) in factors.iter().enumerate() {
                 if factor.is_none() && budget.enter(|| zero.sign_of(f))?.is_eq() {
@@ -204,12 +206,28 @@ fn touch(
 }
 
 /// A simple number in an interval that may be unbounded or a single point.
-fn between(l: &Option<Rational>, r: &Option<Rational>) -> Rational {
+pub(super) fn between(l: &Option<Rational>, r: &Option<Rational>) -> Rational {
     match (l, r) {
         (None, None) => Rational::ZERO,
         (Some(l), None) => Rational::from(l.floor()) + Rational::ONE,
         (None, Some(r)) => Rational::from(r.ceil()) - Rational::ONE,
         (Some(l), Some(r)) => simplest_between(l, r).unwrap_or_else(|| l.clone()),
+    }
+}
+
+/// A simple number about the middle; further and further out of an end that is not there.
+pub(super) fn middle(l: &Option<Rational>, r: &Option<Rational>) -> Rational {
+    let two = Rational::from(2);
+    let beyond =
+        |x: &Rational| if x.is_negative() { Rational::ONE } else { Rational::from((x * &two).ceil() + Integer::ONE) };
+    match (l, r) {
+        (None, None) => Rational::ZERO,
+        (Some(l), None) => beyond(l),
+        (None, Some(r)) => -beyond(&-r),
+        (Some(l), Some(r)) => {
+            let quarter = &(r - l) * &Rational::new(Integer::ONE, Integer::from(4));
+            simplest_between(&(l + &quarter), &(r - &quarter)).unwrap_or_else(|| l.midpoint(r))
+        }
     }
 }
 
@@ -230,20 +248,7 @@ pub(super) fn split(
             }
             continue;
         }
-        let two = Rational::from(2);
-        let m = match (&l, &r) {
-            (None, None) => Rational::ZERO,
-            (Some(l), None) => {
-                Rational::from(if l.is_negative() { Integer::ONE } else { (l * &two).ceil() + Integer::ONE })
-            }
-            (None, Some(r)) => {
-                -Rational::from(if r.is_negative() { (&(-r) * &two).ceil() + Integer::ONE } else { Integer::ONE })
-            }
-            (Some(l), Some(r)) => {
-                let quarter = &(r - l) * &Rational::new(Integer::ONE, Integer::from(4));
-                simplest_between(&(l + &quarter), &(r - &quarter)).unwrap_or_else(|| l.midpoint(r))
-            }
-        };
+        let m = middle(&l, &r);
         // The left piece is looked at first.
         pieces.push((Some(m.clone()), r));
         pieces.push((l, Some(m)));

@@ -6,11 +6,11 @@ use super::requirement::{Requirement, Rule};
 use super::{RequiredEnd, RequiredInterval};
 use crate::error::Error;
 use crate::problem::Problem;
-use crate::stability::End;
+use crate::stability::{End, RealInterval, StableInterval};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
-use jurist_algebra::real::{Real, rational_between};
+use jurist_algebra::real::Real;
 use jurist_algebra::symbols::merged;
 use std::slice::from_ref;
 
@@ -41,15 +41,14 @@ impl Cells<'_> {
     }
 
     /// The parts of a stable interval in which everything is met.
-    pub fn within(&self, lower: Option<&End>, upper: Option<&End>) -> Result<Vec<RequiredInterval>, Error> {
-        let (least, most) = (lower.map(|end| &end.value), upper.map(|end| &end.value));
-        let zeros = self.zeros_between(least, most)?;
+    pub fn within(&self, interval: &StableInterval) -> Result<Vec<RequiredInterval>, Error> {
+        let zeros = self.zeros_inside(&interval.bare())?;
         let is_closed = |i: usize, names: &[&'static str]| self.is_closed(&zeros[i], names);
-        required_parts([lower, upper], &zeros, |value| self.unmet(value), is_closed, self.budget)
+        required_parts(interval, &zeros, |value| self.unmet(value), is_closed, self.budget)
     }
 
-    /// Where a requirement may begin or cease to be met, strictly between two numbers, ascending.
-    fn zeros_between(&self, least: Option<&Real>, most: Option<&Real>) -> Result<Vec<Real>, Exhausted> {
+    /// Where a requirement may begin or cease to be met, strictly inside of an interval, ascending.
+    fn zeros_inside(&self, interval: &RealInterval) -> Result<Vec<Real>, Exhausted> {
         let mut zeros: Vec<RealAlgebraic> = Vec::new();
         for f in self.boundaries.iter().flat_map(|b| &b.zeros) {
             let Some(f) = self.budget.enter(|| SquareFree::part_of(f))? else { continue };
@@ -65,15 +64,7 @@ impl Cells<'_> {
         }
         let mut out = Vec::with_capacity(all.len());
         for x in all {
-            let above = match least {
-                Some(least) => x.compare(least, self.budget)?.is_gt(),
-                None => true,
-            };
-            let below = match most {
-                Some(most) => x.compare(most, self.budget)?.is_lt(),
-                None => true,
-            };
-            if above && below {
+            if interval.has_inside(&x, self.budget)? {
                 out.push(x);
             }
         }
@@ -104,7 +95,7 @@ impl Cells<'_> {
 /// `unmet` has the names of what is not met at a value; `is_closed` tells whether at a candidate, of which the number is given, all is
 /// met yet when these are not met beyond.
 pub(super) fn required_parts<U, C>(
-    [lower, upper]: [Option<&End>; 2],
+    interval: &StableInterval,
     candidates: &[Real],
     unmet: U,
     is_closed: C,
@@ -114,17 +105,16 @@ where
     U: Fn(&Rational) -> Result<Vec<&'static str>, Error>,
     C: Fn(usize, &[&'static str]) -> Result<bool, Error>,
 {
-    let (least, most) = (lower.map(|end| &end.value), upper.map(|end| &end.value));
     // An end that is stable itself is kept where all is met there, too.
-    let kept = |end: Option<&End>| -> Result<Option<End>, Error> {
+    let kept = |end: &Option<End>| -> Result<Option<End>, Error> {
         let Some(end) = end else { return Ok(None) };
         let exact = end.value.exact().filter(|_| end.closed);
         let closed = exact.map(|x| unmet(&x)).transpose()?.is_some_and(|names| names.is_empty());
         Ok(Some(end.clone().closed_if(closed)))
     };
-    let (lower, upper) = (kept(lower)?, kept(upper)?);
-    if let (Some(a), Some(b)) = (least, most)
-        && a.is_same(b)
+    let (lower, upper) = (kept(&interval.lower)?, kept(&interval.upper)?);
+    if let (Some(a), Some(b)) = (&lower, &upper)
+        && a.value.is_same(&b.value)
     {
         // A single value.
         let [lower, upper] = [lower, upper].map(|end| end.map(RequiredEnd::Stability));
@@ -132,17 +122,9 @@ where
         return Ok(if is_met { vec![RequiredInterval { lower, upper }] } else { Vec::new() });
     }
     let mut cells = Vec::with_capacity(candidates.len() + 1);
-    for i in 0..=candidates.len() {
+    for cell in interval.bare().cut(candidates) {
         budget.check()?;
-        let below = if i == 0 { least } else { Some(&candidates[i - 1]) };
-        let above = candidates.get(i).or(most);
-        let sample = match (below, above) {
-            (Some(a), Some(b)) => rational_between(a, b, budget)?.expect("they differ"),
-            (Some(a), None) => budget.enter(|| a.rational_above())?,
-            (None, Some(b)) => budget.enter(|| b.rational_below())?,
-            (None, None) => Rational::ZERO,
-        };
-        cells.push(unmet(&sample)?);
+        cells.push(unmet(&cell.sample(budget)?)?);
     }
     let mut out: Vec<RequiredInterval> = Vec::new();
     let stability = |end: &Option<End>| end.clone().map(RequiredEnd::Stability);

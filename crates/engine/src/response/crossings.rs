@@ -4,11 +4,11 @@ use super::ground::{Ground, at_end};
 use super::open_loop::{OpenLoop, Parts, with_parts};
 use super::place::inner;
 use super::{Place, Value};
-use crate::stability::Shape;
+use crate::stability::{RealInterval, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, Poly};
-use jurist_algebra::real::{Real, rational_between};
+use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 
 /// How the modulus of the open loop goes through one as the frequency grows.
@@ -124,16 +124,7 @@ fn gain_crossings<G: Ground>(
 
 /// A rational number below, between and above ascending zeros, all in the range of `x`.
 pub(super) fn samples_between(zeros: &[Real], shape: Shape, budget: &Budget) -> Result<Vec<Rational>, Exhausted> {
-    let range = inner(shape);
-    let (lowest, highest) = (range.lower.map(Real::from), range.upper.map(Real::from));
-    let ends: Vec<Option<&Real>> =
-        std::iter::once(lowest.as_ref()).chain(zeros.iter().map(Some)).chain([highest.as_ref()]).collect();
-    let between = |pair: &[Option<&Real>]| match (pair[0], pair[1]) {
-        (Some(a), Some(b)) => Ok(rational_between(a, b, budget)?.expect("they differ")),
-        (None, Some(b)) => budget.enter(|| b.rational_below()),
-        _ => unreachable!("the range of x ends above"),
-    };
-    ends.windows(2).map(between).collect()
+    RealInterval::from(inner(shape)).cut(zeros).iter().map(|cell| cell.sample(budget)).collect()
 }
 
 fn phase_crossings<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<Vec<PhaseCrossing>, Exhausted> {

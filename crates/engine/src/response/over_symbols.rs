@@ -19,7 +19,6 @@ use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic, UniPoly};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, Function, MovingSymbols};
-use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// The open loop over the parameter (variable 0) and the symbols (symbol `i` is variable `i + 1`).
@@ -222,11 +221,11 @@ impl<'a> SymbolicFamily<'a> {
         });
         let mut lower = interval.lower.clone();
         for bracket in &brackets {
-            if let Some(below) = &bracket.lower {
-                let upper = Some(edge(below));
-                if is_between(below, lower.as_ref(), interval.upper.as_ref()) {
-                    found.intervals.extend(self.cells(&lower, &upper, &candidates, requirements, budget)?);
-                }
+            if let Some(below) = &bracket.lower
+                && is_between(below, lower.as_ref(), interval.upper.as_ref())
+            {
+                let part = StableInterval::new(lower.clone(), Some(edge(below)));
+                found.intervals.extend(self.cells(&part, &candidates, requirements, budget)?);
             }
             found.undecided.push(bracket.clone());
             match &bracket.upper {
@@ -235,7 +234,8 @@ impl<'a> SymbolicFamily<'a> {
                 _ => return Ok(()),
             }
         }
-        found.intervals.extend(self.cells(&lower, &interval.upper, &candidates, requirements, budget)?);
+        let part = StableInterval::new(lower, interval.upper.clone());
+        found.intervals.extend(self.cells(&part, &candidates, requirements, budget)?);
         Ok(())
     }
 
@@ -279,7 +279,7 @@ impl<'a> SymbolicFamily<'a> {
             let mut open: Vec<Bracket> = brackets;
             let mut list = Vec::new();
             for (value, of) in zeros {
-                match is_inside(&value, interval, budget) {
+                match interval.bare().has_inside(&value, budget) {
                     Ok(true) => list.push((value, of.iter().any(|&k| k < touches))),
                     Ok(false) => {}
                     Err(stopped) if stopped.stop.is_precision() => open.push(around(&value)),
@@ -307,27 +307,18 @@ impl<'a> SymbolicFamily<'a> {
         Ok((all, undecided))
     }
 
-    /// The parts between two ends in which everything is met; nothing is undecided there.
+    /// The parts of an interval in which everything is met; nothing is undecided there.
     fn cells(
         &self,
-        lower: &Option<End>,
-        upper: &Option<End>,
+        interval: &StableInterval,
         candidates: &[Candidate],
         requirements: &[Requirement],
         budget: &Budget,
     ) -> Result<Vec<RequiredInterval>, Error> {
-        let (least, most) = (lower.as_ref().map(|end| &end.value), upper.as_ref().map(|end| &end.value));
+        let bare = interval.bare();
         let mut inside: Vec<&Candidate> = Vec::new();
         for c in candidates {
-            let above = match least {
-                Some(least) => c.value.compare(least, budget)?.is_gt(),
-                None => true,
-            };
-            let below = match most {
-                Some(most) => c.value.compare(most, budget)?.is_lt(),
-                None => true,
-            };
-            if above && below {
+            if bare.has_inside(&c.value, budget)? {
                 inside.push(c);
             }
         }
@@ -339,7 +330,7 @@ impl<'a> SymbolicFamily<'a> {
             let bound = |name: &'static str| asks_at_ends(name) || inside[i].touches.contains(&name);
             Ok(!names.iter().any(|name| bound(name)))
         };
-        required_parts([lower.as_ref(), upper.as_ref()], &values, unmet, is_closed, budget)
+        required_parts(interval, &values, unmet, is_closed, budget)
     }
 
     /// The names of what is not met at a stable value.
@@ -392,18 +383,6 @@ fn without_contents(f: Function) -> Vec<Function> {
     let (a, b) = (primitive(a), primitive(b));
     out.push(Function::resultant(a, b));
     out
-}
-
-/// Whether a number is strictly inside of a stable interval.
-fn is_inside(x: &Real, interval: &StableInterval, budget: &Budget) -> Result<bool, Exhausted> {
-    for (end, order) in [(&interval.lower, Ordering::Greater), (&interval.upper, Ordering::Less)] {
-        if let Some(end) = end
-            && x.compare(&end.value, budget)? != order
-        {
-            return Ok(false);
-        }
-    }
-    Ok(true)
 }
 
 /// Bits of the bracket around a number that is not told from an end.

@@ -149,7 +149,7 @@ impl Problem {
                 budget.step("testing a sample of each cell");
                 let cells =
                     Cells { problem: &whole, requirements, boundaries: &boundaries, family: family.as_ref(), budget };
-                intervals.extend(cells.within(interval.lower.as_ref(), interval.upper.as_ref())?);
+                intervals.extend(cells.within(interval)?);
             }
             Ok(Answer::new(Arc::clone(self), RequiredSet { intervals, undecided: Vec::new() }))
         })?

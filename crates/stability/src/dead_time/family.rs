@@ -4,18 +4,18 @@
 use super::count::{DelayCount, count_from_line};
 use super::family_function::{Function, Line, upper_exponential};
 use super::family_zeros::{Coordinate, CoordinateOf, FamilyZero, zeros};
-use super::gain::{GainCells, NotSolved, sample, sorted};
-use super::gain_points::{GainPoint, Happening};
+use super::gain::{GainCells, NotSolved, cells_between, difference_points};
+use super::gain_points::{Beyond, GainPoint, Happening};
 use super::mikhailov::NotCounted;
 use super::quasi_polynomial::{QuasiPolynomial, even_odd};
 use super::strip::frequency_bound_over;
 use super::windows::Never;
 use crate::interval_set::zeros_in;
 use crate::precisions::ZERO_AT_EDGE;
-use crate::{ParametricPolynomial, Range, Shape, boundary_polynomials, count_roots};
+use crate::{Range, Shape, count_roots};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, Sign};
-use jurist_algebra::poly::{Domain, Poly, UniPoly};
+use jurist_algebra::poly::{Domain, UniPoly};
 use jurist_algebra::real::{Real, Transcendental};
 use std::sync::Arc;
 
@@ -75,6 +75,11 @@ impl FamilyLoop {
     /// The dead time at one value.
     pub fn dead_time(&self, value: &Rational) -> Rational {
         self.tau.at(value)
+    }
+
+    /// True if roots are counted from the imaginary axis.
+    pub(super) fn is_from_axis(&self) -> bool {
+        self.decay.is_zero()
     }
 
     /// The highest power of `s`.
@@ -264,51 +269,17 @@ fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<G
     if lower >= upper {
         return Ok(Ok(GainCells { points: Vec::new(), right: vec![None] }));
     }
-    let grows = !family.decay.is_zero();
-    let mut points: Vec<GainPoint> = Vec::new();
-    // The line's own root: for the imaginary axis an algebraic condition.
-    if !grows {
-        let at_zero = family.parts.iter().fold(UniPoly::zero(), |sum, part| sum.plus(&part[0]));
-        if at_zero.is_zero() {
-            return Ok(Err(Never::RootAtZero));
-        }
-        for value in zeros_in(&at_zero, range, budget)? {
-            points.push(GainPoint::algebraic(value, Happening::RootAtZero, budget)?);
-        }
-    }
-    let top: Vec<UniPoly> = family.parts.iter().map(|part| part[family.order()].clone()).collect();
-    let neutral = top.iter().skip(1).any(|c| !c.is_zero());
-    if neutral && grows {
-        return Err(NotSolved::Neutral);
-    }
-    let mut reversed = top;
-    while reversed.last().is_some_and(UniPoly::is_zero) {
-        reversed.pop();
-    }
-    let degree = reversed.len() - 1;
-    reversed.reverse();
-    let reversed = ParametricPolynomial::from_integral(&Poly::new(reversed), degree);
-    let Some(boundaries) = boundary_polynomials(&reversed, Shape::UnitDisc, budget)? else {
-        return Ok(Err(Never::Neutral));
+    let grows = !family.is_from_axis();
+    let mut points = match algebraic_points(family, range, budget)? {
+        Ok(points) => points,
+        Err(never) => return Ok(Err(never)),
     };
-    let happening = if degree == 0 { Happening::DegreeLost } else { Happening::Neutral };
-    for boundary in boundaries {
-        for value in zeros_in(boundary.polynomial.poly(), range, budget)? {
-            let point = GainPoint::algebraic(value, happening.clone(), budget)?;
-            if !points.iter().any(|p| p.value.is_same(&point.value)) {
-                points.push(point);
-            }
-        }
-    }
-    let weights: Vec<Rational> = {
-        let most = |line: &Line| line.at(lower).abs().max(line.at(upper).abs());
-        let one = if grows {
-            budget.enter(|| upper_exponential(&(most(&family.tau) * most(&family.decay))))?
-        } else {
-            Rational::ONE
-        };
-        (0..family.parts.len()).map(|k| one.pow(k as i64).expect("not zero")).collect()
+    let most = |line: &Line| line.at(lower).abs().max(line.at(upper).abs());
+    let one = match grows {
+        true => budget.enter(|| upper_exponential(&(most(&family.tau) * most(&family.decay))))?,
+        false => Rational::ONE,
     };
+    let weights: Vec<Rational> = (0..family.parts.len()).map(|k| one.pow(k as i64).expect("not zero")).collect();
     let Some(frequency) = frequency_bound_over(&family.parts, &weights, range, budget)? else {
         return Err(NotSolved::Unbounded);
     };
@@ -341,28 +312,35 @@ fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<G
         let inverse = Some(coordinate(Coordinate::Reciprocal));
         points.push(GainPoint { value: coordinate(Coordinate::Parameter), happening, change: Some(change), inverse });
     }
-    let points = sorted(points, budget)?;
-    budget.step("counting roots in the gaps");
-    let ends: Vec<Option<Real>> = std::iter::once(Some(Real::from(lower.clone())))
-        .chain(points.iter().map(|p| Some(p.value.clone())))
-        .chain(std::iter::once(Some(Real::from(upper.clone()))))
-        .collect();
-    let mut right: Vec<Option<usize>> = Vec::with_capacity(points.len() + 1);
-    for (i, pair) in ends.windows(2).enumerate() {
-        budget.check()?;
-        let known = match i.checked_sub(1).and_then(|j| Some((right[j]?, points[j].change?))) {
-            Some((count, change)) => usize::try_from(count as i64 + change).ok(),
-            None => None,
-        };
-        right.push(match known {
-            Some(count) => Some(count),
-            None => {
-                let sample = sample(pair[0].as_ref(), pair[1].as_ref(), budget)?;
-                family.right(&sample, budget)?
-            }
-        });
+    cells_between(range, points, &Beyond::default(), &|value| family.right(value, budget), budget).map(Ok)
+}
+
+/// The values in a range that are roots of polynomials: with a root at `s = 0`, for the imaginary axis, or a zero of the difference operator
+/// on the unit circle.
+fn algebraic_points(
+    family: &FamilyLoop,
+    range: &Range,
+    budget: &Budget,
+) -> Result<Result<Vec<GainPoint>, Never>, NotSolved> {
+    let mut points = Vec::new();
+    if family.is_from_axis() {
+        let at_zero = family.parts.iter().fold(UniPoly::zero(), |sum, part| sum.plus(&part[0]));
+        if at_zero.is_zero() {
+            return Ok(Err(Never::RootAtZero));
+        }
+        for value in zeros_in(&at_zero, range, budget)? {
+            points.push(GainPoint::algebraic(value, Happening::RootAtZero, budget)?);
+        }
     }
-    Ok(Ok(GainCells { points, right }))
+    let top: Vec<UniPoly> = family.parts.iter().map(|part| part[family.order()].clone()).collect();
+    if !family.is_from_axis() && top.iter().skip(1).any(|c| !c.is_zero()) {
+        return Err(NotSolved::Neutral);
+    }
+    let Some((values, happening)) = difference_points(top, range, budget)? else { return Ok(Err(Never::Neutral)) };
+    for value in values {
+        points.push(GainPoint::algebraic(value, happening.clone(), budget)?);
+    }
+    Ok(Ok(points))
 }
 
 /// Whether a zero is strictly inside of the range. One on an end is a root of the loop there that depends on no dead time.

@@ -3,16 +3,16 @@
 use super::family::FamilyLoop;
 use super::family_function::Line;
 use super::gain_inverse::inverse_cells;
-use super::gain_points::{GainPoint, Happening, crossings_of_gain};
+use super::gain_points::{Beyond, GainPoint, Happening, crossings_of_gain};
 use super::mikhailov::{NotCounted, roots_right};
 use super::quasi_polynomial::QuasiPolynomial;
 use super::windows::Never;
-use crate::interval_set::zeros_in;
+use crate::interval_set::{merge_points, real_cells, zeros_in};
 use crate::{ParametricPolynomial, Range, Shape, boundary_polynomials, count_roots};
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, Poly, UniPoly};
-use jurist_algebra::real::{Real, rational_between};
+use jurist_algebra::poly::{Domain, Poly, RealAlgebraic, UniPoly};
+use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 
 /// `sum (A_k(s) + K B_k(s)) z^k` with `z = exp(-tau s)` at a rational dead time.
@@ -51,8 +51,8 @@ impl From<NotCounted> for NotSolved {
     }
 }
 
-impl From<jurist_algebra::limits::Exhausted> for NotSolved {
-    fn from(exhausted: jurist_algebra::limits::Exhausted) -> Self {
+impl From<Exhausted> for NotSolved {
+    fn from(exhausted: Exhausted) -> Self {
         NotSolved::NotCounted(exhausted.into())
     }
 }
@@ -72,6 +72,38 @@ impl GainCells {
     /// One cell of values that all have the same roots.
     pub fn constant(is_stable: bool) -> GainCells {
         GainCells { points: Vec::new(), right: vec![is_stable.then_some(0)] }
+    }
+
+    /// Cuts the cells where the loop is undefined as well: at the zeros of these polynomials in the range of the cells.
+    ///
+    /// ```
+    /// use jurist_algebra::{limits::Budget, poly::UniPoly};
+    /// use jurist_stability::{Range, dead_time::GainCells};
+    /// let mut cells = GainCells::constant(true);
+    /// let pole = UniPoly::from_i64(&[-1, 1]);
+    /// cells.cut_at_poles(&[pole], &Range::all(), &Budget::unlimited()).unwrap();
+    /// assert_eq!((cells.points.len(), cells.right), (1, vec![Some(0), Some(0)]));
+    /// ```
+    ///
+    /// Cost: comparisons of `O(n)` values for each zero.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn cut_at_poles(&mut self, poles: &[UniPoly], range: &Range, budget: &Budget) -> Result<(), Exhausted> {
+        for pole in poles {
+            for zero in zeros_in(pole, range, budget)? {
+                let pole = GainPoint { change: Some(0), ..GainPoint::counted(zero.into(), Happening::Pole) };
+                match place_of(&self.points, &pole.value, budget)? {
+                    Ok(known) if matches!(self.points[known].happening, Happening::Pole) => {}
+                    Ok(known) => self.points[known].join(pole),
+                    Err(at) => {
+                        self.points.insert(at, pole);
+                        self.right.insert(at, self.right[at]);
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 }
 
@@ -122,9 +154,9 @@ impl GainLoop {
     }
 
     /// The coefficients of the highest power of `s`, in `z` from `z^0` up, each `a + K b`.
-    fn difference(&self) -> Vec<(Integer, Integer)> {
+    fn difference(&self) -> Vec<UniPoly> {
         let n = self.order();
-        self.a.iter().zip(&self.b).map(|(a, b)| (a.coeff(n), b.coeff(n))).collect()
+        self.a.iter().zip(&self.b).map(|(a, b)| UniPoly::new(vec![a.coeff(n), b.coeff(n)])).collect()
     }
 
     /// The only delayed part with the parameter, if there is one only and none without delay.
@@ -188,7 +220,11 @@ pub(super) fn direct_cells(
     if a0.is_zero() && b0.is_zero() {
         return Ok(Err(Never::RootAtZero));
     }
-    let Some(mut points) = difference_points(&gain, range, budget)? else { return Ok(Err(Never::Neutral)) };
+    let Some((neutral, happening)) = difference_points(gain.difference(), range, budget)? else {
+        return Ok(Err(Never::Neutral));
+    };
+    let counted_at = |value: RealAlgebraic| GainPoint::counted(value.into(), happening.clone());
+    let mut points: Vec<GainPoint> = neutral.into_iter().map(counted_at).collect();
     if !b0.is_zero() {
         let at = -Rational::new(a0, b0);
         if range.contains(&at) {
@@ -202,31 +238,31 @@ pub(super) fn direct_cells(
         }
         Err(never) => return Ok(Err(never)),
     };
+    cells_between(range, points, &beyond, &|value| counted(&gain, value, budget), budget).map(Ok)
+}
+
+/// The cells between points: a count in each cell whose count does not follow from the one below.
+pub(super) fn cells_between(
+    range: &Range,
+    points: Vec<GainPoint>,
+    beyond: &Beyond,
+    count: &dyn Fn(&Rational) -> Result<Option<usize>, NotSolved>,
+    budget: &Budget,
+) -> Result<GainCells, NotSolved> {
     let points = sorted(points, budget)?;
-    // The cells from below: a count where the last one is not known.
     budget.step("counting roots in the gaps");
-    let ends: Vec<Option<Real>> = std::iter::once(range.lower.clone().map(Real::from))
-        .chain(points.iter().map(|p| Some(p.value.clone())))
-        .chain(std::iter::once(range.upper.clone().map(Real::from)))
-        .collect();
+    let values: Vec<Real> = points.iter().map(|p| p.value.clone()).collect();
     let mut right: Vec<Option<usize>> = Vec::with_capacity(points.len() + 1);
-    for (i, pair) in ends.windows(2).enumerate() {
+    for (i, cell) in real_cells(range, &values).iter().enumerate() {
         budget.check()?;
-        let known = match (i.checked_sub(1), i.checked_sub(1).and_then(|j| points[j].change)) {
-            (Some(j), Some(change)) => right[j].and_then(|count| usize::try_from(count as i64 + change).ok()),
-            _ => None,
-        };
-        let is_beyond = beyond.covers(pair[0].as_ref(), pair[1].as_ref(), budget)?;
+        let known = i.checked_sub(1).and_then(|j| usize::try_from(right[j]? as i64 + points[j].change?).ok());
         right.push(match known {
-            _ if is_beyond => None,
+            _ if beyond.covers(cell.lower.as_ref(), cell.upper.as_ref(), budget)? => None,
             Some(count) => Some(count),
-            None => {
-                let sample = sample(pair[0].as_ref(), pair[1].as_ref(), budget)?;
-                counted(&gain, &sample, budget)?
-            }
+            None => count(&cell.sample(budget)?)?,
         });
     }
-    Ok(Ok(GainCells { points, right }))
+    Ok(GainCells { points, right })
 }
 
 /// The count at one value; `None` where the difference operator is not stable there.
@@ -242,62 +278,48 @@ fn counted(gain: &GainLoop, value: &Rational, budget: &Budget) -> Result<Option<
     }
 }
 
-/// A rational number strictly between two ends.
-pub(super) fn sample(lower: Option<&Real>, upper: Option<&Real>, budget: &Budget) -> Result<Rational, NotSolved> {
-    Ok(match (lower, upper) {
-        (Some(l), Some(u)) => rational_between(l, u, budget)?.expect("the ends differ"),
-        (Some(l), None) => budget.enter(|| l.rational_above())?,
-        (None, Some(u)) => budget.enter(|| u.rational_below())?,
-        (None, None) => Rational::ZERO,
-    })
-}
-
-/// Where zeros of the difference operator meet the unit circle; `None` when one is there for every value.
-fn difference_points(gain: &GainLoop, range: &Range, budget: &Budget) -> Result<Option<Vec<GainPoint>>, NotSolved> {
-    let mut top = gain.difference();
-    while top.last().is_some_and(|(a, b)| a.is_zero() && b.is_zero()) {
+/// The values in a range at which zeros of the difference operator meet the unit circle, and what happens there; `None` when one
+/// is there for every value. The operator has the coefficients of the highest power of `s`, from `z^0` up.
+pub(super) fn difference_points(
+    mut top: Vec<UniPoly>,
+    range: &Range,
+    budget: &Budget,
+) -> Result<Option<(Vec<RealAlgebraic>, Happening)>, NotSolved> {
+    while top.last().is_some_and(UniPoly::is_zero) {
         top.pop();
     }
     let degree = top.len() - 1;
     // In 1/z: the stable zeros are inside, and its highest coefficient is the one without delay.
-    let coefficients = top.iter().rev().map(|(a, b)| UniPoly::new(vec![a.clone(), b.clone()]));
-    let reversed = ParametricPolynomial::from_integral(&Poly::new(coefficients.collect()), degree);
+    top.reverse();
+    let reversed = ParametricPolynomial::from_integral(&Poly::new(top), degree);
     let Some(boundaries) = boundary_polynomials(&reversed, Shape::UnitDisc, budget)? else { return Ok(None) };
-    let mut points: Vec<GainPoint> = Vec::new();
-    for boundary in boundaries {
-        for zero in zeros_in(boundary.polynomial.poly(), range, budget)? {
-            let value = Real::from(zero);
-            if !points.iter().any(|p| p.value.is_same(&value)) {
-                let happening = if degree == 0 { Happening::DegreeLost } else { Happening::Neutral };
-                points.push(GainPoint::counted(value, happening));
-            }
-        }
-    }
-    Ok(Some(points))
+    let zeros = boundaries.iter().map(|boundary| zeros_in(boundary.polynomial.poly(), range, budget));
+    let zeros = merge_points(zeros.collect::<Result<_, _>>()?, budget)?;
+    Ok(Some((zeros, if degree == 0 { Happening::DegreeLost } else { Happening::Neutral })))
 }
 
 /// Ascending; two points that are the same become one at which more happens, and whose change is counted.
-pub(super) fn sorted(mut points: Vec<GainPoint>, budget: &Budget) -> Result<Vec<GainPoint>, NotSolved> {
+fn sorted(points: Vec<GainPoint>, budget: &Budget) -> Result<Vec<GainPoint>, NotSolved> {
     let mut out: Vec<GainPoint> = Vec::with_capacity(points.len());
-    points.reverse();
-    while let Some(point) = points.pop() {
-        let (mut low, mut high) = (0, out.len());
-        let mut same = None;
-        while low < high {
-            let middle = (low + high) / 2;
-            match out[middle].value.compare(&point.value, budget)? {
-                Ordering::Less => low = middle + 1,
-                Ordering::Greater => high = middle,
-                Ordering::Equal => {
-                    same = Some(middle);
-                    break;
-                }
-            }
-        }
-        match same {
-            Some(at) => out[at].join(point),
-            None => out.insert(low, point),
+    for point in points {
+        match place_of(&out, &point.value, budget)? {
+            Ok(same) => out[same].join(point),
+            Err(at) => out.insert(at, point),
         }
     }
     Ok(out)
+}
+
+/// Which of the ascending points has a value, or else the number of points below it.
+fn place_of(points: &[GainPoint], value: &Real, budget: &Budget) -> Result<Result<usize, usize>, Exhausted> {
+    let (mut low, mut high) = (0, points.len());
+    while low < high {
+        let middle = (low + high) / 2;
+        match points[middle].value.compare(value, budget)? {
+            Ordering::Less => low = middle + 1,
+            Ordering::Greater => high = middle,
+            Ordering::Equal => return Ok(Ok(middle)),
+        }
+    }
+    Ok(Err(low))
 }

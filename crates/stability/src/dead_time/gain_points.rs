@@ -25,6 +25,8 @@ pub enum Happening {
     Neutral,
     /// The highest power of `s` vanishes.
     DegreeLost,
+    /// The loop is undefined.
+    Pole,
     /// More than one of them.
     Several(Vec<Happening>),
 }
@@ -63,10 +65,7 @@ impl GainPoint {
 
     /// Takes in what else happens at the same value.
     pub(super) fn join(&mut self, other: GainPoint) {
-        self.change = match (self.change, other.change) {
-            (Some(x), Some(y)) => Some(x + y),
-            _ => None,
-        };
+        self.change = self.change.zip(other.change).map(|(x, y)| x + y);
         let list = |h: Happening| match h {
             Happening::Several(list) => list,
             one => vec![one],

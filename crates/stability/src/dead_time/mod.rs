@@ -28,6 +28,7 @@ mod plane;
 mod plane_function;
 mod plane_walk;
 mod quasi_polynomial;
+mod stable_set;
 mod strip;
 #[cfg(test)]
 mod tests;

@@ -90,3 +90,21 @@ fn gains_that_no_value_helps_say_why() {
     assert_eq!(never(&gain(&[&[0, 1, 1], &[]], &[&[], &[0, 1]], "1")), Never::FixedRoot);
     assert_eq!(never(&gain(&[&[1, 1], &[-1]], &[&[0, 1], &[]], "1")), Never::RootAtZero);
 }
+
+#[test]
+fn a_pole_cuts_a_cell_once_and_a_point_that_is_there_keeps_its_change() {
+    let budget = Budget::unlimited();
+    let integrator = gain(&[&[0, 1], &[]], &[&[], &[1]], "2"); // a root at s = 0 for K = 0
+    let all = range(None, None);
+    let mut cells = gain_cells(&integrator, &all, &budget).unwrap().unwrap();
+    let (points, right) = (cells.points.len(), cells.right.clone());
+    let zero = cells.points.iter().position(|p| p.value.exact().is_some_and(|x| x.is_zero())).unwrap();
+    let change = cells.points[zero].change;
+    // 2 K - 1 twice, and K, where there is a point already.
+    let poles = [UniPoly::from_i64(&[-1, 2]), UniPoly::from_i64(&[0, -1, 2])];
+    cells.cut_at_poles(&poles, &all, &budget).unwrap();
+    assert_eq!((cells.points.len(), cells.right.len()), (points + 1, right.len() + 1));
+    assert_eq!(cells.right[zero + 1], cells.right[zero + 2]);
+    assert!(matches!(cells.points[zero + 1].happening, Happening::Pole));
+    assert!(matches!(cells.points[zero].happening, Happening::Several(_)) && cells.points[zero].change == change);
+}

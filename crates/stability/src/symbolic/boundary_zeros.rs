@@ -2,6 +2,7 @@
 
 use super::Condition;
 use super::basis::coprime;
+use crate::line::Bracket;
 use crate::{Cause, Range};
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Integer, Rational};
@@ -33,9 +34,6 @@ pub(super) struct Zero {
     pub value: Real,
     pub parts: Vec<usize>,
 }
-
-/// An interval in which nothing is known; none where it has no end.
-pub type Bracket = (Option<Rational>, Option<Rational>);
 
 /// A zero, and which of the functions have it.
 pub type ZeroOf = (Real, Vec<usize>);

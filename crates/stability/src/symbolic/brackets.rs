@@ -2,21 +2,14 @@
 //! them for all values of a short interval at once.
 
 use super::SymbolicPolynomial;
-use super::boundary_zeros::Bracket;
 use super::count::certain_count;
+use crate::line::{Bracket, Decided};
 use crate::{Range, Shape};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::MultiPoly;
 use jurist_algebra::symbols::MovingSymbols;
-
-/// Values for all of which the loop is stable, or for none.
-pub(super) struct Decided {
-    pub lower: Rational,
-    pub upper: Rational,
-    pub is_stable: bool,
-}
 
 /// So many intervals of one bracket are counted.
 const MOST_COUNTS: usize = 48;

@@ -4,9 +4,9 @@ use super::basis::{Boundary, Split, Unexpanded, Way};
 use super::jury::Comparison;
 use super::minors::{EnclosedMinor, Minor};
 use super::rows::{Asked, EnclosedRows, SymbolicRow, enclosed_rows, plus, shown, times};
-use super::set::sample;
 use super::statements::{Conditions, Rule, Stated};
 use super::{SymbolicPolynomial, Table};
+use crate::interval_set::real_cells;
 use crate::precisions::SIGN_OF_DETERMINANT;
 use crate::{Cause, Range, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -321,15 +321,13 @@ fn solved(
     let zeros = split.zeros(range, budget)?;
     let vanishing = |zero| split.boundaries.iter().map(|b: &Boundary| b.has(zero, budget)).collect();
     let vanishing = zeros.iter().map(vanishing).collect::<Result<Vec<Vec<bool>>, Exhausted>>()?;
-    let bound = |end: &Option<Rational>| end.clone().map(Real::from);
-    let mut ends = vec![bound(&range.lower)];
-    ends.extend(zeros.iter().map(|zero| Some(zero.value.clone())));
-    ends.push(bound(&range.upper));
+    let values: Vec<Real> = zeros.iter().map(|zero| zero.value.clone()).collect();
+    let cells = real_cells(range, &values);
     budget.step("testing a sample of each cell");
-    let mut signs: Vec<Vec<Sign>> = Vec::with_capacity(ends.len() - 1);
-    for (i, cell) in ends.windows(2).enumerate().filter(|_| !range.is_empty()) {
-        budget.advance(i as u64, ends.len() as u64 - 1);
-        let at = sample(cell, budget)?;
+    let mut signs: Vec<Vec<Sign>> = Vec::with_capacity(cells.len());
+    for (i, cell) in cells.iter().enumerate() {
+        budget.advance(i as u64, cells.len() as u64);
+        let at = cell.sample(budget)?;
         let sign = |f: usize| sign_at(&functions[f], places[f].is_some(), &at, symbols, budget);
         signs.push((0..functions.len()).map(sign).collect::<Result<_, _>>()?);
     }
@@ -344,8 +342,8 @@ fn solved(
             goes_on &= !is_cut;
             if holds(signs) {
                 match intervals.last_mut().filter(|_| goes_on) {
-                    Some(last) => last[1] = ends[i + 1].clone(),
-                    None => intervals.push([ends[i].clone(), ends[i + 1].clone()]),
+                    Some(last) => last[1] = cells[i].upper.clone(),
+                    None => intervals.push([cells[i].lower.clone(), cells[i].upper.clone()]),
                 }
                 goes_on = true;
             } else {

@@ -25,7 +25,7 @@ mod set;
 mod statements;
 
 pub use basis::zeros_of_all;
-pub use boundary_zeros::{Bracket, told_apart, zeros_of_functions};
+pub use boundary_zeros::{told_apart, zeros_of_functions};
 pub use conditions::{RealIntervals, SymbolicCondition, SymbolicTest};
 pub use count::{EnclosedLoop, certain_count, open_equation};
 pub use deflated::zeros_of_resultant;

@@ -1,18 +1,18 @@
 //! The stable set where the parameter is inside of exponentials, such as the sample time of a held plant.
 
-use super::boundary_zeros::{Boundary, Bracket, Reach, Zero, split};
-use super::brackets::{Counter, Decided, looked_at};
+use super::boundary_zeros::{Boundary, Reach, split};
+use super::brackets::{Counter, looked_at};
 use super::count::certain_count;
 use super::outward::{Found, Looked, MULTIPLES};
-use super::pair::{Common, CommonRoots, Pair, Values};
-use super::set::{Place, intervals, named_end};
+use super::pair::Values;
+use super::set::{OverSymbols, causes};
 use super::{Condition, MOST_EXPANDED, SymbolicPolynomial};
-use crate::{Cause, Causes, End, Range, Shape, StableInterval, StableSet, UndecidedBracket};
+use crate::line::{Line, Place};
+use crate::{Cause, Range, Shape, StableSet, UndecidedBracket};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, to_decimal};
 use jurist_algebra::poly::MultiPoly;
-use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Function, MovingSymbols};
 use std::sync::Arc;
 
@@ -42,75 +42,33 @@ pub(super) fn moving_stable_set(
     let (boundaries, basis) = (&boundaries[..], &basis[..]);
     let looked = Looked { boundaries, basis, symbols, usual: &usual, is_scale: p.usual.is_zero(), budget };
     let Found { reach, zeros, undecided } = looked.outward(reach)?;
-    let common = (p.formal_degree > 1).then(|| {
-        let pair = Arc::new(Pair::of(&p.pair(region)));
-        CommonRoots::new(pair, Arc::clone(symbols) as Arc<dyn Values>)
-    });
-    let examiner = Examiner { symbols, range, boundaries, common, budget };
-    let is_looked_at = looked_at(&undecided, &p.usual);
-    let mut stable = Assembly::default();
-    let mut lower = reach.lower.clone();
-    // After the last bracket there is one more piece.
-    let brackets = undecided.iter().zip(is_looked_at).map(Some).chain([None]);
-    for bracket in brackets {
-        let is_looked_at = bracket.is_some_and(|(_, is_looked_at)| is_looked_at);
-        let bracket = bracket.map(|(bracket, _)| bracket);
-        let upper = bracket.map_or_else(|| reach.upper.clone(), |b| b.0.clone());
-        let is_piece = match (&lower, &upper) {
-            (Some(lower), Some(upper)) => lower < upper,
-            // A bracket without a lower end begins before everything.
-            (None, None) => bracket.is_none(),
-            _ => bracket.is_none_or(|b| b.0.is_some()),
-        };
-        if is_piece {
-            let piece = Range::between(lower.clone(), upper);
-            let inside = |z: &&Zero| {
-                piece.lower.as_ref().is_none_or(|x| z.value.compare_rational(x).is_gt())
-                    && piece.upper.as_ref().is_none_or(|x| z.value.compare_rational(x).is_lt())
-            };
-            let zeros: Vec<&Zero> = zeros.iter().filter(inside).collect();
-            let values = zeros.iter().map(|z| z.value.clone()).collect();
-            let at = |sample: &Rational| p.at(sample, region, budget);
-            let end = |place: Place<'_>, is_between: bool| match place {
-                Place::Domain(value) => {
-                    let exact = value.exact();
-                    let is_beside = undecided.iter().any(|b| exact.is_some() && (exact == b.0 || exact == b.1));
-                    match is_beside {
-                        true => Ok(Some(End::new(value.clone(), Causes::default(), None))),
-                        false => examiner.at_domain(value).map(Some),
-                    }
-                }
-                Place::Zero(k) => examiner.at_zero(zeros[k], is_between),
-            };
-            for interval in intervals(&piece, values, p.formal_degree(), at, end, budget)? {
-                stable.push(interval);
+    let held = |place: Place<'_>| {
+        let vanishes = |boundary: &Boundary| match place.zero {
+            Some(zero) => Ok(boundary.has(&zeros[zero])),
+            None => {
+                let value = place.value.exact().expect("an end is rational");
+                symbols.may_vanish_at(&boundary.function, &value, budget)
             }
+        };
+        let mut held = causes(boundaries, |boundary| Ok(vanishes(boundary)?.then_some(boundary.cause)))?;
+        // Several pairs may come together at the end of the range, such as at the sample time 0.
+        if place.zero.is_none() && held.len() > 1 {
+            held.retain(|cause| *cause != Cause::ComplexPair);
         }
-        let Some(bracket) = bracket else { break };
-        let known = match bracket {
-            (Some(lo), Some(hi)) if is_looked_at => counter.decided(lo, hi, &p.usual, budget)?,
+        Ok(held)
+    };
+    let ring = OverSymbols::new(p, Arc::clone(symbols) as Arc<dyn Values>, region, &held, budget);
+    let mut brackets = Vec::with_capacity(undecided.len());
+    for (bracket, is_looked_at) in undecided.iter().zip(looked_at(&undecided, &p.usual)) {
+        let parts = match bracket {
+            (Some(lower), Some(upper)) if is_looked_at => counter.decided(lower, upper, &p.usual, budget)?,
             _ => Vec::new(),
         };
-        stable.bracket(bracket, known);
-        lower = bracket.1.clone();
-        if lower.is_none() {
-            break;
-        }
+        brackets.push((bracket.clone(), parts));
     }
-    let brackets = stable.open.into_iter().map(|(lo, hi)| {
-        let why = match (&lo, &hi) {
-            (Some(lo), Some(_)) if lo.is_zero() && part.lower.as_ref().is_some_and(Rational::is_zero) => {
-                "values this close to 0 are not decided"
-            }
-            (Some(_), Some(_)) => "touching or crossing",
-            _ => "values of this size are not decided: give the domain bounds",
-        };
-        UndecidedBracket::new(lo, hi, why)
-    });
-    let mut brackets: Vec<UndecidedBracket> = brackets.collect();
-    brackets.extend(beyond);
-    brackets.sort_by(|a, b| a.lower.cmp(&b.lower));
-    Ok(StableSet::from_intervals(stable.intervals, brackets))
+    let values = zeros.iter().map(|z| z.value.clone()).collect();
+    let reach = Range::between(reach.lower, reach.upper);
+    Line { reach, brackets, beyond, ..Line::new(range, values, &ring, budget) }.stable_set()
 }
 
 /// The part of a range between numbers at which an argument of a function divides by zero, where the range itself has no end, and
@@ -135,52 +93,6 @@ fn connected(symbols: &MovingSymbols, range: &Range, usual: &Rational) -> (Range
         beyond.push(UndecidedBracket::new(Some(x.clone()), None, why(x)));
     }
     (part, beyond)
-}
-
-/// The stable intervals from below, and what is left of the brackets between them.
-#[derive(Default)]
-struct Assembly {
-    intervals: Vec<StableInterval>,
-    open: Vec<Bracket>,
-    /// A number at which the loop is known to be stable: an interval that ends there goes on.
-    joint: Option<Rational>,
-}
-
-impl Assembly {
-    fn push(&mut self, interval: StableInterval) {
-        let exact = |end: &Option<End>| end.as_ref().and_then(|end| end.value.exact());
-        match self.intervals.last_mut() {
-            Some(last)
-                if self.joint.is_some() && exact(&last.upper) == self.joint && exact(&interval.lower) == self.joint =>
-            {
-                last.upper = interval.upper;
-            }
-            _ => self.intervals.push(interval),
-        }
-    }
-
-    /// A bracket, of which parts are known.
-    fn bracket(&mut self, bracket: &Bracket, known: Vec<Decided>) {
-        let mut lower = bracket.0.clone();
-        // An infinite end is never reached.
-        let mut is_open = true;
-        for Decided { lower: lo, upper: hi, is_stable } in known {
-            if lower.as_ref() != Some(&lo) {
-                self.open.push((lower, Some(lo.clone())));
-            }
-            is_open = bracket.1.as_ref() != Some(&hi);
-            lower = Some(hi.clone());
-            if is_stable {
-                let end = |x: &Rational| Some(End::new(x.clone(), Causes::default(), None));
-                self.joint = Some(lo.clone());
-                self.push(StableInterval::new(end(&lo), end(&hi)));
-                self.joint = Some(hi);
-            }
-        }
-        if is_open {
-            self.open.push((lower, bracket.1.clone()));
-        }
-    }
 }
 
 /// How far a parameter goes that is not bounded: to where nothing happens any more, or, by its reciprocal, all the way, or
@@ -280,50 +192,5 @@ impl SymbolicPolynomial {
             }
         }
         Ok(Rational::ZERO)
-    }
-}
-
-/// Finds out what happens at an end of a stable cell.
-struct Examiner<'a> {
-    symbols: &'a Arc<MovingSymbols>,
-    range: &'a Range,
-    boundaries: &'a [Boundary],
-    common: Option<CommonRoots>,
-    budget: &'a Budget,
-}
-
-impl Examiner<'_> {
-    fn at_domain(&self, value: &Real) -> Result<End, Exhausted> {
-        let exact = value.exact().expect("an end of the range is rational");
-        let mut held = Vec::new();
-        for boundary in self.boundaries {
-            if self.symbols.may_vanish_at(&boundary.function, &exact, self.budget)? {
-                held.push(boundary.cause);
-            }
-        }
-        // Several pairs may come together at the end of the range, such as at the sample time 0.
-        let pair = || match held.as_slice() {
-            [Cause::ComplexPair] => self.common_root(value),
-            _ => Ok(Common::Beyond),
-        };
-        let end = named_end(value, &held, self.range, false, pair)?;
-        Ok(end.unwrap_or_else(|| End::new(value.clone(), Causes::default(), None)))
-    }
-
-    fn at_zero(&self, zero: &Zero, is_between: bool) -> Result<Option<End>, Exhausted> {
-        let mut held = Vec::new();
-        for boundary in self.boundaries {
-            if boundary.has(zero) {
-                held.push(boundary.cause);
-            }
-        }
-        named_end(&zero.value, &held, self.range, is_between, || self.common_root(&zero.value))
-    }
-
-    fn common_root(&self, value: &Real) -> Result<Common, Exhausted> {
-        match &self.common {
-            Some(common) => common.at(value, self.budget),
-            None => Ok(Common::Unknown),
-        }
     }
 }

@@ -1,6 +1,7 @@
 //! How far a parameter without bounds is looked at: from its usual value outward, as long as that is cheap.
 
-use super::boundary_zeros::{Boundary, Bracket, Reach, Zero, disjoint, zeros_within};
+use super::boundary_zeros::{Boundary, Reach, Zero, disjoint, zeros_within};
+use crate::line::Bracket;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Rational, Sign};
 use jurist_algebra::symbols::{Function, MovingSymbols};

@@ -1,5 +1,6 @@
 //! Where on the boundary a complex pair sits at a limit that is a root over symbols.
 
+use crate::line::Common;
 use crate::precisions::COMMON_ROOT;
 use crate::{ComplexPair, HalfSizePair, Shape};
 use jurist_algebra::ball::{Ball, common_root};
@@ -10,16 +11,6 @@ use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
 use jurist_algebra::symbols::Symbols;
 use std::fmt;
 use std::sync::Arc;
-
-/// What is known of the common roots of the half-size pair at a value of the parameter.
-pub(super) enum Common {
-    /// One, strictly inside of the boundary's interval: a pair of roots is there.
-    Pair(ComplexPair),
-    /// One, beyond the interval: two real roots that are mirror images of each other.
-    Beyond,
-    /// Several, or one at an end of the interval.
-    Unknown,
-}
 
 /// What polynomials in the parameter (variable 0) and symbols are for a value of the parameter.
 pub(super) trait Values: fmt::Debug + Send + Sync {

@@ -1,11 +1,12 @@
 //! The exact set of stable parameter values of a loop with transcendental constants.
 
-use super::basis::{Boundary, Split, Unexpanded, Way, Zero};
+use super::basis::{Boundary, Split, Unexpanded, Way};
 use super::moving::moving_stable_set;
-use super::pair::{Common, CommonRoots, Pair, Values};
+use super::pair::{CommonRoots, Pair, Values};
 use super::resultant::PairResultant;
 use super::{MOST_EXPANDED, SymbolicPolynomial, Table};
-use crate::{AtPoint, Cause, Causes, End, Range, RealInterval, Shape, StableInterval, StableSet};
+use crate::line::{Common, Held, Line, Place, Ring};
+use crate::{Cause, Range, RealInterval, Shape, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
@@ -83,77 +84,67 @@ pub(super) fn set_over(
     };
     budget.step("isolating the boundaries' zeros");
     let zeros = split.zeros(range, budget)?;
-    let common = (p.formal_degree > 1).then(|| {
-        let pair = Arc::new(Pair::of(&p.pair(region)));
-        CommonRoots::new(pair, Arc::clone(symbols) as Arc<dyn Values>)
-    });
-    let examiner = Examiner { p, range, boundaries: &split.boundaries, common, budget };
-    let values = zeros.iter().map(|z| z.value.clone()).collect();
-    let at = |sample: &Rational| p.at(sample, region, budget);
-    let end = |place: Place<'_>, is_between: bool| match place {
-        Place::Domain(value) => examiner.at_domain(value).map(Some),
-        Place::Zero(k) => examiner.at_zero(&zeros[k], is_between),
-    };
-    let intervals = intervals(range, values, p.formal_degree(), at, end, budget)?;
-    Ok(StableSet::from_intervals(intervals, Vec::new()))
-}
-
-/// What a cell ends at.
-pub(super) enum Place<'a> {
-    /// The domain.
-    Domain(&'a Real),
-    /// The zero of this number.
-    Zero(usize),
-}
-
-/// The stable intervals: the zeros cut the range into cells, each of which is decided by `at` a sample; `end` says what
-/// happens at an end of a stable cell, `None` where it is none after all between two of them.
-pub(super) fn intervals(
-    range: &Range,
-    zeros: Vec<Real>,
-    degree: usize,
-    mut at: impl FnMut(&Rational) -> Result<AtPoint, Exhausted>,
-    end: impl Fn(Place<'_>, bool) -> Result<Option<End>, Exhausted>,
-    budget: &Budget,
-) -> Result<Vec<StableInterval>, Exhausted> {
-    budget.step("testing a sample of each cell");
-    let bound = |bound: &Option<Rational>| bound.clone().map(Real::from);
-    let mut ends: Vec<Option<Real>> = vec![bound(&range.lower)];
-    ends.extend(zeros.into_iter().map(Some));
-    ends.push(bound(&range.upper));
-    let mut stable = Vec::with_capacity(ends.len());
-    for (i, cell) in ends.windows(2).enumerate() {
-        budget.advance(i as u64, ends.len() as u64 - 1);
-        let sample = sample(cell, budget)?;
-        let found = at(&sample)?;
-        stable.push(matches!(found, AtPoint::Defined { count, infinite: 0 } if count.inside == degree));
-    }
-    budget.step("what happens at each end");
-    let mut intervals: Vec<StableInterval> = Vec::new();
-    // Whether the interval before goes on in this cell, as nothing happens between them.
-    let mut goes_on = false;
-    for i in (0..stable.len()).filter(|&i| stable[i]) {
-        let find = |k: usize| -> Result<Option<End>, Exhausted> {
-            match &ends[k] {
-                None => Ok(None),
-                Some(value) if k == 0 || k == ends.len() - 1 => end(Place::Domain(value), false),
-                Some(_) => end(Place::Zero(k - 1), stable[k - 1] && stable[k]),
-            }
+    let held = |place: Place<'_>| {
+        let vanishes = |boundary: &Boundary| match place.zero {
+            Some(zero) => boundary.has(&zeros[zero], budget),
+            None => boundary.condition.vanishes_at(&place.value.exact().expect("an end is rational"), budget),
         };
-        let upper = find(i + 1)?;
-        let is_joined = upper.is_none() && stable.get(i + 1) == Some(&true);
-        if goes_on {
-            if let Some(last) = intervals.last_mut() {
-                last.upper = upper;
-            }
-        } else {
-            let shared = i > 0 && stable[i - 1];
-            let lower = if shared { intervals.last().and_then(|l| l.upper.clone()) } else { find(i)? };
-            intervals.push(StableInterval::new(lower, upper));
-        }
-        goes_on = is_joined;
+        causes(&split.boundaries, |boundary| Ok(vanishes(boundary)?.then_some(boundary.cause)))
+    };
+    let values: Vec<Real> = zeros.iter().map(|z| z.value.clone()).collect();
+    let ring = OverSymbols::new(p, Arc::clone(symbols) as Arc<dyn Values>, region, &held, budget);
+    Line::new(range, values, &ring, budget).stable_set()
+}
+
+/// The causes of the boundaries that hold.
+pub(super) fn causes<B>(
+    boundaries: &[B],
+    cause: impl Fn(&B) -> Result<Option<Cause>, Exhausted>,
+) -> Result<Vec<Cause>, Exhausted> {
+    boundaries.iter().filter_map(|boundary| cause(boundary).transpose()).collect()
+}
+
+/// The boundary conditions that hold at a place.
+pub(super) type HeldAt<'a> = dyn Fn(Place<'_>) -> Result<Vec<Cause>, Exhausted> + 'a;
+
+/// A loop over symbols, whatever they depend on.
+pub(super) struct OverSymbols<'a> {
+    p: &'a SymbolicPolynomial,
+    region: Shape,
+    held: &'a HeldAt<'a>,
+    common: Option<CommonRoots>,
+    budget: &'a Budget,
+}
+
+impl<'a> OverSymbols<'a> {
+    pub fn new(
+        p: &'a SymbolicPolynomial,
+        values: Arc<dyn Values>,
+        region: Shape,
+        held: &'a HeldAt<'a>,
+        budget: &'a Budget,
+    ) -> Self {
+        let common = (p.formal_degree > 1).then(|| CommonRoots::new(Arc::new(Pair::of(&p.pair(region))), values));
+        OverSymbols { p, region, held, common, budget }
     }
-    Ok(intervals)
+}
+
+impl Ring for OverSymbols<'_> {
+    fn is_stable(&self, _below: usize, cell: &RealInterval) -> Result<(Option<Rational>, bool), Exhausted> {
+        let sample = cell.sample(self.budget)?;
+        let stable = self.p.at(&sample, self.region, self.budget)?.is_stable(self.p.formal_degree);
+        Ok((Some(sample), stable))
+    }
+
+    fn held(&self, place: Place<'_>) -> Result<Held, Exhausted> {
+        let causes = (self.held)(place)?;
+        // Where a pole is, no root can be named.
+        Ok(Held { has_roots: !causes.contains(&Cause::Pole), causes })
+    }
+
+    fn common_roots(&self, place: Place<'_>) -> Result<Common, Exhausted> {
+        self.common.as_ref().map_or(Ok(Common::Unknown), |common| common.at(place.value, self.budget))
+    }
 }
 
 /// The boundary conditions and the pairwise coprime polynomials they are made of; `None` where the loop is stable nowhere.
@@ -184,92 +175,4 @@ fn boundaries(
         }
     }
     way.split(expanded, enclosed, symbols, budget).map(Some)
-}
-
-/// A rational number inside of a cell.
-pub(super) fn sample(cell: &[Option<Real>], budget: &Budget) -> Result<Rational, Exhausted> {
-    RealInterval { lower: cell[0].clone(), upper: cell[1].clone() }.sample(budget)
-}
-
-/// Finds out what happens at an end of a stable cell.
-struct Examiner<'a> {
-    p: &'a SymbolicPolynomial,
-    range: &'a Range,
-    boundaries: &'a [Boundary],
-    common: Option<CommonRoots>,
-    budget: &'a Budget,
-}
-
-impl Examiner<'_> {
-    /// At an end of the domain, which is rational.
-    fn at_domain(&self, value: &Real) -> Result<End, Exhausted> {
-        let exact = value.exact().expect("an end of the range is rational");
-        let mut zero = Vec::new();
-        for boundary in self.boundaries {
-            zero.push(boundary.condition.vanishes_at(&exact, self.budget)?);
-        }
-        let end = self.end(value, &zero, false)?;
-        Ok(end.unwrap_or_else(|| End::new(value.clone(), Causes::default(), None)))
-    }
-
-    /// At a zero of the boundary polynomials; `None` where nothing happens that matters between two stable cells.
-    fn at_zero(&self, zero: &Zero, is_between: bool) -> Result<Option<End>, Exhausted> {
-        let vanishes = self.boundaries.iter().map(|boundary| boundary.has(zero, self.budget));
-        let vanishes = vanishes.collect::<Result<Vec<bool>, Exhausted>>()?;
-        self.end(&zero.value, &vanishes, is_between)
-    }
-
-    fn end(&self, value: &Real, vanishes: &[bool], is_between: bool) -> Result<Option<End>, Exhausted> {
-        let held: Vec<Cause> =
-            self.boundaries.iter().zip(vanishes).filter(|(_, v)| **v).map(|(b, _)| b.cause).collect();
-        named_end(value, &held, self.range, is_between, || self.common_root(value))
-    }
-
-    fn common_root(&self, value: &Real) -> Result<Common, Exhausted> {
-        assert!(self.p.formal_degree >= 2);
-        match &self.common {
-            Some(common) => common.at(value, self.budget),
-            None => Ok(Common::Unknown),
-        }
-    }
-}
-
-/// The end at which these boundary conditions hold; `None` where nothing happens between two stable cells.
-pub(super) fn named_end(
-    value: &Real,
-    held: &[Cause],
-    range: &Range,
-    is_between: bool,
-    common_root: impl FnOnce() -> Result<Common, Exhausted>,
-) -> Result<Option<End>, Exhausted> {
-    let mut causes = Causes::default();
-    let mut pair = None;
-    let is_defined = !held.contains(&Cause::Pole);
-    for &cause in held {
-        match cause {
-            Cause::ComplexPair => {}
-            Cause::RootAtOne | Cause::RootAtMinusOne | Cause::RootAtZero if !is_defined => {}
-            cause => causes.insert(cause),
-        }
-    }
-    if is_defined && held.contains(&Cause::ComplexPair) {
-        match common_root()? {
-            Common::Pair(found) => {
-                pair = Some(found);
-                causes.insert(Cause::ComplexPair);
-            }
-            Common::Beyond => {}
-            // A double root at an end of the boundary is named by its own cause.
-            Common::Unknown if causes.iter().next().is_some() => {}
-            Common::Unknown => causes.insert(Cause::ComplexPair),
-        }
-    }
-    let is_end = |end: &Option<Rational>| end.is_some() && *end == value.exact();
-    if is_end(&range.lower) || is_end(&range.upper) {
-        causes.insert(Cause::Domain);
-    }
-    if is_between && causes.iter().next().is_none() {
-        return Ok(None);
-    }
-    Ok(Some(End::new(value.clone(), causes, pair)))
 }

@@ -213,3 +213,15 @@ fn the_value_without_dead_time_belongs_to_the_answer_where_the_domain_goes_beyon
 fn lines_of(answer: &crate::answer::Answer<crate::stability::StableSet>) -> Vec<String> {
     crate::show::intervals::stable_lines("tau", answer.value(), 4)
 }
+
+/// In higher powers the parameter is solved for another way, which knew of the root at zero only.
+#[test]
+fn the_highest_power_that_vanishes_where_a_root_is_at_zero_is_named_too() {
+    for power in ["p", "p^2"] {
+        let text = format!(
+            "time = 'continuous'\n[parameters]\np = {{ nominal = 0.1, min = -1, max = 1 }}\n[loop]\n\
+             characteristic = '{power}*s^2 + s + p*exp(-s)'\n"
+        );
+        assert_eq!(of(&load(&text), "p", 6), ["0 s=0+infinity .. 1 domain"], "{power}");
+    }
+}

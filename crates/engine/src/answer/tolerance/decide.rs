@@ -16,6 +16,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::real::Real;
 use std::sync::Arc;
 
 /// The part of the time that may be spent on the exact end of the worst line.
@@ -270,7 +271,8 @@ impl Problem {
                 .is_none_or(|end| range.lower.as_ref().is_some_and(|low| end.value.exact().as_ref() == Some(low)))
         });
         let end = first.and_then(|i| i.upper.clone()).filter(|end| end.causes.is_limit());
-        let zeros = set.value().cells().map(|cells| cells.zeros.clone()).unwrap_or_default();
+        let cells = set.value().cells().filter(|_| set.value().is_algebraic());
+        let zeros = cells.iter().flat_map(|cells| &cells.zeros).filter_map(Real::algebraic).cloned().collect();
         Ok(end.map(|end| (WorstEnd { problem, end }, zeros)))
     }
 }

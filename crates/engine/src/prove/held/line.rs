@@ -2,13 +2,14 @@
 
 use super::{Loop, coefficients, terms};
 use crate::error::Error;
+use crate::prove::line::{between, middle};
 use crate::prove::no_certificate;
 use crate::prove::over_symbols::Enclosed;
 use crate::prove::statement::{number, object};
 use crate::stability::Range;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, simplest_between};
+use jurist_algebra::poly::{Domain, MultiPoly};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{SymbolicPoly, Symbols};
 use serde_json::Value;
@@ -243,30 +244,4 @@ fn bound(b: &Option<Rational>) -> Value {
 fn pair(zero: &Zero) -> Value {
     let (a, b) = zero.limits();
     Value::Array(vec![number(&a), number(&b)])
-}
-
-/// A simple number in an interval that may be unbounded or a single point.
-fn between(l: &Option<Rational>, r: &Option<Rational>) -> Rational {
-    match (l, r) {
-        (None, None) => Rational::ZERO,
-        (Some(l), None) => Rational::from(l.floor()) + Rational::ONE,
-        (None, Some(r)) => Rational::from(r.ceil()) - Rational::ONE,
-        (Some(l), Some(r)) => simplest_between(l, r).unwrap_or_else(|| l.clone()),
-    }
-}
-
-/// A simple number about the middle; further and further out of an end that is not there.
-fn middle(l: &Option<Rational>, r: &Option<Rational>) -> Rational {
-    let two = Rational::from(2);
-    let beyond =
-        |x: &Rational| if x.is_negative() { Rational::ONE } else { Rational::from((x * &two).ceil() + Integer::ONE) };
-    match (l, r) {
-        (None, None) => Rational::ZERO,
-        (Some(l), None) => beyond(l),
-        (None, Some(r)) => -beyond(&-r),
-        (Some(l), Some(r)) => {
-            let quarter = &(r - l) * &Rational::new(Integer::ONE, Integer::from(4));
-            simplest_between(&(l + &quarter), &(r - &quarter)).unwrap_or_else(|| l.midpoint(r))
-        }
-    }
 }
