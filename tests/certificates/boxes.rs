@@ -328,7 +328,7 @@ fn the_program_writes_and_verifies_certificates_of_boxes() {
     let file = folder.join("box.json").to_str().unwrap().to_owned();
     let drive = path("examples/drive.toml").to_str().unwrap().to_owned();
     let run = jurist(&["tolerance", &drive, "--tol", "R_a,L_a,J=20%", "--digits", "3", "--certificate", &file]);
-    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+    assert_eq!((run.status, run.stderr), (0, format!("wrote {file}\n")));
     let proved = jurist(&["verify", &drive, &file, "--timeout", "inf"]);
     assert_eq!(proved.status, 0, "{}", proved.stderr);
     assert!(proved.stdout.contains("the loop is stable; these are the tolerances times"), "{}", proved.stdout);

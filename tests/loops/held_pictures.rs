@@ -52,7 +52,7 @@ fn the_table_behind_a_hold_holds_up_to_the_certified_limit() {
         assert_eq!(failing == 0, holds);
     }
     let refused = jurist(&["jury", "examples/dc-servo.toml", "--param", "T"]);
-    assert!(refused.stderr.contains("jury in a parameter"), "{}", refused.stderr);
+    assert!(refused.stderr.contains("jury at a point"), "{}", refused.stderr);
 }
 
 /// The conditions together hold where the loop is stable, end by end; inside of each condition's solution it holds at a point too.

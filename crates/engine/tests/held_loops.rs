@@ -196,7 +196,7 @@ fn zeros_that_nothing_tells_apart_leave_a_bracket_and_no_lost_answer() {
     let end = first.upper.as_ref().unwrap();
     assert_eq!((end.causes.to_string().as_str(), end.value.exact()), ("undecided", Some(lower)));
     assert!(!end.causes.is_limit() && end.pair.is_none());
-    assert!(periods.text(8).contains("undecided beyond: no limit"), "{}", periods.text(8));
+    assert!(periods.text(8).contains("no limit: what lies beyond is undecided"), "{}", periods.text(8));
     let document = serde_json::to_value(periods.json(12)).unwrap();
     let upper = &document["stable"][0]["upper"];
     assert_eq!((&upper["cause"], &upper["margin_factor"]), (&"undecided".into(), &serde_json::Value::Null));

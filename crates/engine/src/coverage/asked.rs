@@ -166,9 +166,8 @@ impl Asked {
     /// use jurist_engine::coverage::Asked;
     /// use jurist_engine::model::Time;
     /// use jurist_engine::response::Requirement;
-    /// let damping = Requirement::damping("1/2".parse()?).unwrap();
+    /// let damping = Requirement::damping("1/2".parse().unwrap()).unwrap();
     /// assert_eq!(Asked::Map.with_requirement(&damping, Time::Discrete), Asked::MapWithDampingDiscrete);
-    /// # Ok::<(), String>(())
     /// ```
     pub fn with_requirement(self, requirement: &Requirement, time: Time) -> Asked {
         let of = |[margins, damping, discrete, delay]: [Asked; 4]| match requirement.rule() {
