@@ -71,7 +71,7 @@ pub struct MapQuestion {
     pub region: RegionBound,
     /// How the question is decided, where that was asked for with `--explain`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub plan: Option<Plan>,
+    pub plan: Option<Box<Plan>>,
 }
 
 /// The exact decomposition: curves, strips between critical values of x, cells between branches of the curves.

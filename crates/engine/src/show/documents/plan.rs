@@ -39,14 +39,14 @@ pub struct PlannedMethod {
 
 impl Plan {
     /// The plan of a problem that was asked for one.
-    pub(super) fn of(problem: &Problem) -> Option<Plan> {
+    pub(super) fn of(problem: &Problem) -> Option<Box<Plan>> {
         let plan = problem.explained()?;
         let method = plan.coverage.method().map(|method| PlannedMethod {
             name: method.name.to_owned(),
             how: method.how.to_owned(),
             place: method.place.to_owned(),
         });
-        Some(Plan {
+        Some(Box::new(Plan {
             question: plan.asked.row().command.to_owned(),
             ring: plan.ring.name().to_owned(),
             symbols: plan.symbols.iter().cloned().collect(),
@@ -54,6 +54,6 @@ impl Plan {
             outcome: plan.coverage.name().to_owned(),
             method,
             presupposed: plan.presupposed.clone(),
-        })
+        }))
     }
 }

@@ -49,7 +49,7 @@ pub struct ParameterQuestion {
     pub region: RegionBound,
     /// How the question is decided, where that was asked for with `--explain`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub plan: Option<Plan>,
+    pub plan: Option<Box<Plan>>,
 }
 
 impl ParameterQuestion {
@@ -84,7 +84,7 @@ pub struct PointQuestion {
     pub region: RegionBound,
     /// How the question is decided, where that was asked for with `--explain`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub plan: Option<Plan>,
+    pub plan: Option<Box<Plan>>,
 }
 
 impl PointQuestion {

@@ -34,7 +34,7 @@ pub struct Tolerance {
     pub region: RegionBound,
     /// How the question is decided, where that was asked for with `--explain`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub plan: Option<Plan>,
+    pub plan: Option<Box<Plan>>,
     /// What is known.
     #[serde(flatten)]
     pub answer: Answered<ToleranceFound, ToleranceOpen>,
