@@ -377,25 +377,23 @@ fn without_root_at_one(p: &[Ball]) -> Vec<Ball> {
 
 /// For each power of `K` up to the degree, the weights of the values at `K = 0, 1, ..` of which its coefficient is the sum.
 fn interpolation(degree: usize) -> Vec<Vec<Rational>> {
-    let mut out = vec![vec![Rational::ZERO; degree + 1]; degree + 1];
-    for node in 0..=degree {
-        // The product of (K - m)/(node - m) over the other nodes m.
-        let mut basis = vec![Rational::ONE];
-        for m in (0..=degree).filter(|&m| m != node) {
-            let scale = Rational::from(node as i64 - m as i64).recip().expect("another node");
-            let mut next = vec![Rational::ZERO; basis.len() + 1];
-            for (i, c) in basis.iter().enumerate() {
-                let c = c * &scale;
-                next[i] = &next[i] - &(&c * &Rational::from(m as i64));
-                next[i + 1] = &next[i + 1] + &c;
-            }
-            basis = next;
+    let bases: Vec<Vec<Rational>> = (0..=degree).map(|node| lagrange(node, degree)).collect();
+    (0..=degree).map(|power| bases.iter().map(|basis| basis[power].clone()).collect()).collect()
+}
+
+/// The product of `(K - m)/(node - m)` over the other whole numbers `m` up to the degree.
+fn lagrange(node: usize, degree: usize) -> Vec<Rational> {
+    let number = |m: usize| Rational::from(m as i64);
+    (0..=degree).filter(|&m| m != node).fold(vec![Rational::ONE], |basis, m| {
+        let scale = (number(node) - number(m)).recip().expect("another node");
+        let mut product = vec![Rational::ZERO; basis.len() + 1];
+        for (i, c) in basis.iter().enumerate() {
+            let c = c * &scale;
+            product[i] = &product[i] - &(&c * &number(m));
+            product[i + 1] = &product[i + 1] + &c;
         }
-        for (power, c) in basis.into_iter().enumerate() {
-            out[power][node] = c;
-        }
-    }
-    out
+        product
+    })
 }
 
 #[cfg(test)]
