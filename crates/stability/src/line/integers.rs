@@ -20,7 +20,7 @@ use jurist_algebra::real::Real;
 /// [Collins1975](jurist_algebra::bibliography#collins1975).
 ///
 /// Cost: that of [`boundary_polynomials`], one resultant; isolation of the real zeros of each, of degree up to
-/// `(n - 1) d` for order `n` and coefficients of degree `d`; one [`count_roots`](super::count_roots) in each cell
+/// `(n - 1) d` for order `n` and coefficients of degree `d`; one [`count_roots`](crate::count_roots) in each cell
 /// between them, `O(n^2)` operations on integers; and at each end of a stable interval the signs of all boundary
 /// polynomials.
 ///
