@@ -2,7 +2,7 @@
 
 use super::arguments::RunOptions;
 use super::commands::Context;
-use super::output::note;
+use super::output::{note, write_answer};
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_check::{Limits, check};
 use jurist_engine::error::{Code, Diagnostic, Error};
@@ -38,6 +38,20 @@ pub(super) fn check_certificate(context: &Context, options: &RunOptions, model: 
         Ok(_) => {}
         Err(rejection) => unchecked(&rejection.to_string()),
     }
+}
+
+/// Makes a certificate, where a file for it is asked for, writes and checks it. The answer is out before, however long that takes.
+pub(super) fn certify(
+    context: &Context,
+    options: &RunOptions,
+    model: &str,
+    file: &Option<OsString>,
+    make: impl FnOnce() -> Result<String, Error>,
+) -> Result<(), Error> {
+    let Some((text, file)) = certified(file, make)? else { return Ok(()) };
+    write_answer(&text, Some(file))?;
+    check_certificate(context, options, model, &text, file);
+    Ok(())
 }
 
 /// What a certificate is made of and the file for it, where one is asked for; why there is none is to be said after the answer.

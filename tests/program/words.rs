@@ -45,7 +45,7 @@ fn commands_say_what_they_wrote() {
         (&["verdict", "-o", &json][..], format!("wrote {json}\n")),
         (
             &["intervals", "--param", "K_pwm", "-o", &json, "--certificate", &proof],
-            format!("wrote {proof} and {json}\n"),
+            format!("wrote {json} and {proof}\n"),
         ),
         (&["bode", "examples/dc-servo.toml", "-o", &svg], format!("wrote {svg}\n")),
         (&["charpoly", "--format", "matlab", "-o", &json, "-q"], String::new()),

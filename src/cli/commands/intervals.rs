@@ -101,13 +101,6 @@ fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, problem.warnings());
-    let certificate = certified(&options.certificate, || certify_intervals(&answer, &context.budget));
-    if let Ok(Some((certified, file))) = &certificate {
-        write_answer(&certified.text, Some(file))?;
-        if let Some(window) = certified.window.as_ref().filter(|_| !context.quiet) {
-            note(&format!("note: the certificate {}", share(&name, window, &certified.proved)));
-        }
-    }
     if let Some(file) = options.smt2.as_ref().filter(|_| WRITES) {
         write_answer(&answer.smt2(&context.budget)?, Some(file))?;
     }
@@ -121,7 +114,12 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let text = || table.iter().fold(answer.text(digits), |text, table| text + &table.text(digits));
     let document = || table.iter().fold(answer.json(digits), |document, t| document.with_sensitivities(t, digits));
     context.answer(output, text, document)?;
-    if let Some((certified, file)) = &certificate? {
+    // The answer is out, however long the certificate takes.
+    if let Some((certified, file)) = &certified(&options.certificate, || certify_intervals(&answer, &context.budget))? {
+        write_answer(&certified.text, Some(file))?;
+        if let Some(window) = certified.window.as_ref().filter(|_| !context.quiet) {
+            note(&format!("note: the certificate {}", share(&name, window, &certified.proved)));
+        }
         check_certificate(context, &output.run, &model.source().text, &certified.text, file);
     }
     Ok(Status::Holds)

@@ -12,7 +12,7 @@ use crate::cli::output::{ending, note, unknown_ending, write_answer};
 use crate::cli::picture::{WRITES, pdf, png, write};
 use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Error, Outcome, Status};
-use crate::cli::written::{certified, check_certificate};
+use crate::cli::written::{certified, certify, check_certificate};
 use clap::Args;
 use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
 use jurist_draw::page::map_page;
@@ -187,10 +187,6 @@ fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, problem.warnings());
-    let certificate = certified(&options.certificate, || answer.certificate(&context.budget));
-    if let Ok(Some((text, file))) = &certificate {
-        write_answer(text, Some(file))?;
-    }
     if let Err(stopped) = &answer.value().limits {
         note(&format!("the regions are decided, what limits them is not: {stopped}"));
     }
@@ -201,9 +197,8 @@ fn run(options: &Options, context: &Context) -> Outcome {
         }
         _ => context.answer(&options.output, || answer.text(digits), || answer.json(digits))?,
     }
-    if let Some((text, file)) = &certificate? {
-        check_certificate(context, &options.output.run, &model.source().text, text, file);
-    }
+    let (run, text) = (&options.output.run, &model.source().text);
+    certify(context, run, text, &options.certificate, || answer.certificate(&context.budget))?;
     Ok(Status::Holds)
 }
 

@@ -6,11 +6,11 @@ use crate::cli::assignments::in_line;
 use crate::cli::command_line::Place;
 use crate::cli::destinations::Files;
 use crate::cli::input::{known_name, known_names, load, question};
-use crate::cli::output::{ending, write_answer, write_beginning};
+use crate::cli::output::{ending, write_beginning};
 use crate::cli::picture::{Kind, Picture, WRITES, deliver};
 use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Error, Outcome, Status};
-use crate::cli::written::{certified, check_certificate};
+use crate::cli::written::certify;
 use clap::Args;
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, to_decimal};
@@ -115,14 +115,9 @@ fn run(options: &Options, context: &Context) -> Outcome {
         .iter()
         .fold(Asked::Tolerance, |question, r| question.with_requirement(r, answer.problem().time()));
     context.explain(&options.decision.explain, output, answer.problem(), question)?;
-    let certificate = certified(&options.certificate, || answer.certificate(&context.budget));
-    if let Ok(Some((text, file))) = &certificate {
-        write_answer(text, Some(file))?;
-    }
     let status = shown(&answer, picture, &begun, options, context)?;
-    if let Some((text, file)) = &certificate? {
-        check_certificate(context, &output.run, &answer.problem().model().source().text, text, file);
-    }
+    let model = &answer.problem().model().source().text;
+    certify(context, &output.run, model, &options.certificate, || answer.certificate(&context.budget))?;
     Ok(status)
 }
 

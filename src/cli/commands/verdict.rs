@@ -8,7 +8,7 @@ use crate::cli::output::write_answer;
 use crate::cli::picture::WRITES;
 use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Error, Outcome, Status};
-use crate::cli::written::{certified, check_certificate};
+use crate::cli::written::certify;
 use clap::Args;
 use jurist_engine::answer::Verdict;
 use jurist_engine::coverage::Asked;
@@ -69,10 +69,6 @@ fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, problem.warnings());
-    let certificate = certified(&options.certificate, || answer.certificate(&context.budget));
-    if let Ok(Some((text, file))) = &certificate {
-        write_answer(text, Some(file))?;
-    }
     if let Some(file) = options.coq.as_ref().filter(|_| WRITES) {
         write_answer(&answer.coq(&context.budget)?, Some(file))?;
     }
@@ -93,9 +89,8 @@ fn run(options: &Options, context: &Context) -> Outcome {
         documents::Verdict { requirements, ..answer.json() }
     };
     context.answer(output, text, document)?;
-    if let Some((text, file)) = &certificate? {
-        check_certificate(context, &output.run, &problem.model().source().text, text, file);
-    }
+    let model = &problem.model().source().text;
+    certify(context, &output.run, model, &options.certificate, || answer.certificate(&context.budget))?;
     let met = found.iter().all(|r| r.met);
     Ok(if met && answer.value().verdict == Verdict::Stable { Status::Holds } else { Status::DoesNotHold })
 }
