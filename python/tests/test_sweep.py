@@ -161,7 +161,7 @@ def test_the_program_sweeps_with_the_same_keys_and_columns_and_bytes(tmp_path):
         for ending in ("jsonl", "csv"):
             theirs = tmp_path / f"{ask}.{ending}"
             done = program("sweep", str(model), *words, "--over", over, "-o", str(theirs))
-            assert (done.returncode, done.stderr) == (0, "")
+            assert (done.returncode, done.stderr) == (0, f"wrote {theirs}\n")
             assert r.compact(tmp_path / f"ours.{ending}").read_bytes() == theirs.read_bytes()
     assert {row["status"] for row in r.rows} == {"decided"}
 

@@ -99,9 +99,17 @@ impl<'a> Context<'a> {
         problem: &Problem,
         asked: Asked,
     ) -> Result<(), Error> {
-        // What refuses or stops this does so with the question.
-        let Some(plan) = wanted.explain.then(|| problem.explain(asked, &self.budget).ok()).flatten() else {
+        if !wanted.explain {
             return Ok(());
+        }
+        // What refuses this does so with the question. An answer may need no characteristic polynomial: it is not lost for its explanation.
+        let plan = match problem.explain(asked, &self.budget.clone().within_work(WORK_OF_EXPLANATIONS)) {
+            Ok(plan) => plan,
+            Err(Error::Stopped(_)) => {
+                self.explained.lock().unwrap_or_else(PoisonError::into_inner).push_str(LONG_POLYNOMIAL);
+                return Ok(());
+            }
+            Err(_) => return Ok(()),
         };
         let text = plan_text(problem);
         match plan.coverage.method() {
@@ -183,6 +191,16 @@ pub(super) fn decided<T>(result: Result<T, Error>) -> Result<Result<T, Exhausted
         Err(failure) => failure.stopped().map(Err),
     }
 }
+
+/// Work that the explanation of a question may be.
+const WORK_OF_EXPLANATIONS: u64 = 100_000_000;
+
+/// The explanation of a loop whose characteristic polynomial over all constants is long.
+const LONG_POLYNOMIAL: &str = "
+how it is decided
+    The characteristic polynomial over all constants is too long to be shown. Roots at a point are counted from enclosures of the loop's matrix,
+    and limits in a gain are found from enclosures of the polynomial's coefficients, where these decide; else exact algebra is asked.
+";
 
 /// A command: what its options make it do.
 pub(super) trait Runs {

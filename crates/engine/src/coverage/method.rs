@@ -119,6 +119,11 @@ pub(super) static DIFFERENCES: Method = Method::new(
     "Each limit is a zero of a boundary polynomial; its derivative by another name is a quotient of partial derivatives there.",
     "answer::Sensitivities",
 );
+pub(super) static PEAKS: Method = Method::new(
+    "greatest modulus on the boundary",
+    "The square of the modulus is a rational function of the half-size variable; the zeros of its derivative are isolated exactly or with enclosed constants, and the greatest of its values is taken.",
+    "response::Norm",
+);
 pub(super) static FREQUENCIES: Method = Method::new(
     "crossings of the open loop",
     "Frequencies at which the open loop has modulus one, is real, or is nearest to -1 are real zeros of polynomials in the half-size variable, isolated exactly or with enclosed constants.",

@@ -72,7 +72,7 @@ static ROWS: &[Row] = &[
     Row::new(Asked::Analyze, "analyze", [A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), BESIDE, A(&SEVERAL)]).called("analyze"),
     Row::new(Asked::Charpoly, "charpoly", [A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), NO_ORDER]).called("charpoly"),
     at_a_point(Asked::Margins, "margins", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]).called("margins"),
-    at_a_point(Asked::Norm, "norm", [A(&FREQUENCIES), A(&FREQUENCIES), P(&FREQUENCIES, &FEEDBACK), BESIDE]).called("norm"),
+    at_a_point(Asked::Norm, "norm", [A(&PEAKS), A(&PEAKS), P(&PEAKS, &FEEDBACK), BESIDE]).called("norm"),
     at_a_point(Asked::Bode, "bode", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]).called("bode"),
     at_a_point(Asked::Nyquist, "nyquist", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]).called("nyquist"),
     at_a_point(Asked::Simulate, "simulate", [A(&FLOATING), A(&FLOATING), A(&FLOATING), BESIDE]).called("simulate"),
