@@ -12,7 +12,7 @@ pub enum Definition {
     Pi,
     /// A real algebraic number.
     Algebraic(RealAlgebraic),
-    /// A real number of which nothing but enclosures is known, so that no identity shows that something made of it is zero.
+    /// A real number that is known by enclosures alone: no identity shows that an expression with it is zero.
     Enclosed(EnclosedNumber),
     /// The square root that is not negative.
     Root(RationalFunction),

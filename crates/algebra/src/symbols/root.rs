@@ -27,7 +27,7 @@ pub trait EnclosedPoly: fmt::Debug + Send + Sync {
     /// Where its roots come from.
     fn origin(&self) -> Origin;
 
-    /// False if coefficients are made of numbers of which only enclosures are known: then no rational number is seen to be a root.
+    /// False if a coefficient contains a number that is known by enclosures alone: then no identity shows that a rational number is a root.
     fn has_identities(&self) -> bool {
         true
     }
