@@ -31,7 +31,7 @@ pub(super) static COUNT: Method = Method::new(
 );
 pub(super) static ENCLOSED_COUNT: Method = Method::new(
     "root count with enclosed constants",
-    "The constants are enclosed with more bits until every sign of the remainder sequence is certain; zero is told by an identity in symbols alone.",
+    "The constants are enclosed with more bits until every sign of the remainder sequence is certain; only an identity in symbols proves a zero.",
     "stability::SymbolicPolynomial::at",
 );
 pub(super) static ARGUMENT: Method = Method::new(
@@ -51,7 +51,7 @@ pub(super) static ENCLOSED_ZEROS: Method = Method::new(
 );
 pub(super) static FUNCTION_ZEROS: Method = Method::new(
     "zeros of boundary functions",
-    "The boundary functions have functions of the parameter as coefficients. Taylor models enclose them on pieces of the domain, which are halved until each has no zero or one; what is not told stays as a bracket.",
+    "The boundary functions have functions of the parameter as coefficients. Taylor models enclose them on pieces of the domain. Each piece is halved until it has at most one zero; a piece that stays open is an undecided bracket.",
     "stability::symbolic_stable_set",
 );
 pub(super) static CROSSINGS: Method = Method::new(
@@ -101,7 +101,7 @@ pub(super) static TENSOR: Method = Method::new(
 );
 pub(super) static FUNCTION_TENSOR: Method = Method::new(
     "Bernstein tensor with Taylor models",
-    "As the Bernstein tensor; functions of the parameters are Taylor models in each part of the box, of which the tensor takes the polynomial and a bound of the rest.",
+    "As the Bernstein tensor. In each part of the box a Taylor model encloses each function of the parameters; the tensor takes its polynomial and a bound of its rest.",
     "stability::boxes::MovingPolynomial",
 );
 pub(super) static DELAYED_TENSOR: Method = Method::new(

@@ -2,7 +2,7 @@
 
 use crate::error::{Code, Diagnostic};
 
-/// How a question is refused. Words in braces stand for what is known only of a question, such as `{name}`.
+/// How a question is refused. A word in braces, such as `{name}`, stands for a text that the question supplies.
 ///
 /// ```
 /// use jurist_engine::coverage::{Asked, CoefficientRing};
