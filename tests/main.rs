@@ -49,6 +49,7 @@ mod loops {
     mod peaks;
     mod requirements;
     mod sensitivity;
+    mod square_roots;
 }
 
 /// Models with their expected answers in words, asked of every engine.

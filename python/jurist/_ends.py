@@ -29,6 +29,7 @@ class Cause(str, enum.Enum):
     S0 = "s=0"
     INFINITY = "infinity"
     POLE = "pole"
+    SQUARE_ROOT = "square root"
     NEUTRAL = "neutral"
     DOMAIN = "domain"
     UNDECIDED = "undecided"

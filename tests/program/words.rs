@@ -83,3 +83,10 @@ fn several_tolerances_stand_in_one_option() {
         );
     }
 }
+
+/// It has no roots to count: all numbers are.
+#[test]
+fn a_polynomial_that_is_zero_has_every_number_as_a_root() {
+    let run = jurist(&["verdict", "0*s"]);
+    assert!(run.stdout.contains("unstable: the characteristic polynomial is zero"), "{}", run.stdout);
+}

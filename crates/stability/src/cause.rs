@@ -25,6 +25,8 @@ pub enum Cause {
     /// The loop is undefined there: an expression divides by zero, a block loses its order, or the loop is
     /// not well posed.
     Pole,
+    /// The loop has no value beyond: the number under a square root is negative there. At the end itself it is zero.
+    SquareRoot,
     /// The parameter's domain ends there.
     Domain,
     /// Nothing is known beyond: the end of what was decided, not a limit.
@@ -42,6 +44,7 @@ impl Cause {
             Cause::DegreeLost => "infinity",
             Cause::Neutral => "neutral",
             Cause::Pole => "pole",
+            Cause::SquareRoot => "square root",
             Cause::Domain => "domain",
             Cause::Undecided => "undecided",
         }

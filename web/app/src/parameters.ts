@@ -50,7 +50,7 @@ export function track(parameter: Parameter, stable: Interval[], now: string): Sc
 
 /** A cause of the documents in words. */
 export function causes(text: string): string {
-  const words: Record<string, string> = { "z=1": "root at z = 1", "z=-1": "root at z = −1", "s=0": "root at s = 0", domain: "end of the domain", infinity: "degree lost", neutral: "difference operator not stable", pole: "loop undefined", undecided: "undecided beyond" };
+  const words: Record<string, string> = { "z=1": "root at z = 1", "z=-1": "root at z = −1", "s=0": "root at s = 0", domain: "end of the domain", infinity: "degree lost", neutral: "difference operator not stable", pole: "loop undefined", "square root": "loop undefined beyond", undecided: "undecided beyond" };
   return text.split("+").map((one) => words[one] ?? one).join(", ");
 }
 

@@ -41,7 +41,11 @@ impl Elementary for Series {
         self.coefficients()[0].clone()
     }
     fn square_root(&self) -> Option<Series> {
-        self.sqrt()
+        match self.coefficients() {
+            // At zero there is a value, but no series.
+            [value] if value.lower().is_zero() => Some(Series::constant(&value.sqrt()?, 1)),
+            _ => self.sqrt(),
+        }
     }
     fn exponential(&self) -> Series {
         self.exp()

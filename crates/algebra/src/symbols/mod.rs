@@ -33,7 +33,7 @@ mod zero_at_end;
 pub use definition::{Definition, EnclosedNumber};
 pub use function::{Function, common_scale};
 pub use horner::value_at_balls;
-pub use moving::{MovingSymbols, Zeros};
+pub use moving::{DefinedParts, MovingSymbols, SignUnderRoot, Zeros};
 pub use normal_form::is_identity;
 pub use root::EnclosedPoly;
 pub use roots::{SymbolicPoly, common_factor, enclosed_roots, merged};

@@ -13,7 +13,9 @@ use crate::limits::{Budget, Exhausted, parallel_map};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::algebraic::simplest_between;
 use crate::poly::real_roots::rational_roots;
-use crate::poly::{Domain, MultiPoly, RationalFunction, SquareFree, UniPoly};
+use crate::poly::{
+    Domain, MultiPoly, RationalFunction, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots, isolate_real_roots_in,
+};
 use crate::real::{Enclosing, Real, Transcendental};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -76,11 +78,30 @@ const MOST_OCTAVES: i64 = 12;
 /// How often the bits are doubled for one interval.
 const MOST_DOUBLINGS: usize = 4;
 
+/// A gap around the end of what is defined is shorter than the range by so many bits.
+const GAP_BITS: u64 = 64;
+
 /// Zeros that are fractions with fewer bits are recognised as such.
 const SHORT_BITS: u64 = 40;
 
 /// An interval this much shorter than the first one is given up.
 pub(super) const MOST_HALVINGS: i64 = 56;
+
+/// The parts of a range in which functions are defined.
+pub struct DefinedParts {
+    /// From a number to another.
+    pub parts: Vec<(Rational, Rational)>,
+    /// Where an end of a part is that is not rational.
+    pub gaps: Vec<(Rational, Rational)>,
+}
+
+/// Changes its sign where the argument of a square root does.
+pub struct SignUnderRoot {
+    /// Square-free and not constant.
+    pub function: UniPoly,
+    /// Whether it is of the argument's denominator: at its zeros nothing is defined. At those of the numerator the root is zero.
+    pub divides: bool,
+}
 
 impl MovingSymbols {
     /// The table of these names and definitions.
@@ -141,16 +162,82 @@ impl MovingSymbols {
     /// where one is negative nothing is defined. Arguments with other symbols in them are left out.
     ///
     /// Cost: a square-free decomposition for each.
-    pub fn signs_under_roots(&self) -> Vec<UniPoly> {
-        let arguments = self.table.iter().filter_map(|(_, definition)| match definition {
-            Definition::Root(x) => Some([x.numerator().to_univariate(0)?, x.denominator().to_univariate(0)?]),
-            _ => None,
-        });
-        let odd = |p: &UniPoly| {
+    pub fn signs_under_roots(&self) -> Vec<SignUnderRoot> {
+        let odd = |p: UniPoly| {
             let parts = p.square_free_decomposition().into_iter().filter(|(_, multiplicity)| multiplicity % 2 == 1);
             parts.fold(UniPoly::one(), |product, (part, _)| product.times(&part))
         };
-        arguments.flatten().map(|p| odd(&p)).filter(|p| !p.is_constant()).collect()
+        let of = |(n, d): (UniPoly, UniPoly)| {
+            [(n, false), (d, true)].map(|(p, divides)| SignUnderRoot { function: odd(p), divides })
+        };
+        self.arguments_of_roots().into_iter().flat_map(of).filter(|sign| !sign.function.is_constant()).collect()
+    }
+
+    /// The numerators and denominators of the arguments of square roots that are rational functions of the parameter.
+    fn arguments_of_roots(&self) -> Vec<(UniPoly, UniPoly)> {
+        (0..self.table.len()).filter_map(|symbol| self.under_root(symbol)).collect()
+    }
+
+    /// The numerator and the denominator of what a symbol is the square root of, where that is a rational function of the parameter.
+    pub fn under_root(&self, symbol: usize) -> Option<(UniPoly, UniPoly)> {
+        match &self.table[symbol].1 {
+            Definition::Root(x) => Some((x.numerator().to_univariate(0)?, x.denominator().to_univariate(0)?)),
+            _ => None,
+        }
+    }
+
+    /// The parts of a range in which no argument of a square root is negative, ascending, and what lies between them and other parts where
+    /// an end is not rational.
+    ///
+    /// Cost: the real roots of each argument.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn defined_parts(&self, from: &Rational, to: &Rational, budget: &Budget) -> Result<DefinedParts, Exhausted> {
+        let products: Vec<UniPoly> = self.arguments_of_roots().iter().map(|(n, d)| n.times(d)).collect();
+        let all = products.iter().fold(UniPoly::one(), |all, p| all.times(p));
+        let roots = match SquareFree::part_of(&all) {
+            Some(p) if p.degree() > 0 => isolate_real_roots_in(&p, Some(from), Some(to), budget)?,
+            _ => Vec::new(),
+        };
+        let width = (to - from) * Rational::dyadic(&Integer::ONE, GAP_BITS);
+        let gaps: Vec<(Rational, Rational)> = roots.iter().map(|root| root.refined(&width).enclosure()).collect();
+        let lowers = std::iter::once(from).chain(gaps.iter().map(|(_, hi)| hi));
+        let uppers = gaps.iter().map(|(lo, _)| lo).chain([to]);
+        let is_defined = |lo: &Rational, hi: &Rational| {
+            let middle = lo.midpoint(hi);
+            products.iter().all(|p| p.sign_at(&middle).is_ge())
+        };
+        let parts = lowers.zip(uppers).filter(|(lo, hi)| lo < hi && is_defined(lo, hi));
+        let parts = parts.map(|(lo, hi)| (lo.clone(), hi.clone())).collect();
+        Ok(DefinedParts { parts, gaps: gaps.into_iter().filter(|(lo, hi)| lo < hi).collect() })
+    }
+
+    /// Numbers below and above which an argument of a square root is negative, so that nothing is defined; `None` on a side where none
+    /// is. Each is next to a root of the argument.
+    ///
+    /// Cost: the real roots of each argument.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn defined_between(&self, budget: &Budget) -> Result<(Option<Rational>, Option<Rational>), Exhausted> {
+        let (mut lower, mut upper): (Option<Rational>, Option<Rational>) = (None, None);
+        for (n, d) in self.arguments_of_roots() {
+            let product = n.times(&d);
+            let Some(square_free) = SquareFree::part_of(&product) else { continue };
+            let roots = isolate_real_roots(&square_free, budget)?;
+            let is_negative_above = product.leading().is_some_and(Integer::is_negative);
+            let is_odd = product.degree().is_some_and(|degree| degree % 2 == 1);
+            if is_negative_above {
+                let end = roots.last().map_or(Rational::ZERO, RealAlgebraic::rational_above);
+                upper = Some(upper.map_or(end.clone(), |known| known.min(end)));
+            }
+            if is_negative_above != is_odd {
+                let end = roots.first().map_or(Rational::ZERO, RealAlgebraic::rational_below);
+                lower = Some(lower.map_or(end.clone(), |known| known.max(end)));
+            }
+        }
+        Ok((lower, upper))
     }
 
     /// The rational numbers at which an argument that is a rational function of the parameter alone divides by zero, ascending.
@@ -287,6 +374,11 @@ impl MovingSymbols {
                 }
             }
         }
+        // At the end of what is defined a square root has no series, but values next to its zero.
+        let may_vanish = |(lo, hi): &(Rational, Rational)| {
+            self.value(&scheme, &Ball::between(lo, hi, FIRST_BITS)).is_none_or(|value| value.contains_zero())
+        };
+        budget.enter(|| found.undecided.retain(may_vanish))?;
         brackets.sort();
         found.undecided.sort();
         found.undecided = joined(found.undecided);

@@ -231,6 +231,8 @@ fn end_cells(end: &End, decimal: String, problem: &Problem, digits: usize) -> Ve
     let mut cause = if at.is_empty() { causes } else { format!("{causes} at {}", at.join(", ")) };
     if end.causes.contains(Cause::Pole) {
         cause.push_str(": the model is undefined here");
+    } else if end.causes.contains(Cause::SquareRoot) {
+        cause.push_str(": the number under it is negative beyond");
     }
     let nominal = problem.parameter().nominal.as_ref();
     // A gain margin of a time means nothing in decibels.

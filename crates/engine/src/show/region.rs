@@ -63,7 +63,10 @@ fn named_at(causes: &Causes, time: Time, edge: &str) -> String {
         (Cause::RootAtZero, _) => format!("s={edge}"),
         (Cause::ComplexPair, Time::Discrete) => format!("{cause} on |z|={edge}"),
         (Cause::ComplexPair, Time::Continuous) => format!("{cause} on Re s={edge}"),
-        (Cause::DegreeLost | Cause::Neutral | Cause::Pole | Cause::Domain | Cause::Undecided, _) => cause.to_string(),
+        (
+            Cause::DegreeLost | Cause::Neutral | Cause::Pole | Cause::SquareRoot | Cause::Domain | Cause::Undecided,
+            _,
+        ) => cause.to_string(),
     };
     causes.iter().map(name).collect::<Vec<_>>().join("+")
 }

@@ -53,6 +53,9 @@ pub fn verdict_line(problem: &Problem, answer: &PointVerdict) -> String {
             n => format!("{name}: all {n} roots are {inner} {boundary}"),
         };
     }
+    if degree == 0 && count.total() == 0 {
+        return format!("{name}: the characteristic polynomial is zero, so that every number is a root");
+    }
     let mut line = format!(
         "{name}: {} {} {inner} {boundary}, {} on it, {} {outer}",
         count.inside,

@@ -9,7 +9,7 @@ use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::multivariate::is_square_free_in;
 use jurist_algebra::poly::{Domain, MultiPoly, SquareFree, UniPoly, isolate_real_roots_in};
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::{Function, MovingSymbols, common_factor, merged};
+use jurist_algebra::symbols::{DefinedParts, Function, MovingSymbols, common_factor, merged};
 use std::cmp::Ordering;
 use std::sync::Arc;
 
@@ -208,9 +208,14 @@ fn zeros_of(
     usual: &Rational,
     budget: &Budget,
 ) -> Result<Zeros, Exhausted> {
-    let found = symbols.zeros_in(part, &reach.from, &reach.to, usual, budget)?;
-    let mut zeros = found.zeros;
-    let mut undecided: Vec<Bracket> = found.undecided.into_iter().map(|(lo, hi)| (Some(lo), Some(hi))).collect();
+    let DefinedParts { parts, gaps } = symbols.defined_parts(&reach.from, &reach.to, budget)?;
+    let (mut zeros, mut open) = (Vec::new(), gaps);
+    for (from, to) in &parts {
+        let found = symbols.zeros_in(part, from, to, usual, budget)?;
+        zeros.extend(found.zeros);
+        open.extend(found.undecided);
+    }
+    let mut undecided: Vec<Bracket> = open.into_iter().map(|(lo, hi)| (Some(lo), Some(hi))).collect();
     if let Some(inverted) = &reach.inverted {
         let one_over = reach.to.recip().expect("a positive number");
         let beyond = inverted.zeros_in(&part.inverted(), &Rational::ZERO, &one_over, &one_over, budget)?;
@@ -276,8 +281,9 @@ pub(super) fn split(
             };
             let algebraic = common_factor(&square_free);
             let divisor = MultiPoly::from_univariate(&algebraic, 0);
-            let rest = without_exponentials(square_free.div_exact(&divisor).expect("a common factor divides"), symbols);
-            (cause, function, algebraic, Some(rest))
+            let rest = square_free.div_exact(&divisor).expect("a common factor divides");
+            let (rest, under_roots) = without_roots(without_exponentials(rest, symbols), symbols);
+            (cause, function, algebraic.times(&under_roots), Some(rest))
         })?);
     }
     let rests = split.iter().filter_map(|(_, _, _, rest)| rest.clone());
@@ -318,6 +324,20 @@ fn without_exponentials(p: MultiPoly, symbols: &MovingSymbols) -> MultiPoly {
     let kept = (0..content.exponents().len()).filter(|&i| i == 0 || !symbols.is_exponential(i - 1));
     let monomial = kept.fold(content.clone(), |m, i| m.with_exponent(i, 0));
     p.div_exact_monomial(&monomial).expect("the content divides")
+}
+
+/// Without factors that are powers of square roots of functions of the parameter, and the product of these functions' numerators: the
+/// roots are zero where it is.
+fn without_roots(p: MultiPoly, symbols: &MovingSymbols) -> (MultiPoly, UniPoly) {
+    let content = p.monomial_content();
+    let (mut monomial, mut under) = (content.clone(), UniPoly::one());
+    for i in 0..content.exponents().len() {
+        match i.checked_sub(1).and_then(|symbol| symbols.under_root(symbol)) {
+            Some((numerator, _)) if content.exponent(i) > 0 => under = under.times(&numerator),
+            _ => monomial = monomial.with_exponent(i, 0),
+        }
+    }
+    (p.div_exact_monomial(&monomial).expect("the content divides"), under)
 }
 
 /// Brackets in ascending order, those that overlap as one.

@@ -49,7 +49,7 @@ impl<'a> Counter<'a> {
     pub fn new(polynomial: &'a SymbolicPolynomial, symbols: &'a MovingSymbols, region: Shape) -> Self {
         let mut functions = polynomial.polynomial.coeffs().to_vec();
         functions.extend(polynomial.poles.iter().cloned());
-        functions.extend(symbols.signs_under_roots().iter().map(|p| MultiPoly::from_univariate(p, 0)));
+        functions.extend(symbols.signs_under_roots().iter().map(|sign| MultiPoly::from_univariate(&sign.function, 0)));
         Counter { polynomial, symbols, region, functions }
     }
 

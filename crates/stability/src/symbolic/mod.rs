@@ -254,7 +254,8 @@ impl SymbolicPolynomial {
         found.extend(self.poles.iter().map(|q| (Cause::Pole, q.clone().into())));
         if let Table::Moving(symbols) = &self.symbols {
             let signs = symbols.signs_under_roots();
-            found.extend(signs.iter().map(|p| (Cause::Pole, MultiPoly::from_univariate(p, 0).into())));
+            let cause = |divides| if divides { Cause::Pole } else { Cause::SquareRoot };
+            found.extend(signs.iter().map(|s| (cause(s.divides), MultiPoly::from_univariate(&s.function, 0).into())));
         }
         if n > 1 {
             let pair = pair::Pair::of(&self.pair(region));

@@ -35,8 +35,11 @@ pub(super) fn moving_stable_set(
     };
     let counter = Counter::new(p, symbols, region);
     let usual = if p.usual.is_zero() { counter.scale(range) } else { p.usual.clone() };
+    let Some(defined) = defined_part(symbols, range, budget)? else {
+        return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
+    };
     // What lies beyond a number at which functions are undefined is another question.
-    let (part, beyond) = connected(symbols, range, &p.usual);
+    let (part, beyond) = connected(symbols, &defined, &p.usual);
     let reach = reach(p, symbols, &conditions, &part, region, &usual, budget)?;
     let (boundaries, basis) = split(conditions, symbols, budget)?;
     let (boundaries, basis) = (&boundaries[..], &basis[..]);
@@ -69,6 +72,14 @@ pub(super) fn moving_stable_set(
     let values = zeros.iter().map(|z| z.value.clone()).collect();
     let reach = Range::between(reach.lower, reach.upper);
     Line { reach, brackets, beyond, ..Line::new(range, values, &ring, budget) }.stable_set()
+}
+
+/// The part of a range outside of which a square root of a negative number is in the loop, where the range itself has no end; `None`
+/// where that is so in all of it.
+fn defined_part(symbols: &MovingSymbols, range: &Range, budget: &Budget) -> Result<Option<Range>, Exhausted> {
+    let (lower, upper) = symbols.defined_between(budget)?;
+    let part = Range::between(range.lower.clone().or(lower), range.upper.clone().or(upper));
+    Ok((!part.is_empty()).then_some(part))
 }
 
 /// The part of a range between numbers at which an argument of a function divides by zero, where the range itself has no end, and

@@ -68,6 +68,7 @@ impl Looked<'_> {
     fn goes_on(&self, found: &mut Found, multiple: i64) -> Result<bool, Exhausted> {
         let far = self.usual.abs() * Rational::from(multiple);
         let (from, to) = (found.reach.from.clone(), found.reach.to.clone());
+        let before = (from.clone(), to.clone());
         let below = (found.reach.is_open_below() && -&far < from).then(|| (-&far, from));
         let above = (found.reach.is_open_above() && to < far).then(|| (to, far.clone()));
         let parts = [below, above];
@@ -94,6 +95,15 @@ impl Looked<'_> {
         zeros.extend(after);
         brackets.append(&mut found.undecided);
         brackets.extend(more);
+        // One that goes on without an end may begin inside of what was looked at.
+        for (lo, hi) in &mut brackets {
+            if lo.is_none() && hi.as_ref().is_none_or(|x| *x > before.0) {
+                *lo = Some(before.0.clone());
+            }
+            if hi.is_none() && lo.as_ref().is_none_or(|x| *x < before.1) {
+                *hi = Some(before.1.clone());
+            }
+        }
         brackets.retain(|(lo, hi)| lo.is_some() && hi.is_some());
         if parts[0].is_some() {
             found.reach.widen_below(-&far);

@@ -132,6 +132,8 @@ pub(super) fn mechanism(limit: &MapLimit, problem: &Problem) -> String {
     let mut causes = causes_text(&limit.limit.causes, problem);
     if limit.limit.causes.contains(Cause::Pole) {
         causes.push_str(" (undefined there)");
+    } else if limit.limit.causes.contains(Cause::SquareRoot) {
+        causes.push_str(" (undefined beyond)");
     }
     let Some(frequency) = &limit.frequency else { return causes };
     let decimal = |e: &Enclosure| enclosed_decimal(e.lower(), e.upper(), FREQUENCY_DIGITS);
