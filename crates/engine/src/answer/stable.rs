@@ -30,8 +30,13 @@ impl Question {
     }
 }
 
-/// Work that exact polynomials over the constants of a held loop may be before enclosures of coefficients are asked: about a second.
-const WORK_BEFORE_ENCLOSURES: u64 = 100_000_000;
+/// Work that exact polynomials over the constants of a held loop may be before enclosures of coefficients are asked: less than a second.
+const WORK_BEFORE_ENCLOSURES: u64 = 30_000_000;
+
+/// Whether expressions became longer than there was work or memory for.
+fn is_too_long(stop: &Stop) -> bool {
+    matches!(stop, Stop::Work(_) | Stop::Memory(_))
+}
 
 /// Work of the set by enclosures, before exact polynomials are asked again.
 const WORK_BY_ENCLOSURES: u64 = 2_000_000_000;
@@ -53,8 +58,8 @@ impl Problem {
             }
             let first = budget.clone().within_work(WORK_BEFORE_ENCLOSURES);
             match self.stable_set_by_algebra(&first) {
-                // Only the share of this attempt is used up.
-                Err(Error::Stopped(stopped)) if matches!(stopped.stop, Stop::Work(_)) && budget.check().is_ok() => {}
+                // Only the share of this attempt is used up, and the memory that it took is free again.
+                Err(Error::Stopped(stopped)) if is_too_long(&stopped.stop) && budget.check().is_ok() => {}
                 answer => return answer,
             }
             if let Some(set) = self.stable_set_by_enclosures(budget)? {
@@ -75,7 +80,7 @@ impl Problem {
         match stable_set_of_parts(&parts, &self.parameter().domain, self.shape(), &share) {
             Ok(set) => Ok(Some(set)),
             Err(stopped) if stopped.stop.is_precision() => Ok(None),
-            Err(stopped) if matches!(stopped.stop, Stop::Work(_)) && budget.check().is_ok() => Ok(None),
+            Err(stopped) if is_too_long(&stopped.stop) && budget.check().is_ok() => Ok(None),
             Err(stopped) => Err(stopped.into()),
         }
     }

@@ -48,7 +48,8 @@ pub(in crate::model) fn held(
     let (samples, fraction) = samples(&delay, &time, hold, block, &mut symbols)?;
     let zeros = if hold.is_first_order { 2 } else { 1 };
     // Where only numbers are asked for the exponential stays whole, and nobody asks for modes.
-    let modes = if symbols.keeps_flows() { None } else { Some(Modes::of(&s.a, zeros, budget)?) };
+    let flows_stay_whole = symbols.keeps_flows();
+    let modes = if flows_stay_whole { None } else { Some(Modes::of(&s.a, zeros, budget)?) };
     let mut respond =
         |share: &RationalFunction| response(&s, modes.as_ref(), &(&time * share), hold, &time, &mut symbols, budget);
     let one = RationalFunction::one();
@@ -58,6 +59,10 @@ pub(in crate::model) fn held(
     let (phi, early, now, late) = if fraction.is_zero() {
         let r = respond(&one)?;
         (r.state, none(), &r.input - &r.slope, r.slope)
+    } else if flows_stay_whole && !hold.is_first_order {
+        // The same without products of exponentials: over the whole step as with u[k-m-1], and its difference to u[k-m] at the end.
+        let (whole, second) = (respond(&one)?, respond(&(&one - &fraction))?);
+        (whole.state, &whole.input - &second.input, second.input, none())
     } else {
         let (first, second) = (respond(&fraction)?, respond(&(&one - &fraction))?);
         let share = |m: &RationalMatrix, c: &RationalFunction| m.scaled(c);
@@ -87,7 +92,7 @@ pub(in crate::model) fn held(
         inputs,
     };
     let System { a, b, c, d } = parts.system();
-    if !symbols.keeps_flows() {
+    if !flows_stay_whole {
         return Ok(System { a, b, c, d });
     }
     let mut short = |m: &RationalMatrix| symbols.shortened(m);

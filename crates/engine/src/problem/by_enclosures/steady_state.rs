@@ -4,13 +4,16 @@
 //! the rows of `M` that belong to inputs are zero. As `exp(M) - I = f(M) M` with `f(M) = I + M/2 + ..`, the matrix `I - A(K)` is one in
 //! which these rows are those of `-M v`, times a matrix with the determinant of `f` of the plants: no zero, unless a plant has a mode
 //! that turns by whole turns in a sample.
+//!
+//! With dead time of a fraction of a sample such a row has besides `exp(N) (u - w)`, where `w` is the state that is the input `u` before:
+//! these are multiples of the row of `w` in `I - A(K)`, and change no determinant.
 
 use crate::model::Symbols;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// `a + b K`.
 type Linear = [Rational; 2];
@@ -23,7 +26,9 @@ type Form = Vec<Linear>;
 /// Cost: a determinant of polynomials in `K`.
 pub(super) fn steady_state(constant: &RationalMatrix, linear: &RationalMatrix, symbols: &Symbols) -> Option<UniPoly> {
     let n = constant.rows();
-    let rows = (0..n).map(|i| Row::of(constant, linear, i, symbols)).collect::<Option<Vec<Row>>>()?;
+    let terms = (0..n).map(|i| Terms::of(constant, linear, i, symbols)).collect::<Option<Vec<Terms>>>()?;
+    let balances: Vec<Form> = terms.iter().enumerate().filter_map(|(i, terms)| terms.balance(i)).collect();
+    let rows = terms.into_iter().map(|terms| terms.without(&balances)).collect::<Option<Vec<Row>>>()?;
     let flows = Flows::of(&rows)?;
     let zero = || Rational::ZERO;
     let mut at_rest = vec![vec![[zero(), zero()]; n]; n];
@@ -60,28 +65,53 @@ struct Row {
     flow: Option<(usize, usize)>,
 }
 
-impl Row {
-    /// `None` where a symbol is no entry of an exponential, entries are of several rows, or not linear in them.
-    fn of(constant: &RationalMatrix, linear: &RationalMatrix, i: usize, symbols: &Symbols) -> Option<Row> {
+/// A row of the matrix as it is.
+struct Terms {
+    known: Form,
+    /// By exponential, its row and its column.
+    forms: BTreeMap<(usize, usize, usize), Form>,
+}
+
+impl Terms {
+    /// `None` where a symbol is no entry of an exponential, or the row is not linear in them.
+    fn of(constant: &RationalMatrix, linear: &RationalMatrix, i: usize, symbols: &Symbols) -> Option<Terms> {
         let n = constant.rows();
         let empty = || vec![[Rational::ZERO, Rational::ZERO]; n];
-        let mut row = Row { known: empty(), forms: BTreeMap::new(), flow: None };
+        let mut row = Terms { known: empty(), forms: BTreeMap::new() };
         for j in 0..n {
             for (power, m) in [constant, linear].into_iter().enumerate() {
                 for (symbol, value) in terms(&m[(i, j)])? {
-                    let Some(symbol) = symbol else {
-                        row.known[j][power] = value;
-                        continue;
-                    };
-                    let (of, place, column) = symbols.flow_entry(symbol)?;
-                    if *row.flow.get_or_insert((of, place)) != (of, place) {
-                        return None;
+                    match symbol {
+                        None => row.known[j][power] = value,
+                        Some(symbol) => {
+                            let entry = symbols.flow_entry(symbol)?;
+                            row.forms.entry(entry).or_insert_with(empty)[j][power] = value;
+                        }
                     }
-                    row.forms.entry(column).or_insert_with(empty)[j][power] = value;
                 }
             }
         }
         Some(row)
+    }
+
+    /// The row of `A - I` where no exponential is in it: it is zero at rest.
+    fn balance(&self, i: usize) -> Option<Form> {
+        let mut form = self.known.clone();
+        form[i][0] = &form[i][0] - &Rational::ONE;
+        self.forms.is_empty().then_some(form)
+    }
+
+    /// The row without exponentials that are multiplied by what is zero at rest alone; `None` where more than one is left.
+    fn without(mut self, balances: &[Form]) -> Option<Row> {
+        let of = |entry: &(usize, usize, usize)| (entry.0, entry.1);
+        let stays = |(entry, form): (&(usize, usize, usize), &Form)| (!balances.contains(form)).then(|| of(entry));
+        let left: BTreeSet<(usize, usize)> = self.forms.iter().filter_map(stays).collect();
+        self.forms.retain(|entry, _| left.contains(&of(entry)));
+        if left.len() > 1 {
+            return None;
+        }
+        let forms = self.forms.into_iter().map(|((_, _, column), form)| (column, form)).collect();
+        Some(Row { known: self.known, forms, flow: left.first().copied() })
     }
 }
 

@@ -6,6 +6,11 @@ use crate::stability::{Shape, StableSet, stable_set_of_parts};
 
 /// A unity feedback loop: the controller's transfer function and that of the plant behind a zero-order hold.
 fn problem(controller: &str, plant: &str, sample_time: &str, domain: &str) -> Arc<Problem> {
+    problem_with_delay(controller, plant, sample_time, "0", domain)
+}
+
+/// The same with dead time.
+fn problem_with_delay(controller: &str, plant: &str, sample_time: &str, delay: &str, domain: &str) -> Arc<Problem> {
     let text = format!(
         r#"
         time = "discrete"
@@ -23,7 +28,7 @@ fn problem(controller: &str, plant: &str, sample_time: &str, domain: &str) -> Ar
         input = "u"
         output = "y"
         transfer = "{plant}"
-        discretize = "zoh"
+        discretize = {{ method = "zoh", delay = "{delay}" }}
         "#
     );
     let (model, _) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
@@ -76,6 +81,24 @@ fn small_loops_have_the_set_of_the_exact_polynomial() {
         }
     }
     assert!(known >= 5, "{known}");
+}
+
+/// A share of a sample: the exact polynomial has products of exponentials, the enclosed one their sums.
+#[test]
+fn dead_time_of_a_share_of_a_sample_is_an_identity_at_rest() {
+    for (plant, time, delay) in [
+        ("1/(s*(s + 1))", "1/10", "3/100"),
+        ("1/(s + 1)", "1/2", "4/5"),
+        ("(2 - s)/((s + 1)*(s + 2))", "1/5", "1/10"),
+        ("1/(s^2 + s/5 + 1)", "1/3", "1/4"),
+    ] {
+        let problem = problem_with_delay("K", plant, time, delay, "");
+        let exact = problem.stable_set(&Budget::unlimited()).unwrap();
+        assert_eq!(ends(&by_enclosures(&problem)), ends(exact.value()), "{plant}");
+    }
+    // Two modes: exact polynomials took more than a minute, or more memory than there was.
+    let problem = problem_with_delay("K", "1/((s^2 + s/5 + 1)*(s^2 + s/10 + 9))", "1/5", "13/100", "");
+    limits_are_right(&problem, false, true);
 }
 
 #[test]
