@@ -55,11 +55,6 @@ impl Symbols {
         let is_algebraic = |i| matches!(self.definition(i), Definition::Algebraic(_) | Definition::Root(_));
         (0..self.len()).all(is_algebraic)
     }
-
-    /// False if of one of the numbers only enclosures are known.
-    pub fn have_identities(&self) -> bool {
-        (0..self.len()).all(|i| !matches!(self.definition(i), Definition::Enclosed(_)))
-    }
 }
 
 /// A polynomial that the symbol is a zero of, over symbols that are variables from `first` on.

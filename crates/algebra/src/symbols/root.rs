@@ -26,11 +26,6 @@ pub trait EnclosedPoly: fmt::Debug + Send + Sync {
 
     /// Where its roots come from.
     fn origin(&self) -> Origin;
-
-    /// False if a coefficient contains a number that is known by enclosures alone: then no identity shows that a rational number is a root.
-    fn has_identities(&self) -> bool {
-        true
-    }
 }
 
 /// A polynomial by its coefficients from the constant term up, polynomials in symbols.
@@ -41,10 +36,6 @@ pub(super) struct Coefficients {
 }
 
 impl EnclosedPoly for Coefficients {
-    fn has_identities(&self) -> bool {
-        self.symbols.have_identities()
-    }
-
     fn enclose(&self, bits: u64) -> Vec<Ball> {
         self.list.iter().map(|c| self.symbols.enclose(c, bits)).collect()
     }

@@ -3,7 +3,7 @@
 use super::Symbols;
 use super::root::{Coefficients, EnclosedPoly, SymbolicRoot, derivative};
 use crate::ball::Ball;
-use crate::limits::{Budget, Exhausted, Stop};
+use crate::limits::{Budget, Exhausted};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::multivariate::is_square_free_in;
 use crate::poly::real_roots::isolate_real_roots;
@@ -270,10 +270,6 @@ fn rational_or(root: Transcendental, p: &dyn EnclosedPoly, budget: &Budget) -> R
     let (lo, hi) = near.enclosure();
     let bits = |x: &Rational| x.numerator().bit_length() + x.denominator().bit_length();
     match simplest_between(&lo, &hi).filter(|x| bits(x) <= CANDIDATE_BITS) {
-        // What is known by enclosures alone is no rational number for certain only where none is near.
-        Some(_) if !p.has_identities() => {
-            Err(Exhausted::new(Stop::Precision(CANDIDATE_BITS), "whether a root is a rational number"))
-        }
         Some(x) if p.vanishes_at(&x, budget)? => Ok(Real::from(x)),
         _ => Ok(Real::from(near)),
     }

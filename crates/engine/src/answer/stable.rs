@@ -2,9 +2,9 @@
 
 use super::Answer;
 use crate::error::Error;
-use crate::problem::{EnclosedParts, Problem, Question, Region};
+use crate::problem::{EnclosedParts, Problem, Question, Region, exact_or_enclosed};
 use crate::stability::{Cause, StableSet, stable_set, stable_set_of_parts};
-use jurist_algebra::limits::{Budget, Stop};
+use jurist_algebra::limits::Budget;
 use std::sync::Arc;
 
 impl Question {
@@ -30,17 +30,6 @@ impl Question {
     }
 }
 
-/// Work that exact polynomials over the constants of a held loop may be before enclosures of coefficients are asked: less than a second.
-const WORK_BEFORE_ENCLOSURES: u64 = 30_000_000;
-
-/// Whether expressions became longer than there was work or memory for.
-fn is_too_long(stop: &Stop) -> bool {
-    matches!(stop, Stop::Work(_) | Stop::Memory(_))
-}
-
-/// Work of the set by enclosures, before exact polynomials are asked again.
-const WORK_BY_ENCLOSURES: u64 = 2_000_000_000;
-
 impl Problem {
     /// The exact stable set of the one free parameter. A loop that is undefined for all values is stable nowhere.
     ///
@@ -56,33 +45,25 @@ impl Problem {
             if !self.model().has_holds() {
                 return self.stable_set_by_algebra(budget);
             }
-            let first = budget.clone().within_work(WORK_BEFORE_ENCLOSURES);
-            match self.stable_set_by_algebra(&first) {
-                // Only the share of this attempt is used up, and the memory that it took is free again.
-                Err(Error::Stopped(stopped)) if is_too_long(&stopped.stop) && budget.check().is_ok() => {}
-                answer => return answer,
-            }
-            if let Some(set) = self.stable_set_by_enclosures(budget)? {
-                return Ok(Answer::new(Arc::clone(self), set));
-            }
-            self.stable_set_by_algebra(budget)
+            exact_or_enclosed(
+                budget,
+                |budget| self.stable_set_by_algebra(budget),
+                |budget| {
+                    let set = self.stable_set_by_enclosures(budget)?;
+                    Ok(set.map(|set| Answer::new(Arc::clone(self), set)))
+                },
+            )
         })?
     }
 
-    /// The stable set of a loop behind holds from enclosures of its coefficients; `None` where these do not tell.
+    /// The stable set of a loop behind holds from enclosures of its coefficients; `None` where the loop is not of that form.
     fn stable_set_by_enclosures(&self, budget: &Budget) -> Result<Option<StableSet>, Error> {
         let parts = match self.enclosed_parts(budget)? {
             Some(EnclosedParts::Parts(parts)) => parts,
             Some(EnclosedParts::Unstable) => return Ok(Some(StableSet::from_intervals(Vec::new(), Vec::new()))),
             None => return Ok(None),
         };
-        let share = budget.clone().within_work(WORK_BY_ENCLOSURES);
-        match stable_set_of_parts(&parts, &self.parameter().domain, self.shape(), &share) {
-            Ok(set) => Ok(Some(set)),
-            Err(stopped) if stopped.stop.is_precision() => Ok(None),
-            Err(stopped) if is_too_long(&stopped.stop) && budget.check().is_ok() => Ok(None),
-            Err(stopped) => Err(stopped.into()),
-        }
+        Ok(Some(stable_set_of_parts(&parts, &self.parameter().domain, self.shape(), budget)?))
     }
 
     /// The stable set by exact polynomials.

@@ -10,6 +10,7 @@ use crate::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
+use std::cell::RefCell;
 
 /// Where a loop is cut: what returns to the cut when a signal is put in there is the open loop.
 ///
@@ -157,7 +158,25 @@ impl Model {
         values: &[(String, Rational)],
         budget: &Budget,
     ) -> Result<Opened, Error> {
-        let mut answer = self.answer(kept, values, budget)?;
+        self.opened_in(self.answer(kept, values, budget)?, cut, budget)
+    }
+
+    /// The same where numbers are all that is asked for: the exponentials of matrices behind holds stay whole.
+    ///
+    /// # Errors
+    /// As [`Model::opened`].
+    pub(crate) fn opened_in_numbers(
+        &self,
+        cut: &Cut,
+        values: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Opened, Error> {
+        let mut answer = self.answer(&[], values, budget)?;
+        answer.symbols = RefCell::new(answer.symbols.into_inner().keeping_flows());
+        self.opened_in(answer, cut, budget)
+    }
+
+    fn opened_in(&self, mut answer: Answer<'_>, cut: &Cut, budget: &Budget) -> Result<Opened, Error> {
         if let Values::Feedback { a, b, c, k, .. } = &answer.values {
             let (a, b, returned) = (a.clone(), b.clone(), product(k, c));
             let row: Row = (0..a.rows()).map(|j| (j, -&returned[(0, j)])).collect();

@@ -5,28 +5,32 @@
 //! coefficients. `D(z; 0)` is the product of the polynomials of the parts that `A` decouples into. Parts that are rational, and the
 //! roots at 1 that integrators bring, are exact factors: so `D(1; 0) = 0` is an identity where the loop drifts without feedback.
 
+mod exact_zeros;
+mod part;
+mod quotient;
 mod steady_state;
 
 use super::{Bound, Problem, Region};
 use crate::error::Error;
-use crate::model::{InNumbers, Symbols, beside, quotient_at};
+use crate::model::{InNumbers, beside, quotient_at};
 use crate::stability::{EnclosedLoop, Shape, SymbolicPolynomial};
-use jurist_algebra::ball::{Ball, BallMatrix};
-use jurist_algebra::limits::{Budget, checkpoint, until_shown};
+use jurist_algebra::ball::Ball;
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::matrix::RationalMatrix;
-use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
-use jurist_algebra::real::{Enclosing, Origin, Transcendental};
-use jurist_algebra::symbols::{Definition, EnclosedNumber, Symbols as Values};
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, PoisonError};
-use steady_state::steady_state;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+use part::Part;
+pub(crate) use quotient::EnclosedQuotient;
+use std::sync::Arc;
+
+/// Work that exact polynomials over the constants of a held loop may be before enclosures of coefficients are asked: less than a second.
+const WORK_BEFORE: u64 = 30_000_000;
+
+/// Work of an answer by enclosures, before exact polynomials are asked again.
+const WORK_OF_ENCLOSURES: u64 = 2_000_000_000;
 
 /// Bits with which parts without the parameter are counted, and all divisors are to be seen different from 0.
 const BITS: u64 = 512;
-
-/// The degree in the parameter up to which polynomials are looked at.
-const MOST_POWERS: usize = 4;
 
 impl Problem {
     /// The parts of the loop that the one free parameter acts on, with enclosed coefficients; an empty list where the others are stable
@@ -69,10 +73,7 @@ impl EnclosedParts {
         let values = symbols.enclosed(BITS)?;
         let a = &found.closed_loop.a;
         let divisors = found.closed_loop.poles.iter().chain(a.entries().iter().map(RationalFunction::denominator));
-        for divisor in divisors.filter(|p| !p.is_one()) {
-            let value = quotient_at(&beside(&divisor.clone().into(), 1)?, &values, BITS)?;
-            value.sign().filter(|sign| !sign.is_eq())?;
-        }
+        are_nonzero(divisors, 1, &values)?;
         let split = a.entries().iter().map(in_powers).collect::<Option<Vec<_>>>()?;
         let n = a.rows();
         let [constant, linear] = [0, 1].map(|k| RationalMatrix::from_fn(n, n, |i, j| split[i * n + j][k].clone()));
@@ -93,6 +94,45 @@ impl EnclosedParts {
     }
 }
 
+/// `None` unless all divisors, which follow so many kept names, are seen different from 0.
+fn are_nonzero<'p>(divisors: impl Iterator<Item = &'p MultiPoly>, kept: usize, values: &[Ball]) -> Option<()> {
+    for divisor in divisors.filter(|p| !p.is_one()) {
+        let value = quotient_at(&beside(&divisor.clone().into(), kept)?, values, BITS)?;
+        value.sign().filter(|sign| !sign.is_eq())?;
+    }
+    Some(())
+}
+
+/// An answer by exact polynomials over the constants of holds, within a share of the budget, else by enclosures of coefficients, else by
+/// exact polynomials after all.
+///
+/// # Errors
+/// Those of the answers; [`Error::Stopped`] when the budget runs out.
+pub(crate) fn exact_or_enclosed<T>(
+    budget: &Budget,
+    exact: impl Fn(&Budget) -> Result<T, Error>,
+    enclosed: impl FnOnce(&Budget) -> Result<Option<T>, Error>,
+) -> Result<T, Error> {
+    match exact(&budget.clone().within_work(WORK_BEFORE)) {
+        // Only the share of this attempt is used up, and the memory that it took is free again.
+        Err(Error::Stopped(stopped)) if is_too_long(&stopped) && budget.check().is_ok() => {}
+        answer => return answer,
+    }
+    match enclosed(&budget.clone().within_work(WORK_OF_ENCLOSURES)) {
+        Ok(Some(answer)) => return Ok(answer),
+        Ok(None) => {}
+        Err(Error::Stopped(stopped)) if stopped.stop.is_precision() => {}
+        Err(Error::Stopped(stopped)) if is_too_long(&stopped) && budget.check().is_ok() => {}
+        Err(error) => return Err(error),
+    }
+    exact(budget)
+}
+
+/// Whether expressions became longer than there was work or memory for.
+fn is_too_long(stopped: &Exhausted) -> bool {
+    matches!(stopped.stop, Stop::Work(_) | Stop::Memory(_))
+}
+
 /// `p + q K` as `[p, q]` in the other variables; `None` for another function of `K`.
 fn in_powers(f: &RationalFunction) -> Option<[RationalFunction; 2]> {
     let powers = f.numerator().as_poly_in(0);
@@ -111,289 +151,6 @@ fn in_disc(polynomial: Vec<Ball>, radius: &Rational) -> Vec<Ball> {
         c.mul(&Ball::from_rational(radius, bits).power(k as u64))
     };
     polynomial.into_iter().enumerate().map(power).collect()
-}
-
-/// A part of the loop: the matrix `A + K B`.
-#[derive(Debug)]
-struct Part {
-    symbols: Arc<Symbols>,
-    constant: RationalMatrix,
-    linear: RationalMatrix,
-    /// A bound of the degree in `K`.
-    degree: usize,
-    /// A factor of the polynomial at `K = 0`, with roots at 1 of the parts below.
-    exact: UniPoly,
-    /// The parts of `A` that are not in that factor, with the number of their roots at 1 that are.
-    others: Vec<(Vec<usize>, usize)>,
-    /// `d(K)` with `D(1; K) = c d(K)` for a number `c` other than 0, where that is known.
-    at_rest: Option<UniPoly>,
-    known: Mutex<BTreeMap<u64, Arc<Vec<Ball>>>>,
-}
-
-impl Part {
-    /// `None` where the degree is too large.
-    fn new(symbols: &Arc<Symbols>, constant: RationalMatrix, linear: RationalMatrix) -> Option<Part> {
-        let degree = rank_bound(&linear);
-        if degree > MOST_POWERS {
-            return None;
-        }
-        let (mut exact, mut others) = (UniPoly::one(), Vec::new());
-        for block in constant.decoupled_parts() {
-            let own = constant.principal(&block);
-            match rational_polynomial(&own) {
-                Some(p) => exact = exact.times(&p),
-                None => {
-                    let at_one = integrators(&own, symbols);
-                    for _ in 0..at_one {
-                        exact = exact.times(&UniPoly::from_i64(&[-1, 1]));
-                    }
-                    others.push((block, at_one));
-                }
-            }
-        }
-        let at_rest = steady_state(&constant, &linear, symbols).filter(|d| !d.is_zero());
-        let symbols = Arc::clone(symbols);
-        let known = Mutex::default();
-        let mut part = Part { symbols, constant, linear, degree, exact, others, at_rest, known };
-        if part.degree > 0 && part.at_rest.is_some() && part.factor_at_rest(BITS)?.contains_zero() {
-            part.at_rest = None;
-        }
-        Some(part)
-    }
-
-    /// The least power of `K` in `d(K)`, with its coefficient.
-    fn lowest_at_rest(&self) -> (usize, Integer) {
-        let d = self.at_rest.as_ref().map(UniPoly::coeffs).unwrap_or_default();
-        d.iter().cloned().enumerate().find(|(_, c)| !c.is_zero()).unwrap_or((0, Integer::ONE))
-    }
-
-    /// `c` in `D(1; K) = c d(K)`, times a whole number.
-    fn factor_at_rest(&self, bits: u64) -> Option<Ball> {
-        let found = self.coefficients(bits)?;
-        let (others, n) = (self.others_degree(), self.constant.rows());
-        let list = match self.lowest_at_rest().0 {
-            // The leading 1 belongs to the sum.
-            0 => &found[..others],
-            power => found.get(others + (power - 1) * n..others + power * n)?,
-        };
-        let lead = if self.lowest_at_rest().0 == 0 { Integer::ONE } else { Integer::ZERO };
-        Some(list.iter().fold(Ball::from_integer(&lead, bits), |sum, c| sum.add(c)))
-    }
-
-    /// The characteristic polynomial at a whole `K`.
-    fn at(&self, values: &[Ball], k: usize, bits: u64) -> Option<Vec<Ball>> {
-        let n = self.constant.rows();
-        let entry = |m: &RationalMatrix, i: usize, j: usize| quotient_at(&m[(i, j)], values, bits);
-        let mut entries = Vec::with_capacity(n * n);
-        for i in 0..n {
-            for j in 0..n {
-                let (a, b) = (entry(&self.constant, i, j)?, entry(&self.linear, i, j)?);
-                entries.push(a.add(&b.scaled(&Integer::from(k as u64))));
-            }
-        }
-        Some(BallMatrix::from_fn(n, |i, j| entries[i * n + j].clone()).characteristic_polynomial(bits))
-    }
-
-    /// How many coefficients the other factor at `K = 0` has beside the leading 1.
-    fn others_degree(&self) -> usize {
-        self.constant.rows() - self.exact.degree().unwrap_or(0)
-    }
-
-    /// The coefficients of the other factor at `K = 0`, then those of each power of `K`, each without the leading one.
-    fn coefficients(&self, bits: u64) -> Option<Arc<Vec<Ball>>> {
-        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(found) = known().get(&bits) {
-            return Some(Arc::clone(found));
-        }
-        let values = self.symbols.enclosed(bits)?;
-        let mut out = self.other_factor(&values, bits)?;
-        out.pop();
-        let nodes = (0..=self.degree).map(|k| self.at(&values, k, bits)).collect::<Option<Vec<_>>>()?;
-        let n = self.constant.rows();
-        for weights in interpolation(self.degree).iter().skip(1) {
-            for k in 0..n {
-                let term = |(node, w): (&Vec<Ball>, &Rational)| node[k].mul(&Ball::from_rational(w, bits));
-                out.push(nodes.iter().zip(weights).map(term).fold(Ball::zero(bits), |sum, t| sum.add(&t)));
-            }
-        }
-        let out = Arc::new(out);
-        known().insert(bits, Arc::clone(&out));
-        Some(out)
-    }
-
-    /// The product of the polynomials of the parts that are not rational, without their roots at 1.
-    fn other_factor(&self, values: &[Ball], bits: u64) -> Option<Vec<Ball>> {
-        let mut product = vec![Ball::from_integer(&Integer::ONE, bits)];
-        for (block, at_one) in &self.others {
-            let own = self.constant.principal(block);
-            let entries = own.entries().iter().map(|f| quotient_at(f, values, bits)).collect::<Option<Vec<_>>>()?;
-            let matrix = BallMatrix::from_fn(block.len(), |i, j| entries[i * block.len() + j].clone());
-            let mut p = matrix.characteristic_polynomial(bits);
-            (0..*at_one).for_each(|_| p = without_root_at_one(&p));
-            let mut next = vec![Ball::zero(bits); product.len() + p.len() - 1];
-            for (i, a) in product.iter().enumerate() {
-                for (j, b) in p.iter().enumerate() {
-                    next[i + j] = next[i + j].add(&a.mul(b));
-                }
-            }
-            product = next;
-        }
-        Some(product)
-    }
-
-    /// `D(r z; K)` with a symbol for each coefficient, without denominators.
-    fn polynomial(self: Arc<Self>, radius: &Rational) -> SymbolicPolynomial {
-        let n = self.constant.rows();
-        let others = self.others_degree();
-        let mut table = Values::new();
-        for index in 0..others + self.degree * n {
-            let (power, k) = match index.checked_sub(others) {
-                None => (0, index),
-                Some(beyond) => (beyond / n + 1, beyond % n),
-            };
-            let words = match power {
-                0 => format!("coefficient {k} of the part of D(z; 0) that is no exact factor"),
-                _ => format!("coefficient {k} of D(z; K) beside K^{power}"),
-            };
-            let value = Transcendental::new(Coefficient { of: Arc::clone(&self), index });
-            table.insert(format!("c{index}"), Definition::Enclosed(EnclosedNumber { words, value }));
-        }
-        // K is variable 0, a symbol's number one more than its place in the table.
-        let variable = |index: usize| MultiPoly::variable(index + 1);
-        let whole = |c: &Integer| MultiPoly::constant(c.clone());
-        let other: Vec<MultiPoly> = (0..others).map(variable).chain([MultiPoly::one()]).collect();
-        let exact = Poly::new(self.exact.coeffs().iter().map(whole).collect::<Vec<_>>());
-        let at_zero = exact.times(&Poly::new(other));
-        let lead = self.exact.leading().cloned().unwrap_or(Integer::ONE);
-        let beside = |power: usize, k: usize| variable(others + (power - 1) * n + k).scaled_by(&lead);
-        let at_rest = self.at_rest.as_ref().filter(|_| radius.is_one());
-        let scale = at_rest.map_or(Integer::ONE, |_| self.lowest_at_rest().1);
-        let power_of = |base: Integer, exponent: usize| (0..exponent).fold(Integer::ONE, |p, _| &p * &base);
-        let sum = |list: &mut dyn Iterator<Item = MultiPoly>| list.fold(MultiPoly::zero(), |sum, c| sum.plus(&c));
-        let coefficient = |power: usize, k: usize| match (power, k, at_rest) {
-            (0, ..) => at_zero.coeff(k).scaled_by(&scale),
-            _ if k == n => MultiPoly::zero(),
-            (_, 0, Some(d)) => {
-                // Chosen so that the value at z = 1 is c d(K).
-                let first = match self.lowest_at_rest().0 {
-                    0 => sum(&mut at_zero.coeffs().iter().cloned()),
-                    lowest => sum(&mut (0..n).map(|k| beside(lowest, k))),
-                };
-                let others = sum(&mut (1..n).map(|k| beside(power, k).scaled_by(&scale)));
-                first.scaled_by(&d.coeff(power)).minus(&others)
-            }
-            _ => beside(power, k).scaled_by(&scale),
-        };
-        let coefficient = |k: usize| {
-            let powers = (0..=self.degree)
-                .map(|power| (0..power).fold(coefficient(power, k), |c, _| c.times(&MultiPoly::variable(0))));
-            sum(&mut powers.into_iter())
-                .scaled_by(&(power_of(radius.numerator(), k) * power_of(radius.denominator(), n - k)))
-        };
-        let polynomial = Poly::new((0..=n).map(coefficient).collect::<Vec<_>>());
-        SymbolicPolynomial::from_parts(&Arc::new(table), polynomial, MultiPoly::one(), n, vec![MultiPoly::one()])
-    }
-}
-
-/// A coefficient of a part's polynomial.
-#[derive(Debug)]
-struct Coefficient {
-    of: Arc<Part>,
-    index: usize,
-}
-
-impl Enclosing for Coefficient {
-    fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
-        let width = Rational::dyadic(&Integer::ONE, bits);
-        until_shown((bits + 64).next_power_of_two(), |working| {
-            checkpoint(working);
-            let found = self.of.coefficients(working)?[self.index].to_enclosure();
-            (found.upper() - found.lower() <= width).then_some(found)
-        })
-    }
-
-    fn origin(&self) -> Origin {
-        Origin::Function { function: "coefficient of the characteristic polynomial".to_owned(), details: Vec::new() }
-    }
-}
-
-/// A bound of the rank: 1 where all minors of order 2 are zero, else the number of rows or columns that are not zero.
-fn rank_bound(m: &RationalMatrix) -> usize {
-    let n = m.rows();
-    let rows = (0..n).filter(|&i| (0..n).any(|j| !m[(i, j)].is_zero())).count();
-    let columns = (0..n).filter(|&j| (0..n).any(|i| !m[(i, j)].is_zero())).count();
-    let bound = rows.min(columns);
-    let Some(pivot) = (0..n * n).map(|at| (at / n, at % n)).find(|&at| !m[at].is_zero()) else { return 0 };
-    // Beside a pivot that is not zero the others' minors are combinations of those with it.
-    let is_minor_zero =
-        |i: usize, j: usize| (&(&m[pivot] * &m[(i, j)]) - &(&m[(pivot.0, j)] * &m[(i, pivot.1)])).is_zero();
-    let is_one = bound > 1 && (0..n).all(|i| (0..n).all(|j| is_minor_zero(i, j)));
-    if is_one { 1 } else { bound }
-}
-
-/// The characteristic polynomial of a matrix of rational numbers, up to a factor; `None` for another matrix.
-fn rational_polynomial(m: &RationalMatrix) -> Option<UniPoly> {
-    m.entries().iter().all(|f| f.as_constant().is_some()).then_some(())?;
-    let d = m.characteristic_polynomial(Vec::new(), &Budget::unlimited()).ok()?;
-    let coefficients = d.coefficients.iter().map(RationalFunction::as_constant).collect::<Option<Vec<_>>>()?;
-    let clear = Rational::from(coefficients.iter().fold(Integer::ONE, |l, c| l.lcm(&c.denominator())));
-    Some(UniPoly::new(coefficients.iter().map(|c| (c * &clear).numerator()).collect()))
-}
-
-/// The number of roots at 1 of a part that is the exponential of a part of a matrix: as many as that has at 0. 0 for another part.
-fn integrators(m: &RationalMatrix, symbols: &Symbols) -> usize {
-    let n = m.rows();
-    let entry = |i: usize, j: usize| {
-        let f = &m[(i, j)];
-        let only = f.variables();
-        let [symbol] = only[..] else { return None };
-        (*f == RationalFunction::variable(symbol)).then(|| symbols.flow_entry(symbol)).flatten()
-    };
-    let Some((of, ..)) = entry(0, 0) else { return 0 };
-    let Some(places) = (0..n).map(|i| entry(i, i).filter(|at| at.0 == of && at.1 == at.2)).collect::<Option<Vec<_>>>()
-    else {
-        return 0;
-    };
-    let is_part = |i: usize, j: usize| entry(i, j) == Some((of, places[i].1, places[j].1)) || m[(i, j)].is_zero();
-    if !(0..n).all(|i| (0..n).all(|j| is_part(i, j))) {
-        return 0;
-    }
-    let whole = symbols.flow_matrix(of);
-    let part = RationalMatrix::from_fn(n, n, |i, j| whole[(places[i].1, places[j].1)].clone());
-    let Some(p) = rational_polynomial(&part) else { return 0 };
-    p.coeffs().iter().take_while(|c| c.is_zero()).count()
-}
-
-/// The quotient by `z - 1` of a polynomial that has the root 1.
-fn without_root_at_one(p: &[Ball]) -> Vec<Ball> {
-    let mut quotient: Vec<Ball> = Vec::with_capacity(p.len());
-    for c in p.iter().skip(1).rev() {
-        let next = quotient.last().map_or_else(|| c.clone(), |above: &Ball| above.add(c));
-        quotient.push(next);
-    }
-    quotient.reverse();
-    quotient
-}
-
-/// For each power of `K` up to the degree, the weights of the values at `K = 0, 1, ..` of which its coefficient is the sum.
-fn interpolation(degree: usize) -> Vec<Vec<Rational>> {
-    let bases: Vec<Vec<Rational>> = (0..=degree).map(|node| lagrange(node, degree)).collect();
-    (0..=degree).map(|power| bases.iter().map(|basis| basis[power].clone()).collect()).collect()
-}
-
-/// The product of `(K - m)/(node - m)` over the other whole numbers `m` up to the degree.
-fn lagrange(node: usize, degree: usize) -> Vec<Rational> {
-    let number = |m: usize| Rational::from(m as i64);
-    (0..=degree).filter(|&m| m != node).fold(vec![Rational::ONE], |basis, m| {
-        let scale = (number(node) - number(m)).recip().expect("another node");
-        let mut product = vec![Rational::ZERO; basis.len() + 1];
-        for (i, c) in basis.iter().enumerate() {
-            let c = c * &scale;
-            product[i] = &product[i] - &(&c * &number(m));
-            product[i + 1] = &product[i + 1] + &c;
-        }
-        product
-    })
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ mod region;
 mod resolved;
 mod substitution;
 
-pub(crate) use by_enclosures::EnclosedParts;
+pub(crate) use by_enclosures::{EnclosedParts, EnclosedQuotient, exact_or_enclosed};
 pub(crate) use delayed::refused;
 pub use delayed::{BaseDelay, DelayedLoop};
 pub use evaluation::Algebra;

@@ -8,7 +8,7 @@ use super::place::{modulus_squared, product};
 use crate::coverage::refusals::ONE_FACTOR;
 use crate::error::Error;
 use crate::model::{ClosedLoop, Cut, Opened};
-use crate::problem::{Problem, fixed_symbols};
+use crate::problem::{EnclosedQuotient, Problem, exact_or_enclosed, fixed_symbols};
 use crate::stability::Shape;
 use jurist_algebra::ball::{Ball, cos_sin};
 use jurist_algebra::limits::Budget;
@@ -128,12 +128,17 @@ impl OpenLoop {
         let shape = problem.shape();
         let ((over, dead_time), sample_time) = match &cut {
             Cut::Gain(name) => by_gain(problem, name, budget)?,
-            _ => {
-                let Opened { system, sample_time, symbols } = model.opened(&cut, &[], problem.set(), budget)?;
-                let (denominator, numerator) = returned(&system, budget)?;
-                let over = budget.enter(|| Over::new(denominator, numerator, Vec::new(), &symbols, shape))??;
-                (over, sample_time.and_then(|t| t.as_constant()))
-            }
+            _ if model.has_holds() => exact_or_enclosed(
+                budget,
+                |budget| opened_exactly(problem, &cut, budget),
+                |budget| {
+                    let opened = model.opened_in_numbers(&cut, problem.set(), budget)?;
+                    let sample_time = opened.sample_time.as_ref().and_then(RationalFunction::as_constant);
+                    let over = budget.enter(|| Some(Over::of_enclosed(EnclosedQuotient::of(&opened)?, shape)))?;
+                    Ok(over.map(|over| ((over, None), sample_time)))
+                },
+            )?,
+            _ => opened_exactly(problem, &cut, budget)?,
         };
         Ok(OpenLoop { cut, shape, sample_time, over, dead_time })
     }
@@ -293,6 +298,12 @@ impl Over {
         Over::of_quotient(denominator, numerator, poles, symbols, shape, no_single_delay)
     }
 
+    /// From coefficients that are known by enclosures.
+    fn of_enclosed(found: EnclosedQuotient, shape: Shape) -> Over {
+        let EnclosedQuotient { symbols, denominator, numerator } = found;
+        Over::Constants(Parts::new(Constants(symbols), denominator, numerator, Vec::new(), shape))
+    }
+
     /// The same of any quotient, with the refusal of dead time that is more than a factor.
     pub(super) fn of_quotient(
         denominator: Vec<RationalFunction>,
@@ -404,6 +415,18 @@ impl<R: Domain> Reduced<R> {
         let x = R::from_integer(&Integer::from(x));
         (p.eval(&x), self.denominator.eval(&x))
     }
+}
+
+/// The loop opened at a signal, with polynomials over the constants of holds, and the sample time.
+fn opened_exactly(
+    problem: &Problem,
+    cut: &Cut,
+    budget: &Budget,
+) -> Result<((Over, Option<Rational>), Option<Rational>), Error> {
+    let Opened { system, sample_time, symbols } = problem.model().opened(cut, &[], problem.set(), budget)?;
+    let (denominator, numerator) = returned(&system, budget)?;
+    let over = budget.enter(|| Over::new(denominator, numerator, Vec::new(), &symbols, problem.shape()))??;
+    Ok((over, sample_time.and_then(|t| t.as_constant())))
 }
 
 /// `D0` and `N` of a system from the cut to the cut: what comes back has the sign of the feedback, so `L = -P`.

@@ -119,10 +119,6 @@ impl Unexpanded for PairResultant {
 }
 
 impl EnclosedPoly for PairResultant {
-    fn has_identities(&self) -> bool {
-        self.symbols.have_identities()
-    }
-
     fn enclose(&self, bits: u64) -> Vec<Ball> {
         self.coefficients(bits).drain(self.low..=self.high).map(|c| c.with_bits(bits)).collect()
     }

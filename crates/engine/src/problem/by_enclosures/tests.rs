@@ -2,7 +2,10 @@ use super::*;
 use crate::answer::Verdict;
 use crate::error::Source;
 use crate::model::Model;
+use crate::response::OpenLoop;
 use crate::stability::{Shape, StableSet, stable_set_of_parts};
+use jurist_algebra::number::Integer;
+use part::interpolation;
 
 /// A unity feedback loop: the controller's transfer function and that of the plant behind a zero-order hold.
 fn problem(controller: &str, plant: &str, sample_time: &str, domain: &str) -> Arc<Problem> {
@@ -65,6 +68,10 @@ fn small_loops_have_the_set_of_the_exact_polynomial() {
         ("(K*z + 1 - K)/(z - 1/3)", "1/(s^2 + 4)", "1/7", ", min = -3, max = 5"),
         ("K*(z + 1/3)/(z - 1)", "2/(s + 1)", "1/4", ", max = 3"),
         ("K + 1/(z - 1/2)", "1/(s - 1)", "1/4", ""),
+        // Zeros of the controller, at which the value does not depend on K.
+        ("K*(z + 1)/(z - 1)", "2/((s + 1)*(s + 3))", "1/4", ""),
+        ("K*z/(z - 1)", "1/((s + 1)*(s + 2))", "1/5", ""),
+        ("K*z^2/((z - 1/2)*(z + 1/3))", "1/(s + 1)", "1/5", ""),
     ];
     let mut known = 0;
     for (controller, plant, time, domain) in loops {
@@ -80,7 +87,7 @@ fn small_loops_have_the_set_of_the_exact_polynomial() {
             Err(stopped) => assert!(stopped.stop.is_precision(), "{controller} {plant}: {stopped}"),
         }
     }
-    assert!(known >= 5, "{known}");
+    assert!(known >= 8, "{known}");
 }
 
 /// A share of a sample: the exact polynomial has products of exponentials, the enclosed one their sums.
@@ -99,6 +106,49 @@ fn dead_time_of_a_share_of_a_sample_is_an_identity_at_rest() {
     // Two modes: exact polynomials took more than a minute, or more memory than there was.
     let problem = problem_with_delay("K", "1/((s^2 + s/5 + 1)*(s^2 + s/10 + 9))", "1/5", "13/100", "");
     limits_are_right(&problem, false, true);
+}
+
+/// The open loop from enclosures is the exact one.
+#[test]
+fn open_loops_are_those_of_exact_polynomials() {
+    for (controller, plant, delay) in [
+        ("2*(z - 9/10)/(z - 1)", "1/(s + 1)", "0"),
+        ("z/(z - 1)", "1/((s + 1)*(s + 2))", "3/100"),
+        ("1", "2/(s*(s + 1))", "7/100"),
+        ("1/2", "1/(s^2 + s/5 + 1)", "0"),
+    ] {
+        let problem = problem_with_delay(controller, plant, "1/10", delay, "");
+        let problem = problem.model().ask().problem().unwrap();
+        let budget = Budget::unlimited();
+        let exact = OpenLoop::of(&problem, None, &budget).unwrap();
+        let opened = problem.model().opened_in_numbers(exact.cut(), problem.set(), &budget).unwrap();
+        let found = EnclosedQuotient::of(&opened).expect("a loop of this form");
+        let enclosed = [&found.denominator, &found.numerator].map(|p| {
+            let value = |c| found.symbols.enclose(c, 300).lower();
+            p.coeffs().iter().map(value).collect::<Vec<Rational>>()
+        });
+        let monic = |[d, n]: [Vec<Rational>; 2]| {
+            let lead = d.last().unwrap().recip().unwrap();
+            d.iter().chain(&n).map(|c| c * &lead).collect::<Vec<Rational>>()
+        };
+        let (exact, enclosed) = (monic(exact.coefficients(300)), monic(enclosed));
+        let is_close = |(a, b): (&Rational, &Rational)| (a - b).abs() < Rational::dyadic(&Integer::ONE, 250);
+        assert_eq!(exact.len(), enclosed.len(), "{controller} {plant}");
+        assert!(exact.iter().zip(&enclosed).all(is_close), "{controller} {plant}: {exact:?} {enclosed:?}");
+    }
+}
+
+/// Two modes: the gain margin is the limit of a gain, which another polynomial has.
+#[test]
+fn the_gain_margin_of_several_modes_is_the_limit_of_the_gain() {
+    let plant = "1/((s^2 + s/5 + 1)*(s^2 + s/10 + 9))";
+    let problem = problem_with_delay("K*(z - 9/10)/(2*(z - 1))", plant, "1/20", "1/50", "");
+    let set = by_enclosures(&problem);
+    let limit = set.intervals()[0].upper.as_ref().unwrap().value.decimal(12);
+    let nominal = problem.model().ask().problem().unwrap();
+    let margins = nominal.margins(None, &Rational::ZERO, &Budget::unlimited()).unwrap();
+    let stable = margins.value().stable.as_ref().expect("a stable loop");
+    assert_eq!(stable.gain.upper.as_ref().unwrap().value.decimal(12), limit);
 }
 
 #[test]
@@ -197,16 +247,13 @@ fn what_is_not_linear_is_left_to_algebra() {
     assert!(!known("K^2") && !known("1/K"));
 }
 
-/// For `1/s^2` the value at -1 does not depend on `K`, and for a controller with a zero at 0 the value at 0 does not: exact numbers show that,
-/// and enclosures never.
+/// For `1/s^2` the value at -1 does not depend on `K`: exact numbers show that, and enclosures never.
 #[test]
 fn identities_of_other_numbers_are_left_to_algebra() {
-    for (controller, plant) in [("K", "1/s^2"), ("K*z/(z - 1)", "2/(s + 1)")] {
-        let problem = problem(controller, plant, "1/2", "");
-        let budget = Budget::unlimited();
-        let Some(EnclosedParts::Parts(parts)) = problem.enclosed_parts(&budget).unwrap() else { panic!("one part") };
-        let stopped = stable_set_of_parts(&parts, &problem.parameter().domain, Shape::UnitDisc, &budget).unwrap_err();
-        assert!(stopped.stop.is_precision());
-        assert!(problem.stable_set(&budget).unwrap().value().undecided().is_empty());
-    }
+    let problem = problem("K", "1/s^2", "1/2", "");
+    let budget = Budget::unlimited();
+    let Some(EnclosedParts::Parts(parts)) = problem.enclosed_parts(&budget).unwrap() else { panic!("one part") };
+    let stopped = stable_set_of_parts(&parts, &problem.parameter().domain, Shape::UnitDisc, &budget).unwrap_err();
+    assert!(stopped.stop.is_precision());
+    assert!(problem.stable_set(&budget).unwrap().value().undecided().is_empty());
 }
