@@ -212,7 +212,7 @@ fn changed_part(original: &Json, mutant: &Json) -> String {
     }
 }
 
-/// Every other single change of numbers, labels and lines. A change that is accepted must leave the statement true: it concerns the
+/// Every third single change of numbers, labels and lines. A change that is accepted must leave the statement true: it concerns the
 /// proof or the model's title only, or the engine gives the changed statement too.
 #[test]
 fn mutations_are_rejected_unless_the_statement_stays_true() {
@@ -224,7 +224,7 @@ fn mutations_are_rejected_unless_the_statement_stays_true() {
         texts.extend(["0", "1", "1/3", "-2"].map(|value| verdict_emitted(model, parameter, value)));
         for text in texts {
             let original = Json::parse(&text).unwrap();
-            for mutant in mutations(&original).one_in(2) {
+            for mutant in mutations(&original).one_in(3) {
                 tried += 1;
                 let Ok(proved) = check(model, &mutant.to_text(), &limits()) else {
                     rejected += 1;
@@ -245,7 +245,7 @@ fn mutations_are_rejected_unless_the_statement_stays_true() {
     // 'model' is for people; factors, splits, samples and cofactors may be chosen in many ways.
     println!("accepted with the same statement, by the part that is changed: {same:?}");
     println!("accepted with another statement that is true, by the part that is changed: {other:?}");
-    assert!(rejected > 5_000 && same.keys().all(|part| !part.starts_with("statement") && part != "characteristic"));
+    assert!(rejected > 3_333 && same.keys().all(|part| !part.starts_with("statement") && part != "characteristic"));
 }
 
 /// Lines changed together with the claim that they show, by both checkers.

@@ -1,6 +1,6 @@
 //! Certificates of maps by boxes: both checkers accept what is written, and nothing that is wrong.
 
-use crate::helpers::certificates::checkers::{accept, python, reject};
+use crate::helpers::certificates::checkers::{PYTHON_EVERY, accept, python, reject};
 use crate::helpers::certificates::{mutations, with};
 use crate::helpers::model::{example_text, path, read};
 use crate::helpers::number::number;
@@ -367,7 +367,7 @@ fn changed_certificates_are_rejected_or_true() {
         (plain("discrete", "z - exp(-b) + a*(1 - exp(-b))"), [("a", "1/2", "4"), ("b", "1/4", "2")]),
     ] {
         let (certificate, _) = emitted(&text, sides, "0.4");
-        let [rejected, accepted] = rejected_or_true(&text, &certificate, &mut random, [1, 100, 3]);
+        let [rejected, accepted] = rejected_or_true(&text, &certificate, &mut random, [1, 100, PYTHON_EVERY]);
         assert!(rejected > 80 && accepted > 2, "{rejected} rejected, {accepted} accepted");
     }
 }

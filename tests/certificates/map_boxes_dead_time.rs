@@ -1,7 +1,7 @@
 //! Certificates of maps by boxes of loops with dead time: both checkers accept what is written, and nothing that is wrong.
 
 use super::map_boxes::{Side, certified, emitted, is_true, leaves, plain, rejected_or_true, tree_of};
-use crate::helpers::certificates::checkers::{accept, reject};
+use crate::helpers::certificates::checkers::{PYTHON_EVERY, accept, reject};
 use crate::helpers::certificates::with;
 use crate::helpers::model::{example_text, path};
 use crate::helpers::number::number;
@@ -172,7 +172,7 @@ fn another_statement_or_model_is_rejected() {
 fn changed_certificates_are_rejected_or_true() {
     let text = plain("continuous", INTEGRATOR);
     let (certificate, _) = emitted(&text, WINDOW, "0.4");
-    let [rejected, accepted] = rejected_or_true(&text, &certificate, &mut Random::new(5), [2, 40, 4]);
+    let [rejected, accepted] = rejected_or_true(&text, &certificate, &mut Random::new(5), [2, 40, PYTHON_EVERY]);
     assert!(rejected > 40 && accepted > 0, "{rejected} rejected, {accepted} accepted");
 }
 

@@ -249,12 +249,13 @@ fn is_true(text: &str, json: &Json) -> bool {
 }
 
 /// Changes of one value each: what both checkers accept is true.
+/// Every third change: each kind of change has its turn, since a text has seven of them and a count two.
 #[test]
 fn changed_certificates_are_rejected_or_true() {
     let circle = plain("continuous", "s + (a^2 + b^2 - 1)*(a - 3)");
-    for (text, least) in [(plain("discrete", "z^2 + a*z + b"), 800), (plain("discrete", "z + a*b"), 300), (circle, 400)]
+    for (text, least) in [(plain("discrete", "z^2 + a*z + b"), 266), (plain("discrete", "z + a*b"), 100), (circle, 133)]
     {
-        reject_or_find_true(&text, &emitted(&text, "a", "b"), 1, least, |json| is_true(&text, json));
+        reject_or_find_true(&text, &emitted(&text, "a", "b"), 3, least, |json| is_true(&text, json));
     }
 }
 

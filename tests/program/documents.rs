@@ -1,6 +1,6 @@
 //! The JSON documents: each fits the schema that it names, and is read by its type without loss.
 
-use crate::helpers::program::jurist;
+use crate::helpers::program::{Run, jurist};
 use crate::helpers::schema::{fits, folder};
 use jurist_algebra::limits::Budget;
 use jurist_draw::document::{FrequencyResponse, Locus, Simulation};
@@ -16,7 +16,10 @@ use std::path::Path;
 
 /// The document that a command writes, checked; the statuses are those of an answer.
 fn document(arguments: &[&str]) -> Value {
-    let run = jurist(&[arguments, &["--json"]].concat());
+    document_of(arguments, &jurist(&[arguments, &["--json"]].concat()))
+}
+
+fn document_of(arguments: &[&str], run: &Run) -> Value {
     assert!([0, 1, 3].contains(&run.status), "{arguments:?}: {}", run.stderr);
     let document: Value = serde_json::from_str(&run.stdout).expect("the program writes JSON");
     fits(&document).unwrap_or_else(|why| panic!("{arguments:?}: {why}"));
@@ -66,9 +69,9 @@ fn every_document_of_the_examples_fits_its_schema() {
         for parameter in model.parameters() {
             // A parameter inside of a function needs a bounded domain.
             let arguments = [&["intervals", file, "--param", &parameter.name], time].concat();
-            let run = jurist(&arguments);
+            let run = jurist(&[&arguments[..], &["--json"]].concat());
             if run.status != 2 || has_table {
-                document(&arguments);
+                document_of(&arguments, &run);
             } else {
                 assert!(run.stderr.contains("E-function") || run.stderr.contains("E-dead-time"), "{}", run.stderr);
             }
