@@ -14,6 +14,7 @@ use jurist_algebra::ball::{Ball, cos_sin};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
+use jurist_algebra::symbols::Definition;
 use std::sync::Arc;
 
 /// `D(z; k) = D0 + k N`: the characteristic polynomial with the factor `k` at the cut, nominally 1.
@@ -112,8 +113,17 @@ impl OpenLoop {
         Ok(open_loop)
     }
 
-    /// The same, also where nothing comes back, as at one value of a gain.
+    /// The same with polynomials over the constants of holds, however long they are.
+    pub(super) fn exact(problem: &Problem, at: Option<&str>, budget: &Budget) -> Result<OpenLoop, Error> {
+        OpenLoop::with(problem, at, false, budget)
+    }
+
+    /// The same as [`OpenLoop::of`], also where nothing comes back, as at one value of a gain.
     pub(super) fn of_any(problem: &Problem, at: Option<&str>, budget: &Budget) -> Result<OpenLoop, Error> {
+        OpenLoop::with(problem, at, true, budget)
+    }
+
+    fn with(problem: &Problem, at: Option<&str>, or_enclosed: bool, budget: &Budget) -> Result<OpenLoop, Error> {
         assert!(problem.free().is_empty(), "every parameter has a value");
         let model = problem.model();
         let cut = match (model.cut(at), at) {
@@ -128,7 +138,7 @@ impl OpenLoop {
         let shape = problem.shape();
         let ((over, dead_time), sample_time) = match &cut {
             Cut::Gain(name) => by_gain(problem, name, budget)?,
-            _ if model.has_holds() => exact_or_enclosed(
+            _ if or_enclosed && model.has_holds() => exact_or_enclosed(
                 budget,
                 |budget| opened_exactly(problem, &cut, budget),
                 |budget| {
@@ -146,6 +156,13 @@ impl OpenLoop {
     /// True if nothing comes back to the cut.
     pub(super) fn is_zero(&self) -> bool {
         self.over.is_open()
+    }
+
+    /// Whether enclosures are all that is known of coefficients.
+    pub(super) fn is_enclosed(&self) -> bool {
+        let Over::Constants(parts) = &self.over else { return false };
+        let symbols = &parts.ground.0;
+        (0..symbols.len()).any(|i| matches!(symbols.definition(i), Definition::Enclosed(_)))
     }
 
     /// From its polynomials.

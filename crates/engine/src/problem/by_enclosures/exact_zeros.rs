@@ -39,6 +39,26 @@ pub(super) fn exact_zeros(a: &RationalMatrix, b: &RationalMatrix) -> UniPoly {
     common_factor(rows)
 }
 
+/// By how much the degree of what stands beside `K` is less than `n - 1`, for a matrix `B` of rank one: the number of Markov parameters
+/// `c A^k e` from the first on that are zero.
+///
+/// Cost: products of the matrix and a vector over symbols.
+pub(super) fn missing_degrees(a: &RationalMatrix, b: &RationalMatrix) -> usize {
+    let n = a.rows();
+    let Some(pivot) = (0..n * n).map(|at| (at / n, at % n)).find(|&at| !b[at].is_zero()) else { return 0 };
+    let dot = |row: &mut dyn Iterator<Item = &RationalFunction>, v: &[RationalFunction]| {
+        row.zip(v).fold(RationalFunction::zero(), |sum, (x, y)| &sum + &(x * y))
+    };
+    let mut v: Vec<RationalFunction> = (0..n).map(|i| b[(i, pivot.1)].clone()).collect();
+    for found in 0..n {
+        if !dot(&mut (0..n).map(|j| &b[(pivot.0, j)]), &v).is_zero() {
+            return found;
+        }
+        v = (0..n).map(|i| dot(&mut (0..n).map(|j| &a[(i, j)]), &v)).collect();
+    }
+    0
+}
+
 /// A row times an integer.
 fn integral(row: Vec<[Rational; 2]>) -> Row {
     let common = row.iter().flatten().fold(Integer::ONE, |l, x| l.lcm(&x.denominator()));
@@ -110,6 +130,13 @@ mod tests {
         // As a factor of the row a symbol belongs to e.
         let b = matrix(&[&["0", "0", "0"], &["0", "0", "0"], &["x1", "5/2 x1", "-1 x1"]]);
         assert_eq!(exact_zeros(&a, &b), UniPoly::from_i64(&[-1, 1, 2]));
+        assert_eq!(missing_degrees(&a, &b), 0);
+        // With the input a sample late the degree is less by one.
+        let late =
+            matrix(&[&["1", "1", "0", "0"], &["0", "1", "-1", "0"], &["0", "0", "x0", "x1"], &["0", "0", "0", "0"]]);
+        let b_late =
+            matrix(&[&["0", "0", "0", "0"], &["0", "0", "0", "0"], &["0", "0", "0", "0"], &["2", "5", "-2", "0"]]);
+        assert_eq!((missing_degrees(&late, &b_late), exact_zeros(&late, &b_late)), (1, UniPoly::from_i64(&[-1, 1, 2])));
         // Where c has symbols nothing is known.
         let b = matrix(&[&["0", "0", "0"], &["0", "0", "0"], &["x1", "5", "-2"]]);
         assert_eq!(exact_zeros(&a, &b), UniPoly::one());

@@ -1,6 +1,6 @@
 //! A part of a loop behind holds: the matrix `A + K B` and its characteristic polynomial, with a symbol for each coefficient.
 
-use super::exact_zeros::exact_zeros;
+use super::exact_zeros::{exact_zeros, missing_degrees};
 use super::steady_state::steady_state;
 use crate::model::{Symbols, quotient_at};
 use crate::stability::SymbolicPolynomial;
@@ -33,6 +33,8 @@ pub(super) struct Part {
     at_origin: usize,
     /// A factor of what stands beside each power of `K`.
     zeros: UniPoly,
+    /// By how much its degree is less than `n - 1`.
+    missing: usize,
     /// `d(K)` with `D(1; K) = c d(K)` for a number `c` other than 0, where that is known.
     at_rest: Option<UniPoly>,
     known: Mutex<BTreeMap<u64, Arc<Vec<Ball>>>>,
@@ -63,11 +65,12 @@ impl Part {
         let symbols = Arc::clone(symbols);
         let known = Mutex::default();
         let at_origin = dependent_rows(&constant, &linear);
-        let zeros = match degree {
-            1 => exact_zeros(&constant, &linear),
-            _ => UniPoly::monomial(Integer::ONE, at_origin),
+        let (zeros, missing) = match degree {
+            1 => (exact_zeros(&constant, &linear), missing_degrees(&constant, &linear)),
+            _ => (UniPoly::monomial(Integer::ONE, at_origin), 0),
         };
-        let mut part = Part { symbols, constant, linear, degree, exact, others, at_origin, zeros, at_rest, known };
+        let mut part =
+            Part { symbols, constant, linear, degree, exact, others, at_origin, zeros, missing, at_rest, known };
         if part.degree > 0 && part.at_rest.is_some() && part.factor_at_rest(super::BITS)?.contains_zero() {
             part.at_rest = None;
         }
@@ -114,7 +117,7 @@ impl Part {
 
     /// How many coefficients the other factor has of what stands beside a power of `K`.
     fn beside(&self) -> usize {
-        self.constant.rows() - self.zeros.degree().unwrap_or(0)
+        self.constant.rows() - self.zeros.degree().unwrap_or(0) - self.missing
     }
 
     /// The coefficients of the other factor at `K = 0` without the leading one, then those of the other factor beside each power of `K`.
@@ -133,7 +136,7 @@ impl Part {
                 let term = |(node, w): (&Vec<Ball>, &Rational)| node[k].mul(&Ball::from_rational(w, bits));
                 nodes.iter().zip(weights).map(term).fold(Ball::zero(bits), |sum, t| sum.add(&t))
             };
-            out.extend(quotient((0..n).map(coefficient).collect(), &self.zeros));
+            out.extend(quotient((0..n - self.missing).map(coefficient).collect(), &self.zeros));
         }
         let out = Arc::new(out);
         known().insert(bits, Arc::clone(&out));
