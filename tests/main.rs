@@ -29,6 +29,7 @@ mod models {
     mod drive;
     mod errors;
     mod expressions;
+    mod nominal_formulas;
     mod root_causes;
 }
 

@@ -621,9 +621,17 @@ class Model:
             table(parameter, "nominal min max unit description tolerance")
             if "tolerance" in parameter:
                 tolerance(parameter["tolerance"])
-            numbers = {key: constant(parameter[key]) for key in ("nominal", "min", "max") if key in parameter}
+            if "nominal" in parameter:
+                self.formula(parameter["nominal"])
+            numbers = {key: constant(parameter[key]) for key in ("min", "max") if key in parameter}
             need(not {"min", "max"} <= set(numbers) or numbers["min"] < numbers["max"], "a domain is empty")
             [text_of(parameter[key]) for key in ("unit", "description") if key in parameter]
+
+    def formula(self, toml):
+        """A nominal value: what it is does not matter here, since a certificate has all values."""
+        names = [name for name, value in self.constants.items() if not isinstance(value, list)] + list(self.parameters)
+        used = [name for name in names if isinstance(toml, str) and name in tokens_of(toml)]
+        Scope({}, {name: v for v, name in enumerate(used, 1)}, Moving(1 + len(used))).value(toml)
 
     @staticmethod
     def value(toml):

@@ -140,9 +140,9 @@ class Loop(StabilityQuestions, ResponseQuestions):
     def parameters(self) -> Mapping[str, Parameter]:
         """By name, in the order of the model."""
         out = {}
-        for name, *numbers, unit, description in self._core.parameters():
+        for name, *numbers, unit, description, formula in self._core.parameters():
             nominal, least, most = (None if text is None else fraction(text) for text in numbers)
-            out[name] = Parameter(name, nominal, least, most, unit, description)
+            out[name] = Parameter(name, nominal, least, most, unit, description, formula)
         return out
 
     @property

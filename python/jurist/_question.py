@@ -50,6 +50,8 @@ class Parameter(NamedTuple):
     max: Fraction | None
     unit: str | None
     description: str | None
+    formula: str | None = None
+    """The nominal value as it is written, where that is a formula."""
 
 
 def bound(x: Exact | None) -> str | None:

@@ -12,8 +12,9 @@ use std::sync::Arc;
 /// Codes and texts of warnings.
 type Warnings = Vec<(&'static str, String)>;
 
-/// A parameter as texts: name, nominal value, lower and upper bound, unit, description.
-type ParameterParts = (String, Option<String>, Option<String>, Option<String>, Option<String>, Option<String>);
+/// A parameter as texts: name, nominal value, lower and upper bound, unit, description, and the formula of the nominal value.
+type ParameterParts =
+    (String, Option<String>, Option<String>, Option<String>, Option<String>, Option<String>, Option<String>);
 
 /// A model that has been read.
 #[pyclass(frozen, module = "jurist._jurist")]
@@ -60,7 +61,8 @@ impl Model {
         let text = |value: &Option<jurist::Rational>| value.as_ref().map(ToString::to_string);
         let parts = |p: &jurist::Parameter| {
             let unit = p.unit.clone();
-            (p.name.clone(), text(&p.nominal), text(&p.min), text(&p.max), unit, p.description.clone())
+            let formula = p.nominal_formula.as_ref().map(ToString::to_string);
+            (p.name.clone(), text(&p.nominal), text(&p.min), text(&p.max), unit, p.description.clone(), formula)
         };
         self.0.parameters().iter().map(parts).collect()
     }

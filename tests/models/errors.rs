@@ -213,7 +213,7 @@ fn structure() {
     let domain = "time = 'discrete'\nparameters.K = { min = 2, max = 2 }\nloop.characteristic = 'z - K'\n";
     assert_eq!(errors(domain), ["E-empty-domain@2:33"]);
     let nominal = "time = 'discrete'\nparameters.K = { nominal = 'x' }\nloop.characteristic = 'z - K'\n";
-    assert_eq!(errors(nominal), ["E-not-a-number@2:29"]);
+    assert_eq!(errors(nominal), ["E-unknown-name@2:29"]);
 }
 
 #[test]

@@ -62,8 +62,30 @@ impl<'t> Declarations<'t> {
         let constants = declared.constants.iter().chain(&declared.matrices).map(|(name, _)| *name);
         let names: Vec<&str> = constants.chain(declared.parameters.iter().copied()).collect();
         declared.distinct(&names)?;
+        for (_, parameter) in root.section("parameters")? {
+            declared.formula(parameter, clock)?;
+        }
         declared.taken.extend(names);
         Ok(declared)
+    }
+
+    /// Reads a nominal value, a number or a formula in constants and parameters. What it is does not matter here, since a certificate has
+    /// all values.
+    fn formula(&self, parameter: &Toml, clock: &Clock) -> Result<(), String> {
+        let nominal = match parameter {
+            Toml::Table(_) => parameter.get("nominal"),
+            number => Some(number),
+        };
+        let Some(nominal) = nominal else { return Ok(()) };
+        let used: BTreeSet<&str> = names_in(nominal.expression()?).into_iter().collect();
+        let is_known =
+            |name: &&str| self.parameters.contains(name) || self.constants.iter().any(|(constant, _)| constant == name);
+        let variables: BTreeMap<String, usize> =
+            used.into_iter().filter(is_known).zip(1..).map(|(name, i)| (name.to_owned(), i)).collect();
+        let next = variables.len() + 1;
+        let mut scope = Scope::new(variables, clock);
+        scope.moving = Some(Moving::new(next, false));
+        scope.scalar(nominal).map(|_| ())
     }
 
     /// The name of the loop's variable.
@@ -170,15 +192,14 @@ impl<'t> Declarations<'t> {
     }
 }
 
-/// Reads a parameter: a number, or a table with numbers.
+/// Reads the domain of a parameter, if it is a table.
 fn domain(parameter: &Toml, clock: &Clock) -> Result<(), String> {
     if !matches!(parameter, Toml::Table(_)) {
-        number(parameter, clock)?;
         return Ok(());
     }
     let read = |key: &str| parameter.get(key).map(|value| number(value, clock)).transpose();
     parameter.get("tolerance").map(|value| tolerance(value, clock)).transpose()?;
-    let (_, min, max) = (read("nominal")?, read("min")?, read("max")?);
+    let (min, max) = (read("min")?, read("max")?);
     match (min, max) {
         (Some(min), Some(max)) if min >= max => Err("the domain of a parameter is empty".into()),
         _ => Ok(()),

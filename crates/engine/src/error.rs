@@ -40,6 +40,11 @@ impl Span {
         Span { start, end: end.max(start) }
     }
 
+    /// Whether another range lies in this one.
+    pub fn covers(self, other: Span) -> bool {
+        self.start <= other.start && other.end <= self.end
+    }
+
     /// The smallest range that holds both.
     pub fn to(self, other: Span) -> Span {
         Span { start: self.start.min(other.start), end: self.end.max(other.end) }

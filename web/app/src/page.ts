@@ -256,9 +256,10 @@ export class Page {
     return [...this.values];
   }
 
-  /** Those of them that differ from nominal. */
+  /** Those of them that differ from nominal, and those that would follow others. */
   differing(): [string, string][] {
-    return this.given().filter(([name, value]) => this.model?.parameters.find((p) => p.name === name)?.nominal !== plain(value));
+    const known = (name: string) => this.model?.parameters.find((p) => p.name === name);
+    return this.given().filter(([name, value]) => known(name)?.nominal !== plain(value) || known(name)?.formula != null);
   }
 
   /** Everything that a point needs: the verdict and the pictures that move at once, the rest when there is time. */

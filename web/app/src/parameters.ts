@@ -11,6 +11,8 @@ export interface Parameter {
   max: string | null;
   unit: string | null;
   description: string | null;
+  /** The nominal value as it is written, where that is a formula. */
+  formula: string | null;
 }
 
 interface End {

@@ -31,7 +31,7 @@ fn said(model: &Model) -> Value {
         let text = |value: &Option<jurist::Rational>| value.as_ref().map(ToString::to_string);
         json!({
             "name": p.name, "nominal": text(&p.nominal), "min": text(&p.min), "max": text(&p.max),
-            "unit": p.unit, "description": p.description,
+            "unit": p.unit, "description": p.description, "formula": p.nominal_formula.as_ref().map(ToString::to_string),
         })
     };
     let constant = |c: &jurist::Constant| {

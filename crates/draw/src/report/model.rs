@@ -230,10 +230,13 @@ fn parameters(question: &Question) -> String {
     for p in model.parameters() {
         let unit = p.unit.as_deref().map(|u| format!(" {u}")).unwrap_or_default();
         let with_unit = |value: &Rational| format!("{}{unit}", short(value));
-        let nominal = match (question.values_set().get(&p.name), &p.nominal) {
-            (Some(set), _) => format!("{} (set)", with_unit(set)),
-            (None, Some(nominal)) => with_unit(nominal),
-            (None, None) => "none".to_owned(),
+        let value = question.nominal(&p.name).ok().flatten();
+        let nominal = match (question.values_set().get(&p.name), value, &p.nominal_formula) {
+            (Some(set), ..) => format!("{} (set)", with_unit(set)),
+            (None, Some(nominal), None) => with_unit(&nominal),
+            (None, Some(nominal), Some(formula)) => format!("{} = {}", with_unit(&nominal), written(model, formula)),
+            (None, None, Some(formula)) => format!("none: {}", written(model, formula)),
+            (None, None, None) => "none".to_owned(),
         };
         let tolerance = p.tolerance.as_ref().map(|t| format!(", tolerance {t}")).unwrap_or_default();
         let domain = match (&p.min, &p.max) {

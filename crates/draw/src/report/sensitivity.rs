@@ -35,7 +35,7 @@ fn changed(question: &Question, of: &str) -> Vec<Changed> {
     let model = question.model();
     let set = |name: &str| question.values_set().get(name).cloned();
     let constants = model.constants().iter().filter_map(|c| Some((&c.name, c.number.clone()?)));
-    let parameters = model.parameters().iter().filter_map(|p| Some((&p.name, set(&p.name).or(p.nominal.clone())?)));
+    let parameters = model.parameters().iter().filter_map(|p| Some((&p.name, set(&p.name)?)));
     constants
         .chain(parameters)
         .map(|(name, number)| Changed { nominal: set(name).unwrap_or(number), name: name.clone() })
@@ -62,6 +62,9 @@ pub(super) fn section(question: &Question, limits: &[Limits], parts: &Parts<'_>)
         "Each limit once more with one number of the model 10 % smaller and 10 % larger, all others as they are. Nothing is \
          estimated: every value is computed again from the model and correctly rounded.",
     );
+    // One number alone is changed: nominal values that are formulas do not follow it.
+    let pinned = question.clone().with_nominal_values();
+    let question = pinned.as_ref().unwrap_or(question);
     let questions: usize = limits.iter().map(|l| 2 * changed(question, &l.name).len()).sum();
     let (total, least, most) = WORK;
     let work = (total / questions.max(1) as u64).clamp(least, most);
@@ -99,7 +102,7 @@ fn of_parameter(question: &Question, limits: &Limits, work: u64, parts: &Parts<'
     let jobs: Vec<(usize, i64)> = (0..list.len()).flat_map(|k| [(k, 90), (k, 110)]).collect();
     let found: Vec<Part<Ends>> = parallel_map(jobs, |(k, percent): (usize, i64)| {
         let value = &list[k].nominal * &Rational::new(percent.into(), 100.into());
-        let asked = question.clone().set(&list[k].name, value).free(&limits.name);
+        let asked = question.clone().without_value(&limits.name).set(&list[k].name, value).free(&limits.name);
         parts.within(&share, Work::Units(work), |budget| match &near {
             Some(near) => near.ends(&asked, budget),
             None => Ok(ends(&asked.stable_set(budget)?)),

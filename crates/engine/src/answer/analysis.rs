@@ -58,7 +58,12 @@ impl Question {
         let model = Arc::clone(self.model());
         let open = model.parameters().iter().filter(|p| !self.values_set().contains_key(&p.name));
         let open: Vec<_> = open.collect();
-        let without_value: Vec<_> = open.iter().filter(|p| p.nominal.is_none()).collect();
+        let mut without_value = Vec::new();
+        for parameter in &open {
+            if self.nominal(&parameter.name)?.is_none() {
+                without_value.push(parameter);
+            }
+        }
         let verdict = if without_value.is_empty() {
             let problem = self.clone().problem()?;
             let verdict = stopped(Problem::verdict(&problem, budget).map(Answer::into_value))?;

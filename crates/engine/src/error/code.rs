@@ -94,6 +94,7 @@ pub enum Code {
     Write = "E-write",
     CertificateWarning = "W-certificate",
     DomainWarning = "W-domain",
+    NominalWarning = "W-nominal",
     NotMetWarning = "W-not-met",
     OutsideDomainWarning = "W-outside-domain",
     OwnMeaningWarning = "W-own-meaning",

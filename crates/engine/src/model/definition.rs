@@ -90,8 +90,10 @@ pub struct Parameter {
     pub name: String,
     /// The place of the name.
     pub span: Span,
-    /// The value it has when nothing else is said.
+    /// The value it has when nothing else is said; of a formula, that for the model's own numbers.
     pub nominal: Option<Rational>,
+    /// The nominal value as it is written, where that is a formula in constants and other parameters.
+    pub nominal_formula: Option<Expression>,
     /// The open lower bound of its domain.
     pub min: Option<Rational>,
     /// The open upper bound of its domain.
@@ -351,8 +353,8 @@ pub struct Model {
     pub(super) sample_time: Option<Expression>,
     /// In the order of the text.
     pub(super) constants: Vec<Constant>,
-    /// Positions in `constants`, each after those it uses.
-    pub(super) constant_order: Vec<usize>,
+    /// Constants, and parameters whose nominal value is a formula, each after those it uses.
+    pub(super) order: Vec<Position>,
     pub(super) parameters: Vec<Parameter>,
     pub(super) form: Form,
     pub(super) simulation: Simulation,
@@ -362,7 +364,7 @@ pub struct Model {
 }
 
 /// Where a name is defined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Position {
     Constant(usize),
     Parameter(usize),
@@ -507,6 +509,9 @@ impl Model {
 
     /// The constants, each after those it uses.
     pub(super) fn ordered_constants(&self) -> impl Iterator<Item = &Constant> {
-        self.constant_order.iter().map(|&i| &self.constants[i])
+        self.order.iter().filter_map(|position| match position {
+            Position::Constant(i) => Some(&self.constants[*i]),
+            Position::Parameter(_) => None,
+        })
     }
 }

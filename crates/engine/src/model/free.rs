@@ -17,6 +17,7 @@ impl Model {
             name: c.name.clone(),
             span: c.span,
             nominal: c.number.clone(),
+            nominal_formula: None,
             min: None,
             max: None,
             unit: None,

@@ -18,6 +18,7 @@ pub mod examples;
 mod free;
 mod in_numbers;
 mod loop_line;
+mod nominal;
 mod open_loop;
 mod parts;
 mod presupposed;
@@ -35,6 +36,7 @@ pub use definition::{
 pub use discretization::Method;
 pub(crate) use in_numbers::InNumbers;
 pub use loop_line::LoopLine;
+pub(crate) use nominal::Nominal;
 pub use open_loop::Cut;
 pub(crate) use open_loop::{MoreDeadTime, Opened};
 pub(crate) use presupposed::{Presupposed, Presupposition};

@@ -4,7 +4,7 @@ use super::presupposed::{positive_functions, trimmed};
 use super::resolved::{Free, Problem};
 use super::{Bound, DECAY, RADIUS, Region};
 use crate::error::{Code, Diagnostic, Diagnostics, Error};
-use crate::model::{Model, Parameter};
+use crate::model::{Model, Nominal, Parameter};
 use crate::stability::Range;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
@@ -28,6 +28,8 @@ use std::sync::Arc;
 pub struct Question {
     model: Arc<Model>,
     set: BTreeMap<String, Rational>,
+    /// Values of names that are free around them: formulas of nominal values follow these, too.
+    around: BTreeMap<String, Rational>,
     domain: BTreeMap<String, Range>,
     free: Vec<String>,
     region: Option<Region>,
@@ -39,6 +41,7 @@ impl Model {
         Question {
             model: Arc::new(self.clone()),
             set: BTreeMap::new(),
+            around: BTreeMap::new(),
             domain: BTreeMap::new(),
             free: Vec::new(),
             region: None,
@@ -70,9 +73,63 @@ impl Question {
         self
     }
 
-    /// Takes back a value that was set.
+    /// Takes back a value that was set for a name that is free around it.
     pub(crate) fn take_set(&mut self, name: &str) -> Option<Rational> {
-        self.set.remove(name)
+        let value = self.set.remove(name)?;
+        self.around.insert(name.to_owned(), value.clone());
+        Some(value)
+    }
+
+    /// The value that a parameter has when it is left alone: its nominal value, for the values that are set where it is a formula.
+    ///
+    /// ```
+    /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+    /// let (model, _) = Model::builder(Time::Discrete)
+    ///     .constant("L", "6")
+    ///     .parameter(ParameterBuilder::new("K").nominal("L/3"))
+    ///     .characteristic("z - 1 + K/10")
+    ///     .build()?;
+    /// assert_eq!(model.ask().nominal("K")?, Some(2.into()));
+    /// assert_eq!(model.ask().set("L", 9).nominal("K")?, Some(3.into()));
+    /// # Ok::<(), jurist_engine::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Refused`] where the formula has no rational value. A name that is no parameter has no nominal value.
+    pub fn nominal(&self, name: &str) -> Result<Option<Rational>, Error> {
+        let Some(i) = self.model.parameters().iter().position(|p| p.name == name) else { return Ok(None) };
+        match self.nominal_values().swap_remove(i) {
+            Nominal::Wrong(error) => {
+                Err(Diagnostics::new(Some(self.model.source().clone()), vec![self.because(*error)]).into())
+            }
+            other => Ok(other.value().cloned()),
+        }
+    }
+
+    /// The question with the value of every parameter that is neither set nor free set to its nominal value: formulas follow no more.
+    ///
+    /// # Errors
+    /// As [`Question::nominal`].
+    pub fn with_nominal_values(mut self) -> Result<Self, Error> {
+        let open = |p: &&Parameter| !self.free.contains(&p.name) && !self.set.contains_key(&p.name);
+        let names: Vec<String> = self.model.parameters().iter().filter(open).map(|p| p.name.clone()).collect();
+        let values: Vec<_> = names.iter().map(|name| self.nominal(name)).collect::<Result<_, _>>()?;
+        self.set.extend(names.into_iter().zip(values).filter_map(|(name, value)| Some((name, value?))));
+        Ok(self)
+    }
+
+    /// The nominal values of the model's parameters, in their order.
+    fn nominal_values(&self) -> Vec<Nominal> {
+        self.model.nominal_values(&|name| self.set.get(name).or_else(|| self.around.get(name)).cloned())
+    }
+
+    /// What is wrong with a formula, with the values that are set and that it depends on.
+    fn because(&self, error: Diagnostic) -> Diagnostic {
+        if error.help.is_some() || self.set.is_empty() {
+            return error;
+        }
+        let set: Vec<String> = self.set.iter().take(8).map(|(name, value)| format!("{name} = {value}")).collect();
+        error.help(format!("here {}; set the parameter itself, too", set.join(", ")))
     }
 
     /// Replaces the open domain of a parameter; of `radius` and `decay`, too.
@@ -122,7 +179,8 @@ impl Question {
     /// frequencies that have no meaning.
     pub fn problem(self) -> Result<Arc<Problem>, Error> {
         let (free, region) = self.region_and_free()?;
-        let set = resolve(&self.model, &free, &self.set)?;
+        let nominal = self.nominal_values();
+        let set = self.resolve(&free, &nominal)?;
         let mut described = Vec::with_capacity(free.len() + 1);
         if region.is_free() {
             let name = region.bound_name();
@@ -135,7 +193,12 @@ impl Question {
             described.push(Free { name: name.to_owned(), unit: None, nominal: None, domain });
         }
         for name in &free {
-            let parameter = self.model.free(name)?;
+            let mut parameter = self.model.free(name)?;
+            if parameter.nominal_formula.is_some()
+                && let Some(i) = self.model.parameters().iter().position(|p| p.name == *name)
+            {
+                parameter.nominal = nominal[i].value().cloned();
+            }
             let domain = self.domain.get(name).cloned();
             let domain = domain.unwrap_or_else(|| Range::between(parameter.min.clone(), parameter.max.clone()));
             described.push(Free { name: name.clone(), unit: parameter.unit, nominal: parameter.nominal, domain });
@@ -147,7 +210,7 @@ impl Question {
                     .into());
             }
         }
-        let mut warnings = self.warnings(&free);
+        let mut warnings = self.warnings(&free, &set);
         let positive = self.presuppose(&free, &set, &mut described, &mut warnings)?;
         Ok(Arc::new(Problem::new(self.model, set, described, region, warnings).with_positive(positive)))
     }
@@ -202,62 +265,82 @@ impl Question {
         Ok((free, region))
     }
 
-    /// Values that lie outside their domains, those of the question before those of the model.
+    /// Values that lie outside their domains, those of the question before those of the model; and formulas that do not follow what is
+    /// free.
     ///
     /// A nominal value outside the model's own domain is remarked upon when the model is read.
-    fn warnings(&self, free: &[String]) -> Vec<Diagnostic> {
+    fn warnings(&self, free: &[String], values: &[(String, Rational)]) -> Vec<Diagnostic> {
         let model = &self.model;
+        let value = |name: &String| values.iter().find(|(n, _)| n == name).map(|(_, value)| value.clone());
         let parameters = model.parameters().iter().map(|p| &p.name);
         let names = parameters.chain(model.constants().iter().map(|c| &c.name)).filter(|name| !free.contains(name));
         let mut warnings = Vec::new();
         for name in names {
             let set = self.set.get(name).cloned();
-            let nominal = || model.free(name).ok().and_then(|p| p.nominal);
+            let constant = || model.constant(name).and_then(|c| c.number.clone());
+            let follows =
+                || value(name).filter(|v| model.parameter(name).is_some_and(|p| p.nominal.as_ref() != Some(v)));
             let outside = match self.domain.get(name) {
-                Some(range) => set.or_else(nominal).filter(|v| !range.contains(v)),
-                None => set.filter(|v| model.parameter(name).is_some_and(|p| !p.contains(v))),
+                Some(range) => value(name).or_else(constant).filter(|v| !range.contains(v)),
+                None => set.or_else(follows).filter(|v| model.parameter(name).is_some_and(|p| !p.contains(v))),
             };
             if let Some(value) = outside {
                 let message = format!("{name} = {value} is outside its domain");
                 warnings.push(Diagnostic::warning(Code::OutsideDomainWarning, message));
             }
         }
+        for parameter in
+            model.parameters().iter().filter(|p| !free.contains(&p.name) && !self.set.contains_key(&p.name))
+        {
+            let needed = model.needed_by(parameter.nominal_formula.iter());
+            let follows = free.iter().find(|name| needed.contains(name.as_str()));
+            if let (Some(moving), Some(value)) = (follows, value(&parameter.name)) {
+                let name = &parameter.name;
+                let message = format!("{name} keeps its nominal value {value} while {moving} varies");
+                let help = format!("for a '{name}' that follows, define it in [constants]");
+                warnings.push(Diagnostic::warning(Code::NominalWarning, message).help(help));
+            }
+        }
         warnings
     }
-}
 
-/// The value of every parameter that is not free, and of every constant that was set, in the order of the model.
-fn resolve(
-    model: &Model,
-    free: &[String],
-    set: &BTreeMap<String, Rational>,
-) -> Result<Vec<(String, Rational)>, Diagnostics> {
-    let mut errors = Vec::new();
-    for name in free.iter().chain(set.keys()) {
-        errors.extend(model.not_free(name));
-    }
-    for (i, name) in free.iter().enumerate() {
-        let shown = crate::model::shorten(name);
-        if free[..i].contains(name) {
-            errors.push(Diagnostic::error(Code::KeptTwice, format!("'{shown}' is asked for twice")));
-        } else if set.contains_key(name) {
-            let error = Diagnostic::error(Code::KeptAndSet, format!("'{shown}' is both kept symbolic and set"));
-            errors.push(error.help("leave out one of the two"));
+    /// The value of every parameter that is not free, and of every constant that was set, in the order of the model.
+    fn resolve(&self, free: &[String], nominal: &[Nominal]) -> Result<Vec<(String, Rational)>, Diagnostics> {
+        let (model, set) = (&self.model, &self.set);
+        let mut errors = Vec::new();
+        for name in free.iter().chain(set.keys()) {
+            errors.extend(model.not_free(name));
         }
-    }
-    let mut values = Vec::new();
-    for parameter in model.parameters().iter().filter(|p| !free.contains(&p.name)) {
-        match set.get(&parameter.name).or(parameter.nominal.as_ref()) {
-            Some(value) => values.push((parameter.name.clone(), value.clone())),
-            None => errors.push(no_value(parameter)),
+        for (i, name) in free.iter().enumerate() {
+            let shown = crate::model::shorten(name);
+            if free[..i].contains(name) {
+                errors.push(Diagnostic::error(Code::KeptTwice, format!("'{shown}' is asked for twice")));
+            } else if set.contains_key(name) {
+                let error = Diagnostic::error(Code::KeptAndSet, format!("'{shown}' is both kept symbolic and set"));
+                errors.push(error.help("leave out one of the two"));
+            }
         }
-    }
-    for constant in model.constants() {
-        if let Some(value) = set.get(&constant.name) {
-            values.push((constant.name.clone(), value.clone()));
+        let mut values = Vec::new();
+        for (parameter, nominal) in model.parameters().iter().zip(nominal).filter(|(p, _)| !free.contains(&p.name)) {
+            match nominal {
+                Nominal::Value(value) => values.push((parameter.name.clone(), value.clone())),
+                Nominal::Missing => errors.push(no_value(parameter)),
+                Nominal::Needs(other) => {
+                    let span = parameter.nominal_formula.as_ref().map_or(parameter.span, |formula| formula.span);
+                    let mut error = no_value(parameter);
+                    error = error.at(span, format!("needs the nominal value of '{}'", crate::model::shorten(other)));
+                    errors.push(error);
+                }
+                Nominal::Wrong(error) => errors.push(self.because((**error).clone())),
+            }
         }
+        for constant in model.constants() {
+            if let Some(value) = set.get(&constant.name) {
+                values.push((constant.name.clone(), value.clone()));
+            }
+        }
+        if errors.is_empty() { Ok(values) } else { Err(Diagnostics::new(Some(model.source().clone()), errors)) }
     }
-    if errors.is_empty() { Ok(values) } else { Err(Diagnostics::new(Some(model.source().clone()), errors)) }
 }
 
 fn no_value(parameter: &Parameter) -> Diagnostic {

@@ -106,6 +106,11 @@ impl<'a> Scope<'a> {
         self.values.insert(name, Some(value));
     }
 
+    /// Gives a name its value; `None` where it has none.
+    pub fn define(&mut self, name: &'a str, value: Option<RationalFunction>) {
+        self.values.insert(name, value);
+    }
+
     /// The value of an expression in constants and parameters.
     pub fn scalar(&mut self, e: &Expression) -> Result<RationalFunction, Failure> {
         evaluate(e, self)

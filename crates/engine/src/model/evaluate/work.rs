@@ -10,7 +10,7 @@ use jurist_algebra::poly::{MultiPoly, RationalFunction};
 
 /// Units of work (see [`checkpoint`]) in which a formula of numbers has to be evaluated: about a third of a second on
 /// an idle machine, thousands of times what formulas of numbers need. Beyond it the text is refused.
-const NUMBER_WORK: u64 = 30_000_000;
+pub(in crate::model) const NUMBER_WORK: u64 = 30_000_000;
 
 /// Units of work that an operation on the smallest numbers costs.
 const OPERATION: u64 = 20;

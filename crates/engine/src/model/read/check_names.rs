@@ -69,31 +69,34 @@ pub(super) fn definitions(
     }
 }
 
-/// The constants in an order in which each uses earlier ones only.
-pub(super) fn constant_order(
+/// The constants, and the parameters with a formula for their nominal value, in an order in which each uses earlier ones only.
+pub(super) fn order(
     constants: &[Constant],
+    parameters: &[Parameter],
     index: &HashMap<String, Position>,
     reader: &mut Reader,
-) -> Vec<usize> {
+) -> Vec<Position> {
     #[derive(Clone, Copy, PartialEq)]
     enum State {
         New,
         Open,
         Done,
     }
-    let uses: Vec<Vec<usize>> = constants
-        .iter()
-        .map(|c| {
-            let position = |name: &str| match index.get(name) {
-                Some(Position::Constant(i)) => Some(*i),
-                _ => None,
-            };
-            c.expression.names().into_iter().filter_map(position).collect()
-        })
-        .collect();
-    let mut state = vec![State::New; constants.len()];
+    let formulas = parameters.iter().enumerate().filter_map(|(i, p)| Some((i, p, p.nominal_formula.as_ref()?)));
+    let formulas =
+        formulas.map(|(i, p, e)| Defined { position: Position::Parameter(i), name: &p.name, span: e.span, e });
+    let defined = constants.iter().enumerate().map(|(i, c)| {
+        let position = Position::Constant(i);
+        Defined { position, name: &c.name, span: c.span, e: &c.expression }
+    });
+    let defined: Vec<Defined<'_>> = defined.chain(formulas).collect();
+    let place: HashMap<Position, usize> = defined.iter().enumerate().map(|(k, one)| (one.position, k)).collect();
+    let used = |name: &str| place.get(index.get(name)?).copied();
+    let uses: Vec<Vec<usize>> =
+        defined.iter().map(|one| one.e.names().into_iter().filter_map(used).collect()).collect();
+    let mut state = vec![State::New; defined.len()];
     let mut order = Vec::new();
-    for root in 0..constants.len() {
+    for root in 0..defined.len() {
         if state[root] != State::New {
             continue;
         }
@@ -103,7 +106,7 @@ pub(super) fn constant_order(
         while let Some((current, next)) = stack.pop() {
             let Some(&used) = uses[current].get(next) else {
                 state[current] = State::Done;
-                order.push(current);
+                order.push(defined[current].position);
                 continue;
             };
             stack.push((current, next + 1));
@@ -114,7 +117,7 @@ pub(super) fn constant_order(
                 }
                 State::Open => {
                     let from = stack.iter().position(|&(i, _)| i == used).unwrap_or(0);
-                    let cycle: Vec<&Constant> = stack[from..].iter().map(|&(i, _)| &constants[i]).collect();
+                    let cycle: Vec<&Defined<'_>> = stack[from..].iter().map(|&(i, _)| &defined[i]).collect();
                     reader.report(cycle_error(&cycle));
                 }
                 State::Done => {}
@@ -124,16 +127,30 @@ pub(super) fn constant_order(
     order
 }
 
-fn cycle_error(cycle: &[&Constant]) -> Diagnostic {
+/// What has a value by a formula, and where that is to be seen.
+struct Defined<'m> {
+    position: Position,
+    name: &'m str,
+    span: Span,
+    e: &'m Expression,
+}
+
+fn cycle_error(cycle: &[&Defined<'_>]) -> Diagnostic {
     /// Members of a cycle that are shown.
     const SHOWN: usize = 8;
     let first = cycle[0];
-    let mut path: Vec<String> = cycle.iter().take(SHOWN).map(|c| shorten(&c.name).into_owned()).collect();
+    let mut path: Vec<String> = cycle.iter().take(SHOWN).map(|c| shorten(c.name).into_owned()).collect();
     if cycle.len() > SHOWN {
         path.push("...".into());
     }
-    path.push(shorten(&first.name).into_owned());
-    let message = format!("constants are defined by each other: {}", path.join(" -> "));
+    path.push(shorten(first.name).into_owned());
+    let is_constant = |one: &&Defined<'_>| matches!(one.position, Position::Constant(_));
+    let what = match (cycle.iter().any(is_constant), cycle.iter().all(is_constant)) {
+        (_, true) => "constants",
+        (true, false) => "constants and nominal values",
+        (false, false) => "nominal values",
+    };
+    let message = format!("{what} are defined by each other: {}", path.join(" -> "));
     let mut error = Diagnostic::error(Code::Cycle, message).at(first.span, "depends on itself");
     for c in cycle.iter().skip(1).take(SHOWN) {
         error = error.also(c.span, "by way of this");
@@ -235,6 +252,9 @@ pub(super) fn names(model: &Model, form_is_broken: bool, reader: &mut Reader) {
     let mut names = Names { model, used: HashSet::new(), reported: HashSet::new(), misnamed: false, reader };
     for c in &model.constants {
         names.expression(&c.expression, &none, "");
+    }
+    for formula in model.parameters.iter().filter_map(|p| p.nominal_formula.as_ref()) {
+        names.expression(formula, &none, "");
     }
     matrices_without_use(&mut names);
     if let Some(e) = &model.sample_time {

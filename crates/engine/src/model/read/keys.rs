@@ -92,7 +92,11 @@ pub(super) const MODEL: [Key; 9] = [
 
 /// A parameter.
 pub(super) const PARAMETER: [Key; 6] = [
-    key("nominal", Shape::Number, "the value it has when nothing else is said"),
+    key(
+        "nominal",
+        Shape::Expression,
+        "the value it has when nothing else is said: a number, or a formula in constants and other parameters' nominal values",
+    ),
     key("min", Shape::Number, "the open lower bound of its domain"),
     key("max", Shape::Number, "the open upper bound of its domain"),
     key("unit", Shape::Text, "its unit, for people"),

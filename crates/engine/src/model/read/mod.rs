@@ -10,6 +10,7 @@ mod discretize;
 mod keys;
 mod loop_forms;
 mod model_file;
+mod nominal;
 mod reader;
 mod require;
 mod schema;

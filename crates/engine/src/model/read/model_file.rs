@@ -5,7 +5,7 @@ use super::loop_forms::read_form;
 use super::reader::{Meant, NamedMatrix, Reader};
 use super::tolerance::read_tolerance;
 use super::{check_names, check_rules, check_values};
-use super::{require, simulation};
+use super::{nominal, require, simulation};
 use crate::error::{Code, Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::model::definition::{Constant, Diagram, Form, Model, Name, Parameter, Time};
 use crate::model::evaluate::work::constant_value;
@@ -133,14 +133,14 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
     let require = require::read(root, reader);
     let mut index = HashMap::new();
     check_names::definitions(&constants, &parameters, time.unwrap_or(Time::Discrete), &mut index, reader);
-    let constant_order = check_names::constant_order(&constants, &index, reader);
+    let order = check_names::order(&constants, &parameters, &index, reader);
     let mut model = Model {
         source: Arc::clone(source),
         title,
         time: time?,
         sample_time,
         constants,
-        constant_order,
+        order,
         parameters,
         // With a broken form the names are checked all the same.
         form: form.clone().unwrap_or(Form::Blocks(Diagram { inputs: vec![], outputs: vec![], blocks: vec![] })),
@@ -155,6 +155,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
         check_values::values(&model, reader);
         check_values::sample_time(&model, reader);
         check_rules::rules(&model, reader);
+        nominal::values(&mut model, reader);
     }
     model.form = form?;
     Some(model)
@@ -249,6 +250,7 @@ fn read_parameters(root: &Table, reader: &mut Reader) -> Vec<Parameter> {
             name,
             span,
             nominal: None,
+            nominal_formula: None,
             min: None,
             max: None,
             unit: None,
@@ -257,7 +259,9 @@ fn read_parameters(root: &Table, reader: &mut Reader) -> Vec<Parameter> {
         };
         match &entry.value.kind {
             Kind::Table(table) => read_parameter(table, &mut parameter, reader),
-            Kind::Number(_) | Kind::String(_) => parameter.nominal = reader.number(&entry.value, "a nominal value"),
+            Kind::Number(_) | Kind::String(_) => {
+                nominal::read(&entry.value, &mut parameter, "a nominal value", reader);
+            }
             _ => reader.wrong_type(&entry.value, "a parameter", "a table or a number"),
         }
         parameters.push(parameter);
@@ -267,11 +271,13 @@ fn read_parameters(root: &Table, reader: &mut Reader) -> Vec<Parameter> {
 
 fn read_parameter(table: &Table, parameter: &mut Parameter, reader: &mut Reader) {
     reader.unknown_keys(table, &keys::PARAMETER, "a parameter");
+    if let Some(value) = table.get("nominal") {
+        nominal::read(value, parameter, "'nominal'", reader);
+    }
     let mut number = |key: &str| {
         let value = table.get(key)?;
         reader.number(value, &format!("'{key}'"))
     };
-    parameter.nominal = number("nominal");
     parameter.min = number("min");
     parameter.max = number("max");
     parameter.unit = reader.plain_string(table, "unit");
@@ -288,14 +294,12 @@ fn read_parameter(table: &Table, parameter: &mut Parameter, reader: &mut Reader)
                 .also(span("min"), "is not above this lower bound")
                 .help("'min' must be less than 'max'; both are open bounds"),
         );
-    } else if let Some(nominal) = &parameter.nominal
-        && !parameter.contains(nominal)
+    } else if let Some(value) = &parameter.nominal
+        && !parameter.contains(value)
     {
-        let message = format!("the nominal value of '{}' is outside its domain", shorten(&parameter.name));
-        let outside_below = parameter.min.as_ref().is_some_and(|min| nominal <= min);
+        let outside_below = parameter.min.as_ref().is_some_and(|min| value <= min);
         let bound = if outside_below { span("min") } else { span("max") };
-        let warning =
-            Diagnostic::warning(Code::OutsideDomainWarning, message).at(span("nominal"), "not in the open domain");
+        let warning = nominal::outside(parameter, span("nominal"), "not in the open domain");
         reader.report(warning.also(bound, "which ends here"));
     }
 }
