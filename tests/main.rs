@@ -23,6 +23,7 @@ mod laws {
 
 /// From a model's text to its characteristic polynomial, or to what is wrong with it.
 mod models {
+    mod closed_domains;
     mod constants_set;
     mod damaged;
     mod diagrams;

@@ -618,12 +618,17 @@ class Model:
         for parameter in self.parameters.values():
             if not isinstance(parameter, dict):
                 parameter = {"nominal": parameter}
-            table(parameter, "nominal min max unit description tolerance")
+            table(parameter, "nominal min max closed domain unit description tolerance")
             if "tolerance" in parameter:
                 tolerance(parameter["tolerance"])
             if "nominal" in parameter:
                 self.formula(parameter["nominal"])
             numbers = {key: constant(parameter[key]) for key in ("min", "max") if key in parameter}
+            need(isinstance(parameter.get("closed", True), bool) and ("closed" not in parameter or numbers), "'closed' closes nothing")
+            if "domain" in parameter:
+                need(not set(parameter) & {"min", "max", "closed"}, "a domain is given twice")
+                need(isinstance(parameter["domain"], list) and len(parameter["domain"]) == 2, "a domain has not two ends")
+                numbers = dict(zip(("min", "max"), map(constant, parameter["domain"])))
             need(not {"min", "max"} <= set(numbers) or numbers["min"] < numbers["max"], "a domain is empty")
             [text_of(parameter[key]) for key in ("unit", "description") if key in parameter]
 

@@ -83,13 +83,17 @@ class LoopBuilder:
         *,
         min: Exact | None = None,
         max: Exact | None = None,
+        closed: bool = False,
         unit: str | None = None,
         description: str | None = None,
     ) -> str:
-        """Adds a parameter; gives its name, for use in expressions. The nominal value may be a formula in constants and other parameters."""
+        """Adds a parameter; gives its name, for use in expressions. The nominal value may be a formula in constants and other parameters; the domain is
+        open unless it is `closed`.
+        """
         parts = [] if nominal is None else [f"nominal = {quoted(self._expression(nominal))}"]
         keys = {"min": min, "max": max}
         parts += [f"{key} = {quoted(text_of(value, self.floats))}" for key, value in keys.items() if value is not None]
+        parts += ["closed = true"] if closed else []
         parts += [f"{k} = {quoted(v)}" for k, v in {"unit": unit, "description": description}.items() if v]
         self._parameters.append(f"{quoted(name)} = {{ {', '.join(parts)} }}")
         return name

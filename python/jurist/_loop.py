@@ -140,9 +140,9 @@ class Loop(StabilityQuestions, ResponseQuestions):
     def parameters(self) -> Mapping[str, Parameter]:
         """By name, in the order of the model."""
         out = {}
-        for name, *numbers, unit, description, formula in self._core.parameters():
+        for name, *numbers, unit, description, formula, closed in self._core.parameters():
             nominal, least, most = (None if text is None else fraction(text) for text in numbers)
-            out[name] = Parameter(name, nominal, least, most, unit, description, formula)
+            out[name] = Parameter(name, nominal, least, most, unit, description, formula, closed)
         return out
 
     @property
@@ -199,7 +199,7 @@ class Loop(StabilityQuestions, ResponseQuestions):
         from ._html import escaped, table
 
         rows = [[p.name, *("" if x is None else x for x in (p.nominal, p.min, p.max, p.unit, p.description))] for p in self.parameters.values()]
-        head = ["parameter", "nominal", "above", "below", "unit", ""]
+        head = ["parameter", "nominal", "from", "to", "unit", ""]
         return f"<div><b>{escaped(self.title or self.name)}</b>, {self.time}{table(head, rows)}</div>"
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -52,6 +52,8 @@ class Parameter(NamedTuple):
     description: str | None
     formula: str | None = None
     """The nominal value as it is written, where that is a formula."""
+    closed: bool = False
+    """Whether `min` and `max` themselves belong to the domain."""
 
 
 def bound(x: Exact | None) -> str | None:

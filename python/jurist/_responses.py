@@ -199,7 +199,7 @@ class ResponseQuestions(Asker):
         ----------
         values : mapping, optional
         domain : mapping from names to pairs, optional
-            Replaces the open domains of parameters.
+            Replaces the domains of parameters by open ones.
         timeout : float, optional
 
         Examples

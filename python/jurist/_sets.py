@@ -117,10 +117,16 @@ class StableSet(Sequence[Interval]):
 
     @property
     def domain(self) -> tuple[Fraction | None, Fraction | None]:
-        """Where the parameter may lie, an open interval."""
+        """Where the parameter may lie, without the ends but for those in `domain_closed`."""
         bounds = self._document["domain"]
         lower, upper = (None if bounds[side] is None else fraction(bounds[side]) for side in ("lower", "upper"))
         return lower, upper
+
+    @property
+    def domain_closed(self) -> tuple[bool, bool]:
+        """Which ends of the domain belong to it."""
+        closed = self._document.get("domain_closed") or {}
+        return closed.get("lower", False), closed.get("upper", False)
 
     @property
     def point(self) -> Mapping[str, Fraction]:
@@ -185,7 +191,8 @@ class StableSet(Sequence[Interval]):
 
     def __invert__(self) -> StableSet:
         bounds = self._document["domain"]
-        ends = [None if bounds[side] is None else {**end_at(Real(bounds[side]), "domain", False).to_dict()} for side in ("lower", "upper")]
+        sides = zip(("lower", "upper"), self.domain_closed)
+        ends = [None if bounds[side] is None else {**end_at(Real(bounds[side]), "domain", closed).to_dict()} for side, closed in sides]
         whole = StableSet({**self._shared(), "stable": [{"lower": ends[0], "upper": ends[1]}]})
         return whole - self
 

@@ -45,7 +45,7 @@ class StabilityQuestions(Asker):
         values : mapping, optional
             Of other parameters and constants; the rest is nominal.
         domain : pair of exact numbers or None, or mapping from names to pairs
-            Replaces the open domain of the parameter.
+            Replaces the domain of the parameter by an open one.
         **question
             What every question takes:
 

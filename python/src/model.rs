@@ -12,9 +12,10 @@ use std::sync::Arc;
 /// Codes and texts of warnings.
 type Warnings = Vec<(&'static str, String)>;
 
-/// A parameter as texts: name, nominal value, lower and upper bound, unit, description, and the formula of the nominal value.
+/// A parameter as texts: name, nominal value, lower and upper bound, unit, description, the formula of the nominal value;
+/// and whether the bounds belong to the domain.
 type ParameterParts =
-    (String, Option<String>, Option<String>, Option<String>, Option<String>, Option<String>, Option<String>);
+    (String, Option<String>, Option<String>, Option<String>, Option<String>, Option<String>, Option<String>, bool);
 
 /// A model that has been read.
 #[pyclass(frozen, module = "jurist._jurist")]
@@ -62,7 +63,16 @@ impl Model {
         let parts = |p: &jurist::Parameter| {
             let unit = p.unit.clone();
             let formula = p.nominal_formula.as_ref().map(ToString::to_string);
-            (p.name.clone(), text(&p.nominal), text(&p.min), text(&p.max), unit, p.description.clone(), formula)
+            (
+                p.name.clone(),
+                text(&p.nominal),
+                text(&p.min),
+                text(&p.max),
+                unit,
+                p.description.clone(),
+                formula,
+                p.closed,
+            )
         };
         self.0.parameters().iter().map(parts).collect()
     }

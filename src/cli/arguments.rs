@@ -61,7 +61,7 @@ pub(super) struct ModelOptions {
     /// Gives a parameter or constant another value, exactly: 545, 1e-4, 1/3 [repeatable]
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
-    /// Replaces a parameter's open domain; either side may be left out [repeatable]
+    /// Replaces a parameter's domain, its ends excluded; either side may be left out [repeatable]
     #[arg(long, value_name = "NAME=LO..HI")]
     pub domain: Vec<String>,
 }

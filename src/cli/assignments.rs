@@ -15,7 +15,7 @@ pub(super) struct Assignment {
     pub name_span: Span,
 }
 
-/// A name with its open domain.
+/// A name with its domain, which is open.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DomainChange {
     pub name: String,

@@ -199,7 +199,22 @@ fn domain(parameter: &Toml, clock: &Clock) -> Result<(), String> {
     }
     let read = |key: &str| parameter.get(key).map(|value| number(value, clock)).transpose();
     parameter.get("tolerance").map(|value| tolerance(value, clock)).transpose()?;
-    let (min, max) = (read("min")?, read("max")?);
+    let (mut min, mut max) = (read("min")?, read("max")?);
+    if let Some(closed) = parameter.get("closed") {
+        if !matches!(closed, Toml::Boolean) {
+            return Err("'closed' is not true or false".into());
+        }
+        if min.is_none() && max.is_none() {
+            return Err("'closed' without 'min' and 'max'".into());
+        }
+    }
+    if let Some(both) = parameter.get("domain") {
+        if ["min", "max", "closed"].iter().any(|key| parameter.get(key).is_some()) {
+            return Err("a domain is given twice".into());
+        }
+        let [low, high] = both.list()? else { return Err("a domain has not two ends".into()) };
+        (min, max) = (Some(number(low, clock)?), Some(number(high, clock)?));
+    }
     match (min, max) {
         (Some(min), Some(max)) if min >= max => Err("the domain of a parameter is empty".into()),
         _ => Ok(()),

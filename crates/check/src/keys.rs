@@ -4,7 +4,7 @@ use super::number::shorten;
 use super::toml::Toml;
 
 const ROOT: [&str; 8] = ["title", "time", "sample_time", "constants", "parameters", "loop", "block", "simulation"];
-const PARAMETER: [&str; 6] = ["nominal", "min", "max", "unit", "description", "tolerance"];
+const PARAMETER: [&str; 8] = ["nominal", "min", "max", "closed", "domain", "unit", "description", "tolerance"];
 const CONSTANT: [&str; 4] = ["value", "unit", "description", "tolerance"];
 const LOOP: [&str; 10] = ["characteristic", "matrix", "A", "B", "C", "K", "states", "inputs", "E", "outputs"];
 const SIMULATION: [&str; 4] = ["inputs", "initial", "duration", "units"];

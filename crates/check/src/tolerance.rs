@@ -25,7 +25,7 @@ pub(super) fn tolerance(value: &Toml, clock: &Clock) -> Result<(), String> {
                 _ => Err("a tolerance is from 'low' to 'high'".into()),
             }
         }
-        Toml::Other => Err("a tolerance is expected".into()),
+        Toml::Boolean | Toml::Other => Err("a tolerance is expected".into()),
     }
 }
 

@@ -21,6 +21,8 @@ pub(super) enum Toml {
     List(Vec<Toml>),
     Table(Vec<(String, Toml)>),
     Other,
+    /// `true` or `false`.
+    Boolean,
 }
 
 impl Toml {
@@ -126,7 +128,8 @@ fn of_value(value: &Value, source: &Source, depth: usize) -> Result<Toml, String
             let number = is_decimal(raw).then(|| Toml::Number(raw.to_owned()));
             number.ok_or_else(|| format!("'{}' is not a decimal number", shorten(raw)))
         }
-        Value::Boolean(_) | Value::Datetime(_) => Ok(Toml::Other),
+        Value::Boolean(_) => Ok(Toml::Boolean),
+        Value::Datetime(_) => Ok(Toml::Other),
         Value::Array(items) => {
             Ok(Toml::List(items.iter().map(|v| of_value(v, source, depth + 1)).collect::<Result<_, _>>()?))
         }

@@ -28,7 +28,7 @@ pub struct End {
     pub causes: Causes,
     /// The complex pair on the boundary, if there is one; the lowest frequency of several.
     pub pair: Option<ComplexPair>,
-    /// Whether the loop is stable at the value itself: only where a dead time is zero, inside of the domain.
+    /// Whether the loop is stable at the value itself: only where a dead time is zero, and at an end of a domain that is closed.
     pub closed: bool,
 }
 

@@ -120,6 +120,13 @@ fn run(options: &Options, context: &Context) -> Outcome {
         if let Some(window) = certified.window.as_ref().filter(|_| !context.quiet) {
             note(&format!("note: the certificate {}", share(&name, window, &certified.proved)));
         }
+        let mut ends = answer.problem().parameter().closed_ends();
+        if let Some(end) = ends.next().filter(|_| !context.quiet) {
+            note(&format!(
+                "note: the certificate is about the inside of the domain; an end has one of its own: \
+                 jurist verdict --set {name}={end} --certificate FILE"
+            ));
+        }
         check_certificate(context, &output.run, &model.source().text, &certified.text, file);
     }
     Ok(Status::Holds)

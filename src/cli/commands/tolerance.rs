@@ -29,7 +29,7 @@ use std::slice::from_ref;
 /// Options of `jurist tolerance`.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
-    /// A tolerance: NAME=10%, NAME=-20%..+30%, NAME=0.01 or NAME=LO..HI; several with commas: R=10%,L=5%, or R,L=10% [repeatable]
+    /// A tolerance: NAME=10%, NAME=-20%..+30%, NAME=0.01 or NAME=LO..HI, ends included; several with commas: R=10%,L=5%, or R,L=10% [repeatable]
     #[arg(long, value_name = "NAME=TOLERANCE")]
     pub tol: Vec<String>,
     /// Gives every number of the model this tolerance

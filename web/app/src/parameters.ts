@@ -9,6 +9,8 @@ export interface Parameter {
   nominal: string | null;
   min: string | null;
   max: string | null;
+  /** Whether these belong to the domain. */
+  closed: boolean;
   unit: string | null;
   description: string | null;
   /** The nominal value as it is written, where that is a formula. */

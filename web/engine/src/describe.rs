@@ -30,7 +30,7 @@ fn said(model: &Model) -> Value {
     let parameter = |p: &jurist::Parameter| {
         let text = |value: &Option<jurist::Rational>| value.as_ref().map(ToString::to_string);
         json!({
-            "name": p.name, "nominal": text(&p.nominal), "min": text(&p.min), "max": text(&p.max),
+            "name": p.name, "nominal": text(&p.nominal), "min": text(&p.min), "max": text(&p.max), "closed": p.closed,
             "unit": p.unit, "description": p.description, "formula": p.nominal_formula.as_ref().map(ToString::to_string),
         })
     };

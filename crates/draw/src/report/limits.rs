@@ -8,7 +8,7 @@ use jurist_algebra::number::{Rational, parse_number, to_decimal};
 use jurist_engine::answer::{Answer, PointVerdict};
 use jurist_engine::problem::{Problem, Question};
 use jurist_engine::show::documents::{Answered, End, Intervals};
-use jurist_engine::show::intervals::{domain_text, stable_lines};
+use jurist_engine::show::intervals::{free_domain_text, stable_lines};
 use jurist_engine::show::layout::short;
 use jurist_engine::stability::{Cause, StableSet};
 
@@ -97,7 +97,7 @@ fn of_parameter(limits: &Limits) -> String {
     let free = answer.problem().parameter();
     let unit = free.unit.as_deref().map(|u| format!(" {u}")).unwrap_or_default();
     let nominal = free.nominal.as_ref().map(|n| format!("Nominal {}{unit}; ", short(n))).unwrap_or_default();
-    let domain = match domain_text(&free.name, &free.domain) {
+    let domain = match free_domain_text(free) {
         all if all == "all" => "asked about all values".to_owned(),
         domain => format!("asked about {domain}"),
     };

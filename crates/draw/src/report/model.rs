@@ -241,9 +241,11 @@ fn parameters(question: &Question) -> String {
         let tolerance = p.tolerance.as_ref().map(|t| format!(", tolerance {t}")).unwrap_or_default();
         let domain = match (&p.min, &p.max) {
             (None, None) => "all".to_owned(),
-            (Some(low), None) => format!("> {}", short(low)),
-            (None, Some(high)) => format!("< {}", short(high)),
-            (Some(low), Some(high)) => format!("{} .. {}", short(low), short(high)),
+            (Some(low), None) => format!("{} {}", if p.closed { ">=" } else { ">" }, short(low)),
+            (None, Some(high)) => format!("{} {}", if p.closed { "<=" } else { "<" }, short(high)),
+            (Some(low), Some(high)) => {
+                format!("{} .. {}{}", short(low), short(high), if p.closed { ", ends included" } else { "" })
+            }
         };
         let said = p.description.clone().filter(|d| !d.is_empty());
         let meaning = said.unwrap_or_else(|| comment_at(model, p.span));

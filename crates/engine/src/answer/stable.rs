@@ -1,10 +1,11 @@
 //! The exact stable set of one parameter.
 
-use super::Answer;
+use super::{Answer, Verdict};
 use crate::error::Error;
 use crate::problem::{EnclosedParts, Problem, Question, Region, exact_or_enclosed};
-use crate::stability::{Cause, StableSet, stable_set, stable_set_of_parts};
+use crate::stability::{Cause, End, StableSet, stable_set, stable_set_of_parts};
 use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
 use std::sync::Arc;
 
 impl Question {
@@ -41,6 +42,33 @@ impl Problem {
     /// # Panics
     /// Unless one parameter is free.
     pub fn stable_set(self: &Arc<Self>, budget: &Budget) -> Result<Answer<StableSet>, Error> {
+        let mut answer = self.stable_set_inside(budget)?;
+        for end in self.parameter().closed_ends() {
+            if self.is_stable_at(end, budget)? {
+                let set = std::mem::take(&mut answer.value);
+                answer.value = set.with_value(End::new(end.clone(), Cause::Domain.into(), None));
+            }
+        }
+        Ok(answer)
+    }
+
+    /// Whether the loop is stable at a value of the one free parameter; it is not where it is undefined or has no meaning.
+    fn is_stable_at(&self, value: &Rational, budget: &Budget) -> Result<bool, Error> {
+        let question = self.model().ask().set_all(self.set().iter().cloned()).within(self.region().clone());
+        let problem = match question.set(&self.parameter().name, value.clone()).problem() {
+            Ok(problem) => problem,
+            Err(stopped @ Error::Stopped(_)) => return Err(stopped),
+            Err(Error::Refused(_) | Error::Undefined(_)) => return Ok(false),
+        };
+        match problem.verdict(budget) {
+            Ok(verdict) => Ok(verdict.value().verdict == Verdict::Stable),
+            Err(stopped @ Error::Stopped(_)) => Err(stopped),
+            Err(Error::Refused(_) | Error::Undefined(_)) => Ok(false),
+        }
+    }
+
+    /// The stable set inside of the domain.
+    fn stable_set_inside(self: &Arc<Self>, budget: &Budget) -> Result<Answer<StableSet>, Error> {
         budget.enter(|| {
             if !self.model().has_holds() {
                 return self.stable_set_by_algebra(budget);

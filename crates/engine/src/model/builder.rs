@@ -53,6 +53,7 @@ pub struct ModelBuilder {
 pub struct ParameterBuilder {
     name: String,
     keys: Vec<(&'static str, String)>,
+    is_closed: bool,
 }
 
 /// A block in the making.
@@ -137,7 +138,8 @@ impl ModelBuilder {
 
     /// A parameter.
     pub fn parameter(mut self, parameter: ParameterBuilder) -> Self {
-        let keys: Vec<String> = parameter.keys.iter().map(|(k, v)| format!("{k} = {}", quoted(v))).collect();
+        let mut keys: Vec<String> = parameter.keys.iter().map(|(k, v)| format!("{k} = {}", quoted(v))).collect();
+        keys.extend(parameter.is_closed.then(|| "closed = true".to_owned()));
         let keys = if keys.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", keys.join(", ")) };
         self.parameters.push_str(&format!("{} = {keys}\n", quoted(&parameter.name)));
         self
@@ -222,7 +224,7 @@ impl ModelBuilder {
 impl ParameterBuilder {
     /// A parameter without a nominal value, unit or bounds.
     pub fn new(name: &str) -> Self {
-        ParameterBuilder { name: name.into(), keys: Vec::new() }
+        ParameterBuilder { name: name.into(), keys: Vec::new(), is_closed: false }
     }
 
     fn key(mut self, key: &'static str, value: &str) -> Self {
@@ -230,19 +232,25 @@ impl ParameterBuilder {
         self
     }
 
-    /// The value it has when nothing else is said.
+    /// The value it has when nothing else is said: a number, or a formula in constants and other parameters.
     pub fn nominal(self, value: &str) -> Self {
         self.key("nominal", value)
     }
 
-    /// The open lower bound of its domain.
+    /// The lower bound of its domain.
     pub fn min(self, value: &str) -> Self {
         self.key("min", value)
     }
 
-    /// The open upper bound of its domain.
+    /// The upper bound of its domain.
     pub fn max(self, value: &str) -> Self {
         self.key("max", value)
+    }
+
+    /// With bounds that themselves belong to the domain.
+    pub fn closed(mut self) -> Self {
+        self.is_closed = true;
+        self
     }
 
     /// How far it may be from its nominal value: `10%`, `-20%..+30%`, `0.01`, `0.4..0.7`.

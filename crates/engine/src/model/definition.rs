@@ -94,10 +94,12 @@ pub struct Parameter {
     pub nominal: Option<Rational>,
     /// The nominal value as it is written, where that is a formula in constants and other parameters.
     pub nominal_formula: Option<Expression>,
-    /// The open lower bound of its domain.
+    /// The lower bound of its domain.
     pub min: Option<Rational>,
-    /// The open upper bound of its domain.
+    /// The upper bound of its domain.
     pub max: Option<Rational>,
+    /// Whether these bounds themselves belong to the domain.
+    pub closed: bool,
     /// Its unit, for people.
     pub unit: Option<String>,
     /// What it is, for people.
@@ -107,9 +109,12 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// Whether `value` lies in the open domain.
+    /// Whether `value` lies in the domain.
     pub fn contains(&self, value: &Rational) -> bool {
-        self.min.as_ref().is_none_or(|min| min < value) && self.max.as_ref().is_none_or(|max| value < max)
+        let is_bound = [&self.min, &self.max].into_iter().flatten().any(|bound| bound == value);
+        let is_inside =
+            self.min.as_ref().is_none_or(|min| min <= value) && self.max.as_ref().is_none_or(|max| value <= max);
+        is_inside && (self.closed || !is_bound)
     }
 }
 

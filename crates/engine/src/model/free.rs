@@ -20,6 +20,7 @@ impl Model {
             nominal_formula: None,
             min: None,
             max: None,
+            closed: false,
             unit: None,
             description: None,
             tolerance: c.tolerance.clone(),

@@ -132,7 +132,7 @@ impl Question {
         error.help(format!("here {}; set the parameter itself, too", set.join(", ")))
     }
 
-    /// Replaces the open domain of a parameter; of `radius` and `decay`, too.
+    /// Replaces the domain of a parameter by an open one; of `radius` and `decay`, too.
     pub fn domain(mut self, name: impl Into<String>, range: Range) -> Self {
         self.domain.insert(name.into(), range);
         self
@@ -190,7 +190,7 @@ impl Question {
                 Some(range) => Range { lower: range.lower.clone().max(least), upper: range.upper.clone() },
                 None => Range::between(Some(Rational::ZERO), None),
             };
-            described.push(Free { name: name.to_owned(), unit: None, nominal: None, domain });
+            described.push(Free { name: name.to_owned(), unit: None, nominal: None, domain, closed: [false; 2] });
         }
         for name in &free {
             let mut parameter = self.model.free(name)?;
@@ -199,9 +199,20 @@ impl Question {
             {
                 parameter.nominal = nominal[i].value().cloned();
             }
-            let domain = self.domain.get(name).cloned();
-            let domain = domain.unwrap_or_else(|| Range::between(parameter.min.clone(), parameter.max.clone()));
-            described.push(Free { name: name.clone(), unit: parameter.unit, nominal: parameter.nominal, domain });
+            let (domain, closed) = match self.domain.get(name) {
+                Some(range) => (range.clone(), [false; 2]),
+                None => {
+                    let closed = [&parameter.min, &parameter.max].map(|end| parameter.closed && end.is_some());
+                    (Range::between(parameter.min, parameter.max), closed)
+                }
+            };
+            described.push(Free {
+                name: name.clone(),
+                unit: parameter.unit,
+                nominal: parameter.nominal,
+                domain,
+                closed,
+            });
         }
         for one in &described {
             if one.domain.is_empty() {
@@ -240,6 +251,9 @@ impl Question {
                 let help = "the sample time of a hold is positive, and the frequency of 'prewarp' below half the sampling rate; the answer is about these";
                 warnings.push(Diagnostic::warning(Code::DomainWarning, message).help(help));
             }
+            // Where the model has a meaning up to a value, that is no value of it.
+            one.closed[0] &= one.domain.lower == domain.lower;
+            one.closed[1] &= one.domain.upper == domain.upper;
             one.domain = domain;
         }
         Ok(positive)

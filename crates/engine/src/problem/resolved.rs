@@ -36,8 +36,23 @@ pub struct Free {
     pub unit: Option<String>,
     /// Its nominal value, if there is one.
     pub nominal: Option<Rational>,
-    /// Where it may lie, an open range: the model's bounds or those of the question.
+    /// Between which values it may lie: the model's bounds or those of the question.
     pub domain: Range,
+    /// Whether the lower and the upper end of the domain themselves belong to it: only where the model says so.
+    pub closed: [bool; 2],
+}
+
+impl Free {
+    /// The same with an open domain: maps and the lines in them are about the inside of domains.
+    fn open(&self) -> Free {
+        Free { closed: [false; 2], ..self.clone() }
+    }
+
+    /// The ends of the domain that belong to it.
+    pub fn closed_ends(&self) -> impl Iterator<Item = &Rational> {
+        let ends = [&self.domain.lower, &self.domain.upper].into_iter().zip(self.closed);
+        ends.filter(|(_, closed)| *closed).filter_map(|(end, _)| end.as_ref())
+    }
 }
 
 /// One question about one model. It is made by [`Question::problem`](super::Question::problem) and shared by all its answers.
@@ -384,7 +399,7 @@ impl Problem {
         assert_eq!((base.len(), step.len()), (self.free.len(), self.free.len()), "each free parameter moves");
         let algebra = self.algebra_over_symbols(budget)?;
         let algebra = budget.enter(|| algebra.on_ray(name, base, step))?;
-        let free = vec![Free { name: name.to_owned(), unit: None, nominal: None, domain }];
+        let free = vec![Free { name: name.to_owned(), unit: None, nominal: None, domain, closed: [false; 2] }];
         let problem = Problem::new(Arc::clone(&self.model), self.set.clone(), free, self.region.clone(), Vec::new());
         problem.algebra.get_or_init(|| algebra);
         Ok(problem)
@@ -392,7 +407,7 @@ impl Problem {
 
     /// The same of a loop with functions that do not depend on what is free.
     fn on_line_over_symbols(&self, fixed: usize, value: &Rational, budget: &Budget) -> Result<Problem, Error> {
-        let left = &self.free[1 - fixed];
+        let left = &self.free[1 - fixed].open();
         let (mut base, mut step) = ([Rational::ZERO, Rational::ZERO], [Rational::ZERO, Rational::ZERO]);
         base[fixed] = value.clone();
         step[1 - fixed] = Rational::ONE;
@@ -411,7 +426,7 @@ impl Problem {
     /// # Panics
     /// Unless one parameter is free.
     pub fn over_domain(&self, domain: Range) -> Problem {
-        let free = vec![Free { domain, ..self.parameter().clone() }];
+        let free = vec![Free { domain, ..self.parameter().open() }];
         let problem = Problem::new(Arc::clone(&self.model), self.set.clone(), free, self.region.clone(), Vec::new());
         if let Some(algebra) = self.algebra.get() {
             problem.algebra.get_or_init(|| algebra.clone());
@@ -437,7 +452,7 @@ impl Problem {
         let polynomial = plane.and_then(|p| if fixed == 0 { p.at_x(value) } else { p.swapped().at_x(value) });
         let mut set = self.set.clone();
         set.push((self.free[fixed].name.clone(), value.clone()));
-        let free = vec![self.free[1 - fixed].clone()];
+        let free = vec![self.free[1 - fixed].open()];
         let problem = Problem::new(Arc::clone(&self.model), set, free, self.region.clone(), Vec::new());
         problem.algebra.get_or_init(|| algebra);
         problem.parametric.get_or_init(|| polynomial);

@@ -8,7 +8,7 @@ use super::text::to_text;
 use crate::answer::Answer;
 use crate::error::Error;
 use crate::problem::{BaseDelay, DelayedLoop};
-use crate::stability::{End, StableSet};
+use crate::stability::{End, StableInterval, StableSet};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots_in};
@@ -63,7 +63,10 @@ pub(super) fn of_set(answer: &Answer<StableSet>, delayed: &DelayedLoop, budget: 
     let is_at_zero = p.plus(q).coeff(0).is_zero();
     let found = if is_at_zero { Vec::new() } else { crossings(p, q, budget)? };
     let mut stable = Vec::new();
-    for interval in answer.value().intervals() {
+    // A single value belongs to a closed end of the domain, and the statement is about the inside.
+    let is_single =
+        |i: &&StableInterval| matches!((&i.lower, &i.upper), (Some(a), Some(b)) if a.value.is_same(&b.value));
+    for interval in answer.value().intervals().iter().filter(|i| !is_single(i)) {
         let ends = [&interval.lower, &interval.upper].map(|e| end(e.as_ref(), &found));
         let [lower, upper] = ends;
         stable.push(object([("lower", lower?), ("upper", upper?)]));

@@ -4,7 +4,7 @@ use super::layout::{Columns, fraction, headline, named_values, short, visible};
 use super::margins::margin;
 use super::{real, region};
 use crate::answer::Answer;
-use crate::problem::Problem;
+use crate::problem::{Free, Problem};
 use crate::stability::{Cause, End, IntervalSet, Range, RealInterval, RealIntervals, StableSet, UndecidedBracket};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, parse_number, to_decimal};
@@ -46,7 +46,7 @@ pub fn answer_lines(problem: &Problem, set: Result<&StableSet, &Exhausted>, digi
     if let Some(unit) = &free.unit {
         asked.push_str(&format!(" in {}", visible(unit)));
     }
-    let domain = domain_text(name, &free.domain);
+    let domain = free_domain_text(free);
     if domain != "all" {
         asked.push_str(&format!(", domain {domain}"));
     }
@@ -84,12 +84,30 @@ pub(super) fn nominal_first<T>(mut ascending: Vec<T>, nominal: Option<usize>) ->
 
 /// `K > 0`, `0 < K < 3`, `all`.
 pub fn domain_text(name: &str, range: &Range) -> String {
+    with_ends(name, range, [false; 2])
+}
+
+/// The same with the ends that belong to the domain: `K >= 0`, `0 <= K <= 3`.
+pub fn free_domain_text(free: &Free) -> String {
+    with_ends(&free.name, &free.domain, free.closed)
+}
+
+fn with_ends(name: &str, range: &Range, closed: [bool; 2]) -> String {
+    let [from, to] = closed;
     match (&range.lower, &range.upper) {
         (None, None) => "all".to_owned(),
-        (Some(l), None) => format!("{name} > {}", short(l)),
-        (None, Some(u)) => format!("{name} < {}", short(u)),
-        (Some(l), Some(u)) => format!("{} < {name} < {}", short(l), short(u)),
+        (Some(l), None) => format!("{name} {} {}", more(from), short(l)),
+        (None, Some(u)) => format!("{name} {} {}", less(to), short(u)),
+        (Some(l), Some(u)) => format!("{} {} {name} {} {}", short(l), less(from), less(to), short(u)),
     }
+}
+
+fn less(closed: bool) -> &'static str {
+    if closed { "<=" } else { "<" }
+}
+
+fn more(closed: bool) -> &'static str {
+    if closed { ">=" } else { ">" }
 }
 
 /// `0.038 < K < 550.9`, one line for each interval.
@@ -131,8 +149,6 @@ fn lines_with(
     let ends: Vec<&Real> = intervals.iter().flatten().flatten().collect();
     let mut decimals = distinct_decimals(&ends, digits).into_iter();
     let mut decimal = |end: &Option<Real>| end.as_ref().and_then(|_| decimals.next());
-    let less = |closed: bool| if closed { "<=" } else { "<" };
-    let more = |closed: bool| if closed { ">=" } else { ">" };
     let line = |(i, [lower, upper]): (usize, &[Option<Real>; 2])| {
         let [from, to] = closed(i);
         match (decimal(lower), decimal(upper)) {

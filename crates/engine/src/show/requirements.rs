@@ -1,6 +1,6 @@
 //! Requirements for people.
 
-use super::intervals::{domain_text, heading, nominal_first, undecided_lines};
+use super::intervals::{free_domain_text, heading, nominal_first, undecided_lines};
 use super::layout::Columns;
 use super::{real, region};
 use crate::answer::Answer;
@@ -12,7 +12,7 @@ impl Answer<RequiredSet> {
         let problem = self.problem();
         let name = &problem.parameter().name;
         let mut asked = name.clone();
-        let domain = domain_text(name, &problem.parameter().domain);
+        let domain = free_domain_text(problem.parameter());
         if domain != "all" {
             asked.push_str(&format!(", domain {domain}"));
         }

@@ -218,7 +218,7 @@ impl Problem {
         }
     }
 
-    /// The factor at which the first parameter reaches the end of its open domain.
+    /// The factor at which the first parameter reaches the end of its domain.
     fn domain_factor(&self, sides: &[Side]) -> Option<Rational> {
         let mut factors = Vec::new();
         for (free, side) in self.free().iter().zip(sides) {

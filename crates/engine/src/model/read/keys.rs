@@ -23,6 +23,10 @@ pub(super) enum Shape {
     Method,
     /// A number, or a formula of numbers.
     Number,
+    /// An array of two numbers, the ends of a closed interval.
+    Interval,
+    /// `true` or `false`.
+    Flag,
     /// A number, or an expression in constants and parameters.
     Expression,
     /// One expression or an array of them.
@@ -91,14 +95,16 @@ pub(super) const MODEL: [Key; 9] = [
 ];
 
 /// A parameter.
-pub(super) const PARAMETER: [Key; 6] = [
+pub(super) const PARAMETER: [Key; 8] = [
     key(
         "nominal",
         Shape::Expression,
         "the value it has when nothing else is said: a number, or a formula in constants and other parameters' nominal values",
     ),
-    key("min", Shape::Number, "the open lower bound of its domain"),
-    key("max", Shape::Number, "the open upper bound of its domain"),
+    key("min", Shape::Number, "the lower bound of its domain, which is open unless 'closed' says otherwise"),
+    key("max", Shape::Number, "the upper bound of its domain, which is open unless 'closed' says otherwise"),
+    key("closed", Shape::Flag, "whether 'min' and 'max' themselves belong to the domain"),
+    key("domain", Shape::Interval, "both bounds of a closed domain, in the place of 'min', 'max' and 'closed'"),
     key("unit", Shape::Text, "its unit, for people"),
     key("description", Shape::Text, "what it is, for people"),
     key("tolerance", Shape::Tolerance, "how far it may be from its nominal value"),

@@ -7,6 +7,7 @@ mod check_names;
 mod check_rules;
 mod check_values;
 mod discretize;
+mod domain;
 mod keys;
 mod loop_forms;
 mod model_file;

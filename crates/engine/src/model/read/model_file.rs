@@ -5,7 +5,7 @@ use super::loop_forms::read_form;
 use super::reader::{Meant, NamedMatrix, Reader};
 use super::tolerance::read_tolerance;
 use super::{check_names, check_rules, check_values};
-use super::{nominal, require, simulation};
+use super::{domain, nominal, require, simulation};
 use crate::error::{Code, Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::model::definition::{Constant, Diagram, Form, Model, Name, Parameter, Time};
 use crate::model::evaluate::work::constant_value;
@@ -253,6 +253,7 @@ fn read_parameters(root: &Table, reader: &mut Reader) -> Vec<Parameter> {
             nominal_formula: None,
             min: None,
             max: None,
+            closed: false,
             unit: None,
             description: None,
             tolerance: None,
@@ -274,32 +275,20 @@ fn read_parameter(table: &Table, parameter: &mut Parameter, reader: &mut Reader)
     if let Some(value) = table.get("nominal") {
         nominal::read(value, parameter, "'nominal'", reader);
     }
-    let mut number = |key: &str| {
-        let value = table.get(key)?;
-        reader.number(value, &format!("'{key}'"))
-    };
-    parameter.min = number("min");
-    parameter.max = number("max");
+    let ends = domain::read(table, parameter, reader);
     parameter.unit = reader.plain_string(table, "unit");
     parameter.description = reader.plain_string(table, "description");
     parameter.tolerance = read_tolerance(table, reader);
-    let span = |key: &str| table.get(key).map_or(parameter.span, |v| v.span);
     if let (Some(min), Some(max)) = (&parameter.min, &parameter.max)
         && min >= max
     {
-        let message = format!("the domain of '{}' is empty", shorten(&parameter.name));
-        reader.report(
-            Diagnostic::error(Code::EmptyDomain, message)
-                .at(span("max"), "the upper bound")
-                .also(span("min"), "is not above this lower bound")
-                .help("'min' must be less than 'max'; both are open bounds"),
-        );
+        reader.report(domain::empty(parameter, ends));
     } else if let Some(value) = &parameter.nominal
         && !parameter.contains(value)
     {
-        let outside_below = parameter.min.as_ref().is_some_and(|min| value <= min);
-        let bound = if outside_below { span("min") } else { span("max") };
-        let warning = nominal::outside(parameter, span("nominal"), "not in the open domain");
-        reader.report(warning.also(bound, "which ends here"));
+        let is_below = parameter.min.as_ref().is_some_and(|min| value <= min);
+        let at = table.get("nominal").map_or(parameter.span, |v| v.span);
+        let warning = nominal::outside(parameter, at, &format!("not in the {} domain", domain::kind(parameter)));
+        reader.report(warning.also(ends[usize::from(!is_below)], "which ends here"));
     }
 }

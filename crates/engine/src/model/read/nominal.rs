@@ -1,5 +1,6 @@
 //! The key `nominal` of parameters: a number, or a formula in constants and other parameters.
 
+use super::domain;
 use super::reader::Reader;
 use crate::error::{Code, Diagnostic, Severity, Span};
 use crate::model::definition::{Model, Parameter};
@@ -35,7 +36,8 @@ pub(super) fn values(model: &mut Model, reader: &mut Reader) {
         match nominal {
             Nominal::Value(value) => {
                 if !parameter.contains(&value) {
-                    let label = format!("{} is not in the open domain", shorten(&value.to_string()));
+                    let label =
+                        format!("{} is not in the {} domain", shorten(&value.to_string()), domain::kind(parameter));
                     reader.report(outside(parameter, formula.span, &label));
                 }
                 parameter.nominal = Some(value);

@@ -53,6 +53,8 @@ fn shape(shape: &Shape) -> Map<String, Value> {
         Shape::OneOf(words) => json!({ "enum": words }),
         Shape::Method => json!({ "enum": METHODS }),
         Shape::Number | Shape::Expression => number(),
+        Shape::Interval => json!({ "type": "array", "items": number(), "minItems": 2, "maxItems": 2 }),
+        Shape::Flag => json!({ "type": "boolean" }),
         Shape::Expressions => json!({ "type": ["number", "string", "array"], "items": number() }),
         Shape::Names => json!({ "type": ["string", "array"], "items": { "type": "string" } }),
         Shape::Matrix => {
@@ -123,7 +125,13 @@ mod tests {
         match value {
             DeValue::String(_) => is("string"),
             DeValue::Integer(_) | DeValue::Float(_) => is("number"),
-            DeValue::Array(items) => is("array") && items.iter().all(|item| fits(item.get_ref(), &schema["items"])),
+            DeValue::Array(items) => {
+                let is_long_enough = schema["minItems"].as_u64().is_none_or(|least| least <= items.len() as u64);
+                let is_short_enough = schema["maxItems"].as_u64().is_none_or(|most| items.len() as u64 <= most);
+                let is_of_length = is_long_enough && is_short_enough;
+                is("array") && is_of_length && items.iter().all(|item| fits(item.get_ref(), &schema["items"]))
+            }
+            DeValue::Boolean(_) => is("boolean"),
             DeValue::Table(table) => {
                 let required = schema["required"].as_array().cloned().unwrap_or_default();
                 is("object")
@@ -174,6 +182,9 @@ mod tests {
             ("nominal = 1", "nominl = 1"),
             ("nominal = 1", "nominal = [1]"),
             ("K = 2", "K = true"),
+            ("K = 2", "K = { domain = 2 }"),
+            ("K = 2", "K = { domain = [1, 2, 3] }"),
+            ("K = 2", "K = { min = 1, closed = 1 }"),
             ("method = 'tustin', ", ""),
             ("'tustin'", "'tustn'"),
             ("input = 'r - K*y'\n", ""),

@@ -163,7 +163,7 @@ impl Reader<'_> {
                 }
                 Kind::Number(number.as_str().to_owned())
             }
-            DeValue::Boolean(_) => Kind::Boolean,
+            DeValue::Boolean(value) => Kind::Boolean(*value),
             DeValue::Datetime(_) => Kind::DateTime,
             DeValue::Array(items) => Kind::Array(items.iter().map(|item| self.value(item)).collect()),
             DeValue::Table(table) => {

@@ -18,8 +18,8 @@ pub(in crate::model) enum Kind {
     String(Text),
     /// A number by its text: sign, digits, point, exponent, without underscores.
     Number(String),
-    /// `true` or `false`; no key takes one yet.
-    Boolean,
+    /// `true` or `false`.
+    Boolean(bool),
     /// A date or a time; no key takes one.
     DateTime,
     /// `[..]`, or the tables of `[[..]]`.
@@ -34,7 +34,7 @@ impl Value {
         match self.kind {
             Kind::String(_) => "a string",
             Kind::Number(_) => "a number",
-            Kind::Boolean => "a boolean",
+            Kind::Boolean(_) => "a boolean",
             Kind::DateTime => "a date or time",
             Kind::Array(_) => "an array",
             Kind::Table(_) => "a table",

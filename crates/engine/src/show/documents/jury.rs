@@ -330,7 +330,8 @@ impl JuryInParameter {
         };
         JuryInParameter {
             schema: JuryName::V1,
-            question: ParameterQuestion::new(problem),
+            // The conditions are solved inside of the domain.
+            question: ParameterQuestion { domain_closed: None, ..ParameterQuestion::new(problem) },
             table: problem.time().into(),
             answer: Answered::of(answer, solved),
         }

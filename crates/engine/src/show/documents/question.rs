@@ -4,7 +4,7 @@ use super::end::Bounds;
 use super::number::{Exact, Named};
 use super::plan::Plan;
 use crate::model::Time;
-use crate::problem::{Problem, Region};
+use crate::problem::{Free, Problem, Region};
 use serde::{Deserialize, Serialize};
 
 /// The region in which all roots have to lie, where it is smaller than that of plain stability.
@@ -26,6 +26,23 @@ impl From<&Region> for RegionBound {
     }
 }
 
+/// Which ends of a domain belong to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ClosedEnds {
+    /// The lower one.
+    pub lower: bool,
+    /// The upper one.
+    pub upper: bool,
+}
+
+impl ClosedEnds {
+    fn of(free: &Free) -> Option<ClosedEnds> {
+        let [lower, upper] = free.closed;
+        (lower || upper).then_some(ClosedEnds { lower, upper })
+    }
+}
+
 /// A question about one parameter.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -42,8 +59,11 @@ pub struct ParameterQuestion {
     pub nominal: Option<Exact>,
     /// The values of all other parameters, and of constants that were replaced.
     pub set: Named<Exact>,
-    /// The open interval of values that are asked about.
+    /// The interval of values that are asked about, without its ends but for those in `domain_closed`.
     pub domain: Bounds<Exact>,
+    /// Which ends of the domain are asked about, too; left out where the domain is open.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub domain_closed: Option<ClosedEnds>,
     /// The region.
     #[serde(flatten)]
     pub region: RegionBound,
@@ -63,6 +83,7 @@ impl ParameterQuestion {
             nominal: free.nominal.as_ref().map(Exact::from),
             set: problem.set().into(),
             domain: (&free.domain).into(),
+            domain_closed: ClosedEnds::of(free),
             region: problem.region().into(),
             plan: Plan::of(problem),
         }
