@@ -183,3 +183,18 @@ def test_an_answer_goes_on_in_other_libraries(drive):
     assert np.isclose(float(upper), float(Real(upper)))
     response = drive.simulate(duration="0.01").to_control()
     assert response.outputs.shape[-1] == 101
+
+
+def test_a_builder_takes_formulas_and_closed_domains():
+    b = jurist.LoopBuilder("discrete")
+    L = b.constant("L", "1/2")
+    K = b.parameter("K", f"3*{L}/2", min="1/2", max=1, closed=True)
+    loop = b.characteristic(f"z - 1/2 - {L} + {K}").build()
+    parameter = loop.parameters["K"]
+    assert (parameter.nominal, parameter.closed) == (Fraction(3, 4), True)
+    assert parameter.formula is not None
+    stable = loop.intervals("K")
+    assert stable.domain_closed == (True, True)
+    assert Fraction(1, 2) in stable
+    assert 1 in stable
+    assert (~stable).intervals == ()

@@ -3,9 +3,11 @@
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, parse_number};
+use jurist_engine::answer::ToleranceRequest;
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::{Model, Parameter};
 use jurist_engine::problem::Question;
+use jurist_engine::stability::Range;
 use std::path::Path;
 
 fn number(text: &str) -> Rational {
@@ -125,4 +127,30 @@ fn a_constant_that_is_kept_is_a_parameter_with_its_number_as_nominal_value() {
     // Given as a number, it divides by nothing that could vanish.
     assert_eq!(ask(model.ask()).unwrap().poles.len(), 0);
     assert_eq!(ask(model.ask().set("c", number("5"))).unwrap().poles.len(), 0);
+}
+
+#[test]
+fn a_constant_that_is_asked_about_alone_keeps_its_sign() {
+    let text = "time = 'discrete'\n[constants]\na = '1/3'\nb = -2\nc = 0\n[parameters]\nK = 1\n[loop]\n\
+        characteristic = 'z - a*b*K + c'\n";
+    let (model, _) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
+    let domain = |question: Question| {
+        let problem = question.problem().unwrap();
+        let domain = &problem.free()[0].domain;
+        [&domain.lower, &domain.upper].map(|end| end.as_ref().map(ToString::to_string))
+    };
+    let zero = || Some("0".to_owned());
+    assert_eq!(domain(model.ask().free("a")), [zero(), None]);
+    assert_eq!(domain(model.ask().free("b")), [None, zero()]);
+    assert_eq!(domain(model.ask().free("c")), [None, None]);
+    assert_eq!(domain(model.ask().free("K")), [None, None]);
+    assert_eq!(domain(model.ask().free("a").domain("a", Range::all())), [None, None]);
+    // Axes of maps have windows.
+    assert_eq!(domain(model.ask().free("a").free("b")), [None, None]);
+    let answer = model.ask().free("a").stable_set(&Budget::unlimited()).unwrap().text(6);
+    assert!(answer.contains("a, domain a > 0: stable for\n    0 < a < 0.5\n"), "{answer}");
+    // Its tolerance says itself how far it goes.
+    let request = ToleranceRequest::new([("a", "200%".parse().unwrap())]);
+    let tolerance = model.ask().tolerance(&request, &Budget::unlimited()).unwrap();
+    assert_eq!(tolerance.value().domain_factor, None);
 }

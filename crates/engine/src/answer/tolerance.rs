@@ -248,7 +248,7 @@ impl Question {
         }
         let set: BTreeMap<&String, Option<Rational>> = names.iter().map(|name| (*name, self.take_set(name))).collect();
         for name in &names {
-            self = self.free((*name).clone());
+            self = self.free((*name).clone()).all_values_of((*name).as_str());
         }
         let problem = self.problem()?;
         let nominal_of = |name: &String| -> Result<Rational, Error> {

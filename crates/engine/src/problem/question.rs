@@ -8,6 +8,7 @@ use crate::model::{Model, Nominal, Parameter};
 use crate::stability::Range;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -138,7 +139,16 @@ impl Question {
         self
     }
 
-    /// Leaves a parameter free: it is what the answer is about, next to those already free. `radius` (discrete time) and
+    /// The same about all values of a constant where no domain is given for it: a tolerance says itself how far it goes.
+    pub(crate) fn all_values_of(mut self, name: &str) -> Self {
+        if self.model.constant(name).is_some() && !self.domain.contains_key(name) {
+            self.domain.insert(name.to_owned(), Range::all());
+        }
+        self
+    }
+
+    /// Leaves a parameter or a constant free: it is what the answer is about, next to those already free. A constant that is
+    /// alone has the values of its sign as its domain, unless it is given [another](Question::domain). `radius` (discrete time) and
     /// `decay` (continuous time) free the bound of the region.
     pub fn free(mut self, name: impl Into<String>) -> Self {
         self.free.push(name.into());
@@ -192,6 +202,8 @@ impl Question {
             };
             described.push(Free { name: name.to_owned(), unit: None, nominal: None, domain, closed: [false; 2] });
         }
+        // Axes of maps have windows, and tolerances ranges of their own.
+        let is_alone = free.len() == 1 && !region.is_free();
         for name in &free {
             let mut parameter = self.model.free(name)?;
             if parameter.nominal_formula.is_some()
@@ -201,6 +213,9 @@ impl Question {
             }
             let (domain, closed) = match self.domain.get(name) {
                 Some(range) => (range.clone(), [false; 2]),
+                None if is_alone && self.model.constant(name).is_some() => {
+                    (of_its_sign(parameter.nominal.as_ref()), [false; 2])
+                }
                 None => {
                     let closed = [&parameter.min, &parameter.max].map(|end| parameter.closed && end.is_some());
                     (Range::between(parameter.min, parameter.max), closed)
@@ -354,6 +369,16 @@ impl Question {
             }
         }
         if errors.is_empty() { Ok(values) } else { Err(Diagnostics::new(Some(model.source().clone()), errors)) }
+    }
+}
+
+/// The domain of a constant that is asked about without one: the values of its sign. An inductance or a time constant that is
+/// negative is no answer, and `--domain` asks about it all the same.
+fn of_its_sign(value: Option<&Rational>) -> Range {
+    match value.map(|x| x.sign()) {
+        Some(Ordering::Greater) => Range::between(Some(Rational::ZERO), None),
+        Some(Ordering::Less) => Range::between(None, Some(Rational::ZERO)),
+        Some(Ordering::Equal) | None => Range::all(),
     }
 }
 
