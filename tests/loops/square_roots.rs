@@ -55,7 +55,10 @@ fn a_factor_that_is_a_square_root_names_both_causes() {
     assert_eq!(first.value.exact(), Some(ratio(1, 3)));
 }
 
-const PARTS: [(&str, fn(f64) -> f64); 6] = [
+/// A function, and its value.
+type Part = (&'static str, fn(f64) -> f64);
+
+const PARTS: [Part; 6] = [
     ("sqrt(k + 2)", |k| (k + 2.0).sqrt()),
     ("sqrt(3 - k)", |k| (3.0 - k).sqrt()),
     ("sqrt(k^2 - 2)", |k| (k * k - 2.0).sqrt()),

@@ -1,7 +1,7 @@
 //! A parameter as the loop's gain.
 
 use super::ground::Integers;
-use super::open_loop::{Over, Parts, integral};
+use super::open_loop::{Over, Parts, WithTimes, integral};
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::ParametricPolynomial;
@@ -10,11 +10,8 @@ use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 
-/// The loop with a parameter as the gain, and the sample time.
-type ByGain = ((Over, Option<Rational>), Option<Rational>);
-
 /// The polynomial in the parameter, if it is affine there.
-fn affine(problem: &Problem, name: &str, budget: &Budget) -> Result<Option<ByGain>, Error> {
+fn affine(problem: &Problem, name: &str, budget: &Budget) -> Result<Option<WithTimes>, Error> {
     let model = problem.model();
     let constant = model.constant(name).and_then(|c| c.number.clone());
     let nominal = problem.set().iter().find(|(n, _)| n == name).map(|(_, v)| v.clone()).or(constant);
@@ -88,7 +85,7 @@ fn over_constants(
     Over::new(below, above, poles, symbols, problem.shape()).map(Some)
 }
 
-pub(super) fn by_gain(problem: &Problem, name: &str, budget: &Budget) -> Result<ByGain, Error> {
+pub(super) fn by_gain(problem: &Problem, name: &str, budget: &Budget) -> Result<WithTimes, Error> {
     affine(problem, name, budget)?.ok_or_else(|| {
         let message = format!("'{}' is not a gain of the loop", crate::model::shorten(name));
         Diagnostic::error(Code::Cut, message)

@@ -54,6 +54,9 @@ pub(crate) enum Over {
     Constants(Parts<Constants>),
 }
 
+/// The polynomials with the dead time that is a factor, and the sample time.
+pub(super) type WithTimes = ((Over, Option<Rational>), Option<Rational>);
+
 /// Evaluates an expression with the parts of an open loop, whatever their coefficients are.
 macro_rules! with_parts {
     ($open_loop:expr, $parts:ident => $value:expr) => {
@@ -435,11 +438,7 @@ impl<R: Domain> Reduced<R> {
 }
 
 /// The loop opened at a signal, with polynomials over the constants of holds, and the sample time.
-fn opened_exactly(
-    problem: &Problem,
-    cut: &Cut,
-    budget: &Budget,
-) -> Result<((Over, Option<Rational>), Option<Rational>), Error> {
+fn opened_exactly(problem: &Problem, cut: &Cut, budget: &Budget) -> Result<WithTimes, Error> {
     let Opened { system, sample_time, symbols } = problem.model().opened(cut, &[], problem.set(), budget)?;
     let (denominator, numerator) = returned(&system, budget)?;
     let over = budget.enter(|| Over::new(denominator, numerator, Vec::new(), &symbols, problem.shape()))??;
