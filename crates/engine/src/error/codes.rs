@@ -105,7 +105,11 @@ mod tests {
         }
         for folder in ["crates", "studies"] {
             for member in std::fs::read_dir(root.join(folder)).unwrap() {
-                found.collect(&member.unwrap().path().join("src"));
+                let source = member.unwrap().path().join("src");
+                // The package of other packages' tests has none.
+                if source.exists() {
+                    found.collect(&source);
+                }
             }
         }
         assert_eq!(found.literals, BTreeSet::new(), "codes as texts");

@@ -171,12 +171,13 @@ impl Problem {
         budget: &Budget,
     ) -> Result<Answer<Margins>, Error> {
         budget.enter(|| {
+            let verdict = self.verdict(budget)?.into_value();
             let open_loop = OpenLoop::of(self, at, budget)?;
             let is_enclosed = open_loop.is_enclosed();
-            match self.margins_of(open_loop, skew, with_held_delay, budget) {
+            match self.margins_of(open_loop, verdict.clone(), skew, with_held_delay, budget) {
                 // What is zero for a reason that enclosures do not show exact polynomials may.
                 Err(Error::Stopped(stopped)) if is_enclosed && stopped.stop.is_precision() => {
-                    self.margins_of(OpenLoop::exact(self, at, budget)?, skew, with_held_delay, budget)
+                    self.margins_of(OpenLoop::exact(self, at, budget)?, verdict, skew, with_held_delay, budget)
                 }
                 found => found,
             }
@@ -186,12 +187,12 @@ impl Problem {
     fn margins_of(
         self: &Arc<Self>,
         open_loop: OpenLoop,
+        verdict: PointVerdict,
         skew: &Rational,
         with_held_delay: bool,
         budget: &Budget,
     ) -> Result<Answer<Margins>, Error> {
         budget.enter(|| {
-            let verdict = self.verdict(budget)?.into_value();
             budget.step("crossings");
             let crossings = Crossings::of(&open_loop, budget)?;
             let is_stable = verdict.verdict == Verdict::Stable;
