@@ -1,7 +1,7 @@
 //! Parameters under square roots: the loop has a value on one side of an end only.
 
 use crate::helpers::loops::stable_set_of;
-use crate::helpers::model::{continuous, keeping};
+use crate::helpers::model::{continuous, discrete, keeping};
 use crate::helpers::number::ratio;
 use crate::helpers::program::jurist;
 use crate::helpers::random::Random;
@@ -42,6 +42,33 @@ fn between_two_square_roots_all_is_decided() {
     assert!(set.undecided().is_empty());
     let set = set_of("s + sqrt(-2 - k^2)");
     assert!(set.is_empty() && set.undecided().is_empty());
+}
+
+/// Under a square a root may be defined at one number and nowhere near: a cell is not decided there.
+#[test]
+fn a_number_at_which_alone_a_square_root_is_defined_decides_no_cell() {
+    for (characteristic, expected) in [
+        ("s + 2 + sqrt(-(k - 1)^2)", vec![]),
+        ("z + sqrt(-k^2)", vec![]),
+        ("s + 3 + sqrt(k^3 - k^2)", vec!["1"]),
+        ("s + 2 + sqrt((k - 1)^2*(k - 3))", vec!["3"]),
+        ("s^2 + (1 + sqrt(4*k - k^2 - 4))*s + 1", vec![]),
+    ] {
+        let set = match characteristic.starts_with('z') {
+            true => stable_set_of(keeping(&discrete(characteristic, ""), &["k"])),
+            false => set_of(characteristic),
+        };
+        let found = ends(&set);
+        assert_eq!(found.is_empty(), expected.is_empty(), "{characteristic}: {found:?}");
+        for value in expected {
+            assert_eq!(found[0].0, value, "{characteristic}");
+        }
+        assert!(found.iter().all(|(_, causes)| !causes.is_empty()), "{characteristic}: {found:?}");
+    }
+    // Where it is defined on both sides it is no end, though the number itself may stay undecided.
+    let set = set_of("s + 1 + 3*sqrt((k - 1)^2) - k/2");
+    assert!(set.contains(&ratio(1, 2)) && set.contains(&ratio(3, 2)));
+    assert!(ends(&set).iter().all(|(_, causes)| causes != "square root"), "{set:?}");
 }
 
 /// A root in front of all other factors is zero at its end, which is an end for this reason too.

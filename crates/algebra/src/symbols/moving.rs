@@ -173,6 +173,18 @@ impl MovingSymbols {
         self.arguments_of_roots().into_iter().flat_map(of).filter(|sign| !sign.function.is_constant()).collect()
     }
 
+    /// What is zero where an argument of a square root is zero without a change of its sign: the root may be defined there and nowhere near.
+    ///
+    /// Cost: a square-free decomposition for each.
+    pub fn touched_under_roots(&self) -> Vec<UniPoly> {
+        let even = |p: UniPoly| {
+            let parts = p.square_free_decomposition().into_iter().filter(|(_, multiplicity)| multiplicity % 2 == 0);
+            parts.fold(UniPoly::one(), |product, (part, _)| product.times(&part))
+        };
+        let arguments = self.arguments_of_roots().into_iter();
+        arguments.map(|(n, d)| even(n.times(&d))).filter(|p| !p.is_constant()).collect()
+    }
+
     /// The numerators and denominators of the arguments of square roots that are rational functions of the parameter.
     fn arguments_of_roots(&self) -> Vec<(UniPoly, UniPoly)> {
         (0..self.table.len()).filter_map(|symbol| self.under_root(symbol)).collect()

@@ -254,6 +254,9 @@ impl SymbolicPolynomial {
         found.extend(self.poles.iter().map(|q| (Cause::Pole, q.clone().into())));
         if let Table::Moving(symbols) = &self.symbols {
             let signs = symbols.signs_under_roots();
+            // No end by itself, but no sample of a cell either.
+            let touched = symbols.touched_under_roots();
+            found.extend(touched.iter().map(|p| (Cause::Undecided, MultiPoly::from_univariate(p, 0).into())));
             let cause = |divides| if divides { Cause::Pole } else { Cause::SquareRoot };
             found.extend(signs.iter().map(|s| (cause(s.divides), MultiPoly::from_univariate(&s.function, 0).into())));
         }

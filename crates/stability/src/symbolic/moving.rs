@@ -54,6 +54,7 @@ pub(super) fn moving_stable_set(
             }
         };
         let mut held = causes(boundaries, |boundary| Ok(vanishes(boundary)?.then_some(boundary.cause)))?;
+        held.retain(|cause| *cause != Cause::Undecided);
         // Several pairs may come together at the end of the range, such as at the sample time 0.
         if place.zero.is_none() && held.len() > 1 {
             held.retain(|cause| *cause != Cause::ComplexPair);
