@@ -129,7 +129,7 @@ impl Real {
         self.compare_rational(&Rational::ZERO)
     }
 
-    /// Exact comparison with a rational number, which a transcendental number never equals.
+    /// Exact comparison with a rational number.
     ///
     /// Cost: that of [`RealAlgebraic::compare_rational`], or refinement until the enclosure leaves the number aside.
     pub fn compare_rational(&self, x: &Rational) -> Ordering {
@@ -213,7 +213,7 @@ impl Real {
                 let (lo, hi) = x.refined(&Rational::ONE).enclosure();
                 // One integer at most is left to ask about.
                 let above = hi.floor();
-                if lo.floor() == above || x.compare_rational(&Rational::from(&above)).is_gt() {
+                if lo.floor() == above || x.compare_rational(&Rational::from(&above)).is_ge() {
                     above
                 } else {
                     above - Integer::ONE
@@ -234,7 +234,8 @@ impl Real {
     }
 }
 
-/// The rational with the smallest denominator strictly between two numbers; `None` when they are equal.
+/// The rational with the smallest denominator strictly between two numbers; `None` when they are equal. Where one of the numbers is rational
+/// and only enclosures of it are known, another rational number between them.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
@@ -256,17 +257,29 @@ pub fn rational_between(a: &Real, b: &Real, budget: &Budget) -> Result<Option<Ra
         Ordering::Greater => (b.clone(), a.clone()),
         Ordering::Equal => return Ok(None),
     };
-    loop {
+    for _ in 0..MOST_HALVINGS {
         // The simplest of a slightly longer interval is the simplest of this one if it is in it.
-        let Some(candidate) = simplest_between(&a.enclosure().0, &b.enclosure().1) else { return Ok(None) };
-        let inside = || a.compare_rational(&candidate).is_lt() && b.compare_rational(&candidate).is_gt();
-        if budget.enter(inside)? {
+        let ((least, below), (above, most)) = (a.enclosure(), b.enclosure());
+        let Some(candidate) = simplest_between(&least, &most) else { return Ok(None) };
+        if below < candidate && candidate < above {
             return Ok(Some(candidate));
         }
         budget.check()?;
         (a, b) = budget.enter(|| (halved(&a), halved(&b)))?;
     }
+    // One of the numbers is rational, though not known to be, and no enclosure tells it from itself.
+    loop {
+        let (below, above) = (a.enclosure().1, b.enclosure().0);
+        if below < above {
+            return Ok(simplest_between(&below, &above));
+        }
+        budget.check()?;
+        (a, b) = budget.enter(|| (halved(&a), halved(&b)))?;
+    }
 }
+
+/// So often enclosures are halved while the simplest number between two numbers is looked for.
+const MOST_HALVINGS: usize = 256;
 
 fn halved(x: &Real) -> Real {
     let (lo, hi) = x.enclosure();
@@ -278,6 +291,33 @@ mod tests {
     use super::*;
     use crate::number::{Enclosure, parse_number};
     use crate::poly::{SquareFree, UniPoly, isolate_real_roots};
+
+    /// A rational number by enclosures that end at it.
+    #[derive(Debug)]
+    struct Unknown(Rational);
+
+    impl Enclosing for Unknown {
+        fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
+            let width = if bits < 100 { Rational::dyadic(&Integer::ONE, bits + 1) } else { Rational::ZERO };
+            Enclosure::new(&self.0 - &width, &self.0 + &width)
+        }
+
+        fn origin(&self) -> Origin {
+            Origin::Function { function: "a number".to_owned(), details: Vec::new() }
+        }
+    }
+
+    #[test]
+    fn a_rational_number_of_which_enclosures_are_known_is_compared() {
+        let number = Rational::from(1_000_000_000_001_i64);
+        let x = Real::from(Transcendental::new(Unknown(number.clone())));
+        assert!(x.compare_rational(&number).is_eq() && x.compare_rational(&(&number - &Rational::ONE)).is_gt());
+        assert_eq!((Rational::from(x.floor()), x.rational_above()), (number.clone(), &number + &Rational::ONE));
+        assert_eq!(x.rational_below(), &number - &Rational::ONE);
+        let below = Real::from(&number - &Rational::new(Integer::ONE, Integer::from(1 << 20)));
+        let between = rational_between(&below, &x, &Budget::unlimited()).unwrap().unwrap();
+        assert!(below.compare_rational(&between).is_lt() && between < number);
+    }
 
     #[derive(Debug)]
     struct Logarithm(i64);

@@ -170,7 +170,8 @@ impl Transcendental {
         x.refined(&(least * tolerance))
     }
 
-    /// Comparison with a rational number, which it never equals.
+    /// Comparison with a rational number. The two are equal only where an enclosure is that number alone: a zero of a function may be a
+    /// rational number that nobody knew.
     pub fn compare_rational(&self, value: &Rational) -> Ordering {
         let mut x = self.clone();
         until_shown(2 * FIRST_PLACE, |bits| {
@@ -180,6 +181,9 @@ impl Transcendental {
             }
             if value > place.upper() {
                 return Some(Ordering::Less);
+            }
+            if place.lower() == place.upper() {
+                return Some(Ordering::Equal);
             }
             x = x.narrowed(bits);
             None

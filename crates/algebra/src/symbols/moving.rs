@@ -82,7 +82,7 @@ const MOST_DOUBLINGS: usize = 4;
 const GAP_BITS: u64 = 64;
 
 /// Zeros that are fractions with fewer bits are recognised as such.
-const SHORT_BITS: u64 = 40;
+const SHORT_BITS: u64 = 128;
 
 /// An interval this much shorter than the first one is given up.
 pub(super) const MOST_HALVINGS: i64 = 56;
@@ -150,7 +150,9 @@ impl MovingSymbols {
         let mut symbols = Symbols::new();
         for (name, definition) in &self.table {
             let definition = definition.try_map(put)?;
-            if matches!(&definition, Definition::Root(x) if x.as_constant().is_some_and(|x| x.is_negative())) {
+            if let Definition::Root(x) = &definition
+                && symbols.quotient_at(x, FIRST_BITS).is_some_and(|x| x.upper().is_negative())
+            {
                 return None;
             }
             symbols.push(name, definition);
